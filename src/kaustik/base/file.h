@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace kaustik {
+
+/// Contents of a file as a whole. Throws Error(input) if it is missing, a folder or not readable.
+std::vector<uint8_t> read_file(const std::string& path);
+
+/// Puts `bytes` at `path` as a whole or not at all: written to a temporary file in the same folder,
+/// flushed to the disk, renamed over the target. Whatever goes wrong, a file that was there before
+/// stays as it was and the temporary one is removed. Throws Error(input) for what
+/// check_output_path() finds, Error(system) when writing fails (disk full, file size limit, …).
+/// The caller must have SIGXFSZ ignored if a file size limit may be set.
+void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes);
+
+/// Throws Error(input) if no file can be written at `path`: empty, the folder is missing, not a
+/// folder or not writable, or something that is not a writable regular file stands there. For the
+/// time before long work.
+void check_output_path(const std::string& path);
+
+}  // namespace kaustik

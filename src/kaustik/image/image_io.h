@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+
+#include "kaustik/image/image.h"
+#include "kaustik/image/tone_mapping.h"
+
+namespace kaustik {
+
+struct ReadOptions {
+  /// Turn the colours of integer formats (PNG, JPEG, PPM, integer TIFF), which are sRGB encoded
+  /// unless the file says otherwise, into linear ones. If not, Image::is_srgb_encoded() tells.
+  bool srgb_to_linear = true;
+};
+
+/// Reads .exr, .hdr, .pfm, .tif, .png, .jpg and .ppm/.pgm; which one it is, is taken from the
+/// contents. EXR gives all its channels as they are named; the others give "R", "G", "B" or "Y",
+/// with "A" where there is one. LogLuv TIFF, HDR and PFM are radiances. Throws Error(input) if the
+/// file is missing, truncated, corrupt or not an image.
+Image read_image(const std::string& path, const ReadOptions& options = {});
+
+struct WriteOptions {
+  /// EXR channels as 16-bit floats; one that holds a finite value above 65504 is kept at 32 bits.
+  bool exr_half = true;
+  ToneMapping tone_mapping;  ///< for the 8-bit formats
+  std::string layer;         ///< what the formats with one layer show; "": the picture itself
+  int jpeg_quality = 95;     ///< 1 to 100
+};
+
+/// Writes by extension, atomically: .exr (all channels, metadata as attributes), .hdr (Radiance
+/// RGBE), .pfm, .tif/.tiff (32-bit LogLuv, absolute radiance; luminance by its STONITS tag), and
+/// tone mapped with 8 bits .png, .jpg/.jpeg, .ppm. PNG and TIFF carry the metadata as text. Throws
+/// Error(input) for what check_writable() finds and for values that the format cannot hold,
+/// Error(system) if writing fails; a file that was there before is then unharmed.
+void write_image(const Image& image, const std::string& path, const WriteOptions& options = {});
+
+/// Throws Error(input) if write_image() could not write here: unknown extension, folder missing or
+/// not writable, path is a folder. To be called before a long render.
+void check_writable(const std::string& path);
+
+}  // namespace kaustik
