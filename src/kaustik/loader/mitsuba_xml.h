@@ -1,0 +1,30 @@
+#pragma once
+// Scene files in the XML of Mitsuba 3. Files of version 2.x and 0.6 are upgraded while loading, as
+// Mitsuba itself does it.
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kaustik/scene/description.h"
+
+namespace kaustik {
+
+struct LoadOptions {
+  /// Name and value of each `-D name=value`: what stands for `$name` in attributes, before the
+  /// file's own `<default>`.
+  std::vector<std::pair<std::string, std::string>> definitions;
+};
+
+/// Reads a scene file and what it includes. Relative file names in it are searched in its own
+/// folder, then in the folders of its `<path>` elements. Throws Error, with all the problems that
+/// were found.
+Description load_mitsuba_xml(const std::string& path, const LoadOptions& options = {});
+
+/// The same from text: `name_for_messages` takes the place of the file's name in messages and
+/// `base_folder` ("" for the working folder) that of its folder.
+Description parse_mitsuba_xml(std::string_view text, std::string name_for_messages,
+                              const std::string& base_folder, const LoadOptions& options = {});
+
+}  // namespace kaustik
