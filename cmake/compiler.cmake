@@ -1,0 +1,21 @@
+# Compiler settings for every target.
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wno-psabi)
+if(KAUSTIK_WARNINGS_AS_ERRORS)
+  add_compile_options(-Werror)
+endif()
+# The baseline of Kaustik's own code; wider vectors are chosen at run time by Highway and Embree.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  add_compile_options(-march=x86-64-v2)
+endif()
+# No contraction into fused operations: results must not depend on what the compiler fuses.
+add_compile_options(-ffp-contract=off -fno-math-errno)
+set(CMAKE_CXX_FLAGS_RELEASE "-O3")
+if(KAUSTIK_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+  set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -gline-tables-only")
+  add_compile_definitions(KAUSTIK_SLOW_BUILD=1)
+endif()

@@ -1,0 +1,105 @@
+#include "kaustik/base/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+
+namespace kaustik {
+namespace {
+
+/// The line of a file, for the excerpt; empty if it cannot be read or is too long to help.
+std::string line_of_file(const std::string& file, int line) {
+  std::ifstream in(file);
+  std::string text;
+  for (int i = 0; i < line && std::getline(in, text); ++i)
+    if (i + 1 == line && text.size() <= 400) return text;
+  return {};
+}
+
+std::string excerpt(const Place& place) {
+  const std::string line = line_of_file(*place.file, place.line);
+  if (line.empty()) return {};
+  std::string caret;
+  for (int i = 0; i + 1 < place.column && i < int(line.size()); ++i)
+    caret += line[size_t(i)] == '\t' ? '\t' : ' ';
+  return fmt::format("\n    {}\n    {}^", line, caret);
+}
+
+std::string describe(const Problem& problem) {
+  std::string text;
+  if (problem.place.file) {
+    text = *problem.place.file;
+    if (problem.place.line > 0) text += fmt::format(":{}", problem.place.line);
+    if (problem.place.column > 0) text += fmt::format(":{}", problem.place.column);
+    text += ": ";
+  }
+  text += problem.message;
+  if (problem.place.file && problem.place.line > 0) text += excerpt(problem.place);
+  if (!problem.remedy.empty()) text += "\n  remedy: " + problem.remedy;
+  return text;
+}
+
+/// Levenshtein distance, letters compared without case.
+size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 0; i < a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (size_t j = 0; j < b.size(); ++j) {
+      const size_t above = row[j + 1];
+      const bool equal = std::tolower(static_cast<unsigned char>(a[i])) ==
+                         std::tolower(static_cast<unsigned char>(b[j]));
+      row[j + 1] = std::min({diagonal + (equal ? 0 : 1), above + 1, row[j] + 1});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+Error::Error(ErrorKind kind, std::vector<Problem> problems)
+    : kind_(kind), problems_(std::move(problems)) {
+  for (const Problem& problem : problems_) {
+    if (!text_.empty()) text_ += '\n';
+    text_ += describe(problem);
+  }
+}
+
+Error::Error(ErrorKind kind, std::string message, std::string remedy, Place place)
+    : Error(kind, std::vector<Problem>{{std::move(message), std::move(remedy), std::move(place)}}) {
+}
+
+void Problems::add(std::string message, std::string remedy, Place place) {
+  problems_.push_back({std::move(message), std::move(remedy), std::move(place)});
+  if (problems_.size() >= maximum) throw_if_any();
+}
+
+void Problems::throw_if_any() const {
+  if (!problems_.empty()) throw Error(ErrorKind::input, problems_);
+}
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
+  std::string best;
+  size_t best_distance = std::max<size_t>(2, name.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const size_t distance = edit_distance(name, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string suggest(std::string_view name, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_name(name, candidates);
+  std::string text;
+  if (!nearest.empty()) text = fmt::format("did you mean '{}'? ", nearest);
+  return text + fmt::format("Valid: {}", fmt::join(candidates, ", "));
+}
+
+}  // namespace kaustik

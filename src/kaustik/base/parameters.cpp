@@ -1,0 +1,367 @@
+#include "kaustik/base/parameters.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace kaustik {
+namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+template <typename Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number value{};
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::vector<double> parse_list(std::string_view text) {
+  std::vector<double> values;
+  while (!text.empty()) {
+    const size_t start = text.find_first_not_of(" ,\t");
+    if (start == std::string_view::npos) break;
+    text.remove_prefix(start);
+    const size_t end = std::min(text.find_first_of(" ,\t"), text.size());
+    const auto value = parse_number<double>(text.substr(0, end));
+    if (!value) return {};
+    values.push_back(*value);
+    text.remove_prefix(end);
+  }
+  return values;
+}
+
+/// Gives text from the command line the type that the table asks for; nullopt if it has no such
+/// form.
+std::optional<Value> typed(const std::string& text, ParameterKind kind) {
+  switch (kind) {
+    case ParameterKind::boolean:
+      if (lower(text) == "true" || text == "1") return Value(true);
+      if (lower(text) == "false" || text == "0") return Value(false);
+      return std::nullopt;
+    case ParameterKind::integer:
+      if (const auto i = parse_number<int64_t>(text)) return Value(*i);
+      return std::nullopt;
+    case ParameterKind::number:
+      if (const auto d = parse_number<double>(text)) return Value(*d);
+      return std::nullopt;
+    case ParameterKind::text:
+    case ParameterKind::choice:
+    case ParameterKind::file:
+      return Value(text);
+    case ParameterKind::point:
+    case ParameterKind::color: {
+      const std::vector<double> list = parse_list(text);
+      if (list.size() == 3 && kind == ParameterKind::point)
+        return Value(Vec3d(list[0], list[1], list[2]));
+      if (list.size() == 3) return Value(Rgb{list[0], list[1], list[2]});
+      if (list.size() == 1 && kind == ParameterKind::color) return Value(list[0]);
+      return std::nullopt;
+    }
+    case ParameterKind::transform:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// The value in the representation that Arguments hands out, or nullopt for a wrong type.
+std::optional<Value> coerce(const Value& value, ParameterKind kind) {
+  if (const auto* untyped = std::get_if<Untyped>(&value)) {
+    const auto result = typed(untyped->text, kind);
+    return result ? coerce(*result, kind) : std::nullopt;
+  }
+  const auto same = [&]<typename T>(const T*) -> std::optional<Value> {
+    if (std::holds_alternative<T>(value)) return value;
+    return std::nullopt;
+  };
+  switch (kind) {
+    case ParameterKind::boolean:
+      return same(static_cast<bool*>(nullptr));
+    case ParameterKind::integer:
+      return same(static_cast<int64_t*>(nullptr));
+    case ParameterKind::number:
+      if (const auto* i = std::get_if<int64_t>(&value)) return Value(double(*i));
+      return same(static_cast<double*>(nullptr));
+    case ParameterKind::text:
+    case ParameterKind::file:
+      return same(static_cast<std::string*>(nullptr));
+    case ParameterKind::choice:
+      if (const auto* text = std::get_if<std::string>(&value)) return Value(lower(*text));
+      return std::nullopt;
+    case ParameterKind::point:
+      return same(static_cast<Vec3d*>(nullptr));
+    case ParameterKind::color:
+      if (const auto* i = std::get_if<int64_t>(&value))
+        return Value(Rgb{double(*i), double(*i), double(*i)});
+      if (const auto* d = std::get_if<double>(&value)) return Value(Rgb{*d, *d, *d});
+      if (std::holds_alternative<SpectralCurve>(value)) return value;
+      return same(static_cast<Rgb*>(nullptr));
+    case ParameterKind::transform:
+      return same(static_cast<Transform*>(nullptr));
+  }
+  return std::nullopt;
+}
+
+std::vector<double> numbers_in(const Value& value) {
+  if (const auto* i = std::get_if<int64_t>(&value)) return {double(*i)};
+  if (const auto* d = std::get_if<double>(&value)) return {*d};
+  if (const auto* v = std::get_if<Vec3d>(&value)) return {v->x, v->y, v->z};
+  if (const auto* c = std::get_if<Rgb>(&value)) return {c->r, c->g, c->b};
+  std::vector<double> values;
+  if (const auto* s = std::get_if<SpectralCurve>(&value))
+    for (const auto& [wavelength, v] : s->samples) values.push_back(v);
+  return values;
+}
+
+/// What is wrong with a value of the right type; empty if nothing.
+std::string complaint(const Parameter& parameter, const Value& value) {
+  for (const double number : numbers_in(value)) {
+    if (!std::isfinite(number))
+      return fmt::format("'{}' must be finite, found {}", parameter.name, number);
+    if (number < parameter.minimum || number > parameter.maximum)
+      return fmt::format("'{}' is {}, outside its range", parameter.name, number);
+  }
+  if (parameter.kind == ParameterKind::choice) {
+    const auto& text = std::get<std::string>(value);
+    if (std::find(parameter.choices.begin(), parameter.choices.end(), text) ==
+        parameter.choices.end())
+      return fmt::format("'{}' cannot be '{}'", parameter.name, text);
+  }
+  return {};
+}
+
+std::string remedy_for(const Parameter& parameter, const Value& value) {
+  if (parameter.kind == ParameterKind::choice)
+    return suggest(std::get<std::string>(value), parameter.choices);
+  return fmt::format("give a value from {} to {}{}{}", parameter.minimum, parameter.maximum,
+                     parameter.unit.empty() ? "" : " ", parameter.unit);
+}
+
+Parameter row(std::string name, ParameterKind kind, std::variant<std::monostate, Value> value,
+              std::string sentence) {
+  Parameter parameter;
+  parameter.name = std::move(name);
+  parameter.kind = kind;
+  parameter.default_value = std::move(value);
+  parameter.sentence = std::move(sentence);
+  return parameter;
+}
+
+/// What a slot holds while nothing was given and there is no default.
+Value empty_value(ParameterKind kind) {
+  switch (kind) {
+    case ParameterKind::boolean:
+      return false;
+    case ParameterKind::integer:
+      return int64_t{0};
+    case ParameterKind::number:
+      return 0.0;
+    case ParameterKind::text:
+    case ParameterKind::choice:
+    case ParameterKind::file:
+      return std::string();
+    case ParameterKind::point:
+      return Vec3d(0, 0, 0);
+    case ParameterKind::color:
+      return Rgb{};
+    case ParameterKind::transform:
+      return Transform();
+  }
+  return false;
+}
+
+}  // namespace
+
+Parameter boolean_parameter(std::string name, bool value, std::string sentence) {
+  return row(std::move(name), ParameterKind::boolean, Value(value), std::move(sentence));
+}
+Parameter integer_parameter(std::string name, int64_t value, std::string sentence) {
+  return row(std::move(name), ParameterKind::integer, Value(value), std::move(sentence));
+}
+Parameter number_parameter(std::string name, double value, std::string sentence) {
+  return row(std::move(name), ParameterKind::number, Value(value), std::move(sentence));
+}
+Parameter text_parameter(std::string name, std::string value, std::string sentence) {
+  return row(std::move(name), ParameterKind::text, Value(std::move(value)), std::move(sentence));
+}
+Parameter choice_parameter(std::string name, std::string value, std::vector<std::string> choices,
+                           std::string sentence) {
+  Parameter p =
+      row(std::move(name), ParameterKind::choice, Value(std::move(value)), std::move(sentence));
+  p.choices = std::move(choices);
+  return p;
+}
+Parameter point_parameter(std::string name, Vec3d value, std::string sentence) {
+  return row(std::move(name), ParameterKind::point, Value(value), std::move(sentence));
+}
+Parameter color_parameter(std::string name, double value, std::string sentence) {
+  return row(std::move(name), ParameterKind::color, Value(Rgb{value, value, value}),
+             std::move(sentence))
+      .range(0, std::numeric_limits<double>::max());
+}
+Parameter transform_parameter(std::string name, std::string sentence) {
+  return row(std::move(name), ParameterKind::transform, Value(Transform()), std::move(sentence));
+}
+Parameter file_parameter(std::string name, std::string sentence) {
+  return required(row(std::move(name), ParameterKind::file, std::monostate{}, std::move(sentence)));
+}
+Parameter ignored_parameter(std::string name, ParameterKind kind) {
+  Parameter p = row(std::move(name), kind, std::monostate{}, "Accepted, no effect.");
+  p.no_effect = true;
+  return p;
+}
+Parameter optional(Parameter parameter) {
+  parameter.default_value = std::monostate{};
+  parameter.required = false;
+  return parameter;
+}
+Parameter required(Parameter parameter) {
+  parameter.default_value = std::monostate{};
+  parameter.required = true;
+  return parameter;
+}
+
+const Parameter* TypeInfo::find(std::string_view parameter_name) const {
+  for (const Parameter& parameter : parameters)
+    if (parameter.name == parameter_name) return &parameter;
+  return nullptr;
+}
+
+std::vector<std::string> TypeInfo::parameter_names() const {
+  std::vector<std::string> names;
+  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
+  return names;
+}
+
+Arguments::Arguments(const TypeInfo& info, const std::vector<Property>& given, const Place& place,
+                     Problems& problems)
+    : info_(&info), place_(place) {
+  for (const Parameter& parameter : info.parameters) {
+    const auto* value = std::get_if<Value>(&parameter.default_value);
+    const auto coerced = value ? coerce(*value, parameter.kind) : std::nullopt;
+    slots_.push_back(
+        {coerced ? *coerced : empty_value(parameter.kind), value != nullptr, false, {}});
+  }
+  for (const Property& property : given) accept(property, problems);
+  for (size_t i = 0; i < slots_.size(); ++i)
+    if (info.parameters[i].required && !slots_[i].given)
+      problems.add(
+          fmt::format("{} '{}' needs '{}'", info.family, info.name, info.parameters[i].name),
+          info.parameters[i].sentence, place);
+}
+
+void Arguments::accept(const Property& property, Problems& problems) {
+  const Parameter* parameter = info_->find(property.name);
+  if (!parameter) {
+    problems.add(
+        fmt::format("{} '{}' has no parameter '{}'", info_->family, info_->name, property.name),
+        suggest(property.name, info_->parameter_names()), property.place);
+    return;
+  }
+  Slot& slot = slots_[size_t(parameter - info_->parameters.data())];
+  if (slot.given) {
+    problems.add(fmt::format("'{}' is given twice", property.name),
+                 fmt::format("keep one; the first is on line {}", slot.place.line), property.place);
+    return;
+  }
+  slot.given = true;
+  slot.place = property.place;
+  if (parameter->no_effect) {
+    ignored_.push_back(parameter->name);
+    return;
+  }
+  const auto value = coerce(property.value, parameter->kind);
+  if (!value) {
+    problems.add(fmt::format("'{}' has the wrong type", property.name),
+                 fmt::format("give it as {}: {}", kind_name(parameter->kind), parameter->sentence),
+                 property.place);
+    return;
+  }
+  if (const std::string wrong = complaint(*parameter, *value); !wrong.empty()) {
+    problems.add(wrong, remedy_for(*parameter, *value), property.place);
+    return;
+  }
+  slot.value = *value;
+  slot.present = true;
+}
+
+const Arguments::Slot& Arguments::slot(std::string_view name) const {
+  const Parameter* parameter = info_->find(name);
+  if (!parameter)
+    throw std::logic_error(
+        fmt::format("the table of {} '{}' has no row '{}'", info_->family, info_->name, name));
+  return slots_[size_t(parameter - info_->parameters.data())];
+}
+
+bool Arguments::has(std::string_view name) const { return slot(name).present; }
+bool Arguments::given(std::string_view name) const { return slot(name).given; }
+Place Arguments::place_of(std::string_view name) const {
+  const Slot& s = slot(name);
+  return s.given ? s.place : place_;
+}
+bool Arguments::boolean(std::string_view name) const { return std::get<bool>(slot(name).value); }
+int64_t Arguments::integer(std::string_view name) const {
+  return std::get<int64_t>(slot(name).value);
+}
+double Arguments::number(std::string_view name) const { return std::get<double>(slot(name).value); }
+const std::string& Arguments::text(std::string_view name) const {
+  return std::get<std::string>(slot(name).value);
+}
+Vec3d Arguments::point(std::string_view name) const { return std::get<Vec3d>(slot(name).value); }
+std::variant<Rgb, SpectralCurve> Arguments::color(std::string_view name) const {
+  const Value& value = slot(name).value;
+  if (const auto* curve = std::get_if<SpectralCurve>(&value)) return *curve;
+  return std::get<Rgb>(value);
+}
+const Transform& Arguments::transform(std::string_view name) const {
+  return std::get<Transform>(slot(name).value);
+}
+
+std::string kind_name(ParameterKind kind) {
+  switch (kind) {
+    case ParameterKind::boolean:
+      return "boolean";
+    case ParameterKind::integer:
+      return "integer";
+    case ParameterKind::number:
+      return "float";
+    case ParameterKind::text:
+      return "string";
+    case ParameterKind::choice:
+      return "choice";
+    case ParameterKind::point:
+      return "point or vector";
+    case ParameterKind::color:
+      return "rgb or spectrum";
+    case ParameterKind::transform:
+      return "transform";
+    case ParameterKind::file:
+      return "file name (string)";
+  }
+  return "value";
+}
+
+std::string default_text(const Parameter& parameter) {
+  const auto* value = std::get_if<Value>(&parameter.default_value);
+  if (!value) return {};
+  if (const auto* b = std::get_if<bool>(value)) return *b ? "true" : "false";
+  if (const auto* i = std::get_if<int64_t>(value)) return fmt::format("{}", *i);
+  if (const auto* d = std::get_if<double>(value)) return fmt::format("{}", *d);
+  if (const auto* s = std::get_if<std::string>(value)) return *s;
+  if (const auto* v = std::get_if<Vec3d>(value)) return fmt::format("{}, {}, {}", v->x, v->y, v->z);
+  if (const auto* c = std::get_if<Rgb>(value)) {
+    if (c->r == c->g && c->g == c->b) return fmt::format("{}", c->r);
+    return fmt::format("{}, {}, {}", c->r, c->g, c->b);
+  }
+  if (std::holds_alternative<Transform>(*value)) return "identity";
+  return {};
+}
+
+}  // namespace kaustik

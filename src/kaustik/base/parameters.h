@@ -1,0 +1,156 @@
+#pragma once
+// The parameter tables: each type of object (integrator, light, shape, bsdf, film, …) declares its
+// parameters once; checks, error messages, `kaustik help` and the manual come from that one table.
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "kaustik/base/error.h"
+#include "kaustik/base/transform.h"
+
+namespace kaustik {
+
+/// Linear Rec. 709.
+struct Rgb {
+  double r = 0, g = 0, b = 0;
+  friend bool operator==(const Rgb&, const Rgb&) = default;
+};
+/// Values over wavelength in nm, ascending, at least one; linear between, constant outside.
+struct SpectralCurve {
+  std::vector<std::pair<double, double>> samples;
+  friend bool operator==(const SpectralCurve&, const SpectralCurve&) = default;
+};
+/// Text from the command line whose type only the table knows.
+struct Untyped {
+  std::string text;
+  friend bool operator==(const Untyped&, const Untyped&) = default;
+};
+
+using Value =
+    std::variant<bool, int64_t, double, std::string, Vec3d, Rgb, SpectralCurve, Transform, Untyped>;
+
+/// A named value and where it was given.
+struct Property {
+  std::string name;
+  Value value;
+  Place place;
+};
+
+enum class ParameterKind {
+  boolean,
+  integer,
+  number,
+  text,
+  choice,  ///< text out of a list, compared without case
+  point,   ///< also serves vectors
+  color,   ///< rgb, a spectrum, or one number for all lanes
+  transform,
+  file  ///< a path, relative to the file that names it; given as text
+};
+
+/// One row of a table.
+struct Parameter {
+  std::string name;
+  ParameterKind kind = ParameterKind::number;
+  std::variant<std::monostate, Value>
+      default_value;  ///< monostate: required or absent, see `required`
+  bool required = false;
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  std::string unit;      ///< "" for none
+  std::string sentence;  ///< one sentence of help
+  std::vector<std::string> choices;
+  bool no_effect = false;        ///< accepted because Mitsuba has it; reported once
+  bool accepts_texture = false;  ///< a nested texture object may stand instead of the value
+
+  Parameter& range(double low, double high) { return minimum = low, maximum = high, *this; }
+  Parameter& in(std::string unit_name) { return unit = std::move(unit_name), *this; }
+  Parameter& textured() { return accepts_texture = true, *this; }
+};
+
+Parameter boolean_parameter(std::string name, bool default_value, std::string sentence);
+Parameter integer_parameter(std::string name, int64_t default_value, std::string sentence);
+Parameter number_parameter(std::string name, double default_value, std::string sentence);
+Parameter text_parameter(std::string name, std::string default_value, std::string sentence);
+Parameter choice_parameter(std::string name, std::string default_value,
+                           std::vector<std::string> choices, std::string sentence);
+Parameter point_parameter(std::string name, Vec3d default_value, std::string sentence);
+Parameter color_parameter(std::string name, double default_value, std::string sentence);
+Parameter transform_parameter(std::string name, std::string sentence);
+/// Required.
+Parameter file_parameter(std::string name, std::string sentence);
+/// A parameter of Mitsuba's that means nothing here.
+Parameter ignored_parameter(std::string name, ParameterKind kind);
+/// The same row without a default: it may be absent (ask Arguments::has) …
+Parameter optional(Parameter parameter);
+/// … or must be given.
+Parameter required(Parameter parameter);
+
+/// The table of one type.
+struct TypeInfo {
+  std::string family;  ///< "bsdf", "shape", …
+  std::string name;    ///< "diffuse", …
+  std::string sentence;
+  std::vector<Parameter> parameters;
+
+  const Parameter* find(std::string_view parameter_name) const;
+  std::vector<std::string> parameter_names() const;
+};
+
+/// Given properties checked against a table. Everything wrong (unknown name with the nearest valid
+/// one, wrong type, out of range, missing, given twice) goes to `problems`; such a parameter then
+/// reads as its default, so that building can go on and collect more problems.
+class Arguments {
+ public:
+  /// `info` must outlive this.
+  Arguments(const TypeInfo& info, const std::vector<Property>& given, const Place& place,
+            Problems& problems);
+
+  const TypeInfo& info() const { return *info_; }
+  const Place& place() const { return place_; }
+  /// Given by the user, or has a default.
+  bool has(std::string_view name) const;
+  /// Given by the user.
+  bool given(std::string_view name) const;
+  /// Where it was given; the object's place if it was not.
+  Place place_of(std::string_view name) const;
+
+  bool boolean(std::string_view name) const;
+  int64_t integer(std::string_view name) const;
+  double number(std::string_view name) const;
+  /// Kinds text, choice (in lower case) and file (as given).
+  const std::string& text(std::string_view name) const;
+  Vec3d point(std::string_view name) const;
+  /// As given: number → Rgb{x, x, x}, Rgb or SpectralCurve.
+  std::variant<Rgb, SpectralCurve> color(std::string_view name) const;
+  const Transform& transform(std::string_view name) const;
+
+  /// Names of accepted parameters without effect that were given.
+  const std::vector<std::string>& ignored() const { return ignored_; }
+
+ private:
+  struct Slot {
+    Value value;
+    bool present = false;
+    bool given = false;
+    Place place;
+  };
+  const Slot& slot(std::string_view name) const;
+  void accept(const Property& property, Problems& problems);
+
+  const TypeInfo* info_;
+  Place place_;
+  std::vector<Slot> slots_;  ///< parallel to info_->parameters
+  std::vector<std::string> ignored_;
+};
+
+/// "number", "boolean", … for messages and help.
+std::string kind_name(ParameterKind kind);
+/// The default as text; "" for none.
+std::string default_text(const Parameter& parameter);
+
+}  // namespace kaustik

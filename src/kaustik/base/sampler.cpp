@@ -1,0 +1,71 @@
+#include "kaustik/base/sampler.h"
+
+#include <array>
+
+namespace kaustik {
+namespace {
+
+constexpr uint32_t reverse_bits(uint32_t x) {
+  x = __builtin_bswap32(x);
+  x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+  x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+  return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+}
+
+/// Laine–Karras permutation with the constants found by Vegdahl: an Owen scramble of bits that
+/// stand in reversed order.
+constexpr uint32_t owen_hash_reversed(uint32_t x, uint32_t seed) {
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1u;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return x;
+}
+
+/// Direction numbers of Sobol's second dimension (Pascal's triangle modulo 2), per byte of the
+/// index: the product of matrix and index is the exclusive or of four table entries.
+constexpr auto make_sobol_tables() {
+  std::array<std::array<uint32_t, 256>, 4> tables{};
+  std::array<uint32_t, 32> directions{};
+  directions[0] = 0x80000000u;
+  for (int i = 1; i < 32; ++i)
+    directions[size_t(i)] = directions[size_t(i - 1)] ^ (directions[size_t(i - 1)] >> 1);
+  for (int byte = 0; byte < 4; ++byte)
+    for (int value = 0; value < 256; ++value) {
+      uint32_t x = 0;
+      for (int bit = 0; bit < 8; ++bit)
+        if (value >> bit & 1) x ^= directions[size_t(byte * 8 + bit)];
+      tables[size_t(byte)][size_t(value)] = x;
+    }
+  return tables;
+}
+constexpr auto sobol_tables = make_sobol_tables();
+
+uint32_t sobol_second(uint32_t index) {
+  return sobol_tables[0][index & 255] ^ sobol_tables[1][index >> 8 & 255] ^
+         sobol_tables[2][index >> 16 & 255] ^ sobol_tables[3][index >> 24];
+}
+
+float to_unit(uint32_t x) { return float(x >> 8) * 0x1p-24f; }
+
+}  // namespace
+
+Vec2f Sampler::next_2d() {
+  const uint32_t pair = pair_++;
+  const uint64_t h = hash_mix(scramble_, pair);
+  if (pair >= stratified_pairs) {
+    const uint64_t r = hash_mix(h, index_);
+    return {to_unit(uint32_t(r)), to_unit(uint32_t(r >> 32))};
+  }
+  // The shuffle of the index is itself an Owen scramble, so any run of 2^k indices stays a net.
+  const uint32_t shuffled = reverse_bits(owen_hash_reversed(reverse_bits(index_), uint32_t(h)));
+  const uint64_t seeds = h * 0xd1342543de82ef95ull + 1;
+  // The first Sobol dimension is the bit reversal of the index, so it is already reversed.
+  const uint32_t x = reverse_bits(owen_hash_reversed(shuffled, uint32_t(h >> 32)));
+  const uint32_t y =
+      reverse_bits(owen_hash_reversed(reverse_bits(sobol_second(shuffled)), uint32_t(seeds >> 32)));
+  return {to_unit(x), to_unit(y)};
+}
+
+}  // namespace kaustik

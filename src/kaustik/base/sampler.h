@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+
+#include "kaustik/base/vec.h"
+
+namespace kaustik {
+
+/// What random numbers are drawn for; part of their address.
+enum class Stream : uint32_t { camera, photon_global, photon_caustic, light_path, cache, training };
+
+/// 64-bit mix of two values (the finaliser of splitmix64); the base of every address.
+constexpr uint64_t hash_mix(uint64_t a, uint64_t b) {
+  uint64_t x = a + 0x9e3779b97f4a7c15ull * (b + 1);
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
+/// Random numbers addressed by (scramble, index, dimension): the same address always gives the same
+/// numbers, whoever asks. Over consecutive indices of one scramble each pair of dimensions is an
+/// Owen-scrambled Sobol (0,2)-sequence, shuffled independently per pair (Burley, "Practical
+/// Hash-based Owen Scrambling", JCGT 2020); past `stratified_pairs` pairs the numbers are
+/// independent, since deep dimensions gain nothing from stratification.
+class Sampler {
+ public:
+  /// Points that share a scramble stratify one another over `index`; different scrambles are
+  /// independent.
+  Sampler(uint64_t scramble, uint32_t index) : scramble_(scramble), index_(index) {}
+
+  /// The sampler of one path: all that tells paths apart goes into the address.
+  static Sampler at(uint64_t seed, uint32_t replicate_or_pass, Stream stream, uint64_t element,
+                    uint32_t index) {
+    const uint64_t a = hash_mix(seed, (uint64_t(stream) << 32) | replicate_or_pass);
+    return {hash_mix(a, element), index};
+  }
+
+  float next_1d() { return next_2d().x; }
+  /// In [0, 1)².
+  Vec2f next_2d();
+
+  /// Moves to the fixed block of dimensions of vertex `vertex` of the path, whatever was drawn
+  /// before: what one vertex uses never shifts the numbers of the next.
+  void start_vertex(uint32_t vertex) { pair_ = (vertex + 1) * pairs_per_vertex; }
+
+  /// The sampler of branch `index` out of several at this point; branches of the same `key` (and
+  /// the same parent) stratify one another.
+  Sampler split(uint32_t key, uint32_t index) const {
+    return {hash_mix(hash_mix(scramble_, (uint64_t(index_) << 32) | pair_), ~uint64_t(key)), index};
+  }
+
+  static constexpr uint32_t pairs_per_vertex = 8;
+  static constexpr uint32_t stratified_pairs = 4 * pairs_per_vertex;
+
+ private:
+  uint64_t scramble_;
+  uint32_t index_;
+  uint32_t pair_ = 0;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,48 @@
+#pragma once
+#include <array>
+
+#include "kaustik/base/vec.h"
+
+namespace kaustik {
+
+/// Affine (or projective) map in the column-vector convention of Mitsuba: p' = M p. Held in double
+/// precision with its inverse; names read `target_from_source`.
+class Transform {
+ public:
+  Transform() = default;
+  /// `rows[i][j]`: row i, column j of M. Throws std::invalid_argument when M is singular or not
+  /// finite.
+  explicit Transform(const double (&rows)[4][4]);
+
+  static Transform translate(const Vec3d& offset);
+  /// No factor may be zero (throws as the constructor does).
+  static Transform scale(const Vec3d& factors);
+  /// Right-handed rotation about `axis` (any length but zero) by degrees.
+  static Transform rotate(const Vec3d& axis, double degrees);
+  /// Camera to world: the camera at `origin` looks along its own +z toward `target`; +x points to
+  /// the left of the image, as in Mitsuba. Throws std::invalid_argument when the vectors are
+  /// degenerate.
+  static Transform look_at(const Vec3d& origin, const Vec3d& target, const Vec3d& up);
+
+  /// First `b`, then `a`.
+  friend Transform operator*(const Transform& a, const Transform& b);
+  friend bool operator==(const Transform&, const Transform&) = default;
+
+  Vec3f point(const Vec3f& p) const;
+  Vec3f vector(const Vec3f& v) const;
+  /// By the inverse transpose; not normalised.
+  Vec3f normal(const Vec3f& n) const;
+  Transform inverse() const;
+  Bounds3f bounds(const Bounds3f& b) const;
+  /// Negative where the map turns right-handed frames into left-handed ones.
+  double determinant3() const;
+  double at(int row, int column) const { return matrix_[row][column]; }
+
+ private:
+  using Rows = std::array<std::array<double, 4>, 4>;
+  static constexpr Rows identity_rows = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+  Rows matrix_ = identity_rows;
+  Rows inverse_ = identity_rows;
+};
+
+}  // namespace kaustik

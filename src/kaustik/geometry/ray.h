@@ -1,0 +1,51 @@
+#pragma once
+#include <cstdint>
+
+#include "kaustik/base/transform.h"
+#include "kaustik/base/vec.h"
+
+namespace kaustik {
+
+/// Direction need not be a unit vector for shadow rays; distances count in its length.
+struct Ray {
+  Vec3f origin;
+  Vec3f direction;
+  float t_max = infinity;
+};
+
+inline constexpr uint32_t no_instance = 0xffffffffu;
+
+/// The closest hit as ray tracing leaves it; RayTracer::surface_point turns it into geometry.
+struct Hit {
+  float t = infinity;
+  float u = 0, v = 0;      ///< of the primitive; barycentric for triangles
+  Vec3f ng;                ///< unnormalised geometric normal, in the space of the shape
+  uint32_t shape = 0;      ///< index into the scene's shapes (within its group if instanced)
+  uint32_t primitive = 0;  ///< triangle index; 0 for shapes of one piece
+  uint32_t instance = no_instance;
+};
+
+/// A point on a surface, in world space.
+struct SurfacePoint {
+  Vec3f position;
+  Vec3f ng;    ///< geometric normal, unit, outward by the shape's convention
+  Vec3f ns;    ///< shading normal, unit, in the same half space as ng
+  Vec3f dpdu;  ///< tangent along u, not normalised; zero if unknown
+  Vec2f uv;
+  float error = 0;     ///< bound on the distance between `position` and the true surface
+  uint32_t shape = 0;  ///< index into the scene's shapes
+  uint32_t primitive = 0;
+  uint32_t instance = no_instance;
+};
+
+/// `position` moved off its surface to the side of `direction`, just far enough that a ray from
+/// there cannot meet the surface again by rounding: by the point's own error bound, which follows
+/// from the magnitude of the coordinates and never from the scene's scale.
+Vec3f offset_origin(const SurfacePoint& point, const Vec3f& direction);
+/// A ray that leaves `point` along unit `direction`.
+Ray spawn_ray(const SurfacePoint& point, const Vec3f& direction);
+/// A ray from `from` that ends just before `to`; its direction is not normalised, t_max is 1.
+Ray spawn_ray_to(const SurfacePoint& from, const SurfacePoint& to);
+Ray spawn_ray_to(const SurfacePoint& from, const Vec3f& to);
+
+}  // namespace kaustik

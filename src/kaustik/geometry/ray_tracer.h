@@ -1,0 +1,53 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "kaustik/geometry/shape.h"
+
+namespace kaustik {
+
+/// A shape placed once more by a transform.
+struct Instance {
+  uint32_t group = 0;  ///< index into RayTracer's groups
+  Transform world_from_group;
+};
+
+/// Shapes to trace rays against. `shapes` stand in the world; each group is a list of shapes that
+/// only appear through instances. Indices in Hit::shape count world shapes first, then the shapes
+/// of the groups one after another.
+struct Geometry {
+  std::vector<std::shared_ptr<const Shape>> shapes;
+  std::vector<std::vector<std::shared_ptr<const Shape>>> groups;
+  std::vector<Instance> instances;
+};
+
+/// The acceleration structure (Embree). Immutable after construction and shared by all threads.
+/// The build is deterministic.
+class RayTracer {
+ public:
+  explicit RayTracer(Geometry geometry);
+  ~RayTracer();
+  RayTracer(const RayTracer&) = delete;
+  RayTracer& operator=(const RayTracer&) = delete;
+
+  /// Closest hit in (0, ray.t_max); false if none.
+  bool intersect(const Ray& ray, Hit& hit) const;
+  /// Whether anything lies in (0, ray.t_max).
+  bool occluded(const Ray& ray) const;
+  /// World-space geometry of a hit.
+  SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
+
+  const Shape& shape(uint32_t index) const;
+  size_t shape_count() const;
+  Bounds3f bounds() const;
+  size_t size_in_bytes() const;
+  /// RTCScene, for benchmarks that compare with bare Embree.
+  void* embree_scene() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,85 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "kaustik/base/parameters.h"
+#include "kaustik/geometry/ray.h"
+
+namespace kaustik {
+
+/// A point sampled on a shape.
+struct ShapeSample {
+  SurfacePoint point;
+  float pdf_area = 0;  ///< 1/m²; zero if sampling failed
+};
+
+/// Triangles with shared vertices, in world space (in group space for shapes of a shape group).
+struct TriangleMesh {
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;  ///< per vertex, unit; empty: flat faces
+  std::vector<Vec2f> uvs;      ///< per vertex; empty: barycentric
+  std::vector<std::array<uint32_t, 3>> triangles;
+};
+
+/// A hit of an analytic or procedural shape.
+struct ShapeHit {
+  float t;
+  float u = 0, v = 0;
+  Vec3f ng;  ///< outward, need not be normalised
+};
+
+/// Geometry without a material. Immutable; all in world space (or the space of its group).
+class Shape {
+ public:
+  virtual ~Shape() = default;
+
+  virtual Bounds3f bounds() const = 0;
+  /// m². For procedural shapes an estimate from the tessellation.
+  virtual float area() const = 0;
+
+  /// The mesh itself where the shape is one (ray tracing uses it as it is); null: the shape
+  /// intersects by itself.
+  virtual const TriangleMesh* mesh() const { return nullptr; }
+  /// Nearest hit with t in (0, t_max); for shapes without a mesh. Thread-safe.
+  virtual std::optional<ShapeHit> intersect(const Ray& ray) const;
+
+  /// Geometry at a hit of this shape, `shape` and `instance` not filled in.
+  virtual SurfacePoint surface_point(const Ray& ray, const Hit& hit) const = 0;
+
+  /// False where the shape cannot be sampled by area (procedural ones): it cannot be a light then.
+  virtual bool can_sample() const { return true; }
+  /// Uniform by area.
+  virtual ShapeSample sample_area(const Vec2f& u) const = 0;
+  /// A point for lighting `reference`: the default samples by area; shapes may do better (a sphere
+  /// samples the cone it subtends). `pdf_solid_angle` is with respect to solid angle at
+  /// `reference`.
+  virtual ShapeSample sample_toward(const Vec3f& reference, const Vec2f& u,
+                                    float& pdf_solid_angle) const;
+  /// Density of sample_toward for a point of this shape seen from `reference`.
+  virtual float pdf_toward(const Vec3f& reference, const SurfacePoint& point) const;
+
+  /// An inscribed approximation, finer for higher `level` (0: a dozen triangles or so); a mesh
+  /// returns itself.
+  virtual TriangleMesh tessellate(int level) const = 0;
+  /// At most about `budget` boxes that together contain the whole surface. What aims photons at
+  /// the shape builds on them: nothing of the shape may lie outside.
+  virtual std::vector<Bounds3f> bounding_boxes(int budget) const {
+    (void)budget;
+    return {bounds()};
+  }
+};
+
+/// Everything of one type of shape: its table and how to make it. `place` of arguments that are
+/// wrong in ways the table cannot tell (unreadable mesh, NaN vertex) goes into the Error thrown.
+struct ShapeType {
+  const TypeInfo& info;
+  std::unique_ptr<Shape> (*create)(const Arguments&);
+};
+
+/// The registry: one row per type ("obj", "ply", "rectangle", "cube", "disk", "sphere", "cylinder",
+/// "sdf"). Shape groups and instances are the scene's own.
+const std::vector<ShapeType>& shape_types();
+
+}  // namespace kaustik

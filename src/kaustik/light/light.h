@@ -1,0 +1,128 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "kaustik/base/spectrum.h"
+#include "kaustik/geometry/shape.h"
+
+namespace kaustik {
+
+/// Light that a point may receive, found by sampling a light.
+struct LightSample {
+  Vec3f direction;            ///< unit, from the reference point to the light
+  float distance = infinity;  ///< to the light; infinite for directional and environment lights
+  SurfacePoint point;         ///< on the light; valid if `on_surface`
+  bool on_surface = false;
+  bool delta = false;         ///< the light is a point or a single direction
+  Spectrum radiance;          ///< arriving, W/(sr·m²); for delta lights irradiance on a facing
+                              ///< surface, W/m²
+  float pdf_solid_angle = 0;  ///< 1 for delta lights; zero: no light can arrive
+};
+
+/// A ray that a light emits, by the light's own distribution, in proportion to emitted flux where
+/// that is possible.
+struct EmissionSample {
+  SurfacePoint point;  ///< origin; `error` zero if not on a surface. ng: zero if none
+  bool on_surface = false;
+  Vec3f direction;          ///< unit
+  Spectrum flux;            ///< W: emitted radiance × cosine / density (delta lights: intensity or
+                            ///< irradiance / density); zero: nothing
+  float pdf_position = 0;   ///< per area on the light (or on the disk that directional and
+                            ///< environment rays start from); 1 for point lights
+  float pdf_direction = 0;  ///< per solid angle; 1 for directional lights
+};
+
+/// Bounds on where light goes, for choosing among many lights and for aiming.
+struct LightBounds {
+  Bounds3f position;    ///< empty for lights at infinity
+  Vec3f axis{0, 0, 1};  ///< light leaves only within this angle of the axis
+  float cos_angle = -1;
+  bool infinite = false;
+};
+
+/// A source of light. Immutable. Emission is one-sided on surfaces (the side of the geometric
+/// normal), as in Mitsuba.
+class Light {
+ public:
+  virtual ~Light() = default;
+
+  /// Total emitted flux, W. For infinite lights that through the scene's bounding disk.
+  virtual Spectrum power() const = 0;
+  virtual LightBounds bounds() const = 0;
+  /// A single point or direction: found only by sampling the light.
+  virtual bool is_delta() const = 0;
+  /// Shines from infinity (directional or environment).
+  virtual bool is_infinite() const { return false; }
+  /// Index into the scene's shapes if it is an area light, else −1.
+  virtual int shape() const { return -1; }
+
+  virtual LightSample sample_toward(const Vec3f& reference, const Vec2f& u) const = 0;
+  /// Density of sample_toward, for a point on the light (area lights) …
+  virtual float pdf_toward(const Vec3f& reference, const SurfacePoint& point) const;
+  /// … or for a direction from the reference (environment lights).
+  virtual float pdf_toward_direction(const Vec3f& direction) const;
+
+  /// Radiance from a point of the light's surface along `direction` (away from it). Area lights.
+  virtual Spectrum emitted(const SurfacePoint& point, const Vec3f& direction) const;
+  /// Radiance of rays that leave the scene along `direction`. Environment lights.
+  virtual Spectrum background(const Vec3f& direction) const;
+
+  virtual EmissionSample sample_emission(const Vec2f& u_position,
+                                         const Vec2f& u_direction) const = 0;
+  /// Density of sample_emission's position, per area (see EmissionSample::pdf_position).
+  virtual float emission_pdf_position(const SurfacePoint& point) const = 0;
+  /// Density of sample_emission's direction at `point`, per solid angle.
+  virtual float emission_pdf_direction(const SurfacePoint& point, const Vec3f& direction) const = 0;
+
+  // What aimed emission needs. Lights with a place: a position, then any direction whose density
+  // the aim knows.
+  /// Uniform by area on the light; `ng` zero and pdf 1 for points. Not for infinite lights.
+  virtual EmissionSample sample_origin(const Vec2f& u) const;
+  /// Radiance (area lights; with the cosine applied by the caller), or intensity W/sr (point
+  /// lights), leaving `point` along `direction`.
+  virtual Spectrum emitted_from(const SurfacePoint& point, const Vec3f& direction) const;
+  // Infinite lights: a direction, then any origin on the plane across it.
+  /// A direction of travel (away from the light) with its density (1 for directional).
+  virtual Vec3f sample_travel_direction(const Vec2f& u, float& pdf) const;
+};
+
+/// What create() gets: the shape for area lights, the scene's bounds for infinite ones.
+struct LightInputs {
+  const Arguments& arguments;
+  const Transform& to_world;           ///< of the emitter; identity if not given
+  std::shared_ptr<const Shape> shape;  ///< of area lights, else null
+  int shape_index = -1;
+  Bounds3f scene_bounds;  ///< of everything that can be hit
+};
+
+struct LightType {
+  const TypeInfo& info;
+  bool needs_shape = false;
+  std::unique_ptr<Light> (*create)(const LightInputs&);
+};
+/// "area", "point", "spot", "directional", "constant".
+const std::vector<LightType>& light_types();
+
+/// Chooses one of many lights for a reference point: by power for few, by a light tree (bounds,
+/// orientation, distance; Conty Estevez and Kulla 2018) for many. Every light that can reach the
+/// point has a chance above zero. Immutable.
+class LightSelector {
+ public:
+  /// `lights` must outlive this.
+  explicit LightSelector(const std::vector<std::unique_ptr<Light>>& lights);
+  ~LightSelector();
+
+  struct Choice {
+    int light = -1;  ///< −1: no light at all
+    float probability = 0;
+  };
+  /// `normal` may be zero (no surface). `u` is replaced by a fresh uniform number.
+  Choice choose(const Vec3f& reference, const Vec3f& normal, float& u) const;
+  float probability(const Vec3f& reference, const Vec3f& normal, int light) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,37 @@
+#pragma once
+// What a loader makes of a file: a tree of typed objects with named properties, each with its place
+// in its file. Plain data; nothing here knows a renderer type.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kaustik/base/parameters.h"
+
+namespace kaustik {
+
+struct Object;
+
+/// A nested object and the name under which its parent holds it ("" if it has none).
+struct Child {
+  std::string name;
+  std::shared_ptr<Object> object;  ///< shared where several parents refer to one object
+};
+
+struct Object {
+  std::string family;  ///< "scene", "shape", "bsdf", "emitter", "sensor", "film", "rfilter",
+                       ///< "sampler", "integrator", "texture", "medium", "phase"
+  std::string type;    ///< "obj", "diffuse", …; "" for the scene itself
+  std::string id;      ///< "" if it has none
+  std::vector<Property> properties;
+  std::vector<Child> children;
+  Place place;
+};
+
+/// A whole scene as it was described; file names in it are already relative to the working folder
+/// or absolute.
+struct Description {
+  std::shared_ptr<Object> scene;  ///< never null; its children are the top-level objects
+};
+
+}  // namespace kaustik
