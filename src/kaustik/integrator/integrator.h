@@ -1,0 +1,101 @@
+#pragma once
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "kaustik/base/sampler.h"
+#include "kaustik/scene/scene.h"
+#include "kaustik/transport/component.h"
+#include "kaustik/transport/splat_buffer.h"
+
+namespace kaustik {
+
+/// Number of independent replicates; pass i belongs to replicate i mod 16.
+inline constexpr uint32_t replicate_count = 16;
+
+/// What makes a pass: its results are a function of this (and of the scene) alone.
+struct Pass {
+  uint64_t seed = 0;
+  uint32_t index = 0;              ///< from 0
+  uint32_t samples_per_pixel = 1;  ///< of this pass and every other
+};
+
+/// What is known of the first surface behind a pixel, for denoisers and compositing.
+struct FirstHit {
+  Spectrum albedo;
+  Vec3f normal{0, 0, 0};
+  float depth = 0;  ///< distance, m; 0: nothing hit
+};
+
+/// Where one camera sample's results go.
+class SampleSink {
+ public:
+  explicit SampleSink(ComponentSet wanted) : wanted_(wanted) {}
+  void add(Component component, const Spectrum& radiance) {
+    if (wanted_.has(component)) radiance_[size_t(component)] += radiance;
+  }
+  void set_first_hit(const FirstHit& hit) { first_hit_ = hit; }
+  void count_rays(uint64_t rays) { rays_ += rays; }
+
+  const Spectrum& radiance(Component component) const { return radiance_[size_t(component)]; }
+  const FirstHit& first_hit() const { return first_hit_; }
+  uint64_t rays() const { return rays_; }
+  bool wants(Component component) const { return wanted_.has(component); }
+
+ private:
+  ComponentSet wanted_;
+  std::array<Spectrum, component_count> radiance_{};
+  FirstHit first_hit_;
+  uint64_t rays_ = 0;
+};
+
+/// Counters of a light pass, for progress and for the report.
+struct PassReport {
+  uint64_t rays = 0;
+  uint64_t photons = 0;               ///< stored or splatted
+  std::vector<std::string> warnings;  ///< a map that stayed empty, and why
+};
+
+/// The immutable state of one pass (photon maps, caches).
+class PassState {
+ public:
+  virtual ~PassState() = default;
+  PassReport report;
+};
+
+/// A method of computing the picture. Const and thread-safe; owns no loop, no film, no clock.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  /// The light pass: what the samples of this pass need; may add to `splats`. Runs in parallel
+  /// inside; returns early (state unusable) once `stop` is requested.
+  virtual std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
+                                             std::stop_token stop) const = 0;
+  /// The visualisation pass for one point of the raster.
+  virtual void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
+                      SampleSink& sink) const = 0;
+  /// Whether prepare() splats, so that the session provides the buffer.
+  virtual bool splats() const { return false; }
+  /// Whether sample() does anything.
+  virtual bool samples_camera() const { return true; }
+  /// Samples per pixel and pass if the user asks for nothing else.
+  virtual uint32_t default_samples_per_pass() const { return 4; }
+  /// The components that its results hold.
+  virtual ComponentSet components() const { return ComponentSet::all(); }
+};
+
+struct IntegratorType {
+  const TypeInfo& info;
+  /// `scene` must outlive the integrator.
+  std::unique_ptr<Integrator> (*create)(const Arguments&, const Scene& scene);
+};
+/// "path", "lighttracer", "photonmap".
+const std::vector<IntegratorType>& integrator_types();
+
+/// The row `components`, which every integrator has, and its reading; throws Error for an unknown
+/// name.
+Parameter components_parameter();
+ComponentSet read_components(const Arguments& arguments);
+
+}  // namespace kaustik

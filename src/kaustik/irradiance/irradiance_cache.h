@@ -1,0 +1,57 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "kaustik/base/sampler.h"
+#include "kaustik/irradiance/hemisphere.h"
+
+namespace kaustik {
+
+/// A place where irradiance is wanted: on one side of a surface.
+struct CachePoint {
+  SurfacePoint point;
+  Vec3f normal;           ///< unit shading normal on the side that receives the light
+  float pixel_width = 0;  ///< size of a pixel's footprint there, m; 0: unknown
+};
+
+struct CacheSettings {
+  float quality = 0.15f;  ///< Ward's error a: a record serves within about a·R
+  bool gradients = true;
+  bool minimum_distance = false;  ///< R from the minimum instead of the harmonic mean distance
+  float minimum_spacing = 3;      ///< pixels: records are valid at least this far …
+  float maximum_spacing = 40;     ///< … and at most this far
+  bool neighbor_clamping = true;  ///< Křivánek et al. 2006
+  HemisphereSettings hemisphere;
+};
+
+/// Cached irradiance with gradients (Ward, Rubinstein and Clear 1988; Ward and Heckbert 1992) over
+/// any source of radiance. Filled in rounds, then read-only: all queries of a round see the records
+/// of the rounds before, the new ones are inserted in the order of the points, so the cache has the
+/// same bits for any number of threads.
+class IrradianceCache {
+ public:
+  explicit IrradianceCache(const CacheSettings& settings);
+  ~IrradianceCache();
+
+  /// One round: finds the points that the records so far don't serve, computes records there in
+  /// parallel (sampler of point i: `sampler.split(round, i)`), inserts in order those that are
+  /// still needed. Returns how many were inserted.
+  size_t fill_round(const std::vector<CachePoint>& points, const RadianceSource& source,
+                    const Sampler& sampler, uint32_t round, std::stop_token stop);
+
+  /// Irradiance W/m² interpolated from the records; false where none serves. `relax` ≥ 1 widens
+  /// every record's reach by that factor. Thread-safe.
+  bool interpolate(const CachePoint& at, Spectrum& irradiance, float relax = 1) const;
+
+  size_t record_count() const;
+  size_t size_in_bytes() const;
+  uint64_t rays_traced() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,83 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kaustik/geometry/ray_tracer.h"
+#include "kaustik/light/light.h"
+#include "kaustik/material/bsdf.h"
+#include "kaustik/medium/medium.h"
+#include "kaustik/scene/camera.h"
+#include "kaustik/scene/description.h"
+
+namespace kaustik {
+
+/// What covers a shape.
+struct Surface {
+  std::shared_ptr<const Bsdf> bsdf;  ///< never null
+  int light = -1;                    ///< index into Scene::lights(), −1: none
+  std::string name;                  ///< the shape's id or "type, line n", for messages
+};
+
+/// Sees every ray that is traced; for benchmarks that repeat them.
+class RayObserver {
+ public:
+  virtual ~RayObserver() = default;
+  virtual void on_ray(const Ray& ray, bool shadow) = 0;
+};
+
+/// All that a ray can meet, immutable and shared by all threads. Made by build_scene.
+class Scene {
+ public:
+  struct Parts {
+    std::unique_ptr<RayTracer> tracer;
+    std::vector<Surface> surfaces;  ///< parallel to the tracer's shapes
+    std::vector<std::unique_ptr<Light>> lights;
+    FilmSettings film;
+    std::unique_ptr<Camera> camera;
+    std::vector<std::string> warnings;
+    RayObserver* observer = nullptr;
+  };
+  explicit Scene(Parts parts);
+
+  bool intersect(const Ray& ray, Hit& hit) const {
+    if (parts_.observer) parts_.observer->on_ray(ray, false);
+    return parts_.tracer->intersect(ray, hit);
+  }
+  bool occluded(const Ray& ray) const {
+    if (parts_.observer) parts_.observer->on_ray(ray, true);
+    return parts_.tracer->occluded(ray);
+  }
+  const RayTracer& tracer() const { return *parts_.tracer; }
+  const Surface& surface(uint32_t shape) const { return parts_.surfaces[shape]; }
+  size_t surface_count() const { return parts_.surfaces.size(); }
+  const std::vector<std::unique_ptr<Light>>& lights() const { return parts_.lights; }
+  const LightSelector& light_selector() const { return *light_selector_; }
+  /// Indices of the lights that rays meet at infinity.
+  const std::vector<int>& environment_lights() const { return environment_lights_; }
+  const Camera& camera() const { return *parts_.camera; }
+  const FilmSettings& film() const { return parts_.film; }
+  /// What build_scene found odd but could live with.
+  const std::vector<std::string>& warnings() const { return parts_.warnings; }
+
+ private:
+  Parts parts_;
+  std::unique_ptr<LightSelector> light_selector_;
+  std::vector<int> environment_lights_;
+};
+
+struct BuildOptions {
+  RayObserver* observer = nullptr;  ///< must outlive the scene
+};
+
+/// Checks every object against the table of its type and builds the scene
+.Throws Error with all problems
+    /// found. Ignores the integrator: that is the render room's.
+    std::shared_ptr<const Scene>
+    build_scene(const Description& description, const BuildOptions& options = {});
+
+/// The integrator object of a description, null if it has none. Throws Error if it has several.
+std::shared_ptr<Object> find_integrator(const Description& description);
+
+}  // namespace kaustik

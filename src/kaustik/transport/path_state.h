@@ -1,0 +1,22 @@
+#pragma once
+#include "kaustik/base/spectrum.h"
+#include "kaustik/material/bsdf.h"
+#include "kaustik/medium/medium.h"
+
+namespace kaustik {
+
+/// What a path carries from vertex to vertex, whichever end it started from.
+struct PathState {
+  Spectrum throughput{1.0f};  ///< radiance factor, or flux in W on light paths
+  TransportMode mode = TransportMode::radiance;
+  const Medium* medium = nullptr;  ///< that the next segment runs through; null: vacuum
+  float footprint = 0;             ///< width of the path's beam at the last vertex, m
+  float spread = 0;                ///< growth of the footprint per metre
+  bool single_wavelength = false;  ///< dispersed: only the first lane is valid (spectral mode)
+  float pdf_forward = 0;  ///< density per solid angle of the last direction as sampled; 0: delta
+  float pdf_reverse = 0;  ///< density of the same segment sampled from its other end; 0: unknown
+  float eta_scale = 1;    ///< product of the squared relative indices crossed, for roulette
+  int depth = 0;          ///< scattering events so far
+};
+
+}  // namespace kaustik

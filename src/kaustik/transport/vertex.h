@@ -1,0 +1,55 @@
+#pragma once
+#include "kaustik/scene/scene.h"
+
+namespace kaustik {
+
+/// A path's meeting with a surface: geometry, material, and the direction it came from. All
+/// directions point away from the surface, in world space.
+class SurfaceVertex {
+ public:
+  SurfaceVertex() = default;
+  /// `mode` tells what the path carries; `footprint` is its width at the point, m.
+  SurfaceVertex(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
+                float footprint = 0);
+
+  const SurfacePoint& point() const { return point_; }
+  const Vec3f& position() const { return point_.position; }
+  const Bsdf& bsdf() const { return *bsdf_; }
+  Lobes lobes() const { return bsdf_->lobes(); }
+  const Vec3f& wo() const { return wo_; }
+  int light() const { return light_; }
+  const BsdfContext& context() const { return context_; }
+  /// Of the shading frame.
+  const Vec3f& normal() const { return frame_.z; }
+  const Frame& frame() const { return frame_; }
+  Vec3f wo_local() const { return wo_local_; }
+
+  /// f·|cosθ_i| in the direction of transport: the cosine by the shading normal, and for flux the
+  /// factor that keeps shading normals adjoint (Veach 1997, eq. 5.19). Zero where the geometric
+  /// and the shading normal disagree on the side of wi.
+  Spectrum eval_cosine(const Vec3f& wi, Lobes lobes) const;
+  /// f alone.
+  Spectrum eval(const Vec3f& wi, Lobes lobes) const;
+  float pdf(const Vec3f& wi, Lobes lobes) const;
+  /// wi of the result is in world space; the weight holds the same factors as eval_cosine.
+  BsdfSample sample(float u_lobe, const Vec2f& u, Lobes lobes) const;
+  Spectrum albedo(Lobes lobes) const { return bsdf_->albedo(context_, wo_local_, lobes); }
+  /// Whether wo lies on the side of the geometric normal.
+  bool on_front() const { return dot(wo_, point_.ng) > 0; }
+
+ private:
+  bool sides_agree(const Vec3f& wi, const Vec3f& wi_local) const {
+    return dot(wi, point_.ng) * wi_local.z * side_sign_ > 0;
+  }
+  float adjoint_factor(const Vec3f& wi, const Vec3f& wi_local) const;
+
+  SurfacePoint point_;
+  const Bsdf* bsdf_ = nullptr;
+  int light_ = -1;
+  BsdfContext context_;
+  Frame frame_;
+  Vec3f wo_, wo_local_;
+  float side_sign_ = 1;
+};
+
+}  // namespace kaustik
