@@ -52,6 +52,9 @@ std::optional<Value> typed(const std::string& text, ParameterKind kind) {
     case ParameterKind::number:
       if (const auto d = parse_number<double>(text)) return Value(*d);
       return std::nullopt;
+    case ParameterKind::number_or_name:
+      if (const auto d = parse_number<double>(text)) return Value(*d);
+      return Value(text);
     case ParameterKind::text:
     case ParameterKind::choice:
     case ParameterKind::file:
@@ -95,6 +98,9 @@ std::optional<Value> coerce(const Value& value, ParameterKind kind) {
     case ParameterKind::choice:
       if (const auto* text = std::get_if<std::string>(&value)) return Value(lower(*text));
       return std::nullopt;
+    case ParameterKind::number_or_name:
+      if (const auto* text = std::get_if<std::string>(&value)) return Value(lower(*text));
+      return coerce(value, ParameterKind::number);
     case ParameterKind::point:
       return same(static_cast<Vec3d*>(nullptr));
     case ParameterKind::color:
@@ -120,6 +126,13 @@ std::vector<double> numbers_in(const Value& value) {
   return values;
 }
 
+/// The text of a value that has to be one of the choices; null if it is free.
+const std::string* name_out_of_choices(const Parameter& parameter, const Value& value) {
+  const bool restricted =
+      parameter.kind == ParameterKind::choice || parameter.kind == ParameterKind::number_or_name;
+  return restricted ? std::get_if<std::string>(&value) : nullptr;
+}
+
 /// What is wrong with a value of the right type; empty if nothing.
 std::string complaint(const Parameter& parameter, const Value& value) {
   for (const double number : numbers_in(value)) {
@@ -128,18 +141,16 @@ std::string complaint(const Parameter& parameter, const Value& value) {
     if (number < parameter.minimum || number > parameter.maximum)
       return fmt::format("'{}' is {}, outside its range", parameter.name, number);
   }
-  if (parameter.kind == ParameterKind::choice) {
-    const auto& text = std::get<std::string>(value);
-    if (std::find(parameter.choices.begin(), parameter.choices.end(), text) ==
+  if (const std::string* name = name_out_of_choices(parameter, value))
+    if (std::find(parameter.choices.begin(), parameter.choices.end(), *name) ==
         parameter.choices.end())
-      return fmt::format("'{}' cannot be '{}'", parameter.name, text);
-  }
+      return fmt::format("'{}' cannot be '{}'", parameter.name, *name);
   return {};
 }
 
 std::string remedy_for(const Parameter& parameter, const Value& value) {
-  if (parameter.kind == ParameterKind::choice)
-    return suggest(std::get<std::string>(value), parameter.choices);
+  if (const std::string* name = name_out_of_choices(parameter, value))
+    return suggest(*name, parameter.choices);
   return fmt::format("give a value from {} to {}{}{}", parameter.minimum, parameter.maximum,
                      parameter.unit.empty() ? "" : " ", parameter.unit);
 }
@@ -162,6 +173,7 @@ Value empty_value(ParameterKind kind) {
     case ParameterKind::integer:
       return int64_t{0};
     case ParameterKind::number:
+    case ParameterKind::number_or_name:
       return 0.0;
     case ParameterKind::text:
     case ParameterKind::choice:
@@ -196,6 +208,13 @@ Parameter choice_parameter(std::string name, std::string value, std::vector<std:
   Parameter p =
       row(std::move(name), ParameterKind::choice, Value(std::move(value)), std::move(sentence));
   p.choices = std::move(choices);
+  return p;
+}
+Parameter number_or_name_parameter(std::string name, Value default_value,
+                                   std::vector<std::string> names, std::string sentence) {
+  Parameter p = row(std::move(name), ParameterKind::number_or_name, std::move(default_value),
+                    std::move(sentence));
+  p.choices = std::move(names);
   return p;
 }
 Parameter point_parameter(std::string name, Vec3d value, std::string sentence) {
@@ -314,6 +333,11 @@ double Arguments::number(std::string_view name) const { return std::get<double>(
 const std::string& Arguments::text(std::string_view name) const {
   return std::get<std::string>(slot(name).value);
 }
+std::variant<double, std::string> Arguments::number_or_name(std::string_view name) const {
+  const Value& value = slot(name).value;
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  return std::get<double>(value);
+}
 Vec3d Arguments::point(std::string_view name) const { return std::get<Vec3d>(slot(name).value); }
 std::variant<Rgb, SpectralCurve> Arguments::color(std::string_view name) const {
   const Value& value = slot(name).value;
@@ -336,6 +360,8 @@ std::string kind_name(ParameterKind kind) {
       return "string";
     case ParameterKind::choice:
       return "choice";
+    case ParameterKind::number_or_name:
+      return "float or name (string)";
     case ParameterKind::point:
       return "point or vector";
     case ParameterKind::color:

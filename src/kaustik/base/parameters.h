@@ -45,9 +45,10 @@ enum class ParameterKind {
   integer,
   number,
   text,
-  choice,  ///< text out of a list, compared without case
-  point,   ///< also serves vectors
-  color,   ///< rgb, a spectrum, or one number for all lanes
+  choice,          ///< text out of a list, compared without case
+  number_or_name,  ///< a number, or text out of a list that stands for one
+  point,           ///< also serves vectors
+  color,           ///< rgb, a spectrum, or one number for all lanes
   transform,
   file  ///< a path, relative to the file that names it; given as text
 };
@@ -78,6 +79,9 @@ Parameter number_parameter(std::string name, double default_value, std::string s
 Parameter text_parameter(std::string name, std::string default_value, std::string sentence);
 Parameter choice_parameter(std::string name, std::string default_value,
                            std::vector<std::string> choices, std::string sentence);
+/// `default_value` may be a number or one of the names.
+Parameter number_or_name_parameter(std::string name, Value default_value,
+                                   std::vector<std::string> names, std::string sentence);
 Parameter point_parameter(std::string name, Vec3d default_value, std::string sentence);
 Parameter color_parameter(std::string name, double default_value, std::string sentence);
 Parameter transform_parameter(std::string name, std::string sentence);
@@ -124,6 +128,8 @@ class Arguments {
   double number(std::string_view name) const;
   /// Kinds text, choice (in lower case) and file (as given).
   const std::string& text(std::string_view name) const;
+  /// Kind number_or_name: the number, or the name in lower case.
+  std::variant<double, std::string> number_or_name(std::string_view name) const;
   Vec3d point(std::string_view name) const;
   /// As given: number → Rgb{x, x, x}, Rgb or SpectralCurve.
   std::variant<Rgb, SpectralCurve> color(std::string_view name) const;
