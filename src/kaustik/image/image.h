@@ -90,8 +90,9 @@ struct RgbView {
   }
 };
 
-/// The channels "R", "G", "B" (or "Y" thrice) of `layer`, "" for the picture itself. Throws
-/// Error(input) if the image has none. Valid as long as the image is and keeps its channels.
+/// The channels "R", "G", "B" (else "X", "Y", "Z", else "Y" or "Z" thrice) of `layer`, "" for the
+/// picture itself. Throws Error(input) if the image has none. Valid as long as the image is and
+/// keeps its channels.
 RgbView rgb_view(const Image& image, const std::string& layer = {});
 
 }  // namespace kaustik

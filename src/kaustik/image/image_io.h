@@ -28,9 +28,10 @@ struct WriteOptions {
 
 /// Writes by extension, atomically: .exr (all channels, metadata as attributes), .hdr (Radiance
 /// RGBE), .pfm, .tif/.tiff (32-bit LogLuv, absolute radiance; luminance by its STONITS tag), and
-/// tone mapped with 8 bits .png, .jpg/.jpeg, .ppm. PNG and TIFF carry the metadata as text. Throws
-/// Error(input) for what check_writable() finds and for values that the format cannot hold,
-/// Error(system) if writing fails; a file that was there before is then unharmed.
+/// tone mapped with 8 bits .png, .jpg/.jpeg, .ppm. PNG and TIFF carry the metadata as text. Values
+/// that a format has no code for, negative ones and NaN in .hdr, infinite ones and NaN in .tif,
+/// become 0. Throws Error(input) for what check_writable() finds and for values that the format
+/// cannot hold, Error(system) if writing fails; a file that was there before is then unharmed.
 void write_image(const Image& image, const std::string& path, const WriteOptions& options = {});
 
 /// Throws Error(input) if write_image() could not write here: unknown extension, folder missing or

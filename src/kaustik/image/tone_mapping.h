@@ -48,8 +48,7 @@ class HistogramAdjustment {
 
  private:
   static constexpr int bin_count = 100;
-  void adjust(std::vector<double> histogram, double sample_count);
-  void make_linear();
+  void adjust(const std::vector<double>& logs, double display_range);
 
   float display_black_, display_white_;
   double log_min_ = 0, log_max_ = 0;  ///< of the world's luminance

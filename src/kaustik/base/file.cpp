@@ -1,0 +1,209 @@
+#include "kaustik/base/file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "kaustik/base/error.h"
+
+namespace kaustik {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(int error_number) {
+  return std::error_code(error_number, std::generic_category()).message();
+}
+
+/// An open file descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+  bool is_open() const { return fd_ >= 0; }
+  /// False (errno says why) if the system reports a write error only now, as network disks do.
+  bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
+
+ private:
+  int fd_;
+};
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+[[noreturn]] void throw_input(const std::string& message, const std::string& remedy) {
+  throw Error(ErrorKind::input, message, remedy);
+}
+
+void check_folder(const std::string& path) {
+  const std::string folder = folder_of(path);
+  struct stat status;
+  if (::stat(folder.c_str(), &status) != 0) {
+    const int reason = errno;
+    throw_input(fmt::format("cannot write '{}': folder '{}': {}", path, folder, text_of(reason)),
+                reason == ENOENT
+                    ? fmt::format("create it (mkdir -p '{}') or choose another", folder)
+                    : "choose a path in a folder that exists");
+  }
+  if (!S_ISDIR(status.st_mode))
+    throw_input(fmt::format("cannot write '{}': '{}' is a file, not a folder", path, folder),
+                "choose a path in a folder");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw_input(fmt::format("cannot write '{}': folder '{}': {}", path, folder, text_of(errno)),
+                "choose a folder that you may write to, or change its permissions");
+}
+
+void check_what_stands_there(const std::string& path) {
+  struct stat status;
+  if (::stat(path.c_str(), &status) != 0) {
+    if (errno == ENAMETOOLONG)
+      throw_input(fmt::format("cannot write '{}': {}", path, text_of(ENAMETOOLONG)),
+                  "choose a shorter name");
+    return;
+  }
+  if (S_ISDIR(status.st_mode))
+    throw_input(fmt::format("cannot write '{}': it is a folder", path),
+                "give the name of a file in it");
+  if (!S_ISREG(status.st_mode))
+    throw_input(fmt::format("cannot write '{}': it is not a regular file", path),
+                "give the name of a regular file");
+  if (::access(path.c_str(), W_OK) != 0)
+    throw_input(fmt::format("cannot replace '{}': {}", path, text_of(errno)),
+                "choose another name, or make that file writable");
+}
+
+/// The file that a chain of symbolic links leads to, so that the link stays and its target changes.
+std::string without_links(const std::string& path) {
+  std::error_code failed;
+  const fs::path resolved = fs::canonical(path, failed);
+  return failed ? path : resolved.string();
+}
+
+/// A new file beside the target; it removes itself unless it has been renamed.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& target) : target_(target) {
+    const fs::path folder = folder_of(target);
+    for (int i = 0; i < attempts && !file_; ++i) {
+      path_ = (folder / fmt::format(".kaustik-{}-{}.tmp", ::getpid(), i)).string();
+      const int fd = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (fd >= 0)
+        file_.emplace(fd);
+      else if (errno != EEXIST)
+        fail(errno);
+    }
+    if (!file_) fail(EEXIST);
+  }
+  ~TemporaryFile() {
+    if (!is_renamed_) ::unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  void write(std::span<const uint8_t> bytes) {
+    // Some systems refuse more than 2 GiB in one call.
+    constexpr size_t most_at_once = size_t{1} << 30;
+    while (!bytes.empty()) {
+      const ssize_t written =
+          ::write(file_->get(), bytes.data(), std::min(bytes.size(), most_at_once));
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) fail(errno);
+      bytes = bytes.subspan(size_t(written));
+    }
+  }
+
+  /// Puts it in the target's place, with the target's permissions if there was one.
+  void replace_target() {
+    struct stat status;
+    if (::stat(target_.c_str(), &status) == 0 &&
+        ::fchmod(file_->get(), status.st_mode & 07777) != 0)
+      fail(errno);
+    if (::fsync(file_->get()) != 0) fail(errno);
+    if (!file_->close()) fail(errno);
+    if (::rename(path_.c_str(), target_.c_str()) != 0) fail(errno);
+    is_renamed_ = true;
+    // The name itself is safe only when the folder is on the disk too; not every file system can.
+    const Descriptor folder(::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (folder.is_open()) ::fsync(folder.get());
+  }
+
+ private:
+  static constexpr int attempts = 1000;
+
+  [[noreturn]] void fail(int error_number) const {
+    throw Error(ErrorKind::system,
+                fmt::format("cannot write '{}': {}", target_, text_of(error_number)),
+                "free some space or choose another folder; what was there before is unchanged");
+  }
+
+  std::string target_, path_;
+  std::optional<Descriptor> file_;
+  bool is_renamed_ = false;
+};
+
+std::vector<uint8_t> read_bytes(const std::string& path, int fd, size_t size) {
+  std::vector<uint8_t> bytes(size);
+  size_t filled = 0;
+  while (filled < size) {
+    const ssize_t count = ::read(fd, bytes.data() + filled, size - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0)
+      throw Error(ErrorKind::system, fmt::format("cannot read '{}': {}", path, text_of(errno)),
+                  "check the disk");
+    if (count == 0) break;
+    filled += size_t(count);
+  }
+  bytes.resize(filled);
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<uint8_t> read_file(const std::string& path) {
+  // Without O_NONBLOCK a named pipe would be waited for.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat status;
+  if (!file.is_open() || ::fstat(file.get(), &status) != 0)
+    throw_input(fmt::format("cannot read '{}': {}", path, text_of(errno)),
+                "check the name and the permissions");
+  if (!S_ISREG(status.st_mode))
+    throw_input(fmt::format("cannot read '{}': it is not a regular file", path),
+                "give the name of a file");
+  try {
+    return read_bytes(path, file.get(), size_t(status.st_size));
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::system, fmt::format("cannot read '{}': not enough memory", path),
+                "the file is larger than this machine can hold");
+  }
+}
+
+void check_output_path(const std::string& path) {
+  if (path.empty()) throw_input("the name of the output file is empty", "give a file name");
+  check_folder(path);
+  check_what_stands_there(path);
+}
+
+void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes) {
+  check_output_path(path);
+  TemporaryFile file(without_links(path));
+  file.write(bytes);
+  file.replace_target();
+}
+
+}  // namespace kaustik

@@ -1,0 +1,102 @@
+#include "kaustik/image/metrics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "kaustik/base/error.h"
+#include "kaustik/image/photometry.h"
+
+namespace kaustik {
+namespace {
+
+void check_same_size(const Image& image, const Image& reference) {
+  if (image.width() != reference.width() || image.height() != reference.height())
+    throw Error(ErrorKind::input,
+                fmt::format("the images differ in size: {} x {} and {} x {}", image.width(),
+                            image.height(), reference.width(), reference.height()),
+                "compare images of the same size");
+}
+
+double relative_error_sq(double x, double r) { return (x - r) * (x - r) / (r * r + 0.01); }
+
+double mean_of(const std::vector<double>& values, size_t count) {
+  double sum = 0;
+  for (size_t i = 0; i < count; ++i) sum += values[i];
+  return count > 0 ? sum / double(count) : 0;
+}
+
+/// Mean without the largest thousandth; reorders the values.
+double trimmed_mean(std::vector<double>& values) {
+  const size_t dropped = values.size() / 1000;
+  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(dropped), values.end(),
+                   std::greater<>());
+  values.erase(values.begin(), values.begin() + std::ptrdiff_t(dropped));
+  return mean_of(values, values.size());
+}
+
+double ratio(double a, double b) { return a == b ? 1 : a / b; }
+
+}  // namespace
+
+ImageComparison compare_images(const Image& image, const Image& reference,
+                               const std::string& layer) {
+  check_same_size(image, reference);
+  const RgbView x = rgb_view(image, layer);
+  const RgbView r = rgb_view(reference, layer);
+  ImageComparison result;
+  Vec3d sum(0), reference_sum(0);
+  double squares = 0;
+  std::vector<double> pixel_errors;
+  pixel_errors.reserve(image.pixel_count());
+  for (size_t i = 0; i < image.pixel_count(); ++i) {
+    const Vec3d a(x[i]), b(r[i]);
+    if (!is_finite(x[i]) || !is_finite(r[i])) {
+      ++result.non_finite_pixels;
+      continue;
+    }
+    sum += a;
+    reference_sum += b;
+    squares += (a - b).length2();
+    pixel_errors.push_back(
+        (relative_error_sq(a.x, b.x) + relative_error_sq(a.y, b.y) + relative_error_sq(a.z, b.z)) /
+        3);
+  }
+  result.pixel_count = pixel_errors.size();
+  if (result.pixel_count == 0)
+    throw Error(ErrorKind::input, "no pixel is finite in both images", "check how they were made");
+  const double count = double(result.pixel_count);
+  result.mse = squares / (3 * count);
+  result.mean = sum / count;
+  result.reference_mean = reference_sum / count;
+  for (int c = 0; c < 3; ++c)
+    result.mean_ratio[c] = ratio(result.mean[c], result.reference_mean[c]);
+  result.relative_mse = mean_of(pixel_errors, pixel_errors.size());
+  result.relative_mse_trimmed = trimmed_mean(pixel_errors);
+  return result;
+}
+
+Image difference_image(const Image& image, const Image& reference, float full_scale,
+                       const std::string& layer) {
+  check_same_size(image, reference);
+  if (!(full_scale > 0))
+    throw Error(ErrorKind::input, fmt::format("a full scale of {}", full_scale),
+                "the full scale of a difference picture must be above 0");
+  const RgbView x = rgb_view(image, layer);
+  const RgbView r = rgb_view(reference, layer);
+  Image picture(image.width(), image.height(), {"R", "G", "B"});
+  for (size_t i = 0; i < image.pixel_count(); ++i) {
+    const float value = photopic(x[i]), wanted = photopic(r[i]);
+    const float relative = (value - wanted) / ((std::fabs(wanted) + 0.1f) * full_scale);
+    const float amount = std::min(1.0f, std::fabs(relative));
+    Vec3f colour =
+        relative > 0 ? Vec3f(1, 1 - amount, 1 - amount) : Vec3f(1 - amount, 1 - amount, 1);
+    if (!is_finite(x[i]) || !is_finite(r[i])) colour = Vec3f(0, 1, 0);
+    for (int c = 0; c < 3; ++c) picture.channel(c)[i] = colour[c];
+  }
+  return picture;
+}
+
+}  // namespace kaustik
