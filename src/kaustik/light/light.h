@@ -11,7 +11,8 @@ namespace kaustik {
 struct LightSample {
   Vec3f direction;            ///< unit, from the reference point to the light
   float distance = infinity;  ///< to the light; infinite for directional and environment lights
-  SurfacePoint point;         ///< on the light; valid if `on_surface`
+  SurfacePoint point;         ///< on the light; valid if `on_surface` (of lights that are a point
+                              ///< its position is)
   bool on_surface = false;
   bool delta = false;         ///< the light is a point or a single direction
   Spectrum radiance;          ///< arriving, W/(sr·m²); for delta lights irradiance on a facing
@@ -38,6 +39,9 @@ struct LightBounds {
   Vec3f axis{0, 0, 1};  ///< light leaves only within this angle of the axis
   float cos_angle = -1;
   bool infinite = false;
+  /// Cosine of the cone of a surface's normals, about which light falls off by the cosine until it
+  /// ends at `cos_angle`; equal to that where nothing is known to fall off.
+  float cos_spread = -1;
 };
 
 /// A source of light. Immutable. Emission is one-sided on surfaces (the side of the geometric
@@ -76,10 +80,12 @@ class Light {
 
   // What aimed emission needs. Lights with a place: a position, then any direction whose density
   // the aim knows.
-  /// Uniform by area on the light; `ng` zero and pdf 1 for points. Not for infinite lights.
+  /// Uniform by area on the light; `ng` zero and pdf 1 for points. Not for infinite lights. The
+  /// direction, its density and the flux stay zero.
   virtual EmissionSample sample_origin(const Vec2f& u) const;
   /// Radiance (area lights; with the cosine applied by the caller), or intensity W/sr (point
-  /// lights), leaving `point` along `direction`.
+  /// lights), leaving `point` along `direction`. Infinite lights: what travels along `direction`,
+  /// radiance (environment) or irradiance across it (directional, whose only direction it must be).
   virtual Spectrum emitted_from(const SurfacePoint& point, const Vec3f& direction) const;
   // Infinite lights: a direction, then any origin on the plane across it.
   /// A direction of travel (away from the light) with its density (1 for directional).
@@ -89,7 +95,7 @@ class Light {
 /// What create() gets: the shape for area lights, the scene's bounds for infinite ones.
 struct LightInputs {
   const Arguments& arguments;
-  const Transform& to_world;           ///< of the emitter; identity if not given
+  const Transform& to_world;           ///< of the emitter, where `arguments` give none
   std::shared_ptr<const Shape> shape;  ///< of area lights, else null
   int shape_index = -1;
   Bounds3f scene_bounds;  ///< of everything that can be hit
@@ -98,14 +104,16 @@ struct LightInputs {
 struct LightType {
   const TypeInfo& info;
   bool needs_shape = false;
+  /// Throws Error where arguments contradict one another, or the shape cannot be a light.
   std::unique_ptr<Light> (*create)(const LightInputs&);
 };
 /// "area", "point", "spot", "directional", "constant".
 const std::vector<LightType>& light_types();
 
-/// Chooses one of many lights for a reference point: by power for few, by a light tree (bounds,
-/// orientation, distance; Conty Estevez and Kulla 2018) for many. Every light that can reach the
-/// point has a chance above zero. Immutable.
+/// Chooses one of many lights for a reference point: by power for up to 16, by a light tree
+/// (bounds, orientation, distance; Conty Estevez and Kulla 2018) for more, where infinite lights
+/// are a group of their own with a fixed share. Every light that can reach the point has a chance
+/// above zero; lights without power have none. Immutable.
 class LightSelector {
  public:
   /// `lights` must outlive this.
@@ -113,16 +121,18 @@ class LightSelector {
   ~LightSelector();
 
   struct Choice {
-    int light = -1;  ///< −1: no light at all
+    int light = -1;  ///< −1: no light has power
     float probability = 0;
   };
-  /// `normal` may be zero (no surface). `u` is replaced by a fresh uniform number.
+  /// `normal` may be zero (no surface); its sign does not matter, for light may pass through the
+  /// surface. `u` in [0, 1) is replaced by a fresh uniform number.
   Choice choose(const Vec3f& reference, const Vec3f& normal, float& u) const;
+  /// Exactly what choose() reports for this light.
   float probability(const Vec3f& reference, const Vec3f& normal, int light) const;
 
  private:
-  struct Tree;
-  std::unique_ptr<Tree> tree_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace kaustik

@@ -1,0 +1,126 @@
+#include "kaustik/base/warp.h"
+#include "kaustik/light/light_kinds.h"
+#include "kaustik/light/normal_cone.h"
+
+namespace kaustik {
+namespace {
+
+/// Emits the same radiance from every point of a shape in every direction on the side of its
+/// geometric normal.
+class AreaLight final : public Light {
+ public:
+  AreaLight(const Spectrum& radiance, std::shared_ptr<const Shape> light_shape, int shape_index)
+      : radiance_(radiance),
+        shape_(std::move(light_shape)),
+        shape_index_(shape_index),
+        area_(shape_->area()) {
+    const DirectionCone normals = cone_of_normals(*shape_);
+    bounds_.position = shape_->bounds();
+    bounds_.axis = normals.axis;
+    bounds_.cos_spread = normals.cos_angle;
+    // The hemispheres about the normals: the cone's angle and another 90°.
+    bounds_.cos_angle = normals.cos_angle > 0 ? -safe_sqrt(1.0f - sqr(normals.cos_angle)) : -1.0f;
+  }
+
+  Spectrum power() const override { return radiance_ * (pi * area_); }
+  LightBounds bounds() const override { return bounds_; }
+  bool is_delta() const override { return false; }
+  int shape() const override { return shape_index_; }
+
+  LightSample sample_toward(const Vec3f& reference, const Vec2f& u) const override {
+    float pdf_solid_angle = 0;
+    const ShapeSample s = shape_->sample_toward(reference, u, pdf_solid_angle);
+    LightSample result;
+    const Vec3f to_light = s.point.position - reference;
+    const float distance = length(to_light);
+    if (!(distance > 0)) return result;
+    result.direction = to_light * (1.0f / distance);
+    result.distance = distance;
+    result.point = placed(s.point);
+    result.on_surface = true;
+    if (dot(s.point.ng, result.direction) < 0) {
+      result.radiance = radiance_;
+      result.pdf_solid_angle = pdf_solid_angle;
+    }
+    return result;
+  }
+
+  float pdf_toward(const Vec3f& reference, const SurfacePoint& point) const override {
+    if (!(dot(point.ng, point.position - reference) < 0)) return 0;
+    return shape_->pdf_toward(reference, point);
+  }
+
+  Spectrum emitted(const SurfacePoint& point, const Vec3f& direction) const override {
+    return dot(point.ng, direction) > 0 ? radiance_ : Spectrum();
+  }
+
+  EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction) const override {
+    EmissionSample result = sample_origin(u_position);
+    const Vec3f local = square_to_cosine_hemisphere(u_direction);
+    result.direction = Frame(result.point.ng).to_world(local);
+    result.pdf_direction = cosine_hemisphere_pdf(local.z);
+    // Radiance × cosine over (cosine/π) × density of the position.
+    if (result.pdf_position > 0 && result.pdf_direction > 0)
+      result.flux = radiance_ * (pi / result.pdf_position);
+    return result;
+  }
+
+  float emission_pdf_position(const SurfacePoint&) const override {
+    return area_ > 0 ? 1.0f / area_ : 0.0f;
+  }
+  float emission_pdf_direction(const SurfacePoint& point, const Vec3f& direction) const override {
+    return cosine_hemisphere_pdf(dot(point.ng, direction));
+  }
+
+  EmissionSample sample_origin(const Vec2f& u) const override {
+    const ShapeSample s = shape_->sample_area(u);
+    EmissionSample result;
+    result.point = placed(s.point);
+    result.on_surface = true;
+    result.pdf_position = s.pdf_area;
+    return result;
+  }
+  Spectrum emitted_from(const SurfacePoint& point, const Vec3f& direction) const override {
+    return emitted(point, direction);
+  }
+
+ private:
+  /// A point of the shape as a point of the scene.
+  SurfacePoint placed(SurfacePoint point) const {
+    if (shape_index_ >= 0) point.shape = uint32_t(shape_index_);
+    return point;
+  }
+
+  Spectrum radiance_;
+  std::shared_ptr<const Shape> shape_;
+  int shape_index_;
+  float area_;
+  LightBounds bounds_;
+};
+
+std::unique_ptr<Light> create_area(const LightInputs& inputs) {
+  const Place place = inputs.arguments.place();
+  if (!inputs.shape)
+    throw Error(ErrorKind::input, "emitter 'area' stands outside of a shape",
+                "put it inside of the shape that shall emit", place);
+  if (!inputs.shape->can_sample())
+    throw Error(ErrorKind::input, "this shape cannot be a light: no points can be sampled on it",
+                "use another shape for the light", place);
+  return with_finite_power(std::make_unique<AreaLight>(emission_argument(inputs, "radiance"),
+                                                       inputs.shape, inputs.shape_index),
+                           inputs);
+}
+
+}  // namespace
+
+LightType area_light_type() {
+  static const TypeInfo info{
+      "emitter",
+      "area",
+      "Diffuse light from the surface of the shape that it stands in, on the side of the normal.",
+      {color_parameter("radiance", 1, "Emitted radiance.").in("W/(sr·m²)"),
+       ignored_sampling_weight()}};
+  return {info, true, create_area};
+}
+
+}  // namespace kaustik

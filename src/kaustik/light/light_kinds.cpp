@@ -1,0 +1,54 @@
+#include "kaustik/light/light_kinds.h"
+
+#include <fmt/format.h>
+
+#include "kaustik/base/color.h"
+#include "kaustik/base/warp.h"
+
+namespace kaustik {
+
+Spectrum emission_argument(const LightInputs& inputs, std::string_view name) {
+  return emission_spectrum(inputs.arguments.color(name));
+}
+
+const Transform& emitter_transform(const LightInputs& inputs) {
+  return inputs.arguments.given("to_world") ? inputs.arguments.transform("to_world")
+                                            : inputs.to_world;
+}
+
+void reject_beside_to_world(const LightInputs& inputs, std::string_view name) {
+  const Arguments& arguments = inputs.arguments;
+  if (arguments.given(name) && arguments.given("to_world"))
+    throw Error(
+        ErrorKind::input,
+        fmt::format("emitter '{}' has both '{}' and 'to_world'", arguments.info().name, name),
+        "give one of them", arguments.place_of(name));
+}
+
+std::unique_ptr<Light> with_finite_power(std::unique_ptr<Light> light, const LightInputs& inputs) {
+  if (!light->power().is_finite())
+    throw Error(ErrorKind::input,
+                fmt::format("the power of emitter '{}' overflows", inputs.arguments.info().name),
+                "make it or the scene smaller", inputs.arguments.place());
+  return light;
+}
+
+Parameter ignored_sampling_weight() {
+  return ignored_parameter("sampling_weight", ParameterKind::number);
+}
+
+EmissionDisk::EmissionDisk(const Bounds3f& scene_bounds) {
+  const bool empty = scene_bounds.isEmpty();
+  if (!empty) center_ = center(scene_bounds);
+  const float radius = empty ? 0.0f : bounding_radius(scene_bounds);
+  // Some units in the last place of the coordinates, so that rounding leaves no corner outside.
+  const float slack = 4e-6f * (radius + max_abs(center_));
+  radius_ = std::max(radius + slack, 1e-10f);
+}
+
+Vec3f EmissionDisk::origin(const Vec3f& direction, const Vec2f& u) const {
+  const Vec2f p = square_to_disk(u);
+  return center_ + Frame(direction).to_world({p.x, p.y, -1.0f}) * radius_;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,43 @@
+#pragma once
+// The kinds of lights, one per file, and what several of them share.
+
+#include <memory>
+#include <string_view>
+
+#include "kaustik/light/light.h"
+
+namespace kaustik {
+
+LightType area_light_type();
+LightType point_light_type();
+LightType spot_light_type();
+LightType directional_light_type();
+LightType constant_light_type();
+
+/// A color argument of something that emits.
+Spectrum emission_argument(const LightInputs& inputs, std::string_view name);
+/// The emitter's own `to_world` if the arguments give it, else that of the inputs.
+const Transform& emitter_transform(const LightInputs& inputs);
+/// Throws where both `to_world` and its stand-in `name` are given, as Mitsuba does.
+void reject_beside_to_world(const LightInputs& inputs, std::string_view name);
+/// The finished light; throws where its power overflows.
+std::unique_ptr<Light> with_finite_power(std::unique_ptr<Light> light, const LightInputs& inputs);
+/// What Mitsuba's emitters accept and Kaustik has no use for.
+Parameter ignored_sampling_weight();
+
+/// The disk that rays of infinite lights start from: across their direction, just outside of the
+/// scene, as large as the scene's bounding sphere.
+class EmissionDisk {
+ public:
+  /// Empty or flat bounds give a tiny disk.
+  explicit EmissionDisk(const Bounds3f& scene_bounds);
+  float area() const { return pi * radius_ * radius_; }
+  /// Uniform on the disk for rays that travel along unit `direction`.
+  Vec3f origin(const Vec3f& direction, const Vec2f& u) const;
+
+ private:
+  Vec3f center_{0, 0, 0};
+  float radius_;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "kaustik/light/light.h"
+
+namespace kaustik {
+
+/// A binary tree over lights that have a place; a walk from the root chooses one, at every node the
+/// child that may give more light to the reference point (Conty Estevez and Kulla, "Importance
+/// Sampling of Many Lights with Adaptive Tree Splitting", PACMCGIT 2018; without splitting, so that
+/// one light results).
+class LightTree {
+ public:
+  struct Item {
+    int light;  ///< index in the scene
+    LightBounds bounds;
+    double power;  ///< above 0
+  };
+
+  LightTree() = default;
+  explicit LightTree(std::vector<Item> items, size_t light_count);
+
+  bool empty() const { return nodes_.empty(); }
+  /// Not while empty. `u` is replaced by a fresh uniform number.
+  LightSelector::Choice choose(const Vec3f& reference, const Vec3f& normal, float& u) const;
+  /// Exactly what choose() reports; 0 for lights that are not in the tree.
+  float probability(const Vec3f& reference, const Vec3f& normal, int light) const;
+
+ private:
+  /// The lights below a node: a sphere around their places, a cone around the directions where they
+  /// shine brightest, how far beyond that they shine, and their intensity.
+  struct Node {
+    Vec3f center;
+    float radius;
+    Vec3f axis;
+    float cos_spread, sin_spread;
+    float cos_falloff;  ///< of the angle beyond the spread at which light ends
+    float intensity;    ///< relative
+    bool leaf;
+    int32_t child;  ///< the left child, the right one follows; of leaves the light
+  };
+  /// The way from the root to a light: bit i is set if it goes right at depth i.
+  struct Path {
+    uint64_t turns = 0;
+    int depth = -1;  ///< −1: not in the tree
+  };
+
+  static float importance(const Node& node, const Vec3f& reference, const Vec3f& normal);
+  float probability_of_left(const Node& node, const Vec3f& reference, const Vec3f& normal) const;
+
+  std::vector<Node> nodes_;
+  std::vector<Path> paths_;  ///< per light of the scene
+};
+
+}  // namespace kaustik

@@ -1,0 +1,177 @@
+#include "kaustik/light/light_tree_build.h"
+
+#include <array>
+
+namespace kaustik {
+namespace {
+
+constexpr double pi_d = std::numbers::pi;
+constexpr int bin_count = 12;
+/// Deeper than this nodes are halved by count, so that the turns to any of 2³² lights fit 64 bits.
+constexpr int maximum_heuristic_depth = 32;
+
+double angle_between(const Vec3f& a, const Vec3f& b) {
+  const Vec3d x(a), y(b);
+  return std::atan2(x.cross(y).length(), x.dot(y));
+}
+
+/// `axis` turned by `angle` toward `target`; zero if they are opposite.
+Vec3f turned_toward(const Vec3f& axis, const Vec3f& target, double angle) {
+  const Vec3d a(axis), t(target);
+  const Vec3d across = t - a * a.dot(t);
+  if (!(across.length() > 1e-6)) return {0, 0, 0};
+  return Vec3f(a * std::cos(angle) + across.normalized() * std::sin(angle)).normalized();
+}
+
+/// Some lights together.
+struct Group {
+  Bounds3f position;
+  EmissionCone emission;
+  double intensity = 0;
+  int count = 0;
+
+  void add(const Bounds3f& bounds, const EmissionCone& cone, double added_intensity, int added) {
+    position.extendBy(bounds);
+    emission = count == 0 ? cone : united(emission, cone);
+    intensity += added_intensity;
+    count += added;
+  }
+  void add(const LightTreeBuild::Node& n) { add(n.position, n.emission, n.intensity, 1); }
+  void add(const Group& g) {
+    if (g.count > 0) add(g.position, g.emission, g.intensity, g.count);
+  }
+  double cost() const {
+    if (count == 0) return 0;
+    // Lamps in a row have boxes without an area: the diagonal still tells near from far.
+    const double size = surface_area(position) + length_sq(position.max - position.min);
+    return intensity * size * orientation_measure(emission);
+  }
+};
+
+using Bins = std::array<Group, bin_count>;
+
+/// The cheapest border between bins as (cost, number of bins on its left); infinite if none.
+std::pair<double, int> cheapest_border(const Bins& bins) {
+  std::array<double, bin_count> right_cost{};
+  Group right;
+  for (int i = bin_count - 1; i > 0; --i) {
+    right.add(bins[size_t(i)]);
+    right_cost[size_t(i)] = right.count > 0 ? right.cost() : -1;
+  }
+  std::pair<double, int> best{std::numeric_limits<double>::infinity(), 0};
+  Group left;
+  for (int i = 1; i < bin_count; ++i) {
+    left.add(bins[size_t(i) - 1]);
+    if (left.count == 0 || right_cost[size_t(i)] < 0) continue;
+    best = std::min(best, {left.cost() + right_cost[size_t(i)], i});
+  }
+  return best;
+}
+
+}  // namespace
+
+EmissionCone emission_cone(const LightBounds& bounds) {
+  EmissionCone cone;
+  cone.axis = bounds.axis;
+  cone.spread = std::acos(std::clamp(double(bounds.cos_spread), -1.0, 1.0));
+  const double end = std::acos(std::clamp(double(bounds.cos_angle), -1.0, 1.0));
+  cone.falloff = std::max(0.0, end - cone.spread);
+  return cone;
+}
+
+EmissionCone united(const EmissionCone& a, const EmissionCone& b) {
+  if (b.spread > a.spread) return united(b, a);
+  EmissionCone result = a;
+  result.falloff = std::max(a.falloff, b.falloff);
+  const double between = angle_between(a.axis, b.axis);
+  if (std::min(between + b.spread, pi_d) <= a.spread) return result;
+  result.spread = 0.5 * (a.spread + between + b.spread);
+  result.axis = turned_toward(a.axis, b.axis, result.spread - a.spread);
+  if (result.spread < pi_d && length_sq(result.axis) > 0) return result;
+  result.spread = pi_d;
+  result.axis = a.axis;
+  return result;
+}
+
+double orientation_measure(const EmissionCone& cone) {
+  const double o = cone.spread, w = std::min(o + cone.falloff, pi_d);
+  const double sin_half = std::sin(0.5 * o);
+  const double inside = 4 * pi_d * sin_half * sin_half;
+  const double beyond =
+      0.5 * pi_d * (2 * (w - o) * std::sin(o) - std::cos(o - 2 * w) + std::cos(o));
+  return std::max(inside + beyond, 1e-12);
+}
+
+LightTreeBuild::LightTreeBuild(std::vector<LightTree::Item> items) {
+  for (const LightTree::Item& item : items) {
+    Node leaf;
+    leaf.position = item.bounds.position;
+    leaf.emission = emission_cone(item.bounds);
+    leaf.intensity = item.power / orientation_measure(leaf.emission);
+    leaf.light = item.light;
+    leaves_.push_back(leaf);
+  }
+  nodes_.reserve(2 * leaves_.size());
+  nodes_.emplace_back();
+  fill(0, 0, leaves_.size());
+}
+
+void LightTreeBuild::fill(size_t index, size_t begin, size_t end) {
+  const uint64_t turns = nodes_[index].turns;
+  const int depth = nodes_[index].depth;
+  if (end - begin == 1) {
+    nodes_[index] = leaves_[begin];
+    nodes_[index].turns = turns;
+    nodes_[index].depth = depth;
+    return;
+  }
+  const size_t middle = split(begin, end, depth);
+  const size_t left = nodes_.size();
+  nodes_.resize(left + 2);
+  nodes_[left].depth = nodes_[left + 1].depth = depth + 1;
+  nodes_[left].turns = turns;
+  nodes_[left + 1].turns = turns | (uint64_t{1} << depth);
+  fill(left, begin, middle);
+  fill(left + 1, middle, end);
+  Group both;
+  both.add(nodes_[left]);
+  both.add(nodes_[left + 1]);
+  Node& node = nodes_[index];
+  node.position = both.position;
+  node.emission = both.emission;
+  node.intensity = both.intensity;
+  node.left = int(left);
+}
+
+size_t LightTreeBuild::split(size_t begin, size_t end, int depth) {
+  const auto first = leaves_.begin() + std::ptrdiff_t(begin);
+  const auto last = leaves_.begin() + std::ptrdiff_t(end);
+  Bounds3f centers;
+  for (auto leaf = first; leaf != last; ++leaf) centers.extendBy(center(leaf->position));
+  const Vec3f size = centers.max - centers.min;
+  const auto bin_of = [&](const Node& leaf, int axis) {
+    const float x = (center(leaf.position)[axis] - centers.min[axis]) / size[axis];
+    return std::clamp(int(x * float(bin_count)), 0, bin_count - 1);
+  };
+
+  double best_cost = std::numeric_limits<double>::infinity();
+  int best_axis = 0, best_border = 0;
+  for (int axis = 0; axis < 3 && depth < maximum_heuristic_depth; ++axis) {
+    if (!(size[axis] > 0)) continue;
+    Bins bins;
+    for (auto leaf = first; leaf != last; ++leaf) bins[size_t(bin_of(*leaf, axis))].add(*leaf);
+    auto [cost, border] = cheapest_border(bins);
+    cost *= max_abs(size) / size[axis];  // the paper's k_r against thin slices
+    if (cost < best_cost) {
+      best_cost = cost;
+      best_axis = axis;
+      best_border = border;
+    }
+  }
+  if (best_border == 0) return begin + (end - begin) / 2;
+  const auto middle = std::stable_partition(
+      first, last, [&](const Node& leaf) { return bin_of(leaf, best_axis) < best_border; });
+  return size_t(middle - leaves_.begin());
+}
+
+}  // namespace kaustik

@@ -1,0 +1,84 @@
+#include "kaustik/base/warp.h"
+#include "kaustik/light/light_kinds.h"
+
+namespace kaustik {
+namespace {
+
+/// Shines alike in all directions from a point.
+class PointLight final : public Light {
+ public:
+  PointLight(const Spectrum& intensity, const Vec3f& position) : intensity_(intensity) {
+    point_.position = position;
+  }
+
+  Spectrum power() const override { return intensity_ * (4.0f * pi); }
+  LightBounds bounds() const override {
+    LightBounds b;
+    b.position.extendBy(point_.position);
+    return b;
+  }
+  bool is_delta() const override { return true; }
+
+  LightSample sample_toward(const Vec3f& reference, const Vec2f&) const override {
+    LightSample result;
+    const Vec3f to_light = point_.position - reference;
+    const float distance_sq = length_sq(to_light);
+    if (!(distance_sq > 0)) return result;
+    result.distance = std::sqrt(distance_sq);
+    result.direction = to_light * (1.0f / result.distance);
+    result.point = point_;
+    result.delta = true;
+    result.radiance = intensity_ / distance_sq;
+    result.pdf_solid_angle = 1;
+    return result;
+  }
+
+  EmissionSample sample_emission(const Vec2f&, const Vec2f& u_direction) const override {
+    EmissionSample result = sample_origin({});
+    result.direction = square_to_sphere(u_direction);
+    result.pdf_direction = sphere_pdf;
+    result.flux = power();
+    return result;
+  }
+  float emission_pdf_position(const SurfacePoint&) const override { return 1; }
+  float emission_pdf_direction(const SurfacePoint&, const Vec3f&) const override {
+    return sphere_pdf;
+  }
+
+  EmissionSample sample_origin(const Vec2f&) const override {
+    EmissionSample result;
+    result.point = point_;
+    result.pdf_position = 1;
+    return result;
+  }
+  Spectrum emitted_from(const SurfacePoint&, const Vec3f&) const override { return intensity_; }
+
+ private:
+  Spectrum intensity_;
+  SurfacePoint point_;  ///< without a normal
+};
+
+std::unique_ptr<Light> create_point(const LightInputs& inputs) {
+  reject_beside_to_world(inputs, "position");
+  const Vec3f position = inputs.arguments.given("position")
+                             ? Vec3f(inputs.arguments.point("position"))
+                             : emitter_transform(inputs).point({0, 0, 0});
+  return with_finite_power(
+      std::make_unique<PointLight>(emission_argument(inputs, "intensity"), position), inputs);
+}
+
+}  // namespace
+
+LightType point_light_type() {
+  static const TypeInfo info{
+      "emitter",
+      "point",
+      "Light from a point, alike in all directions.",
+      {color_parameter("intensity", 1, "Radiant intensity.").in("W/sr"),
+       optional(point_parameter("position", {0, 0, 0}, "Where it is; instead of `to_world`.")),
+       transform_parameter("to_world", "World from the light, which is at the origin."),
+       ignored_sampling_weight()}};
+  return {info, false, create_point};
+}
+
+}  // namespace kaustik

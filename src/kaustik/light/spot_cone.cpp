@@ -1,0 +1,67 @@
+#include "kaustik/light/spot_cone.h"
+
+namespace kaustik {
+namespace {
+
+/// 1 − cosθ without cancellation.
+double height_of_angle(double angle) {
+  const double s = std::sin(0.5 * angle);
+  return 2 * s * s;
+}
+
+float height_of(const Vec3f& local) {
+  if (local.z <= 0) return 1.0f - local.z;
+  return (sqr(local.x) + sqr(local.y)) / (1.0f + local.z);
+}
+
+/// ∫ falloff dω = 2π (1 − (sin c − sin b)/(c − b)) for cutoff c and beam b.
+double solid_angle_of_falloff(double cutoff, double beam) {
+  const double middle = 0.5 * (cutoff + beam), half = 0.5 * (cutoff - beam);
+  // sin c − sin b = 2 cos(middle) sin(half), so that the quotient is cos(middle) sinc(half).
+  const double one_minus_sinc = half < 1e-3 ? half * half / 6 : 1 - std::sin(half) / half;
+  const double one_minus_cos = height_of_angle(middle);
+  return 2 * std::numbers::pi * (one_minus_cos + (1 - one_minus_cos) * one_minus_sinc);
+}
+
+}  // namespace
+
+SpotCone::SpotCone(double cutoff, double beam)
+    : cutoff_(float(cutoff)),
+      inv_transition_(cutoff > beam ? float(1 / (cutoff - beam)) : 0.0f),
+      beam_height_(float(height_of_angle(beam))),
+      cutoff_height_(float(height_of_angle(cutoff))),
+      mass_(0.5f * (beam_height_ + cutoff_height_)),
+      solid_angle_(float(solid_angle_of_falloff(cutoff, beam))) {}
+
+float SpotCone::falloff(const Vec3f& local) const {
+  const float height = height_of(local);
+  if (height >= cutoff_height_) return 0;
+  if (height <= beam_height_) return 1;
+  const float angle = std::atan2(std::sqrt(sqr(local.x) + sqr(local.y)), local.z);
+  return std::clamp((cutoff_ - angle) * inv_transition_, 0.0f, 1.0f);
+}
+
+Vec3f SpotCone::sample(const Vec2f& u) const {
+  const float target = u.x * mass_;
+  float height = target;
+  if (target > beam_height_) {
+    // The rest of the mass, a triangle from the beam to the cutoff, counted from its far end.
+    const float width = cutoff_height_ - beam_height_;
+    const float rest = (mass_ - target) * 2.0f * width;
+    height = std::max(beam_height_, cutoff_height_ - safe_sqrt(rest));
+  }
+  const float r = safe_sqrt(height * (2.0f - height));
+  const float phi = 2.0f * pi * u.y;
+  return {r * std::cos(phi), r * std::sin(phi), 1.0f - height};
+}
+
+float SpotCone::pdf(const Vec3f& local) const { return pdf_at(height_of(local)); }
+
+float SpotCone::pdf_at(float height) const {
+  if (height >= cutoff_height_) return 0;
+  const float shape =
+      height <= beam_height_ ? 1.0f : (cutoff_height_ - height) / (cutoff_height_ - beam_height_);
+  return shape / (2.0f * pi * mass_);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,34 @@
+#pragma once
+#include "kaustik/base/vec.h"
+
+namespace kaustik {
+
+/// The falloff of Mitsuba's spot light about +z: 1 within the beam, falling linearly with the angle
+/// to 0 at the cutoff. Angles in radians, 0 ≤ beam ≤ cutoff ≤ π, cutoff > 0.
+class SpotCone {
+ public:
+  SpotCone(double cutoff, double beam);
+
+  /// In [0, 1], for a unit direction.
+  float falloff(const Vec3f& local) const;
+  /// The falloff over all directions, sr.
+  float solid_angle() const { return solid_angle_; }
+  float cos_cutoff() const { return 1.0f - cutoff_height_; }
+
+  /// A direction with a density close to the falloff: constant within the beam, linear in cosθ
+  /// outside, so that falloff/density differs by at most 2 over the cone (for cutoffs up to 90°).
+  Vec3f sample(const Vec2f& u) const;
+  /// Density of sample(), per solid angle.
+  float pdf(const Vec3f& local) const;
+
+ private:
+  float pdf_at(float height) const;
+
+  // Heights are 1 − cosθ: proportional to solid angle, and exact for narrow cones.
+  float cutoff_, inv_transition_;
+  float beam_height_, cutoff_height_;
+  float mass_;  ///< of the unnormalised density over the height
+  float solid_angle_;
+};
+
+}  // namespace kaustik

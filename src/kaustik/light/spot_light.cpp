@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include "kaustik/light/light_kinds.h"
+#include "kaustik/light/spot_cone.h"
+
+namespace kaustik {
+namespace {
+
+/// Shines from a point into a cone about its +z.
+class SpotLight final : public Light {
+ public:
+  SpotLight(const Spectrum& intensity, const Vec3f& position, const Vec3f& axis,
+            const SpotCone& cone)
+      : intensity_(intensity), frame_(axis), cone_(cone) {
+    point_.position = position;
+  }
+
+  Spectrum power() const override { return intensity_ * cone_.solid_angle(); }
+  LightBounds bounds() const override {
+    LightBounds b;
+    b.position.extendBy(point_.position);
+    b.axis = frame_.z;
+    b.cos_angle = cone_.cos_cutoff();
+    b.cos_spread = cone_.cos_cutoff();
+    return b;
+  }
+  bool is_delta() const override { return true; }
+
+  LightSample sample_toward(const Vec3f& reference, const Vec2f&) const override {
+    LightSample result;
+    const Vec3f to_light = point_.position - reference;
+    const float distance_sq = length_sq(to_light);
+    if (!(distance_sq > 0)) return result;
+    result.distance = std::sqrt(distance_sq);
+    result.direction = to_light * (1.0f / result.distance);
+    result.point = point_;
+    result.delta = true;
+    const float falloff = cone_.falloff(frame_.to_local(-result.direction));
+    if (falloff > 0) {
+      result.radiance = intensity_ * (falloff / distance_sq);
+      result.pdf_solid_angle = 1;
+    }
+    return result;
+  }
+
+  EmissionSample sample_emission(const Vec2f&, const Vec2f& u_direction) const override {
+    EmissionSample result = sample_origin({});
+    const Vec3f local = cone_.sample(u_direction);
+    result.direction = frame_.to_world(local);
+    result.pdf_direction = cone_.pdf(local);
+    if (result.pdf_direction > 0)
+      result.flux = intensity_ * (cone_.falloff(local) / result.pdf_direction);
+    return result;
+  }
+  float emission_pdf_position(const SurfacePoint&) const override { return 1; }
+  float emission_pdf_direction(const SurfacePoint&, const Vec3f& direction) const override {
+    return cone_.pdf(frame_.to_local(direction));
+  }
+
+  EmissionSample sample_origin(const Vec2f&) const override {
+    EmissionSample result;
+    result.point = point_;
+    result.pdf_position = 1;
+    return result;
+  }
+  Spectrum emitted_from(const SurfacePoint&, const Vec3f& direction) const override {
+    return intensity_ * cone_.falloff(frame_.to_local(direction));
+  }
+
+ private:
+  Spectrum intensity_;
+  SurfacePoint point_;  ///< without a normal
+  Frame frame_;
+  SpotCone cone_;
+};
+
+/// Whether the map keeps angles, up to rounding of its numbers.
+bool keeps_angles(const Transform& t) {
+  const Vec3f x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
+  const float size = length_sq(z), tolerance = 1e-3f * size;
+  return std::fabs(length_sq(x) - size) < tolerance && std::fabs(length_sq(y) - size) < tolerance &&
+         abs_dot(x, y) < tolerance && abs_dot(y, z) < tolerance && abs_dot(x, z) < tolerance;
+}
+
+SpotCone cone_argument(const Arguments& arguments) {
+  const double cutoff = arguments.number("cutoff_angle");
+  const double beam = arguments.has("beam_width") ? arguments.number("beam_width") : 0.75 * cutoff;
+  if (!(cutoff > 0))
+    throw Error(ErrorKind::input, "'cutoff_angle' is 0: this spot would be dark",
+                "give an angle of more than 0 up to 180 degrees",
+                arguments.place_of("cutoff_angle"));
+  if (beam > cutoff)
+    throw Error(ErrorKind::input,
+                fmt::format("'beam_width' is {}, more than the 'cutoff_angle' of {}", beam, cutoff),
+                "the beam lies inside of the cutoff angle", arguments.place_of("beam_width"));
+  const double radians = std::numbers::pi / 180;
+  return SpotCone(cutoff * radians, beam * radians);
+}
+
+std::unique_ptr<Light> create_spot(const LightInputs& inputs) {
+  const Transform& to_world = emitter_transform(inputs);
+  if (!keeps_angles(to_world))
+    throw Error(ErrorKind::input, "'to_world' distorts the cone of this spot",
+                "leave out shear and scaling by unequal factors",
+                inputs.arguments.place_of("to_world"));
+  return with_finite_power(
+      std::make_unique<SpotLight>(emission_argument(inputs, "intensity"), to_world.point({0, 0, 0}),
+                                  normalize(to_world.vector({0, 0, 1})),
+                                  cone_argument(inputs.arguments)),
+      inputs);
+}
+
+}  // namespace
+
+LightType spot_light_type() {
+  static const TypeInfo info{
+      "emitter",
+      "spot",
+      "Light from a point into a cone about its +z axis.",
+      {color_parameter("intensity", 1, "Radiant intensity within the beam.").in("W/sr"),
+       number_parameter("cutoff_angle", 20, "Angle from the axis from which on it is dark.")
+           .range(0, 180)
+           .in("degrees"),
+       optional(number_parameter("beam_width", 15,
+                                 "Angle from the axis from which on intensity falls, linearly with "
+                                 "the angle; 3/4 of `cutoff_angle` if not given.")
+                    .range(0, 180)
+                    .in("degrees")),
+       transform_parameter("to_world", "World from the light, which shines along its +z."),
+       ignored_sampling_weight()}};
+  return {info, false, create_spot};
+}
+
+}  // namespace kaustik
