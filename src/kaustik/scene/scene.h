@@ -71,11 +71,10 @@ struct BuildOptions {
   RayObserver* observer = nullptr;  ///< must outlive the scene
 };
 
-/// Checks every object against the table of its type and builds the scene
-.Throws Error with all problems
-    /// found. Ignores the integrator: that is the render room's.
-    std::shared_ptr<const Scene>
-    build_scene(const Description& description, const BuildOptions& options = {});
+/// Checks every object against the table of its type and builds the scene. Throws Error with all
+/// problems found. Ignores the integrator: that is the render room's.
+std::shared_ptr<const Scene> build_scene(const Description& description,
+                                         const BuildOptions& options = {});
 
 /// The integrator object of a description, null if it has none. Throws Error if it has several.
 std::shared_ptr<Object> find_integrator(const Description& description);

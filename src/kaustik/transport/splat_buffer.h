@@ -13,7 +13,7 @@ namespace kaustik {
 /// Additions are integer adds, so the sum has the same bits whatever their order.
 class SplatBuffer {
  public:
-  /// Lanes beyond `lanes` are dropped (3 in RGB mode).
+  /// Keeps the three lanes of RGB mode.
   SplatBuffer(const FilmSettings& film, ComponentSet wanted);
 
   bool wants(Component component) const { return wanted_.has(component); }

@@ -1,0 +1,125 @@
+#include "kaustik/scene/film_settings.h"
+
+#include "kaustik/base/warp.h"
+
+namespace kaustik {
+
+PixelFilter::PixelFilter(Kind kind, float radius, float stddev)
+    : kind_(kind), radius_(radius), stddev_(stddev) {
+  if (kind_ != Kind::gaussian) return;
+  // Mitsuba's windowed Gaussian: shifted down to reach zero at the radius.
+  gaussian_offset_ = std::exp(-0.5f * sqr(radius_ / stddev_));
+  const float mass = stddev_ * std::sqrt(2.0f * pi) *
+                         std::erf(radius_ / (stddev_ * std::numbers::sqrt2_v<float>)) -
+                     2.0f * radius_ * gaussian_offset_;
+  gaussian_norm_ = 1.0f / mass;
+}
+
+float PixelFilter::eval_1d(float x) const {
+  const float a = std::fabs(x);
+  if (a > radius_) return 0;
+  switch (kind_) {
+    case Kind::box:
+      return 0.5f / radius_;
+    case Kind::tent:
+      return (1.0f - a / radius_) / radius_;
+    case Kind::gaussian:
+      return (std::exp(-0.5f * sqr(x / stddev_)) - gaussian_offset_) * gaussian_norm_;
+  }
+  return 0;
+}
+
+float PixelFilter::sample_1d(float u) const {
+  switch (kind_) {
+    case Kind::box:
+      return (2.0f * u - 1.0f) * radius_;
+    case Kind::tent:
+      return unit_to_tent(u) * radius_;
+    case Kind::gaussian:
+      break;
+  }
+  // Inverts the distribution function by bisection: it has no closed inverse with the offset.
+  const auto cdf = [&](float x) {
+    const float gauss =
+        stddev_ * std::sqrt(0.5f * pi) * std::erf(x / (stddev_ * std::numbers::sqrt2_v<float>));
+    return 0.5f + (gauss - x * gaussian_offset_) * gaussian_norm_;
+  };
+  float low = -radius_, high = radius_;
+  for (int i = 0; i < 24; ++i) {
+    const float middle = 0.5f * (low + high);
+    (cdf(middle) < u ? low : high) = middle;
+  }
+  return 0.5f * (low + high);
+}
+
+Vec2f PixelFilter::sample(const Vec2f& u) const { return {sample_1d(u.x), sample_1d(u.y)}; }
+
+const TypeInfo& film_info() {
+  static const TypeInfo info{
+      "film",
+      "hdrfilm",
+      "The picture: its size, crop window and pixel filter.",
+      {integer_parameter("width", 768, "Width of the picture.").range(1, 1 << 20).in("pixels"),
+       integer_parameter("height", 576, "Height of the picture.").range(1, 1 << 20).in("pixels"),
+       integer_parameter("crop_offset_x", 0, "Left edge of the crop window.")
+           .range(0, 1 << 20)
+           .in("pixels"),
+       integer_parameter("crop_offset_y", 0, "Upper edge of the crop window.")
+           .range(0, 1 << 20)
+           .in("pixels"),
+       optional(integer_parameter("crop_width", 1, "Width of the crop window; the rest if absent.")
+                    .range(1, 1 << 20)
+                    .in("pixels")),
+       optional(
+           integer_parameter("crop_height", 1, "Height of the crop window; the rest if absent.")
+               .range(1, 1 << 20)
+               .in("pixels")),
+       ignored_parameter("file_format", ParameterKind::text),
+       ignored_parameter("pixel_format", ParameterKind::text),
+       ignored_parameter("component_format", ParameterKind::text),
+       ignored_parameter("sample_border", ParameterKind::boolean),
+       ignored_parameter("compensate", ParameterKind::boolean),
+       ignored_parameter("banner", ParameterKind::boolean),
+       ignored_parameter("high_quality_edges", ParameterKind::boolean),
+       ignored_parameter("attach_log", ParameterKind::boolean),
+       ignored_parameter("gamma", ParameterKind::number)}};
+  return info;
+}
+
+const std::vector<TypeInfo>& filter_infos() {
+  static const std::vector<TypeInfo> infos{
+      {"rfilter",
+       "box",
+       "Each sample counts for its own pixel.",
+       {number_parameter("radius", 0.5, "Half width.").range(0.01, 16).in("pixels")}},
+      {"rfilter",
+       "tent",
+       "Linear falloff.",
+       {number_parameter("radius", 1.0, "Half width.").range(0.01, 16).in("pixels")}},
+      {"rfilter",
+       "gaussian",
+       "Gaussian, cut off smoothly at four standard deviations.",
+       {number_parameter("stddev", 0.5, "Standard deviation.").range(0.01, 4).in("pixels")}}};
+  return infos;
+}
+
+const std::vector<TypeInfo>& sampler_infos() {
+  static const std::vector<TypeInfo> infos = [] {
+    std::vector<TypeInfo> list;
+    for (const char* name : {"independent", "stratified", "multijitter", "orthogonal", "ldsampler"})
+      list.push_back(
+          {"sampler",
+           name,
+           "Kaustik has one sampler (Owen-scrambled Sobol points); only the count is used.",
+           {integer_parameter("sample_count", 4, "Samples per pixel.").range(1, 1 << 24),
+            ignored_parameter("seed", ParameterKind::integer),
+            ignored_parameter("jitter", ParameterKind::boolean),
+            ignored_parameter("dimension", ParameterKind::integer),
+            ignored_parameter("strength", ParameterKind::integer),
+            ignored_parameter("scramble", ParameterKind::integer)}});
+    return list;
+  }();
+  return infos;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,340 @@
+#include "kaustik/scene/scene_builder.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "kaustik/base/color.h"
+
+namespace kaustik {
+namespace {
+
+template <typename Row>
+const Row* find_row(const std::vector<Row>& rows, const std::string& name) {
+  for (const Row& row : rows)
+    if (row.info.name == name) return &row;
+  return nullptr;
+}
+
+template <typename Row>
+std::vector<std::string> names_of(const std::vector<Row>& rows) {
+  std::vector<std::string> names;
+  for (const Row& row : rows) names.push_back(row.info.name);
+  return names;
+}
+
+const TypeInfo& shapegroup_info() {
+  static const TypeInfo info{
+      "shape", "shapegroup", "Shapes that appear only through instances.", {}};
+  return info;
+}
+
+const TypeInfo& instance_info() {
+  static const TypeInfo info{
+      "shape",
+      "instance",
+      "Places a shape group once more.",
+      {transform_parameter("to_world", "From the group's space to the world.")}};
+  return info;
+}
+
+std::string display_name(const Object& object) {
+  if (!object.id.empty()) return object.id;
+  return fmt::format("{} '{}' on line {}", object.family, object.type, object.place.line);
+}
+
+}  // namespace
+
+template <typename Body>
+void SceneBuilder::collecting(const Body& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    for (const Problem& problem : error.problems())
+      problems_.add(problem.message, problem.remedy, problem.place);
+  }
+}
+
+Arguments SceneBuilder::arguments_of(const TypeInfo& info, const Object& object) {
+  Arguments arguments(info, object.properties, object.place, problems_);
+  for (const std::string& name : arguments.ignored())
+    if (ignored_reported_.insert(info.family + "." + name).second)
+      warnings_.push_back(
+          fmt::format("'{}' of {} '{}' has no effect here", name, info.family, info.name));
+  return arguments;
+}
+
+void SceneBuilder::unknown_type(const Object& object, const std::vector<std::string>& valid) {
+  problems_.add(fmt::format("unknown {} type '{}'", object.family, object.type),
+                suggest(object.type, valid), object.place);
+}
+
+void SceneBuilder::refuse_children(const Object& object,
+                                   const std::vector<std::string>& allowed_families) {
+  for (const Child& child : object.children) {
+    const std::string& family = child.object->family;
+    if (std::find(allowed_families.begin(), allowed_families.end(), family) !=
+        allowed_families.end())
+      continue;
+    problems_.add(fmt::format("{} '{}' cannot hold a {}", object.family, object.type, family),
+                  allowed_families.empty()
+                      ? "remove it"
+                      : fmt::format("it may hold: {}", fmt::join(allowed_families, ", ")),
+                  child.object->place);
+  }
+}
+
+Scene::Parts SceneBuilder::build(const Object& scene) {
+  for (const Property& property : scene.properties)
+    problems_.add(fmt::format("the scene has no parameter '{}'", property.name),
+                  "put it into the object that it belongs to", property.place);
+  for (const Child& child : scene.children) add_top_level(*child.object);
+  if (!sensor_)
+    problems_.add("the scene has no camera", "add <sensor type=\"perspective\"> with a to_world",
+                  scene.place);
+  else
+    collecting([&] { make_sensor(*sensor_); });
+  if (shapes_.empty() && instances_.empty())
+    problems_.add("the scene has no shape", "add at least one <shape>", scene.place);
+  problems_.throw_if_any();
+
+  Scene::Parts parts;
+  parts.tracer = std::make_unique<RayTracer>(make_geometry());
+  bounds_ = parts.tracer->bounds();
+  make_lights();
+  problems_.throw_if_any();
+  for (BuiltShape& built : shapes_) parts.surfaces.push_back(std::move(built.surface));
+  for (auto& group : groups_)
+    for (BuiltShape& built : group) parts.surfaces.push_back(std::move(built.surface));
+  parts.lights = std::move(lights_);
+  parts.film = film_;
+  parts.camera = std::move(camera_);
+  parts.warnings = std::move(warnings_);
+  return parts;
+}
+
+void SceneBuilder::add_top_level(const Object& object) {
+  if (object.family == "shape") {
+    if (object.type == "shapegroup") return;  // built when an instance asks for it
+    if (object.type == "instance")
+      add_instance(object);
+    else
+      add_shape(object);
+  } else if (object.family == "emitter") {
+    pending_lights_.push_back({&object, nullptr, -1});
+  } else if (object.family == "sensor") {
+    if (sensor_)
+      problems_.add("the scene has a second camera",
+                    fmt::format("keep one; the first is on line {}", sensor_->place.line),
+                    object.place);
+    sensor_ = &object;
+  } else if (object.family == "bsdf" || object.family == "texture") {
+    // Checked where it is used, and here so that a mistake in an unused one is told as well.
+    const auto alias =
+        std::shared_ptr<Object>(std::shared_ptr<Object>(), const_cast<Object*>(&object));
+    if (object.family == "bsdf")
+      make_bsdf(alias);
+    else
+      make_texture(alias);
+  } else if (object.family != "integrator") {
+    problems_.add(fmt::format("a {} cannot stand at the top of a scene", object.family),
+                  "it may hold: shape, bsdf, texture, emitter, sensor, integrator", object.place);
+  }
+}
+
+std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& object,
+                                                                 bool in_group) {
+  const ShapeType* type = find_row(shape_types(), object.type);
+  if (!type) {
+    std::vector<std::string> valid = names_of(shape_types());
+    valid.insert(valid.end(), {shapegroup_info().name, instance_info().name});
+    unknown_type(object, valid);
+    return std::nullopt;
+  }
+  refuse_children(object, {"bsdf", "emitter"});
+  BuiltShape built;
+  built.object = &object;
+  built.surface.name = display_name(object);
+  const Arguments arguments = arguments_of(type->info, object);
+  int bsdf_count = 0;
+  for (const Child& child : object.children) {
+    if (child.object->family == "bsdf") {
+      built.surface.bsdf = make_bsdf(child.object);
+      if (++bsdf_count == 2)
+        problems_.add("the shape has a second bsdf", "keep one", child.object->place);
+    } else if (child.object->family == "emitter" && in_group) {
+      problems_.add("a shape of a shape group cannot be a light",
+                    "place the light as a shape of its own", child.object->place);
+    }
+  }
+  if (!built.surface.bsdf) {
+    static const Object default_bsdf{"bsdf", "diffuse", "", {}, {}, {}};
+    built.surface.bsdf = create_bsdf(default_bsdf);
+  }
+  collecting([&] { built.shape = type->create(arguments); });
+  if (!built.shape || !built.surface.bsdf) return std::nullopt;
+  return built;
+}
+
+void SceneBuilder::add_shape(const Object& object) {
+  std::optional<BuiltShape> built = make_shape(object, false);
+  if (!built) return;
+  const int index = int(shapes_.size());
+  for (const Child& child : object.children) {
+    if (child.object->family != "emitter") continue;
+    if (built->surface.light >= 0)
+      problems_.add("the shape has a second emitter", "keep one", child.object->place);
+    built->surface.light = int(pending_lights_.size());
+    pending_lights_.push_back({child.object.get(), built->shape, index});
+  }
+  shapes_.push_back(std::move(*built));
+}
+
+uint32_t SceneBuilder::group_index(const std::shared_ptr<Object>& group) {
+  const auto [entry, is_new] = group_of_.try_emplace(group.get(), uint32_t(groups_.size()));
+  if (!is_new) return entry->second;
+  groups_.emplace_back();
+  const size_t index = groups_.size() - 1;
+  arguments_of(shapegroup_info(), *group);
+  refuse_children(*group, {"shape"});
+  for (const Child& child : group->children) {
+    if (child.object->family != "shape") continue;
+    if (child.object->type == "instance" || child.object->type == "shapegroup") {
+      problems_.add("shape groups cannot be nested", "put the shapes into one group",
+                    child.object->place);
+      continue;
+    }
+    if (auto built = make_shape(*child.object, true)) groups_[index].push_back(std::move(*built));
+  }
+  if (group->children.empty())
+    problems_.add("the shape group is empty", "add a shape to it", group->place);
+  return entry->second;
+}
+
+void SceneBuilder::add_instance(const Object& object) {
+  const Arguments arguments = arguments_of(instance_info(), object);
+  refuse_children(object, {"shape"});
+  if (object.children.size() != 1 || object.children[0].object->type != "shapegroup") {
+    problems_.add("an instance needs exactly one shape group", "refer to one with <ref id=…/>",
+                  object.place);
+    return;
+  }
+  instances_.push_back({group_index(object.children[0].object), arguments.transform("to_world")});
+}
+
+std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<Object>& object) {
+  const auto known = textures_.find(object.get());
+  if (known != textures_.end()) return known->second;
+  std::shared_ptr<const Texture> texture;
+  if (const TextureType* type = find_row(texture_types(), object->type)) {
+    refuse_children(*object, {});
+    const Arguments arguments = arguments_of(type->info, *object);
+    collecting([&] { texture = type->create(arguments); });
+  } else {
+    unknown_type(*object, names_of(texture_types()));
+  }
+  return textures_[object.get()] = texture;
+}
+
+std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object>& object) {
+  const auto known = bsdfs_.find(object.get());
+  if (known != bsdfs_.end()) return known->second;
+  return bsdfs_[object.get()] = create_bsdf(*object);
+}
+
+std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
+  const BsdfType* type = find_row(bsdf_types(), object.type);
+  if (!type) {
+    unknown_type(object, names_of(bsdf_types()));
+    return nullptr;
+  }
+  refuse_children(object, {"bsdf", "texture"});
+  std::vector<std::shared_ptr<const Bsdf>> nested;
+  std::map<std::string, std::shared_ptr<const Texture>, std::less<>> textures;
+  for (const Child& child : object.children) {
+    if (child.object->family == "bsdf") {
+      nested.push_back(make_bsdf(child.object));
+      if (!nested.back()) return nullptr;
+    } else if (child.object->family == "texture") {
+      const Parameter* parameter = type->info.find(child.name);
+      if (!parameter || !parameter->accepts_texture) {
+        std::vector<std::string> valid;
+        for (const Parameter& row : type->info.parameters)
+          if (row.accepts_texture) valid.push_back(row.name);
+        problems_.add(fmt::format("bsdf '{}' takes no texture '{}'", object.type, child.name),
+                      suggest(child.name, valid), child.object->place);
+        continue;
+      }
+      textures[child.name] = make_texture(child.object);
+      if (!textures[child.name]) return nullptr;
+    }
+  }
+  if (int(nested.size()) < type->minimum_nested || int(nested.size()) > type->maximum_nested) {
+    problems_.add(fmt::format("bsdf '{}' holds {} bsdfs", object.type, nested.size()),
+                  fmt::format("give it {} to {}", type->minimum_nested, type->maximum_nested),
+                  object.place);
+    return nullptr;
+  }
+  const Arguments arguments = arguments_of(type->info, object);
+  const auto texture = [&](std::string_view name) -> std::shared_ptr<const Texture> {
+    const auto found = textures.find(name);
+    if (found != textures.end()) return found->second;
+    return make_constant_texture(reflectance_spectrum(arguments.color(name)));
+  };
+  std::shared_ptr<const Bsdf> bsdf;
+  collecting([&] { bsdf = type->create({arguments, nested, texture}); });
+  return bsdf;
+}
+
+Geometry SceneBuilder::make_geometry() {
+  Geometry geometry;
+  for (const BuiltShape& built : shapes_) geometry.shapes.push_back(built.shape);
+  for (const auto& group : groups_) {
+    geometry.groups.emplace_back();
+    for (const BuiltShape& built : group) geometry.groups.back().push_back(built.shape);
+  }
+  geometry.instances = instances_;
+  return geometry;
+}
+
+void SceneBuilder::make_lights() {
+  for (const PendingLight& pending : pending_lights_) {
+    const LightType* type = find_row(light_types(), pending.object->type);
+    if (!type) {
+      unknown_type(*pending.object, names_of(light_types()));
+      continue;
+    }
+    refuse_children(*pending.object, {});
+    if (type->needs_shape != (pending.shape != nullptr)) {
+      problems_.add(
+          type->needs_shape
+              ? fmt::format("emitter '{}' stands outside of a shape", pending.object->type)
+              : fmt::format("emitter '{}' cannot belong to a shape", pending.object->type),
+          type->needs_shape ? "put it inside the <shape> that shines"
+                            : "put it at the top of the scene",
+          pending.object->place);
+      continue;
+    }
+    if (pending.shape && !pending.shape->can_sample()) {
+      problems_.add("this shape cannot be a light: it cannot be sampled by area",
+                    "let a mesh or an analytic shape shine instead", pending.object->place);
+      continue;
+    }
+    if (pending.shape && !(pending.shape->area() > 0)) {
+      problems_.add("the light's shape has no area", "check its vertices and its to_world",
+                    pending.object->place);
+      continue;
+    }
+    const Arguments arguments = arguments_of(type->info, *pending.object);
+    static const Transform identity;
+    const Transform& to_world =
+        type->info.find("to_world") ? arguments.transform("to_world") : identity;
+    collecting([&] {
+      lights_.push_back(
+          type->create({arguments, to_world, pending.shape, pending.shape_index, bounds_}));
+    });
+  }
+}
+
+}  // namespace kaustik

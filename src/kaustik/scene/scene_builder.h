@@ -1,0 +1,69 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <set>
+
+#include "kaustik/scene/scene.h"
+
+namespace kaustik {
+
+/// Turns a description into the parts of a scene; collects problems on the way and throws them
+/// together. One builder serves one scene.
+class SceneBuilder {
+ public:
+  Scene::Parts build(const Object& scene);
+
+ private:
+  /// A shape with what the file says of its surface.
+  struct BuiltShape {
+    std::shared_ptr<const Shape> shape;
+    const Object* object = nullptr;
+    Surface surface;
+  };
+  struct PendingLight {
+    const Object* object = nullptr;
+    std::shared_ptr<const Shape> shape;  ///< of area lights
+    int shape_index = -1;
+  };
+
+  void add_top_level(const Object& object);
+  void add_shape(const Object& object);
+  void add_instance(const Object& object);
+  uint32_t group_index(const std::shared_ptr<Object>& group);
+  std::optional<BuiltShape> make_shape(const Object& object, bool in_group);
+  std::shared_ptr<const Bsdf> make_bsdf(const std::shared_ptr<Object>& object);
+  std::shared_ptr<const Bsdf> create_bsdf(const Object& object);
+  std::shared_ptr<const Texture> make_texture(const std::shared_ptr<Object>& object);
+  void make_sensor(const Object& object);
+  void read_film(const Object& object);
+  void read_filter(const Object& object);
+  void read_sampler(const Object& object);
+  void make_lights();
+  Geometry make_geometry();
+
+  /// Arguments of an object, with warnings for what is accepted without effect.
+  Arguments arguments_of(const TypeInfo& info, const Object& object);
+  void refuse_children(const Object& object, const std::vector<std::string>& allowed_families);
+  void unknown_type(const Object& object, const std::vector<std::string>& valid);
+  /// Runs `body` and turns what it throws into problems.
+  template <typename Body>
+  void collecting(const Body& body);
+
+  Problems problems_;
+  std::vector<std::string> warnings_;
+  std::set<std::string> ignored_reported_;
+  std::vector<BuiltShape> shapes_;
+  std::vector<std::vector<BuiltShape>> groups_;
+  std::map<const Object*, uint32_t> group_of_;
+  std::vector<Instance> instances_;
+  std::vector<PendingLight> pending_lights_;
+  std::map<const Object*, std::shared_ptr<const Bsdf>> bsdfs_;
+  std::map<const Object*, std::shared_ptr<const Texture>> textures_;
+  std::vector<std::unique_ptr<Light>> lights_;
+  Bounds3f bounds_;
+  FilmSettings film_;
+  std::unique_ptr<Camera> camera_;
+  const Object* sensor_ = nullptr;
+};
+
+}  // namespace kaustik

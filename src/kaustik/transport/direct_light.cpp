@@ -1,0 +1,70 @@
+#include "kaustik/transport/direct_light.h"
+
+namespace kaustik {
+namespace {
+
+/// What the light selector may assume: only light on the viewer's side counts on opaque surfaces.
+Vec3f selection_normal(const SurfaceVertex& vertex) {
+  if (vertex.bsdf().transmits()) return {0, 0, 0};
+  return vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
+}
+
+}  // namespace
+
+bool sample_direct_light(const Scene& scene, const SurfaceVertex& vertex, Sampler& sampler,
+                         DirectLight& result) {
+  float u_light = sampler.next_1d();
+  const Vec2f u = sampler.next_2d();
+  const LightSelector::Choice choice =
+      scene.light_selector().choose(vertex.position(), selection_normal(vertex), u_light);
+  if (choice.light < 0) return false;
+  const LightSample sample =
+      scene.lights()[size_t(choice.light)]->sample_toward(vertex.position(), u);
+  if (!(sample.pdf_solid_angle > 0) || sample.radiance.is_zero()) return false;
+  const float pdf = sample.pdf_solid_angle * choice.probability;
+  result.wi = sample.direction;
+  result.radiance = sample.radiance * (1 / pdf);
+  result.pdf_solid_angle = sample.delta ? 0 : pdf;
+  if (sample.on_surface)
+    result.shadow_ray = spawn_ray_to(vertex.point(), sample.point);
+  else if (std::isfinite(sample.distance))
+    result.shadow_ray =
+        spawn_ray_to(vertex.point(), vertex.position() + sample.direction * sample.distance);
+  else
+    result.shadow_ray = spawn_ray(vertex.point(), sample.direction);
+  return true;
+}
+
+float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, int light,
+                       const SurfacePoint& on_light) {
+  return scene.light_selector().probability(vertex.position(), selection_normal(vertex), light) *
+         scene.lights()[size_t(light)]->pdf_toward(vertex.position(), on_light);
+}
+
+float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, int light,
+                       const Vec3f& direction) {
+  return scene.light_selector().probability(vertex.position(), selection_normal(vertex), light) *
+         scene.lights()[size_t(light)]->pdf_toward_direction(direction);
+}
+
+float diffuse_probability(const SurfaceVertex& vertex) {
+  const Lobes lobes = vertex.lobes();
+  if (!any(lobes & Lobes::specular)) return 1;
+  if (!any(lobes & Lobes::diffuse)) return 0;
+  const float diffuse = vertex.albedo(Lobes::diffuse).max_lane();
+  const float specular = vertex.albedo(Lobes::specular).max_lane();
+  const float total = diffuse + specular;
+  return total > 0 ? diffuse / total : 1;
+}
+
+LobeChoice choose_lobes(const SurfaceVertex& vertex, float& u) {
+  const float diffuse = diffuse_probability(vertex);
+  if (u < diffuse) {
+    u = std::min(u / diffuse, one_minus_epsilon);
+    return {Lobes::diffuse, diffuse};
+  }
+  u = std::min((u - diffuse) / (1 - diffuse), one_minus_epsilon);
+  return {Lobes::specular, 1 - diffuse};
+}
+
+}  // namespace kaustik
