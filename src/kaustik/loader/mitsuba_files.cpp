@@ -1,0 +1,158 @@
+// The part of Reader that deals with files: reading them, finding them, including them.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kaustik/base/file.h"
+#include "kaustik/loader/mitsuba_reader.h"
+#include "kaustik/loader/mitsuba_tags.h"
+
+namespace kaustik::mitsuba {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t maximum_bytes = size_t{512} << 20;
+constexpr size_t maximum_includes = 10000;
+constexpr size_t maximum_include_depth = 15;  // as Mitsuba
+
+std::string joined(const std::vector<fs::path>& paths, std::string_view separator) {
+  std::string text;
+  for (const fs::path& path : paths) {
+    if (!text.empty()) text += separator;
+    text += path.empty() ? "." : path.string();
+  }
+  return text;
+}
+
+/// A name that two paths to the same file share.
+fs::path identity(const fs::path& path) {
+  std::error_code ignored;
+  const fs::path canonical = fs::weakly_canonical(path, ignored);
+  return canonical.empty() ? path : canonical;
+}
+
+bool is_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(path, ignored);
+}
+
+}  // namespace
+
+std::string Reader::text_of(const fs::path& path, const Place& where) {
+  std::error_code unknown;
+  const auto size = fs::is_regular_file(path, unknown) ? fs::file_size(path, unknown) : 0;
+  if (!unknown && size > maximum_bytes - read_bytes_)
+    throw Error(ErrorKind::input, "the scene's XML has more than 512 MiB",
+                "keep meshes in PLY files, which load faster", where);
+  try {
+    const std::vector<uint8_t> bytes = kaustik::read_file(path.string());
+    read_bytes_ += bytes.size();
+    return {bytes.begin(), bytes.end()};
+  } catch (const Error& error) {
+    const Problem& problem = error.problems().front();
+    throw Error(error.kind(), problem.message, problem.remedy, where);
+  }
+}
+
+Description Reader::read_file(const std::string& path) {
+  open_files_ = {path};
+  return read_text(text_of(path, place_in(path)), path, fs::path(path).parent_path());
+}
+
+Description Reader::read_text(std::string text, const std::string& name, const fs::path& folder) {
+  if (open_files_.empty()) open_files_ = {name};
+  const XmlDocument document(std::move(text), name);
+  Source source = {document, {}, {folder}, folder};
+  return finish(read_version(source) ? read_scene(source) : nullptr);
+}
+
+fs::path Reader::found(const std::string& file, const Source& source) const {
+  if (fs::path(file).is_absolute()) return file;
+  for (const fs::path& folder : source.folders)
+    if (is_there(folder / file)) return folder / file;
+  return source.own_folder / file;
+}
+
+void Reader::read_search_folder(const Element& element, Unfinished&, Source& source) {
+  refuse_children(element, source);
+  if (!check_attributes(element, {{"value"}, {}}, problems_)) return;
+  const Attribute& value = *element.find("value");
+  const fs::path folder = found(value.value, source);
+  std::error_code ignored;
+  if (element.node.parent() != source.document.root())
+    problems_.add("<path> in an object", "move it to the start of the scene", element.place);
+  else if (!fs::is_directory(folder, ignored))
+    problems_.add(fmt::format("there is no folder {}", in_quotes(folder.string())),
+                  "name a folder, relative to the one of this file", value.place);
+  else
+    source.folders.insert(source.folders.begin(), folder);
+}
+
+void Reader::read_include(const Element& element, Unfinished& parent, Source& source) {
+  refuse_children(element, source);
+  if (!check_attributes(element, {{"filename"}, {"name"}}, problems_)) {
+    incomplete_ = true;
+    return;
+  }
+  const Attribute& file = *element.find("filename");
+  const fs::path path = found(file.value, source);
+  const bool is_open = std::any_of(open_files_.begin(), open_files_.end(), [&](const auto& other) {
+    return identity(other) == identity(path);
+  });
+  open_files_.push_back(path);
+  try {
+    if (is_open)
+      throw BadValue(fmt::format("circular <include>: {}", joined(open_files_, " → ")),
+                     "no file can include itself: remove one of these", file.place);
+    if (open_files_.size() > maximum_include_depth || ++included_files_ > maximum_includes)
+      throw BadValue(fmt::format("more than {} files include one another, or more than {} in all",
+                                 maximum_include_depth, maximum_includes),
+                     "put the parts into fewer files", file.place);
+    read_included(path, element, parent, source);
+  } catch (const BadValue& bad) {
+    incomplete_ = true;
+    add(problems_, bad, element.place);
+  }
+  open_files_.pop_back();
+}
+
+std::unique_ptr<XmlDocument> Reader::included_document(const fs::path& path, const Place& place) {
+  try {
+    return std::make_unique<XmlDocument>(text_of(path, place), path.string());
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    const Problem& problem = error.problems().front();
+    throw BadValue(problem.message, problem.remedy, problem.place);
+  }
+}
+
+void Reader::read_included(const fs::path& path, const Element& element, Unfinished& parent,
+                           Source& includer) {
+  const auto document = included_document(path, element.find("filename")->place);
+  Source source = {*document, {}, includer.folders, path.parent_path()};
+  source.folders.insert(source.folders.begin(), source.own_folder);
+  const auto root = read_version(source) ? ready(document->root(), source) : std::nullopt;
+  if (!root) {
+    incomplete_ = true;
+  } else if (root->tag == "scene") {
+    check_attributes(*root, {{"version"}, {"type", "id", "name"}}, problems_);
+    read_parts(root->node, parent, source);
+  } else {
+    read_included_object(*root, element.value("name"), parent, source);
+  }
+}
+
+void Reader::read_included_object(const Element& root, const std::string& name, Unfinished& parent,
+                                  Source& source) {
+  if (!is_in(object_tags(), root.tag)) {
+    report_unknown(root);
+    return;
+  }
+  const std::string child_name = name.empty() ? root.value("name") : name;
+  take_name(parent, child_name, root.place);
+  parent.object->children.push_back({child_name, read_object(root, source)});
+}
+
+}  // namespace kaustik::mitsuba

@@ -1,0 +1,101 @@
+// The part of Reader that reads values: from elements to properties of objects.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kaustik/loader/mitsuba_reader.h"
+#include "kaustik/loader/mitsuba_tags.h"
+#include "kaustik/loader/mitsuba_transform.h"
+#include "kaustik/loader/spectrum_file.h"
+
+namespace kaustik::mitsuba {
+namespace {
+
+AttributeRule property_rule(const std::string& tag) {
+  if (tag == "point" || tag == "vector") return {{"name"}, {"value", "x", "y", "z"}};
+  if (tag == "spectrum") return {{"name"}, {"value", "filename"}};
+  return {{"name", "value"}, {}};
+}
+
+Vec3d parse_point(const Element& element) {
+  const bool all = element.find("x") && element.find("y") && element.find("z");
+  if (!element.find("value") && !all)
+    throw BadValue(fmt::format("<{}> lacks its numbers", element.tag),
+                   "give value=\"x, y, z\", or x=, y= and z=");
+  return parse_components(element, 0);
+}
+
+}  // namespace
+
+void Reader::read_property(const Element& element, Unfinished& parent, Source& source) {
+  refuse_children(element, source);
+  if (!check_attributes(element, property_rule(element.tag), problems_)) return;
+  const std::string name =
+      upgraded_name(element.value("name"), parent.object->type, source.version);
+  try {
+    if (name.empty()) throw BadValue("a property without a name", "give its name");
+    if (!take_name(parent, name, element.place)) return;
+    parent.object->properties.push_back({name, value_of(element, name, source), element.place});
+  } catch (const BadValue& bad) {
+    add(problems_, bad, element.place);
+  }
+}
+
+Value Reader::value_of(const Element& element, const std::string& name, const Source& source) {
+  if (element.tag == "point" || element.tag == "vector") return parse_point(element);
+  if (element.tag == "spectrum") return spectrum_of(element, source);
+  const Attribute& value = *element.find("value");
+  if (element.tag == "float") return parse_attribute(value, parse_float);
+  if (element.tag == "integer") return parse_attribute(value, parse_integer);
+  if (element.tag == "boolean") return parse_attribute(value, parse_boolean);
+  if (element.tag == "rgb") return parse_attribute(value, parse_rgb);
+  if (element.tag == "srgb") return parse_attribute(value, parse_srgb);
+  if (name != "filename") return value.value;
+  if (value.value.empty()) throw BadValue("the file name is empty", "name a file", value.place);
+  return found(value.value, source).string();
+}
+
+Value Reader::spectrum_of(const Element& element, const Source& source) {
+  const Attribute* value = element.find("value");
+  const Attribute* file = element.find("filename");
+  if (!value == !file)
+    throw BadValue("<spectrum> takes either 'value' or 'filename'", "give one of the two");
+  if (value) return parse_attribute(*value, parse_spectrum);
+  try {
+    return read_spectrum_file(found(file->value, source).string());
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    const Problem& problem = error.problems().front();
+    throw BadValue(problem.message, problem.remedy,
+                   problem.place.file ? problem.place : file->place);
+  }
+}
+
+void Reader::read_transform(const Element& element, Unfinished& parent, Source& source) {
+  if (!check_attributes(element, {{"name"}, {}}, problems_)) return;
+  Transform transform;
+  for (const pugi::xml_node& node : element.node.children()) {
+    if (!is_element(node, source)) continue;
+    const auto operation = ready(node, source);
+    if (!operation) continue;
+    refuse_children(*operation, source);
+    if (!is_in(transform_tags(), operation->tag)) {
+      problems_.add(fmt::format("<{}> cannot stand in <transform>", operation->tag),
+                    suggestion(operation->tag, transform_tags()), operation->place);
+      continue;
+    }
+    if (!check_attributes(*operation, transform_rule(operation->tag), problems_)) continue;
+    try {
+      transform = followed_by(transform, parse_transform_operation(*operation));
+    } catch (const BadValue& bad) {
+      add(problems_, bad, operation->place);
+    }
+  }
+  const std::string name =
+      upgraded_name(element.value("name"), parent.object->type, source.version);
+  if (take_name(parent, name, element.place))
+    parent.object->properties.push_back({name, transform, element.place});
+}
+
+}  // namespace kaustik::mitsuba

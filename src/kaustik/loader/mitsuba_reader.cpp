@@ -1,0 +1,203 @@
+#include "kaustik/loader/mitsuba_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kaustik/loader/mitsuba_tags.h"
+
+namespace kaustik::mitsuba {
+bool Reader::read_version(Source& source) {
+  const pugi::xml_node root = source.document.root();
+  const pugi::xml_attribute version = root.attribute("version");
+  if (!version) {
+    problems_.add(fmt::format("<{}> lacks its version", root.name()),
+                  fmt::format("write <{} version=\"3.0.0\">, or \"0.6.0\" for a scene of "
+                              "Mitsuba 0.6",
+                              root.name()),
+                  source.document.place(root));
+    return false;
+  }
+  try {
+    source.version = parse_version(version.value());
+    return true;
+  } catch (const BadValue& bad) {
+    problems_.add(bad.what(), bad.remedy, source.document.place_of_value(version));
+    return false;
+  }
+}
+
+std::shared_ptr<Object> Reader::read_scene(Source& source) {
+  const auto element = ready(source.document.root(), source);
+  if (!element) return nullptr;
+  if (element->tag != "scene") {
+    problems_.add(fmt::format("the root element is <{}>", element->tag),
+                  "a scene file starts with <scene version=\"3.0.0\">", element->place);
+    return nullptr;
+  }
+  return read_object(*element, source);
+}
+
+Description Reader::finish(const std::shared_ptr<Object>& scene) {
+  if (scene && !incomplete_) {
+    references_.resolve(scene, problems_);
+    definitions_.report_unused(problems_);
+  }
+  problems_.throw_if_any();
+  return {scene};
+}
+
+std::optional<Element> Reader::ready(const pugi::xml_node& node, const Source& source) {
+  const XmlDocument& document = source.document;
+  Element element = {upgraded_tag(node.name(), source.version), node, document.place(node), {}};
+  bool sound = true;
+  for (const pugi::xml_attribute& attribute : node.attributes()) {
+    Attribute result = {attribute.name(),
+                        {},
+                        attribute.value(),
+                        document.place_of_name(attribute),
+                        document.place_of_value(attribute)};
+    try {
+      result.value = definitions_.replace(result.written);
+    } catch (const BadValue& bad) {
+      problems_.add(bad.what(), bad.remedy, result.place);
+      sound = false;
+    }
+    element.attributes.push_back(std::move(result));
+  }
+  if (!sound) return std::nullopt;
+  return element;
+}
+
+bool Reader::is_element(const pugi::xml_node& node, const Source& source) {
+  if (node.type() == pugi::node_pcdata)
+    problems_.add(fmt::format("text between the elements: {}", in_quotes(node.value())),
+                  "values stand in attributes, as in <float name=\"radius\" value=\"1\"/>",
+                  source.document.place(node));
+  return node.type() == pugi::node_element;
+}
+
+void Reader::refuse_children(const Element& element, const Source& source) {
+  for (const pugi::xml_node& child : element.node.children())
+    if (is_element(child, source))
+      problems_.add(fmt::format("<{}> cannot stand in <{}>", child.name(), element.tag),
+                    fmt::format("end <{}> with '/>'", element.tag), source.document.place(child));
+}
+
+void Reader::read_parts(const pugi::xml_node& node, Unfinished& parent, Source& source) {
+  for (const pugi::xml_node& child : node.children())
+    if (is_element(child, source)) {
+      if (const auto element = ready(child, source))
+        read_part(*element, parent, source);
+      else if (!is_in(property_tags(), child.name()))
+        incomplete_ = true;
+    }
+}
+
+void Reader::read_part(const Element& element, Unfinished& parent, Source& source) {
+  using Read = void (Reader::*)(const Element&, Unfinished&, Source&);
+  static const std::map<std::string_view, Read> others = {
+      {"transform", &Reader::read_transform}, {"ref", &Reader::read_reference},
+      {"alias", &Reader::read_alias},         {"default", &Reader::read_default},
+      {"path", &Reader::read_search_folder},  {"include", &Reader::read_include}};
+  const bool is_srgb = element.tag == "srgb" && source.version < Version{2, 0, 0};
+  const bool typed_spectrum = element.tag == "spectrum" && element.find("type");
+  if (const auto other = others.find(element.tag); other != others.end())
+    (this->*other->second)(element, parent, source);
+  else if (typed_spectrum || is_in(object_tags(), element.tag))
+    read_nested_object(element, parent, source);
+  else if (is_srgb || is_in(property_tags(), element.tag))
+    read_property(element, parent, source);
+  else
+    report_unknown(element);
+}
+
+void Reader::report_unknown(const Element& element) {
+  incomplete_ = true;  // its ids and definitions are unknown
+  if (is_in(transform_tags(), element.tag)) {
+    problems_.add(
+        fmt::format("<{}> outside of a <transform>", element.tag),
+        fmt::format("write <transform name=\"to_world\"><{} …/></transform>", element.tag),
+        element.place);
+    return;
+  }
+  problems_.add(fmt::format("unknown element <{}>", element.tag),
+                suggestion(element.tag, part_tags()), element.place);
+}
+
+bool Reader::take_name(Unfinished& parent, const std::string& name, const Place& place) {
+  if (name.empty()) return true;
+  const auto [first, is_new] = parent.names.try_emplace(name, place);
+  if (!is_new)
+    problems_.add(fmt::format("{} is given twice", in_quotes(name)),
+                  fmt::format("keep one; the first is at {}:{}:{}", *first->second.file,
+                              first->second.line, first->second.column),
+                  place);
+  return is_new;
+}
+
+std::shared_ptr<Object> Reader::read_object(const Element& element, Source& source) {
+  const bool is_root = element.node == source.document.root();
+  const bool is_scene = element.tag == "scene";
+  AttributeRule rule = {{"type"}, {"id", "name"}};
+  if (is_scene) rule = {{}, {"type", "id", "name"}};
+  if (is_root) rule.required.emplace_back("version");
+  check_attributes(element, rule, problems_);
+
+  Unfinished unfinished = {std::make_shared<Object>(), {}};
+  Object& object = *unfinished.object;
+  object.family = element.tag == "spectrum" ? "texture" : element.tag;
+  object.type = is_scene ? "" : element.value("type");
+  object.id = element.value("id");
+  object.place = element.place;
+  if (!object.id.empty())
+    references_.declare(object.id, unfinished.object, element.place, problems_);
+  if (++depth_ > maximum_depth) {
+    problems_.add(fmt::format("elements nest more than {} levels deep", maximum_depth),
+                  "make the scene flatter", element.place);
+    problems_.throw_if_any();
+  }
+  read_parts(element.node, unfinished, source);
+  --depth_;
+  upgrade_texture_placement(object, source.version, problems_);
+  return unfinished.object;
+}
+
+void Reader::read_nested_object(const Element& element, Unfinished& parent, Source& source) {
+  if (element.tag == "scene") {
+    problems_.add("a <scene> in an object", "only the root element is a scene; use <include>",
+                  element.place);
+    return;
+  }
+  const std::string name =
+      upgraded_name(element.value("name"), parent.object->type, source.version);
+  take_name(parent, name, element.place);
+  parent.object->children.push_back({name, read_object(element, source)});
+}
+
+void Reader::read_reference(const Element& element, Unfinished& parent, Source& source) {
+  refuse_children(element, source);
+  if (!check_attributes(element, {{"id"}, {"name"}}, problems_)) return;
+  const std::string name =
+      upgraded_name(element.value("name"), parent.object->type, source.version);
+  take_name(parent, name, element.place);
+  references_.refer(parent.object, name, element.value("id"), element.place);
+}
+
+void Reader::read_alias(const Element& element, Unfinished&, Source& source) {
+  refuse_children(element, source);
+  if (!check_attributes(element, {{"id", "as"}, {}}, problems_)) return;
+  references_.declare_alias(element.value("id"), element.value("as"), element.place, problems_);
+}
+
+void Reader::read_default(const Element& element, Unfinished&, Source& source) {
+  refuse_children(element, source);
+  if (!check_attributes(element, {{"name", "value"}, {}}, problems_)) return;
+  const Attribute& name = *element.find("name");
+  if (name.value.empty())
+    problems_.add("a <default> without a name", "give the name that $name stands for", name.place);
+  else
+    definitions_.set_default(name.value, element.value("value"));
+}
+
+}  // namespace kaustik::mitsuba

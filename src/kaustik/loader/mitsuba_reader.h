@@ -1,0 +1,84 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kaustik/loader/mitsuba_definitions.h"
+#include "kaustik/loader/mitsuba_element.h"
+#include "kaustik/loader/mitsuba_references.h"
+#include "kaustik/loader/mitsuba_upgrade.h"
+#include "kaustik/loader/mitsuba_xml.h"
+
+namespace kaustik::mitsuba {
+
+/// Reads one scene and what it includes; used once.
+class Reader {
+ public:
+  explicit Reader(const LoadOptions& options) : definitions_(options, problems_) {}
+
+  Description read_file(const std::string& path);
+  Description read_text(std::string text, const std::string& name,
+                        const std::filesystem::path& folder);
+
+ private:
+  /// A file that is being read.
+  struct Source {
+    const XmlDocument& document;
+    Version version;
+    std::vector<std::filesystem::path> folders;  ///< where relative names are searched, in order
+    std::filesystem::path own_folder;
+  };
+  /// An object that is being read, and where its properties and named children were given.
+  struct Unfinished {
+    std::shared_ptr<Object> object;
+    std::map<std::string, Place> names;
+  };
+
+  std::string text_of(const std::filesystem::path& path, const Place& where);
+  bool read_version(Source& source);
+  Description finish(const std::shared_ptr<Object>& scene);
+  std::shared_ptr<Object> read_scene(Source& source);
+
+  std::optional<Element> ready(const pugi::xml_node& node, const Source& source);
+  bool is_element(const pugi::xml_node& node, const Source& source);
+  void refuse_children(const Element& element, const Source& source);
+
+  void read_parts(const pugi::xml_node& node, Unfinished& parent, Source& source);
+  void read_part(const Element& element, Unfinished& parent, Source& source);
+  std::shared_ptr<Object> read_object(const Element& element, Source& source);
+  void read_nested_object(const Element& element, Unfinished& parent, Source& source);
+  void read_property(const Element& element, Unfinished& parent, Source& source);
+  void read_transform(const Element& element, Unfinished& parent, Source& source);
+  void read_reference(const Element& element, Unfinished& parent, Source& source);
+  void read_alias(const Element& element, Unfinished& parent, Source& source);
+  void read_default(const Element& element, Unfinished& parent, Source& source);
+  void read_search_folder(const Element& element, Unfinished& parent, Source& source);
+  void read_include(const Element& element, Unfinished& parent, Source& source);
+  void read_included(const std::filesystem::path& path, const Element& element, Unfinished& parent,
+                     Source& includer);
+  void read_included_object(const Element& root, const std::string& name, Unfinished& parent,
+                            Source& source);
+  std::unique_ptr<XmlDocument> included_document(const std::filesystem::path& path,
+                                                 const Place& place);
+  void report_unknown(const Element& element);
+
+  Value value_of(const Element& element, const std::string& name, const Source& source);
+  Value spectrum_of(const Element& element, const Source& source);
+  /// False, with the reason told, if the parent has such a part already.
+  bool take_name(Unfinished& parent, const std::string& name, const Place& place);
+  std::filesystem::path found(const std::string& file, const Source& source) const;
+
+  Problems problems_;
+  Definitions definitions_;
+  References references_;
+  std::vector<std::filesystem::path> open_files_;  ///< the outermost first
+  size_t included_files_ = 0;
+  size_t read_bytes_ = 0;
+  int depth_ = 0;
+  bool incomplete_ = false;  ///< a part of the scene could not be read at all
+};
+
+}  // namespace kaustik::mitsuba

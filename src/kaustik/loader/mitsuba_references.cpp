@@ -1,0 +1,144 @@
+#include "kaustik/loader/mitsuba_references.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "kaustik/loader/mitsuba_values.h"
+
+namespace kaustik::mitsuba {
+
+/// Looks for circles and for nesting that is too deep among objects and the references that are
+/// still to be put in place.
+class References::DepthCheck {
+ public:
+  DepthCheck(const std::vector<Reference>& references, Problems& problems) : problems_(problems) {
+    for (const Reference& reference : references)
+      references_of_[reference.parent.get()].push_back(&reference);
+  }
+
+  /// Levels below and including `object`, or `failed`.
+  int height(const Object* object) {
+    heights_[object] = in_progress;
+    path_.push_back(object);
+    int result = 0;
+    for (const Child& child : object->children)
+      if (child.object)
+        result = std::max(result, height_of(child.object.get(), child.object->place));
+    if (const auto found = references_of_.find(object); found != references_of_.end())
+      for (const Reference* reference : found->second)
+        result = std::max(result, height_of(reference->target.get(), reference->place));
+    path_.pop_back();
+    return heights_[object] = std::min(result + 1, failed);
+  }
+
+ private:
+  static constexpr int in_progress = -1;
+  static constexpr int failed = maximum_depth + 1;
+
+  /// The height of a part of the object at the end of the path.
+  int height_of(const Object* part, const Place& place) {
+    const auto known = heights_.find(part);
+    if (known != heights_.end() && known->second == in_progress) {
+      report(fmt::format("circular reference: {}", circle_to(part)),
+             "no object can be a part of itself: remove one of these references", place);
+      return failed;
+    }
+    int result = failed;
+    if (known != heights_.end())
+      result = known->second;
+    else if (int(path_.size()) < maximum_depth)
+      result = height(part);
+    if (result + int(path_.size()) > maximum_depth)
+      report(fmt::format("objects nest more than {} levels deep", maximum_depth),
+             "make the scene flatter", place);
+    return result;
+  }
+
+  /// Only the first: the others are mostly its consequences.
+  void report(const std::string& message, const std::string& remedy, const Place& place) {
+    if (!reported_) problems_.add(message, remedy, place);
+    reported_ = true;
+  }
+
+  std::string circle_to(const Object* target) const {
+    std::string text;
+    for (auto at = std::find(path_.begin(), path_.end(), target); at != path_.end(); ++at)
+      text += name_of(**at) + " → ";
+    return text + name_of(*target);
+  }
+
+  static std::string name_of(const Object& object) {
+    return object.id.empty() ? fmt::format("<{}>", object.family) : in_quotes(object.id);
+  }
+
+  Problems& problems_;
+  std::unordered_map<const Object*, std::vector<const Reference*>> references_of_;
+  std::unordered_map<const Object*, int> heights_;
+  std::vector<const Object*> path_;
+  bool reported_ = false;
+};
+
+void References::insert(const std::string& id, Declaration declaration, Problems& problems) {
+  const auto [first, is_new] = declarations_.try_emplace(id, declaration);
+  if (is_new) return;
+  const Place& other = first->second.place;
+  problems.add(fmt::format("the id {} is taken", in_quotes(id)),
+               fmt::format("rename one of the two; the first is at {}:{}:{}", *other.file,
+                           other.line, other.column),
+               declaration.place);
+}
+
+void References::declare(const std::string& id, const std::shared_ptr<Object>& object,
+                         const Place& place, Problems& problems) {
+  insert(id, {object, {}, place}, problems);
+}
+
+void References::declare_alias(const std::string& id, const std::string& alias, const Place& place,
+                               Problems& problems) {
+  insert(alias, {nullptr, id, place}, problems);
+}
+
+void References::refer(const std::shared_ptr<Object>& parent, const std::string& child_name,
+                       const std::string& id, const Place& place) {
+  references_.push_back({parent, parent->children.size(), id, place, nullptr});
+  parent->children.push_back({child_name, nullptr});
+}
+
+std::shared_ptr<Object> References::find(const std::string& id) const {
+  auto found = declarations_.find(id);
+  // The limit ends circles of aliases of aliases.
+  for (int i = 0; i < maximum_depth && found != declarations_.end(); ++i) {
+    if (found->second.object) return found->second.object;
+    found = declarations_.find(found->second.alias_of);
+  }
+  return nullptr;
+}
+
+void References::report_unknown(const std::string& id, const Place& place,
+                                Problems& problems) const {
+  std::vector<std::string> ids;
+  for (const auto& [known, declaration] : declarations_)
+    if (find(known)) ids.push_back(known);
+  std::sort(ids.begin(), ids.end());
+  problems.add(fmt::format("no object has the id {}", in_quotes(id)),
+               ids.empty() ? "no object of the scene has an id" : suggestion(id, ids), place);
+}
+
+void References::resolve(const std::shared_ptr<Object>& scene, Problems& problems) {
+  for (const auto& [id, declaration] : declarations_)
+    if (!find(id)) report_unknown(declaration.alias_of, declaration.place, problems);
+  for (Reference& reference : references_) {
+    reference.target = find(reference.id);
+    if (!reference.target && declarations_.find(reference.id) == declarations_.end())
+      report_unknown(reference.id, reference.place, problems);
+  }
+  if (!problems.empty()) return;
+  DepthCheck(references_, problems).height(scene.get());
+  if (!problems.empty()) return;
+  for (const Reference& reference : references_)
+    reference.parent->children[reference.child_index].object = reference.target;
+}
+
+}  // namespace kaustik::mitsuba

@@ -1,0 +1,53 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+
+#include <vector>
+
+#include "kaustik/base/error.h"
+#include "kaustik/scene/description.h"
+
+namespace kaustik::mitsuba {
+
+/// Elements within elements, also by reference: what walks the description may recurse this deep.
+inline constexpr int maximum_depth = 100;
+
+/// The ids of a scene and who refers to them. Objects are found when everything has been read, so a
+/// reference may stand before what it refers to.
+class References {
+ public:
+  void declare(const std::string& id, const std::shared_ptr<Object>& object, const Place& place,
+               Problems& problems);
+  void declare_alias(const std::string& id, const std::string& alias, const Place& place,
+                     Problems& problems);
+  /// Adds a child to `parent` that holds nothing until resolve().
+  void refer(const std::shared_ptr<Object>& parent, const std::string& child_name,
+             const std::string& id, const Place& place);
+  /// Puts the objects in their places, unless there is a problem: unknown id, circle, too deep.
+  void resolve(const std::shared_ptr<Object>& scene, Problems& problems);
+
+ private:
+  struct Declaration {
+    std::shared_ptr<Object> object;  ///< null for an alias
+    std::string alias_of;
+    Place place;
+  };
+  struct Reference {
+    std::shared_ptr<Object> parent;
+    size_t child_index;
+    std::string id;
+    Place place;
+    std::shared_ptr<Object> target;
+  };
+  class DepthCheck;
+
+  void insert(const std::string& id, Declaration declaration, Problems& problems);
+  std::shared_ptr<Object> find(const std::string& id) const;
+  void report_unknown(const std::string& id, const Place& place, Problems& problems) const;
+
+  std::map<std::string, Declaration> declarations_;
+  std::vector<Reference> references_;
+};
+
+}  // namespace kaustik::mitsuba

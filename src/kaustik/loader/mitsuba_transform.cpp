@@ -1,0 +1,92 @@
+#include "kaustik/loader/mitsuba_transform.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace kaustik::mitsuba {
+namespace {
+
+const AttributeRule components_rule = {{}, {"value", "x", "y", "z"}};
+
+Vec3d required_components(const Element& element, double absent) {
+  if (!element.find("value") && !element.find("x") && !element.find("y") && !element.find("z"))
+    throw BadValue(fmt::format("<{}> lacks its numbers", element.tag),
+                   "give value=\"x, y, z\", or some of x=, y= and z=");
+  return parse_components(element, absent);
+}
+
+/// The up vector that Mitsuba takes where none is given: the first tangent of the frame around the
+/// view direction (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017).
+Vec3d default_up(const Vec3d& origin, const Vec3d& target) {
+  const Vec3d n = (target - origin).normalized();
+  const double sign = std::copysign(1.0, n.z);
+  const double a = -1.0 / (sign + n.z);
+  return {1.0 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
+}
+
+Transform parse_look_at(const Element& element) {
+  const Vec3d origin = parse_attribute(*element.find("origin"), parse_vector);
+  const Vec3d target = parse_attribute(*element.find("target"), parse_vector);
+  Vec3d up(0, 0, 0);
+  if (const Attribute* given = element.find("up")) up = parse_attribute(*given, parse_vector);
+  if (up == Vec3d(0, 0, 0)) up = default_up(origin, target);
+  return Transform::look_at(origin, target, up);
+}
+
+Transform parse_matrix(std::string_view text) {
+  const auto parts = split_list(text);
+  if (parts.size() != 16 && parts.size() != 9)
+    throw BadValue(fmt::format("the matrix has {} values", parts.size()),
+                   "write 16 values (4 rows of 4) or 9 (3 rows of 3)");
+  const size_t size = parts.size() == 16 ? 4 : 3;
+  double rows[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  for (size_t i = 0; i < size; ++i)
+    for (size_t j = 0; j < size; ++j) rows[i][j] = parse_float(parts[i * size + j]);
+  return Transform(rows);
+}
+
+Transform parse_operation(const Element& element) {
+  if (element.tag == "translate") return Transform::translate(required_components(element, 0));
+  if (element.tag == "scale") return Transform::scale(required_components(element, 1));
+  if (element.tag == "lookat") return parse_look_at(element);
+  if (element.tag == "matrix") return parse_attribute(*element.find("value"), parse_matrix);
+  const Vec3d axis = required_components(element, 0);
+  return Transform::rotate(axis, parse_attribute(*element.find("angle"), parse_float));
+}
+
+bool is_finite(const Transform& transform) {
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      if (!std::isfinite(transform.at(i, j))) return false;
+  return true;
+}
+
+}  // namespace
+
+AttributeRule transform_rule(const std::string& operation) {
+  if (operation == "lookat") return {{"origin", "target"}, {"up"}};
+  if (operation == "matrix") return {{"value"}, {}};
+  if (operation == "rotate") return {{"angle"}, components_rule.optional};
+  return components_rule;
+}
+
+Transform parse_transform_operation(const Element& element) {
+  try {
+    const Transform transform = parse_operation(element);
+    return followed_by(Transform(), transform);
+  } catch (const std::invalid_argument& wrong) {
+    throw BadValue(fmt::format("<{}>: {}", element.tag, wrong.what()),
+                   "a transform must be invertible");
+  }
+}
+
+Transform followed_by(const Transform& first, const Transform& next) {
+  const Transform both = next * first;
+  if (!is_finite(both) || !is_finite(both.inverse()))
+    throw BadValue("the transform is not finite or has no finite inverse",
+                   "use factors and distances of a usual size");
+  return both;
+}
+
+}  // namespace kaustik::mitsuba

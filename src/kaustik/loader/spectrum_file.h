@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "kaustik/base/parameters.h"
+
+namespace kaustik {
+
+/// Reads a spectrum from text: per line a wavelength in nm and a value; '#' starts a comment.
+/// Throws Error(input), for a line that is wrong with its place.
+SpectralCurve read_spectrum_file(const std::string& path);
+
+}  // namespace kaustik
