@@ -11,6 +11,16 @@
 
 namespace kaustik {
 
+/// The candidates of a search under way, in the memory of a KdNeighbors.
+struct KdCandidates {
+  float* distances_sq;
+  uint32_t* indices;
+  size_t count;
+  size_t wanted;
+  size_t full;
+  float bound;
+};
+
 /// A balanced tree whose leaves are buckets of 16 points, searched with the vector instructions of
 /// the machine. Every bucket but the last is full, and each inner node holds the boxes of its 8
 /// children; where these are follows from their number, so that there are no pointers: 1.7 bytes

@@ -10,11 +10,11 @@
 
 namespace kaustik {
 
-/// Reduces `count` candidates to the `wanted` nearest (count >= wanted > 0), of which the farthest
-/// comes last. Of candidates at the same distance any may stay. Both arrays must have room for
-/// `kd_candidate_padding` more elements.
-void select_nearest(float* distances_sq, uint32_t* indices, size_t count, size_t wanted);
-void select_nearest(double* distances_sq, uint32_t* indices, size_t count, size_t wanted);
+/// Reduces `count` > 0 candidates to the `wanted` > 0 nearest, if there are more, and puts the
+/// farthest of these last; returns how many they are. Of candidates at the same distance any may
+/// stay. Both arrays must have room for `kd_candidate_padding` more elements.
+size_t select_nearest(float* distances_sq, uint32_t* indices, size_t count, size_t wanted);
+size_t select_nearest(double* distances_sq, uint32_t* indices, size_t count, size_t wanted);
 
 inline constexpr size_t kd_candidate_padding = 32;
 
@@ -55,22 +55,17 @@ class KdNeighbors {
     distances_sq_[count_++] = distance_sq;
     if (count_ >= full_) shrink();
   }
+  /// Leaves only the wanted ones.
   void finish() {
-    if (count_ > wanted_) shrink();
-    if (count_ == 0) return;
-    const auto begin = distances_sq_.begin();
-    const auto farthest = std::max_element(begin, begin + std::ptrdiff_t(count_));
-    std::swap(indices_[size_t(farthest - begin)], indices_[count_ - 1]);
-    std::swap(*farthest, distances_sq_[count_ - 1]);
+    if (count_ > 0) shrink();
   }
 
  private:
   friend class KdBuckets;
 
   void shrink() {
-    select_nearest(distances_sq_.data(), indices_.data(), count_, wanted_);
-    count_ = wanted_;
-    bound_ = distances_sq_[count_ - 1];
+    count_ = select_nearest(distances_sq_.data(), indices_.data(), count_, wanted_);
+    if (count_ == wanted_) bound_ = distances_sq_[count_ - 1];
   }
 
   std::vector<Distance> distances_sq_;

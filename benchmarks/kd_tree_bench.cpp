@@ -1,0 +1,218 @@
+// The kd-tree against nanoflann: k nearest neighbours, and building the tree. Only ratios of
+// interleaved runs in one process are reported, as other programs share the machine.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <nanoflann.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/photon/kd_tree.h"
+
+namespace {
+
+using namespace kaustik;
+using Tree = KdTree<3, Vec3f, uint32_t>;
+
+constexpr size_t neighbors = 50;
+constexpr size_t query_count = 50000;
+constexpr int repeats = 9;
+
+/// Adapter through which nanoflann sees the points.
+struct Points {
+  const std::vector<Vec3f>& positions;
+  size_t kdtree_get_point_count() const { return positions.size(); }
+  float kdtree_get_pt(size_t i, size_t axis) const { return positions[i][int(axis)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Peer = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>,
+                                                 Points, 3, uint32_t>;
+
+struct Cloud {
+  std::vector<Vec3f> points, queries;
+};
+
+Cloud uniform_cloud(size_t count) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  const auto point = [&] { return Vec3f(unit(random), unit(random), unit(random)); };
+  Cloud cloud;
+  for (size_t i = 0; i < count; ++i) cloud.points.push_back(point());
+  for (size_t i = 0; i < query_count; ++i) cloud.queries.push_back(point());
+  return cloud;
+}
+
+/// The photons of a reflecting ring on a plane: parallel light from one side meets the wall of a
+/// unit cylinder and lands on the floor, where its envelope is a nephroid.
+std::vector<Vec3f> nephroid_photons(size_t count) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  std::vector<Vec3f> photons;
+  while (photons.size() < count) {
+    const float y = 2.0f * unit(random) - 1.0f;
+    const float angle = std::asin(y);
+    const Vec3f wall(std::cos(angle), y, 0.0f);
+    const Vec3f direction(-std::cos(2.0f * angle), -std::sin(2.0f * angle), 0.0f);
+    const Vec3f photon = wall + direction * (1.5f * unit(random));
+    if (photon.x * photon.x + photon.y * photon.y < 1.0f) photons.push_back(photon);
+  }
+  return photons;
+}
+
+/// Queries are where such a cloud is looked at: at its own points, moved a little in their plane.
+Cloud photon_cloud(std::vector<Vec3f> photons) {
+  std::mt19937 random(3);
+  std::normal_distribution<float> jitter(0.0f, 0.002f);
+  Cloud cloud{std::move(photons), {}};
+  for (size_t i = 0; i < query_count; ++i) {
+    const Vec3f& near = cloud.points[random() % cloud.points.size()];
+    cloud.queries.push_back(near + Vec3f(jitter(random), jitter(random), 0.0f));
+  }
+  return cloud;
+}
+
+double seconds(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+/// Median times of two pieces of work, run in turn.
+std::pair<double, double> compare(const std::function<void()>& ours,
+                                  const std::function<void()>& theirs) {
+  std::vector<double> a, b;
+  for (int i = 0; i < repeats; ++i) {
+    a.push_back(seconds(ours));
+    b.push_back(seconds(theirs));
+  }
+  return {median(a), median(b)};
+}
+
+void report(const std::string& name, double value, const std::string& unit,
+            const std::string& compared_with) {
+  fmt::print(R"({{"name": "{}", "value": {:.3f}, "unit": "{}", "compared_with": "{}"}})"
+             "\n",
+             name, value, unit, compared_with);
+}
+
+Tree make_tree(const std::vector<Vec3f>& points) {
+  std::vector<uint32_t> data(points.size());
+  for (size_t i = 0; i < data.size(); ++i) data[i] = uint32_t(i);
+  Tree tree;
+  tree.assign(points, std::move(data));
+  return tree;
+}
+
+double search_ours(const Tree& tree, const Cloud& cloud) {
+  Tree::Neighbors found;
+  double sum = 0;
+  for (const Vec3f& query : cloud.queries) {
+    tree.nearest(query, neighbors, Tree::unlimited, KdAcceptAll(), found);
+    sum += double(found.farthest_sq());
+  }
+  return sum;
+}
+
+double search_theirs(const Peer& peer, const Cloud& cloud) {
+  uint32_t indices[neighbors];
+  float distances_sq[neighbors];
+  double sum = 0;
+  for (const Vec3f& query : cloud.queries) {
+    peer.knnSearch(&query.x, neighbors, indices, distances_sq);
+    sum += double(distances_sq[neighbors - 1]);
+  }
+  return sum;
+}
+
+/// Ends the program if the two trees don't find the same distances.
+void check_distances(const Tree& tree, const Peer& peer, const Cloud& cloud) {
+  Tree::Neighbors found;
+  uint32_t indices[neighbors];
+  float expected[neighbors];
+  for (size_t i = 0; i < cloud.queries.size(); i += 10) {
+    const Vec3f& query = cloud.queries[i];
+    tree.nearest(query, neighbors, Tree::unlimited, KdAcceptAll(), found);
+    peer.knnSearch(&query.x, neighbors, indices, expected);
+    std::vector<float> distances(found.distances_sq().begin(), found.distances_sq().end());
+    std::sort(distances.begin(), distances.end());
+    if (std::equal(distances.begin(), distances.end(), expected, expected + neighbors)) continue;
+    fmt::print(stderr, "kd_tree_bench: the trees disagree at query {}\n", i);
+    std::exit(1);
+  }
+}
+
+/// The leaf size at which nanoflann answers these queries in the shortest time.
+size_t best_leaf_size(const Cloud& cloud, const Points& points) {
+  std::pair<double, size_t> best(infinity, 0);
+  for (size_t leaf_size : {8, 12, 16, 24, 32, 48, 64}) {
+    Peer peer(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
+    peer.buildIndex();
+    std::vector<double> times;
+    for (int i = 0; i < 3; ++i) times.push_back(seconds([&] { search_theirs(peer, cloud); }));
+    best = std::min(best, std::pair(median(times), leaf_size));
+  }
+  return best.second;
+}
+
+size_t measure_search(const std::string& name, const Cloud& cloud) {
+  const Tree tree = make_tree(cloud.points);
+  const Points points{cloud.points};
+  const size_t leaf_size = best_leaf_size(cloud, points);
+  Peer peer(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
+  peer.buildIndex();
+  check_distances(tree, peer, cloud);
+  double sum = 0;
+  const auto [ours, theirs] =
+      compare([&] { sum += search_ours(tree, cloud); }, [&] { sum -= search_theirs(peer, cloud); });
+  if (std::abs(sum) > 1e-6) std::exit(1);
+  report(name, theirs / ours, "ratio of queries per second",
+         fmt::format("nanoflann, leaf size {}: {:.2f} us per query, ours {:.2f} us", leaf_size,
+                     1e6 * theirs / double(query_count), 1e6 * ours / double(query_count)));
+  return leaf_size;
+}
+
+void measure_build(const Cloud& cloud, size_t leaf_size) {
+  const Points points{cloud.points};
+  const auto ours = [&] { make_tree(cloud.points); };
+  const auto [one, theirs] =
+      compare([&] { with_threads(1, ours); },
+              [&] {
+                Peer peer(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
+                peer.buildIndex();
+              });
+  report("kdtree_build_vs_nanoflann", theirs / one, "ratio of speeds, one thread",
+         fmt::format("nanoflann, leaf size {}: {:.0f} ms, ours {:.0f} ms", leaf_size, 1e3 * theirs,
+                     1e3 * one));
+  const auto [single, both] =
+      compare([&] { with_threads(1, ours); }, [&] { with_threads(2, ours); });
+  report("kdtree_build_2_threads", single / both, "ratio of speeds", "one thread");
+}
+
+}  // namespace
+
+int main() {
+  constexpr size_t count = 1000000;
+  const Cloud uniform = uniform_cloud(count);
+  const size_t leaf_size = measure_search("knn50_uniform_vs_nanoflann", uniform);
+  measure_search("knn50_caustic_vs_nanoflann", photon_cloud(nephroid_photons(count)));
+  measure_build(uniform, leaf_size);
+  const Tree tree = make_tree(uniform.points);
+  report("kdtree_bytes_per_point", double(tree.size_in_bytes()) / double(count) - 4.0, "bytes",
+         "12 bytes of position");
+  return 0;
+}

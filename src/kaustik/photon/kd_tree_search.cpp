@@ -1,0 +1,407 @@
+// Searching the buckets with vector instructions; compiled once per instruction set, of which
+// Highway chooses at run time.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kaustik/photon/kd_tree_search.cpp"
+#include <hwy/foreach_target.h>
+// Highway asks for this order.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+#include <utility>
+
+#include "kaustik/photon/kd_tree_buckets.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace kaustik::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using PointTag = hn::CappedTag<float, KdBuckets::bucket_size>;
+using BoxTag = hn::CappedTag<float, KdBuckets::fan_out>;
+
+/// Number of values below `limit`.
+HWY_INLINE size_t count_below(const float* values, size_t count, float limit) {
+  const PointTag d;
+  const size_t lanes = hn::Lanes(d);
+  const auto limits = hn::Set(d, limit);
+  size_t below = 0, i = 0;
+  for (; i + lanes <= count; i += lanes)
+    below += hn::CountTrue(d, hn::Lt(hn::LoadU(d, values + i), limits));
+  const auto rest = hn::FirstN(d, count - i);
+  return below + hn::CountTrue(d, hn::And(rest, hn::Lt(hn::LoadU(d, values + i), limits)));
+}
+
+/// Moves the candidates for which `keep(distances)` to `front`; returns where they end.
+template <typename Keep>
+HWY_INLINE size_t compress(float* distances_sq, uint32_t* indices, size_t count, const Keep& keep,
+                           float* front_distances_sq, uint32_t* front_indices) {
+  const PointTag d;
+  const hn::RebindToUnsigned<PointTag> du;
+  const size_t lanes = hn::Lanes(d);
+  size_t front = 0;
+  for (size_t i = 0; i < count; i += lanes) {
+    const auto distances = hn::LoadU(d, distances_sq + i);
+    const auto ids = hn::LoadU(du, indices + i);
+    const auto kept = hn::And(hn::FirstN(d, count - i), keep(distances));
+    hn::StoreU(hn::Compress(distances, kept), d, front_distances_sq + front);
+    hn::StoreU(hn::Compress(ids, hn::RebindMask(du, kept)), du, front_indices + front);
+    front += hn::CountTrue(d, kept);
+  }
+  return front;
+}
+
+HWY_INLINE void find_range(const float* values, size_t count, float& least, float& greatest) {
+  const PointTag d;
+  const size_t lanes = hn::Lanes(d);
+  auto low = hn::Set(d, values[0]);
+  auto high = low;
+  size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    const auto v = hn::LoadU(d, values + i);
+    low = hn::Min(low, v);
+    high = hn::Max(high, v);
+  }
+  least = hn::GetLane(hn::MinOfLanes(d, low));
+  greatest = hn::GetLane(hn::MaxOfLanes(d, high));
+  for (; i < count; ++i) {
+    least = HWY_MIN(least, values[i]);
+    greatest = HWY_MAX(greatest, values[i]);
+  }
+}
+
+/// Reduces the candidates to the wanted ones, or to up to `slack` more; returns the bound that
+/// this sets: at least `wanted` candidates are at or below it.
+///
+/// Looks for the limit by interpolation among the counts, as squared distances are spread evenly
+/// on a surface; by bisection of the bit patterns every third time, which bounds the effort.
+HWY_INLINE float shrink(float* distances_sq, uint32_t* indices, size_t& count, size_t wanted,
+                        size_t slack) {
+  float least, greatest;
+  find_range(distances_sq, count, least, greatest);
+  if (count <= wanted + slack) return greatest;
+  // The wanted-th value is in [low, high) all the time.
+  uint32_t low = std::bit_cast<uint32_t>(least);
+  uint32_t high = std::bit_cast<uint32_t>(greatest) + 1;
+  size_t below_low = 0, below_high = count;
+  const PointTag d;
+  for (int i = 0; high - low > 1; ++i) {
+    uint32_t middle = low + (high - low) / 2;
+    if (i % 3 != 2) {
+      const float a = std::bit_cast<float>(low), b = std::bit_cast<float>(high);
+      const float share = (float(wanted) + 0.5f + 0.5f * float(slack) - float(below_low)) /
+                          float(below_high - below_low);
+      const uint32_t guess = std::bit_cast<uint32_t>(a + (b - a) * share);
+      middle = HWY_MIN(HWY_MAX(guess, low + 1), high - 1);
+    }
+    const float limit = std::bit_cast<float>(middle);
+    const size_t below = count_below(distances_sq, count, limit);
+    if (below >= wanted && below <= wanted + slack) {
+      const auto limits = hn::Set(d, limit);
+      count = compress(
+          distances_sq, indices, count, [&](auto v) HWY_ATTR { return hn::Lt(v, limits); },
+          distances_sq, indices);
+      return limit;
+    }
+    (below < wanted ? low : high) = middle;
+    (below < wanted ? below_low : below_high) = below;
+  }
+  // Several are exactly at the bound: keep as many of these as are wanted.
+  const float limit = std::bit_cast<float>(low);
+  size_t kept = 0, at_limit = wanted - below_low;
+  for (size_t i = 0; i < count; ++i) {
+    const float distance_sq = distances_sq[i];
+    if (distance_sq > limit || (distance_sq == limit && at_limit == 0)) continue;
+    if (distance_sq == limit) --at_limit;
+    distances_sq[kept] = distance_sq;
+    indices[kept++] = indices[i];
+  }
+  count = kept;
+  return limit;
+}
+
+size_t SelectNearest(float* distances_sq, uint32_t* indices, size_t count, size_t wanted) {
+  if (count > wanted) shrink(distances_sq, indices, count, wanted, 0);
+  float least, greatest;
+  find_range(distances_sq, count, least, greatest);
+  size_t farthest = 0;
+  while (distances_sq[farthest] != greatest) ++farthest;
+  std::swap(distances_sq[farthest], distances_sq[count - 1]);
+  std::swap(indices[farthest], indices[count - 1]);
+  return count;
+}
+
+struct Entry {
+  float distance_sq;
+  uint32_t node;  ///< level + 1 (0: a bucket) in the upper four bits, number within it in the rest
+};
+constexpr uint32_t level_shift = 28;
+constexpr size_t stack_size = KdBuckets::max_levels * KdBuckets::fan_out + KdBuckets::fan_out;
+
+/// Squared distances to lanes i… of the children's boxes.
+template <class D>
+HWY_INLINE hn::Vec<D> box_distance_sq(D d, const KdBuckets::Node& node, size_t i,
+                                      const Vec3f& query) {
+  const auto excess_sq = [&](int axis) HWY_ATTR {
+    const auto q = hn::Set(d, query[axis]);
+    const auto below = hn::Sub(hn::Load(d, node.lower[axis] + i), q);
+    const auto above = hn::Sub(q, hn::Load(d, node.upper[axis] + i));
+    const auto excess = hn::Max(hn::Max(below, above), hn::Zero(d));
+    return hn::Mul(excess, excess);
+  };
+  return hn::Add(hn::Add(excess_sq(0), excess_sq(1)), excess_sq(2));
+}
+
+/// Squared distances to lanes i… of a bucket.
+template <class D>
+HWY_INLINE hn::Vec<D> point_distance_sq(D d, const KdBuckets::Bucket& bucket, size_t i,
+                                        const Vec3f& query) {
+  const auto x = hn::Sub(hn::Load(d, bucket.x + i), hn::Set(d, query.x));
+  const auto y = hn::Sub(hn::Load(d, bucket.y + i), hn::Set(d, query.y));
+  const auto z = hn::Sub(hn::Load(d, bucket.z + i), hn::Set(d, query.z));
+  return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+}
+
+/// Appends first + lane for the lanes in `mask`; returns the new count.
+template <class D>
+HWY_INLINE size_t append_ids(D d, hn::Mask<D> mask, uint32_t first, uint32_t* ids, size_t count) {
+  const hn::RebindToUnsigned<D> du;
+  hn::StoreU(hn::Compress(hn::Iota(du, first), hn::RebindMask(du, mask)), du, ids + count);
+  return count + hn::CountTrue(d, mask);
+}
+
+/// Pushes the children of a node that are nearer than `bound`, the nearest last.
+HWY_INLINE size_t push_children(const KdBuckets::Node& node, const Vec3f& query, float bound,
+                                uint32_t first_child, Entry* stack, size_t top) {
+  const BoxTag d;
+  float distances[KdBuckets::fan_out + kd_candidate_padding];
+  uint32_t children[KdBuckets::fan_out + kd_candidate_padding];
+  size_t count = 0;
+  for (size_t i = 0; i < KdBuckets::fan_out; i += hn::Lanes(d)) {
+    const auto distance = box_distance_sq(d, node, i, query);
+    const auto near = hn::Lt(distance, hn::Set(d, bound));
+    hn::StoreU(hn::Compress(distance, near), d, distances + count);
+    count = append_ids(d, near, first_child + uint32_t(i), children, count);
+  }
+  for (size_t i = 0; i < count; ++i) {
+    size_t place = top + i;
+    for (; place > top && stack[place - 1].distance_sq < distances[i]; --place)
+      stack[place] = stack[place - 1];
+    stack[place] = {distances[i], children[i]};
+  }
+  return top + count;
+}
+
+/// Adds the points of a bucket that are nearer than the bound.
+template <bool filtered>
+HWY_INLINE void test_bucket(const KdBuckets::Bucket& bucket, uint32_t first, const Vec3f& query,
+                            const KdBuckets::Filter& filter, KdCandidates& found) {
+  const PointTag d;
+  for (uint32_t i = 0; i < KdBuckets::bucket_size; i += uint32_t(hn::Lanes(d))) {
+    const auto distance = point_distance_sq(d, bucket, i, query);
+    auto near = hn::Lt(distance, hn::Set(d, found.bound));
+    if constexpr (filtered) {
+      uint8_t bits[8] = {};
+      hn::StoreMaskBits(d, near, bits);
+      const uint32_t mask = uint32_t(bits[0]) | uint32_t(bits[1]) << 8;
+      if (mask == 0) continue;
+      const uint32_t accepted = filter.accept(filter.context, first + i, mask);
+      bits[0] = uint8_t(accepted);
+      bits[1] = uint8_t(accepted >> 8);
+      near = hn::LoadMaskBits(d, bits);
+    }
+    hn::StoreU(hn::Compress(distance, near), d, found.distances_sq + found.count);
+    found.count = append_ids(d, near, first + i, found.indices, found.count);
+  }
+}
+
+template <bool filtered>
+void search_nearest(const KdBuckets::View& view, const Vec3f& query,
+                    const KdBuckets::Filter& filter, KdCandidates& found) {
+  Entry stack[stack_size];
+  size_t top = 0;
+  stack[top++] = {0.0f, uint32_t(view.level_count) << level_shift};
+  // The first bound as soon as there are enough, the later ones once it pays.
+  size_t trigger = HWY_MAX(found.wanted, found.count);
+  const size_t slack = found.wanted / 8;
+  while (top > 0) {
+    const Entry entry = stack[--top];
+    if (!(entry.distance_sq < found.bound)) continue;
+    const uint32_t number = entry.node & ((1u << level_shift) - 1);
+    const uint32_t level = entry.node >> level_shift;
+    if (level > 0) {
+      const uint32_t first_child = number * KdBuckets::fan_out | (level - 1) << level_shift;
+      top = push_children(view.levels[level - 1][number], query, found.bound, first_child, stack,
+                          top);
+      continue;
+    }
+    test_bucket<filtered>(view.buckets[number], number * KdBuckets::bucket_size, query, filter,
+                          found);
+    if (found.count < trigger) continue;
+    found.bound = HWY_MIN(
+        found.bound, shrink(found.distances_sq, found.indices, found.count, found.wanted, slack));
+    trigger = found.full;
+  }
+}
+
+void Nearest(const KdBuckets::View& view, const Vec3f& query, const KdBuckets::Filter& filter,
+             KdCandidates& found) {
+  if (filter.accept != nullptr)
+    search_nearest<true>(view, query, filter, found);
+  else
+    search_nearest<false>(view, query, filter, found);
+}
+
+/// The region of KdBuckets::within, for collect().
+class Ball {
+ public:
+  Ball(const Vec3f& center, float radius_sq) : center_(center), radius_sq_(radius_sq) {}
+
+  template <class D>
+  HWY_INLINE hn::Mask<D> overlaps(D d, const KdBuckets::Node& node, size_t i) const {
+    return hn::Lt(box_distance_sq(d, node, i, center_), hn::Set(d, radius_sq_));
+  }
+  template <class D>
+  HWY_INLINE hn::Mask<D> contains(D d, const KdBuckets::Bucket& bucket, size_t i,
+                                  hn::Vec<D>& distance) const {
+    distance = point_distance_sq(d, bucket, i, center_);
+    return hn::Lt(distance, hn::Set(d, radius_sq_));
+  }
+
+ private:
+  Vec3f center_;
+  float radius_sq_;
+};
+
+/// The region of KdBuckets::inside, for collect().
+class ClosedBox {
+ public:
+  ClosedBox(const Vec3f& lower, const Vec3f& upper) : lower_(lower), upper_(upper) {}
+
+  template <class D>
+  HWY_INLINE hn::Mask<D> overlaps(D d, const KdBuckets::Node& node, size_t i) const {
+    auto result = meets(d, node.lower[0] + i, node.upper[0] + i, 0);
+    result = hn::And(result, meets(d, node.lower[1] + i, node.upper[1] + i, 1));
+    return hn::And(result, meets(d, node.lower[2] + i, node.upper[2] + i, 2));
+  }
+  template <class D>
+  HWY_INLINE hn::Mask<D> contains(D d, const KdBuckets::Bucket& bucket, size_t i,
+                                  hn::Vec<D>& distance) const {
+    distance = hn::Zero(d);
+    auto result = meets(d, bucket.x + i, bucket.x + i, 0);
+    result = hn::And(result, meets(d, bucket.y + i, bucket.y + i, 1));
+    return hn::And(result, meets(d, bucket.z + i, bucket.z + i, 2));
+  }
+
+ private:
+  template <class D>
+  HWY_INLINE hn::Mask<D> meets(D d, const float* lower, const float* upper, int axis) const {
+    return hn::And(hn::Le(hn::Load(d, lower), hn::Set(d, upper_[axis])),
+                   hn::Ge(hn::Load(d, upper), hn::Set(d, lower_[axis])));
+  }
+  Vec3f lower_, upper_;
+};
+
+/// Hands all points of a region to the sink.
+template <typename Region>
+HWY_INLINE void collect(const KdBuckets::View& view, const Region& region,
+                        const KdBuckets::Sink& sink) {
+  const BoxTag box;
+  const PointTag point;
+  constexpr size_t block = 256;
+  float distances_sq[block + kd_candidate_padding];
+  uint32_t indices[block + kd_candidate_padding];
+  uint32_t stack[stack_size];
+  size_t count = 0, top = 0;
+  stack[top++] = uint32_t(view.level_count) << level_shift;
+  while (top > 0) {
+    const uint32_t entry = stack[--top];
+    const uint32_t number = entry & ((1u << level_shift) - 1);
+    const uint32_t level = entry >> level_shift;
+    if (level > 0) {
+      const uint32_t first_child = number * KdBuckets::fan_out | (level - 1) << level_shift;
+      const KdBuckets::Node& node = view.levels[level - 1][number];
+      for (size_t i = 0; i < KdBuckets::fan_out; i += hn::Lanes(box)) {
+        const auto overlaps = region.overlaps(box, node, i);
+        top = append_ids(box, overlaps, first_child + uint32_t(i), stack, top);
+      }
+      continue;
+    }
+    for (uint32_t i = 0; i < KdBuckets::bucket_size; i += uint32_t(hn::Lanes(point))) {
+      auto distance = hn::Undefined(point);
+      const auto contained = region.contains(point, view.buckets[number], i, distance);
+      hn::StoreU(hn::Compress(distance, contained), point, distances_sq + count);
+      count = append_ids(point, contained, number * KdBuckets::bucket_size + i, indices, count);
+    }
+    if (count < block) continue;
+    sink.take(sink.context, indices, distances_sq, count);
+    count = 0;
+  }
+  if (count > 0) sink.take(sink.context, indices, distances_sq, count);
+}
+
+void Within(const KdBuckets::View& view, const Vec3f& query, float radius_sq,
+            const KdBuckets::Sink& sink) {
+  collect(view, Ball(query, radius_sq), sink);
+}
+
+void Inside(const KdBuckets::View& view, const Vec3f& lower, const Vec3f& upper,
+            const KdBuckets::Sink& sink) {
+  collect(view, ClosedBox(lower, upper), sink);
+}
+
+}  // namespace
+}  // namespace kaustik::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace kaustik {
+namespace {
+HWY_EXPORT(SelectNearest);
+HWY_EXPORT(Nearest);
+HWY_EXPORT(Within);
+HWY_EXPORT(Inside);
+}  // namespace
+
+size_t select_nearest(float* distances_sq, uint32_t* indices, size_t count, size_t wanted) {
+  return HWY_DYNAMIC_DISPATCH(SelectNearest)(distances_sq, indices, count, wanted);
+}
+
+size_t select_nearest(double* distances_sq, uint32_t* indices, size_t count, size_t wanted) {
+  std::vector<std::pair<double, uint32_t>> candidates(count);
+  for (size_t i = 0; i < count; ++i) candidates[i] = {distances_sq[i], indices[i]};
+  const size_t kept = std::min(count, wanted);
+  std::nth_element(candidates.begin(), candidates.begin() + std::ptrdiff_t(kept - 1),
+                   candidates.end());
+  for (size_t i = 0; i < kept; ++i) std::tie(distances_sq[i], indices[i]) = candidates[i];
+  return kept;
+}
+
+void KdBuckets::nearest(const Vec3f& query, const Filter& filter,
+                        KdNeighbors<float>& neighbors) const {
+  if (size_ == 0) return;
+  KdCandidates found{neighbors.distances_sq_.data(),
+                     neighbors.indices_.data(),
+                     neighbors.count_,
+                     neighbors.wanted_,
+                     neighbors.full_,
+                     neighbors.bound_};
+  HWY_DYNAMIC_DISPATCH(Nearest)(view(), query, filter, found);
+  neighbors.count_ = found.count;
+  neighbors.bound_ = found.bound;
+}
+
+void KdBuckets::within(const Vec3f& query, float radius_sq, const Sink& sink) const {
+  if (size_ == 0) return;
+  HWY_DYNAMIC_DISPATCH(Within)(view(), query, radius_sq, sink);
+}
+
+void KdBuckets::inside(const Vec3f& lower, const Vec3f& upper, const Sink& sink) const {
+  if (size_ == 0) return;
+  HWY_DYNAMIC_DISPATCH(Inside)(view(), lower, upper, sink);
+}
+
+}  // namespace kaustik
+#endif
