@@ -1,0 +1,29 @@
+#include "kaustik/integrator/camera_path.h"
+
+namespace kaustik {
+
+Parameter max_depth_parameter() {
+  return integer_parameter("max_depth", -1,
+                           "Longest path in segments (1: lamps alone, 2: direct light); -1: any.")
+      .range(-1, 1 << 20);
+}
+
+Parameter rr_depth_parameter() {
+  return integer_parameter("rr_depth", 5, "Scattering events before Russian roulette starts.")
+      .range(1, 1 << 20);
+}
+
+int read_maximum_events(const Arguments& arguments) {
+  const auto depth = arguments.integer("max_depth");
+  return depth < 0 ? 1 << 20 : std::max(0, int(depth) - 1);
+}
+
+FirstHit describe_first_hit(const SurfaceVertex& vertex, float distance) {
+  FirstHit first;
+  first.albedo = vertex.albedo(Lobes::all);
+  first.normal = dot(vertex.normal(), vertex.wo()) < 0 ? -vertex.normal() : vertex.normal();
+  first.depth = distance;
+  return first;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,103 @@
+#include "kaustik/integrator/light_tracer.h"
+
+#include <numeric>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/integrator/camera_path.h"
+#include "kaustik/transport/light_path.h"
+
+namespace kaustik {
+
+struct LightTracer::Counts {
+  uint64_t rays = 0, splats = 0;
+};
+
+const TypeInfo& LightTracer::info() {
+  static const TypeInfo info{"integrator",
+                             "lighttracer",
+                             "Unbiased light paths splatted to the camera; finds caustics of small "
+                             "lamps, but nothing that "
+                             "the camera sees by a mirror or through glass.",
+                             {components_parameter(), max_depth_parameter(), rr_depth_parameter(),
+                              ignored_parameter("hide_emitters", ParameterKind::boolean)}};
+  return info;
+}
+
+LightTracer::LightTracer(const Arguments& arguments, const Scene& scene)
+    : scene_(scene),
+      components_(read_components(arguments)),
+      maximum_events_(read_maximum_events(arguments)),
+      emission_(scene) {
+  for (const auto& light : scene.lights()) powers_.push_back(light->power().sum());
+}
+
+std::unique_ptr<PassState> LightTracer::prepare(const Pass& pass, SplatBuffer& splats,
+                                                std::stop_token stop) const {
+  auto state = std::make_unique<PassState>();
+  const Vec2i size = scene_.film().crop_size;
+  const uint64_t wanted = uint64_t(size.x) * uint64_t(size.y) * pass.samples_per_pixel;
+  const auto total = uint32_t(std::min<uint64_t>(wanted, 0x7fffffffu));
+  const std::vector<uint32_t> shares = share_photons(total, powers_, powers_);
+  std::atomic<uint64_t> rays{0}, hits{0};
+  for (size_t light = 0; light < shares.size(); ++light)
+    parallel_blocks(shares[light], 1024, [&](size_t begin, size_t end, size_t) {
+      if (stop.stop_requested()) return;
+      const Counts counts =
+          trace_block(pass, int(light), uint32_t(begin), uint32_t(end), shares[light], splats);
+      rays += counts.rays;
+      hits += counts.splats;
+    });
+  state->report.rays = rays;
+  state->report.photons = hits;
+  return state;
+}
+
+LightTracer::Counts LightTracer::trace_block(const Pass& pass, int light, uint32_t begin,
+                                             uint32_t end, uint32_t count,
+                                             SplatBuffer& splats) const {
+  Counts counts;
+  const LightPathLimits limits{std::max(0, maximum_events_ - 1), Lobes::specular};
+  const auto splat = [&](const SurfacePoint& point, Component component, const Spectrum& intensity,
+                         const CameraConnection& connection) {
+    const Spectrum value =
+        intensity * (connection.importance / (sqr(connection.distance) * float(count)));
+    if (value.is_zero()) return;
+    ++counts.rays;
+    if (scene_.occluded(spawn_ray_to(point, scene_.camera().position()))) return;
+    ++counts.splats;
+    splats.add(connection.raster, component, value);
+  };
+  for (uint32_t i = begin; i < end; ++i) {
+    Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::light_path, uint64_t(light), i);
+    const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
+    const EmittedRay emitted = emission_.sample(light, u_position, u_direction, sampler.next_1d());
+    if (emitted.on_surface && splats.wants(Component::emission)) {
+      const CameraConnection connection = scene_.camera().connect(emitted.origin.position);
+      const float cosine = dot(connection.direction, emitted.origin.ng);
+      if (connection.importance > 0 && cosine > 0 && emitted.pdf_position > 0)
+        splat(emitted.origin, Component::emission,
+              scene_.lights()[size_t(light)]->emitted(emitted.origin, connection.direction) *
+                  (cosine / emitted.pdf_position),
+              connection);
+    }
+    if (emitted.flux.is_zero() || maximum_events_ < 1) continue;
+    const LightPathResult result = trace_light_path(
+        scene_, emitted.ray, emitted.flux, sampler, limits, [&](const LightVertex& at) {
+          const SurfaceVertex& vertex = at.vertex;
+          const Lobes seen = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
+          if (!any(seen)) return Lobes::all;
+          const CameraConnection connection = scene_.camera().connect(vertex.position());
+          if (!(connection.importance > 0)) return Lobes::all;
+          for (const Lobes lobes : {Lobes::diffuse, Lobes::glossy})
+            if (any(seen & lobes))
+              splat(vertex.point(), at.path_class.component_seen_by(lobes),
+                    at.state.throughput * vertex.eval_cosine(connection.direction, lobes),
+                    connection);
+          return Lobes::all;
+        });
+    counts.rays += result.rays;
+  }
+  return counts;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,34 @@
+#pragma once
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/photon/emission.h"
+
+namespace kaustik {
+
+/// Light paths from the lamps, splatted to the camera at every vertex that it sees: unbiased, and
+/// the referee for L S⁺ D E, which path tracing cannot find. What the camera sees by a specular
+/// event is out of its reach.
+class LightTracer final : public Integrator {
+ public:
+  LightTracer(const Arguments& arguments, const Scene& scene);
+  static const TypeInfo& info();
+
+  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
+                                     std::stop_token stop) const override;
+  void sample(const PassState&, const Vec2f&, Sampler&, SampleSink&) const override {}
+  bool splats() const override { return true; }
+  bool samples_camera() const override { return false; }
+  ComponentSet components() const override { return components_; }
+
+ private:
+  struct Counts;
+  Counts trace_block(const Pass& pass, int light, uint32_t begin, uint32_t end, uint32_t count,
+                     SplatBuffer& splats) const;
+
+  const Scene& scene_;
+  ComponentSet components_;
+  int maximum_events_;
+  EmissionSampler emission_;
+  std::vector<double> powers_;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/light_tracer.h"
+#include "kaustik/integrator/path.h"
+
+namespace kaustik {
+namespace {
+
+template <typename T>
+std::unique_ptr<Integrator> make(const Arguments& arguments, const Scene& scene) {
+  return std::make_unique<T>(arguments, scene);
+}
+
+std::vector<std::string> valid_components() {
+  return {component_names.begin(), component_names.end()};
+}
+
+}  // namespace
+
+const std::vector<IntegratorType>& integrator_types() {
+  static const std::vector<IntegratorType> types{
+      {PathIntegrator::info(), make<PathIntegrator>},
+      {LightTracer::info(), make<LightTracer>},
+  };
+  return types;
+}
+
+Parameter components_parameter() {
+  return text_parameter("components", "all",
+                        "Parts of the light to compute, separated by commas: emission, direct, "
+                        "caustic, indirect, specular, or all.");
+}
+
+ComponentSet read_components(const Arguments& arguments) {
+  const std::string& text = arguments.text("components");
+  if (text == "all") return ComponentSet::all();
+  ComponentSet set;
+  for (size_t start = 0; start <= text.size();) {
+    const size_t end = std::min(text.find(',', start), text.size());
+    std::string name = text.substr(start, end - start);
+    std::erase(name, ' ');
+    bool known = false;
+    for (int i = 0; i < component_count; ++i)
+      if (name == component_names[size_t(i)]) {
+        set.add(Component(i));
+        known = true;
+      }
+    if (!known)
+      throw Error(ErrorKind::input, fmt::format("'components' names '{}'", name),
+                  suggest(name, valid_components()), arguments.place_of("components"));
+    start = end + 1;
+  }
+  return set;
+}
+
+}  // namespace kaustik

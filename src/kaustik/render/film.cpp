@@ -1,0 +1,128 @@
+#include "kaustik/render/film.h"
+
+#include <fmt/format.h>
+
+#include "kaustik/base/statistics.h"
+#include "kaustik/image/photometry.h"
+
+namespace kaustik {
+namespace {
+
+constexpr size_t first_hit_lanes = 7;
+
+}  // namespace
+
+Film::Film(const FilmSettings& settings, ComponentSet components)
+    : size_(settings.crop_size), components_(components) {
+  // The sums, the pass and the image that is written, in units of four-byte channels.
+  constexpr int64_t bytes_per_pixel =
+      sizeof(Fixed) * (component_count * lanes_ + lanes_ + first_hit_lanes) + sizeof(PassPixel) +
+      4 * (3 * (component_count + 2) + 7);
+  check_image_size(size_.x, size_.y, bytes_per_pixel / 4);
+  const size_t pixels = size_t(size_.x) * size_t(size_.y);
+  sums_.resize(pixels * component_count * lanes_);
+  squares_.resize(pixels * lanes_);
+  first_hits_.resize(pixels * first_hit_lanes);
+}
+
+void Film::add_pass(const std::vector<PassPixel>& pixels, uint32_t pass_index) {
+  double luminance_sum = 0;
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    const PassPixel& pixel = pixels[i];
+    double total[lanes_] = {};
+    Fixed* sum = sums(i);
+    for (int c = 0; c < component_count; ++c)
+      for (int lane = 0; lane < lanes_; ++lane) {
+        const double value = pixel.radiance[size_t(c)][lane];
+        sum[c * lanes_ + lane] += fixed_from(value);
+        total[lane] += value;
+      }
+    for (int lane = 0; lane < lanes_; ++lane)
+      squares_[i * lanes_ + size_t(lane)] += fixed_from(total[lane] * total[lane]);
+    luminance_sum += photopic(Vec3f(float(total[0]), float(total[1]), float(total[2])));
+    const FirstHit& hit = pixel.first_hit;
+    const double first[first_hit_lanes] = {hit.albedo[0], hit.albedo[1], hit.albedo[2],
+                                           hit.normal.x,  hit.normal.y,  hit.normal.z,
+                                           hit.depth};
+    for (size_t k = 0; k < first_hit_lanes; ++k)
+      first_hits_[i * first_hit_lanes + k] += fixed_from(first[k]);
+  }
+  const uint32_t replicate = pass_index % replicate_count;
+  replicate_sums_[replicate] += fixed_from(luminance_sum / double(pixels.size()));
+  ++replicate_passes_[replicate];
+  ++pass_count_;
+}
+
+Spectrum Film::mean(size_t pixel) const {
+  Spectrum result;
+  const Fixed* sum = sums(pixel);
+  for (int lane = 0; lane < lanes_; ++lane) {
+    Fixed total = 0;
+    for (int c = 0; c < component_count; ++c) total += sum[c * lanes_ + lane];
+    result.set(lane, float(double_from(total) / pass_count_));
+  }
+  return result;
+}
+
+double Film::variance_of_mean(size_t pixel, int lane) const {
+  if (pass_count_ < 2) return 0;
+  const double n = pass_count_;
+  Fixed total = 0;
+  for (int c = 0; c < component_count; ++c) total += sums(pixel)[c * lanes_ + lane];
+  const double m = double_from(total) / n;
+  const double square = double_from(squares_[pixel * lanes_ + size_t(lane)]) / n;
+  return std::max(0.0, square - m * m) / (n - 1);
+}
+
+Image Film::image() const {
+  std::vector<std::string> names = {"R", "G", "B"};
+  for (int c = 0; c < component_count; ++c)
+    for (const char* lane : {"R", "G", "B"})
+      if (components_.has(Component(c)))
+        names.push_back(fmt::format("{}.{}", component_names[size_t(c)], lane));
+  for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "depth.Z",
+                           "error.R", "error.G", "error.B"})
+    names.emplace_back(name);
+  Image image(size_.x, size_.y, names);
+  if (pass_count_ == 0) return image;
+  for (int y = 0; y < size_.y; ++y)
+    for (int x = 0; x < size_.x; ++x) {
+      const size_t pixel = size_t(y) * size_t(size_.x) + size_t(x);
+      const Spectrum total = mean(pixel);
+      int channel = 0;
+      for (int lane = 0; lane < lanes_; ++lane) image.at(x, y, channel++) = total[lane];
+      for (int c = 0; c < component_count; ++c)
+        for (int lane = 0; lane < lanes_; ++lane)
+          if (components_.has(Component(c)))
+            image.at(x, y, channel++) =
+                float(double_from(sums(pixel)[c * lanes_ + lane]) / pass_count_);
+      for (size_t k = 0; k < first_hit_lanes; ++k)
+        image.at(x, y, channel++) =
+            float(double_from(first_hits_[pixel * first_hit_lanes + k]) / pass_count_);
+      for (int lane = 0; lane < lanes_; ++lane)
+        image.at(x, y, channel++) = float(std::sqrt(variance_of_mean(pixel, lane)));
+    }
+  return image;
+}
+
+double Film::mean_error() const {
+  RunningStatistics means;
+  for (size_t r = 0; r < replicate_count; ++r)
+    if (replicate_passes_[r] > 0) means.add(double_from(replicate_sums_[r]) / replicate_passes_[r]);
+  if (means.count() < 2 || !(means.mean() > 0)) return std::numeric_limits<double>::infinity();
+  return means.standard_error() / means.mean();
+}
+
+double Film::relative_noise() const {
+  if (pass_count_ < 2) return std::numeric_limits<double>::infinity();
+  double sum = 0;
+  const size_t pixels = size_t(size_.x) * size_t(size_.y);
+  for (size_t i = 0; i < pixels; ++i) {
+    const Spectrum m = mean(i);
+    for (int lane = 0; lane < lanes_; ++lane)
+      sum += variance_of_mean(i, lane) / (sqr(m[lane]) + 0.01);
+  }
+  return std::sqrt(sum / (double(pixels) * lanes_));
+}
+
+}  // namespace kaustik

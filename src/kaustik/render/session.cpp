@@ -1,0 +1,267 @@
+#include "kaustik/render/session.h"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+#include <chrono>
+#include <fstream>
+#include <mutex>
+#include <numeric>
+
+#include "kaustik/base/parallel.h"
+
+namespace kaustik {
+namespace {
+
+constexpr int tile_size = 16;
+constexpr uint32_t default_passes = 16;
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Resident memory of the program, 0 where the system does not tell.
+size_t resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  size_t total = 0, resident = 0;
+  statm >> total >> resident;
+  return resident * size_t(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+/// Counts what is done and tells the listener now and then.
+class Session::Monitor {
+ public:
+  Monitor(const Session& session, const std::function<void(const Progress&)>& listener)
+      : session_(session), listener_(listener), start_(Clock::now()) {}
+
+  void start_pass() {
+    pass_start_ = Clock::now();
+    tiles_done_ = 0;
+  }
+  void light_pass_done(const PassReport& report) {
+    light_seconds += seconds_since(pass_start_);
+    rays += report.rays;
+    photons += report.photons;
+    tell(Progress::Stage::picture, false);
+  }
+  void tile_done(uint64_t tile_rays) {
+    rays += tile_rays;
+    ++tiles_done_;
+    tell(Progress::Stage::picture, false);
+  }
+  void pass_done() {
+    ++passes_done_;
+    tiles_done_ = 0;
+    noise_ = session_.film_.relative_noise();
+    tell(Progress::Stage::light, false);
+  }
+  double elapsed() const { return seconds_since(start_); }
+  double seconds_per_pass() const { return elapsed() / std::max(1u, passes_done_.load()); }
+
+  void tell(Progress::Stage stage, bool force) {
+    if (!listener_) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock || (!force && told_ && seconds_since(last_) < 0.2)) return;
+    told_ = true;
+    last_ = Clock::now();
+    Progress p;
+    p.stage = stage;
+    p.elapsed_s = elapsed();
+    p.passes_done = passes_done_;
+    p.passes_total = session_.pass_count_;
+    p.fraction = stage == Progress::Stage::done ? 1 : fraction(p.elapsed_s);
+    p.remaining_s = p.fraction > 1e-3 ? p.elapsed_s * (1 / p.fraction - 1) : -1;
+    p.rays_per_s = double(rays) / std::max(1e-9, p.elapsed_s);
+    p.photons_per_s = light_seconds > 0 ? double(photons) / light_seconds : 0;
+    p.memory_bytes = resident_bytes();
+    p.relative_error = noise_;
+    listener_(p);
+  }
+
+  std::atomic<uint64_t> rays{0}, photons{0}, dropped{0};
+  double light_seconds = 0;
+
+ private:
+  double fraction(double elapsed_s) const {
+    const double tiles = double(session_.tiles_.x) * session_.tiles_.y;
+    double f = 0;
+    if (session_.pass_count_ > 0)
+      f = (passes_done_ + double(tiles_done_) / tiles) / session_.pass_count_;
+    if (session_.settings_.seconds) f = std::max(f, elapsed_s / *session_.settings_.seconds);
+    return std::min(f, 0.999);
+  }
+
+  const Session& session_;
+  const std::function<void(const Progress&)>& listener_;
+  Clock::time_point start_, pass_start_, last_;
+  bool told_ = false;
+  std::mutex mutex_;
+  std::atomic<uint32_t> passes_done_{0}, tiles_done_{0};
+  std::atomic<double> noise_{std::numeric_limits<double>::infinity()};
+};
+
+Session::Session(const Scene& scene, const Integrator& integrator, const SessionSettings& settings)
+    : scene_(scene),
+      integrator_(integrator),
+      settings_(settings),
+      film_(scene.film(), integrator.components()),
+      splats_(integrator.splats() ? scene.film() : FilmSettings{{1, 1}, {0, 0}, {1, 1}, {}, 0},
+              integrator.components()),
+      pixels_(size_t(film_.width()) * size_t(film_.height())),
+      tiles_((film_.width() + tile_size - 1) / tile_size,
+             (film_.height() + tile_size - 1) / tile_size) {
+  plan();
+}
+
+Session::~Session() = default;
+
+void Session::plan() {
+  const uint32_t by_integrator = integrator_.default_samples_per_pass();
+  std::optional<uint32_t> samples = settings_.samples_per_pixel;
+  if (!samples && !settings_.seconds && scene_.film().sample_count > 0)
+    samples = uint32_t(scene_.film().sample_count);
+  if (samples) {
+    pass_count_ = settings_.passes.value_or(
+        std::clamp((*samples + by_integrator - 1) / by_integrator, 1u, default_passes));
+    pass_count_ = std::min(pass_count_, *samples);
+    samples_per_pass_ = (*samples + pass_count_ - 1) / std::max(1u, pass_count_);
+  } else {
+    samples_per_pass_ = by_integrator;
+    pass_count_ = settings_.passes.value_or(settings_.seconds ? 0 : default_passes);
+  }
+}
+
+SessionReport Session::run(std::stop_token stop,
+                           const std::function<void(const Progress&)>& progress) {
+  report_ = {};
+  report_.samples_per_pass = samples_per_pass_;
+  Monitor monitor(*this, progress);
+  with_threads(settings_.threads, [&] {
+    for (uint32_t i = 0; pass_count_ == 0 || i < pass_count_; ++i) {
+      const bool out_of_time = settings_.seconds && i > 0 &&
+                               monitor.elapsed() + monitor.seconds_per_pass() > *settings_.seconds;
+      if (out_of_time) break;
+      if (stop.stop_requested() && i > 0) break;
+      if (!render_pass(settings_.first_pass + i, stop, monitor)) break;
+      monitor.pass_done();
+    }
+  });
+  report_.cancelled = stop.stop_requested();
+  report_.passes = film_.pass_count();
+  report_.rays = monitor.rays;
+  report_.photons = monitor.photons;
+  report_.dropped_samples = monitor.dropped + splats_.dropped();
+  report_.seconds = monitor.elapsed();
+  report_.light_seconds = monitor.light_seconds;
+  if (report_.dropped_samples > 0)
+    report_.warnings.push_back(
+        fmt::format("{} samples were not finite and were left out", report_.dropped_samples));
+  monitor.tell(Progress::Stage::done, true);
+  return report_;
+}
+
+bool Session::render_pass(uint32_t index, std::stop_token stop, Monitor& monitor) {
+  monitor.start_pass();
+  const Pass pass{settings_.seed, index, samples_per_pass_};
+  const bool first = film_.pass_count() == 0;
+  if (integrator_.splats()) splats_.clear();
+  std::fill(pixels_.begin(), pixels_.end(), PassPixel{});
+  monitor.tell(Progress::Stage::light, false);
+  const auto state = integrator_.prepare(pass, splats_, stop);
+  monitor.light_pass_done(state->report);
+  for (const std::string& warning : state->report.warnings)
+    if (std::find(report_.warnings.begin(), report_.warnings.end(), warning) ==
+        report_.warnings.end())
+      report_.warnings.push_back(warning);
+  if (integrator_.samples_camera() && !stop.stop_requested())
+    parallel_blocks(size_t(tiles_.x) * size_t(tiles_.y), 1, [&](size_t tile, size_t, size_t) {
+      if (stop.stop_requested()) return;
+      render_tile(pass, *state, int(tile), monitor);
+    });
+  const bool complete = !stop.stop_requested();
+  if (!complete && !first) return false;
+  if (integrator_.splats()) add_splats();
+  film_.add_pass(pixels_, index);
+  report_.incomplete_pass = !complete;
+  return complete;
+}
+
+void Session::render_tile(const Pass& pass, const PassState& state, int tile, Monitor& monitor) {
+  const int x0 = tile % tiles_.x * tile_size, y0 = tile / tiles_.x * tile_size;
+  const int x1 = std::min(x0 + tile_size, film_.width());
+  const int y1 = std::min(y0 + tile_size, film_.height());
+  const uint32_t replicate = pass.index % replicate_count;
+  const uint32_t first_index = pass.index / replicate_count * pass.samples_per_pixel;
+  const PixelFilter& filter = scene_.film().filter;
+  const float weight = 1.0f / float(pass.samples_per_pixel);
+  uint64_t rays = 0;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) {
+      PassPixel& pixel = pixels_[size_t(y) * size_t(film_.width()) + size_t(x)];
+      // The address of a pixel is its place in the whole picture, so a crop window shows the same.
+      const uint64_t address =
+          uint64_t(y + scene_.film().crop_offset.y) * uint64_t(scene_.film().size.x) +
+          uint64_t(x + scene_.film().crop_offset.x);
+      for (uint32_t s = 0; s < pass.samples_per_pixel; ++s) {
+        Sampler sampler =
+            Sampler::at(pass.seed, replicate, Stream::camera, address, first_index + s);
+        const Vec2f offset = filter.sample(sampler.next_2d());
+        SampleSink sink(integrator_.components());
+        integrator_.sample(state, {float(x) + 0.5f + offset.x, float(y) + 0.5f + offset.y}, sampler,
+                           sink);
+        rays += sink.rays();
+        for (int c = 0; c < component_count; ++c) {
+          const Spectrum& radiance = sink.radiance(Component(c));
+          if (radiance.is_finite())
+            pixel.radiance[size_t(c)] += radiance * weight;
+          else
+            ++monitor.dropped;
+        }
+        pixel.first_hit.albedo += sink.first_hit().albedo * weight;
+        pixel.first_hit.normal += sink.first_hit().normal * weight;
+        pixel.first_hit.depth += sink.first_hit().depth * weight;
+      }
+    }
+  monitor.tile_done(rays);
+}
+
+void Session::add_splats() {
+  for (int y = 0; y < film_.height(); ++y)
+    for (int x = 0; x < film_.width(); ++x) {
+      PassPixel& pixel = pixels_[size_t(y) * size_t(film_.width()) + size_t(x)];
+      for (int c = 0; c < component_count; ++c)
+        if (splats_.wants(Component(c)))
+          pixel.radiance[size_t(c)] += splats_.value(x, y, Component(c));
+    }
+}
+
+std::unique_ptr<Integrator> make_integrator(const Description& description, const Scene& scene,
+                                            const std::string& type,
+                                            std::vector<std::string>* warnings) {
+  const std::shared_ptr<Object> object = find_integrator(description);
+  std::string name = type;
+  if (name.empty()) name = object ? object->type : "photonmap";
+  std::vector<std::string> valid;
+  for (const IntegratorType& row : integrator_types()) {
+    valid.push_back(row.info.name);
+    if (row.info.name != name) continue;
+    // Properties of the file's integrator mean something only to its own type.
+    const bool same = object && object->type == name;
+    Problems problems;
+    const Arguments arguments(row.info, same ? object->properties : std::vector<Property>{},
+                              same ? object->place : Place{}, problems);
+    problems.throw_if_any();
+    if (warnings)
+      for (const std::string& ignored : arguments.ignored())
+        warnings->push_back(
+            fmt::format("'{}' of integrator '{}' has no effect here", ignored, name));
+    return row.create(arguments, scene);
+  }
+  throw Error(ErrorKind::input, fmt::format("unknown integrator type '{}'", name),
+              suggest(name, valid), object && type.empty() ? object->place : Place{});
+}
+
+}  // namespace kaustik

@@ -1,0 +1,97 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/render/film.h"
+
+namespace kaustik {
+
+/// How a session goes about its passes.
+struct SessionSettings {
+  uint64_t seed = 0;
+  int threads = 0;  ///< 0: all
+  uint32_t first_pass = 0;
+  std::optional<uint32_t> passes;  ///< how many; absent: see `samples_per_pixel` and `seconds`
+  /// Samples per pixel of all passes together; absent: the scene's, else the integrator's default
+  /// per pass.
+  std::optional<uint32_t> samples_per_pixel;
+  /// Stop before the pass that would end later than this; at least one pass is always finished.
+  std::optional<double> seconds;
+};
+
+/// A look at a running session.
+struct Progress {
+  enum class Stage { light, picture, done };
+  Stage stage = Stage::light;
+  double fraction = 0;  ///< of the whole, 0 to 1
+  double elapsed_s = 0;
+  double remaining_s = 0;  ///< estimated; negative: unknown
+  uint32_t passes_done = 0;
+  uint32_t passes_total = 0;  ///< 0: limited by time
+  double rays_per_s = 0;
+  double photons_per_s = 0;   ///< stored or splatted, over the time of the light passes
+  size_t memory_bytes = 0;    ///< resident, of the whole program
+  double relative_error = 0;  ///< Film::relative_noise(); infinite: not known yet
+};
+
+/// What came out of a session.
+struct SessionReport {
+  uint32_t passes = 0;
+  uint32_t samples_per_pass = 0;
+  uint64_t rays = 0, photons = 0;
+  uint64_t dropped_samples = 0;  ///< not finite, left out
+  double seconds = 0;
+  double light_seconds = 0;  ///< of it, in light passes
+  bool cancelled = false;
+  bool incomplete_pass = false;  ///< cancelled in the first pass: the picture is only part of it
+  std::vector<std::string> warnings;
+};
+
+/// Runs passes of an integrator over tiles of the picture on all threads, and sums them on the
+/// film. Owns the loop, the clock, cancelling and progress, for every integrator.
+class Session {
+ public:
+  /// The scene and the integrator must outlive the session. Throws Error for a picture too large.
+  Session(const Scene& scene, const Integrator& integrator, const SessionSettings& settings);
+  ~Session();
+
+  /// Renders until a stop rule holds or `stop` is requested; then the film holds what is finished.
+  /// `progress` is called from one thread at a time, a few times per second.
+  SessionReport run(std::stop_token stop = {},
+                    const std::function<void(const Progress&)>& progress = {});
+
+  const Film& film() const { return film_; }
+  uint32_t samples_per_pass() const { return samples_per_pass_; }
+
+ private:
+  class Monitor;
+  void plan();
+  /// False if it was cancelled midway.
+  bool render_pass(uint32_t index, std::stop_token stop, Monitor& monitor);
+  void render_tile(const Pass& pass, const PassState& state, int tile, Monitor& monitor);
+  void add_splats();
+
+  const Scene& scene_;
+  const Integrator& integrator_;
+  SessionSettings settings_;
+  Film film_;
+  SplatBuffer splats_;
+  std::vector<PassPixel> pixels_;
+  Vec2i tiles_;
+  uint32_t pass_count_ = 0;  ///< 0: limited by time
+  uint32_t samples_per_pass_ = 1;
+  SessionReport report_;
+};
+
+/// Makes the integrator that the description asks for: of type `type` if that is not empty (with
+/// the file's properties where the types agree), "photonmap" if the file names none. Throws Error.
+std::unique_ptr<Integrator> make_integrator(const Description& description, const Scene& scene,
+                                            const std::string& type = {},
+                                            std::vector<std::string>* warnings = nullptr);
+
+}  // namespace kaustik
