@@ -25,9 +25,13 @@ struct BsdfContext {
   TransportMode mode = TransportMode::radiance;
 };
 
+/// A direction that a bsdf has chosen. The event is drawn by the shares of the lobes in f at wi,
+/// not by which lobe proposed it, so contributions can be told apart by it: over all samples the
+/// mean of `weight` where `event` is e is the integral of f_e·|cosθ_i|, and the mean of all is that
+/// of f. With one lobe asked for, `weight` is f·|cosθ_i|/pdf exactly.
 struct BsdfSample {
   Vec3f wi;         ///< local frame, unit
-  Spectrum weight;  ///< f·|cosθ_i| / density; for delta lobes their factor over the chance
+  Spectrum weight;  ///< f·|cosθ_i| of the event / density; for delta lobes factor over chance
   float pdf_solid_angle =
       0;  ///< of wi over all the lobes asked for; of delta lobes the chance alone
   Lobes event = Lobes::none;  ///< exactly one of diffuse, glossy, delta; none: absorbed
@@ -55,7 +59,8 @@ class Bsdf {
   virtual BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe,
                             const Vec2f& u, Lobes lobes) const = 0;
   /// Share of the light from wo that the lobes scatter (directional albedo), exact for diffuse and
-  /// delta lobes, an estimate within a few percent for glossy ones. At most 1.
+  /// delta lobes, an estimate within a few percent for glossy ones. At most 1 unless a texture is
+  /// over 1; an energy, so the transport mode makes no difference.
   virtual Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const = 0;
 };
 
@@ -75,7 +80,7 @@ struct BsdfInputs {
 struct BsdfType {
   const TypeInfo& info;
   int minimum_nested = 0, maximum_nested = 0;
-  /// Throws Error where arguments contradict one another.
+  /// Throws Error(input) where arguments contradict one another.
   std::shared_ptr<const Bsdf> (*create)(const BsdfInputs&);
 };
 /// "diffuse", "phong", "dielectric", "conductor", "roughconductor", "twosided".

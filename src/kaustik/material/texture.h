@@ -20,6 +20,8 @@ class Texture {
   virtual Spectrum eval(const TextureCoordinates& at) const = 0;
   /// Upper bound of every lane, for checks ("albedo over 1").
   virtual float maximum() const = 0;
+  /// Whether eval() gives the same everywhere.
+  virtual bool is_constant() const { return false; }
   /// Mean over the uv square, for importance and previews.
   virtual Spectrum mean() const = 0;
 };

@@ -1,0 +1,57 @@
+#include "kaustik/material/albedo_table.h"
+
+#include "kaustik/base/sampler.h"
+
+namespace kaustik {
+namespace {
+
+constexpr int cosines = 33;
+constexpr int samples_per_node = 512;
+
+/// Node i lies at cosθ = (i/(cosines − 1))², denser toward the horizon where the albedo bends.
+float cosine_of_node(int i) { return std::max(1e-3f, sqr(float(i) / float(cosines - 1))); }
+
+struct Position {
+  int index;
+  float weight;  ///< of the next node
+};
+Position position(float at, int count) {
+  const int index = std::clamp(int(at), 0, count - 2);
+  return {index, std::clamp(at - float(index), 0.0f, 1.0f)};
+}
+
+Spectrum mix(const Spectrum& a, const Spectrum& b, float weight) {
+  return a * (1 - weight) + b * weight;
+}
+
+}  // namespace
+
+AlbedoTable::AlbedoTable(bool isotropic,
+                         const std::function<Spectrum(const Vec3f&, const Vec2f&)>& weight)
+    : azimuths_(isotropic ? 1 : 9) {
+  for (int azimuth = 0; azimuth < azimuths_; ++azimuth) {
+    const float phi = isotropic ? 0 : 0.5f * pi * float(azimuth) / float(azimuths_ - 1);
+    for (int i = 0; i < cosines; ++i) {
+      const float z = cosine_of_node(i), r = safe_sqrt(1 - z * z);
+      const Vec3f wo(r * std::cos(phi), r * std::sin(phi), z);
+      Spectrum sum;
+      for (uint32_t n = 0; n < samples_per_node; ++n)
+        sum += weight(wo, Sampler(uint64_t(nodes_.size()), n).next_2d());
+      nodes_.push_back(sum / float(samples_per_node));
+    }
+  }
+}
+
+Spectrum AlbedoTable::operator()(const Vec3f& wo) const {
+  const Position c = position(safe_sqrt(wo.z) * float(cosines - 1), cosines);
+  const auto along = [&](int azimuth) {
+    const size_t node = size_t(azimuth * cosines + c.index);
+    return mix(nodes_[node], nodes_[node + 1], c.weight);
+  };
+  if (azimuths_ == 1) return along(0);
+  const float phi = std::atan2(std::fabs(wo.y), std::fabs(wo.x));
+  const Position a = position(phi * (2 / pi) * float(azimuths_ - 1), azimuths_);
+  return mix(along(a.index), along(a.index + 1), a.weight);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,57 @@
+#include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/conductor_arguments.h"
+
+namespace kaustik {
+namespace {
+
+/// Smooth metal; black seen from behind.
+class Conductor final : public Bsdf {
+ public:
+  Conductor(const ComplexIor& ior, std::shared_ptr<const Texture> reflectance)
+      : ior_(ior), reflectance_(std::move(reflectance)) {}
+
+  Lobes lobes() const override { return Lobes::delta; }
+
+  Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override {
+    return Spectrum();
+  }
+  float pdf(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override { return 0; }
+
+  BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float, const Vec2f&,
+                    Lobes lobes) const override {
+    BsdfSample sample;
+    if (!any(lobes & Lobes::delta) || wo.z <= 0) return sample;
+    sample.wi = {-wo.x, -wo.y, wo.z};
+    sample.pdf_solid_angle = 1;
+    sample.weight = albedo(context, wo, lobes);
+    sample.event = Lobes::delta;
+    return sample;
+  }
+
+  Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
+    if (!any(lobes & Lobes::delta) || wo.z <= 0) return Spectrum();
+    return reflectance_->eval(context.texture) * fresnel_conductor(wo.z, ior_);
+  }
+
+ private:
+  ComplexIor ior_;
+  std::shared_ptr<const Texture> reflectance_;
+};
+
+const TypeInfo& info() {
+  static const TypeInfo info{"bsdf", "conductor",
+                             "Smooth metal; black seen from behind, see 'twosided'.",
+                             conductor_parameters()};
+  return info;
+}
+
+std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+  return std::make_shared<Conductor>(conductor_ior(inputs.arguments),
+                                     inputs.texture("specular_reflectance"));
+}
+
+}  // namespace
+
+BsdfType conductor_type() { return {info(), 0, 0, create}; }
+
+}  // namespace kaustik

@@ -1,0 +1,63 @@
+#include "kaustik/material/conductor_arguments.h"
+
+#include <optional>
+
+#include "kaustik/base/color.h"
+
+namespace kaustik {
+namespace {
+
+using Color = std::variant<Rgb, SpectralCurve>;
+
+/// A curve as it is, a grey as a constant curve; nothing for other colours.
+std::optional<SpectralCurve> as_curve(const Color& color) {
+  if (const auto* curve = std::get_if<SpectralCurve>(&color)) return *curve;
+  const Rgb& c = std::get<Rgb>(color);
+  if (c.r == c.g && c.g == c.b) return SpectralCurve{{{555, c.r}}};
+  return std::nullopt;
+}
+
+bool is_curve(const Color& color) { return std::holds_alternative<SpectralCurve>(color); }
+
+}  // namespace
+
+std::vector<Parameter> conductor_parameters() {
+  return {choice_parameter("material", "none", conductor_names(),
+                           "Measured metal; 'none' is a perfect mirror."),
+          optional(color_parameter("eta", 0,
+                                   "Real part of the index of refraction over the surroundings'."))
+              .range(0, 1000),
+          optional(color_parameter("k", 1, "Imaginary part of the index of refraction."))
+              .range(0, 1000),
+          color_parameter("specular_reflectance", 1, "Factor on what is reflected; 1 is physical.")
+              .range(0, 1)
+              .textured()};
+}
+
+ComplexIor conductor_ior(const Arguments& arguments) {
+  const bool has_eta = arguments.given("eta"), has_k = arguments.given("k");
+  if (!has_eta && !has_k) return conductor_ior(arguments.text("material"));
+  if (arguments.given("material") && arguments.text("material") != "none")
+    throw Error(ErrorKind::input, "'material' is given together with 'eta' or 'k'",
+                "keep the material or both of 'eta' and 'k'", arguments.place_of("material"));
+  if (has_eta != has_k)
+    throw Error(ErrorKind::input,
+                has_eta ? "'eta' is given without 'k'" : "'k' is given without 'eta'",
+                "give both or neither", arguments.place_of(has_eta ? "eta" : "k"));
+  const Color eta = arguments.color("eta"), k = arguments.color("k");
+  if (is_curve(eta) || is_curve(k)) {
+    const auto eta_curve = as_curve(eta), k_curve = as_curve(k);
+    if (eta_curve && k_curve) return conductor_ior(*eta_curve, *k_curve);
+  }
+  ComplexIor ior{reflectance_spectrum(eta), reflectance_spectrum(k)};
+  // The unused lane is that of a perfect mirror, which is finite.
+  ior.k.set(3, 1);
+  // Nothing at all to reflect on (eta 1, k 0) is fine; eta = k = 0 has no value at some angles.
+  for (int lane = 0; lane < 3; ++lane)
+    if (ior.eta[lane] == 0 && ior.k[lane] == 0)
+      throw Error(ErrorKind::input, "'eta' and 'k' are both 0 in one channel",
+                  "use material 'none' for a perfect mirror", arguments.place_of("eta"));
+  return ior;
+}
+
+}  // namespace kaustik

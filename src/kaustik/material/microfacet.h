@@ -1,0 +1,39 @@
+#pragma once
+#include "kaustik/base/vec.h"
+
+namespace kaustik {
+
+/// Distribution of the normals of a rough surface made of mirrors, with Smith's shadowing (Walter
+/// et al., "Microfacet Models for Refraction", EGSR 2007). Directions are local, z the mean normal.
+class MicrofacetDistribution {
+ public:
+  enum class Kind { beckmann, ggx };
+
+  /// Roughness along x and y, > 0. `sample_visible`: only normals that w can see are sampled.
+  MicrofacetDistribution(Kind kind, float alpha_x, float alpha_y, bool sample_visible)
+      : kind_(kind), alpha_x_(alpha_x), alpha_y_(alpha_y), sample_visible_(sample_visible) {}
+
+  bool is_isotropic() const { return alpha_x_ == alpha_y_; }
+
+  /// D(m): area of the facets with normal m per area of the surface and solid angle.
+  float density(const Vec3f& m) const;
+  /// G1: share of the facets facing w that no others hide; w.z > 0. Exact for both kinds.
+  float masking(const Vec3f& w) const;
+  /// A normal with m.z > 0; w.z > 0. Visible ones: Dupuy and Benyoub, "Sampling Visible GGX Normals
+  /// with Spherical Caps" (2023); for Beckmann Jakob, "An Improved Visible Normal Sampling Routine"
+  /// (2014).
+  Vec3f sample(const Vec3f& w, const Vec2f& u) const;
+  /// Density per solid angle of the normals with which sample() finds m; dot(w, m) > 0.
+  float pdf(const Vec3f& w, const Vec3f& m) const;
+
+ private:
+  Vec3f sample_all(const Vec2f& u) const;
+  Vec3f sample_visible_ggx(const Vec3f& w, const Vec2f& u) const;
+  Vec3f sample_visible_beckmann(const Vec3f& w, const Vec2f& u) const;
+
+  Kind kind_;
+  float alpha_x_, alpha_y_;
+  bool sample_visible_;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,17 @@
+#include "kaustik/material/bsdf_kinds.h"
+
+namespace kaustik {
+
+const std::vector<BsdfType>& bsdf_types() {
+  static const std::vector<BsdfType> types = {diffuse_type(),        phong_type(),
+                                              dielectric_type(),     conductor_type(),
+                                              roughconductor_type(), twosided_type()};
+  return types;
+}
+
+const std::vector<TextureType>& texture_types() {
+  static const std::vector<TextureType> types = {bitmap_type(), checkerboard_type()};
+  return types;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,67 @@
+#include "kaustik/material/bsdf_kinds.h"
+
+namespace kaustik {
+namespace {
+
+Vec3f mirrored(const Vec3f& w) { return {w.x, w.y, -w.z}; }
+
+/// A bsdf on each side; on the back in a frame whose z axis is turned round.
+class Twosided final : public Bsdf {
+ public:
+  Twosided(std::shared_ptr<const Bsdf> front, std::shared_ptr<const Bsdf> back)
+      : front_(std::move(front)), back_(std::move(back)) {}
+
+  Lobes lobes() const override { return front_->lobes() | back_->lobes(); }
+
+  Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
+                Lobes lobes) const override {
+    return wo.z >= 0 ? front_->eval(context, wo, wi, lobes)
+                     : back_->eval(context, mirrored(wo), mirrored(wi), lobes);
+  }
+
+  float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
+            Lobes lobes) const override {
+    return wo.z >= 0 ? front_->pdf(context, wo, wi, lobes)
+                     : back_->pdf(context, mirrored(wo), mirrored(wi), lobes);
+  }
+
+  BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
+                    Lobes lobes) const override {
+    if (wo.z >= 0) return front_->sample(context, wo, u_lobe, u, lobes);
+    BsdfSample sample = back_->sample(context, mirrored(wo), u_lobe, u, lobes);
+    sample.wi.z = -sample.wi.z;
+    return sample;
+  }
+
+  Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
+    return wo.z >= 0 ? front_->albedo(context, wo, lobes)
+                     : back_->albedo(context, mirrored(wo), lobes);
+  }
+
+ private:
+  std::shared_ptr<const Bsdf> front_, back_;
+};
+
+const TypeInfo& info() {
+  static const TypeInfo info{
+      "bsdf",
+      "twosided",
+      "Makes a one-sided bsdf visible from behind; a second nested one is for the back.",
+      {}};
+  return info;
+}
+
+std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+  for (const auto& nested : inputs.nested)
+    if (nested->transmits())
+      throw Error(ErrorKind::input, "bsdf 'twosided' holds one that transmits light",
+                  "use that one without 'twosided'; it has two sides already",
+                  inputs.arguments.place());
+  return std::make_shared<Twosided>(inputs.nested.front(), inputs.nested.back());
+}
+
+}  // namespace
+
+BsdfType twosided_type() { return {info(), 1, 2, create}; }
+
+}  // namespace kaustik
