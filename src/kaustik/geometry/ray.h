@@ -14,6 +14,8 @@ struct Ray {
 };
 
 inline constexpr uint32_t no_instance = 0xffffffffu;
+/// Largest relative error of rounding to the nearest float.
+inline constexpr float float_rounding = 0x1p-24f;
 
 /// The closest hit as ray tracing leaves it; RayTracer::surface_point turns it into geometry.
 struct Hit {
@@ -32,7 +34,8 @@ struct SurfacePoint {
   Vec3f ns;    ///< shading normal, unit, in the same half space as ng
   Vec3f dpdu;  ///< tangent along u, not normalised; zero if unknown
   Vec2f uv;
-  float error = 0;     ///< bound on the distance between `position` and the true surface
+  float error = 0;     ///< bound on the distance, along ng, between `position` and the surface as
+                       ///< the ray intersection sees it
   uint32_t shape = 0;  ///< index into the scene's shapes
   uint32_t primitive = 0;
   uint32_t instance = no_instance;

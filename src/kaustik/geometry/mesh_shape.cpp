@@ -1,0 +1,119 @@
+#include "kaustik/geometry/mesh_shape.h"
+
+#include "kaustik/base/warp.h"
+#include "kaustik/geometry/mesh_surface.h"
+
+namespace kaustik {
+namespace {
+
+double triangle_area(const TriangleMesh& mesh, const std::array<uint32_t, 3>& corner) {
+  const Vec3d p0(mesh.positions[corner[0]]);
+  return 0.5 * (Vec3d(mesh.positions[corner[1]]) - p0)
+                   .cross(Vec3d(mesh.positions[corner[2]]) - p0)
+                   .length();
+}
+
+/// Turns triangles round whose vertex normals point to their back.
+void wind_by_normals(TriangleMesh& mesh) {
+  if (mesh.normals.empty()) return;
+  for (auto& corner : mesh.triangles) {
+    const Vec3f n = mesh.normals[corner[0]] + mesh.normals[corner[1]] + mesh.normals[corner[2]];
+    const Vec3f ng = triangle_normal(mesh.positions[corner[0]], mesh.positions[corner[1]],
+                                     mesh.positions[corner[2]])
+                         .unit;
+    if (dot(n, ng) < 0) std::swap(corner[1], corner[2]);
+  }
+}
+
+}  // namespace
+
+MeshShape::MeshShape(TriangleMesh mesh) : mesh_(std::move(mesh)) {
+  // Embree reads vertices by 16 bytes: room behind the last one.
+  mesh_.positions.reserve(mesh_.positions.size() + 1);
+  wind_by_normals(mesh_);
+  double area = 0;
+  for (const auto& corner : mesh_.triangles) {
+    area += triangle_area(mesh_, corner);
+    for (const uint32_t vertex : corner) bounds_.extendBy(mesh_.positions[vertex]);
+  }
+  area_ = float(area);
+}
+
+SurfacePoint MeshShape::surface_point(const Ray&, const Hit& hit) const {
+  return triangle_surface_point(mesh_, hit.primitive, hit.u, hit.v);
+}
+
+void MeshShape::build_distribution() const {
+  cumulative_area_.reserve(mesh_.triangles.size());
+  double sum = 0;
+  for (const auto& corner : mesh_.triangles)
+    cumulative_area_.push_back(sum += triangle_area(mesh_, corner));
+}
+
+ShapeSample MeshShape::sample_area(const Vec2f& u) const {
+  std::call_once(distribution_once_, [this] { build_distribution(); });
+  if (!(area_ > 0)) return {};
+  const double target = double(u.x) * cumulative_area_.back();
+  auto it = std::upper_bound(cumulative_area_.begin(), cumulative_area_.end(), target);
+  if (it == cumulative_area_.end()) --it;
+  const double before = it == cumulative_area_.begin() ? 0.0 : *(it - 1);
+  const double rest = *it > before ? (target - before) / (*it - before) : 0.0;
+  const Vec2f b = square_to_triangle({std::min(float(rest), one_minus_epsilon), u.y});
+  const auto triangle = uint32_t(it - cumulative_area_.begin());
+  ShapeSample sample{triangle_surface_point(mesh_, triangle, b.x, b.y), 1.0f / area_};
+  if (sample.point.ng == Vec3f(0, 0, 0)) sample.pdf_area = 0;
+  return sample;
+}
+
+TriangleMesh MeshShape::tessellate(int) const { return mesh_; }
+
+std::vector<Bounds3f> MeshShape::bounding_boxes(int budget) const {
+  return triangle_boxes(mesh_, budget);
+}
+
+std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh) {
+  std::vector<Vec3f> normals(mesh.positions.size(), Vec3f(0, 0, 0));
+  for (const auto& corner : mesh.triangles) {
+    const Vec3f p[3] = {mesh.positions[corner[0]], mesh.positions[corner[1]],
+                        mesh.positions[corner[2]]};
+    const Vec3f n = triangle_normal(p[0], p[1], p[2]).unit;
+    if (n == Vec3f(0, 0, 0)) continue;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3d a(p[(i + 1) % 3] - p[i]), b(p[(i + 2) % 3] - p[i]);
+      normals[corner[size_t(i)]] += n * float(std::atan2(a.cross(b).length(), a.dot(b)));
+    }
+  }
+  for (Vec3f& n : normals) {
+    const float n_length = length(n);
+    n = n_length > 0 ? n * (1.0f / n_length) : Vec3f(0, 0, 1);
+  }
+  return normals;
+}
+
+TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const std::string& file) {
+  constexpr float largest = 1e18f;  // what Embree can hold
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    Vec3f& p = mesh.positions[i];
+    p = options.to_world.point(p);
+    if (!is_finite(p) || max_abs(p) > largest)
+      throw Error(ErrorKind::input,
+                  "vertex " + std::to_string(i) + " is too far away once placed by 'to_world'",
+                  "coordinates must stay below 1e18", place_in(file));
+  }
+  if (options.face_normals) mesh.normals.clear();
+  for (Vec3f& n : mesh.normals) {
+    n = options.to_world.normal(n);
+    const float n_length = length(n);
+    n = n_length > 0 && std::isfinite(n_length) ? n * (1.0f / n_length) : Vec3f(0, 0, 0);
+  }
+  if (mesh.normals.empty() && !options.face_normals) mesh.normals = smooth_normals(mesh);
+  if (options.flip_normals) {
+    for (Vec3f& n : mesh.normals) n = -n;
+    for (auto& corner : mesh.triangles) std::swap(corner[1], corner[2]);
+  }
+  if (options.flip_tex_coords)
+    for (Vec2f& uv : mesh.uvs) uv.y = 1.0f - uv.y;
+  return mesh;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,54 @@
+#pragma once
+#include <mutex>
+
+#include "kaustik/geometry/shape.h"
+
+namespace kaustik {
+
+/// A shape that is a triangle mesh. Where the mesh has vertex normals, triangles whose winding
+/// disagrees with them are turned round, so that the outside is where the normals point (Mitsuba
+/// decides by the shading normal).
+class MeshShape : public Shape {
+ public:
+  /// Sizes and indices of `mesh` must be consistent and its positions finite.
+  explicit MeshShape(TriangleMesh mesh);
+
+  Bounds3f bounds() const override { return bounds_; }
+  float area() const override { return area_; }
+  const TriangleMesh* mesh() const override { return &mesh_; }
+  SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
+  ShapeSample sample_area(const Vec2f& u) const override;
+  TriangleMesh tessellate(int level) const override;
+  std::vector<Bounds3f> bounding_boxes(int budget) const override;
+
+ private:
+  void build_distribution() const;
+
+  TriangleMesh mesh_;
+  Bounds3f bounds_;
+  float area_ = 0;
+  mutable std::once_flag distribution_once_;
+  mutable std::vector<double> cumulative_area_;  ///< up to and with each triangle, m²; only for
+                                                 ///< meshes that are sampled
+};
+
+/// What a mesh file is turned into on its way to a MeshShape.
+struct MeshOptions {
+  Transform to_world;
+  bool face_normals = false;     ///< drop vertex normals
+  bool flip_normals = false;     ///< turn the surface inside out
+  bool flip_tex_coords = false;  ///< v becomes 1 − v
+};
+
+/// `mesh` placed in the world. A mesh without normals gets smooth ones unless `face_normals`, as in
+/// Mitsuba 3. Throws Error(input) naming `file` if a vertex becomes infinite.
+TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const std::string& file);
+
+/// Unit vertex normals: the face normals weighted by the angle at the vertex (Thürmer and Wüthrich,
+/// "Computing Vertex Normals from Polygonal Facets", JGT 1998). Vertices of no area get +z.
+std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh);
+
+/// At most `budget` boxes that hold all triangles, split top-down.
+std::vector<Bounds3f> triangle_boxes(const TriangleMesh& mesh, int budget);
+
+}  // namespace kaustik

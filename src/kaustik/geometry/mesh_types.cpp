@@ -1,0 +1,110 @@
+// The shapes that are meshes: `obj` and `ply` files, `rectangle` and `cube`.
+
+#include "kaustik/geometry/mesh_reader.h"
+#include "kaustik/geometry/mesh_shape.h"
+#include "kaustik/geometry/shape_creators.h"
+#include "kaustik/geometry/shape_support.h"
+
+namespace kaustik {
+namespace {
+
+std::vector<Parameter> file_mesh_parameters(bool flip_tex_coords) {
+  return {
+      file_parameter("filename", "Mesh file."),
+      transform_parameter("to_world", "Places the mesh in the world."),
+      boolean_parameter("face_normals", false,
+                        "Flat faces: normals of the file are dropped. Otherwise a file without "
+                        "normals gets smooth ones."),
+      boolean_parameter("flip_normals", false, "Turns the surface inside out."),
+      boolean_parameter("flip_tex_coords", flip_tex_coords,
+                        "Turns texture coordinates upside down (v becomes 1 - v)."),
+  };
+}
+
+std::unique_ptr<Shape> create_from_file(const Arguments& arguments,
+                                        TriangleMesh (*read)(const std::string&)) {
+  const std::string& path = arguments.text("filename");
+  MeshOptions options;
+  options.to_world = affine_to_world(arguments);
+  options.face_normals = arguments.boolean("face_normals");
+  options.flip_normals = arguments.boolean("flip_normals");
+  options.flip_tex_coords = arguments.boolean("flip_tex_coords");
+  return std::make_unique<MeshShape>(prepare_mesh(read(path), options, path));
+}
+
+/// The corners of a quad in the plane z = +1 or of the whole cube, wound so that +z (outward) is
+/// the front also under mirroring transforms, as Mitsuba's normals have it.
+std::unique_ptr<Shape> create_built_in(const Arguments& arguments, TriangleMesh mesh) {
+  MeshOptions options;
+  options.to_world = affine_to_world(arguments);
+  options.face_normals = true;
+  options.flip_normals = arguments.boolean("flip_normals") != (options.to_world.determinant3() < 0);
+  return std::make_unique<MeshShape>(prepare_mesh(std::move(mesh), options, arguments.info().name));
+}
+
+std::vector<Parameter> built_in_parameters() {
+  return {transform_parameter("to_world", "Places the shape in the world."),
+          boolean_parameter("flip_normals", false, "Turns the surface inside out.")};
+}
+
+/// Two triangles over the square center ± u ± v, seen from u × v.
+void add_square(TriangleMesh& mesh, const Vec3f& middle, const Vec3f& u, const Vec3f& v) {
+  const auto first = uint32_t(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(),
+                        {middle - u - v, middle + u - v, middle + u + v, middle - u + v});
+  mesh.uvs.insert(mesh.uvs.end(), {Vec2f(0, 0), Vec2f(1, 0), Vec2f(1, 1), Vec2f(0, 1)});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+}  // namespace
+
+const TypeInfo& obj_info() {
+  static const TypeInfo info{"shape", "obj", "Triangle mesh from a Wavefront OBJ file.",
+                             file_mesh_parameters(true)};
+  return info;
+}
+std::unique_ptr<Shape> create_obj(const Arguments& arguments) {
+  return create_from_file(arguments, read_obj);
+}
+
+const TypeInfo& ply_info() {
+  static const TypeInfo info{"shape", "ply",
+                             "Triangle mesh from a PLY file (text, binary of either byte order).",
+                             file_mesh_parameters(false)};
+  return info;
+}
+std::unique_ptr<Shape> create_ply(const Arguments& arguments) {
+  return create_from_file(arguments, read_ply);
+}
+
+const TypeInfo& rectangle_info() {
+  static const TypeInfo info{"shape", "rectangle",
+                             "The square [-1, 1] x [-1, 1] in the xy plane, facing +z.",
+                             built_in_parameters()};
+  return info;
+}
+std::unique_ptr<Shape> create_rectangle(const Arguments& arguments) {
+  TriangleMesh mesh;
+  add_square(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  return create_built_in(arguments, std::move(mesh));
+}
+
+const TypeInfo& cube_info() {
+  static const TypeInfo info{"shape", "cube", "The cube from (-1, -1, -1) to (1, 1, 1).",
+                             built_in_parameters()};
+  return info;
+}
+std::unique_ptr<Shape> create_cube(const Arguments& arguments) {
+  TriangleMesh mesh;
+  const Vec3f x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  add_square(mesh, x, y, z);
+  add_square(mesh, -x, z, y);
+  add_square(mesh, y, z, x);
+  add_square(mesh, -y, x, z);
+  add_square(mesh, z, x, y);
+  add_square(mesh, -z, y, x);
+  return create_built_in(arguments, std::move(mesh));
+}
+
+}  // namespace kaustik

@@ -1,0 +1,369 @@
+// The only file that sees Embree (3.13, or 4 where that is installed).
+
+#include "kaustik/geometry/ray_tracer.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <atomic>
+#include <cassert>
+#include <mutex>
+
+#include "kaustik/geometry/mesh_surface.h"
+
+namespace kaustik {
+namespace {
+
+/// What a hit is looked up in: the mesh beside the shape, so that meshes need no virtual call.
+struct ShapeRecord {
+  const TriangleMesh* mesh = nullptr;
+  const Shape* shape = nullptr;
+};
+
+struct InstanceRecord {
+  uint32_t first_shape = 0;  ///< of its group
+  Vec3f columns[3];          ///< world_from_group
+  Vec3f translation;
+  Vec3f normal_columns[3];  ///< its inverse transpose
+  Transform group_from_world;
+  float norm = 0;       ///< ‖world_from_group‖∞
+  float condition = 0;  ///< its condition number
+};
+
+Vec3f combine(const Vec3f (&columns)[3], const Vec3f& v) {
+  return columns[0] * v.x + columns[1] * v.y + columns[2] * v.z;
+}
+
+float row_sum_norm(const Transform& t) {
+  double norm = 0;
+  for (int i = 0; i < 3; ++i)
+    norm = std::max(norm, std::fabs(t.at(i, 0)) + std::fabs(t.at(i, 1)) + std::fabs(t.at(i, 2)));
+  return float(norm);
+}
+
+InstanceRecord make_instance(const Transform& world_from_group, uint32_t first_shape) {
+  InstanceRecord record;
+  record.first_shape = first_shape;
+  record.group_from_world = world_from_group.inverse();
+  const Transform& inverse = record.group_from_world;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      record.columns[j][i] = float(world_from_group.at(i, j));
+      record.normal_columns[j][i] = float(inverse.at(j, i));
+    }
+  for (int i = 0; i < 3; ++i) record.translation[i] = float(world_from_group.at(i, 3));
+  record.norm = row_sum_norm(world_from_group);
+  record.condition = record.norm * row_sum_norm(inverse);
+  return record;
+}
+
+/// A point of a group's space brought to the world.
+SurfacePoint placed(const InstanceRecord& instance, const SurfacePoint& local) {
+  SurfacePoint point = local;
+  point.position = combine(instance.columns, local.position) + instance.translation;
+  point.ng = normalize(combine(instance.normal_columns, local.ng));
+  point.ns = normalize(combine(instance.normal_columns, local.ns));
+  if (dot(point.ng, point.ns) < 0) point.ns = -point.ns;
+  point.dpdu = combine(instance.columns, local.dpdu);
+  // Embree brings the ray to the group's space with a matrix that it inverts in floats.
+  point.error =
+      instance.norm * local.error + 16 * float_rounding * instance.condition *
+                                        (max_abs(point.position) + max_abs(instance.translation));
+  return point;
+}
+
+Ray ray_of(const RTCRay& r) {
+  return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar};
+}
+
+void shape_bounds(const RTCBoundsFunctionArguments* arguments) {
+  const Bounds3f b = static_cast<const Shape*>(arguments->geometryUserPtr)->bounds();
+  RTCBounds& out = *arguments->bounds_o;
+  out.lower_x = b.min.x, out.lower_y = b.min.y, out.lower_z = b.min.z;
+  out.upper_x = b.max.x, out.upper_y = b.max.y, out.upper_z = b.max.z;
+}
+
+void intersect_shape(const RTCIntersectFunctionNArguments* arguments) {
+  if (!arguments->valid[0]) return;
+  assert(arguments->N == 1);
+  auto& rayhit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+  const auto hit =
+      static_cast<const Shape*>(arguments->geometryUserPtr)->intersect(ray_of(rayhit.ray));
+  if (!hit) return;
+  rayhit.ray.tfar = hit->t;
+  rayhit.hit.Ng_x = hit->ng.x, rayhit.hit.Ng_y = hit->ng.y, rayhit.hit.Ng_z = hit->ng.z;
+  rayhit.hit.u = hit->u, rayhit.hit.v = hit->v;
+  rayhit.hit.primID = arguments->primID;
+  rayhit.hit.geomID = arguments->geomID;
+  rayhit.hit.instID[0] = arguments->context->instID[0];
+}
+
+void occluded_by_shape(const RTCOccludedFunctionNArguments* arguments) {
+  if (!arguments->valid[0]) return;
+  assert(arguments->N == 1);
+  auto& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
+  if (static_cast<const Shape*>(arguments->geometryUserPtr)->intersect(ray_of(ray)))
+    ray.tfar = -infinity;
+}
+
+void fill(RTCRay& out, const Ray& ray) {
+  out.org_x = ray.origin.x, out.org_y = ray.origin.y, out.org_z = ray.origin.z;
+  out.tnear = std::numeric_limits<float>::min();  // Embree's range includes its ends
+  out.dir_x = ray.direction.x, out.dir_y = ray.direction.y, out.dir_z = ray.direction.z;
+  out.time = 0;
+  out.tfar = ray.t_max;
+  out.mask = 0xffffffffu;
+  out.id = 0;
+  out.flags = 0;
+}
+
+// Rays come one by one from anywhere: the default of both versions is to expect incoherent ones.
+inline void trace_closest(RTCScene scene, RTCRayHit& rayhit) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcIntersect1(scene, &rayhit, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(scene, &context, &rayhit);
+#endif
+}
+
+inline void trace_any(RTCScene scene, RTCRay& ray) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded1(scene, &ray, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &ray);
+#endif
+}
+
+}  // namespace
+
+struct RayTracer::Impl {
+  explicit Impl(Geometry g) : geometry(std::move(g)) {
+    device = rtcNewDevice(nullptr);
+    if (!device) throw Error(ErrorKind::system, "Embree cannot start on this processor");
+    try {
+      rtcSetDeviceErrorFunction(device, on_error, this);
+      rtcSetDeviceMemoryMonitorFunction(device, on_memory, this);
+      build();
+    } catch (...) {
+      release();
+      throw;
+    }
+  }
+  ~Impl() { release(); }
+
+  void build();
+  RTCScene build_scene(const std::vector<std::shared_ptr<const Shape>>& shapes);
+  void attach(RTCScene target, RTCGeometry part);
+  RTCGeometry mesh_geometry(const TriangleMesh& mesh);
+  RTCGeometry user_geometry(const Shape& shape);
+  void attach_instance(const Instance& instance);
+  void commit(RTCScene target);
+  void check();
+  void release();
+
+  static void on_error(void* self, RTCError code, const char* text);
+  static bool on_memory(void* self, ssize_t bytes, bool) {
+    static_cast<Impl*>(self)->bytes += int64_t(bytes);
+    return true;
+  }
+
+  Geometry geometry;
+  std::vector<ShapeRecord> records;
+  std::vector<InstanceRecord> instances;
+  std::vector<uint32_t> first_shape_of_group;
+  Bounds3f bounds;
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::vector<RTCScene> group_scenes;
+  std::atomic<int64_t> bytes{0};
+  std::mutex error_mutex;
+  RTCError error_code = RTC_ERROR_NONE;
+  std::string error_text;
+};
+
+void RayTracer::Impl::on_error(void* self, RTCError code, const char* text) {
+  auto& impl = *static_cast<Impl*>(self);
+  const std::lock_guard lock(impl.error_mutex);
+  if (impl.error_code != RTC_ERROR_NONE) return;
+  impl.error_code = code;
+  impl.error_text = text ? text : "";
+}
+
+void RayTracer::Impl::check() {
+  const std::lock_guard lock(error_mutex);
+  if (error_code == RTC_ERROR_NONE) return;
+  if (error_code == RTC_ERROR_OUT_OF_MEMORY)
+    throw Error(ErrorKind::system, "out of memory while building the ray tracing structure",
+                "use smaller meshes, or instances of one shape group");
+  throw Error(ErrorKind::system, "Embree failed: " + error_text);
+}
+
+void RayTracer::Impl::release() {
+  if (scene) rtcReleaseScene(scene);
+  for (RTCScene group : group_scenes)
+    if (group) rtcReleaseScene(group);
+  if (device) rtcReleaseDevice(device);
+}
+
+void RayTracer::Impl::build() {
+  const auto record = [&](const std::shared_ptr<const Shape>& shape) {
+    records.push_back({shape->mesh(), shape.get()});
+  };
+  for (const auto& shape : geometry.shapes) {
+    record(shape);
+    bounds.extendBy(shape->bounds());
+  }
+  std::vector<Bounds3f> group_bounds;
+  for (const auto& group : geometry.groups) {
+    first_shape_of_group.push_back(uint32_t(records.size()));
+    group_scenes.push_back(build_scene(group));
+    commit(group_scenes.back());
+    group_bounds.emplace_back();
+    for (const auto& shape : group) {
+      record(shape);
+      group_bounds.back().extendBy(shape->bounds());
+    }
+  }
+  scene = build_scene(geometry.shapes);
+  for (const Instance& instance : geometry.instances) {
+    attach_instance(instance);
+    bounds.extendBy(instance.world_from_group.bounds(group_bounds[instance.group]));
+  }
+  commit(scene);
+}
+
+RTCScene RayTracer::Impl::build_scene(const std::vector<std::shared_ptr<const Shape>>& shapes) {
+  RTCScene target = rtcNewScene(device);
+  check();
+  rtcSetSceneFlags(target, RTC_SCENE_FLAG_ROBUST);
+  // HIGH is the one quality whose result depends on the order of threads.
+  rtcSetSceneBuildQuality(target, RTC_BUILD_QUALITY_MEDIUM);
+  for (const auto& shape : shapes) {
+    const TriangleMesh* mesh = shape->mesh();
+    attach(target, mesh ? mesh_geometry(*mesh) : user_geometry(*shape));
+  }
+  return target;
+}
+
+void RayTracer::Impl::attach(RTCScene target, RTCGeometry part) {
+  rtcCommitGeometry(part);
+  rtcAttachGeometry(target, part);
+  rtcReleaseGeometry(part);
+  check();
+}
+
+RTCGeometry RayTracer::Impl::mesh_geometry(const TriangleMesh& mesh) {
+  RTCGeometry part = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const size_t vertices = mesh.positions.size();
+  // Embree reads 16 bytes per vertex: a buffer without room behind its end is copied.
+  if (mesh.positions.capacity() > vertices) {
+    rtcSetSharedGeometryBuffer(part, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               mesh.positions.data(), 0, sizeof(Vec3f), vertices);
+  } else if (void* copy = rtcSetNewGeometryBuffer(part, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                  RTC_FORMAT_FLOAT3, sizeof(Vec3f), vertices)) {
+    std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Vec3f*>(copy));
+  }
+  rtcSetSharedGeometryBuffer(part, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                             mesh.triangles.data(), 0, sizeof(mesh.triangles[0]),
+                             mesh.triangles.size());
+  return part;
+}
+
+RTCGeometry RayTracer::Impl::user_geometry(const Shape& shape) {
+  RTCGeometry part = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(part, 1);
+  rtcSetGeometryUserData(part, const_cast<Shape*>(&shape));
+  rtcSetGeometryBoundsFunction(part, shape_bounds, nullptr);
+  rtcSetGeometryIntersectFunction(part, intersect_shape);
+  rtcSetGeometryOccludedFunction(part, occluded_by_shape);
+  return part;
+}
+
+void RayTracer::Impl::attach_instance(const Instance& instance) {
+  instances.push_back(
+      make_instance(instance.world_from_group, first_shape_of_group[instance.group]));
+  RTCGeometry part = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(part, group_scenes[instance.group]);
+  const InstanceRecord& record = instances.back();
+  float matrix[12];
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) matrix[3 * j + i] = record.columns[j][i];
+    matrix[9 + i] = record.translation[i];
+  }
+  rtcSetGeometryTransform(part, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
+  attach(scene, part);
+}
+
+void RayTracer::Impl::commit(RTCScene target) {
+  rtcCommitScene(target);
+  check();
+}
+
+RayTracer::RayTracer(Geometry geometry) : impl_(std::make_unique<Impl>(std::move(geometry))) {}
+RayTracer::~RayTracer() = default;
+
+bool RayTracer::intersect(const Ray& ray, Hit& hit) const {
+  RTCRayHit rayhit;
+  fill(rayhit.ray, ray);
+  rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  trace_closest(impl_->scene, rayhit);
+  if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  hit.t = rayhit.ray.tfar;
+  hit.u = rayhit.hit.u;
+  hit.v = rayhit.hit.v;
+  hit.ng = {rayhit.hit.Ng_x, rayhit.hit.Ng_y, rayhit.hit.Ng_z};
+  hit.shape = rayhit.hit.geomID;
+  hit.primitive = rayhit.hit.primID;
+  hit.instance = no_instance;
+  if (rayhit.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
+    // Instances were attached behind the shapes that stand in the world.
+    hit.instance = rayhit.hit.instID[0] - uint32_t(impl_->geometry.shapes.size());
+    hit.shape += impl_->instances[hit.instance].first_shape;
+  }
+  return true;
+}
+
+bool RayTracer::occluded(const Ray& ray) const {
+  RTCRay r;
+  fill(r, ray);
+  trace_any(impl_->scene, r);
+  return r.tfar < 0;
+}
+
+SurfacePoint RayTracer::surface_point(const Ray& ray, const Hit& hit) const {
+  const ShapeRecord& record = impl_->records[hit.shape];
+  const bool instanced = hit.instance != no_instance;
+  SurfacePoint point;
+  if (record.mesh) {
+    point = triangle_surface_point(*record.mesh, hit.primitive, hit.u, hit.v);
+  } else if (!instanced) {
+    point = record.shape->surface_point(ray, hit);
+  } else {
+    const Transform& group_from_world = impl_->instances[hit.instance].group_from_world;
+    const Ray local{group_from_world.point(ray.origin), group_from_world.vector(ray.direction),
+                    ray.t_max};
+    point = record.shape->surface_point(local, hit);
+  }
+  if (point.ng == Vec3f(0, 0, 0)) point.ng = point.ns = normalize(hit.ng);
+  if (instanced) point = placed(impl_->instances[hit.instance], point);
+  point.shape = hit.shape;
+  point.primitive = hit.primitive;
+  point.instance = hit.instance;
+  return point;
+}
+
+const Shape& RayTracer::shape(uint32_t index) const { return *impl_->records[index].shape; }
+size_t RayTracer::shape_count() const { return impl_->records.size(); }
+Bounds3f RayTracer::bounds() const { return impl_->bounds; }
+size_t RayTracer::size_in_bytes() const { return size_t(std::max<int64_t>(0, impl_->bytes)); }
+void* RayTracer::embree_scene() const { return impl_->scene; }
+
+}  // namespace kaustik

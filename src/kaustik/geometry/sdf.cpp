@@ -1,0 +1,283 @@
+// A procedural shape: no mesh, no closed form, only a distance to step by (Hart, "Sphere Tracing",
+// The Visual Computer 1996). Nothing else in the renderer knows.
+
+#include <mutex>
+#include <queue>
+
+#include "kaustik/geometry/sdf_field.h"
+#include "kaustik/geometry/shape_creators.h"
+#include "kaustik/geometry/shape_support.h"
+
+namespace kaustik {
+namespace {
+
+/// What counts as touching, in the field's own space (whose cube has edges of 2).
+constexpr double precision = 1e-5;
+/// Beyond the unit cube the surface has nothing but what `precision` adds.
+constexpr double extent = 1.0 + 4 * precision;
+
+/// Triangles of the zero set in a tetrahedron (marching tetrahedra), facing the positive side.
+void add_tetrahedron(const Vec3d (&p)[4], const double (&value)[4], std::vector<Vec3d>& corners) {
+  int inside[4], outside[4], n_inside = 0, n_outside = 0;
+  for (int i = 0; i < 4; ++i) (value[i] < 0 ? inside[n_inside++] : outside[n_outside++]) = i;
+  if (n_inside == 0 || n_outside == 0) return;
+  const auto crossing = [&](int a, int b) {
+    const double s = value[a] / (value[a] - value[b]);
+    return p[a] + (p[b] - p[a]) * s;
+  };
+  const auto add = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const bool faces_outside = (b - a).cross(c - a).dot(p[outside[0]] - a) > 0;
+    corners.insert(corners.end(), {a, faces_outside ? b : c, faces_outside ? c : b});
+  };
+  if (n_inside == 2) {
+    const Vec3d a = crossing(inside[0], outside[0]), b = crossing(inside[0], outside[1]);
+    const Vec3d c = crossing(inside[1], outside[1]), d = crossing(inside[1], outside[0]);
+    add(a, b, c);
+    add(a, c, d);
+    return;
+  }
+  const int single = n_inside == 1 ? inside[0] : outside[0];
+  const int* others = n_inside == 1 ? outside : inside;
+  add(crossing(single, others[0]), crossing(single, others[1]), crossing(single, others[2]));
+}
+
+class SdfShape : public Shape {
+ public:
+  SdfShape(const SdfField& field, const Transform& world_from_field)
+      : field_(field),
+        world_from_field_(world_from_field),
+        field_from_world_(world_from_field.inverse()) {
+    for (const Vec3d& axis : {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)})
+      largest_scale_ = std::max(largest_scale_, transform_vector(world_from_field, axis).length());
+    // The sum bounds what a unit vector can become under shears as well.
+    largest_scale_ *= std::sqrt(3.0);
+  }
+
+  Bounds3f bounds() const override { return cell_bounds(Vec3d(0, 0, 0), extent); }
+  float area() const override;
+  std::optional<ShapeHit> intersect(const Ray& ray) const override;
+  SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
+  bool can_sample() const override { return false; }
+  ShapeSample sample_area(const Vec2f&) const override { return {}; }
+  TriangleMesh tessellate(int level) const override;
+  std::vector<Bounds3f> bounding_boxes(int budget) const override;
+
+ private:
+  struct Span {
+    double begin, end;
+  };
+  static std::optional<Span> clip(const Vec3d& o, const Vec3d& d, double t_max);
+  double refine(const Vec3d& o, const Vec3d& d, double t, double step, double side) const;
+  Bounds3f cell_bounds(const Vec3d& middle, double half_width) const;
+  bool may_hold_surface(const Vec3d& middle, double half_width) const {
+    return field_.value(middle) <= half_width * std::sqrt(3.0);
+  }
+  /// By the inverse transpose; unit.
+  Vec3d world_normal(const Vec3d& n) const {
+    Vec3d result;
+    for (int i = 0; i < 3; ++i)
+      result[i] = field_from_world_.at(0, i) * n.x + field_from_world_.at(1, i) * n.y +
+                  field_from_world_.at(2, i) * n.z;
+    return result.normalized();
+  }
+
+  SdfField field_;
+  Transform world_from_field_, field_from_world_;
+  double largest_scale_ = 0;
+  mutable std::once_flag area_once_;
+  mutable float area_ = 0;
+};
+
+std::optional<SdfShape::Span> SdfShape::clip(const Vec3d& o, const Vec3d& d, double t_max) {
+  Span span{0, t_max};
+  for (int i = 0; i < 3; ++i) {
+    if (d[i] == 0) {
+      if (std::fabs(o[i]) > extent) return std::nullopt;
+      continue;
+    }
+    const double a = (-extent - o[i]) / d[i], b = (extent - o[i]) / d[i];
+    span.begin = std::max(span.begin, std::min(a, b));
+    span.end = std::min(span.end, std::max(a, b));
+  }
+  if (!(span.begin < span.end)) return std::nullopt;
+  return span;
+}
+
+std::optional<ShapeHit> SdfShape::intersect(const Ray& ray) const {
+  const Vec3d o = transform_point(field_from_world_, Vec3d(ray.origin));
+  const Vec3d direction = transform_vector(field_from_world_, Vec3d(ray.direction));
+  const double scale = direction.length();  // field units per t
+  const Vec3d d = direction / scale;
+  const auto span = clip(o, d, double(ray.t_max) * scale);
+  if (!span) return std::nullopt;
+
+  // The sign at the start tells the side that the ray is on; it stops where the other one begins.
+  constexpr double smallest_step = 0.25 * precision;
+  constexpr double step_inside = 1e-3;  // there the value is no distance
+  constexpr int most_steps = 100000;
+  const double side = field_.value(o + d * span->begin) < 0 ? -1 : 1;
+  double t = span->begin;
+  for (int i = 0; i < most_steps && t < span->end; ++i) {
+    const Vec3d p = o + d * t;
+    const double distance = side * field_.value(p);
+    const double step =
+        std::max(smallest_step, side > 0 ? distance : std::min(distance, step_inside));
+    // Within `precision` of the surface only what goes toward it is a hit: rays start here, too.
+    if (distance < precision && side * d.dot(field_.gradient(p)) < 0) {
+      const double t_hit = std::min(refine(o, d, t, step, side), span->end) / scale;
+      if (!(t_hit > 0) || !(t_hit < double(ray.t_max))) return std::nullopt;
+      return ShapeHit{float(t_hit), 0, 0, Vec3f(world_normal(field_.gradient(p)))};
+    }
+    t += step;
+  }
+  return std::nullopt;
+}
+
+/// From a point within reach of the surface to the surface itself, by bisection if it is passed
+/// soon, else where it is.
+double SdfShape::refine(const Vec3d& o, const Vec3d& d, double t, double step, double side) const {
+  double outside = t, inside = t;
+  double reach = std::max(step, precision);
+  for (int i = 0; i < 5 && inside == t; ++i, reach *= 2)
+    if (side * field_.value(o + d * (t + reach)) < 0) inside = t + reach;
+  if (inside == t) return t;
+  for (int i = 0; i < 16; ++i) {
+    const double middle = 0.5 * (outside + inside);
+    (side * field_.value(o + d * middle) < 0 ? inside : outside) = middle;
+  }
+  return outside;
+}
+
+SurfacePoint SdfShape::surface_point(const Ray& ray, const Hit& hit) const {
+  const Vec3d p = Vec3d(ray.origin) + Vec3d(ray.direction) * double(hit.t);
+  SurfacePoint point;
+  point.position = Vec3f(p);
+  point.ng = point.ns = Vec3f(world_normal(field_.gradient(transform_point(field_from_world_, p))));
+  point.dpdu = Vec3f(0, 0, 0);
+  point.error = float(2 * precision * largest_scale_) +
+                position_rounding(point.position, point.ng) +
+                4 * float_rounding * std::fabs(hit.t) * length(ray.direction);
+  return point;
+}
+
+Bounds3f SdfShape::cell_bounds(const Vec3d& middle, double half_width) const {
+  Imath::Box3d box;
+  const double half = half_width + precision;
+  for (int i = 0; i < 8; ++i)
+    box.extendBy(transform_point(
+        world_from_field_,
+        middle + Vec3d(i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half)));
+  return rounded_outward(box.min, box.max);
+}
+
+std::vector<Bounds3f> SdfShape::bounding_boxes(int budget) const {
+  struct Cell {
+    Vec3d middle;
+    double half_width;
+    bool operator<(const Cell& other) const { return half_width < other.half_width; }
+  };
+  std::priority_queue<Cell> cells;
+  cells.push({Vec3d(0, 0, 0), extent});
+  while (!cells.empty() && cells.size() + 7 <= size_t(std::max(1, budget)) &&
+         cells.top().half_width > 100 * precision) {
+    const Cell cell = cells.top();
+    cells.pop();
+    const double half = 0.5 * cell.half_width;
+    for (int i = 0; i < 8; ++i) {
+      const Vec3d middle =
+          cell.middle + Vec3d(i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half);
+      if (may_hold_surface(middle, half + precision)) cells.push({middle, half});
+    }
+  }
+  std::vector<Bounds3f> boxes;
+  for (; !cells.empty(); cells.pop())
+    boxes.push_back(cell_bounds(cells.top().middle, cells.top().half_width));
+  return boxes;
+}
+
+TriangleMesh SdfShape::tessellate(int level) const {
+  const int n = 16 << std::clamp(level, 0, 4);
+  const double width = 2 * (extent + 0.01) / n;
+  const auto grid_point = [&](int i, int j, int k) {
+    return Vec3d(i, j, k) * width - Vec3d(1, 1, 1) * (extent + 0.01);
+  };
+  const auto layer = [&](int k) {
+    std::vector<double> values;
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) values.push_back(field_.value(grid_point(i, j, k)));
+    return values;
+  };
+  // The six tetrahedra round the diagonal from corner 0 to corner 7 (bits: x, y, z).
+  constexpr int tetrahedra[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
+                                    {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+  std::vector<Vec3d> corners;
+  std::vector<double> below = layer(0);
+  for (int k = 0; k < n; ++k) {
+    std::vector<double> above = layer(k + 1);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        for (const auto& tetrahedron : tetrahedra) {
+          Vec3d p[4];
+          double value[4];
+          for (int c = 0; c < 4; ++c) {
+            const int x = i + (tetrahedron[c] & 1), y = j + (tetrahedron[c] >> 1 & 1);
+            const int z = tetrahedron[c] >> 2;
+            p[c] = grid_point(x, y, k + z);
+            value[c] = (z ? above : below)[size_t(y) * size_t(n + 1) + size_t(x)];
+          }
+          add_tetrahedron(p, value, corners);
+        }
+    below = std::move(above);
+  }
+  TriangleMesh mesh;
+  const bool mirrored = world_from_field_.determinant3() < 0;
+  for (size_t i = 0; i < corners.size(); i += 3) {
+    for (size_t c = 0; c < 3; ++c)
+      mesh.positions.push_back(Vec3f(transform_point(world_from_field_, corners[i + c])));
+    const auto a = uint32_t(i);
+    mesh.triangles.push_back(mirrored ? std::array{a, a + 2, a + 1} : std::array{a, a + 1, a + 2});
+  }
+  return mesh;
+}
+
+float SdfShape::area() const {
+  std::call_once(area_once_, [this] {
+    const TriangleMesh mesh = tessellate(2);
+    double sum = 0;
+    for (size_t i = 0; i < mesh.positions.size(); i += 3) {
+      const Vec3d p(mesh.positions[i]);
+      sum +=
+          0.5 * (Vec3d(mesh.positions[i + 1]) - p).cross(Vec3d(mesh.positions[i + 2]) - p).length();
+    }
+    area_ = float(sum);
+  });
+  return area_;
+}
+
+}  // namespace
+
+const TypeInfo& sdf_info() {
+  static const TypeInfo info{
+      "shape",
+      "sdf",
+      "A solid given by a signed distance field; cannot be a light.",
+      {choice_parameter("field", "menger", {"menger", "mandelbulb"}, "Which solid."),
+       integer_parameter("iterations", 4, "Levels of detail.").range(1, 16),
+       point_parameter("center", Vec3d(0, 0, 0), "Centre of the solid."),
+       number_parameter("size", 2.0, "Edge of the cube that holds the solid.")
+           .range(1e-30, 1e18)
+           .in("m"),
+       transform_parameter("to_world", "Places the solid in the world.")}};
+  return info;
+}
+
+std::unique_ptr<Shape> create_sdf(const Arguments& arguments) {
+  const SdfField field{arguments.text("field") == "menger" ? SdfKind::menger : SdfKind::mandelbulb,
+                       int(arguments.integer("iterations"))};
+  const double half = 0.5 * arguments.number("size");
+  return std::make_unique<SdfShape>(field, affine_to_world(arguments) *
+                                               Transform::translate(arguments.point("center")) *
+                                               Transform::scale({half, half, half}));
+}
+
+}  // namespace kaustik

@@ -1,0 +1,32 @@
+#pragma once
+// What several shapes share; not for other rooms.
+
+#include "kaustik/geometry/shape.h"
+
+namespace kaustik {
+
+/// Density per solid angle at `reference` of a density per area at `point`; zero where the surface
+/// is seen edge-on.
+float solid_angle_density(const Vec3f& reference, const SurfacePoint& point, float pdf_area);
+
+/// The box from `low` to `high`, grown by a few roundings of its coordinates.
+Bounds3f rounded_outward(const Vec3d& low, const Vec3d& high);
+/// The part that two boxes share; for boxes that are known to overlap.
+Bounds3f common_part(const Bounds3f& a, const Bounds3f& b);
+
+/// How far rounding each coordinate of `position` to float can have moved it along the normal; the
+/// error of a point that was computed in double precision.
+float position_rounding(const Vec3f& position, const Vec3f& unit_normal);
+
+Vec3d transform_point(const Transform& t, const Vec3d& p);
+Vec3d transform_vector(const Transform& t, const Vec3d& v);
+/// Some unit vector at right angles to `unit`.
+Vec3d orthogonal_to(const Vec3d& unit);
+
+/// The parameter `to_world`. Throws Error(input) if it is a projection.
+const Transform& affine_to_world(const Arguments& arguments);
+/// The factor by which `to_world` scales all lengths. Throws Error(input) if it shears or scales
+/// unevenly.
+double similarity_scale(const Arguments& arguments);
+
+}  // namespace kaustik
