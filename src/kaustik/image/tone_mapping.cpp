@@ -180,6 +180,7 @@ Vec3f into_gamut(const Vec3f& rgb) {
     if (rgb[c] > 1) kept = std::min(kept, (1 - y) / (rgb[c] - y));
     if (rgb[c] < 0) kept = std::min(kept, y / (y - rgb[c]));
   }
+  if (kept == 1) return rgb;
   Vec3f result;
   for (int c = 0; c < 3; ++c) result[c] = std::clamp(y + kept * (rgb[c] - y), 0.0f, 1.0f);
   return result;

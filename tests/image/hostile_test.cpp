@@ -1,0 +1,119 @@
+// Damaged files: an error or an image, never a crash, a hang or a giant allocation.
+
+#include <sys/resource.h>
+
+#include "kaustik/image/image_io.h"
+#include "tests/image/support.h"
+
+namespace kaustik {
+namespace {
+
+using testing::expect_input_error;
+
+#ifdef KAUSTIK_SLOW_BUILD
+constexpr int flips_per_format = 400;
+#else
+constexpr int flips_per_format = 4000;
+#endif
+
+class Hostile : public testing::FileTest {
+ protected:
+  /// An error must be an input error that names the file and a remedy.
+  bool reads(const std::string& bytes) const {
+    put(path("damaged"), bytes);
+    const testing::Caught error = testing::caught([&] { read_image(path("damaged")); });
+    if (!error.is_error) return true;
+    EXPECT_EQ(error.kind, ErrorKind::input) << error.text;
+    EXPECT_NE(error.text.find(path("damaged")), std::string::npos) << error.text;
+    EXPECT_FALSE(error.remedy.empty());
+    return false;
+  }
+  /// A file of each format, from an image so small that damage often meets the header.
+  std::vector<std::string> corpus() const {
+    Image image = testing::test_picture(24, 13, 3);
+    image.set_metadata("scene", std::string("box"));
+    std::vector<std::string> files;
+    for (const char* name : {"a.exr", "a.hdr", "a.pfm", "a.tif", "a.png", "a.jpg", "a.ppm"}) {
+      write_image(image, path(name));
+      files.push_back(contents(path(name)));
+    }
+    return files;
+  }
+};
+
+TEST_F(Hostile, truncated_files_are_refused) {
+  for (const std::string& file : corpus()) {
+    ASSERT_TRUE(reads(file));
+    for (const double share : {0.0, 0.02, 0.1, 0.3, 0.5, 0.8, 0.95})
+      EXPECT_FALSE(reads(file.substr(0, size_t(share * double(file.size())))))
+          << file.substr(0, 4) << " cut at " << share;
+    // Anywhere, and in the very end (where trailing bytes may not matter).
+    for (size_t length = 1; length < file.size(); length += 1 + file.size() / 300)
+      reads(file.substr(0, length));
+    for (size_t cut = 1; cut < 20; ++cut) reads(file.substr(0, file.size() - cut));
+  }
+}
+
+TEST_F(Hostile, damaged_bytes_do_no_harm) {
+  std::mt19937 generator(3);
+  for (const std::string& file : corpus()) {
+    int refused = 0;
+    for (int i = 0; i < flips_per_format; ++i) {
+      std::string damaged = file;
+      // Half of the damage to the header, where sizes are.
+      const size_t reach = i % 2 ? file.size() : std::min(file.size(), size_t{200});
+      const int count = 1 + int(generator() % 3);
+      for (int k = 0; k < count; ++k) {
+        const unsigned kind = generator() % 3;
+        char& byte = damaged[generator() % reach];
+        byte = kind == 0   ? char(generator())
+               : kind == 1 ? '\xff'
+                           : char(byte ^ (1 << generator() % 8));
+      }
+      refused += reads(damaged) ? 0 : 1;
+    }
+    EXPECT_GT(refused, 0) << file.substr(0, 4);
+  }
+  // Corrupt headers must not have made us touch gigabytes.
+  rusage usage = {};
+  ::getrusage(RUSAGE_SELF, &usage);
+#ifndef KAUSTIK_SLOW_BUILD
+  EXPECT_LT(usage.ru_maxrss, 1000000);  // kilobytes
+#endif
+}
+
+TEST_F(Hostile, headers_that_promise_too_much) {
+  const auto refuses = [&](const std::string& bytes) { EXPECT_FALSE(reads(bytes)) << bytes; };
+  refuses("PF\n1000000 1000000\n-1\n");
+  refuses("PF\n20000 20000\n-1\nabc");
+  refuses("Pf\n99999999999999999999 1\n-1\nabc");
+  refuses("PF\n2 2\n0\n" + std::string(48, 'x'));
+  refuses("PF\n2 2\nnan\n" + std::string(48, 'x'));
+  refuses("PF\n-2 2\n-1\n" + std::string(48, 'x'));
+  refuses("P6\n100000 100000\n255\nabc");
+  refuses("P6\n2 2\n0\n" + std::string(12, 'x'));
+  refuses("P6\n2 2\n70000\n" + std::string(24, 'x'));
+  refuses("P3\n2 2\n255\n1 2 3");
+  refuses("P3\n1 1\n255\n1 2 300");
+  refuses("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2000000000 +X 2000000000\nabcd");
+  refuses("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 20000 +X 20000\nabcd");
+  refuses("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 99999999999999 +X 1\nabcd");
+  refuses("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y -3 +X -4\nabcd");
+  refuses("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-X 3 +X 4\n" + std::string(48, 'x'));
+  refuses("#?RADIANCE\nFORMAT=other\n\n-Y 1 +X 1\nabcd");
+  refuses("#?RADIANCE\nEXPOSURE=0\n\n-Y 1 +X 1\nabcd");
+  refuses("#?RADIANCE\n\n-Y 1 +X 4\n" + std::string("\1\1\1\3", 4));  // repeats nothing
+  refuses("#?RADIANCE\n" + std::string(1000000, 'x'));
+}
+
+TEST_F(Hostile, what_is_no_image_at_all) {
+  EXPECT_FALSE(reads(""));
+  EXPECT_FALSE(reads("x"));
+  EXPECT_FALSE(reads("<scene version=\"3.0.0\"/>"));
+  EXPECT_FALSE(reads(std::string(1000, '\0')));
+  expect_input_error([&] { read_image(path("missing.exr")); }, path("missing.exr"));
+  expect_input_error([&] { read_image(folder_.string()); }, "regular");
+}
+
+}  // namespace
+}  // namespace kaustik
