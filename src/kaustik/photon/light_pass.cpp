@@ -1,0 +1,246 @@
+#include "kaustik/photon/light_pass.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "kaustik/base/parallel.h"
+
+namespace kaustik {
+namespace {
+
+constexpr size_t photons_per_block = 2048;
+constexpr int target_budget = 128;
+
+/// Photons in the order in which they were stored.
+struct PhotonList {
+  std::vector<Vec3f> positions;
+  std::vector<Photon> photons;
+
+  void add(const LightVertex& at, float scale) {
+    const SurfaceVertex& vertex = at.vertex;
+    const Vec3f& ng = vertex.point().ng;
+    const float cos_geometric = dot(vertex.wo(), ng);
+    const float cos_shading = dot(vertex.wo(), vertex.normal());
+    if (!(std::fabs(cos_geometric) > 0)) return;
+    // Density on the surface counts flux by the geometric cosine, shading by the other.
+    const Spectrum flux =
+        at.state.throughput * (scale * std::fabs(cos_shading) / std::fabs(cos_geometric));
+    Photon photon;
+    for (int lane = 0; lane < Spectrum::lane_count; ++lane) photon.flux[size_t(lane)] = flux[lane];
+    photon.distance = at.distance;
+    photon.direction = PackedDirection(vertex.wo());
+    photon.on_front = cos_geometric > 0;
+    photon.side = CoarseNormal(cos_geometric > 0 ? ng : -ng);
+    positions.push_back(vertex.position());
+    photons.push_back(photon);
+  }
+  void append(const PhotonList& other) {
+    positions.insert(positions.end(), other.positions.begin(), other.positions.end());
+    photons.insert(photons.end(), other.photons.begin(), other.photons.end());
+  }
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Lobes without(Lobes set, Lobes removed) { return Lobes(uint8_t(set) & ~uint8_t(removed)); }
+
+}  // namespace
+
+void LightCounts::add(const LightCounts& other) {
+  emitted += other.emitted;
+  stored += other.stored;
+  nothing += other.nothing;
+  escaped += other.escaped;
+  absorbed += other.absorbed;
+  too_long += other.too_long;
+  stored_flux += other.stored_flux;
+}
+
+LightCounts MapReport::total() const {
+  LightCounts sum;
+  for (const LightCounts& counts : lights) sum.add(counts);
+  return sum;
+}
+
+/// What tracing leaves: photons for both maps (caustic photons may go on as global ones).
+struct LightPass::Deposits {
+  PhotonList global, caustic;
+  MapReport report;
+};
+
+/// Traces one block of photons of one light.
+class LightPass::Tracer {
+ public:
+  Tracer(const LightPass& pass, Kind kind, int light, uint32_t count)
+      : pass_(pass),
+        kind_(kind),
+        light_(light),
+        scale_(1.0f / float(count)),
+        storing_(without(Lobes::all, pass.settings_.traced | Lobes::delta)) {}
+
+  void trace(Sampler sampler) {
+    const EmissionSampler& emission =
+        kind_ == Kind::global ? *pass_.global_emission_ : *pass_.caustic_emission_;
+    const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
+    const EmittedRay emitted = emission.sample(light_, u_position, u_direction, sampler.next_1d());
+    ++counts.emitted;
+    if (emitted.flux.is_zero()) {
+      ++counts.nothing;
+      return;
+    }
+    const LightPathLimits limits{pass_.settings_.maximum_events, pass_.settings_.traced};
+    const LightPathResult result = trace_light_path(
+        pass_.scene_, emitted.ray, emitted.flux, sampler, limits, [this](const LightVertex& at) {
+          return kind_ == Kind::global ? meet_global(at) : meet_caustic(at);
+        });
+    rays += result.rays;
+    if (result.end == LightPathEnd::escaped) ++counts.escaped;
+    if (result.end == LightPathEnd::absorbed) ++counts.absorbed;
+    if (result.end == LightPathEnd::too_long) ++counts.too_long;
+  }
+
+  PhotonList global, caustic;
+  LightCounts counts;
+  uint64_t rays = 0;
+
+ private:
+  Lobes meet_global(const LightVertex& at) {
+    if (at.path_class.diffuse_events() > 0) {
+      store(at, global);
+      return Lobes::all;
+    }
+    // With re-radiation the caustic photons bring what specular events began.
+    return pass_.settings_.reradiate ? without(Lobes::all, pass_.settings_.traced) : Lobes::all;
+  }
+
+  Lobes meet_caustic(const LightVertex& at) {
+    const Lobes traced = at.vertex.lobes() & pass_.settings_.traced;
+    if (at.path_class.events() == 0) return traced;
+    if (at.path_class.diffuse_events() > 0) {
+      store(at, global);
+      return Lobes::all;
+    }
+    store(at, caustic);
+    return pass_.settings_.reradiate ? Lobes::all : traced;
+  }
+
+  void store(const LightVertex& at, PhotonList& list) {
+    if (!any(at.vertex.lobes() & storing_)) return;
+    list.add(at, scale_);
+    ++counts.stored;
+    counts.stored_flux += double(at.state.throughput.max_lane()) * scale_;
+  }
+
+  const LightPass& pass_;
+  Kind kind_;
+  int light_;
+  float scale_;
+  Lobes storing_;
+};
+
+LightPass::LightPass(const Scene& scene, const LightPassSettings& settings, uint64_t seed)
+    : scene_(scene),
+      settings_(settings),
+      global_emission_(std::make_unique<EmissionSampler>(scene)) {
+  if (settings_.caustic_photons > 0) {
+    std::vector<AimTarget> targets = find_targets(scene, settings_.traced, target_budget);
+    target_count_ = targets.size();
+    caustic_emission_ = settings_.aim ? std::make_unique<EmissionSampler>(scene, std::move(targets))
+                                      : std::make_unique<EmissionSampler>(scene);
+  }
+  global_shares_ = train(Kind::global, settings_.global_photons, seed);
+  caustic_shares_ = train(Kind::caustic, settings_.caustic_photons, seed);
+}
+
+std::vector<uint32_t> LightPass::train(Kind kind, uint32_t total, uint64_t seed) const {
+  const size_t lights = scene_.lights().size();
+  if (total == 0 || lights == 0 || (kind == Kind::caustic && target_count_ == 0))
+    return std::vector<uint32_t>(lights, 0);
+  std::vector<double> arriving(lights), power(lights);
+  for (size_t i = 0; i < lights; ++i) power[i] = scene_.lights()[i]->power().sum();
+  if (lights > 1) {
+    const auto tries = uint32_t(std::clamp<size_t>(total / 4 / lights, 64, 16384));
+    Deposits deposits;
+    trace_kind(kind, std::vector<uint32_t>(lights, tries), seed, 0, Stream::training, {}, deposits);
+    for (size_t i = 0; i < lights; ++i) arriving[i] = deposits.report.lights[i].stored_flux;
+  } else {
+    arriving = power;
+  }
+  return share_photons(total, arriving, power);
+}
+
+void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint64_t seed,
+                           uint32_t index, Stream stream, std::stop_token stop,
+                           Deposits& deposits) const {
+  deposits.report.lights.assign(shares.size(), {});
+  struct Block {
+    int light;
+    uint32_t begin, end;
+  };
+  std::vector<Block> blocks;
+  for (size_t light = 0; light < shares.size(); ++light)
+    for (uint32_t begin = 0; begin < shares[light]; begin += uint32_t(photons_per_block))
+      blocks.push_back(
+          {int(light), begin, std::min(shares[light], begin + uint32_t(photons_per_block))});
+  std::vector<std::unique_ptr<Tracer>> results(blocks.size());
+  parallel_blocks(blocks.size(), 1, [&](size_t i, size_t, size_t) {
+    if (stop.stop_requested()) return;
+    const Block& block = blocks[i];
+    auto tracer = std::make_unique<Tracer>(*this, kind, block.light, shares[size_t(block.light)]);
+    // Kinds draw from different addresses even where they share a stream (training).
+    const uint64_t element = uint64_t(block.light) * 2 + (kind == Kind::caustic ? 1 : 0);
+    for (uint32_t photon = block.begin; photon < block.end; ++photon)
+      tracer->trace(Sampler::at(seed, index, stream, element, photon));
+    results[i] = std::move(tracer);
+  });
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    if (!results[i]) continue;
+    deposits.global.append(results[i]->global);
+    deposits.caustic.append(results[i]->caustic);
+    deposits.report.lights[size_t(blocks[i].light)].add(results[i]->counts);
+    deposits.report.rays += results[i]->rays;
+    results[i].reset();
+  }
+}
+
+PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop) const {
+  const auto start = std::chrono::steady_clock::now();
+  Deposits caustic, global;
+  trace_kind(Kind::caustic, caustic_shares_, seed, index, Stream::photon_caustic, stop, caustic);
+  trace_kind(Kind::global, global_shares_, seed, index, Stream::photon_global, stop, global);
+  global.global.append(caustic.global);
+  caustic.report.target_count = target_count_;
+  PhotonMaps maps;
+  maps.global_report = std::move(global.report);
+  maps.caustic_report = std::move(caustic.report);
+  maps.trace_seconds = seconds_since(start);
+  const auto build_start = std::chrono::steady_clock::now();
+  maps.caustic =
+      PhotonMap(std::move(caustic.caustic.positions), std::move(caustic.caustic.photons));
+  maps.global = PhotonMap(std::move(global.global.positions), std::move(global.global.photons));
+  maps.build_seconds = seconds_since(build_start);
+  return maps;
+}
+
+std::vector<std::string> LightPass::warnings(const PhotonMaps& maps) const {
+  std::vector<std::string> list;
+  const auto explain = [&](const char* name, const MapReport& report) {
+    const LightCounts total = report.total();
+    if (scene_.lights().empty())
+      return fmt::format("the {} map is empty: the scene has no light", name);
+    return fmt::format(
+        "the {} map is empty: of {} photons {} carried nothing, {} left the scene, {} were "
+        "absorbed before a surface that could store them, {} reached the longest path",
+        name, total.emitted, total.nothing, total.escaped, total.absorbed, total.too_long);
+  };
+  if (settings_.global_photons > 0 && maps.global.empty())
+    list.push_back(explain("global", maps.global_report));
+  if (settings_.caustic_photons > 0 && maps.caustic.empty() && target_count_ > 0)
+    list.push_back(explain("caustic", maps.caustic_report));
+  return list;
+}
+
+}  // namespace kaustik

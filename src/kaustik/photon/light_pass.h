@@ -1,0 +1,82 @@
+#pragma once
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "kaustik/photon/emission.h"
+#include "kaustik/photon/photon_map.h"
+#include "kaustik/transport/light_path.h"
+
+namespace kaustik {
+
+/// What a light pass is asked for.
+struct LightPassSettings {
+  uint32_t global_photons = 0;     ///< to emit; 0: no global map
+  uint32_t caustic_photons = 0;    ///< to emit; 0: no caustic map
+  int maximum_events = 1 << 20;    ///< scattering events of a light path
+  Lobes traced = Lobes::specular;  ///< lobes whose events count as specular (G)
+  bool reradiate = false;          ///< caustic photons go on as global ones
+  bool aim = true;                 ///< caustic photons are aimed at specular objects
+};
+
+/// What became of the photons of one light.
+struct LightCounts {
+  uint64_t emitted = 0;  ///< tries, those that carry nothing included
+  uint64_t stored = 0;   ///< photons in the map
+  uint64_t nothing = 0;  ///< emitted rays without flux (aimed below the horizon)
+  uint64_t escaped = 0;  ///< left the scene
+  uint64_t absorbed = 0;
+  uint64_t too_long = 0;   ///< reached the limit of events
+  double stored_flux = 0;  ///< W over all stored photons
+  void add(const LightCounts& other);
+};
+
+/// How a map came about.
+struct MapReport {
+  std::vector<LightCounts> lights;  ///< parallel to the scene's lights
+  uint64_t rays = 0;
+  size_t target_count = 0;  ///< objects' boxes that were aimed at
+  LightCounts total() const;
+};
+
+/// The maps of one pass.
+struct PhotonMaps {
+  PhotonMap global, caustic;
+  MapReport global_report, caustic_report;
+  double trace_seconds = 0, build_seconds = 0;
+};
+
+/// Traces photons from the lights into the maps of a pass: global photons (stored only after a
+/// diffuse event) by power, caustic photons (all events specular) aimed at specular objects. What
+/// each light emits follows what arrived in a training pass, so that lights elsewhere can't starve
+/// the one that makes the caustic. Immutable.
+class LightPass {
+ public:
+  /// Trains the budgets with photons of `seed`. The scene must outlive this.
+  LightPass(const Scene& scene, const LightPassSettings& settings, uint64_t seed);
+
+  /// The maps of pass `index`: the same for any number of threads.
+  PhotonMaps trace(uint64_t seed, uint32_t index, std::stop_token stop = {}) const;
+
+  /// Why a map that was asked for is empty. (A scene without specular objects has no caustics:
+  /// that is no warning.)
+  std::vector<std::string> warnings(const PhotonMaps& maps) const;
+  const std::vector<uint32_t>& global_shares() const { return global_shares_; }
+  const std::vector<uint32_t>& caustic_shares() const { return caustic_shares_; }
+
+ private:
+  struct Deposits;
+  class Tracer;
+  enum class Kind { global, caustic };
+  void trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint64_t seed, uint32_t index,
+                  Stream stream, std::stop_token stop, Deposits& deposits) const;
+  std::vector<uint32_t> train(Kind kind, uint32_t total, uint64_t seed) const;
+
+  const Scene& scene_;
+  LightPassSettings settings_;
+  size_t target_count_ = 0;
+  std::unique_ptr<EmissionSampler> global_emission_, caustic_emission_;
+  std::vector<uint32_t> global_shares_, caustic_shares_;
+};
+
+}  // namespace kaustik

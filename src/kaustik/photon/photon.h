@@ -1,0 +1,75 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "kaustik/base/spectrum.h"
+#include "kaustik/base/vec.h"
+
+namespace kaustik {
+
+/// A unit vector in 3 × 8 bits, exact enough to tell half spaces apart.
+class CoarseNormal {
+ public:
+  CoarseNormal() = default;
+  explicit CoarseNormal(const Vec3f& n)
+      : x_(int8_t(std::lround(n.x * 127))),
+        y_(int8_t(std::lround(n.y * 127))),
+        z_(int8_t(std::lround(n.z * 127))) {}
+  /// Dot product, times 127.
+  float dot(const Vec3f& v) const { return float(x_) * v.x + float(y_) * v.y + float(z_) * v.z; }
+
+ private:
+  int8_t x_ = 0, y_ = 0, z_ = 0;
+};
+
+/// A unit vector in 2 × 16 bits by the octahedral map (Cigolle et al. 2014); error below 1e-4.
+class PackedDirection {
+ public:
+  PackedDirection() = default;
+  explicit PackedDirection(const Vec3f& d) {
+    const float scale = 1.0f / (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z));
+    float x = d.x * scale, y = d.y * scale;
+    if (d.z < 0) {
+      const float folded = (1 - std::fabs(y)) * std::copysign(1.0f, x);
+      y = (1 - std::fabs(x)) * std::copysign(1.0f, y);
+      x = folded;
+    }
+    x_ = int16_t(std::lround(x * 32767));
+    y_ = int16_t(std::lround(y * 32767));
+  }
+  Vec3f unpack() const {
+    float x = float(x_) / 32767, y = float(y_) / 32767;
+    const float z = 1 - std::fabs(x) - std::fabs(y);
+    if (z < 0) {
+      const float folded = (1 - std::fabs(y)) * std::copysign(1.0f, x);
+      y = (1 - std::fabs(x)) * std::copysign(1.0f, y);
+      x = folded;
+    }
+    return normalize({x, y, z});
+  }
+
+ private:
+  int16_t x_ = 0, y_ = 0;
+};
+
+/// Flux that arrived at a surface; its position is the key in the photon map. 28 bytes.
+struct Photon {
+  std::array<float, Spectrum::lane_count> flux{};  ///< W that arrives, before any attenuation
+  float distance = 0;         ///< to the origin, m (infinite for lights at infinity)
+  PackedDirection direction;  ///< toward the origin
+  CoarseNormal side;          ///< geometric normal on the side on which it arrived
+  uint8_t on_front = 1;       ///< whether that side is the side of the surface's own normal
+
+  Spectrum flux_spectrum() const { return {flux[0], flux[1], flux[2], flux[3]}; }
+  /// Unit direction toward the origin from a point `at` near the photon's position: what
+  /// separates the two is taken into account.
+  Vec3f incident_direction(const Vec3f& position, const Vec3f& at) const {
+    const Vec3f d = direction.unpack();
+    if (!std::isfinite(distance)) return d;
+    return normalize(position + d * distance - at);
+  }
+};
+static_assert(sizeof(Photon) == 28);
+
+}  // namespace kaustik

@@ -1,0 +1,151 @@
+#include "kaustik/photon/photon_map.h"
+
+namespace kaustik {
+namespace {
+
+/// Weight of a photon at squared distance d² from the centre of a disk of radius r.
+class KernelWeight {
+ public:
+  KernelWeight(const EstimateSettings& settings, float radius_sq)
+      : kernel_(settings.kernel), inverse_radius_sq_(1 / radius_sq) {
+    const float area = pi * radius_sq;
+    switch (kernel_) {
+      case Kernel::constant:
+        scale_ = 1 / area;
+        break;
+      case Kernel::cone:
+        slope_ = 1 / settings.cone_constant;
+        scale_ = 1 / ((1 - 2.0f / 3.0f * slope_) * area);
+        break;
+      case Kernel::epanechnikov:
+        scale_ = 2 / area;
+        break;
+    }
+  }
+  float operator()(float distance_sq) const {
+    const float relative_sq = distance_sq * inverse_radius_sq_;
+    switch (kernel_) {
+      case Kernel::constant:
+        return scale_;
+      case Kernel::cone:
+        return scale_ * (1 - slope_ * std::sqrt(relative_sq));
+      case Kernel::epanechnikov:
+        return scale_ * (1 - relative_sq);
+    }
+    return 0;
+  }
+
+ private:
+  Kernel kernel_;
+  float inverse_radius_sq_;
+  float scale_ = 0, slope_ = 0;
+};
+
+/// Radius and number of the photons that the kernel sums.
+struct Disk {
+  float radius_sq = 0;
+  size_t count = 0;
+};
+
+template <typename Neighbors>
+Disk disk_of(const Neighbors& neighbors, float maximum_radius) {
+  // The farthest of a complete set stands last, so it is left out by counting to one less.
+  if (neighbors.complete()) return {neighbors.farthest_sq(), neighbors.size() - 1};
+  return {sqr(maximum_radius), neighbors.size()};
+}
+
+}  // namespace
+
+PhotonMap::PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons) {
+  double sum = 0;
+  for (const Photon& photon : photons) sum += photon.flux_spectrum().max_lane();
+  mean_flux_ = photons.empty() ? 0 : float(sum / double(photons.size()));
+  tree_.assign(std::move(positions), std::move(photons));
+}
+
+PhotonMap::Neighbors& PhotonMap::workspace() {
+  static thread_local Neighbors neighbors;
+  return neighbors;
+}
+
+void PhotonMap::find(const Vec3f& position, const Vec3f& normal, bool both_sides, int count,
+                     float maximum_radius, Neighbors& neighbors) const {
+  const auto accept = [&](uint32_t index) {
+    const Photon& photon = tree_.data(index);
+    const float dot = photon.side.dot(normal);
+    return (both_sides && !photon.on_front ? -dot : dot) > 0;
+  };
+  tree_.nearest(position, size_t(count), sqr(maximum_radius), accept, neighbors);
+}
+
+DensityEstimate PhotonMap::irradiance(const Vec3f& position, const Vec3f& side,
+                                      const EstimateSettings& settings) const {
+  DensityEstimate estimate;
+  if (settings.neighbors <= 0 || empty()) return estimate;
+  Neighbors& neighbors = workspace();
+  find(position, side, false, settings.neighbors, settings.maximum_radius, neighbors);
+  const Disk disk = disk_of(neighbors, settings.maximum_radius);
+  estimate.found = int(neighbors.size());
+  estimate.radius = std::sqrt(disk.radius_sq);
+  if (disk.count == 0 || !std::isfinite(disk.radius_sq) || !(disk.radius_sq > 0)) return estimate;
+  const KernelWeight weight(settings, disk.radius_sq);
+  for (size_t i = 0; i < disk.count; ++i)
+    estimate.value +=
+        tree_.data(neighbors.index(i)).flux_spectrum() * weight(neighbors.distance_sq(i));
+  return estimate;
+}
+
+DensityEstimate PhotonMap::irradiance(const SurfaceVertex& vertex,
+                                      const EstimateSettings& settings) const {
+  const Vec3f& ng = vertex.point().ng;
+  return irradiance(vertex.position(), vertex.on_front() ? ng : -ng, settings);
+}
+
+DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
+                                    const EstimateSettings& settings) const {
+  const Lobes asked = lobes & vertex.lobes();
+  const Vec3f side = vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
+  if (!any(asked)) return {};
+  if (asked == Lobes::diffuse && !vertex.bsdf().transmits()) {
+    DensityEstimate estimate = irradiance(vertex.position(), side, settings);
+    const Vec3f& n = vertex.normal();
+    estimate.value *= vertex.eval(dot(n, vertex.wo()) < 0 ? -n : n, Lobes::diffuse);
+    return estimate;
+  }
+  DensityEstimate estimate;
+  if (settings.neighbors <= 0 || empty()) return estimate;
+  Neighbors& neighbors = workspace();
+  const bool both_sides = vertex.bsdf().transmits();
+  find(vertex.position(), both_sides ? vertex.point().ng : side, both_sides, settings.neighbors,
+       settings.maximum_radius, neighbors);
+  const Disk disk = disk_of(neighbors, settings.maximum_radius);
+  estimate.found = int(neighbors.size());
+  estimate.radius = std::sqrt(disk.radius_sq);
+  if (disk.count == 0 || !std::isfinite(disk.radius_sq) || !(disk.radius_sq > 0)) return estimate;
+  const KernelWeight weight(settings, disk.radius_sq);
+  for (size_t i = 0; i < disk.count; ++i) {
+    const uint32_t index = neighbors.index(i);
+    const Photon& photon = tree_.data(index);
+    const Vec3f wi = photon.incident_direction(tree_.key(index), vertex.position());
+    estimate.value +=
+        vertex.eval(wi, asked) * photon.flux_spectrum() * weight(neighbors.distance_sq(i));
+  }
+  return estimate;
+}
+
+float radius_of_least_radiance(int neighbors, float mean_flux, float minimum_radiance) {
+  if (!(minimum_radiance > 0)) return infinity;
+  return std::sqrt(float(neighbors) * mean_flux / (pi * minimum_radiance));
+}
+
+float pass_radius(float first_radius, uint32_t index) {
+  // The product of (j + α)/(j + 1), j = 1 … index, is Γ(i + 1 + α)/(Γ(1 + α) (i + 1)!) with
+  // i = index.
+  constexpr double alpha = 2.0 / 3.0;
+  const double i = index;
+  const double log_product =
+      std::lgamma(i + 1 + alpha) - std::lgamma(1 + alpha) - std::lgamma(i + 2);
+  return first_radius * float(std::exp(0.5 * log_product));
+}
+
+}  // namespace kaustik

@@ -1,0 +1,90 @@
+#pragma once
+#include <string>
+
+#include "kaustik/photon/kd_tree.h"
+#include "kaustik/photon/photon.h"
+#include "kaustik/transport/vertex.h"
+
+namespace kaustik {
+
+/// How neighbouring photons are weighted; every kernel is normalised on the disk of radius r.
+enum class Kernel {
+  constant,     ///< 1/(π r²)
+  cone,         ///< (1 − d/(k r)) / ((1 − 2/(3k)) π r²) (Jensen 1996)
+  epanechnikov  ///< 2 (1 − d²/r²) / (π r²)
+};
+
+/// How a density is estimated.
+struct EstimateSettings {
+  int neighbors = 50;               ///< photons to find; 0: no light
+  float maximum_radius = infinity;  ///< m
+  Kernel kernel = Kernel::constant;
+  float cone_constant = 1;  ///< k ≥ 1 of the cone
+};
+
+/// What an estimate was made of.
+struct DensityEstimate {
+  Spectrum value;    ///< irradiance W/m² or radiance W/(sr·m²)
+  float radius = 0;  ///< m
+  int found = 0;     ///< photons within it, the one that sets it included
+};
+
+/// Photons in a kd-tree and the estimates from them (Schregle 1998, corrected). The
+/// farthest of k neighbours only sets the radius; the kernel sums the k − 1 nearer ones, which
+/// makes the estimate unbiased for even density (García et al. 2012). With fewer than k within the
+/// maximum radius, that is the radius, and all count. Immutable; estimates are thread-safe.
+class PhotonMap {
+ public:
+  PhotonMap() = default;
+  PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons);
+
+  size_t size() const { return tree_.size(); }
+  bool empty() const { return tree_.empty(); }
+  size_t size_in_bytes() const { return tree_.size_in_bytes(); }
+  /// Mean over photons of the largest lane of flux, W.
+  float mean_flux() const { return mean_flux_; }
+  const KdTree<3, Vec3f, Photon>& tree() const { return tree_; }
+
+  /// Irradiance on the side of `vertex` from which it is seen. Photons that arrived on the other
+  /// side are rejected during the search.
+  DensityEstimate irradiance(const SurfaceVertex& vertex, const EstimateSettings& settings) const;
+  /// The same at a bare point of a surface whose geometric normal on the lit side is `side`.
+  DensityEstimate irradiance(const Vec3f& position, const Vec3f& side,
+                             const EstimateSettings& settings) const;
+  /// Radiance that the lobes of `vertex` send toward its wo; for purely diffuse lobes the same as
+  /// f_d times the irradiance.
+  DensityEstimate radiance(const SurfaceVertex& vertex, Lobes lobes,
+                           const EstimateSettings& settings) const;
+
+  /// Photons near a point, for importance sampling: calls visit(photon, position) for each of at
+  /// most `count` that arrived on the side `side`.
+  template <typename Visit>
+  void visit_nearest(const Vec3f& position, const Vec3f& side, int count, float maximum_radius,
+                     const Visit& visit) const {
+    auto& neighbors = workspace();
+    find(position, side, false, count, maximum_radius, neighbors);
+    for (size_t i = 0; i < neighbors.size(); ++i)
+      visit(tree_.data(neighbors.index(i)), tree_.key(neighbors.index(i)));
+  }
+
+ private:
+  using Neighbors = KdTree<3, Vec3f, Photon>::Neighbors;
+  static Neighbors& workspace();
+  /// Photons that arrived on the side of `normal`, or (`both_sides`) on either side of a surface
+  /// whose own normal lies in the half space of `normal`.
+  void find(const Vec3f& position, const Vec3f& normal, bool both_sides, int count,
+            float maximum_radius, Neighbors& neighbors) const;
+
+  KdTree<3, Vec3f, Photon> tree_;
+  float mean_flux_ = 0;
+};
+
+/// Radius beyond which `neighbors` photons of mean flux `mean_flux` make less than the least
+/// visible radiance: sqrt(N Φ̄/(π L_min)) (Schregle 1998). Infinite for L_min = 0.
+float radius_of_least_radiance(int neighbors, float mean_flux, float minimum_radiance);
+
+/// Cap on the gather radius in pass `index` (from 0), given that of pass 0, for α = 2/3 (Knaus and
+/// Zwicker 2011, eq. 15: r²_{i+1} = r²_i (i + α)/(i + 1), in closed form).
+float pass_radius(float first_radius, uint32_t index);
+
+}  // namespace kaustik
