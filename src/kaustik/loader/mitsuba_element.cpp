@@ -33,10 +33,12 @@ bool check_attributes(const Element& element, const AttributeRule& rule, Problem
     problems.add(message, remedy, place);
     sound = false;
   };
+  std::vector<std::string> valid = rule.required;
+  valid.insert(valid.end(), rule.optional.begin(), rule.optional.end());
+  std::vector<std::string> misspelt;
   for (const Attribute& attribute : element.attributes) {
-    if (!is_in(rule.required, attribute.name) && !is_in(rule.optional, attribute.name)) {
-      std::vector<std::string> valid = rule.required;
-      valid.insert(valid.end(), rule.optional.begin(), rule.optional.end());
+    if (!is_in(valid, attribute.name)) {
+      misspelt.push_back(nearest_name(attribute.name.substr(0, 20), valid));
       complain(fmt::format("<{}> has no attribute {}", element.tag, in_quotes(attribute.name)),
                suggestion(attribute.name, valid), attribute.name_place);
     } else if (element.find(attribute.name) != &attribute) {
@@ -45,7 +47,7 @@ bool check_attributes(const Element& element, const AttributeRule& rule, Problem
     }
   }
   for (const std::string& name : rule.required)
-    if (!element.find(name))
+    if (!element.find(name) && !is_in(misspelt, name))
       complain(fmt::format("<{}> lacks the attribute '{}'", element.tag, name),
                fmt::format("write <{} {}=\"…\">", element.tag, fmt::join(rule.required, "=\"…\" ")),
                element.place);

@@ -71,7 +71,7 @@ std::optional<Element> Reader::ready(const pugi::xml_node& node, const Source& s
 
 bool Reader::is_element(const pugi::xml_node& node, const Source& source) {
   if (node.type() == pugi::node_pcdata)
-    problems_.add(fmt::format("text between the elements: {}", in_quotes(node.value())),
+    problems_.add(fmt::format("text between the elements: {}", in_quotes(trimmed(node.value()))),
                   "values stand in attributes, as in <float name=\"radius\" value=\"1\"/>",
                   source.document.place(node));
   return node.type() == pugi::node_element;

@@ -18,14 +18,14 @@ class References::DepthCheck {
       references_of_[reference.parent.get()].push_back(&reference);
   }
 
-  /// Levels below and including `object`, or `failed`.
-  int height(const Object* object) {
+  /// Levels below and including `object`, or `failed`. `place` is that of the last reference on the
+  /// way to it, which is what to change if it is too deep.
+  int height(const Object* object, const Place& place) {
     heights_[object] = in_progress;
     path_.push_back(object);
     int result = 0;
     for (const Child& child : object->children)
-      if (child.object)
-        result = std::max(result, height_of(child.object.get(), child.object->place));
+      if (child.object) result = std::max(result, height_of(child.object.get(), place));
     if (const auto found = references_of_.find(object); found != references_of_.end())
       for (const Reference* reference : found->second)
         result = std::max(result, height_of(reference->target.get(), reference->place));
@@ -49,7 +49,7 @@ class References::DepthCheck {
     if (known != heights_.end())
       result = known->second;
     else if (int(path_.size()) < maximum_depth)
-      result = height(part);
+      result = height(part, place);
     if (result + int(path_.size()) > maximum_depth)
       report(fmt::format("objects nest more than {} levels deep", maximum_depth),
              "make the scene flatter", place);
@@ -135,7 +135,7 @@ void References::resolve(const std::shared_ptr<Object>& scene, Problems& problem
       report_unknown(reference.id, reference.place, problems);
   }
   if (!problems.empty()) return;
-  DepthCheck(references_, problems).height(scene.get());
+  DepthCheck(references_, problems).height(scene.get(), scene->place);
   if (!problems.empty()) return;
   for (const Reference& reference : references_)
     reference.parent->children[reference.child_index].object = reference.target;

@@ -14,12 +14,6 @@ constexpr std::string_view list_separators = ", \t\r\n";
 constexpr size_t longest_quote = 60;
 constexpr size_t longest_list = 40;
 
-std::string_view trimmed(std::string_view text) {
-  const size_t begin = text.find_first_not_of(white_space);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
-}
-
 /// from_chars knows no plus sign, scene files do.
 std::string_view without_plus(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
@@ -74,6 +68,12 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
   const std::string nearest =
       name.size() <= longest_quote ? nearest_name(name, comparable) : std::string();
   return nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest);
+}
+
+std::string_view trimmed(std::string_view text) {
+  const size_t begin = text.find_first_not_of(white_space);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
 }
 
 std::vector<std::string_view> split_list(std::string_view text) {

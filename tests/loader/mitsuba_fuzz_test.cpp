@@ -1,0 +1,104 @@
+// Damaged scenes: whatever the bytes, the loader returns a description or throws kaustik::Error.
+
+#include <random>
+
+#include "tests/loader/loader_support.h"
+
+namespace kaustik {
+namespace {
+
+const std::string whole = R"(<?xml version="1.0" encoding="utf-8"?>
+<!-- every kind of element --><!DOCTYPE scene>
+<scene version="0.6.0">
+  <default name="spp" value="4"/><default name="w" value="$spp$spp"/>
+  <integrator type="photonmap"><boolean name="useCache" value="true"/></integrator>
+  <camera type="perspective">
+    <transform name="toWorld"><translate x="1"/><rotate y="1" angle="20"/><scale value="2"/>
+      <matrix value="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"/>
+      <lookAt origin="0, 0, 1" target="0, 0, 0" up="0, 1, 0"/></transform>
+    <sampler type="independent"><integer name="sampleCount" value="$w"/></sampler>
+  </camera>
+  <bsdf type="diffuse" id="white"><rgb name="diffuseReflectance" value="#ff8000"/></bsdf>
+  <alias id="white" as="paper"/><![CDATA[ nothing ]]>
+  <texture type="bitmap"><float name="uscale" value="2"/><string name="filename" value="ü.png"/></texture>
+  <shape type="sphere"><point name="center" x="0" y="0" z="1e-3"/><vector name="v" value="1,2,3"/>
+    <ref id="paper"/><emitter type="area"><spectrum name="radiance" value="400:1, 700:2.5"/></emitter>
+  </shape>
+  <luminaire type="point"><srgb name="intensity" value="0.5"/></luminaire>
+</scene>
+)";
+
+/// False if the text was refused as it should be.
+bool survives(const std::string& text) {
+  try {
+    return parse(text).scene != nullptr;
+  } catch (const Error& error) {
+    EXPECT_FALSE(error.problems().empty());
+    EXPECT_NE(std::string(error.what()), "");
+    for (const Problem& problem : error.problems()) {
+      EXPECT_FALSE(problem.message.empty());
+      EXPECT_TRUE(problem.place.file);
+      EXPECT_GE(problem.place.line, 1);
+      EXPECT_GE(problem.place.column, 1);
+    }
+  }
+  return false;
+}
+
+TEST(MitsubaFuzz, TheWholeSceneIsSound) { EXPECT_TRUE(survives(whole)); }
+
+TEST(MitsubaFuzz, TruncatedAtEveryByte) {
+  const size_t end = whole.find("</scene>") + std::string("</scene>").size();
+  for (size_t size = 0; size < end; ++size) {
+    SCOPED_TRACE(size);
+    EXPECT_FALSE(survives(whole.substr(0, size)));
+  }
+  EXPECT_TRUE(survives(whole.substr(0, end)));
+}
+
+#ifdef KAUSTIK_SLOW_BUILD
+constexpr int rounds = 2000;
+#else
+constexpr int rounds = 20000;
+#endif
+
+TEST(MitsubaFuzz, FlippedBytes) {
+  std::mt19937 random(1);
+  int refused = 0;
+  for (int round = 0; round < rounds; ++round) {
+    std::string text = whole;
+    for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
+      text[random() % text.size()] ^= char(1 + random() % 255);
+    if (!survives(text)) ++refused;
+  }
+  EXPECT_GT(refused, rounds / 2);
+  EXPECT_LT(refused, rounds);  // comments and white space may change
+}
+
+TEST(MitsubaFuzz, ExchangedPieces) {
+  // Copies of one piece over another keep more of the XML sound than single bytes do.
+  std::mt19937 random(2);
+  for (int round = 0; round < rounds; ++round) {
+    std::string text = whole;
+    for (unsigned pieces = 1 + random() % 3; pieces > 0; --pieces) {
+      const size_t length = 1 + random() % 60;
+      const std::string piece = whole.substr(random() % whole.size(), length);
+      text.replace(random() % text.size(), random() % 60, piece);
+    }
+    survives(text);
+  }
+}
+
+TEST(MitsubaFuzz, OddLetters) {
+  std::mt19937 random(3);
+  const std::string letters = "<>\"'/=&;$\\!-[]?#:,. 0e+xX\n";
+  for (int round = 0; round < rounds; ++round) {
+    std::string text = whole;
+    for (unsigned n = 1 + random() % 3; n > 0; --n)
+      text[random() % text.size()] = letters[random() % letters.size()];
+    survives(text);
+  }
+}
+
+}  // namespace
+}  // namespace kaustik

@@ -1,0 +1,206 @@
+// Objects, nesting, ids, references, definitions, names of files, places.
+
+#include "tests/loader/loader_support.h"
+
+namespace kaustik {
+namespace {
+
+TEST(MitsubaTree, ObjectsWithPlaces) {
+  const auto scene =
+      parse(
+          "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
+          "<!-- a comment -->\n"
+          "<scene version=\"3.0.0\">\n"
+          "\t<shape type=\"sphere\" id=\"ball\" name=\"main\">\n"
+          "    <float name=\"radius\" value=\"2\"/><bsdf type=\"diffuse\" name=\"surface\"/>\n"
+          "  </shape>\n"
+          "</scene>")
+          .scene;
+  EXPECT_EQ(scene->family, "scene");
+  EXPECT_EQ(scene->type, "");
+  EXPECT_EQ(text_of(scene->place), "test.xml:3:1");
+  ASSERT_EQ(scene->children.size(), 1u);
+  EXPECT_EQ(scene->children[0].name, "main");
+  const Object& ball = *scene->children[0].object;
+  EXPECT_EQ(ball.family, "shape");
+  EXPECT_EQ(ball.type, "sphere");
+  EXPECT_EQ(ball.id, "ball");
+  EXPECT_EQ(text_of(ball.place), "test.xml:4:2");
+  EXPECT_EQ(text_of(property(ball, "radius").place), "test.xml:5:5");
+  EXPECT_EQ(ball.children.at(0).name, "surface");
+  EXPECT_EQ(text_of(ball.children[0].object->place), "test.xml:5:37");
+}
+
+TEST(MitsubaTree, EveryFamily) {
+  for (const std::string family : {"shape", "bsdf", "emitter", "sensor", "film", "rfilter",
+                                   "sampler", "integrator", "texture", "medium", "phase", "volume"})
+    EXPECT_EQ(parse_inside("<" + family + " type='t'/>").scene->children.at(0).object->family,
+              family);
+}
+
+TEST(MitsubaTree, ByteOrderMarkCommentsAndCdata) {
+  const auto scene =
+      parse(
+          "\xef\xbb\xbf<scene version='3.0.0'><!-- < & --><![CDATA[ < & ]]><shape type='\xc3\xbc'/>"
+          "</scene>")
+          .scene;
+  ASSERT_EQ(scene->children.size(), 1u);
+  EXPECT_EQ(scene->children[0].object->type, "ü");
+  EXPECT_EQ(text_of(scene->place), "test.xml:1:1");
+}
+
+TEST(MitsubaTree, ReferencesShareOneObjectAlsoForward) {
+  const auto scene = parse_inside(
+                         "<shape type='a'><ref id='white' name='inside'/></shape>\n"
+                         "<bsdf type='diffuse' id='white'/>\n"
+                         "<shape type='b'><ref id='white'/></shape>")
+                         .scene;
+  const Child& first = scene->children[0].object->children.at(0);
+  EXPECT_EQ(first.name, "inside");
+  EXPECT_EQ(first.object, scene->children[1].object);
+  EXPECT_EQ(scene->children[2].object->children.at(0).object, scene->children[1].object);
+}
+
+TEST(MitsubaTree, AliasesAreOtherIds) {
+  const auto scene = parse_inside(
+                         "<bsdf type='diffuse' id='white'/>\n"
+                         "<alias id='paper' as='page'/><alias id='white' as='paper'/>\n"
+                         "<shape type='a'><ref id='page'/></shape>")
+                         .scene;
+  EXPECT_EQ(scene->children.at(1).object->children.at(0).object, scene->children[0].object);
+}
+
+TEST(MitsubaTree, DefaultsAndDefinitions) {
+  const std::string text = in_scene(
+      "<default name='spp' value='16'/><default name='sppx' value='5'/>\n"
+      "<sampler type='$kind$spp'><integer name='n' value='$spp$sppx'/>"
+      "<string name='price' value='\\$spp a\\b'/></sampler>");
+  const auto sampler = parse(text, {{{"kind", "k"}, {"spp", "3"}}}).scene->children.at(0).object;
+  EXPECT_EQ(sampler->type, "k3");
+  EXPECT_EQ(value<int64_t>(*sampler, "n"), 35);
+  EXPECT_EQ(value<std::string>(*sampler, "price"), "$spp a\\b");
+}
+
+TEST(MitsubaTree, DefaultsMayUseEarlierOnes) {
+  const auto scene = parse_inside(
+                         "<default name='a' value='2'/><default name='b' value='$a.5'/>"
+                         "<shape type='s'><float name='x' value='$b'/></shape>")
+                         .scene;
+  EXPECT_EQ(value<double>(*scene->children.at(0).object, "x"), 2.5);
+}
+
+TEST(MitsubaTree, FileNamesAreRelativeToTheScene) {
+  const std::string text = in_scene(
+      "<shape type='ply'><string name='filename' value='m/a.ply'/>"
+      "<string name='other' value='m/a.ply'/></shape>"
+      "<shape type='ply'><string name='filename' value='/abs/b.ply'/></shape>");
+  const auto scene = parse_mitsuba_xml(text, "t.xml", "some/folder").scene;
+  EXPECT_EQ(value<std::string>(*scene->children[0].object, "filename"), "some/folder/m/a.ply");
+  EXPECT_EQ(value<std::string>(*scene->children[0].object, "other"), "m/a.ply");
+  EXPECT_EQ(value<std::string>(*scene->children[1].object, "filename"), "/abs/b.ply");
+  EXPECT_EQ(value<std::string>(*parse(text).scene->children[0].object, "filename"), "m/a.ply");
+}
+
+TEST(MitsubaTree, PathAddsASearchFolder) {
+  const TemporaryFolder folder;
+  folder.write("library/a.ply", "");
+  folder.write("b.ply", "");
+  const std::string path = folder.write(
+      "scene.xml", in_scene("<path value='library'/>"
+                            "<shape type='ply'><string name='filename' value='a.ply'/></shape>"
+                            "<shape type='ply'><string name='filename' value='b.ply'/></shape>"
+                            "<shape type='ply'><string name='filename' value='c.ply'/></shape>"));
+  const auto scene = load_mitsuba_xml(path).scene;
+  EXPECT_EQ(value<std::string>(*scene->children[0].object, "filename"), folder / "library/a.ply");
+  EXPECT_EQ(value<std::string>(*scene->children[1].object, "filename"), folder / "b.ply");
+  EXPECT_EQ(value<std::string>(*scene->children[2].object, "filename"), folder / "c.ply");
+}
+
+TEST(MitsubaTree, IncludedScenesAndObjects) {
+  const TemporaryFolder folder;
+  folder.write("parts/walls.xml",
+               in_scene("<default name='r' value='2'/><bsdf type='diffuse' id='white'/>\n"
+                        "<shape type='ply'><string name='filename' value='w.ply'/></shape>\n"
+                        "<include filename='lamp.xml' name='lamp'/>"));
+  folder.write("parts/lamp.xml",
+               "<emitter version=\"3.0.0\" type=\"point\" id=\"lamp\">"
+               "<float name=\"x\" value=\"$r\"/></emitter>");
+  const std::string path = folder.write(
+      "scene.xml",
+      in_scene("<include filename='parts/walls.xml'/>\n<shape type='a'><ref id='white'/></shape>"));
+  const auto scene = load_mitsuba_xml(path, {{{"r", "7"}}}).scene;
+  ASSERT_EQ(scene->children.size(), 4u);
+  EXPECT_EQ(value<std::string>(*scene->children[1].object, "filename"), folder / "parts/w.ply");
+  EXPECT_EQ(scene->children[2].name, "lamp");
+  EXPECT_EQ(scene->children[2].object->id, "lamp");
+  EXPECT_EQ(value<double>(*scene->children[2].object, "x"), 7);
+  EXPECT_EQ(scene->children[3].object->children.at(0).object, scene->children[0].object);
+  EXPECT_EQ(text_of(scene->children[1].object->place), folder / "parts/walls.xml:3:1");
+}
+
+TEST(MitsubaTree, OldVersionsAreUpgraded) {
+  const auto scene = parse(in_scene("<camera type='perspective'>\n"
+                                    "<string name='fovAxis' value='smaller'/>\n"
+                                    "<float name='nearClip' value='0.1'/>\n"
+                                    "<transform name='toWorld'><lookAt origin='0,0,1' "
+                                    "target='0,0,0' up='0,1,0'/></transform>\n"
+                                    "<sampler type='independent'><integer name='sampleCount' "
+                                    "value='4'/></sampler></camera>\n"
+                                    "<bsdf type='dielectric'><float name='intIOR' value='1.5'/>"
+                                    "<float name='extIOR' value='1'/></bsdf>\n"
+                                    "<bsdf type='diffuse'><texture type='bitmap' "
+                                    "name='diffuseReflectance'/></bsdf>\n"
+                                    "<bsdf type='phong'><rgb name='diffuseReflectance' value='1'/>"
+                                    "<srgb name='specularReflectance' value='#ffffff'/></bsdf>\n"
+                                    "<luminaire type='point'/>",
+                                    "0.6.0"))
+                         .scene;
+  const Object& sensor = *scene->children.at(0).object;
+  EXPECT_EQ(sensor.family, "sensor");
+  EXPECT_EQ(value<std::string>(sensor, "fov_axis"), "smaller");
+  EXPECT_EQ(value<double>(sensor, "near_clip"), 0.1);
+  EXPECT_EQ(value<Transform>(sensor, "to_world").at(2, 3), 1);
+  EXPECT_EQ(value<int64_t>(*sensor.children.at(0).object, "sample_count"), 4);
+  EXPECT_EQ(value<double>(*scene->children[1].object, "int_ior"), 1.5);
+  EXPECT_EQ(value<double>(*scene->children[1].object, "ext_ior"), 1);
+  EXPECT_EQ(scene->children[2].object->children.at(0).name, "reflectance");
+  EXPECT_EQ(value<Rgb>(*scene->children[3].object, "diffuse_reflectance").g, 1);
+  EXPECT_EQ(value<Rgb>(*scene->children[3].object, "specular_reflectance").b, 1);
+  EXPECT_EQ(scene->children[4].object->family, "emitter");
+}
+
+TEST(MitsubaTree, OldTexturePlacementBecomesATransform) {
+  const std::string texture =
+      "<texture type='bitmap'><float name='uoffset' value='0.5'/><float name='vscale' value='4'/>"
+      "<float name='uscale' value='2'/></texture>";
+  const auto old = parse(in_scene(texture, "0.5.0")).scene->children.at(0).object;
+  ASSERT_EQ(old->properties.size(), 1u);
+  const Transform& to_uv = value<Transform>(*old, "to_uv");
+  EXPECT_EQ(to_uv.at(0, 0), 2);
+  EXPECT_EQ(to_uv.at(1, 1), 4);
+  EXPECT_EQ(to_uv.at(0, 3), 1);  // the offset first, then the scale
+  EXPECT_EQ(parse(in_scene(texture, "2.0.0")).scene->children.at(0).object->properties.size(), 3u);
+}
+
+TEST(MitsubaTree, NewVersionsAreNotUpgraded) {
+  for (const std::string version : {"2.0.0", "2.2.1", "3.0.0", "3.7.1"}) {
+    const auto scene =
+        parse(in_scene("<shape type='s'><float name='toWorld' value='1'/></shape>", version)).scene;
+    EXPECT_EQ(scene->children.at(0).object->properties.at(0).name, "toWorld");
+  }
+}
+
+TEST(MitsubaTree, EachFileHasItsOwnVersion) {
+  const TemporaryFolder folder;
+  folder.write("old.xml",
+               in_scene("<shape type='s'><float name='aB' value='1'/></shape>", "0.6.0"));
+  const std::string path =
+      folder.write("new.xml", in_scene("<include filename='old.xml'/><shape type='s'>"
+                                       "<float name='aB' value='1'/></shape>"));
+  const auto scene = load_mitsuba_xml(path).scene;
+  EXPECT_EQ(scene->children.at(0).object->properties.at(0).name, "a_b");
+  EXPECT_EQ(scene->children.at(1).object->properties.at(0).name, "aB");
+}
+
+}  // namespace
+}  // namespace kaustik

@@ -1,0 +1,116 @@
+// Properties of every kind: from elements to values.
+
+#include <cmath>
+
+#include "tests/loader/loader_support.h"
+
+namespace kaustik {
+namespace {
+
+void expect_near(const Transform& t, const double (&rows)[4][4]) {
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) EXPECT_NEAR(t.at(i, j), rows[i][j], 1e-12) << i << ',' << j;
+}
+
+Transform transform(const std::string& operations) {
+  return value_in_shape<Transform>("<transform name=\"x\">" + operations + "</transform>");
+}
+
+TEST(MitsubaValues, Numbers) {
+  EXPECT_EQ(value_in_shape<double>("<float name='x' value=' -1.5e-3 '/>"), -1.5e-3);
+  EXPECT_EQ(value_in_shape<double>("<float name='x' value='+2'/>"), 2.0);
+  EXPECT_EQ(value_in_shape<double>("<float name='x' value='.5'/>"), 0.5);
+  EXPECT_EQ(value_in_shape<int64_t>("<integer name='x' value=' 42 '/>"), 42);
+  EXPECT_EQ(value_in_shape<int64_t>("<integer name='x' value='-9223372036854775808'/>"), INT64_MIN);
+}
+
+TEST(MitsubaValues, BooleansAndStrings) {
+  EXPECT_TRUE(value_in_shape<bool>("<boolean name='x' value='True'/>"));
+  EXPECT_FALSE(value_in_shape<bool>("<boolean name='x' value='false'/>"));
+  EXPECT_EQ(value_in_shape<std::string>("<string name='x' value=' a &lt;b&gt; ü '/>"), " a <b> ü ");
+}
+
+TEST(MitsubaValues, PointsAndVectors) {
+  EXPECT_EQ(value_in_shape<Vec3d>("<point name='x' value='1, 2.5,-3'/>"), Vec3d(1, 2.5, -3));
+  EXPECT_EQ(value_in_shape<Vec3d>("<vector name='x' value='1 2 3'/>"), Vec3d(1, 2, 3));
+  EXPECT_EQ(value_in_shape<Vec3d>("<vector name='x' value='7'/>"), Vec3d(7, 7, 7));
+  EXPECT_EQ(value_in_shape<Vec3d>("<point name='x' x='1' y='2' z='3'/>"), Vec3d(1, 2, 3));
+}
+
+TEST(MitsubaValues, Colors) {
+  EXPECT_EQ(value_in_shape<Rgb>("<rgb name='x' value='0.1, 0.2, 0.3'/>"), (Rgb{0.1, 0.2, 0.3}));
+  EXPECT_EQ(value_in_shape<Rgb>("<rgb name='x' value='0.5'/>"), (Rgb{0.5, 0.5, 0.5}));
+  const Rgb orange = value_in_shape<Rgb>("<rgb name='x' value='#FF8000'/>");
+  EXPECT_DOUBLE_EQ(orange.r, 1.0);
+  EXPECT_NEAR(orange.g, 0.21586050011389926, 1e-12);  // 128/255 by IEC 61966-2-1
+  EXPECT_EQ(orange.b, 0.0);
+  // The linear part of the curve.
+  EXPECT_NEAR(value_in_shape<Rgb>("<rgb name='x' value='#010101'/>").r, 1 / 255.0 / 12.92, 1e-15);
+}
+
+TEST(MitsubaValues, Spectra) {
+  EXPECT_EQ(value_in_shape<double>("<spectrum name='x' value='0.5'/>"), 0.5);
+  const auto curve =
+      value_in_shape<SpectralCurve>("<spectrum name='x' value='400:0.1, 500.5:0.2 700:3'/>");
+  EXPECT_EQ(curve, (SpectralCurve{{{400, 0.1}, {500.5, 0.2}, {700, 3}}}));
+}
+
+TEST(MitsubaValues, SpectrumFromFile) {
+  const TemporaryFolder folder;
+  folder.write("spectra/lamp.spd", "# nm  value\n400 0.25\r\n\n500\t0.5 # green\n600, 1");
+  const std::string path = folder.write(
+      "scene.xml",
+      in_scene("<emitter type='point'><spectrum name='x' filename='spectra/lamp.spd'/></emitter>"));
+  const auto scene = load_mitsuba_xml(path).scene;
+  EXPECT_EQ(value<SpectralCurve>(*scene->children[0].object, "x"),
+            (SpectralCurve{{{400, 0.25}, {500, 0.5}, {600, 1}}}));
+}
+
+TEST(MitsubaValues, SpectrumWithTypeIsATexture) {
+  const auto scene =
+      parse_inside("<emitter type='area'><spectrum type='d65' name='radiance'/></emitter>").scene;
+  const Child& child = scene->children[0].object->children.at(0);
+  EXPECT_EQ(child.name, "radiance");
+  EXPECT_EQ(child.object->family, "texture");
+  EXPECT_EQ(child.object->type, "d65");
+}
+
+TEST(MitsubaValues, SingleTransforms) {
+  expect_near(transform(""), {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}});
+  expect_near(transform("<translate x='1' z='3'/>"),
+              {{1, 0, 0, 1}, {0, 1, 0, 0}, {0, 0, 1, 3}, {0, 0, 0, 1}});
+  expect_near(transform("<translate value='1, 2, 3'/>"),
+              {{1, 0, 0, 1}, {0, 1, 0, 2}, {0, 0, 1, 3}, {0, 0, 0, 1}});
+  expect_near(transform("<scale value='2'/>"),
+              {{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 0}, {0, 0, 0, 1}});
+  expect_near(transform("<scale y='2'/>"),
+              {{1, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}});
+  expect_near(transform("<rotate z='1' angle='90'/>"),
+              {{0, -1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}});
+  expect_near(transform("<matrix value='1 2 3 4  0 1 5 6\n 0 0 1 7, 0 0 0 1'/>"),
+              {{1, 2, 3, 4}, {0, 1, 5, 6}, {0, 0, 1, 7}, {0, 0, 0, 1}});
+  expect_near(transform("<matrix value='0 1 0 -1 0 0 0 0 2'/>"),
+              {{0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 2, 0}, {0, 0, 0, 1}});
+}
+
+TEST(MitsubaValues, LookAt) {
+  // Seen from +z toward the origin, the camera's +x points to the left, which is world -x.
+  expect_near(transform("<lookat origin='0, 0, 5' target='0, 0, 0' up='0, 1, 0'/>"),
+              {{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 5}, {0, 0, 0, 1}});
+  const Transform free = transform("<lookat origin='1, 2, 3' target='4, 6, 3'/>");
+  EXPECT_NEAR(free.at(0, 2), 0.6, 1e-12);
+  EXPECT_NEAR(free.at(1, 2), 0.8, 1e-12);
+  EXPECT_NEAR(free.determinant3(), 1.0, 1e-12);
+}
+
+TEST(MitsubaValues, LaterTransformsAreAppliedLater) {
+  // The point (1, 0, 0) is moved to (2, 0, 0), then turned to (0, 2, 0), then stretched.
+  const Transform t =
+      transform("<translate x='1'/><rotate z='1' angle='90'/><scale value='1, 3, 1'/>");
+  const Vec3f p = t.point({1, 0, 0});
+  EXPECT_NEAR(p.x, 0, 1e-6);
+  EXPECT_NEAR(p.y, 6, 1e-6);
+}
+
+}  // namespace
+}  // namespace kaustik
