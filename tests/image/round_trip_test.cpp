@@ -1,3 +1,7 @@
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfRgbaFile.h>
+#include <OpenEXR/ImfTiledRgbaFile.h>
+#include <png.h>
 #include <tiffio.h>
 
 #include <limits>
@@ -320,6 +324,88 @@ TEST_F(RoundTrip, plain_tiff_in_lines_and_tiles) {
           ASSERT_NEAR(image.at(x, y, 1), float(y) / 40, 0.002) << bits << is_tiled;
         }
     }
+}
+
+TEST_F(RoundTrip, tiled_exr_with_an_offset) {
+  const Imath::Box2i display({0, 0}, {99, 99}), data({30, 20}, {30 + 69, 20 + 44});
+  for (const Imf::Compression compression :
+       {Imf::NO_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::DWAA_COMPRESSION}) {
+    std::vector<Imf::Rgba> pixels(70 * 45);
+    for (size_t i = 0; i < pixels.size(); ++i)
+      pixels[i] = Imf::Rgba(float(i % 70) / 64, float(i / 70) / 64, 0.5f, 1.0f);
+    {
+      Imf::TiledRgbaOutputFile file(path("a.exr").c_str(), 32, 16, Imf::ONE_LEVEL, Imf::ROUND_DOWN,
+                                    display, data, Imf::WRITE_RGBA, 1, Imath::V2f(0, 0), 1,
+                                    Imf::INCREASING_Y, compression);
+      file.setFrameBuffer(pixels.data() - 30 - 20 * 70, 1, 70);
+      file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+    }
+    const Image image = read_image(path("a.exr"));
+    ASSERT_EQ(image.width(), 70);
+    ASSERT_EQ(image.height(), 45);
+    const RgbView rgb = rgb_view(image);
+    const float tolerance = compression == Imf::DWAA_COMPRESSION ? 0.02f : 1e-3f;  // DWA is lossy
+    for (size_t i = 0; i < pixels.size(); ++i) {
+      ASSERT_NEAR(rgb[i].x, float(i % 70) / 64, tolerance);
+      ASSERT_NEAR(rgb[i].y, float(i / 70) / 64, tolerance);
+    }
+    EXPECT_EQ(image.at(3, 3, image.find_channel("A")), 1);
+  }
+}
+
+TEST_F(RoundTrip, constant_pictures_of_extreme_compression) {
+  // Nearly nothing per pixel, yet no corrupt header.
+  const Image image(2000, 2000, {"R", "G", "B"});
+  for (const char* name : {"a.exr", "a.hdr", "a.tif", "a.png", "a.jpg"})
+    EXPECT_EQ(written_and_read(image, name).at(1999, 1999, 2), 0) << name;
+  const Imath::Box2i window({0, 0}, {1999, 1999});
+  const std::vector<Imf::Rgba> pixels(2000 * 2000);
+  for (const Imf::Compression compression :
+       {Imf::RLE_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION, Imf::B44A_COMPRESSION,
+        Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION}) {
+    {
+      Imf::Header header(window, window);
+      header.compression() = compression;
+      Imf::RgbaOutputFile file(path("b.exr").c_str(), header, Imf::WRITE_RGBA);
+      file.setFrameBuffer(pixels.data(), 1, 2000);
+      file.writePixels(2000);
+    }
+    EXPECT_EQ(read_image(path("b.exr")).at(1999, 1999, 2), 0) << compression;
+  }
+}
+
+TEST_F(RoundTrip, linear_sixteen_bit_png_stays_linear) {
+  const std::vector<uint16_t> pixels = {0, 0, 32768, 65535, 65535, 65535};
+  png_image description = {};
+  description.version = PNG_IMAGE_VERSION;
+  description.width = 2;
+  description.height = 1;
+  description.format = PNG_FORMAT_LINEAR_RGB;
+  ASSERT_TRUE(
+      png_image_write_to_file(&description, path("a.png").c_str(), 0, pixels.data(), 0, nullptr));
+  ReadOptions raw;
+  raw.srgb_to_linear = false;
+  EXPECT_FALSE(read_image(path("a.png"), raw).is_srgb_encoded());
+  EXPECT_NEAR(read_image(path("a.png")).at(0, 0, 2), 32768.0 / 65535, 1e-6);
+}
+
+TEST_F(RoundTrip, png_palettes_and_opacity) {
+  // Index 1 of two colours, the first half transparent; opacity is never sRGB encoded.
+  const std::vector<uint8_t> indices = {1, 0};
+  const std::vector<uint8_t> colours = {255, 128, 0, 128, 0, 0, 255, 255};
+  png_image description = {};
+  description.version = PNG_IMAGE_VERSION;
+  description.width = 2;
+  description.height = 1;
+  description.format = PNG_FORMAT_RGBA_COLORMAP;
+  description.colormap_entries = 2;
+  ASSERT_TRUE(png_image_write_to_file(&description, path("a.png").c_str(), 0, indices.data(), 0,
+                                      colours.data()));
+  const Image image = read_image(path("a.png"));
+  ASSERT_EQ(image.channel_count(), 4);
+  EXPECT_EQ(image.at(0, 0, 2), 1);
+  EXPECT_NEAR(image.at(1, 0, 1), 0.21586, 1e-4);
+  EXPECT_NEAR(image.at(1, 0, 3), 128 / 255.0, 1e-6);
 }
 
 }  // namespace
