@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "kaustik/photon/kd_tree_buckets.h"
+#include "kaustik/photon/kd_tree_pack_table.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kaustik::HWY_NAMESPACE {
@@ -21,6 +22,28 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using PointTag = hn::CappedTag<float, KdBuckets::bucket_size>;
 using BoxTag = hn::CappedTag<float, KdBuckets::fan_out>;
+
+/// Stores the lanes of `values` and `ids` that are in `mask`, next to each other; returns how many
+/// they are. Whole vectors are written.
+template <class D>
+HWY_INLINE size_t store_packed(D d, hn::Mask<D> mask, hn::Vec<D> values,
+                               hn::Vec<hn::RebindToUnsigned<D>> ids, float* to_values,
+                               uint32_t* to_ids) {
+  const hn::RebindToUnsigned<D> du;
+#if HWY_TARGET == HWY_AVX2
+  uint8_t bits[8];
+  hn::StoreMaskBits(d, mask, bits);
+  const auto shifts = hn::ShiftLeft<2>(hn::Iota(du, 0));
+  const auto lanes = hn::And(hn::Shr(hn::Set(du, kd_pack_table[bits[0]]), shifts), hn::Set(du, 7));
+  const auto order = hn::IndicesFromVec(d, lanes);
+  hn::StoreU(hn::TableLookupLanes(values, order), d, to_values);
+  hn::StoreU(hn::TableLookupLanes(ids, hn::IndicesFromVec(du, lanes)), du, to_ids);
+#else
+  hn::StoreU(hn::Compress(values, mask), d, to_values);
+  hn::StoreU(hn::Compress(ids, hn::RebindMask(du, mask)), du, to_ids);
+#endif
+  return hn::CountTrue(d, mask);
+}
 
 /// Number of values below `limit`.
 HWY_INLINE size_t count_below(const float* values, size_t count, float limit) {
@@ -34,23 +57,19 @@ HWY_INLINE size_t count_below(const float* values, size_t count, float limit) {
   return below + hn::CountTrue(d, hn::And(rest, hn::Lt(hn::LoadU(d, values + i), limits)));
 }
 
-/// Moves the candidates for which `keep(distances)` to `front`; returns where they end.
-template <typename Keep>
-HWY_INLINE size_t compress(float* distances_sq, uint32_t* indices, size_t count, const Keep& keep,
-                           float* front_distances_sq, uint32_t* front_indices) {
+/// Keeps the candidates below `limit`; returns their number.
+HWY_INLINE size_t keep_below(float* distances_sq, uint32_t* indices, size_t count, float limit) {
   const PointTag d;
   const hn::RebindToUnsigned<PointTag> du;
-  const size_t lanes = hn::Lanes(d);
-  size_t front = 0;
-  for (size_t i = 0; i < count; i += lanes) {
+  const auto limits = hn::Set(d, limit);
+  size_t kept = 0;
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto distances = hn::LoadU(d, distances_sq + i);
-    const auto ids = hn::LoadU(du, indices + i);
-    const auto kept = hn::And(hn::FirstN(d, count - i), keep(distances));
-    hn::StoreU(hn::Compress(distances, kept), d, front_distances_sq + front);
-    hn::StoreU(hn::Compress(ids, hn::RebindMask(du, kept)), du, front_indices + front);
-    front += hn::CountTrue(d, kept);
+    const auto below = hn::And(hn::FirstN(d, count - i), hn::Lt(distances, limits));
+    kept += store_packed(d, below, distances, hn::LoadU(du, indices + i), distances_sq + kept,
+                         indices + kept);
   }
-  return front;
+  return kept;
 }
 
 HWY_INLINE void find_range(const float* values, size_t count, float& least, float& greatest) {
@@ -86,7 +105,6 @@ HWY_INLINE float shrink(float* distances_sq, uint32_t* indices, size_t& count, s
   uint32_t low = std::bit_cast<uint32_t>(least);
   uint32_t high = std::bit_cast<uint32_t>(greatest) + 1;
   size_t below_low = 0, below_high = count;
-  const PointTag d;
   for (int i = 0; high - low > 1; ++i) {
     uint32_t middle = low + (high - low) / 2;
     if (i % 3 != 2) {
@@ -99,10 +117,7 @@ HWY_INLINE float shrink(float* distances_sq, uint32_t* indices, size_t& count, s
     const float limit = std::bit_cast<float>(middle);
     const size_t below = count_below(distances_sq, count, limit);
     if (below >= wanted && below <= wanted + slack) {
-      const auto limits = hn::Set(d, limit);
-      count = compress(
-          distances_sq, indices, count, [&](auto v) HWY_ATTR { return hn::Lt(v, limits); },
-          distances_sq, indices);
+      count = keep_below(distances_sq, indices, count, limit);
       return limit;
     }
     (below < wanted ? low : high) = middle;
@@ -164,26 +179,19 @@ HWY_INLINE hn::Vec<D> point_distance_sq(D d, const KdBuckets::Bucket& bucket, si
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-/// Appends first + lane for the lanes in `mask`; returns the new count.
-template <class D>
-HWY_INLINE size_t append_ids(D d, hn::Mask<D> mask, uint32_t first, uint32_t* ids, size_t count) {
-  const hn::RebindToUnsigned<D> du;
-  hn::StoreU(hn::Compress(hn::Iota(du, first), hn::RebindMask(du, mask)), du, ids + count);
-  return count + hn::CountTrue(d, mask);
-}
-
 /// Pushes the children of a node that are nearer than `bound`, the nearest last.
 HWY_INLINE size_t push_children(const KdBuckets::Node& node, const Vec3f& query, float bound,
                                 uint32_t first_child, Entry* stack, size_t top) {
   const BoxTag d;
+  const hn::RebindToUnsigned<BoxTag> du;
   float distances[KdBuckets::fan_out + kd_candidate_padding];
   uint32_t children[KdBuckets::fan_out + kd_candidate_padding];
   size_t count = 0;
   for (size_t i = 0; i < KdBuckets::fan_out; i += hn::Lanes(d)) {
     const auto distance = box_distance_sq(d, node, i, query);
     const auto near = hn::Lt(distance, hn::Set(d, bound));
-    hn::StoreU(hn::Compress(distance, near), d, distances + count);
-    count = append_ids(d, near, first_child + uint32_t(i), children, count);
+    const auto ids = hn::Iota(du, first_child + uint32_t(i));
+    count += store_packed(d, near, distance, ids, distances + count, children + count);
   }
   for (size_t i = 0; i < count; ++i) {
     size_t place = top + i;
@@ -199,6 +207,7 @@ template <bool filtered>
 HWY_INLINE void test_bucket(const KdBuckets::Bucket& bucket, uint32_t first, const Vec3f& query,
                             const KdBuckets::Filter& filter, KdCandidates& found) {
   const PointTag d;
+  const hn::RebindToUnsigned<PointTag> du;
   for (uint32_t i = 0; i < KdBuckets::bucket_size; i += uint32_t(hn::Lanes(d))) {
     const auto distance = point_distance_sq(d, bucket, i, query);
     auto near = hn::Lt(distance, hn::Set(d, found.bound));
@@ -212,8 +221,8 @@ HWY_INLINE void test_bucket(const KdBuckets::Bucket& bucket, uint32_t first, con
       bits[1] = uint8_t(accepted >> 8);
       near = hn::LoadMaskBits(d, bits);
     }
-    hn::StoreU(hn::Compress(distance, near), d, found.distances_sq + found.count);
-    found.count = append_ids(d, near, first + i, found.indices, found.count);
+    found.count += store_packed(d, near, distance, hn::Iota(du, first + i),
+                                found.distances_sq + found.count, found.indices + found.count);
   }
 }
 
@@ -310,6 +319,9 @@ HWY_INLINE void collect(const KdBuckets::View& view, const Region& region,
                         const KdBuckets::Sink& sink) {
   const BoxTag box;
   const PointTag point;
+  const hn::RebindToUnsigned<BoxTag> box_ids;
+  const hn::RebindToUnsigned<PointTag> point_ids;
+  float unused[KdBuckets::fan_out];
   constexpr size_t block = 256;
   float distances_sq[block + kd_candidate_padding];
   uint32_t indices[block + kd_candidate_padding];
@@ -325,15 +337,16 @@ HWY_INLINE void collect(const KdBuckets::View& view, const Region& region,
       const KdBuckets::Node& node = view.levels[level - 1][number];
       for (size_t i = 0; i < KdBuckets::fan_out; i += hn::Lanes(box)) {
         const auto overlaps = region.overlaps(box, node, i);
-        top = append_ids(box, overlaps, first_child + uint32_t(i), stack, top);
+        const auto ids = hn::Iota(box_ids, first_child + uint32_t(i));
+        top += store_packed(box, overlaps, hn::Zero(box), ids, unused, stack + top);
       }
       continue;
     }
     for (uint32_t i = 0; i < KdBuckets::bucket_size; i += uint32_t(hn::Lanes(point))) {
       auto distance = hn::Undefined(point);
       const auto contained = region.contains(point, view.buckets[number], i, distance);
-      hn::StoreU(hn::Compress(distance, contained), point, distances_sq + count);
-      count = append_ids(point, contained, number * KdBuckets::bucket_size + i, indices, count);
+      const auto ids = hn::Iota(point_ids, number * KdBuckets::bucket_size + i);
+      count += store_packed(point, contained, distance, ids, distances_sq + count, indices + count);
     }
     if (count < block) continue;
     sink.take(sink.context, indices, distances_sq, count);
