@@ -32,7 +32,7 @@ class ConstantLight final : public Light {
   EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction) const override {
     EmissionSample result;
     result.direction = sample_travel_direction(u_direction, result.pdf_direction);
-    result.point.position = disk_.origin(result.direction, u_position);
+    result.point = free_point(disk_.origin(result.direction, u_position));
     result.pdf_position = 1.0f / disk_.area();
     result.flux = power();
     return result;

@@ -31,7 +31,7 @@ class DirectionalLight final : public Light {
 
   EmissionSample sample_emission(const Vec2f& u_position, const Vec2f&) const override {
     EmissionSample result;
-    result.point.position = disk_.origin(direction_, u_position);
+    result.point = free_point(disk_.origin(direction_, u_position));
     result.direction = direction_;
     result.pdf_position = 1.0f / disk_.area();
     result.pdf_direction = 1;

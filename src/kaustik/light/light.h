@@ -9,7 +9,7 @@ namespace kaustik {
 
 /// Light that a point may receive, found by sampling a light.
 struct LightSample {
-  Vec3f direction;            ///< unit, from the reference point to the light
+  Vec3f direction{0, 0, 0};   ///< unit, from the reference point to the light
   float distance = infinity;  ///< to the light; infinite for directional and environment lights
   SurfacePoint point;         ///< on the light; valid if `on_surface` (of lights that are a point
                               ///< its position is)
@@ -25,7 +25,7 @@ struct LightSample {
 struct EmissionSample {
   SurfacePoint point;  ///< origin; `error` zero if not on a surface. ng: zero if none
   bool on_surface = false;
-  Vec3f direction;          ///< unit
+  Vec3f direction{0, 0, 0};  ///< unit
   Spectrum flux;            ///< W: emitted radiance × cosine / density (delta lights: intensity or
                             ///< irradiance / density); zero: nothing
   float pdf_position = 0;   ///< per area on the light (or on the disk that directional and

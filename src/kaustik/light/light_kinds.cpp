@@ -37,6 +37,14 @@ Parameter ignored_sampling_weight() {
   return ignored_parameter("sampling_weight", ParameterKind::number);
 }
 
+SurfacePoint free_point(const Vec3f& position) {
+  SurfacePoint point;
+  point.position = position;
+  point.ng = point.ns = point.dpdu = Vec3f(0, 0, 0);
+  point.uv = Vec2f(0, 0);
+  return point;
+}
+
 EmissionDisk::EmissionDisk(const Bounds3f& scene_bounds) {
   const bool empty = scene_bounds.isEmpty();
   if (!empty) center_ = center(scene_bounds);

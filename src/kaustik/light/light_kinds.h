@@ -25,6 +25,9 @@ std::unique_ptr<Light> with_finite_power(std::unique_ptr<Light> light, const Lig
 /// What Mitsuba's emitters accept and Kaustik has no use for.
 Parameter ignored_sampling_weight();
 
+/// A point off every surface: all but the position is zero.
+SurfacePoint free_point(const Vec3f& position);
+
 /// The disk that rays of infinite lights start from: across their direction, just outside of the
 /// scene, as large as the scene's bounding sphere.
 class EmissionDisk {

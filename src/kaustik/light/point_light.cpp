@@ -7,9 +7,8 @@ namespace {
 /// Shines alike in all directions from a point.
 class PointLight final : public Light {
  public:
-  PointLight(const Spectrum& intensity, const Vec3f& position) : intensity_(intensity) {
-    point_.position = position;
-  }
+  PointLight(const Spectrum& intensity, const Vec3f& position)
+      : intensity_(intensity), point_(free_point(position)) {}
 
   Spectrum power() const override { return intensity_ * (4.0f * pi); }
   LightBounds bounds() const override {

@@ -11,9 +11,7 @@ class SpotLight final : public Light {
  public:
   SpotLight(const Spectrum& intensity, const Vec3f& position, const Vec3f& axis,
             const SpotCone& cone)
-      : intensity_(intensity), frame_(axis), cone_(cone) {
-    point_.position = position;
-  }
+      : intensity_(intensity), point_(free_point(position)), frame_(axis), cone_(cone) {}
 
   Spectrum power() const override { return intensity_ * cone_.solid_angle(); }
   LightBounds bounds() const override {

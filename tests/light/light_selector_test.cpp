@@ -1,0 +1,276 @@
+// Choosing among many lights, against brute force over all of them.
+
+#include <gtest/gtest.h>
+
+#include "tests/light/light_testing.h"
+
+namespace kaustik {
+namespace {
+
+using namespace kaustik::testing;
+using Lights = std::vector<std::unique_ptr<Light>>;
+
+/// A light with a place, of a kind and strength that vary a lot with `i`; every eleventh is dark.
+std::unique_ptr<Light> random_local_light(int i, Random& random) {
+  const double strength = i % 11 == 10 ? 0.0 : std::exp(6.0 * random.next() - 3.0);
+  const Vec3f position = random.next_3d() * 10.0f;
+  const Vec3f direction = normalize(random.next_3d() - Vec3f(0.5f));
+  const std::vector<Property> radiance = {{"radiance", Value(strength), {}}};
+  const float size = 0.05f + 0.5f * random.next();
+  switch (i % 5) {
+    case 0:
+      return make_light(
+          "point", {{"intensity", Value(strength), {}}, {"position", Value(Vec3d(position)), {}}});
+    case 1:
+      return make_light("area", radiance, make_disk(position, direction, size));
+    case 2:
+      return make_light("area", radiance, make_ball(position, size));
+    case 3:
+      return make_light("area", radiance,
+                        make_quad(position, Frame(direction).x * size, Frame(direction).y * size));
+    default: {
+      const Frame frame(direction);
+      const Vec3d at(position);
+      return make_light(
+          "spot",
+          {{"intensity", Value(strength), {}},
+           {"cutoff_angle", Value(5.0 + 60.0 * random.next()), {}},
+           {"to_world", Value(Transform::look_at(at, at + Vec3d(direction), Vec3d(frame.x))), {}}});
+    }
+  }
+}
+
+Lights random_lights(int local, int infinite, uint64_t seed) {
+  Random random(seed);
+  Lights lights;
+  for (int i = 0; i < local; ++i) lights.push_back(random_local_light(i, random));
+  for (int i = 0; i < infinite; ++i) {
+    const Value strength(0.1 + random.next());
+    const Vec3d direction(random.next_3d() - Vec3f(0.5f));
+    if (i % 2 == 0)
+      lights.push_back(make_light("constant", {{"radiance", strength, {}}}));
+    else
+      lights.push_back(make_light(
+          "directional", {{"irradiance", strength, {}}, {"direction", Value(direction), {}}}));
+  }
+  return lights;
+}
+
+struct Query {
+  Vec3f reference, normal;
+};
+
+Query random_query(Random& random) {
+  Query q{random.next_3d() * 14.0f - Vec3f(2), normalize(random.next_3d() - Vec3f(0.5f))};
+  if (random.next() < 0.3f) q.normal = Vec3f(0, 0, 0);
+  return q;
+}
+
+struct Population {
+  int local, infinite;
+};
+const Population populations[] = {{1, 0}, {2, 0},  {16, 0},   {17, 0}, {1000, 0},
+                                  {3, 2}, {30, 3}, {1000, 2}, {0, 1},  {0, 20}};
+
+/// A direct light estimate without visibility; `cosine` where there is a surface.
+double contribution(const Light& light, const Query& q, const Vec2f& u) {
+  const LightSample s = light.sample_toward(q.reference, u);
+  if (!(s.pdf_solid_angle > 0)) return 0;
+  const double cosine = length_sq(q.normal) > 0 ? abs_dot(q.normal, s.direction) : 1.0;
+  return double(s.radiance.sum()) * cosine / s.pdf_solid_angle;
+}
+
+TEST(LightSelector, ProbabilitiesSumToOne) {
+  for (const auto& [local, infinite] : populations) {
+    SCOPED_TRACE(local);
+    const Lights lights = random_lights(local, infinite, 5);
+    const LightSelector selector(lights);
+    Random random(7);
+    for (int i = 0; i < 100; ++i) {
+      const Query q = random_query(random);
+      double sum = 0;
+      for (int light = 0; light < int(lights.size()); ++light)
+        sum += selector.probability(q.reference, q.normal, light);
+      ASSERT_NEAR(sum, 1, 1e-5);
+    }
+  }
+}
+
+TEST(LightSelector, ChoiceReportsItsProbabilityExactly) {
+  for (const auto& [local, infinite] : populations) {
+    SCOPED_TRACE(local);
+    const Lights lights = random_lights(local, infinite, 5);
+    const LightSelector selector(lights);
+    Random random(9);
+    for (int i = 0; i < 20'000 / sample_share; ++i) {
+      const Query q = random_query(random);
+      float u = i == 0 ? 0.0f : i == 1 ? one_minus_epsilon : random.next();
+      const auto choice = selector.choose(q.reference, q.normal, u);
+      ASSERT_GE(choice.light, 0);
+      ASSERT_GT(choice.probability, 0);
+      ASSERT_EQ(choice.probability, selector.probability(q.reference, q.normal, choice.light));
+      ASSERT_GT(lights[size_t(choice.light)]->power().sum(), 0);
+      ASSERT_TRUE(u >= 0 && u < 1);
+    }
+  }
+}
+
+/// p values of the chosen lights, and of the numbers left over, at one point.
+struct ChoiceTest {
+  double lights = 0, leftover = 0, planted_error = 0;
+};
+
+ChoiceTest test_choices(const Lights& lights, const LightSelector& selector, const Query& q,
+                        int count) {
+  std::vector<double> observed(lights.size(), 0.0), expected, wrong;
+  std::vector<double> leftover(20, 0.0), uniform(20, count / 20.0);
+  Random random(15);
+  for (int i = 0; i < count; ++i) {
+    float u = random.next();
+    observed[size_t(selector.choose(q.reference, q.normal, u).light)] += 1;
+    leftover[size_t(u * 20)] += 1;
+  }
+  bool high = false;
+  for (int light = 0; light < int(lights.size()); ++light) {
+    expected.push_back(count * double(selector.probability(q.reference, q.normal, light)));
+    if (expected.back() > 0) high = !high;
+    wrong.push_back(expected.back() * (high ? 1.02 : 0.98));
+  }
+  return {chi_square_p_value(observed, expected), chi_square_p_value(leftover, uniform),
+          chi_square_p_value(observed, wrong)};
+}
+
+TEST(LightSelector, ChoosesByItsProbabilities) {
+  for (const auto& [local, infinite] : populations) {
+    if (local + infinite < 2) continue;
+    SCOPED_TRACE(::testing::Message() << local << " + " << infinite);
+    const Lights lights = random_lights(local, infinite, 5);
+    const LightSelector selector(lights);
+    Random random(13);
+    for (int i = 0; i < 2; ++i) {
+      const ChoiceTest test =
+          test_choices(lights, selector, random_query(random), 1'000'000 / sample_share);
+      EXPECT_GT(test.lights, failure_level);
+      EXPECT_GT(test.leftover, failure_level);
+      expect_twin_fails(test.planted_error);
+    }
+  }
+}
+
+TEST(LightSelector, EveryLightThatReachesThePointHasAChance) {
+  for (const auto& [local, infinite] : populations) {
+    SCOPED_TRACE(local);
+    const Lights lights = random_lights(local, infinite, 21);
+    const LightSelector selector(lights);
+    Random random(23);
+    int reached = 0;
+    for (int i = 0; i < 300 / sample_share; ++i) {
+      const Query q = random_query(random);
+      for (int light = 0; light < int(lights.size()); ++light) {
+        double most = 0;
+        for (int k = 0; k < 4; ++k)
+          most = std::max(most, contribution(*lights[size_t(light)], q, random.next_2d()));
+        if (most == 0) continue;
+        ++reached;
+        ASSERT_GT(selector.probability(q.reference, q.normal, light), 0);
+      }
+    }
+    EXPECT_GT(reached, 0);
+  }
+}
+
+TEST(LightSelector, TheEstimateAgreesWithTheSumOverAllLights) {
+  const Lights lights = random_lights(200, 2, 31);
+  const LightSelector selector(lights);
+  const Query q{{4, 5, 6}, {0, 0, 1}};
+  Random random(33);
+  RunningStatistics all, chosen;
+  for (int i = 0; i < 20'000 / sample_share; ++i) {
+    double sum = 0;
+    for (const auto& light : lights) sum += contribution(*light, q, random.next_2d());
+    all.add(sum);
+  }
+  for (int i = 0; i < 2'000'000 / sample_share; ++i) {
+    float u = random.next();
+    const auto choice = selector.choose(q.reference, q.normal, u);
+    chosen.add(contribution(*lights[size_t(choice.light)], q, {u, random.next()}) /
+               choice.probability);
+  }
+  const double error = std::hypot(all.standard_error(), chosen.standard_error());
+  EXPECT_GT(z_test_p_value(chosen.mean(), error, all.mean()), failure_level);
+  if (!twins_can_fail) return;
+  EXPECT_LT(error, 0.003 * all.mean());
+  expect_twin_fails(z_test_p_value(1.02 * chosen.mean(), error, all.mean()));
+}
+
+/// Mean over random points of the variance of a one-light estimate, relative to the squared sum.
+double relative_variance(const Lights& lights,
+                         const std::function<double(const Query&, int)>& probability) {
+  Random random(35);
+  double total = 0;
+  const int queries = 200 / sample_share;
+  for (int i = 0; i < queries; ++i) {
+    const Query q = random_query(random);
+    double sum = 0, second_moment = 0;
+    for (int light = 0; light < int(lights.size()); ++light) {
+      const double c = contribution(*lights[size_t(light)], q, {0.5f, 0.5f});
+      if (c > 0) second_moment += c * c / probability(q, light);
+      sum += c;
+    }
+    if (sum > 0) total += second_moment / (sum * sum) - 1;
+  }
+  return total / queries;
+}
+
+TEST(LightSelector, TheTreeIsFarBetterThanPowerForManyLights) {
+  const Lights lights = random_lights(1000, 0, 37);
+  const LightSelector selector(lights);
+  double power = 0;
+  for (const auto& light : lights) power += light->power().sum();
+  const double by_tree = relative_variance(lights, [&](const Query& q, int light) {
+    return selector.probability(q.reference, q.normal, light);
+  });
+  const double by_power = relative_variance(lights, [&](const Query&, int light) {
+    return lights[size_t(light)]->power().sum() / power;
+  });
+  RecordProperty("relative_variance_by_tree", std::to_string(by_tree));
+  RecordProperty("relative_variance_by_power", std::to_string(by_power));
+  EXPECT_LT(by_tree, 0.2 * by_power);
+}
+
+TEST(LightSelector, WithoutPowerThereIsNoChoice) {
+  for (const int count : {0, 1, 16, 40}) {
+    Lights lights;
+    for (int i = 0; i < count; ++i)
+      lights.push_back(make_light("point", {{"intensity", Value(0.0), {}}}));
+    const LightSelector selector(lights);
+    float u = 0.3f;
+    const auto choice = selector.choose({0, 0, 0}, {0, 0, 1}, u);
+    EXPECT_EQ(choice.light, -1);
+    EXPECT_EQ(choice.probability, 0);
+    for (int i = 0; i < count; ++i) EXPECT_EQ(selector.probability({}, {}, i), 0);
+  }
+}
+
+TEST(LightSelector, AFewLightsAreChosenByPower) {
+  Lights lights;
+  for (const double strength : {1.0, 0.0, 3.0})
+    lights.push_back(make_light("point", {{"intensity", Value(Rgb{0, 0, strength}), {}}}));
+  const LightSelector selector(lights);
+  EXPECT_FLOAT_EQ(selector.probability({9, 9, 9}, {}, 0), 0.25f);
+  EXPECT_EQ(selector.probability({9, 9, 9}, {}, 1), 0);
+  EXPECT_FLOAT_EQ(selector.probability({9, 9, 9}, {}, 2), 0.75f);
+}
+
+TEST(LightSelector, LightsAtOnePlaceAreAllFound) {
+  Lights lights;
+  for (int i = 0; i < 1000; ++i)
+    lights.push_back(make_light("point", {{"intensity", Value(1.0), {}}}));
+  const LightSelector selector(lights);
+  for (const Vec3f& reference : {Vec3f(0, 0, 0), Vec3f(1, 2, 3)})
+    for (int i = 0; i < 1000; ++i)
+      ASSERT_NEAR(selector.probability(reference, {0, 0, 1}, i), 1e-3, 3e-4);
+}
+
+}  // namespace
+}  // namespace kaustik

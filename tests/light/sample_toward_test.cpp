@@ -1,0 +1,202 @@
+// Light found from a point: densities, closed forms of irradiance, sides.
+
+#include <gtest/gtest.h>
+
+#include "tests/light/light_testing.h"
+
+namespace kaustik {
+namespace {
+
+using namespace kaustik::testing;
+
+const Vec3f reference(0.2f, -0.1f, 0.0f);
+
+std::unique_ptr<Light> area_light(std::shared_ptr<const Shape> shape, double radiance = 2) {
+  return make_light("area", {{"radiance", Value(radiance), {}}}, std::move(shape));
+}
+
+/// Density of sample_toward in a direction, by way of the point that is hit there.
+double density_toward(const Light& light, const Shape& shape, const Vec3f& direction) {
+  const auto point = first_hit(shape, {reference, direction});
+  return point ? light.pdf_toward(reference, *point) : 0.0;
+}
+
+struct ShapeCase {
+  std::string name;
+  std::shared_ptr<const Shape> shape;
+};
+
+std::vector<ShapeCase> shapes_above() {
+  return {{"quad", make_quad({-1, -1, 2}, {0.3f, 2, 0.5f}, {2, 0, 0})},
+          {"disk", make_disk({0.5f, 0, 1.5f}, normalize(Vec3f(0.3f, 0.2f, -1)), 0.8f)},
+          {"ball", make_ball({0.3f, 0.4f, 2}, 0.7f)}};
+}
+/// 1 − cos of the angular radius of that ball.
+float ball_cap() {
+  return 1.0f - safe_sqrt(1.0f - sqr(0.7f) / length_sq(Vec3f(0.3f, 0.4f, 2) - reference));
+}
+
+TEST(SampleToward, AreaLightsFollowTheirDensity) {
+  for (const ShapeCase& test : shapes_above()) {
+    SCOPED_TRACE(test.name);
+    const auto light = area_light(test.shape);
+    DirectionGrid grid;
+    grid.axis = normalize(center(test.shape->bounds()) - reference);
+    // The ball's rim lies on a border of the grid, so that its integral is sharp.
+    grid.one_minus_cos = test.name == "ball" ? 1.2f * ball_cap() : 0.7f;
+    Random random(11);
+    const auto sample = [&] {
+      const LightSample s = light->sample_toward(reference, random.next_2d());
+      return s.pdf_solid_angle > 0 ? s.direction : Vec3f(0, 0, 0);
+    };
+    const auto pdf = [&](const Vec3f& d) { return density_toward(*light, *test.shape, d); };
+    const int count = 1'000'000 / sample_share;
+    EXPECT_GT(direction_p_value(grid, count, sample, pdf), failure_level);
+    expect_twin_fails(direction_p_value(grid, count, sample, with_planted_error(grid, pdf)));
+  }
+}
+
+TEST(SampleToward, ReportsTheDensityThatItAnswersLater) {
+  for (const ShapeCase& test : shapes_above()) {
+    SCOPED_TRACE(test.name);
+    const auto light = area_light(test.shape);
+    EXPECT_EQ(light->shape(), 7);
+    Random random(3);
+    for (int i = 0; i < 1000; ++i) {
+      const LightSample s = light->sample_toward(reference, random.next_2d());
+      ASSERT_TRUE(s.on_surface);
+      EXPECT_EQ(s.point.shape, 7u);
+      EXPECT_FLOAT_EQ(s.pdf_solid_angle, light->pdf_toward(reference, s.point));
+      EXPECT_NEAR(length(reference + s.direction * s.distance - s.point.position), 0, 1e-5);
+      EXPECT_EQ(s.radiance, light->emitted(s.point, -s.direction));
+    }
+  }
+}
+
+TEST(SampleToward, TheEnvironmentIsUniform) {
+  const auto light = make_light("constant", {{"radiance", Value(3.0), {}}});
+  DirectionGrid grid;
+  Random random(5);
+  const auto sample = [&] { return light->sample_toward(reference, random.next_2d()).direction; };
+  const auto pdf = [&](const Vec3f& d) { return double(light->pdf_toward_direction(d)); };
+  const int count = 1'000'000 / sample_share;
+  EXPECT_GT(direction_p_value(grid, count, sample, pdf), failure_level);
+  expect_twin_fails(direction_p_value(grid, count, sample, with_planted_error(grid, pdf)));
+  const LightSample s = light->sample_toward(reference, {0.3f, 0.6f});
+  EXPECT_EQ(s.distance, infinity);
+  EXPECT_FALSE(s.delta);
+  EXPECT_EQ(s.radiance, light->background(s.direction));
+}
+
+/// Irradiance on a surface of normal +z at the origin of the tests.
+RunningStatistics irradiance(const Light& light, const Vec3f& at, int count) {
+  RunningStatistics statistics;
+  Random random(17);
+  for (int i = 0; i < count; ++i) {
+    const LightSample s = light.sample_toward(at, random.next_2d());
+    const double cosine = std::max(0.0f, s.direction.z);
+    statistics.add(s.pdf_solid_angle > 0 ? cosine * s.radiance[1] / s.pdf_solid_angle : 0.0);
+  }
+  return statistics;
+}
+
+/// The estimate agrees with the closed form, is sharp, and would notice an error of 2 %.
+void expect_irradiance(const Light& light, const Vec3f& at, double expected, int count = 400'000) {
+  const RunningStatistics statistics = irradiance(light, at, count / sample_share);
+  EXPECT_GT(z_test_p_value(statistics, expected), failure_level)
+      << statistics.mean() << " ± " << statistics.standard_error() << ", not " << expected;
+  if (!twins_can_fail) return;
+  EXPECT_LT(statistics.standard_error(), 0.003 * expected);
+  expect_twin_fails(z_test_p_value(statistics, 1.02 * expected));
+}
+
+TEST(Irradiance, OfADiskOnItsAxis) {
+  const double a = 0.8, h = 1.3, radiance = 2;
+  const auto light = area_light(make_disk({0, 0, 1.3f}, {0, 0, -1}, 0.8f), radiance);
+  expect_irradiance(*light, {0, 0, 0}, std::numbers::pi * radiance * a * a / (a * a + h * h));
+}
+
+TEST(Irradiance, OfASphere) {
+  const double r = 0.5, d = 2, radiance = 2;
+  const auto light = area_light(make_ball({0, 0, 2}, 0.5f), radiance);
+  expect_irradiance(*light, {0, 0, 0}, std::numbers::pi * radiance * r * r / (d * d));
+}
+
+TEST(Irradiance, OfAQuadOverItsCorner) {
+  // Form factor of a parallel rectangle a × b at distance c, over a corner (Howell, B-3).
+  const double a = 1.5, b = 0.7, c = 1.1;
+  const auto light = area_light(make_quad({0, 0, 1.1f}, {0, 0.7f, 0}, {1.5f, 0, 0}));
+  const double p = std::sqrt(a * a + c * c), q = std::sqrt(b * b + c * c);
+  const double factor = (a / p * std::atan(b / p) + b / q * std::atan(a / q)) / 2;
+  expect_irradiance(*light, {0, 0, 0}, 2 * factor);
+}
+
+TEST(Irradiance, OfTheEnvironment) {
+  const auto light = make_light("constant", {{"radiance", Value(3.0), {}}});
+  expect_irradiance(*light, {0, 0, 0}, 3 * std::numbers::pi);
+}
+
+TEST(Irradiance, OfAPoint) {
+  const auto light =
+      make_light("point", {{"intensity", Value(5.0), {}}, {"position", Value(Vec3d(3, 0, 4)), {}}});
+  const LightSample s = light->sample_toward({0, 0, 0}, {0.5f, 0.5f});
+  EXPECT_TRUE(s.delta && light->is_delta());
+  EXPECT_FLOAT_EQ(s.pdf_solid_angle, 1);
+  EXPECT_FLOAT_EQ(s.distance, 5);
+  EXPECT_FLOAT_EQ(s.radiance[0], 5.0f / 25);
+  EXPECT_FLOAT_EQ(s.direction.x, 0.6f);
+  EXPECT_FLOAT_EQ(s.direction.z, 0.8f);
+  EXPECT_EQ(light->pdf_toward({0, 0, 0}, s.point), 0);
+}
+
+TEST(Irradiance, OfADirection) {
+  const auto light = make_light(
+      "directional", {{"irradiance", Value(5.0), {}}, {"direction", Value(Vec3d(0, 3, -4)), {}}});
+  const LightSample s = light->sample_toward({0, 0, 0}, {0.5f, 0.5f});
+  EXPECT_TRUE(s.delta && light->is_delta() && light->is_infinite());
+  EXPECT_FLOAT_EQ(s.radiance[0], 5);
+  EXPECT_NEAR(length(s.direction - Vec3f(0, -0.6f, 0.8f)), 0, 1e-6);
+  EXPECT_EQ(s.distance, infinity);
+}
+
+TEST(AreaLight, ShinesOnTheSideOfTheNormalOnly) {
+  const auto light = area_light(make_disk({0, 0, 1}, {0, 0, 1}, 0.5f));
+  const LightSample behind = light->sample_toward({0, 0, 0}, {0.3f, 0.3f});
+  EXPECT_EQ(behind.pdf_solid_angle, 0);
+  EXPECT_TRUE(behind.radiance.is_zero());
+  EXPECT_EQ(light->pdf_toward({0, 0, 0}, behind.point), 0);
+  EXPECT_TRUE(light->emitted(behind.point, {0, 0, -1}).is_zero());
+  EXPECT_TRUE(light->emitted(behind.point, {1, 0, 0}).is_zero());
+  const LightSample before = light->sample_toward({0, 0, 2}, {0.3f, 0.3f});
+  EXPECT_GT(before.pdf_solid_angle, 0);
+  EXPECT_FLOAT_EQ(before.radiance[2], 2);
+}
+
+TEST(SpotLight, FallsLinearlyWithTheAngle) {
+  const Transform to_world = Transform::look_at({1, 2, 3}, {1, 2, 10}, {0, 1, 0});
+  const auto light = make_light("spot", {{"intensity", Value(4.0), {}},
+                                         {"cutoff_angle", Value(40.0), {}},
+                                         {"beam_width", Value(10.0), {}},
+                                         {"to_world", Value(to_world), {}}});
+  const auto intensity_at = [&](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Vec3f at(1.0f + float(2 * std::sin(angle)), 2, 3.0f + float(2 * std::cos(angle)));
+    return light->sample_toward(at, {0, 0}).radiance[0] * 4.0f;
+  };
+  EXPECT_FLOAT_EQ(intensity_at(0), 4);
+  EXPECT_FLOAT_EQ(intensity_at(9.9), 4);
+  EXPECT_NEAR(intensity_at(25), 2, 1e-4);
+  EXPECT_NEAR(intensity_at(35), 4.0 * 5 / 30, 1e-4);
+  EXPECT_EQ(intensity_at(40.1), 0);
+  EXPECT_EQ(intensity_at(180), 0);
+}
+
+TEST(SpotLight, HasMitsubasDefaultBeam) {
+  const auto light = make_light("spot", {{"cutoff_angle", Value(40.0), {}}});
+  const float middle = 35 * pi / 180;  // halfway from 30 to 40
+  const auto at = light->emitted_from({}, {std::sin(middle), 0, std::cos(middle)});
+  EXPECT_NEAR(at[0], 0.5f, 1e-5);
+}
+
+}  // namespace
+}  // namespace kaustik
