@@ -64,6 +64,7 @@ void Definitions::set_default(const std::string& name, const std::string& value)
 }
 
 std::string Definitions::replace(std::string_view text) {
+  if (text.find('$') == std::string_view::npos) return std::string(text);
   std::string result;
   for (size_t i = 0; i < text.size();) {
     if (text.substr(i).starts_with("\\$")) {

@@ -106,9 +106,11 @@ void Reader::read_include(const Element& element, Unfinished& parent, Source& so
     if (is_open)
       throw BadValue(fmt::format("circular <include>: {}", joined(open_files_, " → ")),
                      "no file can include itself: remove one of these", file.place);
-    if (open_files_.size() > maximum_include_depth || ++included_files_ > maximum_includes)
-      throw BadValue(fmt::format("more than {} files include one another, or more than {} in all",
-                                 maximum_include_depth, maximum_includes),
+    if (open_files_.size() > maximum_include_depth)
+      throw BadValue(fmt::format("includes nest more than {} files deep", maximum_include_depth),
+                     "include the parts from one file", file.place);
+    if (++included_files_ > maximum_includes)
+      throw BadValue(fmt::format("more than {} files are included", maximum_includes),
                      "put the parts into fewer files", file.place);
     read_included(path, element, parent, source);
   } catch (const BadValue& bad) {

@@ -17,9 +17,12 @@ struct LoadOptions {
   std::vector<std::pair<std::string, std::string>> definitions;
 };
 
-/// Reads a scene file and what it includes. Relative file names in it are searched in its own
-/// folder, then in the folders of its `<path>` elements. Throws Error, with all the problems that
-/// were found.
+/// Reads a scene file and what it includes. Properties `filename` and other names of files are
+/// searched in the folders of the file's `<path>` elements (the last one first), in the file's own
+/// folder, then in those of the files that include it; what is nowhere gets the own folder. A
+/// constant `<spectrum>` becomes a number, a list or file a SpectralCurve. Objects nest at most 100
+/// levels deep, also by reference, and never in circles. Throws Error(input) with all the problems
+/// that were found.
 Description load_mitsuba_xml(const std::string& path, const LoadOptions& options = {});
 
 /// The same from text: `name_for_messages` takes the place of the file's name in messages and
