@@ -92,6 +92,9 @@ class Png {
 bool read_header(png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_user_limits(png, INT32_MAX, INT32_MAX);  // checked by check_header_size()
+  // libpng's own default, which distributions lift: text and profiles need no more, and a corrupt
+  // length must not be allocated.
+  png_set_chunk_malloc_max(png, 8'000'000);
   png_read_info(png, info);
   png_set_expand(png);  // palettes, 1 to 4 bits, transparent colours
   png_set_interlace_handling(png);
