@@ -92,9 +92,6 @@ class Png {
 bool read_header(png_structp png, png_infop info) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_user_limits(png, INT32_MAX, INT32_MAX);  // checked by check_header_size()
-  // libpng's own default, which distributions lift: text and profiles need no more, and a corrupt
-  // length must not be allocated.
-  png_set_chunk_malloc_max(png, 8'000'000);
   png_read_info(png, info);
   png_set_expand(png);  // palettes, 1 to 4 bits, transparent colours
   png_set_interlace_handling(png);
@@ -121,6 +118,23 @@ bool write_all(png_structp png, png_infop info, uint32_t width, uint32_t height,
   png_write_image(png, rows);
   png_write_end(png, info);
   return true;
+}
+
+/// Every chunk up to the end mark lies within the file: libpng allocates a chunk's length before it
+/// reads, so a corrupt one would cost gigabytes.
+void check_chunks(ByteView file) {
+  constexpr size_t signature = 8, around_data = 12;  // length, type and checksum
+  for (size_t position = signature;;) {
+    if (position > file.size() || file.size() - position < around_data)
+      throw BadImage("the file is truncated");
+    const uint8_t* chunk = file.data() + position;
+    const size_t length =
+        size_t(chunk[0]) << 24 | size_t(chunk[1]) << 16 | size_t(chunk[2]) << 8 | size_t(chunk[3]);
+    if (length > file.size() - position - around_data)
+      throw BadImage("the file is truncated, or the length of a chunk is corrupt");
+    if (std::memcmp(chunk + 4, "IEND", 4) == 0) return;
+    position += length + around_data;
+  }
 }
 
 /// sRGB unless the file states that its samples are linear.
@@ -198,6 +212,7 @@ Bytes encode_png(const Image& display_linear) {
 }
 
 Image decode_png(ByteView file) {
+  check_chunks(file);
   State state;
   state.readable = file;
   const Png png(state, true);
