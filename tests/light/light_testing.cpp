@@ -21,6 +21,51 @@ std::unique_ptr<Light> make_light(const std::string& type, const std::vector<Pro
   throw std::logic_error("no such light");
 }
 
+std::shared_ptr<const Shape> make_shape(const std::string& type,
+                                        const std::vector<Property>& properties) {
+  for (const ShapeType& candidate : shape_types()) {
+    if (candidate.info.name != type) continue;
+    Problems problems;
+    const Arguments arguments(candidate.info, properties, {}, problems);
+    problems.throw_if_any();
+    return candidate.create(arguments);
+  }
+  throw std::logic_error("no such shape");
+}
+
+namespace {
+
+/// The map that takes the axes to x, y, z and the origin to `origin`.
+Value map_to(const Vec3f& x, const Vec3f& y, const Vec3f& z, const Vec3f& origin) {
+  double rows[4][4] = {};
+  for (int i = 0; i < 3; ++i) {
+    rows[i][0] = x[i];
+    rows[i][1] = y[i];
+    rows[i][2] = z[i];
+    rows[i][3] = origin[i];
+  }
+  rows[3][3] = 1;
+  return Transform(rows);
+}
+
+}  // namespace
+
+std::shared_ptr<const Shape> make_quad(const Vec3f& corner, const Vec3f& a, const Vec3f& b) {
+  const Vec3f x = a * 0.5f, y = b * 0.5f;
+  return make_shape("rectangle",
+                    {{"to_world", map_to(x, y, normalize(cross(a, b)), corner + x + y), {}}});
+}
+
+std::shared_ptr<const Shape> make_disk(const Vec3f& center, const Vec3f& normal, float radius) {
+  const Frame f(normal);
+  return make_shape("disk", {{"to_world", map_to(f.x * radius, f.y * radius, f.z, center), {}}});
+}
+
+std::shared_ptr<const Shape> make_ball(const Vec3f& center, float radius) {
+  return make_shape("sphere",
+                    {{"center", Value(Vec3d(center)), {}}, {"radius", Value(double(radius)), {}}});
+}
+
 namespace {
 
 /// A direction as the coordinates of DirectionGrid in [0, 1)²; anything outside if it misses.

@@ -1,6 +1,5 @@
 #pragma once
-// What the tests of lights share: making lights, small shapes of the tests' own with closed forms,
-// and histograms against densities.
+// What the tests of lights share: making lights and shapes, and histograms against densities.
 
 #include <gtest/gtest.h>
 
@@ -56,14 +55,13 @@ std::unique_ptr<Light> make_light(const std::string& type, const std::vector<Pro
                                   std::shared_ptr<const Shape> shape = nullptr,
                                   const Bounds3f& scene_bounds = test_bounds());
 
-/// A triangle mesh of two triangles: corner, corner + a, corner + a + b, corner + b; normal a × b.
+/// A shape by its type's name.
+std::shared_ptr<const Shape> make_shape(const std::string& type,
+                                        const std::vector<Property>& properties);
+/// Corners corner, corner + a, corner + a + b, corner + b; normal a × b.
 std::shared_ptr<const Shape> make_quad(const Vec3f& corner, const Vec3f& a, const Vec3f& b);
 std::shared_ptr<const Shape> make_disk(const Vec3f& center, const Vec3f& normal, float radius);
-/// Samples the cone that it subtends.
 std::shared_ptr<const Shape> make_ball(const Vec3f& center, float radius);
-
-/// The nearest point of a shape along a ray.
-std::optional<SurfacePoint> first_hit(const Shape& shape, const Ray& ray);
 
 /// Directions in the cone about an axis, cut into cells of equal solid angle.
 struct DirectionGrid {

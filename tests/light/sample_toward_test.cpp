@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kaustik/geometry/ray_tracer.h"
 #include "tests/light/light_testing.h"
 
 namespace kaustik {
@@ -16,40 +17,55 @@ std::unique_ptr<Light> area_light(std::shared_ptr<const Shape> shape, double rad
 }
 
 /// Density of sample_toward in a direction, by way of the point that is hit there.
-double density_toward(const Light& light, const Shape& shape, const Vec3f& direction) {
-  const auto point = first_hit(shape, {reference, direction});
-  return point ? light.pdf_toward(reference, *point) : 0.0;
+double density_toward(const Light& light, const RayTracer& tracer, const Vec3f& direction) {
+  const Ray ray{reference, direction};
+  Hit hit;
+  if (!tracer.intersect(ray, hit)) return 0;
+  return light.pdf_toward(reference, tracer.surface_point(ray, hit));
 }
 
 struct ShapeCase {
   std::string name;
   std::shared_ptr<const Shape> shape;
+  float one_minus_cos;  ///< of a cone about the shape's centre that holds it
 };
 
-std::vector<ShapeCase> shapes_above() {
-  return {{"quad", make_quad({-1, -1, 2}, {0.3f, 2, 0.5f}, {2, 0, 0})},
-          {"disk", make_disk({0.5f, 0, 1.5f}, normalize(Vec3f(0.3f, 0.2f, -1)), 0.8f)},
-          {"ball", make_ball({0.3f, 0.4f, 2}, 0.7f)}};
-}
-/// 1 − cos of the angular radius of that ball.
-float ball_cap() {
-  return 1.0f - safe_sqrt(1.0f - sqr(0.7f) / length_sq(Vec3f(0.3f, 0.4f, 2) - reference));
+/// Shapes around the reference, that hide no shining part of their own from it.
+std::vector<ShapeCase> shapes_around() {
+  const Vec3f ball(0.3f, 0.4f, 2);
+  // The ball's rim lies on a border of the grid, so that its integral is sharp.
+  const float cap = 1.0f - safe_sqrt(1.0f - sqr(0.7f) / length_sq(ball - reference));
+  const Value placed(Transform::translate({0.5, 0.2, 2}) * Transform::rotate({1, 2, 3}, 40) *
+                     Transform::scale({0.4, 0.4, 0.4}));
+  const Value flipped(true);
+  return {
+      {"quad", make_quad({-1, -1, 2}, {0.3f, 2, 0.5f}, {2, 0, 0}), 0.7f},
+      {"disk", make_disk({0.5f, 0, 1.5f}, normalize(Vec3f(0.3f, 0.2f, -1)), 0.8f), 0.3f},
+      {"sphere", make_ball(ball, 0.7f), 1.2f * cap},
+      {"sphere from inside",
+       make_shape("sphere", {{"radius", Value(2.0), {}}, {"flip_normals", flipped, {}}}), 2},
+      {"cube", make_shape("cube", {{"to_world", placed, {}}}), 0.2f},
+      {"cylinder", make_shape("cylinder", {{"to_world", placed, {}}}), 0.2f},
+      {"cylinder from inside",
+       make_shape("cylinder", {{"p0", Value(Vec3d(0, 0, -1)), {}}, {"flip_normals", flipped, {}}}),
+       2}};
 }
 
 TEST(SampleToward, AreaLightsFollowTheirDensity) {
-  for (const ShapeCase& test : shapes_above()) {
+  for (const ShapeCase& test : shapes_around()) {
     SCOPED_TRACE(test.name);
     const auto light = area_light(test.shape);
+    const RayTracer tracer({{test.shape}, {}, {}});
     DirectionGrid grid;
-    grid.axis = normalize(center(test.shape->bounds()) - reference);
-    // The ball's rim lies on a border of the grid, so that its integral is sharp.
-    grid.one_minus_cos = test.name == "ball" ? 1.2f * ball_cap() : 0.7f;
+    const Vec3f to_shape = center(test.shape->bounds()) - reference;
+    if (test.one_minus_cos < 2) grid.axis = normalize(to_shape);
+    grid.one_minus_cos = test.one_minus_cos;
     Random random(11);
     const auto sample = [&] {
       const LightSample s = light->sample_toward(reference, random.next_2d());
       return s.pdf_solid_angle > 0 ? s.direction : Vec3f(0, 0, 0);
     };
-    const auto pdf = [&](const Vec3f& d) { return density_toward(*light, *test.shape, d); };
+    const auto pdf = [&](const Vec3f& d) { return density_toward(*light, tracer, d); };
     const int count = 1'000'000 / sample_share;
     EXPECT_GT(direction_p_value(grid, count, sample, pdf), failure_level);
     expect_twin_fails(direction_p_value(grid, count, sample, with_planted_error(grid, pdf)));
@@ -57,7 +73,7 @@ TEST(SampleToward, AreaLightsFollowTheirDensity) {
 }
 
 TEST(SampleToward, ReportsTheDensityThatItAnswersLater) {
-  for (const ShapeCase& test : shapes_above()) {
+  for (const ShapeCase& test : shapes_around()) {
     SCOPED_TRACE(test.name);
     const auto light = area_light(test.shape);
     EXPECT_EQ(light->shape(), 7);

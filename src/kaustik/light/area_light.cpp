@@ -31,6 +31,7 @@ class AreaLight final : public Light {
     float pdf_solid_angle = 0;
     const ShapeSample s = shape_->sample_toward(reference, u, pdf_solid_angle);
     LightSample result;
+    if (!(pdf_solid_angle > 0)) return result;
     const Vec3f to_light = s.point.position - reference;
     const float distance = length(to_light);
     if (!(distance > 0)) return result;
@@ -56,12 +57,12 @@ class AreaLight final : public Light {
 
   EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction) const override {
     EmissionSample result = sample_origin(u_position);
+    if (!(result.pdf_position > 0)) return result;
     const Vec3f local = square_to_cosine_hemisphere(u_direction);
     result.direction = Frame(result.point.ng).to_world(local);
     result.pdf_direction = cosine_hemisphere_pdf(local.z);
     // Radiance × cosine over (cosine/π) × density of the position.
-    if (result.pdf_position > 0 && result.pdf_direction > 0)
-      result.flux = radiance_ * (pi / result.pdf_position);
+    if (result.pdf_direction > 0) result.flux = radiance_ * (pi / result.pdf_position);
     return result;
   }
 
@@ -75,6 +76,7 @@ class AreaLight final : public Light {
   EmissionSample sample_origin(const Vec2f& u) const override {
     const ShapeSample s = shape_->sample_area(u);
     EmissionSample result;
+    if (!(s.pdf_area > 0)) return result;
     result.point = placed(s.point);
     result.on_surface = true;
     result.pdf_position = s.pdf_area;

@@ -25,7 +25,7 @@ struct LightSample {
 struct EmissionSample {
   SurfacePoint point;  ///< origin; `error` zero if not on a surface. ng: zero if none
   bool on_surface = false;
-  Vec3f direction{0, 0, 0};  ///< unit
+  Vec3f direction{0, 0, 0};  ///< unit; zero if there is no ray
   Spectrum flux;            ///< W: emitted radiance × cosine / density (delta lights: intensity or
                             ///< irradiance / density); zero: nothing
   float pdf_position = 0;   ///< per area on the light (or on the disk that directional and

@@ -13,9 +13,10 @@ Vec2f probe(int i) {
 }
 
 /// Twice the area vector of a triangle in the order of its corners.
-Vec3f area_vector(const TriangleMesh& mesh, size_t triangle) {
+Vec3d area_vector(const TriangleMesh& mesh, size_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
-  return cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+  const Vec3d origin(mesh.positions[a]);
+  return (Vec3d(mesh.positions[b]) - origin).cross(Vec3d(mesh.positions[c]) - origin);
 }
 
 /// +1 where normals follow the order of the corners, −1 where they oppose it, 0 where neither holds
@@ -24,8 +25,9 @@ int winding_sign(const Shape& shape, const TriangleMesh& mesh) {
   int agree = 0, oppose = 0;
   for (int i = 0; i < probes; ++i) {
     const ShapeSample s = shape.sample_area(probe(i));
+    if (!(s.pdf_area > 0)) continue;
     if (s.point.primitive >= mesh.triangles.size()) return 0;
-    (dot(s.point.ng, area_vector(mesh, s.point.primitive)) > 0 ? agree : oppose)++;
+    (area_vector(mesh, s.point.primitive).dot(Vec3d(s.point.ng)) > 0 ? agree : oppose)++;
   }
   return oppose == 0 ? 1 : agree == 0 ? -1 : 0;
 }
@@ -33,21 +35,25 @@ int winding_sign(const Shape& shape, const TriangleMesh& mesh) {
 DirectionCone cone_of_triangles(const Shape& shape, const TriangleMesh& mesh) {
   const int sign = winding_sign(shape, mesh);
   if (sign == 0) return {};
-  Vec3f sum(0, 0, 0);
+  Vec3d sum(0, 0, 0);
   for (size_t i = 0; i < mesh.triangles.size(); ++i) sum += area_vector(mesh, i);
-  if (!(length_sq(sum) > 0)) return {};
-  DirectionCone cone{normalize(sum) * float(sign), 1};
+  if (!(sum.length() > 0)) return {};
+  const Vec3d axis = sum.normalized() * double(sign);
+  double cos_angle = 1;
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Vec3f v = area_vector(mesh, i) * float(sign);
-    if (length_sq(v) > 0)
-      cone.cos_angle = std::min(cone.cos_angle, dot(cone.axis, v) / length(v) - 1e-6f);
+    const Vec3d v = area_vector(mesh, i) * double(sign);
+    const double v_length = v.length();
+    if (v_length > 0) cos_angle = std::min(cos_angle, axis.dot(v) / v_length);
   }
-  return cone.cos_angle > -1 ? cone : DirectionCone{};
+  const double slack = 1e-6;
+  return cos_angle > slack - 1 ? DirectionCone{Vec3f(axis), float(cos_angle - slack)}
+                               : DirectionCone{};
 }
 
 /// Analytic shapes that can be sampled are quadrics: one whose normals are equal at many points is
 /// flat.
 DirectionCone cone_if_flat(const Shape& shape) {
+  if (!(shape.area() > 0)) return {};
   const Vec3f axis = shape.sample_area(probe(0)).point.ng;
   for (int i = 1; i < probes; ++i)
     if (!(dot(shape.sample_area(probe(i)).point.ng, axis) > 1.0f - 1e-5f)) return {};
