@@ -30,7 +30,8 @@ struct ShapeCase {
   float one_minus_cos;  ///< of a cone about the shape's centre that holds it
 };
 
-/// Shapes around the reference, that hide no shining part of their own from it.
+/// Shapes around the reference, that hide no shining part of their own from it and whose density is
+/// bounded (that of a cylinder seen from outside is not, at its outline).
 std::vector<ShapeCase> shapes_around() {
   const Vec3f ball(0.3f, 0.4f, 2);
   // The ball's rim lies on a border of the grid, so that its integral is sharp.
@@ -45,7 +46,6 @@ std::vector<ShapeCase> shapes_around() {
       {"sphere from inside",
        make_shape("sphere", {{"radius", Value(2.0), {}}, {"flip_normals", flipped, {}}}), 2},
       {"cube", make_shape("cube", {{"to_world", placed, {}}}), 0.2f},
-      {"cylinder", make_shape("cylinder", {{"to_world", placed, {}}}), 0.2f},
       {"cylinder from inside",
        make_shape("cylinder", {{"p0", Value(Vec3d(0, 0, -1)), {}}, {"flip_normals", flipped, {}}}),
        2}};
