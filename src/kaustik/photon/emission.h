@@ -12,6 +12,8 @@ namespace kaustik {
 struct AimTarget {
   Bounds3f box;
   float weight = 1;
+  /// If above zero: everything also lies within this distance of the box's centre.
+  float radius = 0;
 };
 
 /// A ray that leaves a light.
@@ -21,16 +23,19 @@ struct EmittedRay {
   bool on_surface = false;
   Spectrum flux;           ///< W carried if this were the light's only photon: emitted radiance ×
                            ///< cosine / (pdf_position × pdf_direction); zero: nothing was emitted
-  float pdf_position = 0;  ///< measures as in EmissionSample
+  float pdf_position = 0;  ///< measures as in EmissionSample; the product is the joint density
   float pdf_direction = 0;
 };
 
 /// The only source of emission densities. Per light: by the light's own distribution, or aimed, so
-/// that only rays which may meet a target's box are emitted, with exact densities: a place light
-/// samples the cones that the targets' bounding spheres subtend at the origin (density: the sum
-/// over all cones that hold the direction), an infinite light samples the disks of the targets'
-/// bounding spheres projected along the direction (likewise). Where a target surrounds the origin,
-/// the light's own distribution takes its share of the mixture. Immutable.
+/// that few rays miss the targets' boxes, with exact densities. A light with a place chooses a
+/// target by the flux that goes there and samples the cone that the target's bounding sphere
+/// subtends at the origin (density: the sum over all cones that hold the direction); an infinite
+/// light samples the disks of the bounding spheres projected along the direction (likewise).
+/// Spherical lights only use the side that faces the target. Where a target surrounds the origin,
+/// or takes more than the light emits into, the light's own distribution stands in for its cone.
+/// Lights whose own distribution serves the targets as well use that. A target has no chance only
+/// where bounds prove that the light cannot reach it. Immutable.
 class EmissionSampler {
  public:
   /// By power: every light by its own distribution. `scene` must outlive this.
@@ -54,13 +59,15 @@ class EmissionSampler {
   const Scene* scene_;
 };
 
-/// Boxes of every shape (and instance) whose bsdf has any of `lobes`, at most about `budget` of
-/// them, weighted by albedo. For caustics: Lobes::specular or Lobes::delta.
+/// Boxes of every shape (and instance) whose bsdf has any of `lobes`, at most `budget` of them,
+/// weighted by the albedo of those lobes. Long and hollow shapes get more boxes than compact ones.
+/// For caustics: Lobes::specular or Lobes::delta.
 std::vector<AimTarget> find_targets(const Scene& scene, Lobes lobes, int budget);
 
-/// How many photons each light emits: shares of `total` in proportion to `arriving` (flux that
-/// arrived in a training pass, per light; any unit), with a floor so that every light that emits
-/// gets some; counts sum to `total` unless that is below the number of lights.
+/// How many photons each light emits: nine tenths of `total` in proportion to `arriving` (flux that
+/// arrived in a training pass, per light; any unit), the rest mostly by `power`. Lights without
+/// power get none, all others at least one, even where that makes more than `total`; otherwise the
+/// counts sum to `total`.
 std::vector<uint32_t> share_photons(uint32_t total, const std::vector<double>& arriving,
                                     const std::vector<double>& power);
 
