@@ -1,0 +1,183 @@
+#include "tests/material/bsdf_support.h"
+
+#include <stdexcept>
+
+#include "kaustik/base/color.h"
+
+namespace kaustik::test {
+
+Property property(const std::string& name, Value value) { return {name, std::move(value), {}}; }
+
+std::shared_ptr<const Bsdf> make_bsdf(const std::string& type,
+                                      const std::vector<Property>& properties,
+                                      std::vector<std::shared_ptr<const Bsdf>> nested) {
+  for (const BsdfType& t : bsdf_types()) {
+    if (t.info.name != type) continue;
+    Problems problems;
+    const Arguments arguments(t.info, properties, place_in("scene.xml", 3, 5), problems);
+    problems.throw_if_any();
+    const auto texture = [&](std::string_view name) {
+      return make_constant_texture(reflectance_spectrum(arguments.color(name)));
+    };
+    return t.create({arguments, std::move(nested), texture});
+  }
+  throw std::invalid_argument("no bsdf type " + type);
+}
+
+namespace {
+
+std::shared_ptr<const Bsdf> rough(const std::string& distribution, double alpha,
+                                  bool visible = true) {
+  return make_bsdf("roughconductor",
+                   {property("distribution", distribution), property("alpha", alpha),
+                    property("material", "cu"), property("sample_visible", visible)});
+}
+
+std::shared_ptr<const Bsdf> anisotropic(const std::string& distribution) {
+  return make_bsdf("roughconductor",
+                   {property("distribution", distribution), property("alpha_u", 0.1),
+                    property("alpha_v", 0.4), property("specular_reflectance", 0.9)});
+}
+
+std::shared_ptr<const Bsdf> phong(const Rgb& diffuse, const Rgb& specular, double exponent) {
+  return make_bsdf("phong",
+                   {property("diffuse_reflectance", diffuse),
+                    property("specular_reflectance", specular), property("exponent", exponent)});
+}
+
+std::vector<BsdfInstance> make_instances() {
+  const auto coloured_phong = phong({0.5, 0.1, 0.2}, {0.2, 0.7, 0.3}, 30);
+  return {
+      {"diffuse", make_bsdf("diffuse")},
+      {"diffuse_coloured", make_bsdf("diffuse", {property("reflectance", Rgb{0.9, 0.0, 0.3})})},
+      {"phong_coloured_30", coloured_phong},
+      {"phong_3", phong({0.2, 0.2, 0.2}, {0.6, 0.6, 0.6}, 3)},
+      {"phong_specular_1000", phong({0, 0, 0}, {1, 1, 1}, 1000)},
+      {"phong_diffuse", phong({0.5, 0.5, 0.5}, {0, 0, 0}, 30)},
+      {"beckmann_0.05", rough("beckmann", 0.05)},
+      {"beckmann_0.3", rough("beckmann", 0.3)},
+      {"beckmann_0.8", rough("beckmann", 0.8)},
+      {"beckmann_0.3_all_normals", rough("beckmann", 0.3, false)},
+      {"beckmann_anisotropic", anisotropic("beckmann")},
+      {"ggx_0.05", rough("ggx", 0.05)},
+      {"ggx_0.3", rough("ggx", 0.3)},
+      {"ggx_0.8", rough("ggx", 0.8)},
+      {"ggx_0.3_all_normals", rough("ggx", 0.3, false)},
+      {"ggx_anisotropic", anisotropic("ggx")},
+      {"twosided_diffuse", make_bsdf("twosided", {}, {make_bsdf("diffuse")})},
+      {"twosided_two", make_bsdf("twosided", {}, {coloured_phong, rough("ggx", 0.3)})},
+      {"mirror", make_bsdf("conductor")},
+      {"gold", make_bsdf("conductor", {property("material", "Au")})},
+      {"glass", make_bsdf("dielectric", {property("int_ior", 1.5), property("ext_ior", 1.0)})},
+      {"tinted_water_bubble",
+       make_bsdf("dielectric", {property("int_ior", "air"), property("ext_ior", "water"),
+                                property("specular_reflectance", Rgb{1, 0.5, 0.9}),
+                                property("specular_transmittance", Rgb{0.2, 0.9, 1})})},
+  };
+}
+
+Vec3f direction(double degrees, double azimuth_degrees) {
+  const double theta = degrees * std::numbers::pi / 180;
+  const double phi = azimuth_degrees * std::numbers::pi / 180;
+  return normalize(Vec3f(float(std::sin(theta) * std::cos(phi)),
+                         float(std::sin(theta) * std::sin(phi)), float(std::cos(theta))));
+}
+
+constexpr double nodes[] = {0.0198550717512319, 0.1016667612931866, 0.2372337950418355,
+                            0.4082826787521751, 0.5917173212478249, 0.7627662049581645,
+                            0.8983332387068134, 0.9801449282487682};
+constexpr double weights[] = {0.0506142681451881, 0.1111905172266872, 0.1568533229389436,
+                              0.1813418916891810, 0.1813418916891810, 0.1568533229389436,
+                              0.1111905172266872, 0.0506142681451881};
+
+struct Range {
+  double theta0, theta1, phi0, phi1;
+};
+
+/// Gauss and Legendre's rule of 8 × 8 points.
+Vec3d gauss(const std::function<Vec3d(const Vec3f&)>& f, const Range& r) {
+  Vec3d sum(0, 0, 0);
+  for (int i = 0; i < 8; ++i) {
+    const double theta = std::lerp(r.theta0, r.theta1, nodes[i]);
+    const double sin_theta = std::sin(theta), cos_theta = std::cos(theta);
+    for (int j = 0; j < 8; ++j) {
+      const double phi = std::lerp(r.phi0, r.phi1, nodes[j]);
+      const Vec3f w(float(sin_theta * std::cos(phi)), float(sin_theta * std::sin(phi)),
+                    float(cos_theta));
+      sum += f(w) * (weights[i] * weights[j] * sin_theta);
+    }
+  }
+  return sum * (r.theta1 - r.theta0) * (r.phi1 - r.phi0);
+}
+
+Vec3d adaptive(const std::function<Vec3d(const Vec3f&)>& f, const Range& r, const Vec3d& whole,
+               int depth) {
+  const double theta = 0.5 * (r.theta0 + r.theta1), phi = 0.5 * (r.phi0 + r.phi1);
+  const Range quarters[] = {{r.theta0, theta, r.phi0, phi},
+                            {theta, r.theta1, r.phi0, phi},
+                            {r.theta0, theta, phi, r.phi1},
+                            {theta, r.theta1, phi, r.phi1}};
+  Vec3d parts[4], sum(0, 0, 0);
+  for (int i = 0; i < 4; ++i) sum += parts[i] = gauss(f, quarters[i]);
+  const Vec3d change = sum - whole;
+  const double error = std::fabs(change.x) + std::fabs(change.y) + std::fabs(change.z);
+  if (depth > 0 && (depth >= 9 || error < 2e-6)) return sum;
+  sum = Vec3d(0, 0, 0);
+  for (int i = 0; i < 4; ++i) sum += adaptive(f, quarters[i], parts[i], depth + 1);
+  return sum;
+}
+
+}  // namespace
+
+DirectionGrid::DirectionGrid(const Vec3f& wo)
+    : thetas_{0, 0.5 * std::numbers::pi, std::numbers::pi},
+      phis_{-std::numbers::pi, -0.5, -0.1, 0, 0.1, 0.5, std::numbers::pi},
+      mirror_phi_(std::atan2(-wo.y, -wo.x)) {
+  const double mirror_theta = std::acos(wo.z);
+  for (const double offset : {-0.25, -0.07, 0.0, 0.07, 0.25}) {
+    const double theta = mirror_theta + offset;
+    const auto near = [&](double border) { return std::fabs(theta - border) < 0.01; };
+    if (theta > 0 && theta < std::numbers::pi && std::none_of(thetas_.begin(), thetas_.end(), near))
+      thetas_.push_back(theta);
+  }
+  std::sort(thetas_.begin(), thetas_.end());
+}
+
+size_t DirectionGrid::cell_of(const Vec3f& w) const {
+  const double turns = (std::atan2(w.y, w.x) - mirror_phi_) / (2 * std::numbers::pi);
+  const double phi = (turns - std::round(turns)) * 2 * std::numbers::pi;
+  const double theta = std::acos(std::clamp(double(w.z), -1.0, 1.0));
+  const auto interval = [](const std::vector<double>& borders, double x) {
+    const auto next = std::upper_bound(borders.begin(), borders.end(), x);
+    return size_t(std::clamp<std::ptrdiff_t>(next - borders.begin() - 1, 0,
+                                             std::ptrdiff_t(borders.size()) - 2));
+  };
+  return interval(thetas_, theta) * (phis_.size() - 1) + interval(phis_, phi);
+}
+
+Vec3d DirectionGrid::integrate(size_t cell, const std::function<Vec3d(const Vec3f&)>& f) const {
+  const size_t row = cell / (phis_.size() - 1), column = cell % (phis_.size() - 1);
+  const Range range{thetas_[row], thetas_[row + 1], mirror_phi_ + phis_[column],
+                    mirror_phi_ + phis_[column + 1]};
+  return adaptive(f, range, Vec3d(0, 0, 0), 0);
+}
+
+const std::vector<BsdfInstance>& bsdf_instances() {
+  static const std::vector<BsdfInstance> instances = make_instances();
+  return instances;
+}
+
+const std::vector<Vec3f>& outgoing_directions() {
+  static const std::vector<Vec3f> directions = {direction(0, 0), direction(35, 20),
+                                                direction(70, 140), direction(87, 250)};
+  return directions;
+}
+
+std::vector<Lobes> lobe_sets(const Bsdf& bsdf) {
+  std::vector<Lobes> sets = {Lobes::all};
+  for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy, Lobes::delta})
+    if (any(bsdf.lobes() & lobe) && bsdf.lobes() != lobe) sets.push_back(lobe);
+  return sets;
+}
+
+}  // namespace kaustik::test

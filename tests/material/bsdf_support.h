@@ -1,0 +1,53 @@
+#pragma once
+// Builds bsdfs as a scene file would, and the table of instances that every property is tested on.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "kaustik/material/bsdf.h"
+
+namespace kaustik::test {
+
+/// Throws Error as build_scene() would.
+std::shared_ptr<const Bsdf> make_bsdf(const std::string& type,
+                                      const std::vector<Property>& properties = {},
+                                      std::vector<std::shared_ptr<const Bsdf>> nested = {});
+Property property(const std::string& name, Value value);
+
+struct BsdfInstance {
+  std::string name;
+  std::shared_ptr<const Bsdf> bsdf;
+};
+const std::vector<BsdfInstance>& bsdf_instances();
+
+/// From the normal to grazing, on several azimuths; unit, all with z > 0.
+const std::vector<Vec3f>& outgoing_directions();
+
+/// The sets of lobes that this one can be asked for: each of its own and all.
+std::vector<Lobes> lobe_sets(const Bsdf& bsdf);
+
+/// Cells over the sphere of directions, narrow about the mirror direction of wo, where lobes are;
+/// none reaches over the horizon.
+class DirectionGrid {
+ public:
+  explicit DirectionGrid(const Vec3f& wo);
+  size_t size() const { return (thetas_.size() - 1) * (phis_.size() - 1); }
+  size_t cell_of(const Vec3f& w) const;
+  /// Integral of f(direction) per solid angle over a cell, adaptive, good to about 1e-5.
+  Vec3d integrate(size_t cell, const std::function<Vec3d(const Vec3f&)>& f) const;
+
+ private:
+  std::vector<double> thetas_, phis_;  ///< borders; phi relative to the mirror direction
+  double mirror_phi_;
+};
+
+#ifdef KAUSTIK_SLOW_BUILD
+inline constexpr int sample_count = 25000;
+inline constexpr double planted_error = 0.065;  ///< what a tenth of the samples can still find
+#else
+inline constexpr int sample_count = 250000;
+inline constexpr double planted_error = 0.02;
+#endif
+
+}  // namespace kaustik::test

@@ -1,0 +1,338 @@
+// Properties that every bsdf has, tested on the whole table of instances.
+
+#include "kaustik/material/bsdf.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+#include <utility>
+
+#include "kaustik/base/sampler.h"
+#include "kaustik/base/statistics.h"
+#include "tests/material/bsdf_support.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+/// One question to a bsdf: where light leaves to, and which lobes are meant.
+struct Case {
+  Vec3f wo;
+  Lobes lobes;
+  std::string text;
+};
+
+/// On the outside and on the inside, where something comes back from there.
+std::vector<Case> cases_of(const Bsdf& bsdf) {
+  std::vector<Case> cases;
+  for (const Vec3f& outside : outgoing_directions())
+    for (const float side : {1.0f, -1.0f})
+      for (const Lobes lobes : lobe_sets(bsdf)) {
+        const Vec3f wo(outside.x, outside.y, side * outside.z);
+        if (bsdf.albedo({}, wo, lobes).is_zero()) continue;
+        cases.push_back(
+            {wo, lobes, "wo.z " + std::to_string(wo.z) + ", lobes " + std::to_string(int(lobes))});
+      }
+  return cases;
+}
+
+int count_of_cases() {
+  int count = 0;
+  for (const BsdfInstance& i : bsdf_instances()) count += int(cases_of(*i.bsdf).size());
+  return count;
+}
+
+/// The level of one test out of the `tests_per_case` for every case, such that all of them together
+/// fail with a chance of 1 % where everything is right.
+double level(int tests_per_case) {
+  static const int cases = count_of_cases();
+  return sidak_level(0.01, cases * tests_per_case);
+}
+
+/// Independent points: the tests below assume that.
+Sampler sampler_of(uint64_t key, int i) { return {hash_mix(key, uint64_t(i)), 0}; }
+
+BsdfSample draw(const Bsdf& bsdf, const BsdfContext& context, const Case& c, Sampler sampler) {
+  const float u_lobe = sampler.next_1d();
+  return bsdf.sample(context, c.wo, u_lobe, sampler.next_2d(), c.lobes);
+}
+
+class EveryBsdf : public testing::TestWithParam<BsdfInstance> {
+ protected:
+  const Bsdf& bsdf() const { return *GetParam().bsdf; }
+  bool has_density() const { return any(bsdf().lobes() & (Lobes::diffuse | Lobes::glossy)); }
+};
+
+// ---- what many samples give ----
+
+/// Hits per cell of the grid; the last cell is for what is absorbed.
+using Cells = std::vector<double>;
+
+struct Drawn {
+  Cells cells;
+  /// Weight by event (diffuse, glossy, delta) and lane; zero for the samples of other events.
+  std::array<std::array<RunningStatistics, 3>, 3> weights;
+  std::array<RunningStatistics, 3> all_weights;
+};
+
+constexpr std::array<Lobes, 3> single_lobes = {Lobes::diffuse, Lobes::glossy, Lobes::delta};
+
+/// Sampling all normals is noisy at grazing angles.
+int samples_for(const Bsdf& bsdf) {
+  for (const BsdfInstance& instance : bsdf_instances())
+    if (instance.bsdf.get() == &bsdf && instance.name.ends_with("all_normals"))
+      return 4 * sample_count;
+  return sample_count;
+}
+
+Drawn draw_many(const Bsdf& bsdf, const Case& c) {
+  const DirectionGrid grid(c.wo);
+  Drawn result;
+  result.cells.resize(grid.size() + 1);
+  for (int i = 0; i < samples_for(bsdf); ++i) {
+    const BsdfSample s = draw(bsdf, {{}, TransportMode::flux}, c, sampler_of(1, i));
+    result.cells[s.event == Lobes::none ? grid.size() : grid.cell_of(s.wi)] += 1;
+    for (size_t lane = 0; lane < 3; ++lane) {
+      const double weight = s.weight[int(lane)];
+      result.all_weights[lane].add(weight);
+      for (size_t event = 0; event < 3; ++event)
+        result.weights[event][lane].add(s.event == single_lobes[event] ? weight : 0);
+    }
+  }
+  return result;
+}
+
+/// The same for every test that asks.
+const Drawn& drawn(const Bsdf& bsdf, const Case& c) {
+  static std::map<std::pair<const Bsdf*, std::string>, Drawn> memory;
+  const auto key = std::make_pair(&bsdf, c.text);
+  const auto found = memory.find(key);
+  return found != memory.end() ? found->second
+                               : memory.emplace(key, draw_many(bsdf, c)).first->second;
+}
+
+Cells expected_cells(const Bsdf& bsdf, const Case& c) {
+  const DirectionGrid grid(c.wo);
+  Cells cells;
+  double total = 0;
+  for (size_t cell = 0; cell < grid.size(); ++cell) {
+    const Vec3d share = grid.integrate(
+        cell, [&](const Vec3f& wi) { return Vec3d(bsdf.pdf({}, c.wo, wi, c.lobes), 0, 0); });
+    cells.push_back(share.x * samples_for(bsdf));
+    total += share.x;
+  }
+  EXPECT_LT(total, 1 + 2e-4) << "the density is more than 1";
+  // The quadrature is not exact enough to tell a smaller share from none.
+  const double absorbed = 1 - total < 3e-4 ? 0 : 1 - total;
+  cells.push_back(absorbed * samples_for(bsdf));
+  return cells;
+}
+
+/// Every other cell has two percent more, the others two percent less.
+Cells with_planted_error(Cells cells) {
+  for (size_t i = 0; i < cells.size(); ++i)
+    cells[i] *= i % 2 ? 1 + planted_error : 1 - planted_error;
+  return cells;
+}
+
+TEST_P(EveryBsdf, samples_as_its_density_says) {
+  if (!has_density()) return;  // delta lobes have none
+  for (const Case& c : cases_of(bsdf())) {
+    SCOPED_TRACE(c.text);
+    Cells observed = drawn(bsdf(), c).cells;
+    const Cells expected = expected_cells(bsdf(), c);
+    if (expected.back() == 0) {
+      EXPECT_LE(observed.back(), 1e-3 * samples_for(bsdf()));
+      observed.back() = 0;
+    }
+    EXPECT_GT(chi_square_p_value(observed, expected), level(1));
+    EXPECT_LT(chi_square_p_value(observed, with_planted_error(expected)), level(1));
+  }
+}
+
+// ---- weights ----
+
+TEST_P(EveryBsdf, weight_is_value_times_cosine_over_density) {
+  for (const Case& c : cases_of(bsdf())) {
+    SCOPED_TRACE(c.text);
+    const Lobes asked = c.lobes & bsdf().lobes();
+    const bool one_lobe =
+        asked == Lobes::diffuse || asked == Lobes::glossy || asked == Lobes::delta;
+    for (int i = 0; i < 2000; ++i) {
+      const BsdfSample s = draw(bsdf(), {}, c, sampler_of(2, i));
+      ASSERT_TRUE(s.weight.is_finite());
+      if (s.event == Lobes::none) {
+        ASSERT_TRUE(s.weight.is_zero());
+        continue;
+      }
+      ASSERT_TRUE(s.event == Lobes::diffuse || s.event == Lobes::glossy || s.event == Lobes::delta);
+      ASSERT_TRUE(any(s.event & c.lobes));
+      ASSERT_NEAR(length(s.wi), 1, 1e-5f);
+      ASSERT_EQ(s.transmission, s.wi.z * c.wo.z < 0);
+      const Spectrum f = bsdf().eval({}, c.wo, s.wi, c.lobes);
+      const float pdf = bsdf().pdf({}, c.wo, s.wi, c.lobes);
+      if (s.event == Lobes::delta) {
+        ASSERT_TRUE(f.is_zero());
+        ASSERT_EQ(pdf, 0);
+        continue;
+      }
+      // Half vectors at grazing angles lose digits; one of two kinds of arithmetic is not enough.
+      ASSERT_NEAR(s.pdf_solid_angle, pdf, 0.01f * pdf + 1e-6f);
+      if (!one_lobe) continue;
+      for (int lane = 0; lane < 3; ++lane) {
+        const float expected = f[lane] * std::fabs(s.wi.z) / pdf;
+        ASSERT_NEAR(s.weight[lane], expected, 0.002f * expected + 1e-6f);
+      }
+    }
+  }
+}
+
+Vec3d integral_of_value(const Bsdf& bsdf, const Vec3f& wo, Lobes lobes) {
+  const DirectionGrid grid(wo);
+  Vec3d sum(0, 0, 0);
+  for (size_t cell = 0; cell < grid.size(); ++cell)
+    sum += grid.integrate(cell, [&](const Vec3f& wi) {
+      const Spectrum f = bsdf.eval({}, wo, wi, lobes) * std::fabs(wi.z);
+      return Vec3d(f[0], f[1], f[2]);
+    });
+  return sum;
+}
+
+TEST_P(EveryBsdf, mean_weight_of_each_event_is_the_integral_of_its_lobe) {
+  if (!has_density()) return;  // delta lobes have none
+  for (const Case& c : cases_of(bsdf()))
+    for (size_t event = 0; event < 2; ++event) {
+      if (!any(single_lobes[event] & c.lobes & bsdf().lobes())) continue;
+      SCOPED_TRACE(c.text + ", event " + std::to_string(event));
+      const Vec3d expected = integral_of_value(bsdf(), c.wo, single_lobes[event]);
+      for (int lane = 0; lane < 3; ++lane) {
+        SCOPED_TRACE(lane);
+        const RunningStatistics& weight = drawn(bsdf(), c).weights[event][size_t(lane)];
+        // The quadrature is good to 1e-4; without variance that is all there is to see.
+        const double error = std::hypot(weight.standard_error(), 5e-5 * expected[lane]);
+        const double wrong = expected[lane] * (1 + planted_error);
+        EXPECT_GT(z_test_p_value(weight.mean(), error, expected[lane]), level(6));
+        if (expected[lane] > 0) {
+          EXPECT_LT(z_test_p_value(weight.mean(), error, wrong), level(6));
+        }
+      }
+    }
+}
+
+TEST_P(EveryBsdf, albedo_is_the_mean_weight_and_at_most_one) {
+  for (const Case& c : cases_of(bsdf())) {
+    SCOPED_TRACE(c.text);
+    const Spectrum albedo = bsdf().albedo({}, c.wo, c.lobes);
+    EXPECT_LE(albedo.max_lane(), 1.0f + 1e-5f);
+    EXPECT_EQ(albedo[3], 0);
+    const bool estimated = any(c.lobes & bsdf().lobes() & Lobes::glossy);
+    for (size_t lane = 0; lane < 3; ++lane) {
+      const RunningStatistics& weight = drawn(bsdf(), c).all_weights[lane];
+      const double noise = 5 * weight.standard_error() + 2e-6;
+      EXPECT_NEAR(albedo[int(lane)], weight.mean(), (estimated ? 0.03 * weight.mean() : 0) + noise);
+      EXPECT_LE(weight.mean(), 1 + noise);
+    }
+  }
+}
+
+// ---- symmetry and restrictions ----
+
+TEST_P(EveryBsdf, is_reciprocal) {
+  for (int i = 0; i < 20000; ++i) {
+    Sampler sampler = sampler_of(4, i);
+    const Vec2f u = sampler.next_2d(), v = sampler.next_2d();
+    const auto on_sphere = [](const Vec2f& p) {
+      const float z = 2 * p.x - 1, r = safe_sqrt(1 - z * z), phi = 2 * pi * p.y;
+      return Vec3f(r * std::cos(phi), r * std::sin(phi), z);
+    };
+    const Vec3f a = on_sphere(u), b = on_sphere(v);
+    for (const Lobes lobes : lobe_sets(bsdf())) {
+      const Spectrum ab = bsdf().eval({}, a, b, lobes), ba = bsdf().eval({}, b, a, lobes);
+      for (int lane = 0; lane < 3; ++lane) {
+        ASSERT_GE(ab[lane], 0);
+        ASSERT_NEAR(ab[lane], ba[lane], 1e-4f * ab[lane] + 1e-7f);
+      }
+    }
+  }
+}
+
+TEST_P(EveryBsdf, lobes_add_up) {
+  const Lobes parts[] = {Lobes::diffuse, Lobes::glossy, Lobes::delta};
+  for (int i = 0; i < 2000; ++i) {
+    Sampler sampler = sampler_of(5, i);
+    const auto direction = [&] {
+      const Vec2f u = sampler.next_2d();
+      const float r = safe_sqrt(1 - u.x * u.x);
+      return Vec3f(r * std::cos(2 * pi * u.y), r * std::sin(2 * pi * u.y), u.x);
+    };
+    const Vec3f wo = direction(), wi = direction();
+    Spectrum f, albedo;
+    for (const Lobes part : parts) {
+      f += bsdf().eval({}, wo, wi, part);
+      albedo += bsdf().albedo({}, wo, part);
+      if (!any(part & bsdf().lobes())) {
+        EXPECT_TRUE(bsdf().eval({}, wo, wi, part).is_zero());
+      }
+    }
+    const Spectrum all = bsdf().eval({}, wo, wi, Lobes::all);
+    const Spectrum whole = bsdf().albedo({}, wo, Lobes::all);
+    for (int lane = 0; lane < 4; ++lane) {
+      ASSERT_NEAR(f[lane], all[lane], 1e-5f * all[lane]);
+      ASSERT_NEAR(albedo[lane], whole[lane], 1e-5f);
+    }
+  }
+}
+
+TEST_P(EveryBsdf, answers_nothing_where_nothing_is_scattered) {
+  for (const Vec3f& outside : outgoing_directions())
+    for (const float side : {1.0f, -1.0f})
+      for (const Lobes lobes : {Lobes::none, Lobes::diffuse, Lobes::glossy, Lobes::delta}) {
+        const Vec3f wo(outside.x, outside.y, side * outside.z), wi(0.1f, -0.3f, std::sqrt(0.9f));
+        const bool has_lobe = any(lobes & bsdf().lobes());
+        if (has_lobe && !bsdf().albedo({}, wo, lobes).is_zero()) continue;
+        EXPECT_TRUE(bsdf().albedo({}, wo, lobes).is_zero());
+        EXPECT_TRUE(bsdf().eval({}, wo, wi, lobes).is_zero());
+        EXPECT_EQ(bsdf().pdf({}, wo, wi, lobes), 0);
+        const BsdfSample s = bsdf().sample({}, wo, 0.3f, {0.2f, 0.7f}, lobes);
+        EXPECT_EQ(s.event, Lobes::none);
+        EXPECT_TRUE(s.weight.is_zero());
+      }
+}
+
+TEST_P(EveryBsdf, stays_finite_at_the_ends_of_the_square) {
+  const float ends[] = {0.0f, 0x1p-24f, 0.5f, one_minus_epsilon};
+  std::vector<Vec3f> directions = outgoing_directions();
+  directions.push_back({1, 0, 0});
+  directions.push_back({std::sqrt(1 - 1e-12f), 0, 1e-6f});
+  for (const Vec3f& wo : directions)
+    for (const float side : {1.0f, -1.0f})
+      for (const float a : ends)
+        for (const float b : ends)
+          for (const float c : ends) {
+            const BsdfSample s =
+                bsdf().sample({}, {wo.x, wo.y, side * wo.z}, a, {b, c}, Lobes::all);
+            ASSERT_TRUE(s.weight.is_finite());
+            ASSERT_TRUE(is_finite(s.wi));
+            ASSERT_TRUE(std::isfinite(s.pdf_solid_angle));
+            ASSERT_LE(s.weight.max_lane(), 1e4f);
+          }
+}
+
+INSTANTIATE_TEST_SUITE_P(Instances, EveryBsdf, testing::ValuesIn(bsdf_instances()),
+                         [](const auto& instance) {
+                           std::string name = instance.param.name;
+                           std::replace(name.begin(), name.end(), '.', '_');
+                           return name;
+                         });
+
+TEST(bsdf_types, are_all_in_the_table_of_instances) {
+  std::vector<std::string> names;
+  for (const BsdfType& type : bsdf_types()) names.push_back(type.info.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"diffuse", "phong", "dielectric", "conductor",
+                                             "roughconductor", "twosided"}));
+}
+
+}  // namespace
+}  // namespace kaustik
