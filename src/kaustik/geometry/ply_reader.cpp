@@ -166,7 +166,7 @@ void PlyReader::read_header() {
     }
   }
   if (!has_format) fail("the header has no 'format' line", "export the file again");
-  if (format_ != Format::text) line_ = 0;
+  line_ = format_ == Format::text ? line_ + 1 : 0;
 }
 
 void PlyReader::header_element(const std::vector<std::string_view>& words) {

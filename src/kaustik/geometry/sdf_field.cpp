@@ -22,7 +22,7 @@ double menger(const Vec3d& p, int iterations) {
     Vec3d cell;
     for (int axis = 0; axis < 3; ++axis) {
       const double x = p[axis] * scale;
-      cell[axis] = x - 2 * std::floor(0.5 * (x + 1));  // in [-1, 1)
+      cell[axis] = x - 2 * std::floor(0.5 * x) - 1;  // in [-1, 1), the bar at its ends
     }
     scale *= 3;
     const Vec3d bar = absolute(Vec3d(1, 1, 1) - absolute(cell) * 3.0);

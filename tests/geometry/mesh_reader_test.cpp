@@ -1,0 +1,297 @@
+// Mesh files, good and hostile.
+
+#include "kaustik/geometry/mesh_reader.h"
+
+#include <unistd.h>
+
+#include <bit>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "geometry_support.h"
+
+namespace kaustik::test {
+namespace {
+
+class MeshFile {
+ public:
+  explicit MeshFile(const std::string& bytes) : MeshFile(bytes, "mesh") {}
+  MeshFile(const std::string& bytes, const std::string& name)
+      : path_(testing::TempDir() + "kaustik_" + std::to_string(::getpid()) + "_" + name) {
+    std::ofstream(path_, std::ios::binary) << bytes;
+  }
+  ~MeshFile() { std::filesystem::remove(path_); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+TriangleMesh ply(const std::string& bytes) { return read_ply(MeshFile(bytes).path()); }
+TriangleMesh obj(const std::string& bytes) { return read_obj(MeshFile(bytes).path()); }
+
+/// The message of the Error(input) that `read` throws; "" if it throws none.
+template <typename Read>
+std::string error_of(const Read& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_FALSE(error.problems()[0].remedy.empty());
+    EXPECT_TRUE(error.problems()[0].place.file != nullptr || error.problems().size() == 1);
+    return error.what();
+  }
+  return {};
+}
+
+template <typename T>
+void put(std::string& out, T value, bool big_endian) {
+  char raw[sizeof(T)];
+  std::memcpy(raw, &value, sizeof(T));
+  if (big_endian) std::reverse(std::begin(raw), std::end(raw));
+  out.append(raw, sizeof(T));
+}
+
+/// A quad with everything that a vertex can have, and things to be skipped.
+std::string binary_ply(bool big_endian) {
+  std::string out = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
+                    "_endian 1.0\ncomment made by hand\nelement camera 1\n"
+                    "property double fov\nproperty list uchar short taps\n"
+                    "element vertex 4\nproperty float x\nproperty float y\nproperty double z\n"
+                    "property uchar red\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                    "property float s\nproperty float t\nelement face 1\nproperty int material\n"
+                    "property list uint ushort vertex_index\nend_header\n";
+  put(out, 45.0, big_endian);
+  put(out, uint8_t(2), big_endian);
+  put(out, int16_t(-5), big_endian);
+  put(out, int16_t(7), big_endian);
+  for (const auto& [x, y] : {std::pair(0.f, 0.f), {1.f, 0.f}, {1.f, 1.f}, {0.f, 1.f}}) {
+    put(out, x, big_endian);
+    put(out, y, big_endian);
+    put(out, 2.5, big_endian);
+    put(out, uint8_t(200), big_endian);
+    for (const float n : {0.f, 0.f, 1.f}) put(out, n, big_endian);
+    put(out, x, big_endian);
+    put(out, y, big_endian);
+  }
+  put(out, int32_t(3), big_endian);
+  put(out, uint32_t(4), big_endian);
+  for (const int i : {0, 1, 2, 3}) put(out, uint16_t(i), big_endian);
+  return out;
+}
+
+const std::string text_ply =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+    "property float u\nproperty float v\nelement face 1\n"
+    "property list uchar int vertex_indices\nend_header\n"
+    "0 0 2.5 0 0 1 0 0\n1 0 2.5 0 0 1 1 0\n1 1 +2.5 0 0 1 1 1\n0 1 2.5e0 0 0 1 0 1\n4 0 1 2 3\n";
+
+void expect_quad(const TriangleMesh& mesh) {
+  ASSERT_EQ(mesh.positions.size(), 4u);
+  ASSERT_EQ(mesh.normals.size(), 4u);
+  ASSERT_EQ(mesh.uvs.size(), 4u);
+  EXPECT_EQ(mesh.positions[2], Vec3f(1, 1, 2.5f));
+  EXPECT_EQ(mesh.normals[3], Vec3f(0, 0, 1));
+  EXPECT_EQ(mesh.uvs[1], Vec2f(1, 0));
+  const std::vector<std::array<uint32_t, 3>> fan = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_EQ(mesh.triangles, fan);
+}
+
+TEST(PlyReader, AllFormats) {
+  expect_quad(ply(text_ply));
+  expect_quad(ply(binary_ply(false)));
+  expect_quad(ply(binary_ply(true)));
+  std::string windows = text_ply;
+  for (size_t i = 0; (i = windows.find('\n', i)) != windows.npos; i += 2)
+    windows.replace(i, 1, "\r\n");
+  expect_quad(ply(windows));
+}
+
+/// `text_ply` with one piece replaced.
+std::string with(const std::string& from, const std::string& to) {
+  std::string result = text_ply;
+  const size_t at = result.find(from);
+  EXPECT_NE(at, result.npos) << from;
+  return result.replace(at, from.size(), to);
+}
+
+TEST(PlyReader, SaysWhatIsWrongAndWhere) {
+  const auto message = [](const std::string& bytes) { return error_of([&] { ply(bytes); }); };
+  const auto expect = [&](const std::string& bytes, const std::string& what) {
+    EXPECT_NE(message(bytes).find(what), std::string::npos) << what << "\n got: " << message(bytes);
+  };
+  expect("", "does not start with 'ply'");
+  expect("solid cube", "does not start with 'ply'");
+  expect(with("1 0 2.5", "1 nan 2.5"), "vertex 1 is not finite");
+  expect(with("1 0 2.5", "1 nan 2.5"), ":16: ");
+  expect(with("1 0 2.5", "1 inf 2.5"), "vertex 1 is not finite");
+  expect(with("1 0 2.5", "1 1e60 2.5"), "vertex 1 is not finite");
+  expect(with("1 0 2.5", "1 zero 2.5"), "'zero' is no number");
+  expect(with("4 0 1 2 3", "4 0 1 2 4"), "face 0 refers to vertex 4 of 4");
+  expect(with("4 0 1 2 3", "4 0 1 2 -1"), "face 0 refers to vertex -1 of 4");
+  expect(with("4 0 1 2 3", "4 0 1 2"), "ends too early");
+  expect(with("4 0 1 2 3", "-4 0 1 2 3"), "length -4");
+  expect(with("4 0 1 2 3", "2 0 1"), "no faces");
+  expect(with("face 1", "face 0"), "no faces");
+  expect(with("vertex 4", "vertex 4000000000"), "more than the file can hold");
+  expect(with("vertex 4", "vertex 99999999999999999999"), "is no number of elements");
+  expect(with("vertex 4", "vertex -4"), "is no number of elements");
+  expect(with("float x", "quad x"), "unknown type 'quad'");
+  expect(with("float x", "float w"), "no 'x', 'y' and 'z'");
+  expect(with("vertex_indices", "triangles"), "no list 'vertex_indices'");
+  expect(with("ascii", "utf8"), "unknown format 'utf8'");
+  expect(with("end_header", "end_heder"), "unknown line 'end_heder'");
+  EXPECT_NE(error_of([] { read_ply("/nonexistent/mesh.ply"); }), "");
+  EXPECT_NE(error_of([] { read_ply("/tmp"); }), "");
+}
+
+TEST(PlyReader, HugeListsAllocateNothing) {
+  std::string bytes = binary_ply(false);
+  const uint32_t huge = 0xffffffff;
+  std::memcpy(bytes.data() + bytes.size() - 12, &huge, 4);
+  EXPECT_NE(error_of([&] { ply(bytes); }).find("ends too early"), std::string::npos);
+}
+
+void expect_sound(const TriangleMesh& mesh) {
+  EXPECT_FALSE(mesh.triangles.empty());
+  for (const auto& t : mesh.triangles)
+    for (const uint32_t i : t) ASSERT_LT(i, mesh.positions.size());
+  for (const Vec3f& p : mesh.positions) ASSERT_TRUE(is_finite(p));
+  EXPECT_TRUE(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
+  EXPECT_TRUE(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());
+}
+
+/// Reads damaged copies of `bytes`: cut at every offset and with bytes changed. Each gives a sound
+/// mesh or an Error(input); at least `least_errors` of them the latter.
+template <typename Read>
+void survive_damage(const std::string& bytes, const Read& read, int least_errors) {
+  int errors = 0;
+  const auto attempt = [&](const std::string& damaged) {
+    try {
+      const TriangleMesh mesh = read(damaged);
+      expect_sound(mesh);
+      // What reads must also trace.
+      MeshOptions options;
+      const auto shape = std::make_shared<MeshShape>(prepare_mesh(mesh, options, "mesh"));
+      EXPECT_TRUE(std::isfinite(shape->area()));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();
+      ++errors;
+    }
+  };
+  for (size_t length = 0; length < bytes.size(); ++length) attempt(bytes.substr(0, length));
+  Random random(31);
+  for (int i = 0; i < 3000 / samples_divisor; ++i) {
+    std::string damaged = bytes;
+    const int changes = 1 + int(random.uniform() * 4);
+    for (int j = 0; j < changes; ++j)
+      damaged[size_t(random.uniform() * float(bytes.size()))] = char(random.uniform() * 256);
+    attempt(damaged);
+  }
+  EXPECT_GT(errors, least_errors);
+}
+
+TEST(PlyReader, SurvivesDamage) {
+  survive_damage(text_ply, ply, 500);
+  survive_damage(binary_ply(false), ply, 500);
+  survive_damage(binary_ply(true), ply, 500);
+}
+
+const std::string text_obj =
+    "# a quad\nmtllib none.mtl\no quad\nv 0 0 2.5\nv 1 0 2.5\nv 1 1 2.5\nv 0 1 2.5 1.0\n"
+    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1 0\nvn 0 0 1\nusemtl x\ns off\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";
+
+TEST(ObjReader, Quad) {
+  expect_quad(obj(text_obj));
+  const TriangleMesh relative = obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1 # a comment\n");
+  EXPECT_EQ(relative.triangles.size(), 1u);
+  EXPECT_TRUE(relative.uvs.empty());
+  EXPECT_TRUE(relative.normals.empty());
+  EXPECT_EQ(obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1").normals.size(), 3u);
+}
+
+TEST(ObjReader, SplitsVerticesOnlyWhereTheyDiffer) {
+  // Two triangles that share an edge: with one normal it stays shared, with two it is split.
+  const std::string positions = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nvn 0 0 1\nvn 0 1 0\n";
+  EXPECT_EQ(obj(positions + "f 1//1 2//1 3//1\nf 1//1 3//1 4//1\n").positions.size(), 4u);
+  EXPECT_EQ(obj(positions + "f 1//1 2//1 3//1\nf 1//2 3//2 4//2\n").positions.size(), 6u);
+}
+
+TEST(ObjReader, SaysWhatIsWrongAndWhere) {
+  const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const auto expect = [&](const std::string& bytes, const std::string& what) {
+    const std::string message = error_of([&] { obj(bytes); });
+    EXPECT_NE(message.find(what), std::string::npos) << what << "\n got: " << message;
+  };
+  expect("", "no faces");
+  expect(start, "no faces");
+  expect(start + "f 1 2\n", "face 1 has 2 corners");
+  expect(start + "f 1 2 4\n", "face 1 refers to vertex 4 of 3");
+  expect(start + "f 1 2 4\n", ":4: ");
+  expect(start + "f 1 2 0\n", "face 1 refers to vertex 0 of 3");
+  expect(start + "f 1 2 -4\n", "face 1 refers to vertex -4 of 3");
+  expect(start + "f 1 2 x\n", "'x' is no index");
+  expect(start + "f 1/1 2/1 3/1\n", "refers to texture coordinate 1 of 0");
+  expect(start + "f 1//1 2//1 3//1\n", "refers to normal 1 of 0");
+  expect("v 0 nan 0\n", "vertex 1 is not finite");
+  expect("v 0 1e99 0\n", "vertex 1 is not finite");
+  expect("v 0 1\n", "'' is no number");
+  expect("v 0 one 0\n", "'one' is no number");
+  EXPECT_NE(error_of([] { read_obj("/nonexistent/mesh.obj"); }), "");
+}
+
+TEST(ObjReader, SurvivesDamage) { survive_damage(text_obj, obj, 200); }
+
+// What `obj` and `ply` do with the file -----------------------------------------------------------
+
+TEST(MeshShape, NormalsFollowMitsuba) {
+  // A roof without normals: smooth by default, flat on request.
+  const MeshFile file(
+      "v 0 0 0\nv 0 1 0\nv 1 0 1\nv 1 1 1\nv 2 0 0\nv 2 1 0\n"
+      "f 1 3 4 2\nf 3 5 6 4\n",
+      "roof.obj");
+  const auto smooth = make_shape("obj", {{"filename", file.path(), {}}});
+  ASSERT_EQ(smooth->mesh()->normals.size(), 6u);
+  EXPECT_NEAR(smooth->mesh()->normals[1].z, 1, 1e-6f);  // on the ridge
+  const auto flat = make_shape("obj", {{"filename", file.path(), {}}, {"face_normals", true, {}}});
+  EXPECT_TRUE(flat->mesh()->normals.empty());
+  const auto flipped =
+      make_shape("obj", {{"filename", file.path(), {}}, {"flip_normals", true, {}}});
+  EXPECT_NEAR(flipped->mesh()->normals[1].z, -1, 1e-6f);
+  Random random(1);
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_GT(smooth->sample_area(random.square()).point.ng.z, 0);
+    EXPECT_LT(flipped->sample_area(random.square()).point.ng.z, 0);
+    EXPECT_LT(flipped->sample_area(random.square()).point.ns.z, 0);
+  }
+}
+
+TEST(MeshShape, WindingFollowsVertexNormals) {
+  const MeshFile file("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n", "down.obj");
+  const auto shape = make_shape("obj", {{"filename", file.path(), {}}});
+  EXPECT_LT(shape->sample_area({0.5f, 0.5f}).point.ng.z, 0);
+}
+
+TEST(MeshShape, TextureCoordinatesFlip) {
+  const MeshFile as_obj(text_obj, "quad.obj"), as_ply(text_ply, "quad.ply");
+  const auto v_of_second = [](const char* type, const MeshFile& file, std::vector<Property> extra) {
+    extra.push_back({"filename", file.path(), {}});
+    return make_shape(type, extra)->mesh()->uvs[1].y;
+  };
+  EXPECT_EQ(v_of_second("obj", as_obj, {}), 1);  // Mitsuba's default for OBJ
+  EXPECT_EQ(v_of_second("obj", as_obj, {{"flip_tex_coords", false, {}}}), 0);
+  EXPECT_EQ(v_of_second("ply", as_ply, {}), 0);
+  EXPECT_EQ(v_of_second("ply", as_ply, {{"flip_tex_coords", true, {}}}), 1);
+}
+
+TEST(MeshShape, TooFarIsAnError) {
+  const MeshFile file(text_ply, "far.ply");
+  EXPECT_THROW(make_shape("ply", {{"filename", file.path(), {}},
+                                  {"to_world", Transform::scale({1e20, 1, 1}), {}}}),
+               Error);
+}
+
+}  // namespace
+}  // namespace kaustik::test
