@@ -17,7 +17,7 @@ struct CachePoint {
 };
 
 struct CacheSettings {
-  float quality = 0.15f;  ///< Ward's error a: a record serves within about a·R
+  float quality = 0.15f;  ///< Ward's error a > 0: a record serves within about a·R
   bool gradients = true;
   bool minimum_distance = false;  ///< R from the minimum instead of the harmonic mean distance
   float minimum_spacing = 3;      ///< pixels: records are valid at least this far …
@@ -32,22 +32,30 @@ struct CacheSettings {
 /// same bits for any number of threads.
 class IrradianceCache {
  public:
+  /// Throws std::invalid_argument unless quality > 0 and 0 ≤ minimum ≤ maximum spacing.
   explicit IrradianceCache(const CacheSettings& settings);
   ~IrradianceCache();
+  IrradianceCache(IrradianceCache&&) noexcept;
+  IrradianceCache& operator=(IrradianceCache&&) noexcept;
 
-  /// One round: finds the points that the records so far don't serve, computes records there in
-  /// parallel (sampler of point i: `sampler.split(round, i)`), inserts in order those that are
-  /// still needed. Returns how many were inserted.
+  /// One round: serves all points that the records so far don't serve, in steps from coarse to
+  /// fine; each step computes records in parallel at points that keep their distance from one
+  /// another (sampler of point i: `sampler.split(round, i)`), inserts them in order, and asks
+  /// again for the rest. Points that are not finite are passed over. Returns how many records were
+  /// inserted. After a stop request only finished steps are in the cache. Not to be called while
+  /// others interpolate.
   size_t fill_round(const std::vector<CachePoint>& points, const RadianceSource& source,
                     const Sampler& sampler, uint32_t round, std::stop_token stop);
 
-  /// Irradiance W/m² interpolated from the records; false where none serves. `relax` ≥ 1 widens
-  /// every record's reach by that factor. Thread-safe.
+  /// Irradiance W/m² interpolated from the records, no lane negative; false where none serves.
+  /// `relax` ≥ 1 widens every record's reach by that factor (slower). Thread-safe.
   bool interpolate(const CachePoint& at, Spectrum& irradiance, float relax = 1) const;
 
   size_t record_count() const;
   size_t size_in_bytes() const;
   uint64_t rays_traced() const;
+  /// Rays whose radiance was not finite and was left out.
+  uint64_t rays_dropped() const;
 
  private:
   struct Impl;

@@ -1,0 +1,27 @@
+#pragma once
+#include "kaustik/base/spectrum.h"
+#include "kaustik/base/vec.h"
+
+namespace kaustik {
+
+/// Irradiance around a point of a surface, as the octree hands it out.
+struct CacheRecord {
+  Vec3f position;
+  Vec3f normal;
+  float reach = 0;      ///< m: how far it serves on a plane, > 0
+  Spectrum irradiance;  ///< W/m²
+  /// By axis x, y, z: what is added per metre that the point moves …
+  Spectrum per_metre[3];
+  /// … and per unit that the normal changes.
+  Spectrum per_normal[3];
+
+  /// Irradiance at `offset` from the position with another normal; may be negative.
+  Spectrum extrapolate(const Vec3f& offset, const Vec3f& other_normal) const {
+    const Vec3f turn = other_normal - normal;
+    return irradiance + per_metre[0] * offset.x + per_metre[1] * offset.y +
+           per_metre[2] * offset.z + per_normal[0] * turn.x + per_normal[1] * turn.y +
+           per_normal[2] * turn.z;
+  }
+};
+
+}  // namespace kaustik
