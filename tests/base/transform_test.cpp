@@ -1,0 +1,105 @@
+#include "kaustik/base/transform.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace kaustik {
+namespace {
+
+void expect_near(const Vec3f& a, const Vec3f& b, float tolerance = 1e-5f) {
+  EXPECT_NEAR(a.x, b.x, tolerance);
+  EXPECT_NEAR(a.y, b.y, tolerance);
+  EXPECT_NEAR(a.z, b.z, tolerance);
+}
+
+TEST(transform, moves_points_but_not_vectors) {
+  const Transform t = Transform::translate({1, 2, 3});
+  expect_near(t.point({1, 1, 1}), {2, 3, 4});
+  expect_near(t.vector({1, 1, 1}), {1, 1, 1});
+  expect_near(t.normal({0, 1, 0}), {0, 1, 0});
+}
+
+TEST(transform, rotates_right_handed) {
+  expect_near(Transform::rotate({0, 0, 2}, 90).vector({1, 0, 0}), {0, 1, 0});
+  expect_near(Transform::rotate({1, 0, 0}, 90).vector({0, 1, 0}), {0, 0, 1});
+  expect_near(Transform::rotate({1, 1, 1}, 120).vector({1, 0, 0}), {0, 1, 0});
+}
+
+TEST(transform, product_applies_the_right_one_first) {
+  const Transform t = Transform::translate({1, 0, 0}) * Transform::scale({2, 2, 2});
+  expect_near(t.point({1, 1, 1}), {3, 2, 2});
+}
+
+TEST(transform, normals_stay_perpendicular) {
+  const Transform t = Transform::rotate({1, 2, 3}, 40) * Transform::scale({1, 5, 0.2}) *
+                      Transform::rotate({3, -1, 0}, 70);
+  const Vec3f n(0.2f, 0.5f, -0.7f), v(0.5f, -0.2f, 0);
+  ASSERT_NEAR(dot(n, v), 0, 1e-7f);
+  EXPECT_NEAR(dot(normalize(t.normal(n)), normalize(t.vector(v))), 0, 1e-6f);
+}
+
+TEST(transform, inverse_undoes) {
+  const Transform t = Transform::translate({1, 2, 3}) * Transform::rotate({1, 2, 3}, 40) *
+                      Transform::scale({1, -5, 0.2});
+  expect_near((t.inverse() * t).point({4, 5, 6}), {4, 5, 6}, 1e-4f);
+  expect_near(t.inverse().point(t.point({4, 5, 6})), {4, 5, 6}, 1e-4f);
+  EXPECT_NEAR(t.determinant3(), -1, 1e-12);
+}
+
+TEST(transform, look_at_is_the_camera_of_mitsuba) {
+  const Transform t = Transform::look_at({0, 0, -5}, {0, 0, 0}, {0, 1, 0});
+  expect_near(t.point({0, 0, 0}), {0, 0, -5});
+  expect_near(t.vector({0, 0, 1}), {0, 0, 1});
+  expect_near(t.vector({1, 0, 0}), {1, 0, 0});
+  const Transform side = Transform::look_at({3, 1, 2}, {4, 1, 2}, {0, 2, 0});
+  expect_near(side.vector({0, 0, 1}), {1, 0, 0});
+  expect_near(side.vector({1, 0, 0}), {0, 0, -1});
+  expect_near(side.vector({0, 1, 0}), {0, 1, 0});
+  EXPECT_GT(side.determinant3(), 0);
+}
+
+TEST(transform, bounds_hold_all_corners) {
+  const Bounds3f box({-1, -1, -1}, {1, 1, 1});
+  const Bounds3f turned = Transform::rotate({0, 0, 1}, 45).bounds(box);
+  EXPECT_NEAR(turned.max.x, std::sqrt(2.0f), 1e-5f);
+  EXPECT_NEAR(turned.min.y, -std::sqrt(2.0f), 1e-5f);
+  EXPECT_NEAR(turned.max.z, 1, 1e-6f);
+  EXPECT_TRUE(Transform::scale({2, 2, 2}).bounds(Bounds3f()).isEmpty());
+}
+
+TEST(transform, divides_by_the_homogeneous_coordinate) {
+  const double m[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 1, 1}};
+  expect_near(Transform(m).point({2, 4, 1}), {1, 2, 0.5f});
+}
+
+TEST(transform, refuses_what_has_no_inverse) {
+  EXPECT_THROW(Transform::scale({1, 0, 1}), std::invalid_argument);
+  EXPECT_THROW(Transform::rotate({0, 0, 0}, 10), std::invalid_argument);
+  EXPECT_THROW(Transform::look_at({1, 1, 1}, {1, 1, 1}, {0, 1, 0}), std::invalid_argument);
+  EXPECT_THROW(Transform::look_at({0, 0, 0}, {0, 3, 0}, {0, 1, 0}), std::invalid_argument);
+  double m[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  m[1][2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(Transform{m}, std::invalid_argument);
+}
+
+TEST(frame, is_right_handed_for_every_normal) {
+  for (const Vec3f& raw : {Vec3f(0, 0, 1), Vec3f(0, 0, -1), Vec3f(1, 0, 0), Vec3f(0.3f, -2, -1e-4f),
+                           Vec3f(-1, 2, -3), Vec3f(1e-5f, -1e-5f, -1)}) {
+    const Vec3f n = normalize(raw);
+    const Frame frame(n);
+    expect_near(cross(frame.x, frame.y), n);
+    EXPECT_NEAR(length(frame.x), 1, 1e-5f);
+    EXPECT_NEAR(dot(frame.x, frame.y), 0, 1e-5f);
+    const Vec3f v(0.3f, 0.4f, -0.5f);
+    expect_near(frame.to_world(frame.to_local(v)), v);
+    expect_near(frame.to_local(n), {0, 0, 1});
+  }
+}
+
+TEST(vectors, reflect_about_a_normal) {
+  expect_near(reflect(Vec3f(1, 2, 3), {0, 0, 1}), {-1, -2, 3});
+}
+
+}  // namespace
+}  // namespace kaustik
