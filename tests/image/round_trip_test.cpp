@@ -355,11 +355,11 @@ TEST_F(RoundTrip, tiled_exr_with_an_offset) {
 
 TEST_F(RoundTrip, constant_pictures_of_extreme_compression) {
   // Nearly nothing per pixel, yet no corrupt header.
-  const Image image(2000, 2000, {"R", "G", "B"});
+  const Image image(1000, 1000, {"R", "G", "B"});
   for (const char* name : {"a.exr", "a.hdr", "a.tif", "a.png", "a.jpg"})
-    EXPECT_EQ(written_and_read(image, name).at(1999, 1999, 2), 0) << name;
-  const Imath::Box2i window({0, 0}, {1999, 1999});
-  const std::vector<Imf::Rgba> pixels(2000 * 2000);
+    EXPECT_EQ(written_and_read(image, name).at(999, 999, 2), 0) << name;
+  const Imath::Box2i window({0, 0}, {999, 999});
+  const std::vector<Imf::Rgba> pixels(1000 * 1000);
   for (const Imf::Compression compression :
        {Imf::RLE_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION, Imf::B44A_COMPRESSION,
         Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION}) {
@@ -367,10 +367,10 @@ TEST_F(RoundTrip, constant_pictures_of_extreme_compression) {
       Imf::Header header(window, window);
       header.compression() = compression;
       Imf::RgbaOutputFile file(path("b.exr").c_str(), header, Imf::WRITE_RGBA);
-      file.setFrameBuffer(pixels.data(), 1, 2000);
-      file.writePixels(2000);
+      file.setFrameBuffer(pixels.data(), 1, 1000);
+      file.writePixels(1000);
     }
-    EXPECT_EQ(read_image(path("b.exr")).at(1999, 1999, 2), 0) << compression;
+    EXPECT_EQ(read_image(path("b.exr")).at(999, 999, 2), 0) << compression;
   }
 }
 
