@@ -1,5 +1,5 @@
-// The kd-tree against nanoflann: k nearest neighbours, and building the tree. Only ratios of
-// interleaved runs in one process are reported, as other programs share the machine.
+// The kd-tree against nanoflann: k nearest neighbours, and building the tree. Ratios of medians of
+// interleaved runs, in processor time where one thread works.
 
 #include <fmt/core.h>
 
@@ -7,8 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <nanoflann.hpp>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -24,6 +26,8 @@ using Tree = KdTree<3, Vec3f, uint32_t>;
 constexpr size_t neighbors = 50;
 constexpr size_t query_count = 50000;
 constexpr int repeats = 9;
+/// Trees built in a row for one time of a build: threads need a moment to spread over processors.
+constexpr size_t builds = 4;
 
 /// Adapter through which nanoflann sees the points.
 struct Points {
@@ -81,10 +85,17 @@ Cloud photon_cloud(std::vector<Vec3f> photons) {
   return cloud;
 }
 
-double seconds(const std::function<void()>& work) {
+double wall_seconds(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Processor time of work that uses one thread: other programs don't count.
+double cpu_seconds(const std::function<void()>& work) {
+  const std::clock_t start = std::clock();
+  work();
+  return double(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 double median(std::vector<double> values) {
@@ -93,14 +104,14 @@ double median(std::vector<double> values) {
 }
 
 /// Median times of two pieces of work, run in turn.
-std::pair<double, double> compare(const std::function<void()>& ours,
-                                  const std::function<void()>& theirs) {
-  std::vector<double> a, b;
+std::pair<double, double> compare(const std::function<double()>& seconds_of_ours,
+                                  const std::function<double()>& seconds_of_theirs) {
+  std::vector<double> ours, theirs;
   for (int i = 0; i < repeats; ++i) {
-    a.push_back(seconds(ours));
-    b.push_back(seconds(theirs));
+    ours.push_back(seconds_of_ours());
+    theirs.push_back(seconds_of_theirs());
   }
-  return {median(a), median(b)};
+  return {median(ours), median(theirs)};
 }
 
 void report(const std::string& name, double value, const std::string& unit,
@@ -110,11 +121,15 @@ void report(const std::string& name, double value, const std::string& unit,
              name, value, unit, compared_with);
 }
 
+std::vector<uint32_t> numbers(size_t count) {
+  std::vector<uint32_t> result(count);
+  std::iota(result.begin(), result.end(), 0u);
+  return result;
+}
+
 Tree make_tree(const std::vector<Vec3f>& points) {
-  std::vector<uint32_t> data(points.size());
-  for (size_t i = 0; i < data.size(); ++i) data[i] = uint32_t(i);
   Tree tree;
-  tree.assign(points, std::move(data));
+  tree.assign(points, numbers(points.size()));
   return tree;
 }
 
@@ -163,7 +178,7 @@ size_t best_leaf_size(const Cloud& cloud, const Points& points) {
     Peer peer(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
     peer.buildIndex();
     std::vector<double> times;
-    for (int i = 0; i < 3; ++i) times.push_back(seconds([&] { search_theirs(peer, cloud); }));
+    for (int i = 0; i < 3; ++i) times.push_back(cpu_seconds([&] { search_theirs(peer, cloud); }));
     best = std::min(best, std::pair(median(times), leaf_size));
   }
   return best.second;
@@ -178,7 +193,8 @@ size_t measure_search(const std::string& name, const Cloud& cloud) {
   check_distances(tree, peer, cloud);
   double sum = 0;
   const auto [ours, theirs] =
-      compare([&] { sum += search_ours(tree, cloud); }, [&] { sum -= search_theirs(peer, cloud); });
+      compare([&] { return cpu_seconds([&] { sum += search_ours(tree, cloud); }); },
+              [&] { return cpu_seconds([&] { sum -= search_theirs(peer, cloud); }); });
   if (std::abs(sum) > 1e-6) std::exit(1);
   report(name, theirs / ours, "ratio of queries per second",
          fmt::format("nanoflann, leaf size {}: {:.2f} us per query, ours {:.2f} us", leaf_size,
@@ -186,20 +202,34 @@ size_t measure_search(const std::string& name, const Cloud& cloud) {
   return leaf_size;
 }
 
+/// Fills trees with `threads` threads; preparing the input isn't timed.
+double build_seconds(const std::vector<Vec3f>& points, int threads, const auto& clock) {
+  std::vector<std::vector<Vec3f>> keys(builds, points);
+  std::vector<std::vector<uint32_t>> data(builds, numbers(points.size()));
+  const auto build = [&] {
+    Tree tree;
+    for (size_t i = 0; i < builds; ++i) tree.assign(std::move(keys[i]), std::move(data[i]));
+  };
+  const auto work = [&] { with_threads(threads, build); };
+  return clock(work) / double(builds);
+}
+
+double peer_build_seconds(const std::vector<Vec3f>& positions, size_t leaf_size) {
+  const Points points{positions};
+  return cpu_seconds([&] {
+    Peer peer(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
+    peer.buildIndex();
+  });
+}
+
 void measure_build(const Cloud& cloud, size_t leaf_size) {
-  const Points points{cloud.points};
-  const auto ours = [&] { make_tree(cloud.points); };
-  const auto [one, theirs] =
-      compare([&] { with_threads(1, ours); },
-              [&] {
-                Peer peer(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
-                peer.buildIndex();
-              });
+  const auto [one, theirs] = compare([&] { return build_seconds(cloud.points, 1, cpu_seconds); },
+                                     [&] { return peer_build_seconds(cloud.points, leaf_size); });
   report("kdtree_build_vs_nanoflann", theirs / one, "ratio of speeds, one thread",
          fmt::format("nanoflann, leaf size {}: {:.0f} ms, ours {:.0f} ms", leaf_size, 1e3 * theirs,
                      1e3 * one));
-  const auto [single, both] =
-      compare([&] { with_threads(1, ours); }, [&] { with_threads(2, ours); });
+  const auto [single, both] = compare([&] { return build_seconds(cloud.points, 1, wall_seconds); },
+                                      [&] { return build_seconds(cloud.points, 2, wall_seconds); });
   report("kdtree_build_2_threads", single / both, "ratio of speeds", "one thread");
 }
 

@@ -3,6 +3,7 @@
 #include "kaustik/photon/kd_tree.h"
 
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
 #include <algorithm>
 #include <array>
@@ -206,6 +207,32 @@ TEST(KdTree, LargeCloud) {
   const auto items = make_items(points);
   expect_same_as_force(assigned(points), items, make_points(uniform, 3, 9),
                        EuclideanMetric<3, Vec3f>());
+}
+
+/// For the life of this object the searches use one instruction set.
+class WithInstructionSet {
+ public:
+  explicit WithInstructionSet(int64_t target) { use(target); }
+  ~WithInstructionSet() { use(0); }
+
+ private:
+  static void use(int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+TEST(KdTree, AllInstructionSetsOfThisMachine) {
+  const auto targets = hwy::SupportedAndGeneratedTargets();
+  for (int64_t target : targets) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    const WithInstructionSet chosen(target);
+    for (Maker maker : {uniform, lattice, identical}) {
+      const Points points = make_points(maker, 3000);
+      expect_same_as_force(assigned(points), make_items(points), make_points(uniform, 3, 9),
+                           EuclideanMetric<3, Vec3f>());
+    }
+  }
 }
 
 TEST(KdTree, ASearchCanBeUsedAgainForFewerAndMore) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/photon/kd_tree_buckets.h"
@@ -159,14 +160,15 @@ void bound_node(const KdBuckets::Node& inner, uint32_t child, KdBuckets::Node& n
 std::vector<uint32_t> KdBuckets::build(std::span<const Vec3f> positions) {
   clear();
   size_ = positions.size();
-  std::vector<Point> points(size_);
+  // Not a vector, whose elements would be set to zero by one thread.
+  const auto points = std::make_unique_for_overwrite<Point[]>(size_);
   parallel_blocks(size_, parallel_block, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i)
       points[i] = {{positions[i].x, positions[i].y, positions[i].z}, uint32_t(i)};
   });
   size_t child_size = bucket_size;
   while (child_size < size_) child_size *= fan_out;
-  split(points.data(), size_, child_size);
+  split(points.get(), size_, child_size);
 
   std::vector<uint32_t> order(size_);
   buckets_.resize((size_ + bucket_size - 1) / bucket_size);

@@ -11,9 +11,11 @@ uint32_t kd_accepted(const Accept& accept, uint32_t first, uint32_t mask) {
   if constexpr (std::is_invocable_v<const Accept&, uint32_t, uint32_t>) {
     return accept(first, mask);
   } else {
-    uint32_t result = mask;
-    for (uint32_t rest = mask; rest != 0; rest &= rest - 1)
-      if (!accept(first + uint32_t(std::countr_zero(rest)))) result &= ~(rest & (0u - rest));
+    uint32_t result = 0;
+    for (uint32_t rest = mask; rest != 0; rest &= rest - 1) {
+      const int bit = std::countr_zero(rest);
+      result |= uint32_t(bool(accept(first + uint32_t(bit)))) << bit;
+    }
     return result;
   }
 }
@@ -38,7 +40,9 @@ template <int Dim, typename Key, typename Data, typename Metric>
 void KdTree<Dim, Key, Data, Metric>::assign(std::vector<Key> keys, std::vector<Data> data) {
   assert(keys.size() == data.size());
   check_size(keys.size());
-  for (const Key& key : keys) check(key);
+  parallel_blocks(keys.size(), 16384, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) check(keys[i]);
+  });
   build(std::move(keys), std::move(data));
 }
 
@@ -90,6 +94,7 @@ Key KdTree<Dim, Key, Data, Metric>::key(uint32_t index) const {
 
 template <int Dim, typename Key, typename Data, typename Metric>
 void KdTree<Dim, Key, Data, Metric>::optimise() {
+  if (has_buckets && removed_ == 0 && forest_.size() == 0) return;
   std::vector<Key> keys;
   std::vector<Data> data;
   keys.reserve(size());

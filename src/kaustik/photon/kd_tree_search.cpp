@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "kaustik/photon/kd_tree_search.cpp"
 #include <hwy/foreach_target.h>
 // Highway asks for this order.
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -226,6 +227,18 @@ HWY_INLINE void test_bucket(const KdBuckets::Bucket& bucket, uint32_t first, con
   }
 }
 
+/// Fetches those of the children just pushed that will be looked at first.
+HWY_INLINE void prefetch(const KdBuckets::View& view, const Entry* begin, const Entry* end) {
+  constexpr ptrdiff_t ahead = 4;
+  for (const Entry* entry = end - HWY_MIN(ahead, end - begin); entry < end; ++entry) {
+    const uint32_t number = entry->node & ((1u << level_shift) - 1);
+    const uint32_t level = entry->node >> level_shift;
+    const char* address = level > 0 ? reinterpret_cast<const char*>(&view.levels[level - 1][number])
+                                    : reinterpret_cast<const char*>(&view.buckets[number]);
+    for (int line = 0; line < 3; ++line) hwy::Prefetch(address + 64 * line);
+  }
+}
+
 template <bool filtered>
 void search_nearest(const KdBuckets::View& view, const Vec3f& query,
                     const KdBuckets::Filter& filter, KdCandidates& found) {
@@ -242,8 +255,10 @@ void search_nearest(const KdBuckets::View& view, const Vec3f& query,
     const uint32_t level = entry.node >> level_shift;
     if (level > 0) {
       const uint32_t first_child = number * KdBuckets::fan_out | (level - 1) << level_shift;
+      const size_t first = top;
       top = push_children(view.levels[level - 1][number], query, found.bound, first_child, stack,
                           top);
+      prefetch(view, stack + first, stack + top);
       continue;
     }
     test_bucket<filtered>(view.buckets[number], number * KdBuckets::bucket_size, query, filter,
