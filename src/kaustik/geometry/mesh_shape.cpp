@@ -19,8 +19,7 @@ void wind_by_normals(TriangleMesh& mesh) {
   for (auto& corner : mesh.triangles) {
     const Vec3f n = mesh.normals[corner[0]] + mesh.normals[corner[1]] + mesh.normals[corner[2]];
     const Vec3f ng = triangle_normal(mesh.positions[corner[0]], mesh.positions[corner[1]],
-                                     mesh.positions[corner[2]])
-                         .unit;
+                                     mesh.positions[corner[2]]);
     if (dot(n, ng) < 0) std::swap(corner[1], corner[2]);
   }
 }
@@ -76,7 +75,7 @@ std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh) {
   for (const auto& corner : mesh.triangles) {
     const Vec3f p[3] = {mesh.positions[corner[0]], mesh.positions[corner[1]],
                         mesh.positions[corner[2]]};
-    const Vec3f n = triangle_normal(p[0], p[1], p[2]).unit;
+    const Vec3f n = triangle_normal(p[0], p[1], p[2]);
     if (n == Vec3f(0, 0, 0)) continue;
     for (int i = 0; i < 3; ++i) {
       const Vec3d a(p[(i + 1) % 3] - p[i]), b(p[(i + 2) % 3] - p[i]);

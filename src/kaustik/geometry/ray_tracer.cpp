@@ -75,6 +75,16 @@ SurfacePoint placed(const InstanceRecord& instance, const SurfacePoint& local) {
   return point;
 }
 
+/// A degenerate triangle that is hit all the same gets the normal that the hit test saw.
+inline SurfacePoint mesh_point(const TriangleMesh& mesh, const Hit& hit) {
+  SurfacePoint point = triangle_surface_point(mesh, hit.primitive, hit.u, hit.v);
+  if (point.ng == Vec3f(0, 0, 0)) [[unlikely]] {
+    float scale = 0;
+    point.ng = point.ns = vec3(unit_and_scale(lanes(hit.ng), scale));
+  }
+  return point;
+}
+
 Ray ray_of(const RTCRay& r) {
   return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar};
 }
@@ -167,6 +177,7 @@ struct RayTracer::Impl {
   void commit(RTCScene target);
   void check();
   void release();
+  SurfacePoint point_of_others(const ShapeRecord& record, const Ray& ray, const Hit& hit) const;
 
   static void on_error(void* self, RTCError code, const char* text);
   static bool on_memory(void* self, ssize_t bytes, bool) {
@@ -306,6 +317,28 @@ void RayTracer::Impl::commit(RTCScene target) {
   check();
 }
 
+/// The point of a hit of what is instanced or no mesh.
+SurfacePoint RayTracer::Impl::point_of_others(const ShapeRecord& record, const Ray& ray,
+                                              const Hit& hit) const {
+  SurfacePoint point;
+  if (hit.instance == no_instance) {
+    point = record.shape->surface_point(ray, hit);
+  } else {
+    const InstanceRecord& instance = instances[hit.instance];
+    const Transform& group_from_world = instance.group_from_world;
+    point = record.mesh
+                ? mesh_point(*record.mesh, hit)
+                : record.shape->surface_point({group_from_world.point(ray.origin),
+                                               group_from_world.vector(ray.direction), ray.t_max},
+                                              hit);
+    point = placed(instance, point);
+  }
+  point.shape = hit.shape;
+  point.primitive = hit.primitive;
+  point.instance = hit.instance;
+  return point;
+}
+
 RayTracer::RayTracer(Geometry geometry) : impl_(std::make_unique<Impl>(std::move(geometry))) {}
 RayTracer::~RayTracer() = default;
 
@@ -340,23 +373,10 @@ bool RayTracer::occluded(const Ray& ray) const {
 
 SurfacePoint RayTracer::surface_point(const Ray& ray, const Hit& hit) const {
   const ShapeRecord& record = impl_->records[hit.shape];
-  const bool instanced = hit.instance != no_instance;
-  SurfacePoint point;
-  if (record.mesh) {
-    point = triangle_surface_point(*record.mesh, hit.primitive, hit.u, hit.v);
-  } else if (!instanced) {
-    point = record.shape->surface_point(ray, hit);
-  } else {
-    const Transform& group_from_world = impl_->instances[hit.instance].group_from_world;
-    const Ray local{group_from_world.point(ray.origin), group_from_world.vector(ray.direction),
-                    ray.t_max};
-    point = record.shape->surface_point(local, hit);
-  }
-  if (point.ng == Vec3f(0, 0, 0)) point.ng = point.ns = normalize(hit.ng);
-  if (instanced) point = placed(impl_->instances[hit.instance], point);
+  if (!record.mesh || hit.instance != no_instance) [[unlikely]]
+    return impl_->point_of_others(record, ray, hit);
+  SurfacePoint point = mesh_point(*record.mesh, hit);
   point.shape = hit.shape;
-  point.primitive = hit.primitive;
-  point.instance = hit.instance;
   return point;
 }
 
