@@ -1,1 +1,55 @@
-int main(int, char**) { return 0; }
+#include <csignal>
+#include <new>
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "commands.h"
+#include "kaustik/base/error.h"
+
+namespace {
+
+constexpr int exit_system = 1, exit_input = 2;
+
+int run(int argc, char** argv) {
+  CLI::App program{"Kaustik: a photon mapping renderer in physical units.", "kaustik"};
+  program.set_version_flag("--version", KAUSTIK_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Start with: kaustik render scenes/cornell_box/cornell_box.xml -o cornell.exr -o "
+      "cornell.png\n"
+      "Every parameter of every object: kaustik help");
+  kaustik::app::add_render(program);
+  kaustik::app::add_tonemap(program);
+  kaustik::app::add_info(program);
+  kaustik::app::add_compare(program);
+  kaustik::app::add_help(program);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : exit_input;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("kaustik"));
+  spdlog::set_pattern("%^%l%$: %v");
+  // A file that grows over the limit is then an error of the write, not the program's end.
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    return run(argc, argv);
+  } catch (const kaustik::Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return error.kind() == kaustik::ErrorKind::input ? exit_input : exit_system;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "out of memory\n  remedy: render a smaller picture or fewer photons\n");
+    return exit_system;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return exit_system;
+  }
+}

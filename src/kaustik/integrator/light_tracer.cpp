@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "kaustik/base/parallel.h"
-#include "kaustik/integrator/camera_path.h"
+#include "kaustik/integrator/path_parameters.h"
 #include "kaustik/transport/light_path.h"
 
 namespace kaustik {

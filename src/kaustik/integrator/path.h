@@ -16,7 +16,6 @@ class PathIntegrator final : public Integrator {
   ComponentSet components() const override { return components_; }
 
  private:
-  class Walk;
   const Scene& scene_;
   ComponentSet components_;
   int maximum_events_;

@@ -3,6 +3,7 @@
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/integrator/light_tracer.h"
 #include "kaustik/integrator/path.h"
+#include "kaustik/integrator/photon_map_integrator.h"
 
 namespace kaustik {
 namespace {
@@ -22,6 +23,7 @@ const std::vector<IntegratorType>& integrator_types() {
   static const std::vector<IntegratorType> types{
       {PathIntegrator::info(), make<PathIntegrator>},
       {LightTracer::info(), make<LightTracer>},
+      {PhotonMapSettings::info(), make<PhotonMapIntegrator>},
   };
   return types;
 }

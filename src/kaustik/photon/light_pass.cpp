@@ -10,7 +10,6 @@ namespace kaustik {
 namespace {
 
 constexpr size_t photons_per_block = 2048;
-constexpr int target_budget = 128;
 
 /// Photons in the order in which they were stored.
 struct PhotonList {
@@ -146,7 +145,7 @@ LightPass::LightPass(const Scene& scene, const LightPassSettings& settings, uint
       settings_(settings),
       global_emission_(std::make_unique<EmissionSampler>(scene)) {
   if (settings_.caustic_photons > 0) {
-    std::vector<AimTarget> targets = find_targets(scene, settings_.traced, target_budget);
+    std::vector<AimTarget> targets = find_targets(scene, settings_.traced, settings_.target_budget);
     target_count_ = targets.size();
     caustic_emission_ = settings_.aim ? std::make_unique<EmissionSampler>(scene, std::move(targets))
                                       : std::make_unique<EmissionSampler>(scene);

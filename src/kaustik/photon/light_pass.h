@@ -17,6 +17,7 @@ struct LightPassSettings {
   Lobes traced = Lobes::specular;  ///< lobes whose events count as specular (G)
   bool reradiate = false;          ///< caustic photons go on as global ones
   bool aim = true;                 ///< caustic photons are aimed at specular objects
+  int target_budget = 128;         ///< boxes that these are divided into for aiming
 };
 
 /// What became of the photons of one light.

@@ -18,6 +18,7 @@ class CoarseNormal {
         z_(int8_t(std::lround(n.z * 127))) {}
   /// Dot product, times 127.
   float dot(const Vec3f& v) const { return float(x_) * v.x + float(y_) * v.y + float(z_) * v.z; }
+  bool same_side(const CoarseNormal& o) const { return x_ * o.x_ + y_ * o.y_ + z_ * o.z_ > 0; }
 
  private:
   int8_t x_ = 0, y_ = 0, z_ = 0;

@@ -239,29 +239,28 @@ void Session::add_splats() {
 }
 
 std::unique_ptr<Integrator> make_integrator(const Description& description, const Scene& scene,
-                                            const std::string& type,
-                                            std::vector<std::string>* warnings) {
-  const std::shared_ptr<Object> object = find_integrator(description);
-  std::string name = type;
-  if (name.empty()) name = object ? object->type : "photonmap";
+                                            std::vector<std::string>& warnings) {
+  static const Object default_object{"integrator", "photonmap", "", {}, {}, {}};
+  const std::shared_ptr<Object> given = find_integrator(description);
+  const Object& object = given ? *given : default_object;
   std::vector<std::string> valid;
   for (const IntegratorType& row : integrator_types()) {
     valid.push_back(row.info.name);
-    if (row.info.name != name) continue;
-    // Properties of the file's integrator mean something only to its own type.
-    const bool same = object && object->type == name;
+    if (row.info.name != object.type) continue;
     Problems problems;
-    const Arguments arguments(row.info, same ? object->properties : std::vector<Property>{},
-                              same ? object->place : Place{}, problems);
+    const Arguments arguments(row.info, object.properties, object.place, problems);
+    for (const Child& child : object.children)
+      problems.add(
+          fmt::format("integrator '{}' cannot hold a {}", object.type, child.object->family),
+          "remove it", child.object->place);
     problems.throw_if_any();
-    if (warnings)
-      for (const std::string& ignored : arguments.ignored())
-        warnings->push_back(
-            fmt::format("'{}' of integrator '{}' has no effect here", ignored, name));
+    for (const std::string& ignored : arguments.ignored())
+      warnings.push_back(
+          fmt::format("'{}' of integrator '{}' has no effect here", ignored, object.type));
     return row.create(arguments, scene);
   }
-  throw Error(ErrorKind::input, fmt::format("unknown integrator type '{}'", name),
-              suggest(name, valid), object && type.empty() ? object->place : Place{});
+  throw Error(ErrorKind::input, fmt::format("unknown integrator type '{}'", object.type),
+              suggest(object.type, valid), object.place);
 }
 
 }  // namespace kaustik

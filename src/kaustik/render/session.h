@@ -88,10 +88,9 @@ class Session {
   SessionReport report_;
 };
 
-/// Makes the integrator that the description asks for: of type `type` if that is not empty (with
-/// the file's properties where the types agree), "photonmap" if the file names none. Throws Error.
+/// Makes the integrator that the description asks for, "photonmap" if it names none. What is
+/// accepted without effect goes to `warnings`. Throws Error.
 std::unique_ptr<Integrator> make_integrator(const Description& description, const Scene& scene,
-                                            const std::string& type = {},
-                                            std::vector<std::string>* warnings = nullptr);
+                                            std::vector<std::string>& warnings);
 
 }  // namespace kaustik

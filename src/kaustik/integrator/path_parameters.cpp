@@ -1,4 +1,4 @@
-#include "kaustik/integrator/camera_path.h"
+#include "kaustik/integrator/path_parameters.h"
 
 namespace kaustik {
 
@@ -16,14 +16,6 @@ Parameter rr_depth_parameter() {
 int read_maximum_events(const Arguments& arguments) {
   const auto depth = arguments.integer("max_depth");
   return depth < 0 ? 1 << 20 : std::max(0, int(depth) - 1);
-}
-
-FirstHit describe_first_hit(const SurfaceVertex& vertex, float distance) {
-  FirstHit first;
-  first.albedo = vertex.albedo(Lobes::all);
-  first.normal = dot(vertex.normal(), vertex.wo()) < 0 ? -vertex.normal() : vertex.normal();
-  first.depth = distance;
-  return first;
 }
 
 }  // namespace kaustik

@@ -1,7 +1,6 @@
 #pragma once
-// What integrators share about parameters and about the first hit of a camera path.
-#include "kaustik/integrator/integrator.h"
-#include "kaustik/transport/vertex.h"
+// Parameters that integrators share.
+#include "kaustik/base/parameters.h"
 
 namespace kaustik {
 
@@ -11,7 +10,5 @@ Parameter max_depth_parameter();
 Parameter rr_depth_parameter();
 /// max_depth as a number of scattering events.
 int read_maximum_events(const Arguments& arguments);
-
-FirstHit describe_first_hit(const SurfaceVertex& vertex, float distance);
 
 }  // namespace kaustik

@@ -1,0 +1,21 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace kaustik::app {
+
+// One file per subcommand: each adds itself to the program with its options and its action.
+void add_render(CLI::App& program);
+void add_tonemap(CLI::App& program);
+void add_info(CLI::App& program);
+void add_compare(CLI::App& program);
+void add_photons(CLI::App& program);
+void add_help(CLI::App& program);
+
+/// Splits "name=value" of -D; throws Error(input).
+std::vector<std::pair<std::string, std::string>> parse_definitions(
+    const std::vector<std::string>& texts);
+
+}  // namespace kaustik::app

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "kaustik/base/error.h"
+#include "kaustik/image/image_io.h"
+#include "kaustik/image/metrics.h"
+
+namespace kaustik::app {
+namespace {
+
+struct CompareOptions {
+  std::string image, reference, difference, layer;
+  double scale = 1;
+};
+
+void compare(const CompareOptions& options) {
+  if (!options.difference.empty()) check_writable(options.difference);
+  const Image image = read_image(options.image);
+  const Image reference = read_image(options.reference);
+  const ImageComparison c = compare_images(image, reference, options.layer);
+  fmt::print("mse                  {:.6g}\n", c.mse);
+  fmt::print("relative_mse         {:.6g}\n", c.relative_mse);
+  fmt::print("relative_mse_trimmed {:.6g}   (without the worst 0.1 % of the pixels)\n",
+             c.relative_mse_trimmed);
+  fmt::print("mean_ratio           {:.6f} {:.6f} {:.6f}\n", c.mean_ratio.x, c.mean_ratio.y,
+             c.mean_ratio.z);
+  if (c.non_finite_pixels > 0) fmt::print("non_finite_pixels    {}\n", c.non_finite_pixels);
+  if (options.difference.empty()) return;
+  WriteOptions write;
+  write.tone_mapping.op = ToneOperator::srgb;
+  write_image(difference_image(image, reference, float(options.scale), options.layer),
+              options.difference, write);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("compare", "Print how an image differs from a reference.");
+  auto o = std::make_shared<CompareOptions>();
+  command->add_option("image", o->image, "Image to judge")->required();
+  command->add_option("reference", o->reference, "Image that it should be")->required();
+  command->add_option("-o,--output", o->difference,
+                      "Picture of the relative difference to write: red brighter, blue darker");
+  command->add_option("--scale", o->scale, "Relative difference that is fully red or blue [1]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--layer", o->layer, "Layer to compare [the picture itself]");
+  command->callback([o] { compare(*o); });
+}
+
+}  // namespace kaustik::app

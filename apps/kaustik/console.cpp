@@ -1,0 +1,94 @@
+#include "console.h"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+namespace kaustik::app {
+namespace {
+
+volatile std::sig_atomic_t interrupts = 0;
+
+void on_interrupt(int signal) {
+  interrupts = interrupts + 1;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+void warn(const std::string& message) { spdlog::warn(message); }
+
+std::string duration_text(double seconds) {
+  const auto s = int64_t(seconds + 0.5);
+  if (s >= 3600) return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
+  if (s >= 60) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  return seconds < 9.95 ? fmt::format("{:.1f} s", seconds) : fmt::format("{} s", s);
+}
+
+std::string count_text(double count) {
+  if (count >= 1e9) return fmt::format("{:.2f} G", count / 1e9);
+  if (count >= 1e6) return fmt::format("{:.2f} M", count / 1e6);
+  if (count >= 1e3) return fmt::format("{:.1f} k", count / 1e3);
+  return fmt::format("{:.0f} ", count);
+}
+
+ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+void ProgressLine::show(const Progress& p) {
+  if (quiet_) return;
+  const bool done = p.stage == Progress::Stage::done;
+  if (!terminal_ && !done && p.elapsed_s - last_printed_s_ < 5) return;
+  last_printed_s_ = p.elapsed_s;
+  constexpr int bar_width = 24;
+  const int filled = int(p.fraction * bar_width);
+  std::string line = fmt::format("[{}{}] {:3.0f} %", std::string(size_t(filled), '#'),
+                                 std::string(size_t(bar_width - filled), '-'), 100 * p.fraction);
+  line += p.passes_total > 0 ? fmt::format("  pass {}/{}", p.passes_done, p.passes_total)
+                             : fmt::format("  pass {}", p.passes_done);
+  if (done)
+    line += fmt::format("  {}", duration_text(p.elapsed_s));
+  else if (p.remaining_s >= 0)
+    line += fmt::format("  {} left", duration_text(p.remaining_s));
+  line += fmt::format("  {}rays/s", count_text(p.rays_per_s));
+  if (p.photons_per_s > 0) line += fmt::format("  {}photons/s", count_text(p.photons_per_s));
+  line += fmt::format("  {} MB", p.memory_bytes >> 20);
+  if (std::isfinite(p.relative_error))
+    line += fmt::format("  error {:.2f} %", 100 * p.relative_error);
+  if (terminal_) {
+    const size_t width = line.size();
+    if (width < width_) line += std::string(width_ - width, ' ');
+    width_ = width;
+    fmt::print(stderr, "\r{}", line);
+  } else {
+    fmt::print(stderr, "{}\n", line);
+  }
+  std::fflush(stderr);
+}
+
+void ProgressLine::finish() {
+  if (!quiet_ && terminal_) fmt::print(stderr, "\n");
+}
+
+InterruptGuard::InterruptGuard() {
+  interrupts = 0;
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  watcher_ = std::jthread([this](std::stop_token ended) {
+    while (!ended.stop_requested()) {
+      if (interrupts > 0) source_.request_stop();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+}
+
+InterruptGuard::~InterruptGuard() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+}  // namespace kaustik::app

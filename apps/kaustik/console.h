@@ -1,0 +1,44 @@
+#pragma once
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "kaustik/render/session.h"
+
+namespace kaustik::app {
+
+/// One line on standard error that is kept up to date; on anything but a terminal a line now and
+/// then. Shows percent, time left, rays/s, photons/s, memory, error.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet);
+  void show(const Progress& progress);
+  void finish();
+
+ private:
+  bool quiet_, terminal_;
+  double last_printed_s_ = -1e9;
+  size_t width_ = 0;
+};
+
+/// Turns the first interrupt (Ctrl-C) or termination signal into a stop request; a second one ends
+/// the program at once.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  ~InterruptGuard();
+  std::stop_token token() const { return source_.get_token(); }
+
+ private:
+  std::stop_source source_;
+  std::jthread watcher_;
+};
+
+void warn(const std::string& message);
+/// "1 h 02 min", "3 min 04 s", "12 s".
+std::string duration_text(double seconds);
+/// "12.3 M", "4.5 k".
+std::string count_text(double count);
+
+}  // namespace kaustik::app

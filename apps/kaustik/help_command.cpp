@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/scene/camera.h"
+
+namespace kaustik::app {
+namespace {
+
+/// Every type that has a table, family by family.
+std::vector<const TypeInfo*> all_types() {
+  std::vector<const TypeInfo*> types;
+  const auto add = [&](const auto& rows) {
+    for (const auto& row : rows) types.push_back(&row.info);
+  };
+  add(integrator_types());
+  add(shape_types());
+  add(bsdf_types());
+  add(texture_types());
+  add(light_types());
+  types.push_back(&Camera::info());
+  types.push_back(&film_info());
+  for (const TypeInfo& info : filter_infos()) types.push_back(&info);
+  for (const TypeInfo& info : sampler_infos()) types.push_back(&info);
+  return types;
+}
+
+std::string range_text(const Parameter& p) {
+  const bool low = std::isfinite(p.minimum), high = std::isfinite(p.maximum) && p.maximum < 1e30;
+  if (low && high) return fmt::format("{} … {}", p.minimum, p.maximum);
+  if (low) return fmt::format("≥ {}", p.minimum);
+  if (high) return fmt::format("≤ {}", p.maximum);
+  return {};
+}
+
+void print_table(const TypeInfo& info) {
+  fmt::print("{} type=\"{}\"\n  {}\n", info.family, info.name, info.sentence);
+  for (const Parameter& p : info.parameters) {
+    if (p.no_effect) continue;
+    fmt::print("\n  {} ({}", p.name, kind_name(p.kind));
+    if (p.required) fmt::print(", required");
+    if (const std::string text = default_text(p); !text.empty()) fmt::print(", default {}", text);
+    if (const std::string range = range_text(p); !range.empty()) fmt::print(", {}", range);
+    if (!p.unit.empty()) fmt::print(", {}", p.unit);
+    if (p.accepts_texture) fmt::print(", or a texture");
+    fmt::print(")\n      {}\n", p.sentence);
+    if (!p.choices.empty()) fmt::print("      One of: {}\n", fmt::join(p.choices, ", "));
+  }
+  std::vector<std::string> ignored;
+  for (const Parameter& p : info.parameters)
+    if (p.no_effect) ignored.push_back(p.name);
+  if (!ignored.empty()) fmt::print("\n  Accepted, no effect: {}\n", fmt::join(ignored, ", "));
+}
+
+void help(const std::string& name) {
+  std::vector<std::string> names;
+  bool found = false;
+  for (const TypeInfo* info : all_types()) {
+    if (info->name == name || info->family == name) {
+      if (found) fmt::print("\n");
+      print_table(*info);
+      found = true;
+    }
+    names.push_back(info->name);
+  }
+  if (found) return;
+  if (!name.empty())
+    throw Error(ErrorKind::input, fmt::format("there is no type '{}'", name), suggest(name, names));
+  fmt::print("kaustik help TYPE prints the parameters of a type. Types:\n");
+  std::string family;
+  for (const TypeInfo* info : all_types()) {
+    if (info->family != family) fmt::print("\n{}\n", family = info->family);
+    fmt::print("  {:16} {}\n", info->name, info->sentence);
+  }
+}
+
+}  // namespace
+
+void add_help(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("help", "Print the parameters of a type, or list all types.");
+  auto name = std::make_shared<std::string>();
+  command->add_option("type", *name, "Type or family, such as photonmap, bsdf, film");
+  command->callback([name] { help(*name); });
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,33 @@
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/scene/scene_report.h"
+
+namespace kaustik::app {
+namespace {
+
+void info(const std::string& path, const std::vector<std::string>& definitions) {
+  LoadOptions load;
+  load.definitions = parse_definitions(definitions);
+  const auto scene = build_scene(load_mitsuba_xml(path, load));
+  const SceneReport report = describe_scene(*scene);
+  for (const std::string& line : report.lines) fmt::print("{}\n", line);
+  for (const std::string& warning : report.warnings) fmt::print("warning: {}\n", warning);
+}
+
+}  // namespace
+
+void add_info(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("info", "Print what is in a scene and warn of what can't work.");
+  auto path = std::make_shared<std::string>();
+  auto definitions = std::make_shared<std::vector<std::string>>();
+  command->add_option("scene", *path, "Scene file (Mitsuba XML)")->required();
+  command->add_option("-D,--define", *definitions, "Value for $name in the scene file")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  command->callback([path, definitions] { info(*path, *definitions); });
+}
+
+}  // namespace kaustik::app

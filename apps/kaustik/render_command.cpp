@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <optional>
+
+#include "commands.h"
+#include "console.h"
+#include "kaustik/image/image_io.h"
+#include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/scene/overrides.h"
+
+namespace kaustik::app {
+namespace {
+
+struct RenderOptions {
+  std::string scene;
+  std::vector<std::string> outputs, definitions, settings;
+  std::string integrator, time, tone = "histogram";
+  std::optional<uint32_t> passes, spp;
+  uint64_t seed = 0;
+  int threads = 0;
+  float exposure = 0;
+  bool full_float = false, reproducible = false, quiet = false;
+};
+
+/// "60", "60s", "5m", "1h" in seconds.
+double parse_duration(const std::string& text) {
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const std::string unit(end, text.data() + text.size());
+  const double factor = unit.empty() || unit == "s"    ? 1
+                        : unit == "m" || unit == "min" ? 60
+                        : unit == "h"                  ? 3600
+                                                       : 0;
+  if (code != std::errc{} || factor == 0 || !(value > 0) || !std::isfinite(value))
+    throw Error(ErrorKind::input, fmt::format("cannot read the time '{}'", text),
+                "write a positive number of seconds (60s), minutes (5m) or hours (1h)");
+  return value * factor;
+}
+
+void set_metadata(Image& image, const RenderOptions& options, const Scene& scene,
+                  const std::string& integrator, const SessionReport& report) {
+  image.set_metadata("software", std::string("Kaustik ") + KAUSTIK_VERSION);
+  image.set_metadata("scene", options.scene);
+  image.set_metadata("integrator", integrator);
+  image.set_metadata("seed", int64_t(options.seed));
+  image.set_metadata("passes", int64_t(report.passes));
+  image.set_metadata("samples_per_pixel", int64_t(report.passes) * report.samples_per_pass);
+  image.set_metadata("horizontal_fov", double(scene.camera().horizontal_fov()));
+  image.set_metadata("vertical_fov", double(scene.camera().vertical_fov()));
+  if (report.incomplete_pass) image.set_metadata("incomplete", std::string("cancelled in pass 1"));
+  if (!options.reproducible) image.set_metadata("render_seconds", report.seconds);
+}
+
+void write_outputs(const Image& image, const RenderOptions& options, const Scene& scene) {
+  WriteOptions write;
+  write.exr_half = !options.full_float;
+  write.tone_mapping.op = tone_operator_from_name(options.tone);
+  write.tone_mapping.exposure = options.exposure;
+  write.tone_mapping.horizontal_fov = scene.camera().horizontal_fov();
+  write.tone_mapping.vertical_fov = scene.camera().vertical_fov();
+  for (const std::string& output : options.outputs) {
+    write_image(image, output, write);
+    if (!options.quiet) fmt::print(stderr, "wrote {}\n", output);
+  }
+}
+
+void render(RenderOptions options) {
+  if (options.outputs.empty())
+    options.outputs.push_back(std::filesystem::path(options.scene).stem().string() + ".exr");
+  for (const std::string& output : options.outputs) check_writable(output);
+  tone_operator_from_name(options.tone);
+  SessionSettings settings;
+  settings.seed = options.seed;
+  settings.threads = options.threads;
+  settings.passes = options.passes;
+  settings.samples_per_pixel = options.spp;
+  if (!options.time.empty()) settings.seconds = parse_duration(options.time);
+
+  LoadOptions load;
+  load.definitions = parse_definitions(options.definitions);
+  Description description = load_mitsuba_xml(options.scene, load);
+  if (!options.integrator.empty()) override_integrator(description, options.integrator);
+  for (const std::string& setting : options.settings) override_property(description, setting);
+  const auto scene = build_scene(description);
+  std::vector<std::string> warnings = scene->warnings();
+  const auto integrator = make_integrator(description, *scene, warnings);
+  for (const std::string& warning : warnings) warn(warning);
+  if (scene->lights().empty()) warn("the scene has no light: the picture will be black");
+
+  Session session(*scene, *integrator, settings);
+  const InterruptGuard interrupt;
+  ProgressLine line(options.quiet);
+  const SessionReport report =
+      session.run(interrupt.token(), [&](const Progress& p) { line.show(p); });
+  line.finish();
+  for (const std::string& warning : report.warnings) warn(warning);
+  if (report.cancelled) warn("cancelled: writing what is finished");
+  const auto object = find_integrator(description);
+  Image image = session.film().image();
+  set_metadata(image, options, *scene, object ? object->type : "photonmap", report);
+  write_outputs(image, options, *scene);
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> parse_definitions(
+    const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, std::string>> definitions;
+  for (const std::string& text : texts) {
+    const size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw Error(ErrorKind::input, fmt::format("cannot read the definition '{}'", text),
+                  "write -D name=value");
+    definitions.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return definitions;
+}
+
+void add_render(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("render", "Render a scene to image files.");
+  auto options = std::make_shared<RenderOptions>();
+  command->add_option("scene", options->scene, "Scene file (Mitsuba XML)")->required();
+  command
+      ->add_option("-o,--output", options->outputs,
+                   "Image to write, by extension: exr, hdr, pfm, tif (LogLuv), png, jpg, ppm; may "
+                   "be repeated [SCENE.exr]")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_option("-D,--define", options->definitions, "Value for $name in the scene file")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--set", options->settings,
+          "Change a parameter: integrator.caustic_neighbors=200, film.width=400, ID.radius=2")
+      ->type_name("OBJECT.PARAMETER=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--integrator", options->integrator,
+                      "Use this method instead of the file's: photonmap, path, lighttracer");
+  command->add_option("--passes", options->passes, "Number of passes")
+      ->check(CLI::Range(1u, 1u << 30));
+  command->add_option("--spp", options->spp, "Samples per pixel over all passes")
+      ->check(CLI::Range(1u, 1u << 30));
+  command->add_option("--time", options->time, "Stop in time: 60s, 5m, 1h (one pass at least)");
+  command->add_option("--seed", options->seed, "Seed of all random numbers [0]");
+  command->add_option("--threads", options->threads, "Threads; 0: all [0]")
+      ->check(CLI::Range(0, 4096));
+  command->add_option("--tonemap", options->tone,
+                      "For 8-bit images: histogram, linear or srgb [histogram]");
+  command->add_option("--exposure", options->exposure, "Stops, for --tonemap linear [0]");
+  command->add_flag("--float", options->full_float, "EXR with 32-bit instead of 16-bit floats");
+  command->add_flag("--reproducible", options->reproducible,
+                    "Write no times, so that equal renders are equal files");
+  command->add_flag("-q,--quiet", options->quiet, "No progress");
+  command->callback([options] { render(*options); });
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,123 @@
+#include "kaustik/integrator/camera_walk.h"
+
+namespace kaustik {
+namespace {
+
+FirstHit describe_first_hit(const SurfaceVertex& vertex, float distance) {
+  FirstHit first;
+  first.albedo = vertex.albedo(Lobes::all);
+  first.normal = dot(vertex.normal(), vertex.wo()) < 0 ? -vertex.normal() : vertex.normal();
+  first.depth = distance;
+  return first;
+}
+
+/// Light sampled at `vertex` and reflected by `lobes`, weighted against sampling those lobes.
+Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes lobes,
+                   float lobe_probability) {
+  if (!any(vertex.lobes() & lobes)) return {};
+  const Spectrum f = vertex.eval_cosine(light.wi, lobes);
+  if (f.is_zero()) return {};
+  if (light.pdf_solid_angle == 0 || lobe_probability == 0) return f * light.radiance;
+  return f * light.radiance *
+         mis_weight(light.pdf_solid_angle, lobe_probability * vertex.pdf(light.wi, lobes));
+}
+
+}  // namespace
+
+CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler, SampleSink& sink,
+                       Lobes traced)
+    : scene_(scene),
+      sampler_(sampler),
+      sink_(sink),
+      class_(traced),
+      ray_(scene.camera().sample_ray(raster)) {
+  state_.spread = scene.camera().pixel_spread();
+}
+
+bool CameraWalk::advance() {
+  Hit hit;
+  ++rays_;
+  if (!scene_.intersect(ray_, hit)) {
+    add_background();
+    return false;
+  }
+  distance_ += hit.t;
+  state_.footprint = distance_ * state_.spread;
+  vertex_ = SurfaceVertex(scene_, ray_, hit, TransportMode::radiance);
+  if (state_.depth == 0) sink_.set_first_hit(describe_first_hit(vertex_, hit.t));
+  if (vertex_.light() >= 0) add_emission();
+  sampler_.start_vertex(uint32_t(state_.depth));
+  return true;
+}
+
+/// Weight of light found by the last event against sampling it (a point of an area light or a
+/// direction) from the previous vertex.
+template <typename Where>
+float CameraWalk::emission_weight(int light, const Where& where) const {
+  if (state_.pdf_forward == 0) return 1;
+  return mis_weight(state_.pdf_forward, direct_light_pdf(scene_, previous_, light, where));
+}
+
+void CameraWalk::add_emission() {
+  const Light& light = *scene_.lights()[size_t(vertex_.light())];
+  const Spectrum emitted = light.emitted(vertex_.point(), vertex_.wo());
+  if (emitted.is_zero()) return;
+  sink_.add(class_.component(),
+            state_.throughput * emitted * emission_weight(vertex_.light(), vertex_.point()));
+}
+
+void CameraWalk::add_background() {
+  for (const int index : scene_.environment_lights()) {
+    const Light& light = *scene_.lights()[size_t(index)];
+    if (light.is_delta()) continue;
+    sink_.add(class_.component(), state_.throughput * light.background(ray_.direction) *
+                                      emission_weight(index, ray_.direction));
+  }
+}
+
+void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probability,
+                                  int samples) {
+  if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
+  for (int i = 0; i < samples; ++i) {
+    DirectLight light;
+    bool found;
+    if (samples == 1) {
+      found = sample_direct_light(scene_, vertex_, sampler_, light);
+    } else {
+      Sampler branch = sampler_.split(0, uint32_t(i));
+      found = sample_direct_light(scene_, vertex_, branch, light);
+    }
+    if (!found) continue;
+    const float share = 1.0f / float(samples);
+    const Spectrum by_diffuse =
+        reflected(vertex_, light, Lobes::diffuse, diffuse_probability) * share;
+    const Spectrum by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability) * share;
+    if (by_diffuse.is_zero() && by_glossy.is_zero()) continue;
+    ++rays_;
+    if (scene_.occluded(light.shadow_ray)) continue;
+    add_reflected(Lobes::diffuse, by_diffuse);
+    add_reflected(Lobes::glossy, by_glossy);
+  }
+}
+
+bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u) {
+  const BsdfSample sample = vertex_.sample(u_lobe, u, lobes);
+  if (sample.event == Lobes::none || sample.weight.is_zero()) return false;
+  state_.throughput *= sample.weight * (1 / probability);
+  state_.eta_scale *= sqr(sample.eta);
+  state_.pdf_forward = sample.event == Lobes::delta ? 0 : probability * sample.pdf_solid_angle;
+  state_.depth += 1;
+  class_.add_event(sample.event);
+  previous_ = vertex_;
+  ray_ = spawn_ray(vertex_.point(), sample.wi);
+  return true;
+}
+
+bool CameraWalk::survive(float u) {
+  const float survival = std::min(0.95f, state_.throughput.max_lane() * state_.eta_scale);
+  if (!(u < survival)) return false;
+  state_.throughput *= 1 / survival;
+  return true;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,72 @@
+#pragma once
+#include "kaustik/base/sampler.h"
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/transport/direct_light.h"
+#include "kaustik/transport/path_class.h"
+#include "kaustik/transport/path_state.h"
+
+namespace kaustik {
+
+/// A path that is followed from the camera, vertex by vertex. Knows the component of everything
+/// that it finds and weighs light found by scattering against light found by sampling lights; the
+/// integrators differ in what they do at a vertex and in where they go on.
+class CameraWalk {
+ public:
+  /// `traced`: lobes whose events count as specular. Starts with the ray through `raster`.
+  CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler, SampleSink& sink,
+             Lobes traced = Lobes::specular);
+  ~CameraWalk() { sink_.count_rays(rays_); }
+  CameraWalk(const CameraWalk&) = delete;
+  CameraWalk& operator=(const CameraWalk&) = delete;
+
+  /// Goes to the next surface and adds the light that shines from there or from beyond the scene.
+  /// False if there is no surface.
+  bool advance();
+  const SurfaceVertex& vertex() const { return vertex_; }
+  /// Scattering events so far.
+  int events() const { return state_.depth; }
+  /// Half the width of a pixel at the vertex, m.
+  float footprint() const { return state_.footprint; }
+  Sampler& sampler() { return sampler_; }
+
+  /// Adds light sampled at the vertex and reflected by its lobes, `samples` times. The
+  /// probabilities are those with which scatter() will choose the lobe classes there (0: never,
+  /// then light sampling alone has to find the light).
+  void add_direct_light(float diffuse_probability, float glossy_probability, int samples = 1);
+  /// Adds radiance that the vertex sends back of light that is `component` (caustic or indirect)
+  /// to it; seen by a specular event it counts as specular.
+  void add_photon_light(Component component, const Spectrum& radiance) {
+    sink_.add(seen(component), state_.throughput * radiance);
+  }
+  bool wants_photon_light(Component component) const { return sink_.wants(seen(component)); }
+
+  /// Chooses a direction by `lobes` (chosen with `probability`) for the next advance(); false if
+  /// the light is absorbed.
+  bool scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u);
+  /// Russian roulette on the throughput; false if the path ends.
+  bool survive(float u);
+
+ private:
+  Component seen(Component component) const {
+    return state_.depth == 0 ? component : Component::specular;
+  }
+  void add_reflected(Lobes event, const Spectrum& radiance) {
+    sink_.add(class_.component_after(event), state_.throughput * radiance);
+  }
+  template <typename Where>
+  float emission_weight(int light, const Where& where) const;
+  void add_background();
+  void add_emission();
+
+  const Scene& scene_;
+  Sampler& sampler_;
+  SampleSink& sink_;
+  PathState state_;
+  CameraPathClass class_;
+  Ray ray_;
+  SurfaceVertex vertex_, previous_;
+  float distance_ = 0;
+  uint64_t rays_ = 0;
+};
+
+}  // namespace kaustik

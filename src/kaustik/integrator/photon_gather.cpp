@@ -1,0 +1,153 @@
+#include "kaustik/integrator/photon_gather.h"
+
+#include "kaustik/transport/direct_light.h"
+
+namespace kaustik {
+namespace {
+
+/// A gather ray is the second level of the camera's path.
+constexpr int gather_level = 1;
+/// Specular events that a gather ray follows before roulette.
+constexpr int gather_roulette_depth = 4;
+
+}  // namespace
+
+PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
+                         const PhotonMaps& maps, const GatherRadii& radii)
+    : scene_(scene), settings_(settings), maps_(maps), radii_(radii) {}
+
+EstimateSettings PhotonLight::at_level(const EstimateSettings& settings, float radius,
+                                       int level) const {
+  EstimateSettings result = settings;
+  result.maximum_radius = radius;
+  if (settings.neighbors > 0)
+    result.neighbors = std::max(2, int(float(settings.neighbors) * settings_.level_scale(level)));
+  return result;
+}
+
+Spectrum PhotonLight::caustic(const SurfaceVertex& vertex, Lobes lobes, int level) const {
+  return maps_.caustic.radiance(vertex, lobes, at_level(settings_.caustic, radii_.caustic, level))
+      .value;
+}
+
+Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int level) const {
+  return maps_.global.radiance(vertex, lobes, at_level(settings_.global, radii_.global, level))
+      .value;
+}
+
+Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes,
+                                             Sampler& sampler, uint64_t& rays) const {
+  DirectLight light;
+  if (!sample_direct_light(scene_, vertex, sampler, light)) return {};
+  const Spectrum reflected = vertex.eval_cosine(light.wi, lobes) * light.radiance;
+  if (reflected.is_zero()) return {};
+  ++rays;
+  return scene_.occluded(light.shadow_ray) ? Spectrum() : reflected;
+}
+
+RadianceSource::Incoming PhotonLight::incoming(const SurfacePoint& from, const Vec3f& direction,
+                                               Sampler& sampler) const {
+  Incoming result;
+  Spectrum throughput(1.0f);
+  float eta_scale = 1;
+  Ray ray = spawn_ray(from, direction);
+  uint64_t rays = 0;
+  for (int events = 0;; ++events) {
+    Hit hit;
+    ++rays;
+    if (!scene_.intersect(ray, hit)) break;
+    if (events == 0) result.distance = hit.t;
+    const SurfaceVertex vertex(scene_, ray, hit, TransportMode::radiance);
+    sampler.start_vertex(uint32_t(events));
+    const Lobes local = vertex.lobes() & settings_.local();
+    if (any(local))
+      result.radiance += throughput * (reflected_direct_light(vertex, local, sampler, rays) +
+                                       caustic(vertex, local, gather_level + events) +
+                                       global(vertex, local, gather_level + events));
+    const Lobes traced = vertex.lobes() & settings_.traced();
+    if (!any(traced) || settings_.specular_sampling == SpecularSampling::none ||
+        events >= settings_.maximum_eye_events)
+      break;
+    const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
+    const BsdfSample sample = vertex.sample(u_choice.x, u, traced);
+    if (sample.event == Lobes::none || sample.weight.is_zero()) break;
+    throughput *= sample.weight;
+    eta_scale *= sqr(sample.eta);
+    if (events >= gather_roulette_depth) {
+      const float survival = std::min(0.95f, throughput.max_lane() * eta_scale);
+      if (!(u_choice.y < survival)) break;
+      throughput *= 1 / survival;
+    }
+    ray = spawn_ray(vertex.point(), sample.wi);
+  }
+  rays_.fetch_add(rays, std::memory_order_relaxed);
+  return result;
+}
+
+bool PhotonLight::importance(const SurfacePoint& at, const Frame& frame, const HemisphereGrid& grid,
+                             std::vector<float>& cell_importance) const {
+  if (maps_.global.empty() || settings_.global.neighbors <= 0) return false;
+  cell_importance.assign(size_t(grid.count()), 0);
+  std::vector<int>* counts = nullptr;
+  std::vector<int> count_storage;
+  if (settings_.importance_by_average) {
+    count_storage.assign(size_t(grid.count()), 0);
+    counts = &count_storage;
+  }
+  const Vec3f side = dot(frame.z, at.ng) < 0 ? -at.ng : at.ng;
+  maps_.global.visit_nearest(at.position, side, settings_.global.neighbors, radii_.global,
+                             [&](const Photon& photon, const Vec3f& position) {
+                               const Vec3f local =
+                                   frame.to_local(photon.incident_direction(position, at.position));
+                               if (!(local.z > 0)) return;
+                               const auto cell = size_t(grid.cell_of(local));
+                               cell_importance[cell] += photon.flux_spectrum().max_lane();
+                               if (counts) ++(*counts)[cell];
+                             });
+  if (counts)
+    for (size_t cell = 0; cell < cell_importance.size(); ++cell)
+      if ((*counts)[cell] > 0) cell_importance[cell] /= float((*counts)[cell]);
+  return true;
+}
+
+Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, int samples,
+                                        Sampler& sampler) const {
+  HemisphereGrid grid{settings_.gather_theta_cells, settings_.gather_phi_cells};
+  // With fewer photons than cells the grid would be mostly empty.
+  while (grid.count() > std::max(1, settings_.global.neighbors) &&
+         (grid.theta_cells > 1 || grid.phi_cells > 1)) {
+    grid.theta_cells = std::max(1, grid.theta_cells / 2);
+    grid.phi_cells = std::max(1, grid.phi_cells / 2);
+  }
+  const Vec3f n = dot(vertex.normal(), vertex.wo()) < 0 ? -vertex.normal() : vertex.normal();
+  const Frame frame(n);
+  static thread_local std::vector<float> cells;
+  double total = 0;
+  if (importance(vertex.point(), frame, grid, cells))
+    for (const float cell : cells) total += cell;
+  const float floor = total > 0 ? settings_.importance_floor : 1;
+  Spectrum sum;
+  for (int i = 0; i < samples; ++i) {
+    Sampler branch = sampler.split(1, uint32_t(i));
+    const Vec2f u = branch.next_2d();
+    float u_cell = (branch.next_1d() + float(i)) / float(samples);
+    int cell;
+    if (u_cell < floor) {
+      cell = std::min(int(u_cell / floor * float(grid.count())), grid.count() - 1);
+    } else {
+      double left = (u_cell - floor) / (1 - floor) * total;
+      cell = 0;
+      while (cell + 1 < grid.count() && left >= cells[size_t(cell)]) left -= cells[size_t(cell++)];
+    }
+    // Density relative to the grid that draws all cells alike.
+    const double by_photons = total > 0 ? double(cells[size_t(cell)]) / total * grid.count() : 0.0;
+    const auto p = float(floor + (1 - floor) * by_photons);
+    if (!(p > 0)) continue;
+    const Vec3f direction = frame.to_world(grid.direction(cell, u));
+    if (dot(direction, vertex.point().ng) * dot(n, vertex.point().ng) <= 0) continue;
+    sum += incoming(vertex.point(), direction, branch).radiance * (pi / (p * float(samples)));
+  }
+  return sum;
+}
+
+}  // namespace kaustik

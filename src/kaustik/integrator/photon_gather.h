@@ -1,0 +1,54 @@
+#pragma once
+#include <atomic>
+
+#include "kaustik/integrator/photon_map_settings.h"
+
+namespace kaustik {
+
+/// Radii of a pass, m.
+struct GatherRadii {
+  float caustic = infinity, global = infinity;
+};
+
+/// What photons know of the light in a scene: estimates at surfaces, and the radiance that arrives
+/// along gather rays. Immutable during the visualisation pass.
+class PhotonLight final : public RadianceSource {
+ public:
+  /// All must outlive this.
+  PhotonLight(const Scene& scene, const PhotonMapSettings& settings, const PhotonMaps& maps,
+              const GatherRadii& radii);
+
+  /// Radiance by caustic photons [L G⁺ → x] that `lobes` send back; `level` for level of detail.
+  Spectrum caustic(const SurfaceVertex& vertex, Lobes lobes, int level) const;
+  /// The same by global photons: the approximate solution for diffuse indirect light.
+  Spectrum global(const SurfaceVertex& vertex, Lobes lobes, int level) const;
+
+  /// Diffuse indirect light along a ray: what the surface there sends back of direct, caustic and
+  /// global light by lobes that are not traced; specular events on the way are followed. No
+  /// emission: lamps are seen by direct light and caustics.
+  Incoming incoming(const SurfacePoint& from, const Vec3f& direction,
+                    Sampler& sampler) const override;
+  /// Flux of the global photons near the point, by cell.
+  bool importance(const SurfacePoint& at, const Frame& frame, const HemisphereGrid& grid,
+                  std::vector<float>& cell_importance) const override;
+
+  /// Diffuse indirect irradiance at `vertex` by `samples` gather rays drawn in proportion to the
+  /// photons' flux over a grid of the hemisphere (Jensen 1995, Schregle 1998 corrected: density
+  /// p relative to the uniform grid, E ≈ mean of π L/p).
+  Spectrum gather_irradiance(const SurfaceVertex& vertex, int samples, Sampler& sampler) const;
+
+  uint64_t rays() const { return rays_.load(std::memory_order_relaxed); }
+
+ private:
+  EstimateSettings at_level(const EstimateSettings& settings, float radius, int level) const;
+  Spectrum reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes, Sampler& sampler,
+                                  uint64_t& rays) const;
+
+  const Scene& scene_;
+  const PhotonMapSettings& settings_;
+  const PhotonMaps& maps_;
+  GatherRadii radii_;
+  mutable std::atomic<uint64_t> rays_{0};  ///< counts only; changes no result
+};
+
+}  // namespace kaustik

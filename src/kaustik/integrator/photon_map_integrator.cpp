@@ -1,0 +1,185 @@
+#include "kaustik/integrator/photon_map_integrator.h"
+
+#include <algorithm>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/integrator/camera_walk.h"
+
+namespace kaustik {
+namespace {
+
+/// Events before roulette on specular paths.
+constexpr int roulette_depth = 4;
+/// Distances between the pixels whose surfaces fill the cache, round by round.
+constexpr int cache_strides[] = {8, 4, 2, 1};
+/// Surfaces of one camera path that ask for records.
+constexpr size_t cache_points_per_path = 4;
+
+/// Twice the 95 % quantile of the radius that `neighbors` photons take: what is sparser than that
+/// is better estimated from fewer photons than from far ones.
+float typical_radius(const PhotonMap& map, int neighbors) {
+  constexpr size_t probes = 512;
+  if (map.empty() || neighbors <= 0) return infinity;
+  std::vector<float> radii;
+  for (size_t i = 0; i < probes; ++i) {
+    const auto index = uint32_t(i * map.size() / probes);
+    const Photon& photon = map.tree().data(index);
+    KdTree<3, Vec3f, Photon>::Neighbors found;
+    map.tree().nearest(
+        map.tree().key(index), size_t(neighbors), infinity,
+        [&](uint32_t other) { return map.tree().data(other).side.same_side(photon.side); }, found);
+    radii.push_back(std::sqrt(found.farthest_sq()));
+  }
+  const auto quantile = radii.begin() + std::ptrdiff_t(radii.size() * 95 / 100);
+  std::nth_element(radii.begin(), quantile, radii.end());
+  return 2 * *quantile;
+}
+
+/// The walk's vertex as the cache sees it.
+CachePoint cache_point_of(const CameraWalk& walk) {
+  const SurfaceVertex& vertex = walk.vertex();
+  const Vec3f& n = vertex.normal();
+  return {vertex.point(), dot(n, vertex.wo()) < 0 ? -n : n, 2 * walk.footprint()};
+}
+
+}  // namespace
+
+struct PhotonMapIntegrator::State final : PassState {
+  PhotonMaps maps;
+  std::unique_ptr<PhotonLight> light;
+  std::unique_ptr<IrradianceCache> cache;  ///< null: not used
+};
+
+PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene& scene)
+    : scene_(scene), settings_(arguments) {}
+
+std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(uint64_t seed) const {
+  const std::lock_guard lock(light_pass_mutex_);
+  if (!light_pass_ || light_pass_seed_ != seed) {
+    light_pass_ = std::make_shared<const LightPass>(scene_, settings_.light_pass, seed);
+    light_pass_seed_ = seed;
+  }
+  return light_pass_;
+}
+
+GatherRadii PhotonMapIntegrator::pass_radii(const PhotonMaps& maps, uint32_t index) const {
+  const auto radius = [&](const PhotonMap& map, const EstimateSettings& estimate, float given) {
+    const float first = given > 0 ? given : typical_radius(map, estimate.neighbors);
+    return std::min(
+        pass_radius(first, index),
+        radius_of_least_radiance(estimate.neighbors, map.mean_flux(), settings_.minimum_radiance));
+  };
+  return {radius(maps.caustic, settings_.caustic, settings_.caustic_radius),
+          radius(maps.global, settings_.global, settings_.global_radius)};
+}
+
+std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatBuffer&,
+                                                        std::stop_token stop) const {
+  auto state = std::make_unique<State>();
+  const auto lights = light_pass(pass.seed);
+  state->maps = lights->trace(pass.seed, pass.index, stop);
+  state->light = std::make_unique<PhotonLight>(scene_, settings_, state->maps,
+                                               pass_radii(state->maps, pass.index));
+  state->report.photons = state->maps.global.size() + state->maps.caustic.size();
+  if (!stop.stop_requested()) state->report.warnings = lights->warnings(state->maps);
+  const bool wants_indirect = settings_.components.has(Component::indirect) ||
+                              settings_.components.has(Component::specular);
+  if (settings_.cache && wants_indirect && settings_.global.neighbors > 0)
+    fill_cache(*state, pass, stop);
+  state->report.rays =
+      state->maps.global_report.rays + state->maps.caustic_report.rays + state->light->rays();
+  return state;
+}
+
+void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_token stop) const {
+  state.cache = std::make_unique<IrradianceCache>(settings_.cache_settings);
+  const Vec2i size = scene_.film().crop_size;
+  const Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::cache, 0, 0);
+  uint32_t round = 0;
+  for (const int stride : cache_strides) {
+    std::vector<std::vector<CachePoint>> rows(size_t((size.y + stride - 1) / stride));
+    parallel_blocks(rows.size(), 1, [&](size_t row, size_t, size_t) {
+      if (stop.stop_requested()) return;
+      for (int x = 0; x < size.x; x += stride) {
+        const int y = int(row) * stride;
+        Sampler jitter = Sampler::at(pass.seed, pass.index, Stream::cache,
+                                     uint64_t(y) * uint64_t(size.x) + uint64_t(x) + 1, round);
+        const Vec2f u = jitter.next_2d();
+        const Vec2f raster(float(x) + u.x * float(stride), float(y) + u.y * float(stride));
+        collect_cache_points(raster, jitter, rows[row]);
+      }
+    });
+    std::vector<CachePoint> points;
+    for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
+    if (stop.stop_requested()) return;
+    state.cache->fill_round(points, *state.light, sampler, round++, stop);
+  }
+}
+
+void PhotonMapIntegrator::collect_cache_points(const Vec2f& raster, Sampler sampler,
+                                               std::vector<CachePoint>& points) const {
+  SampleSink nowhere{ComponentSet()};
+  CameraWalk walk(scene_, raster, sampler, nowhere, settings_.traced());
+  const size_t first = points.size();
+  while (walk.advance()) {
+    const SurfaceVertex& vertex = walk.vertex();
+    if (any(vertex.lobes() & Lobes::diffuse)) {
+      points.push_back(cache_point_of(walk));
+      if (points.size() - first >= cache_points_per_path) return;
+    }
+    const Lobes traced = vertex.lobes() & settings_.traced();
+    if (!any(traced) || settings_.specular_sampling == SpecularSampling::none ||
+        walk.events() >= settings_.maximum_eye_events)
+      return;
+    const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
+    if (!walk.scatter(traced, 1, u_choice.x, u)) return;
+    if (walk.events() > roulette_depth && !walk.survive(u_choice.y)) return;
+  }
+}
+
+void PhotonMapIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sampler& sampler,
+                                 SampleSink& sink) const {
+  const State& state = static_cast<const State&>(pass_state);
+  CameraWalk walk(scene_, raster, sampler, sink, settings_.traced());
+  const bool traces_glossy = settings_.specular_sampling == SpecularSampling::importance;
+  while (walk.advance()) {
+    const Lobes traced = walk.vertex().lobes() & settings_.traced();
+    const bool goes_on = any(traced) && settings_.specular_sampling != SpecularSampling::none &&
+                         walk.events() < settings_.maximum_eye_events;
+    walk.add_direct_light(0, goes_on && traces_glossy ? 1 : 0,
+                          walk.events() == 0 ? settings_.light_samples : 1);
+    add_photon_light(state, walk);
+    if (!goes_on) return;
+    const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
+    if (!walk.scatter(traced, 1, u_choice.x, u)) return;
+    if (walk.events() > roulette_depth && !walk.survive(u_choice.y)) return;
+  }
+}
+
+void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk) const {
+  const SurfaceVertex& vertex = walk.vertex();
+  const Lobes local = vertex.lobes() & settings_.local();
+  if (!any(local)) return;
+  if (walk.wants_photon_light(Component::caustic))
+    walk.add_photon_light(Component::caustic, state.light->caustic(vertex, local, walk.events()));
+  if (!any(local & Lobes::diffuse) || settings_.global.neighbors <= 0 ||
+      !walk.wants_photon_light(Component::indirect))
+    return;
+  const Vec3f& n = vertex.normal();
+  const Spectrum f = vertex.eval(dot(n, vertex.wo()) < 0 ? -n : n, Lobes::diffuse);
+  walk.add_photon_light(Component::indirect, f * diffuse_irradiance(state, walk));
+}
+
+Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk& walk) const {
+  Spectrum irradiance;
+  if (state.cache) {
+    const CachePoint point = cache_point_of(walk);
+    if (state.cache->interpolate(point, irradiance)) return irradiance;
+    if (state.cache->interpolate(point, irradiance, 2)) return irradiance;
+  }
+  const int samples =
+      std::max(1, int(float(settings_.diffuse_samples) * settings_.level_scale(walk.events())));
+  return state.light->gather_irradiance(walk.vertex(), samples, walk.sampler());
+}
+
+}  // namespace kaustik

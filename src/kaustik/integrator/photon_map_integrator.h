@@ -1,0 +1,44 @@
+#pragma once
+#include <mutex>
+
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/photon_gather.h"
+
+namespace kaustik {
+
+class CameraWalk;
+
+/// Two-pass photon mapping (Jensen 1996, Schregle 1998). Every pass has maps and an irradiance
+/// cache of its own and shrinking search radii, so that the mean of the passes converges.
+class PhotonMapIntegrator final : public Integrator {
+ public:
+  PhotonMapIntegrator(const Arguments& arguments, const Scene& scene);
+
+  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
+                                     std::stop_token stop) const override;
+  void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
+              SampleSink& sink) const override;
+  uint32_t default_samples_per_pass() const override { return settings_.samples_per_pass; }
+  ComponentSet components() const override { return settings_.components; }
+
+ private:
+  struct State;
+  GatherRadii pass_radii(const PhotonMaps& maps, uint32_t index) const;
+  void fill_cache(State& state, const Pass& pass, std::stop_token stop) const;
+  /// The diffuse surfaces that a camera path meets, for the cache.
+  void collect_cache_points(const Vec2f& raster, Sampler sampler,
+                            std::vector<CachePoint>& points) const;
+  void add_photon_light(const State& state, CameraWalk& walk) const;
+  Spectrum diffuse_irradiance(const State& state, CameraWalk& walk) const;
+
+  /// The light pass of a seed, its budgets trained when it is first asked for.
+  std::shared_ptr<const LightPass> light_pass(uint64_t seed) const;
+
+  const Scene& scene_;
+  PhotonMapSettings settings_;
+  mutable std::mutex light_pass_mutex_;
+  mutable std::shared_ptr<const LightPass> light_pass_;
+  mutable uint64_t light_pass_seed_ = 0;
+};
+
+}  // namespace kaustik

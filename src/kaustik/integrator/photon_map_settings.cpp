@@ -1,0 +1,255 @@
+#include "kaustik/integrator/photon_map_settings.h"
+
+#include "kaustik/integrator/integrator.h"
+
+namespace kaustik {
+namespace {
+
+/// Reads arguments through the preset: what the user gave wins, then the preset, then the table.
+class PresetReader {
+ public:
+  explicit PresetReader(const Arguments& arguments)
+      : arguments_(arguments), thesis_(arguments.text("preset") == "thesis") {}
+
+  bool thesis() const { return thesis_; }
+  int64_t integer(const char* name) const {
+    const Value* value = preset(name);
+    return value ? std::get<int64_t>(*value) : arguments_.integer(name);
+  }
+  float number(const char* name) const {
+    const Value* value = preset(name);
+    return float(value ? std::get<double>(*value) : arguments_.number(name));
+  }
+  bool boolean(const char* name) const {
+    const Value* value = preset(name);
+    return value ? std::get<bool>(*value) : arguments_.boolean(name);
+  }
+  std::string text(const char* name) const {
+    const Value* value = preset(name);
+    return value ? std::get<std::string>(*value) : arguments_.text(name);
+  }
+
+ private:
+  /// The defaults of Schregle 1998, appendix A.
+  const Value* preset(const char* name) const {
+    static const std::vector<std::pair<std::string, Value>> table{
+        {"caustic_neighbors", int64_t{0}},
+        {"caustic_photons", int64_t{250000}},
+        {"caustic_kernel", std::string("cone")},
+        {"caustic_filter", 1.0},
+        {"global_neighbors", int64_t{50}},
+        {"global_photons", int64_t{25000}},
+        {"diffuse_samples", int64_t{50}},
+        {"importance_theta_cells", int64_t{3}},
+        {"importance_phi_cells", int64_t{14}},
+        {"importance_weight", std::string("average")},
+        {"importance_floor", 0.0},
+        {"specular_sampling", std::string("none")},
+        {"specular_samples", int64_t{25}},
+        {"minimum_radiance", 0.004},
+        {"max_eye_level", int64_t{1}},
+        {"irradiance_cache", false},
+    };
+    if (!thesis_ || arguments_.given(name)) return nullptr;
+    for (const auto& [key, value] : table)
+      if (key == name) return &value;
+    return nullptr;
+  }
+
+  const Arguments& arguments_;
+  bool thesis_;
+};
+
+std::vector<Parameter> parameters() {
+  return {
+      components_parameter(),
+      choice_parameter("preset", "default", {"default", "thesis"},
+                       "Defaults of the parameters below: Kaustik's, or those of Schregle's thesis "
+                       "(1998, appendix A)."),
+      integer_parameter("caustic_neighbors", 60,
+                        "Caustic photons to find [numCaustic]; 0: no caustics.")
+          .range(0, 100000),
+      integer_parameter("caustic_photons", 250000,
+                        "Caustic photons to emit in a pass, over all lights [totalCaustic].")
+          .range(0, 2000000000),
+      choice_parameter("caustic_kernel", "cone", {"constant", "cone", "epanechnikov"},
+                       "How caustic photons are weighted by their distance."),
+      number_parameter("caustic_filter", 1,
+                       "Constant k of the cone kernel: 1 falls to zero at the edge, larger is "
+                       "flatter [causticFilter].")
+          .range(1, 1e6),
+      integer_parameter("global_neighbors", 50,
+                        "Global photons to find [numGlobal]; 0: no diffuse indirect light.")
+          .range(0, 100000),
+      integer_parameter("global_photons", 100000,
+                        "Global photons to emit in a pass, over all lights [totalGlobal].")
+          .range(0, 2000000000),
+      choice_parameter("global_kernel", "constant", {"constant", "cone", "epanechnikov"},
+                       "How global photons are weighted by their distance."),
+      number_parameter("minimum_radiance", 0,
+                       "Least visible radiance: bounds the search for photons [minRadiance]; 0: no "
+                       "bound.")
+          .range(0, 1e30)
+          .in("W/(sr m²)"),
+      number_parameter("caustic_radius", 0,
+                       "Largest search radius for caustic photons in the first pass, it shrinks in "
+                       "later ones; 0: from the photons.")
+          .range(0, 1e30)
+          .in("m"),
+      number_parameter("global_radius", 0, "The same for global photons.").range(0, 1e30).in("m"),
+      boolean_parameter("reradiate", false,
+                        "Caustic photons go on as global ones from where they land [reradiate]."),
+      boolean_parameter("aim", true, "Aim caustic photons at specular objects."),
+      integer_parameter("aim_targets", 128,
+                        "Boxes that specular objects are divided into for that [distribQuality].")
+          .range(1, 4096),
+      integer_parameter("max_light_level", -1,
+                        "Longest light path in scattering events [-l]; -1: any.")
+          .range(-1, 1 << 20),
+      integer_parameter("max_eye_level", -1,
+                        "Longest camera path in scattering events [-e]; -1: any.")
+          .range(-1, 1 << 20),
+      integer_parameter("light_samples", 1, "Shadow rays per camera sample.").range(1, 4096),
+      integer_parameter("diffuse_samples", 4,
+                        "Gather rays per camera sample where the irradiance cache does not serve "
+                        "[numDiffuse].")
+          .range(1, 1000000),
+      integer_parameter("importance_theta_cells", 3,
+                        "Rings of the grid that directs gather rays [impThetaIntervals].")
+          .range(1, 1000),
+      integer_parameter("importance_phi_cells", 14, "Sectors of that grid [impPhiIntervals].")
+          .range(1, 1000),
+      choice_parameter(
+          "importance_weight", "sum", {"sum", "average"},
+          "Cells of the grid count by the sum of their photons' flux, or by its average "
+          "as in the thesis."),
+      number_parameter("importance_floor", 0.25,
+                       "Share of the gather rays that goes to all cells alike; 0 leaves out cells "
+                       "without photons (biased, as in the thesis).")
+          .range(0, 1),
+      choice_parameter(
+          "specular_sampling", "importance", {"none", "perfect", "importance"},
+          "Specular light: none, mirrors and refraction only, or all specular lobes by "
+          "importance sampling [specularSampling]."),
+      integer_parameter("specular_samples", 1,
+                        "Specular rays at the first surface of a camera sample [numSpecular].")
+          .range(1, 100000),
+      choice_parameter("level_of_detail", "none", {"none", "linear", "exponential"},
+                       "How the counts fall with the recursion level."),
+      number_parameter("level_factor", 0.5,
+                       "By how much: 1 − factor × level, or factor to the power of the level.")
+          .range(0, 1),
+      boolean_parameter("irradiance_cache", true,
+                        "Interpolate diffuse indirect light between points where it was gathered."),
+      integer_parameter("cache_samples", 160, "Gather rays per cache record.").range(4, 1000000),
+      number_parameter("cache_quality", 0.2, "Allowed error of the cache: lower is denser.")
+          .range(1e-3, 10),
+      boolean_parameter("cache_gradients", true, "Interpolate with gradients."),
+      boolean_parameter(
+          "minimum_distance", false,
+          "Records reach by the minimum instead of the harmonic mean distance of what "
+          "they see [minDist]."),
+      number_parameter("cache_minimum_spacing", 3, "Least reach of a record.")
+          .range(0, 1e6)
+          .in("pixels"),
+      number_parameter("cache_maximum_spacing", 40, "Greatest reach of a record.")
+          .range(1, 1e6)
+          .in("pixels"),
+      integer_parameter("samples_per_pass", 8, "Camera samples per pixel and pass.")
+          .range(1, 65536),
+  };
+}
+
+Kernel kernel_from(const std::string& name) {
+  return name == "cone"       ? Kernel::cone
+         : name == "constant" ? Kernel::constant
+                              : Kernel::epanechnikov;
+}
+
+int events_from(int64_t level) { return level < 0 ? 1 << 20 : int(level); }
+
+}  // namespace
+
+const TypeInfo& PhotonMapSettings::info() {
+  static const TypeInfo info{
+      "integrator", "photonmap",
+      "Two-pass photon mapping: caustics from photons, diffuse indirect light by gathering over a "
+      "global photon map with an irradiance cache, specular light by tracing. Names in [] are "
+      "those "
+      "of Schregle's thesis.",
+      parameters()};
+  return info;
+}
+
+PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
+    : components(read_components(arguments)) {
+  const PresetReader read(arguments);
+  caustic.neighbors = int(read.integer("caustic_neighbors"));
+  caustic.kernel = kernel_from(read.text("caustic_kernel"));
+  caustic.cone_constant = read.number("caustic_filter");
+  global.neighbors = int(read.integer("global_neighbors"));
+  global.kernel = kernel_from(read.text("global_kernel"));
+  minimum_radiance = read.number("minimum_radiance");
+  caustic_radius = read.number("caustic_radius");
+  global_radius = read.number("global_radius");
+  light_samples = int(read.integer("light_samples"));
+  diffuse_samples = int(read.integer("diffuse_samples"));
+  gather_theta_cells = int(read.integer("importance_theta_cells"));
+  gather_phi_cells = int(read.integer("importance_phi_cells"));
+  importance_by_average = read.text("importance_weight") == "average";
+  importance_floor = read.number("importance_floor");
+  const std::string sampling = read.text("specular_sampling");
+  specular_sampling = sampling == "none"      ? SpecularSampling::none
+                      : sampling == "perfect" ? SpecularSampling::perfect
+                                              : SpecularSampling::importance;
+  specular_samples = int(read.integer("specular_samples"));
+  const std::string detail = read.text("level_of_detail");
+  level_of_detail = detail == "none"     ? LevelOfDetail::none
+                    : detail == "linear" ? LevelOfDetail::linear
+                                         : LevelOfDetail::exponential;
+  level_factor = read.number("level_factor");
+  maximum_eye_events = events_from(read.integer("max_eye_level"));
+  samples_per_pass = uint32_t(read.integer("samples_per_pass"));
+  cache = read.boolean("irradiance_cache");
+  cache_settings.hemisphere.samples = int(read.integer("cache_samples"));
+  cache_settings.quality = read.number("cache_quality");
+  cache_settings.gradients = read.boolean("cache_gradients");
+  cache_settings.minimum_distance = read.boolean("minimum_distance");
+  cache_settings.minimum_spacing = read.number("cache_minimum_spacing");
+  cache_settings.maximum_spacing = read.number("cache_maximum_spacing");
+  const bool any_gather =
+      components.has(Component::indirect) || components.has(Component::specular);
+  const bool any_caustic = any_gather || components.has(Component::caustic);
+  light_pass.traced = traced();
+  light_pass.reradiate = read.boolean("reradiate");
+  light_pass.aim = read.boolean("aim");
+  light_pass.target_budget = int(read.integer("aim_targets"));
+  light_pass.maximum_events = events_from(read.integer("max_light_level"));
+  // A count of zero, to find or in total, switches that type of photon off.
+  if (global.neighbors > 0 && any_gather)
+    light_pass.global_photons = uint32_t(read.integer("global_photons"));
+  if (caustic.neighbors > 0 && any_caustic)
+    light_pass.caustic_photons = uint32_t(read.integer("caustic_photons"));
+}
+
+Lobes PhotonMapSettings::traced() const {
+  return specular_sampling == SpecularSampling::importance ? Lobes::specular : Lobes::delta;
+}
+
+Lobes PhotonMapSettings::local() const {
+  return Lobes(uint8_t(Lobes::all) & ~uint8_t(traced() | Lobes::delta));
+}
+
+float PhotonMapSettings::level_scale(int level) const {
+  switch (level_of_detail) {
+    case LevelOfDetail::none:
+      return 1;
+    case LevelOfDetail::linear:
+      return std::max(0.05f, 1 - level_factor * float(level));
+    case LevelOfDetail::exponential:
+      return std::pow(level_factor, float(level));
+  }
+  return 1;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,53 @@
+#pragma once
+#include "kaustik/irradiance/irradiance_cache.h"
+#include "kaustik/photon/light_pass.h"
+#include "kaustik/transport/component.h"
+
+namespace kaustik {
+
+/// What light the camera follows by tracing [thesis: specularSampling].
+enum class SpecularSampling {
+  none,       ///< nothing: specular light is left out
+  perfect,    ///< mirrors and refraction only
+  importance  ///< every specular lobe
+};
+
+/// How counts fall with the recursion level.
+enum class LevelOfDetail { none, linear, exponential };
+
+/// All parameters of the photon map integrator.
+struct PhotonMapSettings {
+  ComponentSet components = ComponentSet::all();
+  LightPassSettings light_pass;
+  EstimateSettings caustic, global;
+  float minimum_radiance = 0;
+  float caustic_radius = 0, global_radius = 0;  ///< cap of pass 0, m; 0: from the photons
+
+  int light_samples = 1;
+  int diffuse_samples = 0;  ///< gather rays per camera sample where the cache does not serve
+  int gather_theta_cells = 3, gather_phi_cells = 14;
+  bool importance_by_average = false;  ///< cells weighted by mean flux instead of summed flux
+  float importance_floor = 0.1f;       ///< share of the samples that is spread evenly
+
+  bool cache = true;
+  CacheSettings cache_settings;
+
+  SpecularSampling specular_sampling = SpecularSampling::importance;
+  int specular_samples = 1;
+  LevelOfDetail level_of_detail = LevelOfDetail::none;
+  float level_factor = 0.5f;
+  int maximum_eye_events = 1 << 20;
+  uint32_t samples_per_pass = 4;
+
+  static const TypeInfo& info();
+  explicit PhotonMapSettings(const Arguments& arguments);
+
+  /// Lobes that are traced, and whose events are specular to light paths as well.
+  Lobes traced() const;
+  /// Lobes of `vertex` that photons light (all that are neither traced nor delta).
+  Lobes local() const;
+  /// Scale of counts at a recursion level (0: the camera's first surface).
+  float level_scale(int level) const;
+};
+
+}  // namespace kaustik

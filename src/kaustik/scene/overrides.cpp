@@ -1,0 +1,80 @@
+#include "kaustik/scene/overrides.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace kaustik {
+namespace {
+
+/// Every object below `object`, each once.
+void collect(const std::shared_ptr<Object>& object, std::vector<std::shared_ptr<Object>>& list,
+             std::set<const Object*>& seen) {
+  for (const Child& child : object->children) {
+    if (!seen.insert(child.object.get()).second) continue;
+    list.push_back(child.object);
+    collect(child.object, list, seen);
+  }
+}
+
+std::shared_ptr<Object> integrator_of(Description& description) {
+  for (const Child& child : description.scene->children)
+    if (child.object->family == "integrator") return child.object;
+  auto object = std::make_shared<Object>();
+  object->family = "integrator";
+  object->type = "photonmap";
+  object->place = place_in("command line");
+  description.scene->children.push_back({"", object});
+  return object;
+}
+
+std::shared_ptr<Object> find_object(Description& description, const std::string& name) {
+  if (name == "integrator") return integrator_of(description);
+  std::vector<std::shared_ptr<Object>> objects;
+  std::set<const Object*> seen;
+  collect(description.scene, objects, seen);
+  std::vector<std::string> names = {"integrator"};
+  std::vector<std::shared_ptr<Object>> of_family;
+  for (const auto& object : objects) {
+    if (!object->id.empty()) {
+      if (object->id == name) return object;
+      names.push_back(object->id);
+    }
+    if (object->family == name) of_family.push_back(object);
+    if (object->family == "sensor" || object->family == "film") names.push_back(object->family);
+  }
+  if (of_family.size() == 1) return of_family[0];
+  if (of_family.size() > 1)
+    throw Error(ErrorKind::input,
+                fmt::format("the scene has {} objects '{}'", of_family.size(), name),
+                "give the one that you mean an id in the scene file and use that");
+  throw Error(ErrorKind::input, fmt::format("the scene has no object '{}'", name),
+              suggest(name, names));
+}
+
+}  // namespace
+
+void override_property(Description& description, const std::string& assignment) {
+  const size_t equals = assignment.find('=');
+  const size_t dot = assignment.substr(0, equals).rfind('.');
+  if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == equals)
+    throw Error(ErrorKind::input, fmt::format("cannot read the setting '{}'", assignment),
+                "write object.parameter=value, such as integrator.caustic_neighbors=200");
+  const std::string name = assignment.substr(dot + 1, equals - dot - 1);
+  const auto object = find_object(description, assignment.substr(0, dot));
+  std::erase_if(object->properties, [&](const Property& p) { return p.name == name; });
+  std::erase_if(object->children, [&](const Child& c) { return c.name == name; });
+  object->properties.push_back({name, Untyped{assignment.substr(equals + 1)},
+                                place_in(fmt::format("command line: --set {}", assignment))});
+}
+
+void override_integrator(Description& description, const std::string& type) {
+  const auto object = integrator_of(description);
+  if (object->type == type) return;
+  object->type = type;
+  object->properties.clear();
+  object->children.clear();
+  object->place = place_in("command line: --integrator");
+}
+
+}  // namespace kaustik

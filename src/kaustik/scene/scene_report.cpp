@@ -1,0 +1,113 @@
+#include "kaustik/scene/scene_report.h"
+
+#include <fmt/format.h>
+
+namespace kaustik {
+namespace {
+
+/// Largest lane of the directional albedo over a few directions.
+float largest_albedo(const Bsdf& bsdf) {
+  float largest = 0;
+  for (const float u : {0.0f, 0.25f, 0.75f})
+    for (const float cosine : {1.0f, 0.5f, 0.1f})
+      for (const float side : {1.0f, -1.0f}) {
+        BsdfContext context;
+        context.texture.uv = {u, u};
+        const Vec3f wo(safe_sqrt(1 - cosine * cosine), 0, cosine * side);
+        largest = std::max(largest, bsdf.albedo(context, wo, Lobes::all).max_lane());
+      }
+  return largest;
+}
+
+/// Distances to what the camera sees, over a grid of the picture; empty where it sees nothing.
+struct View {
+  int rays = 0, hits = 0;
+  float nearest = infinity;
+};
+
+View look_around(const Scene& scene) {
+  constexpr int grid = 16;
+  View view;
+  const Vec2i size = scene.film().crop_size;
+  for (int y = 0; y < grid; ++y)
+    for (int x = 0; x < grid; ++x) {
+      const Vec2f raster((float(x) + 0.5f) / grid * float(size.x),
+                         (float(y) + 0.5f) / grid * float(size.y));
+      Hit hit;
+      ++view.rays;
+      if (!scene.intersect(scene.camera().sample_ray(raster), hit)) continue;
+      ++view.hits;
+      view.nearest = std::min(view.nearest, hit.t);
+    }
+  return view;
+}
+
+void describe_view(const Scene& scene, SceneReport& report) {
+  const View view = look_around(scene);
+  const Camera& camera = scene.camera();
+  const Vec3f p = camera.position();
+  report.lines.push_back(
+      fmt::format("camera     at {:.4g}, {:.4g}, {:.4g}; field of view {:.4g}° × {:.4g}°", p.x, p.y,
+                  p.z, camera.horizontal_fov(), camera.vertical_fov()));
+  report.lines.push_back(
+      fmt::format("picture    {} × {} pixels", scene.film().crop_size.x, scene.film().crop_size.y));
+  if (view.hits == 0) report.warnings.push_back("the camera sees nothing: check its to_world");
+  const float extent = length(scene.tracer().bounds().max - scene.tracer().bounds().min);
+  if (view.hits == view.rays && view.nearest < 1e-4f * extent)
+    report.warnings.push_back(fmt::format(
+        "the camera stands {:.2g} m from a surface that fills the picture: is it inside a wall?",
+        view.nearest));
+}
+
+void describe_lights(const Scene& scene, SceneReport& report) {
+  int index = 0;
+  for (const auto& light : scene.lights()) {
+    const float power = light->power().sum();
+    const std::string where =
+        light->shape() >= 0
+            ? fmt::format("surface '{}'", scene.surface(uint32_t(light->shape())).name)
+        : light->is_infinite() ? std::string("at infinity")
+                               : std::string("without a surface");
+    const Spectrum rgb = light->power();
+    report.lines.push_back(fmt::format("light {:<4} {}, {:.4g} {:.4g} {:.4g} W", index, where,
+                                       rgb[0], rgb[1], rgb[2]));
+    if (!(power > 0))
+      report.warnings.push_back(fmt::format("light {} ({}) has no power", index, where));
+    ++index;
+  }
+  if (scene.lights().empty()) report.warnings.push_back("the scene has no light");
+}
+
+}  // namespace
+
+SceneReport describe_scene(const Scene& scene) {
+  SceneReport report;
+  size_t triangles = 0, analytic = 0;
+  for (uint32_t i = 0; i < scene.tracer().shape_count(); ++i) {
+    const TriangleMesh* mesh = scene.tracer().shape(i).mesh();
+    if (mesh)
+      triangles += mesh->triangles.size();
+    else
+      ++analytic;
+  }
+  const Bounds3f b = scene.tracer().bounds();
+  report.lines.push_back(fmt::format("shapes     {} ({} triangles, {} analytic or procedural)",
+                                     scene.surface_count(), triangles, analytic));
+  report.lines.push_back(fmt::format("bounds     {:.4g}, {:.4g}, {:.4g} … {:.4g}, {:.4g}, {:.4g} m",
+                                     b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z));
+  report.lines.push_back(fmt::format("memory     {:.1f} MB for ray tracing",
+                                     double(scene.tracer().size_in_bytes()) / 1e6));
+  describe_view(scene, report);
+  describe_lights(scene, report);
+  for (uint32_t i = 0; i < scene.surface_count(); ++i) {
+    const float albedo = largest_albedo(*scene.surface(i).bsdf);
+    if (albedo > 1.001f)
+      report.warnings.push_back(
+          fmt::format("{} reflects {:.3g} times what arrives: light would grow without bound",
+                      scene.surface(i).name, albedo));
+  }
+  report.warnings.insert(report.warnings.end(), scene.warnings().begin(), scene.warnings().end());
+  return report;
+}
+
+}  // namespace kaustik
