@@ -20,7 +20,7 @@ class RecordOctree {
  public:
   /// Records take part in interpolation this much beyond where they serve, so that neighbours
   /// blend and their noise is averaged.
-  static constexpr float overlap = 1.4f;
+  static constexpr float overlap = 1.8f;
 
   RecordOctree() = default;
   /// `normal_tolerance`: the a of the formula. All numbers in the records must be finite.

@@ -1,0 +1,114 @@
+#include "kaustik/irradiance/record_octree.h"
+
+#include <gtest/gtest.h>
+
+#include "kaustik/base/sampler.h"
+#include "kaustik/base/warp.h"
+
+namespace kaustik {
+namespace {
+
+constexpr float tolerance = 0.3f;
+
+/// Random records near the unit sphere, `clustered` all at nearly one place.
+std::vector<CacheRecord> random_records(uint32_t count, bool clustered) {
+  std::vector<CacheRecord> records(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    Sampler s = Sampler::at(1, 0, Stream::training, i, 0);
+    CacheRecord& r = records[i];
+    r.normal = square_to_sphere(clustered ? s.next_2d() * 0.05f : s.next_2d());
+    r.position = clustered ? Vec3f(s.next_1d(), s.next_1d(), s.next_1d()) * 1e-3f : r.normal;
+    r.reach = 0.01f + 0.3f * std::pow(s.next_1d(), 3.0f);
+    r.irradiance = Spectrum(1 + s.next_1d(), s.next_1d(), 0, 0);
+    for (int axis = 0; axis < 3; ++axis) {
+      r.per_metre[axis] = Spectrum(s.next_1d() - 0.5f);
+      r.per_normal[axis] = Spectrum(s.next_1d() - 0.5f);
+    }
+  }
+  return records;
+}
+
+/// The definition in the header, record by record.
+struct BruteForce {
+  double best = infinity;  // ε²
+  double weight = 0, lane0 = 0;
+
+  BruteForce(const std::vector<CacheRecord>& records, const Vec3f& p, const Vec3f& n,
+             double limit) {
+    for (const CacheRecord& r : records) {
+      if (dot(n, r.normal) <= 0) continue;
+      const Vec3f d = p - r.position;
+      const double height = 0.5 * double(dot(d, n + r.normal));
+      const double factor = height < 0 ? 10 : 3;
+      const double error_sq =
+          (double(length_sq(d)) + factor * factor * height * height) / double(sqr(r.reach)) +
+          (1 - double(dot(n, r.normal))) / double(sqr(tolerance));
+      best = std::min(best, error_sq);
+      if (error_sq >= limit * limit) continue;
+      const double w = std::pow(1 - error_sq / (limit * limit), 2);
+      weight += w;
+      lane0 += w * double(r.extrapolate(d, n)[0]);
+    }
+  }
+};
+
+void compare_with_brute_force(const std::vector<CacheRecord>& records, float scale) {
+  const RecordOctree octree(records, tolerance);
+  int hits = 0, served = 0;
+  for (uint32_t i = 0; i < 300; ++i) {
+    Sampler s = Sampler::at(2, 0, Stream::training, i, 0);
+    const Vec3f n = square_to_sphere(s.next_2d());
+    const Vec3f p = n * (scale * (0.97f + 0.06f * s.next_1d()));
+    for (const float relax : {1.0f, 1.5f, 4.0f}) {
+      const BruteForce expected(records, p, n, double(relax * RecordOctree::overlap));
+      Spectrum e;
+      const bool hit = octree.interpolate(p, n, relax, e);
+      if (expected.weight > 1e-8) {
+        ASSERT_TRUE(hit);
+        ++hits;
+        EXPECT_NEAR(e[0], std::max(0.0, expected.lane0 / expected.weight), 2e-4);
+        EXPECT_GE(e[2], 0);
+      } else if (expected.weight == 0) {
+        EXPECT_FALSE(hit);
+      }
+      if (std::fabs(expected.best - 1) > 1e-4) {
+        EXPECT_EQ(octree.serves(p, n), expected.best < 1);
+      }
+    }
+    served += octree.serves(p, n);
+  }
+  EXPECT_GT(hits, 300);
+  EXPECT_GT(served, 30);
+  EXPECT_LT(served, 300);
+}
+
+TEST(record_octree, agrees_with_brute_force) {
+  compare_with_brute_force(random_records(3000, false), 1);
+}
+
+TEST(record_octree, agrees_with_brute_force_on_a_cluster) {
+  compare_with_brute_force(random_records(500, true), 1e-3f);
+}
+
+TEST(record_octree, without_records_serves_nothing) {
+  const RecordOctree octree;
+  Spectrum e;
+  EXPECT_FALSE(octree.serves({0, 0, 0}, {0, 0, 1}));
+  EXPECT_FALSE(octree.interpolate({0, 0, 0}, {0, 0, 1}, 1, e));
+  EXPECT_FALSE(octree.interpolate({0, 0, 0}, {0, 0, 1}, 3, e));
+  EXPECT_FALSE(RecordOctree({}, tolerance).interpolate({0, 0, 0}, {0, 0, 1}, 1, e));
+}
+
+TEST(record_octree, a_point_that_is_no_number_finds_nothing) {
+  const RecordOctree octree(random_records(100, false), tolerance);
+  Spectrum e;
+  const float nan = std::nanf("");
+  for (const float relax : {1.0f, 2.0f}) {
+    EXPECT_FALSE(octree.interpolate({nan, 0, 0}, {0, 0, 1}, relax, e));
+    EXPECT_FALSE(octree.interpolate({0, 0, 1}, {nan, 0, 1}, relax, e));
+    EXPECT_FALSE(octree.interpolate({infinity, 0, 1}, {0, 0, 1}, relax, e));
+  }
+}
+
+}  // namespace
+}  // namespace kaustik
