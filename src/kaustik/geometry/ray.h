@@ -21,7 +21,7 @@ inline constexpr float float_rounding = 0x1p-24f;
 struct Hit {
   float t = infinity;
   float u = 0, v = 0;      ///< of the primitive; barycentric for triangles
-  Vec3f ng;                ///< unnormalised geometric normal, in the space of the shape
+  Vec3f ng{0, 0, 0};       ///< unnormalised geometric normal, in the space of the shape
   uint32_t shape = 0;      ///< index into the scene's shapes (within its group if instanced)
   uint32_t primitive = 0;  ///< triangle index; 0 for shapes of one piece
   uint32_t instance = no_instance;
@@ -29,11 +29,11 @@ struct Hit {
 
 /// A point on a surface, in world space.
 struct SurfacePoint {
-  Vec3f position;
-  Vec3f ng;    ///< geometric normal, unit, outward by the shape's convention
-  Vec3f ns;    ///< shading normal, unit, in the same half space as ng
-  Vec3f dpdu;  ///< tangent along u, not normalised; zero if unknown
-  Vec2f uv;
+  Vec3f position{0, 0, 0};
+  Vec3f ng{0, 0, 0};    ///< geometric normal, unit, outward by the shape's convention
+  Vec3f ns{0, 0, 0};    ///< shading normal, unit, in the same half space as ng
+  Vec3f dpdu{0, 0, 0};  ///< tangent along u, not normalised; zero if unknown
+  Vec2f uv{0, 0};
   float error = 0;     ///< bound on the distance, along ng, between `position` and the surface as
                        ///< the ray intersection sees it
   uint32_t shape = 0;  ///< index into the scene's shapes
