@@ -36,18 +36,18 @@ float visible_beckmann_slope(float cos_theta, float sin_theta, float u) {
   float low = -largest_erf, high = std::min(std::erf(last_slope), largest_erf);
   const float last = std::min(last_slope, inverse_erf(largest_erf));
   const float target = u * integral(high, last);
-  float x = low + (high - low) * u, slope = 0;
+  float x = low + (high - low) * u;
   for (int i = 0; i < 24; ++i) {
-    slope = inverse_erf(x);
+    const float slope = inverse_erf(x);
     const float error = integral(x, slope) - target;
+    const float step = error / (cos_theta - slope * sin_theta);
+    // Newton's steps shrink quadratically: so near, the rest is less than rounding.
+    if (std::fabs(step) < 1e-5f) return inverse_erf(std::clamp(x - step, low, high));
     (error > 0 ? high : low) = x;
-    const float derivative = cos_theta - slope * sin_theta;
-    float next = x - error / derivative;
-    if (!(next > low && next < high)) next = 0.5f * (low + high);
-    if (std::fabs(next - x) < 1e-7f) break;
-    x = next;
+    x -= step;
+    if (!(x > low && x < high)) x = 0.5f * (low + high);
   }
-  return slope;
+  return inverse_erf(x);
 }
 
 }  // namespace
