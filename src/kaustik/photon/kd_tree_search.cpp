@@ -239,6 +239,8 @@ HWY_INLINE void prefetch(const KdBuckets::View& view, const Entry* begin, const 
   }
 }
 
+/// Descends into the nearest child first; candidates pile up unsorted, and the bound is found anew
+/// when there are many.
 template <bool filtered>
 void search_nearest(const KdBuckets::View& view, const Vec3f& query,
                     const KdBuckets::Filter& filter, KdCandidates& found) {
