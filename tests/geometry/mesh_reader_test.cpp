@@ -187,7 +187,8 @@ void survive_damage(const std::string& bytes, const Read& read, int least_errors
     std::string damaged = bytes;
     const int changes = 1 + int(random.uniform() * 4);
     for (int j = 0; j < changes; ++j)
-      damaged[size_t(random.uniform() * float(bytes.size()))] = char(uint8_t(random.uniform() * 256));
+      damaged[size_t(random.uniform() * float(bytes.size()))] =
+          char(uint8_t(random.uniform() * 256));
     attempt(damaged);
   }
   EXPECT_GT(errors, least_errors);

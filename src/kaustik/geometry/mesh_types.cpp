@@ -32,8 +32,8 @@ std::unique_ptr<Shape> create_from_file(const Arguments& arguments,
   return std::make_unique<MeshShape>(prepare_mesh(read(path), options, path));
 }
 
-/// The corners of a quad in the plane z = +1 or of the whole cube, wound so that +z (outward) is
-/// the front also under mirroring transforms, as Mitsuba's normals have it.
+/// `mesh` placed in the world. Its front stays the front under mirroring transforms, too: Mitsuba
+/// transforms normals, not the winding.
 std::unique_ptr<Shape> create_built_in(const Arguments& arguments, TriangleMesh mesh) {
   MeshOptions options;
   options.to_world = affine_to_world(arguments);

@@ -22,10 +22,11 @@ struct Geometry {
   std::vector<Instance> instances;
 };
 
-/// The acceleration structure (Embree). Immutable after construction and shared by all threads.
-/// The build is deterministic.
+/// The acceleration structure (Embree; the meshes' own arrays are shared with it). Immutable after
+/// construction and shared by all threads. The build is deterministic.
 class RayTracer {
  public:
+  /// Throws Error(system) if Embree runs out of memory or cannot start.
   explicit RayTracer(Geometry geometry);
   ~RayTracer();
   RayTracer(const RayTracer&) = delete;
@@ -41,6 +42,7 @@ class RayTracer {
   const Shape& shape(uint32_t index) const;
   size_t shape_count() const;
   Bounds3f bounds() const;
+  /// Of the acceleration structure, without the shapes themselves.
   size_t size_in_bytes() const;
   /// RTCScene, for benchmarks that compare with bare Embree.
   void* embree_scene() const;

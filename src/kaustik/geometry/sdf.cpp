@@ -49,7 +49,7 @@ class SdfShape : public Shape {
         field_from_world_(world_from_field.inverse()) {
     for (const Vec3d& axis : {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)})
       largest_scale_ = std::max(largest_scale_, transform_vector(world_from_field, axis).length());
-    // The sum bounds what a unit vector can become under shears as well.
+    // Bounds what a unit vector of any direction can become, under shears as well.
     largest_scale_ *= std::sqrt(3.0);
   }
 

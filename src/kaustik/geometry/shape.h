@@ -57,7 +57,7 @@ class Shape {
   /// `reference`.
   virtual ShapeSample sample_toward(const Vec3f& reference, const Vec2f& u,
                                     float& pdf_solid_angle) const;
-  /// Density of sample_toward for a point of this shape seen from `reference`.
+  /// Density of sample_toward for a point of this shape that `reference` sees.
   virtual float pdf_toward(const Vec3f& reference, const SurfacePoint& point) const;
 
   /// An inscribed approximation, finer for higher `level` (0: a dozen triangles or so); a mesh
