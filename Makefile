@@ -1,0 +1,49 @@
+# Kaustik from an empty Debian 12 machine: `make render` and `make test` need a C++ compiler and make,
+# and install the rest. Without this file: cmake --preset release && cmake --build --preset release.
+
+BUILD = build/release
+PREFIX ?= /usr/local
+program = $(BUILD)/kaustik
+scene = scenes/cornell_box/cornell_box.xml
+sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
+
+.PHONY: all setup configure build render test bench install package format clean
+all: build
+
+# What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
+setup:
+	@scripts/install_packages.sh build
+
+configure: setup
+	@cmake --preset release
+
+build: configure
+	@cmake --build --preset release
+
+# Only the program, to see a picture sooner.
+render: configure
+	@cmake --build --preset release --target kaustik
+	@mkdir -p out
+	$(program) render $(scene) -o out/cornell_box.exr -o out/cornell_box.tif -o out/cornell_box.png
+
+test: build
+	ctest --preset release
+
+bench: build
+	@scripts/run_benchmarks.sh $(BUILD)
+
+install: configure
+	@cmake --build --preset release --target kaustik
+	cmake --install $(BUILD) --prefix $(PREFIX)
+
+package: configure
+	@scripts/install_packages.sh package
+	@cmake --build --preset release --target kaustik
+	cd $(BUILD) && cpack
+
+format:
+	@scripts/install_packages.sh check
+	clang-format -i $(sources)
+
+clean:
+	rm -rf build out

@@ -1,0 +1,148 @@
+# Reads CMakeLists.txt and then all sources; see check_layers.sh.
+
+function allow(room, others,    n, names, i) {
+  known[room] = 1
+  may[room, room] = 1
+  n = split(others, names, " ")
+  for (i = 1; i <= n; ++i) may[room, names[i]] = 1
+}
+
+# Headers that match the pattern belong to these rooms; so do names that match in_code.
+function own(library, pattern, rooms, in_code,    n, names, i) {
+  ++libraries
+  library_name[libraries] = library
+  library_pattern[libraries] = pattern
+  library_code[libraries] = in_code
+  n = split(rooms, names, " ")
+  for (i = 1; i <= n; ++i) owns[libraries, names[i]] = 1
+}
+
+function complain(text) {
+  printf "%s:%d: %s\n", FILENAME, FNR, text
+  ++complaints
+}
+
+# The room that a file belongs to: src/kaustik/ROOM/…, tests/ROOM/…, apps/…, benchmarks/….
+function room_of(path,    parts) {
+  split(path, parts, "/")
+  if (parts[1] == "src") return parts[3]
+  if (parts[1] == "tests") return parts[2]
+  return parts[1]
+}
+
+function is_product_code() { return area == "src" || area == "apps" }
+
+function check_room_include(header,    parts, other) {
+  split(header, parts, "/")
+  other = parts[2]
+  if (!(other in known)) {
+    complain("there is no room '" other "'")
+  } else if (is_product_code() && !((room, other) in may)) {
+    complain("room '" room "' must not include '" header "'")
+  } else if (!is_product_code() && !((room, other) in may) && !(room in sees_all)) {
+    complain("tests of room '" room "' must not include '" header "'")
+  }
+  if (room == "loader" && area == "src" && other == "scene" && header != "kaustik/scene/description.h")
+    complain("of room 'scene' the loader may include description.h only, not '" header "'")
+}
+
+function check_library_include(header,    i) {
+  for (i = 1; i <= libraries; ++i) {
+    if (header !~ library_pattern[i]) continue
+    if (is_product_code() && !((i, room) in owns))
+      complain("room '" room "' must not include " library_name[i] " (<" header ">)")
+    return
+  }
+  if (header ~ /\.h|\// && header !~ system_headers)
+    complain("<" header "> belongs to no library of the table in scripts/check_layers.awk")
+}
+
+# A library's names in a room that does not own it: its types leak although its header is not included.
+function check_names(line,    i) {
+  sub(/\/\/.*/, "", line)
+  gsub(/"[^"]*"/, "", line)
+  for (i = 1; i <= libraries; ++i)
+    if (library_code[i] != "" && !((i, room) in owns) && (" " line) ~ library_code[i])
+      complain("names of " library_name[i] " in room '" room "'")
+}
+
+BEGIN {
+  allow("base", "")
+  allow("image", "base")
+  allow("geometry", "base")
+  allow("material", "base image")
+  allow("medium", "base image")
+  allow("light", "base image geometry")
+  allow("scene", "base image geometry material medium light")
+  allow("transport", "base image geometry material medium light scene")
+  allow("photon", "base image geometry material medium light scene transport")
+  allow("irradiance", "base image geometry material medium light scene transport")
+  allow("integrator", "base image geometry material medium light scene transport photon irradiance")
+  allow("render", \
+    "base image geometry material medium light scene transport photon irradiance integrator")
+  allow("loader", "base scene")
+  # The front ends get at the lower rooms through render; these are what its interface speaks of.
+  allow("apps", "base image scene integrator render loader")
+  # Tests of whole pictures and benchmarks may look everywhere.
+  sees_all["integrator"]; sees_all["render"]; sees_all["apps"]; sees_all["benchmarks"]
+  sees_all["support"]; sees_all["scene"]; sees_all["transport"]
+
+  not_in_word = "[^A-Za-z0-9_]"
+  own("Imath", "^Imath/", "base", "")
+  own("oneTBB", "^(tbb|oneapi)/", "base photon", "")
+  own("fmt", "^fmt/", "base image geometry material medium light scene transport photon irradiance " \
+    "integrator render loader apps", "")
+  own("OpenEXR", "^(OpenEXR/)?(Imf|Iex)", "image", not_in_word "(Imf|OPENEXR_IMF_NAMESPACE)::")
+  own("libtiff", "^tiff", "image", not_in_word "TIFF[A-Z]?[a-z]*[ (*]")
+  own("libpng", "^png", "image", not_in_word "png_(structp?|infop?|bytep?)" not_in_word)
+  own("libjpeg", "^j(peglib|error|config|morecfg)\\.h", "image", not_in_word "jpeg_[a-z]+_struct")
+  own("Embree", "^embree[34]/", "geometry", not_in_word "(RTC[A-Z][A-Za-z]+|rtc[A-Z][A-Za-z]+)")
+  own("tinyobjloader", "^tiny_obj", "geometry", not_in_word "tinyobj::")
+  own("Highway", "^hwy/", "photon", not_in_word "hwy::")
+  own("pugixml", "^pugi", "loader", not_in_word "pugi::")
+  own("CLI11", "^CLI/", "apps", not_in_word "CLI::")
+  own("spdlog", "^spdlog/", "apps", not_in_word "spdlog::")
+  own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")
+  own("nanoflann", "^nanoflann", "", not_in_word "nanoflann::")
+  system_headers = "^(sys/[a-z]+|unistd|fcntl|signal|sched|stdlib|immintrin)\\.h$"
+}
+
+FILENAME == "CMakeLists.txt" {
+  # What a room links must be among what it may include.
+  if ($0 !~ /^kaustik_room\(/) next
+  room = $1
+  sub(/.*\(/, "", room)
+  for (i = 2; i <= NF; ++i) {
+    other = $i
+    if (!sub(/^kaustik_/, "", other)) continue
+    sub(/\).*/, "", other)
+    if (!((room, other) in may)) complain("room '" room "' must not link '" other "'")
+  }
+  next
+}
+
+FNR == 1 {
+  area = FILENAME
+  sub(/\/.*/, "", area)
+  room = room_of(FILENAME)
+  if (area == "src" && !(room in known)) complain("room '" room "' is not in the table of rooms")
+  ++files
+}
+
+/^[ \t]*#[ \t]*include[ \t]*[<"]/ {
+  header = $0
+  sub(/^[^<"]*[<"]/, "", header)
+  sub(/[>"].*/, "", header)
+  if ($0 ~ /"kaustik\// || $0 ~ /<kaustik\//) check_room_include(header)
+  else if ($0 ~ /</) check_library_include(header)
+  else if (area == "src") complain("write \"kaustik/ROOM/" header "\"")
+  next
+}
+
+is_product_code() { check_names($0) }
+
+END {
+  if (complaints) exit 1
+  if (!files) { print "no sources found"; exit 1 }
+  printf "%d files keep to the table of rooms\n", files
+}

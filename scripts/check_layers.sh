@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Checks who includes whom: the rooms of src/kaustik against the table of docs/architecture.md, and each
+# library against the room that owns it. Usage: check_layers.sh [ROOT]; prints FILE:LINE: what is wrong.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+cd "${1:-$here/..}"
+
+find src apps tests benchmarks \( -name '*.h' -o -name '*.cpp' \) -print | LC_ALL=C sort |
+  xargs awk -f "$here"/check_layers.awk CMakeLists.txt

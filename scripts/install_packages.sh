@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# Installs the Debian packages of the named groups: build, check, package, bench. Asks nothing, and
+# needs no network when everything is there already.
+set -euo pipefail
+
+build=(cmake ninja-build pkg-config libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
+  libpng-dev libjpeg62-turbo-dev libhwy-dev libpugixml-dev libcli11-dev libfmt-dev libspdlog-dev
+  libgtest-dev libnanoflann-dev libtinyobjloader-dev)
+check=(clang clang-format libclang-rt-14-dev)
+package=(dpkg-dev file)
+bench=(blender)
+
+wanted=()
+for group in "$@"; do
+  case $group in
+    build) wanted+=("${build[@]}") ;;
+    check) wanted+=("${check[@]}") ;;
+    package) wanted+=("${package[@]}") ;;
+    bench) wanted+=("${bench[@]}") ;;
+    *) echo "$0: no group '$group'; there are build, check, package and bench" >&2; exit 2 ;;
+  esac
+done
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+  echo "$0: no apt-get here: install what corresponds to these Debian packages yourself:" >&2
+  echo "  ${wanted[*]}" >&2
+  exit 0
+fi
+
+missing=()
+for name in "${wanted[@]}"; do
+  status=$(dpkg-query -W -f='${db:Status-Status}' "$name" 2>/dev/null) || status=
+  [[ $status == installed ]] || missing+=("$name")
+done
+[[ ${#missing[@]} -gt 0 ]] || exit 0
+
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "$0: missing packages, and neither root nor sudo to install them: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "installing ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
