@@ -4,6 +4,7 @@
 
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/warp.h"
+#include "kaustik/irradiance/neighbor_clamping.h"
 
 namespace kaustik {
 namespace {
@@ -78,7 +79,7 @@ void compare_with_brute_force(const std::vector<CacheRecord>& records, float sca
     served += octree.serves(p, n);
   }
   EXPECT_GT(hits, 300);
-  EXPECT_GT(served, 30);
+  EXPECT_GT(served, 10);
   EXPECT_LT(served, 300);
 }
 
@@ -107,6 +108,22 @@ TEST(record_octree, a_point_that_is_no_number_finds_nothing) {
     EXPECT_FALSE(octree.interpolate({nan, 0, 0}, {0, 0, 1}, relax, e));
     EXPECT_FALSE(octree.interpolate({0, 0, 1}, {nan, 0, 1}, relax, e));
     EXPECT_FALSE(octree.interpolate({infinity, 0, 1}, {0, 0, 1}, relax, e));
+  }
+}
+
+TEST(neighbor_clamping, keeps_the_slope_below_one_and_takes_no_more) {
+  const auto records = random_records(203, false);
+  NeighborClamping clamping;
+  for (const CacheRecord& r : records)
+    clamping.add(r.position, r.normal, r.reach > 0.2f ? infinity : r.reach);
+  for (const CacheRecord& r : records) {
+    const float own = r.reach > 0.2f ? infinity : r.reach;
+    float expected = own;
+    for (const CacheRecord& other : records)
+      if (dot(r.normal, other.normal) >= 0 && other.reach <= 0.2f)
+        expected = std::min(expected, other.reach + length(r.position - other.position));
+    EXPECT_NEAR(clamping.clamped(r.position, r.normal, own, 0), expected, 1e-6f);
+    EXPECT_EQ(clamping.clamped(r.position, r.normal, own, records.size() + 1), own);
   }
 }
 

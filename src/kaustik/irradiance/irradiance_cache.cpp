@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/irradiance/neighbor_clamping.h"
 #include "kaustik/irradiance/record_octree.h"
 #include "kaustik/irradiance/spaced_subset.h"
 
@@ -12,8 +13,8 @@ namespace kaustik {
 namespace {
 
 constexpr size_t query_block = 1024;
-/// Steps over which the spacing of new records is halved; by then it is far below any reach.
-constexpr int maximum_halvings = 16;
+/// To this share of the largest reach the spacing of new records is halved from step to step.
+constexpr float minimum_step_spacing = 1.0f / 65536;
 
 /// A record as it was computed. How far it reaches also depends on its neighbours.
 struct ComputedRecord {
@@ -21,7 +22,7 @@ struct ComputedRecord {
   Vec3f normal;
   HemisphereEstimate estimate;
   float distance;          ///< m, to what it sees: harmonic mean or minimum; may be infinite
-  float clamped_distance;  ///< ≤ distance, by the neighbours
+  float clamped_distance;  ///< m, ≤ distance: by the neighbours
   float gradient_limit;    ///< m, over which the gradients would change the irradiance by itself
   float minimum_reach, maximum_reach;  ///< m
 };
@@ -31,24 +32,6 @@ float gradient_limit(const HemisphereEstimate& estimate) {
   float gradients = 0;
   for (const Vec3f& gradient : estimate.translation_gradient) gradients += length(gradient);
   return gradients > 0 ? std::max(0.0f, estimate.irradiance.sum()) / gradients : infinity;
-}
-
-/// Two records clamp one another unless they face apart, as on the two sides of a thin wall.
-void clamp_by(ComputedRecord& record, const ComputedRecord& neighbor) {
-  if (dot(record.normal, neighbor.normal) < 0) return;
-  const float limit = neighbor.distance + length(record.position - neighbor.position);
-  record.clamped_distance = std::min(record.clamped_distance, limit);
-}
-
-/// Křivánek, Bouatouch, Pattanaik and Žára 2006, "Making radiance and irradiance caching
-/// practical": R_i ≤ R_j + |p_i − p_j|. The right side takes the R_j as they were measured: by the
-/// triangle inequality chains of neighbours can't lower R_i further, so the order doesn't matter.
-void clamp_by_neighbors(std::vector<ComputedRecord>& records, size_t first_new) {
-  parallel_blocks(records.size(), 64, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i)
-      for (size_t j = i < first_new ? first_new : 0; j < records.size(); ++j)
-        clamp_by(records[i], records[j]);
-  });
 }
 
 float reach_of(const ComputedRecord& record, float quality) {
@@ -103,6 +86,7 @@ struct IrradianceCache::Impl {
 
   CacheSettings settings;
   std::vector<ComputedRecord> records;
+  NeighborClamping clamping;
   RecordOctree octree;
   uint64_t rays = 0, dropped = 0;
   float extent = 0;  ///< m, diagonal of the points of the first round that had any
@@ -123,6 +107,7 @@ struct IrradianceCache::Impl {
                              const std::vector<uint32_t>& candidates, float spacing) const;
   ComputedRecord compute(const CachePoint& at, const RadianceSource& source,
                          const Sampler& sampler) const;
+  void clamp_by_neighbors(size_t first_new);
   void insert(std::vector<ComputedRecord> fresh);
 };
 
@@ -182,15 +167,27 @@ ComputedRecord IrradianceCache::Impl::compute(const CachePoint& at, const Radian
   return record;
 }
 
+/// New records by all others, old records by the new ones.
+void IrradianceCache::Impl::clamp_by_neighbors(size_t first_new) {
+  parallel_blocks(records.size(), 64, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) {
+      ComputedRecord& r = records[i];
+      r.clamped_distance =
+          clamping.clamped(r.position, r.normal, r.clamped_distance, i < first_new ? first_new : 0);
+    }
+  });
+}
+
 void IrradianceCache::Impl::insert(std::vector<ComputedRecord> fresh) {
   const size_t first_new = records.size();
   for (ComputedRecord& record : fresh) {
     rays += record.estimate.rays;
     dropped += record.estimate.dropped;
     if (!record.estimate.irradiance.is_finite()) continue;  // overflow
+    clamping.add(record.position, record.normal, record.distance);
     records.push_back(std::move(record));
   }
-  if (settings.neighbor_clamping) clamp_by_neighbors(records, first_new);
+  if (settings.neighbor_clamping) clamp_by_neighbors(first_new);
   std::vector<CacheRecord> listed;
   listed.reserve(records.size());
   for (const ComputedRecord& record : records) listed.push_back(finished(record, settings));
@@ -219,10 +216,9 @@ size_t IrradianceCache::fill_round(const std::vector<CachePoint>& points,
     impl_->extent = std::max(2 * bounding_radius(bounds), 1e-6f + 1e-6f * max_abs(bounds.max));
   }
   float spacing = 1;
-  for (int step = 0;; ++step) {
-    // All are asked again: a new record may have clamped one that served them.
-    const std::vector<uint32_t> open = impl_->misses(points, candidates);
-    if (open.empty() || stop.stop_requested()) break;
+  // Again from the start until all are served: a late record may have clamped one that served.
+  std::vector<uint32_t> open = impl_->misses(points, candidates);
+  while (!open.empty() && !stop.stop_requested()) {
     const std::vector<uint32_t> picked = impl_->pick(points, open, spacing);
     std::vector<ComputedRecord> fresh(picked.size());
     parallel_blocks(picked.size(), 1, [&](size_t begin, size_t, size_t) {
@@ -233,7 +229,9 @@ size_t IrradianceCache::fill_round(const std::vector<CachePoint>& points,
     if (stop.stop_requested()) break;
     impl_->insert(std::move(fresh));
     candidates = without(candidates, picked);
-    if (step < maximum_halvings) spacing *= 0.5f;
+    open = impl_->misses(points, without(open, picked));
+    if (open.empty()) open = impl_->misses(points, candidates);
+    spacing = std::max(0.5f * spacing, minimum_step_spacing);
   }
   return impl_->records.size() - count_before;
 }
@@ -244,7 +242,8 @@ bool IrradianceCache::interpolate(const CachePoint& at, Spectrum& irradiance, fl
 
 size_t IrradianceCache::record_count() const { return impl_->records.size(); }
 size_t IrradianceCache::size_in_bytes() const {
-  return impl_->records.capacity() * sizeof(ComputedRecord) + impl_->octree.size_in_bytes();
+  return impl_->records.capacity() * sizeof(ComputedRecord) + impl_->clamping.size_in_bytes() +
+         impl_->octree.size_in_bytes();
 }
 uint64_t IrradianceCache::rays_traced() const { return impl_->rays; }
 uint64_t IrradianceCache::rays_dropped() const { return impl_->dropped; }
