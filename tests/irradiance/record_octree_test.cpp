@@ -5,6 +5,7 @@
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/warp.h"
 #include "kaustik/irradiance/neighbor_clamping.h"
+#include "kaustik/irradiance/spaced_subset.h"
 
 namespace kaustik {
 namespace {
@@ -124,6 +125,27 @@ TEST(neighbor_clamping, keeps_the_slope_below_one_and_takes_no_more) {
         expected = std::min(expected, other.reach + length(r.position - other.position));
     EXPECT_NEAR(clamping.clamped(r.position, r.normal, own, 0), expected, 1e-6f);
     EXPECT_EQ(clamping.clamped(r.position, r.normal, own, records.size() + 1), own);
+  }
+}
+
+TEST(spaced_subset, keeps_apart_and_leaves_no_gaps) {
+  for (const float spacing : {0.07f, 0.125f, 0.3f}) {
+    SpacedSubset subset;
+    std::vector<Vec3f> picked;
+    for (uint32_t i = 0; i < 2000; ++i) {
+      Sampler s = Sampler::at(5, 0, Stream::training, i, 0);
+      const Vec2f xy = s.next_2d();
+      const Vec3f p(xy.x - 0.5f, xy.y - 0.5f, 0.3f * xy.x);
+      float nearest = infinity;
+      for (const Vec3f& q : picked) nearest = std::min(nearest, length(p - q));
+      const bool taken = subset.pick(p, {0.1f, 0.2f, 1}, spacing);
+      EXPECT_EQ(taken, nearest >= spacing);
+      if (taken) picked.push_back(p);
+    }
+    // Other directions and much finer spacings don't mind.
+    EXPECT_FALSE(subset.pick(picked[0], {0, 0, 1}, spacing));
+    EXPECT_TRUE(subset.pick(picked[0], {0, 0, -1}, spacing));
+    EXPECT_TRUE(subset.pick(picked[0], {0, 0, 1}, spacing / 8));
   }
 }
 

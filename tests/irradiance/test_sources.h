@@ -1,8 +1,6 @@
 #pragma once
 // Sources of radiance in closed form.
 
-#include <atomic>
-
 #include "kaustik/irradiance/hemisphere.h"
 
 namespace kaustik::test {

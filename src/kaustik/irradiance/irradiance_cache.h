@@ -27,9 +27,9 @@ struct CacheSettings {
 };
 
 /// Cached irradiance with gradients (Ward, Rubinstein and Clear 1988; Ward and Heckbert 1992) over
-/// any source of radiance. Filled in rounds, then read-only: all queries of a round see the records
-/// of the rounds before, the new ones are inserted in the order of the points, so the cache has the
-/// same bits for any number of threads.
+/// any source of radiance. Filled in rounds, each in steps, then read-only: all queries of a step
+/// see the records of the steps before, and new ones are inserted in the order of the points, so
+/// the cache has the same bits for any number of threads.
 class IrradianceCache {
  public:
   /// Throws std::invalid_argument unless quality > 0 and 0 ≤ minimum ≤ maximum spacing.
@@ -48,7 +48,8 @@ class IrradianceCache {
                     const Sampler& sampler, uint32_t round, std::stop_token stop);
 
   /// Irradiance W/m² interpolated from the records, no lane negative; false where none serves.
-  /// `relax` ≥ 1 widens every record's reach by that factor (slower). Thread-safe.
+  /// `relax` ≥ 1 widens every record's reach by that factor, for the few points that no round saw:
+  /// beyond 1 it costs many times as much. Thread-safe.
   bool interpolate(const CachePoint& at, Spectrum& irradiance, float relax = 1) const;
 
   size_t record_count() const;
