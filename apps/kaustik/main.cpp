@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
   kaustik::app::add_tonemap(program);
   kaustik::app::add_info(program);
   kaustik::app::add_compare(program);
+  kaustik::app::add_photons(program);
   kaustik::app::add_help(program);
   try {
     program.parse(argc, argv);

@@ -93,11 +93,13 @@ TEST(MitsubaTree, FileNamesAreRelativeToTheScene) {
   const std::string text = in_scene(
       "<shape type='ply'><string name='filename' value='m/a.ply'/>"
       "<string name='other' value='m/a.ply'/></shape>"
-      "<shape type='ply'><string name='filename' value='/abs/b.ply'/></shape>");
+      "<shape type='ply'><string name='filename' value='/abs/b.ply'/></shape>"
+      "<integrator type='photonmap'><string name='photon_map' value='m/a.kpm'/></integrator>");
   const auto scene = parse_mitsuba_xml(text, "t.xml", "some/folder").scene;
   EXPECT_EQ(value<std::string>(*scene->children[0].object, "filename"), "some/folder/m/a.ply");
   EXPECT_EQ(value<std::string>(*scene->children[0].object, "other"), "m/a.ply");
   EXPECT_EQ(value<std::string>(*scene->children[1].object, "filename"), "/abs/b.ply");
+  EXPECT_EQ(value<std::string>(*scene->children[2].object, "photon_map"), "some/folder/m/a.kpm");
   EXPECT_EQ(value<std::string>(*parse(text).scene->children[0].object, "filename"), "m/a.ply");
 }
 

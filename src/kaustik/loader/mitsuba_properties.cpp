@@ -51,7 +51,7 @@ Value Reader::value_of(const Element& element, const std::string& name, const So
   if (element.tag == "boolean") return parse_attribute(value, parse_boolean);
   if (element.tag == "rgb") return parse_attribute(value, parse_rgb);
   if (element.tag == "srgb") return parse_attribute(value, parse_srgb);
-  if (name != "filename") return value.value;
+  if (!is_in(file_property_names(), name)) return value.value;
   if (value.value.empty()) throw BadValue("the file name is empty", "name a file", value.place);
   return found(value.value, source).string();
 }

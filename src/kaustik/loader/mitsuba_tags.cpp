@@ -38,6 +38,11 @@ const std::vector<std::string>& part_tags() {
   return tags;
 }
 
+const std::vector<std::string>& file_property_names() {
+  static const std::vector<std::string> names = {"filename", "photon_map"};
+  return names;
+}
+
 bool is_in(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }

@@ -16,6 +16,9 @@ const std::vector<std::string>& transform_tags();
 /// Whatever may stand in an object.
 const std::vector<std::string>& part_tags();
 
+/// Names of properties that are files, relative to the one that names them.
+const std::vector<std::string>& file_property_names();
+
 bool is_in(const std::vector<std::string>& names, std::string_view name);
 
 }  // namespace kaustik::mitsuba

@@ -17,7 +17,7 @@ struct LoadOptions {
   std::vector<std::pair<std::string, std::string>> definitions;
 };
 
-/// Reads a scene file and what it includes. Properties `filename` and other names of files are
+/// Reads a scene file and what it includes. Properties `filename` and `photon_map` are
 /// searched in the folders of the file's `<path>` elements (the last one first), in the file's own
 /// folder, then in those of the files that include it; what is nowhere gets the own folder. A
 /// constant `<spectrum>` becomes a number, a list or file a SpectralCurve. Objects nest at most 100

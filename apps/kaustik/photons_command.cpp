@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "commands.h"
+#include "console.h"
+#include "kaustik/base/file.h"
+#include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/render/photon_tracing.h"
+#include "kaustik/scene/overrides.h"
+
+namespace kaustik::app {
+namespace {
+
+struct PhotonsOptions {
+  std::string scene, output;
+  std::vector<std::string> definitions, settings;
+  uint64_t seed = 0;
+  int threads = 0;
+};
+
+std::string light_name(const Scene& scene, size_t light) {
+  const int shape = scene.lights()[light]->shape();
+  if (shape >= 0) return scene.surface(uint32_t(shape)).name;
+  return scene.lights()[light]->is_infinite() ? "at infinity" : "without a surface";
+}
+
+void print_counts(const std::string& name, const LightCounts& c) {
+  fmt::print("  {:28} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11.4g}\n", name, c.emitted,
+             c.stored, c.nothing, c.escaped, c.absorbed, c.too_long, c.stored_flux);
+}
+
+/// Photons are lost where they carry nothing, leave the scene, are absorbed, or go on for too long.
+void print_map(const char* name, const Scene& scene, const PhotonMap& map,
+               const MapReport& report) {
+  fmt::print("{} map: {} photons, {} rays", name, map.size(), report.rays);
+  if (!map.empty())
+    fmt::print(", {:.1f} bytes per photon", double(map.size_in_bytes()) / double(map.size()));
+  fmt::print("\n");
+  if (report.lights.empty()) return;
+  fmt::print("  {:28} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11}\n", "light", "emitted",
+             "stored", "nothing", "escaped", "absorbed", "too long", "flux, W");
+  for (size_t i = 0; i < report.lights.size(); ++i)
+    print_counts(fmt::format("{}: {}", i, light_name(scene, i)), report.lights[i]);
+  if (report.lights.size() > 1) print_counts("all", report.total());
+}
+
+void trace_photons(const PhotonsOptions& options) {
+  check_output_path(options.output);
+  LoadOptions load;
+  load.definitions = parse_definitions(options.definitions);
+  Description description = load_mitsuba_xml(options.scene, load);
+  // Before the settings, so that they speak of the integrator that is used.
+  override_integrator(description, "photonmap");
+  for (const std::string& setting : options.settings) override_property(description, setting);
+  const auto scene = build_scene(description);
+  for (const std::string& warning : scene->warnings()) warn(warning);
+
+  const InterruptGuard interrupt;
+  TracedPhotons traced =
+      trace_photon_maps(description, *scene, options.seed, options.threads, interrupt.token());
+  StoredPhotons& stored = traced.photons;
+  stored.scene = std::filesystem::path(options.scene).lexically_normal().string();
+  write_photon_file(options.output, stored);
+
+  fmt::print("scene: {} ({})\n", stored.scene, stored.fingerprint);
+  print_map("global", *scene, stored.maps.global, stored.maps.global_report);
+  print_map("caustic", *scene, stored.maps.caustic, stored.maps.caustic_report);
+  fmt::print("traced in {}, trees built in {}\n", duration_text(stored.maps.trace_seconds),
+             duration_text(stored.maps.build_seconds));
+  for (const std::string& warning : traced.warnings) warn(warning);
+  fmt::print(stderr, "wrote {}\n", options.output);
+}
+
+}  // namespace
+
+void add_photons(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "photons",
+      "Trace the photon maps of a scene, store them for other views, print their statistics.");
+  auto o = std::make_shared<PhotonsOptions>();
+  command->add_option("scene", o->scene, "Scene file (Mitsuba XML)")->required();
+  command->add_option("-o,--output", o->output, "Photon map to write, .kpm")->required();
+  command->add_option("-D,--define", o->definitions, "Value for $name in the scene file")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--set", o->settings,
+                   "Change a parameter: integrator.caustic_photons=1000000, ID.radius=2")
+      ->type_name("OBJECT.PARAMETER=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--seed", o->seed, "Seed of all random numbers [0]");
+  command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(CLI::Range(0, 4096));
+  command->callback([o] { trace_photons(*o); });
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,61 @@
+#include "kaustik/render/photon_tracing.h"
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/integrator/photon_map_settings.h"
+#include "kaustik/render/session.h"
+
+namespace kaustik {
+namespace {
+
+std::shared_ptr<Object> photonmap_of(const Description& description) {
+  const std::string& type = PhotonMapSettings::info().name;
+  auto object = find_integrator(description);
+  if (object && object->type == type) return object;
+  object = std::make_shared<Object>();
+  object->family = "integrator";
+  object->type = type;
+  return object;
+}
+
+/// Why a map is empty where LightPass finds nothing wrong.
+void explain_empty_maps(const StoredPhotons& photons, std::vector<std::string>& warnings) {
+  const LightPassSettings& settings = photons.settings;
+  if (settings.global_photons == 0)
+    warnings.emplace_back("the global map is empty: no global photons are asked for");
+  if (settings.caustic_photons == 0)
+    warnings.emplace_back("the caustic map is empty: no caustic photons are asked for");
+  else if (photons.maps.caustic_report.target_count == 0)
+    warnings.emplace_back(
+        "the caustic map is empty: the scene has no specular object that could focus light");
+}
+
+}  // namespace
+
+TracedPhotons trace_photon_maps(const Description& description, const Scene& scene, uint64_t seed,
+                                int threads, std::stop_token stop) {
+  TracedPhotons traced;
+  const auto object = photonmap_of(description);
+  Description alone{std::make_shared<Object>()};
+  alone.scene->children.push_back({"", object});
+  make_integrator(alone, scene, traced.warnings);  // checks the object as a render would
+  Problems problems;
+  const Arguments arguments(PhotonMapSettings::info(), object->properties, object->place, problems);
+  problems.throw_if_any();
+
+  StoredPhotons& photons = traced.photons;
+  photons.fingerprint = scene_fingerprint(scene);
+  photons.seed = seed;
+  photons.settings = PhotonMapSettings(arguments).light_pass;
+  with_threads(threads, [&] {
+    const LightPass pass(scene, photons.settings, seed);
+    photons.maps = pass.trace(seed, 0, stop);
+    for (const std::string& warning : pass.warnings(photons.maps))
+      traced.warnings.push_back(warning);
+  });
+  if (stop.stop_requested())
+    throw Error(ErrorKind::system, "cancelled before the photon maps were complete");
+  explain_empty_maps(photons, traced.warnings);
+  return traced;
+}
+
+}  // namespace kaustik
