@@ -139,7 +139,7 @@ void expect_same_report(const MapReport& a, const MapReport& b) {
 
 TEST_F(PhotonFile, KeepsEverything) {
   const auto scene = lamp_over_ball();
-  const StoredPhotons written = traced(*scene, 4000);
+  const StoredPhotons written = traced(*scene, 20000);
   ASSERT_GT(written.maps.global.size(), 100u);
   ASSERT_GT(written.maps.caustic.size(), 100u);
   write_photon_file(path(), written);
@@ -147,8 +147,8 @@ TEST_F(PhotonFile, KeepsEverything) {
   EXPECT_EQ(read.scene, written.scene);
   EXPECT_EQ(read.fingerprint, written.fingerprint);
   EXPECT_EQ(read.seed, written.seed);
-  EXPECT_EQ(read.settings.global_photons, 4000u);
-  EXPECT_EQ(read.settings.caustic_photons, 4000u);
+  EXPECT_EQ(read.settings.global_photons, 20000u);
+  EXPECT_EQ(read.settings.caustic_photons, 20000u);
   EXPECT_EQ(read.settings.maximum_events, 9);
   EXPECT_EQ(read.settings.traced, Lobes::delta);
   EXPECT_FALSE(read.settings.reradiate);
