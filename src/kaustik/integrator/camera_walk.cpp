@@ -6,7 +6,7 @@ namespace {
 FirstHit describe_first_hit(const SurfaceVertex& vertex, float distance) {
   FirstHit first;
   first.albedo = vertex.albedo(Lobes::all);
-  first.normal = dot(vertex.normal(), vertex.wo()) < 0 ? -vertex.normal() : vertex.normal();
+  first.normal = vertex.facing_normal();
   first.depth = distance;
   return first;
 }

@@ -14,7 +14,11 @@ constexpr int gather_roulette_depth = 4;
 
 PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
                          const PhotonMaps& maps, const GatherRadii& radii)
-    : scene_(scene), settings_(settings), maps_(maps), radii_(radii) {}
+    : scene_(scene), settings_(settings), maps_(maps), radii_(radii) {
+  if (settings.precompute_stride > 0)
+    precomputed_ = IrradianceMap(maps.global, at_level(settings.global, radii.global, gather_level),
+                                 settings.precompute_stride);
+}
 
 EstimateSettings PhotonLight::at_level(const EstimateSettings& settings, float radius,
                                        int level) const {
@@ -33,6 +37,15 @@ Spectrum PhotonLight::caustic(const SurfaceVertex& vertex, Lobes lobes, int leve
 Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int level) const {
   return maps_.global.radiance(vertex, lobes, at_level(settings_.global, radii_.global, level))
       .value;
+}
+
+Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes, int level) const {
+  Spectrum irradiance;
+  const Vec3f& ng = vertex.point().ng;
+  if ((vertex.lobes() & lobes) != Lobes::diffuse || vertex.bsdf().transmits() ||
+      !precomputed_.lookup(vertex.position(), vertex.on_front() ? ng : -ng, irradiance))
+    return global(vertex, lobes, level);
+  return vertex.diffuse_value() * irradiance;
 }
 
 Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes,
@@ -63,7 +76,7 @@ RadianceSource::Incoming PhotonLight::incoming(const SurfacePoint& from, const V
     if (any(local))
       result.radiance += throughput * (reflected_direct_light(vertex, local, sampler, rays) +
                                        caustic(vertex, local, gather_level + events) +
-                                       global(vertex, local, gather_level + events));
+                                       gathered_global(vertex, local, gather_level + events));
     const Lobes traced = vertex.lobes() & settings_.traced();
     if (!any(traced) || settings_.specular_sampling == SpecularSampling::none ||
         events >= settings_.maximum_eye_events)
@@ -119,7 +132,7 @@ Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, int samples
     grid.theta_cells = std::max(1, grid.theta_cells / 2);
     grid.phi_cells = std::max(1, grid.phi_cells / 2);
   }
-  const Vec3f n = dot(vertex.normal(), vertex.wo()) < 0 ? -vertex.normal() : vertex.normal();
+  const Vec3f n = vertex.facing_normal();
   const Frame frame(n);
   static thread_local std::vector<float> cells;
   double total = 0;

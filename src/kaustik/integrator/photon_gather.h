@@ -2,6 +2,7 @@
 #include <atomic>
 
 #include "kaustik/integrator/photon_map_settings.h"
+#include "kaustik/photon/irradiance_map.h"
 
 namespace kaustik {
 
@@ -41,6 +42,8 @@ class PhotonLight final : public RadianceSource {
 
  private:
   EstimateSettings at_level(const EstimateSettings& settings, float radius, int level) const;
+  /// Global light at the end of a gather ray: looked up where it was computed beforehand.
+  Spectrum gathered_global(const SurfaceVertex& vertex, Lobes lobes, int level) const;
   Spectrum reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes, Sampler& sampler,
                                   uint64_t& rays) const;
 
@@ -48,6 +51,7 @@ class PhotonLight final : public RadianceSource {
   const PhotonMapSettings& settings_;
   const PhotonMaps& maps_;
   GatherRadii radii_;
+  IrradianceMap precomputed_;
   mutable std::atomic<uint64_t> rays_{0};  ///< counts only; changes no result
 };
 

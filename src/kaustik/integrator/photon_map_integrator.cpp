@@ -38,8 +38,7 @@ float typical_radius(const PhotonMap& map, int neighbors) {
 /// The walk's vertex as the cache sees it.
 CachePoint cache_point_of(const CameraWalk& walk) {
   const SurfaceVertex& vertex = walk.vertex();
-  const Vec3f& n = vertex.normal();
-  return {vertex.point(), dot(n, vertex.wo()) < 0 ? -n : n, 2 * walk.footprint()};
+  return {vertex.point(), vertex.facing_normal(), 2 * walk.footprint()};
 }
 
 }  // namespace
@@ -165,9 +164,8 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
   if (!any(local & Lobes::diffuse) || settings_.global.neighbors <= 0 ||
       !walk.wants_photon_light(Component::indirect))
     return;
-  const Vec3f& n = vertex.normal();
-  const Spectrum f = vertex.eval(dot(n, vertex.wo()) < 0 ? -n : n, Lobes::diffuse);
-  walk.add_photon_light(Component::indirect, f * diffuse_irradiance(state, walk));
+  walk.add_photon_light(Component::indirect,
+                        vertex.diffuse_value() * diffuse_irradiance(state, walk));
 }
 
 Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk& walk) const {

@@ -48,6 +48,7 @@ class PresetReader {
         {"specular_samples", int64_t{25}},
         {"minimum_radiance", 0.004},
         {"max_eye_level", int64_t{1}},
+        {"precompute_stride", int64_t{0}},
         {"irradiance_cache", false},
     };
     if (!thesis_ || arguments_.given(name)) return nullptr;
@@ -86,6 +87,10 @@ std::vector<Parameter> parameters() {
           .range(0, 2000000000),
       choice_parameter("global_kernel", "constant", {"constant", "cone", "epanechnikov"},
                        "How global photons are weighted by their distance."),
+      integer_parameter("precompute_stride", 4,
+                        "Gather rays look up irradiance that is computed beforehand at every n-th "
+                        "global photon; 0: they estimate it where they hit.")
+          .range(0, 1000000),
       number_parameter("minimum_radiance", 0,
                        "Least visible radiance: bounds the search for photons [minRadiance]; 0: no "
                        "bound.")
@@ -189,6 +194,7 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   caustic.cone_constant = read.number("caustic_filter");
   global.neighbors = int(read.integer("global_neighbors"));
   global.kernel = kernel_from(read.text("global_kernel"));
+  precompute_stride = size_t(read.integer("precompute_stride"));
   minimum_radiance = read.number("minimum_radiance");
   caustic_radius = read.number("caustic_radius");
   global_radius = read.number("global_radius");

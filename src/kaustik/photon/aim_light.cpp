@@ -5,11 +5,30 @@
 #include "kaustik/base/warp.h"
 
 namespace kaustik {
+namespace {
+
+/// A point that is on no surface.
+SurfacePoint free_point(const Vec3f& position) {
+  SurfacePoint point;
+  point.position = position;
+  point.ng = point.ns = point.dpdu = Vec3f(0, 0, 0);
+  point.uv = Vec2f(0, 0);
+  return point;
+}
+
+/// A sample that carries nothing.
+EmittedRay no_ray() {
+  EmittedRay result;
+  result.origin = free_point({0, 0, 0});
+  return result;
+}
+
+}  // namespace
 
 EmittedRay sample_own(const Light& light, const Vec2f& u_position, const Vec2f& u_direction) {
   const EmissionSample s = light.sample_emission(u_position, u_direction);
   EmittedRay result;
-  result.origin = s.point;
+  result.origin = s.on_surface ? s.point : free_point(s.point.position);
   result.on_surface = s.on_surface;
   result.ray = s.on_surface ? spawn_ray(s.point, s.direction) : Ray{s.point.position, s.direction};
   result.flux = s.flux;
@@ -26,7 +45,7 @@ EmittedRay AimedLight::sample(const Vec2f& u_position, const Vec2f& u_direction,
                               float u_target) const {
   switch (kind_) {
     case Kind::dark:
-      return {};
+      return no_ray();
     case Kind::own:
       return sample_own(*light_, u_position, u_direction);
     case Kind::infinite:
@@ -119,7 +138,7 @@ bool AimedLight::ball_origin(size_t i, const Vec2f& u, SurfacePoint& origin) con
 
 EmittedRay AimedLight::sample_cones(const Vec2f& u_position, const Vec2f& u_direction,
                                     float u_target) const {
-  EmittedRay result;
+  EmittedRay result = no_ray();
   result.on_surface = on_surface_;
   const size_t i = pick(u_target);
   if (kind_ == Kind::ball) {
@@ -127,7 +146,7 @@ EmittedRay AimedLight::sample_cones(const Vec2f& u_position, const Vec2f& u_dire
   } else {
     const EmissionSample s = light_->sample_origin(u_position);
     if (!(s.pdf_position > 0)) return result;
-    result.origin = s.point;
+    result.origin = on_surface_ ? s.point : free_point(s.point.position);
   }
   const AimCone cone =
       cone_toward(table_.center(i), table_.radius_sq[i], result.origin.position, own_limit_);
@@ -148,7 +167,7 @@ EmittedRay AimedLight::sample_cones(const Vec2f& u_position, const Vec2f& u_dire
 
 EmittedRay AimedLight::sample_disks(const Vec2f& u_position, const Vec2f& u_direction,
                                     float u_target) const {
-  EmittedRay result;
+  EmittedRay result = no_ray();
   const Vec3f direction = light_->sample_travel_direction(u_direction, result.pdf_direction);
   const size_t i = pick(u_target);
   const Vec2f disk = square_to_disk(u_position) * std::sqrt(table_.radius_sq[i]);

@@ -18,8 +18,8 @@ struct AimTarget {
 
 /// A ray that leaves a light.
 struct EmittedRay {
-  Ray ray;              ///< already off the light's surface
-  SurfacePoint origin;  ///< on the light; ng zero for lights without a surface
+  Ray ray{{0, 0, 0}, {0, 0, 1}};  ///< already off the light's surface
+  SurfacePoint origin;            ///< on the light; ng zero for lights without a surface
   bool on_surface = false;
   Spectrum flux;           ///< W carried if this were the light's only photon: emitted radiance ×
                            ///< cosine / (pdf_position × pdf_direction); zero: nothing was emitted

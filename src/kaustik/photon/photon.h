@@ -18,6 +18,10 @@ class CoarseNormal {
         z_(int8_t(std::lround(n.z * 127))) {}
   /// Dot product, times 127.
   float dot(const Vec3f& v) const { return float(x_) * v.x + float(y_) * v.y + float(z_) * v.z; }
+  int8_t x() const { return x_; }
+  int8_t y() const { return y_; }
+  int8_t z() const { return z_; }
+  Vec3f unpack() const { return normalize({float(x_), float(y_), float(z_)}); }
   bool same_side(const CoarseNormal& o) const { return x_ * o.x_ + y_ * o.y_ + z_ * o.z_ > 0; }
 
  private:

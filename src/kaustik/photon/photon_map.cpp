@@ -61,6 +61,9 @@ PhotonMap::PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons) 
   for (const Photon& photon : photons) sum += photon.flux_spectrum().max_lane();
   mean_flux_ = photons.empty() ? 0 : float(sum / double(photons.size()));
   tree_.assign(std::move(positions), std::move(photons));
+  sides_.reserve(tree_.size());
+  for (const Photon& photon : tree_.data())
+    sides_.add(photon.side.x(), photon.side.y(), photon.side.z(), photon.on_front != 0);
 }
 
 PhotonMap::Neighbors& PhotonMap::workspace() {
@@ -70,10 +73,9 @@ PhotonMap::Neighbors& PhotonMap::workspace() {
 
 void PhotonMap::find(const Vec3f& position, const Vec3f& normal, bool both_sides, int count,
                      float maximum_radius, Neighbors& neighbors) const {
-  const auto accept = [&](uint32_t index) {
-    const Photon& photon = tree_.data(index);
-    const float dot = photon.side.dot(normal);
-    return (both_sides && !photon.on_front ? -dot : dot) > 0;
+  const PhotonSides::Query query = PhotonSides::query(normal, both_sides);
+  const auto accept = [&](uint32_t first, uint32_t mask) {
+    return sides_.accept(query, first, mask);
   };
   tree_.nearest(position, size_t(count), sqr(maximum_radius), accept, neighbors);
 }
@@ -108,8 +110,7 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   if (!any(asked)) return {};
   if (asked == Lobes::diffuse && !vertex.bsdf().transmits()) {
     DensityEstimate estimate = irradiance(vertex.position(), side, settings);
-    const Vec3f& n = vertex.normal();
-    estimate.value *= vertex.eval(dot(n, vertex.wo()) < 0 ? -n : n, Lobes::diffuse);
+    estimate.value *= vertex.diffuse_value();
     return estimate;
   }
   DensityEstimate estimate;

@@ -3,6 +3,7 @@
 
 #include "kaustik/photon/kd_tree.h"
 #include "kaustik/photon/photon.h"
+#include "kaustik/photon/photon_sides.h"
 #include "kaustik/transport/vertex.h"
 
 namespace kaustik {
@@ -40,7 +41,7 @@ class PhotonMap {
 
   size_t size() const { return tree_.size(); }
   bool empty() const { return tree_.empty(); }
-  size_t size_in_bytes() const { return tree_.size_in_bytes(); }
+  size_t size_in_bytes() const { return tree_.size_in_bytes() + sides_.size_in_bytes(); }
   /// Mean over photons of the largest lane of flux, W.
   float mean_flux() const { return mean_flux_; }
   const KdTree<3, Vec3f, Photon>& tree() const { return tree_; }
@@ -76,6 +77,7 @@ class PhotonMap {
             float maximum_radius, Neighbors& neighbors) const;
 
   KdTree<3, Vec3f, Photon> tree_;
+  PhotonSides sides_;  ///< in the tree's order
   float mean_flux_ = 0;
 };
 

@@ -30,6 +30,10 @@ class SurfaceVertex {
   Spectrum eval_cosine(const Vec3f& wi, Lobes lobes) const;
   /// f alone.
   Spectrum eval(const Vec3f& wi, Lobes lobes) const;
+  /// f of the diffuse lobe, which is the same for all directions on wo's side.
+  Spectrum diffuse_value() const { return eval(facing_normal(), Lobes::diffuse); }
+  /// The shading normal on wo's side.
+  Vec3f facing_normal() const { return wo_local_.z < 0 ? -frame_.z : frame_.z; }
   float pdf(const Vec3f& wi, Lobes lobes) const;
   /// wi of the result is in world space; the weight holds the same factors as eval_cosine.
   BsdfSample sample(float u_lobe, const Vec2f& u, Lobes lobes) const;

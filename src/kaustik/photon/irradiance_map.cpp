@@ -1,0 +1,39 @@
+#include "kaustik/photon/irradiance_map.h"
+
+namespace kaustik {
+
+IrradianceMap::IrradianceMap(const PhotonMap& map, const EstimateSettings& settings,
+                             size_t stride) {
+  if (map.empty() || settings.neighbors <= 0) return;
+  const size_t count = (map.size() + stride - 1) / stride;
+  std::vector<Vec3f> positions(count);
+  std::vector<Entry> entries(count);
+  parallel_blocks(count, 256, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) {
+      const auto index = uint32_t(i * stride);
+      const CoarseNormal side = map.tree().data(index).side;
+      positions[i] = map.tree().key(index);
+      const DensityEstimate estimate = map.irradiance(positions[i], side.unpack(), settings);
+      for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+        entries[i].irradiance[size_t(lane)] = estimate.value[lane];
+      entries[i].radius_sq = sqr(estimate.radius);
+      entries[i].side = side;
+    }
+  });
+  tree_.assign(std::move(positions), std::move(entries));
+}
+
+bool IrradianceMap::lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance) const {
+  if (empty()) return false;
+  static thread_local KdTree<3, Vec3f, Entry>::Neighbors neighbors;
+  tree_.nearest(
+      position, 1, infinity, [&](uint32_t index) { return tree_.data(index).side.dot(side) > 0; },
+      neighbors);
+  if (neighbors.empty()) return false;
+  const Entry& entry = tree_.data(neighbors.index(0));
+  if (neighbors.distance_sq(0) > entry.radius_sq) return false;
+  irradiance = {entry.irradiance[0], entry.irradiance[1], entry.irradiance[2], entry.irradiance[3]};
+  return true;
+}
+
+}  // namespace kaustik

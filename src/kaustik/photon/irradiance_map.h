@@ -1,0 +1,30 @@
+#pragma once
+#include "kaustik/photon/photon_map.h"
+
+namespace kaustik {
+
+/// Irradiance computed once at the positions of some photons and looked up at the nearest of them
+/// (Christensen, "Faster Photon Map Global Illumination", JGT 1999): what gather rays need, at a
+/// small part of the cost of an estimate at every hit. Immutable.
+class IrradianceMap {
+ public:
+  IrradianceMap() = default;
+  /// At every `stride`-th photon of `map`; in parallel, the same for any number of threads.
+  IrradianceMap(const PhotonMap& map, const EstimateSettings& settings, size_t stride);
+
+  bool empty() const { return tree_.empty(); }
+  size_t size_in_bytes() const { return tree_.size_in_bytes(); }
+  /// Irradiance W/m² at the nearest place on the side `side` (geometric normal); false if there is
+  /// none within the radius that its own estimate spanned.
+  bool lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance) const;
+
+ private:
+  struct Entry {
+    std::array<float, Spectrum::lane_count> irradiance{};
+    float radius_sq = 0;
+    CoarseNormal side;
+  };
+  KdTree<3, Vec3f, Entry> tree_;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "kaustik/base/vec.h"
+
+namespace kaustik {
+
+/// The sides on which photons arrived, in the order of a photon map, packed so that sixteen are
+/// told apart at once: the one answer to "does this photon count here".
+class PhotonSides {
+ public:
+  void reserve(size_t count) { blocks_.reserve((count + block_size - 1) / block_size); }
+  /// The next photon's unit normal on the side of arrival, in parts of 127, and whether that is the
+  /// side of the surface's own normal.
+  void add(int8_t x, int8_t y, int8_t z, bool on_front);
+  size_t size_in_bytes() const { return blocks_.capacity() * sizeof(Block); }
+
+  /// What a query accepts: photons whose side lies in the half space of a geometric normal, or
+  /// (`both_sides`, where light passes through) photons whose surface's own normal does.
+  struct Query {
+    int16_t x, y, z;
+    bool both_sides;
+  };
+  static Query query(const Vec3f& normal, bool both_sides);
+  /// Bit i of the result: bit i of `mask` is set and photon `first` + i counts; `first` + i must
+  /// stay within one run of sixteen.
+  uint32_t accept(const Query& query, uint32_t first, uint32_t mask) const;
+
+ private:
+  static constexpr uint32_t block_size = 16;
+  struct Block {
+    int8_t x[block_size], y[block_size], z[block_size];
+    uint16_t front = 0;
+  };
+  std::vector<Block> blocks_;
+  uint32_t count_ = 0;
+};
+
+}  // namespace kaustik
