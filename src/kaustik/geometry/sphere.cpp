@@ -38,6 +38,9 @@ class Sphere : public Shape {
   SurfacePoint point_at(const Vec3d& unit) const;
   /// 1 − cos of the half angle of the cone that the sphere fills, seen from a point at the given
   /// squared distance of its centre; 0 from inside, where there is no such cone.
+  /// 1 − cos of half the angle that the sphere subtends; 0 where there is no such cone: inside, and
+  /// for all spheres that face inward, which are seen from inside only (a reference on the sphere
+  /// itself would seem to be outside half of the time, by rounding).
   double one_minus_cos(double distance_sq) const;
   std::vector<Bounds3f> surface_cells(int resolution) const;
 
@@ -95,7 +98,7 @@ ShapeSample Sphere::sample_area(const Vec2f& u) const {
 
 double Sphere::one_minus_cos(double distance_sq) const {
   const double sin_sq = radius_ * radius_ / distance_sq;
-  if (!(sin_sq < 1)) return 0;
+  if (side_ < 0 || !(sin_sq < 1)) return 0;
   return sin_sq / (1 + std::sqrt(1 - sin_sq));
 }
 
