@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Checks who includes whom: the rooms of src/kaustik against the table of docs/architecture.md, and each
-# library against the room that owns it. Usage: check_layers.sh [ROOT]; prints FILE:LINE: what is wrong.
+# Checks who includes whom: the rooms of src/kaustik against the table of docs/architecture.md, and
+# each library against the room that owns it. Usage: check_layers.sh [ROOT]; prints FILE:LINE and
+# what is wrong there.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 cd "${1:-$here/..}"
