@@ -6,7 +6,7 @@
 namespace kaustik {
 
 /// What random numbers are drawn for; part of their address.
-enum class Stream : uint32_t { camera, photon_global, photon_caustic, light_path, cache, training };
+enum class Stream : uint32_t { camera, photon_global, photon_caustic, photon_place, light_path, cache, training };
 
 /// 64-bit mix of two values (the finaliser of splitmix64); the base of every address.
 constexpr uint64_t hash_mix(uint64_t a, uint64_t b) {

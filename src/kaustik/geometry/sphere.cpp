@@ -37,10 +37,9 @@ class Sphere : public Shape {
  private:
   SurfacePoint point_at(const Vec3d& unit) const;
   /// 1 − cos of the half angle of the cone that the sphere fills, seen from a point at the given
-  /// squared distance of its centre; 0 from inside, where there is no such cone.
-  /// 1 − cos of half the angle that the sphere subtends; 0 where there is no such cone: inside, and
-  /// for all spheres that face inward, which are seen from inside only (a reference on the sphere
-  /// itself would seem to be outside half of the time, by rounding).
+  /// squared distance of its centre; 0 where there is no such cone: from inside, and for all spheres
+  /// that face inward, which are seen from inside only (a point on the sphere itself would seem to
+  /// be outside half of the time, by rounding).
   double one_minus_cos(double distance_sq) const;
   std::vector<Bounds3f> surface_cells(int resolution) const;
 

@@ -15,9 +15,8 @@ constexpr int gather_roulette_depth = 4;
 PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
                          const PhotonMaps& maps, const GatherRadii& radii)
     : scene_(scene), settings_(settings), maps_(maps), radii_(radii) {
-  if (settings.precompute_stride > 0)
-    precomputed_ = IrradianceMap(maps.global, at_level(settings.global, radii.global, gather_level),
-                                 settings.precompute_stride);
+  precomputed_ = IrradianceMap(maps.global, maps.places,
+                               at_level(settings.global, radii.global, gather_level));
 }
 
 EstimateSettings PhotonLight::at_level(const EstimateSettings& settings, float radius,

@@ -79,17 +79,18 @@ std::vector<Parameter> parameters() {
                        "Constant k of the cone kernel: 1 falls to zero at the edge, larger is "
                        "flatter [causticFilter].")
           .range(1, 1e6),
-      integer_parameter("global_neighbors", 50,
+      integer_parameter("global_neighbors", 10,
                         "Global photons to find [numGlobal]; 0: no diffuse indirect light.")
           .range(0, 100000),
-      integer_parameter("global_photons", 100000,
+      integer_parameter("global_photons", 200000,
                         "Global photons to emit in a pass, over all lights [totalGlobal].")
           .range(0, 2000000000),
       choice_parameter("global_kernel", "constant", {"constant", "cone", "epanechnikov"},
                        "How global photons are weighted by their distance."),
-      integer_parameter("precompute_stride", 4,
-                        "Gather rays look up irradiance that is computed beforehand at every n-th "
-                        "global photon; 0: they estimate it where they hit.")
+      integer_parameter(
+          "precompute_stride", 4,
+          "Gather rays look up irradiance that is computed beforehand at one place for "
+          "so many global photons; 0: they estimate it where they hit.")
           .range(0, 1000000),
       number_parameter("minimum_radiance", 0,
                        "Least visible radiance: bounds the search for photons [minRadiance]; 0: no "
@@ -160,7 +161,7 @@ std::vector<Parameter> parameters() {
       number_parameter("cache_maximum_spacing", 40, "Greatest reach of a record.")
           .range(1, 1e6)
           .in("pixels"),
-      integer_parameter("samples_per_pass", 8, "Camera samples per pixel and pass.")
+      integer_parameter("samples_per_pass", 16, "Camera samples per pixel and pass.")
           .range(1, 65536),
   };
 }
@@ -194,7 +195,7 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   caustic.cone_constant = read.number("caustic_filter");
   global.neighbors = int(read.integer("global_neighbors"));
   global.kernel = kernel_from(read.text("global_kernel"));
-  precompute_stride = size_t(read.integer("precompute_stride"));
+  light_pass.place_stride = uint32_t(read.integer("precompute_stride"));
   minimum_radiance = read.number("minimum_radiance");
   caustic_radius = read.number("caustic_radius");
   global_radius = read.number("global_radius");

@@ -20,7 +20,6 @@ struct PhotonMapSettings {
   ComponentSet components = ComponentSet::all();
   LightPassSettings light_pass;
   EstimateSettings caustic, global;
-  size_t precompute_stride = 0;  ///< of the irradiance that gather rays look up; 0: none
   float minimum_radiance = 0;
   float caustic_radius = 0, global_radius = 0;  ///< cap of pass 0, m; 0: from the photons
 

@@ -2,22 +2,20 @@
 
 namespace kaustik {
 
-IrradianceMap::IrradianceMap(const PhotonMap& map, const EstimateSettings& settings,
-                             size_t stride) {
+IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide>& places,
+                             const EstimateSettings& settings) {
   if (map.empty() || settings.neighbors <= 0) return;
-  const size_t count = (map.size() + stride - 1) / stride;
-  std::vector<Vec3f> positions(count);
-  std::vector<Entry> entries(count);
-  parallel_blocks(count, 256, [&](size_t begin, size_t end, size_t) {
+  std::vector<Vec3f> positions(places.size());
+  std::vector<Entry> entries(places.size());
+  parallel_blocks(places.size(), 256, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
-      const auto index = uint32_t(i * stride);
-      const CoarseNormal side = map.tree().data(index).side;
-      positions[i] = map.tree().key(index);
-      const DensityEstimate estimate = map.irradiance(positions[i], side.unpack(), settings);
+      positions[i] = places[i].position;
+      const DensityEstimate estimate =
+          map.irradiance(positions[i], places[i].side.unpack(), settings);
       for (int lane = 0; lane < Spectrum::lane_count; ++lane)
         entries[i].irradiance[size_t(lane)] = estimate.value[lane];
       entries[i].radius_sq = sqr(estimate.radius);
-      entries[i].side = side;
+      entries[i].side = places[i].side;
     }
   });
   tree_.assign(std::move(positions), std::move(entries));

@@ -3,14 +3,23 @@
 
 namespace kaustik {
 
-/// Irradiance computed once at the positions of some photons and looked up at the nearest of them
-/// (Christensen, "Faster Photon Map Global Illumination", JGT 1999): what gather rays need, at a
-/// small part of the cost of an estimate at every hit. Immutable.
+/// A place on a surface, and on which side of it.
+struct SurfaceSide {
+  Vec3f position;
+  CoarseNormal side;
+};
+
+/// Irradiance computed once at many places and looked up at the nearest of them (Christensen,
+/// "Faster Photon Map Global Illumination", JGT 1999): what gather rays need, at a small part of
+/// the cost of an estimate at every hit. The places must not be the map's own photons: the nearest
+/// of those to a given point tend to be those in sparse surroundings, which made the light 2 % too
+/// dark. Immutable.
 class IrradianceMap {
  public:
   IrradianceMap() = default;
-  /// At every `stride`-th photon of `map`; in parallel, the same for any number of threads.
-  IrradianceMap(const PhotonMap& map, const EstimateSettings& settings, size_t stride);
+  /// In parallel, the same for any number of threads.
+  IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide>& places,
+                const EstimateSettings& settings);
 
   bool empty() const { return tree_.empty(); }
   size_t size_in_bytes() const { return tree_.size_in_bytes(); }

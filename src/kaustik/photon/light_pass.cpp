@@ -205,6 +205,20 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
   }
 }
 
+std::vector<SurfaceSide> LightPass::trace_places(uint64_t seed, uint32_t index,
+                                                 std::stop_token stop) const {
+  if (settings_.place_stride == 0) return {};
+  std::vector<uint32_t> shares = global_shares_;
+  for (uint32_t& share : shares) share /= settings_.place_stride;
+  Deposits deposits;
+  trace_kind(Kind::global, shares, seed, index, Stream::photon_place, stop, deposits);
+  std::vector<SurfaceSide> places;
+  places.reserve(deposits.global.photons.size());
+  for (size_t i = 0; i < deposits.global.photons.size(); ++i)
+    places.push_back({deposits.global.positions[i], deposits.global.photons[i].side});
+  return places;
+}
+
 PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop) const {
   const auto start = std::chrono::steady_clock::now();
   Deposits caustic, global;
@@ -213,6 +227,7 @@ PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop)
   global.global.append(caustic.global);
   caustic.report.target_count = target_count_;
   PhotonMaps maps;
+  maps.places = trace_places(seed, index, stop);
   maps.global_report = std::move(global.report);
   maps.caustic_report = std::move(caustic.report);
   maps.trace_seconds = seconds_since(start);

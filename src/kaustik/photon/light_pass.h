@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kaustik/photon/emission.h"
+#include "kaustik/photon/irradiance_map.h"
 #include "kaustik/photon/photon_map.h"
 #include "kaustik/transport/light_path.h"
 
@@ -17,7 +18,10 @@ struct LightPassSettings {
   Lobes traced = Lobes::specular;  ///< lobes whose events count as specular (G)
   bool reradiate = false;          ///< caustic photons go on as global ones
   bool aim = true;                 ///< caustic photons are aimed at specular objects
-  int target_budget = 128;         ///< boxes that these are divided into for aiming
+  /// One place where global photons land, for looking up irradiance, for so many global photons;
+  /// 0: none.
+  uint32_t place_stride = 0;
+  int target_budget = 128;  ///< boxes that these are divided into for aiming
 };
 
 /// What became of the photons of one light.
@@ -43,6 +47,7 @@ struct MapReport {
 /// The maps of one pass.
 struct PhotonMaps {
   PhotonMap global, caustic;
+  std::vector<SurfaceSide> places;  ///< where other global photons landed
   MapReport global_report, caustic_report;
   double trace_seconds = 0, build_seconds = 0;
 };
@@ -71,6 +76,7 @@ class LightPass {
   enum class Kind { global, caustic };
   void trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint64_t seed, uint32_t index,
                   Stream stream, std::stop_token stop, Deposits& deposits) const;
+  std::vector<SurfaceSide> trace_places(uint64_t seed, uint32_t index, std::stop_token stop) const;
   std::vector<uint32_t> train(Kind kind, uint32_t total, uint64_t seed) const;
 
   const Scene& scene_;

@@ -2,7 +2,7 @@
 //   magic (8 bytes), byte order mark (u32), version (u32),
 //   scene and fingerprint (each: u64 length, bytes), seed (u64),
 //   settings: global_photons, caustic_photons (u32), maximum_events (i32), traced, reradiate, aim
-//   (u8 each), target_budget (i32), trace_seconds, build_seconds (f64),
+//   (u8 each), target_budget (i32),
 //   twice (global, caustic): report: rays, target_count, number of lights (u64), per light the
 //   seven counts (six u64, one f64); number of photons n (u64), n × position (3 × f32),
 //   n × Photon (28 bytes),
@@ -101,8 +101,6 @@ class Reader {
     photons.fingerprint = get_text();
     photons.seed = get<uint64_t>();
     photons.settings = get_settings();
-    photons.maps.trace_seconds = get<double>();
-    photons.maps.build_seconds = get<double>();
     photons.maps.global = get_map(photons.maps.global_report);
     photons.maps.caustic = get_map(photons.maps.caustic_report);
     if (!rest_.empty()) damaged("something follows its end");
@@ -252,8 +250,6 @@ void write_photon_file(const std::string& path, const StoredPhotons& photons) {
   writer.put_text(photons.fingerprint);
   writer.put(photons.seed);
   writer.put_settings(photons.settings);
-  writer.put(photons.maps.trace_seconds);
-  writer.put(photons.maps.build_seconds);
   writer.put_map(photons.maps.global, photons.maps.global_report);
   writer.put_map(photons.maps.caustic, photons.maps.caustic_report);
   writer.put_checksum();

@@ -18,7 +18,8 @@ struct StoredPhotons {
 /// of the lights. The camera makes no difference.
 std::string scene_fingerprint(const Scene& scene);
 
-/// Writes atomically; throws as write_file_atomically() does.
+/// Writes atomically; throws as write_file_atomically() does. The times are left out, so that equal
+/// maps are equal files.
 void write_photon_file(const std::string& path, const StoredPhotons& photons);
 
 /// Throws Error(input) if the file is missing, of another version or byte order, truncated, or
