@@ -1,5 +1,5 @@
-# Kaustik from an empty Debian 12 machine: `make render` and `make test` need a C++ compiler and make,
-# and install the rest. Without this file: cmake --preset release && cmake --build --preset release.
+# Kaustik from an empty Debian 12 machine: `make render` and `make test` need a C++ compiler and
+# make, and install the rest. Without this file: cmake --preset release && cmake --build --preset release.
 
 BUILD = build/release
 PREFIX ?= /usr/local
@@ -7,7 +7,7 @@ program = $(BUILD)/kaustik
 scene = scenes/cornell_box/cornell_box.xml
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test bench install package format clean
+.PHONY: all setup configure build render test bench install package docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -40,6 +40,11 @@ package: configure
 	@scripts/install_packages.sh package
 	@cmake --build --preset release --target kaustik
 	cd $(BUILD) && cpack
+
+# docs/parameters.md, from the tables in the program.
+docs: configure
+	@cmake --build --preset release --target kaustik
+	scripts/make_parameters_page.sh $(program) >docs/parameters.md
 
 format:
 	@scripts/install_packages.sh check

@@ -7,10 +7,11 @@ program=${1:-build/release/kaustik}
 cat <<'END'
 # Parameters of every type
 
-Made by `scripts/make_parameters_page.sh > docs/parameters.md` from the tables in the program; not to be edited. The same is
-printed by `kaustik help TYPE`. In a scene file a parameter is a child of its object, as in
-`<integrator type="photonmap"><integer name="caustic_neighbors" value="200"/></integrator>`; on the command line it is
-`--set integrator.caustic_neighbors=200`, or `--set ID.radius=2` for an object with an id.
+Made by `make docs` from the tables in the program; not to be edited. `kaustik help TYPE` prints the
+same. In a scene file a parameter is a child of its object, as in
+`<integrator type="photonmap"><integer name="caustic_neighbors" value="200"/></integrator>`; on the
+command line it is `--set integrator.caustic_neighbors=200`, or `--set ID.radius=2` for an object
+with an id.
 END
 "$program" help | awk '/^[a-z]+$/ { print }' | while read -r family; do
   printf '\n## %s\n\n```\n' "$family"
