@@ -147,8 +147,8 @@ std::vector<Parameter> parameters() {
           .range(0, 1),
       boolean_parameter("irradiance_cache", true,
                         "Interpolate diffuse indirect light between points where it was gathered."),
-      integer_parameter("cache_samples", 160, "Gather rays per cache record.").range(4, 1000000),
-      number_parameter("cache_quality", 0.2, "Allowed error of the cache: lower is denser.")
+      integer_parameter("cache_samples", 128, "Gather rays per cache record.").range(4, 1000000),
+      number_parameter("cache_quality", 0.25, "Allowed error of the cache: lower is denser.")
           .range(1e-3, 10),
       boolean_parameter("cache_gradients", true, "Interpolate with gradients."),
       boolean_parameter(
@@ -161,7 +161,7 @@ std::vector<Parameter> parameters() {
       number_parameter("cache_maximum_spacing", 40, "Greatest reach of a record.")
           .range(1, 1e6)
           .in("pixels"),
-      integer_parameter("samples_per_pass", 16, "Camera samples per pixel and pass.")
+      integer_parameter("samples_per_pass", 32, "Camera samples per pixel and pass.")
           .range(1, 65536),
   };
 }

@@ -5,6 +5,7 @@ namespace kaustik {
 IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide>& places,
                              const EstimateSettings& settings) {
   if (map.empty() || settings.neighbors <= 0) return;
+  maximum_radius_sq_ = sqr(settings.maximum_radius);
   std::vector<Vec3f> positions(places.size());
   std::vector<Entry> entries(places.size());
   parallel_blocks(places.size(), 256, [&](size_t begin, size_t end, size_t) {
@@ -14,7 +15,6 @@ IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide
           map.irradiance(positions[i], places[i].side.unpack(), settings);
       for (int lane = 0; lane < Spectrum::lane_count; ++lane)
         entries[i].irradiance[size_t(lane)] = estimate.value[lane];
-      entries[i].radius_sq = sqr(estimate.radius);
       entries[i].side = places[i].side;
     }
   });
@@ -29,7 +29,6 @@ bool IrradianceMap::lookup(const Vec3f& position, const Vec3f& side, Spectrum& i
       neighbors);
   if (neighbors.empty()) return false;
   const Entry& entry = tree_.data(neighbors.index(0));
-  if (neighbors.distance_sq(0) > entry.radius_sq) return false;
   irradiance = {entry.irradiance[0], entry.irradiance[1], entry.irradiance[2], entry.irradiance[3]};
   return true;
 }

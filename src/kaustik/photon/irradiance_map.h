@@ -24,16 +24,17 @@ class IrradianceMap {
   bool empty() const { return tree_.empty(); }
   size_t size_in_bytes() const { return tree_.size_in_bytes(); }
   /// Irradiance W/m² at the nearest place on the side `side` (geometric normal); false if there is
-  /// none within the radius that its own estimate spanned.
+  /// none within the maximum radius of the estimates. (Not within the radius of that place's own
+  /// estimate: bright places have small ones, so that would favour dark places.)
   bool lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance) const;
 
  private:
   struct Entry {
     std::array<float, Spectrum::lane_count> irradiance{};
-    float radius_sq = 0;
     CoarseNormal side;
   };
   KdTree<3, Vec3f, Entry> tree_;
+  float maximum_radius_sq_ = 0;
 };
 
 }  // namespace kaustik
