@@ -1,9 +1,9 @@
-#include <csignal>
-#include <new>
-
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <algorithm>
+#include <csignal>
+#include <new>
 
 #include "commands.h"
 #include "kaustik/base/error.h"
@@ -11,6 +11,15 @@
 namespace {
 
 constexpr int exit_system = 1, exit_input = 2;
+
+/// CLI11 would only say that a subcommand is missing.
+void check_command(const std::string& name, const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  if (name.starts_with('-') || std::find(names.begin(), names.end(), name) != names.end()) return;
+  throw kaustik::Error(kaustik::ErrorKind::input, fmt::format("there is no command '{}'", name),
+                       kaustik::suggest(name, names));
+}
 
 int run(int argc, char** argv) {
   CLI::App program{"Kaustik: a photon mapping renderer in physical units.", "kaustik"};
@@ -26,6 +35,7 @@ int run(int argc, char** argv) {
   kaustik::app::add_compare(program);
   kaustik::app::add_photons(program);
   kaustik::app::add_help(program);
+  if (argc > 1) check_command(argv[1], program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -57,6 +57,7 @@ void trace_photons(const PhotonsOptions& options) {
   for (const std::string& warning : scene->warnings()) warn(warning);
 
   const InterruptGuard interrupt;
+  fmt::print(stderr, "tracing photons of {}\n", options.scene);
   TracedPhotons traced =
       trace_photon_maps(description, *scene, options.seed, options.threads, interrupt.token());
   StoredPhotons& stored = traced.photons;

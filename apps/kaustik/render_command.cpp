@@ -87,7 +87,8 @@ void render(RenderOptions options) {
   std::vector<std::string> warnings = scene->warnings();
   const auto integrator = make_integrator(description, *scene, warnings);
   for (const std::string& warning : warnings) warn(warning);
-  if (scene->lights().empty()) warn("the scene has no light: the picture will be black");
+  if (scene->lights().empty())
+    warn("the scene has no light: the picture will be black; add an <emitter> to it");
 
   Session session(*scene, *integrator, settings);
   const InterruptGuard interrupt;
@@ -120,6 +121,9 @@ std::vector<std::pair<std::string, std::string>> parse_definitions(
 
 void add_render(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to image files.");
+  command->footer(
+      "Ctrl-C (SIGINT, SIGTERM) ends the render, writes what is finished and exits with 0; a second "
+      "one ends the program at once.");
   auto options = std::make_shared<RenderOptions>();
   command->add_option("scene", options->scene, "Scene file (Mitsuba XML)")->required();
   command

@@ -18,9 +18,17 @@ std::string line_of_file(const std::string& file, int line) {
   return {};
 }
 
+/// Whether it can be printed: no control characters but tabs and carriage returns.
+bool is_text(const std::string& line) {
+  return std::none_of(line.begin(), line.end(), [](char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return (code < 0x20 && c != '\t' && c != '\r') || code == 0x7f;
+  });
+}
+
 std::string excerpt(const Place& place) {
   const std::string line = line_of_file(*place.file, place.line);
-  if (line.empty()) return {};
+  if (line.empty() || !is_text(line)) return {};
   std::string caret;
   for (int i = 0; i + 1 < place.column && i < int(line.size()); ++i)
     caret += line[size_t(i)] == '\t' ? '\t' : ' ';

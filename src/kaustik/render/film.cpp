@@ -10,15 +10,31 @@ namespace {
 
 constexpr size_t first_hit_lanes = 7;
 
+/// The sums, the pass and the image that is written.
+constexpr int64_t film_bytes_per_pixel =
+    sizeof(Fixed) * (3 * component_count + 3 + first_hit_lanes) + sizeof(PassPixel) +
+    sizeof(float) * (3 * (component_count + 2) + first_hit_lanes);
+
+void check_size(const FilmSettings& settings) {
+  const Vec2i size = settings.crop_size;
+  try {
+    check_image_size(size.x, size.y, film_bytes_per_pixel / int64_t(sizeof(float)));
+  } catch (const Error&) {
+    throw Error(
+        ErrorKind::input,
+        fmt::format("a picture of {} × {} pixels needs {:.0f} GB, more than this machine has",
+                    size.x, size.y,
+                    double(size.x) * double(size.y) * double(film_bytes_per_pixel) / 1e9),
+        "choose a smaller width and height, or render it in parts by the film's crop window",
+        settings.place);
+  }
+}
+
 }  // namespace
 
 Film::Film(const FilmSettings& settings, ComponentSet components)
     : size_(settings.crop_size), components_(components) {
-  // The sums, the pass and the image that is written, in units of four-byte channels.
-  constexpr int64_t bytes_per_pixel =
-      sizeof(Fixed) * (component_count * lanes_ + lanes_ + first_hit_lanes) + sizeof(PassPixel) +
-      4 * (3 * (component_count + 2) + 7);
-  check_image_size(size_.x, size_.y, bytes_per_pixel / 4);
+  check_size(settings);
   const size_t pixels = size_t(size_.x) * size_t(size_.y);
   sums_.resize(pixels * component_count * lanes_);
   squares_.resize(pixels * lanes_);

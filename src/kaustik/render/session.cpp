@@ -21,6 +21,33 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Samples of a pixel that are summed before their sum is added to the others: a float would lose
+/// single ones in a sum of millions. Stop requests are looked at in between.
+constexpr uint32_t samples_per_block = 256;
+
+/// Returns how many components were not finite and left out.
+int add_sample(const SampleSink& sink, PassPixel& sum) {
+  int dropped = 0;
+  for (int c = 0; c < component_count; ++c) {
+    const Spectrum& radiance = sink.radiance(Component(c));
+    if (radiance.is_finite())
+      sum.radiance[size_t(c)] += radiance;
+    else
+      ++dropped;
+  }
+  sum.first_hit.albedo += sink.first_hit().albedo;
+  sum.first_hit.normal += sink.first_hit().normal;
+  sum.first_hit.depth += sink.first_hit().depth;
+  return dropped;
+}
+
+void add_scaled(const PassPixel& pixel, float scale, PassPixel& sum) {
+  for (size_t c = 0; c < size_t(component_count); ++c) sum.radiance[c] += pixel.radiance[c] * scale;
+  sum.first_hit.albedo += pixel.first_hit.albedo * scale;
+  sum.first_hit.normal += pixel.first_hit.normal * scale;
+  sum.first_hit.depth += pixel.first_hit.depth * scale;
+}
+
 /// Resident memory of the program, 0 where the system does not tell.
 size_t resident_bytes() {
   std::ifstream statm("/proc/self/statm");
@@ -179,7 +206,7 @@ bool Session::render_pass(uint32_t index, std::stop_token stop, Monitor& monitor
   if (integrator_.samples_camera() && !stop.stop_requested())
     parallel_blocks(size_t(tiles_.x) * size_t(tiles_.y), 1, [&](size_t tile, size_t, size_t) {
       if (stop.stop_requested()) return;
-      render_tile(pass, *state, int(tile), monitor);
+      render_tile(pass, *state, int(tile), stop, monitor);
     });
   const bool complete = !stop.stop_requested();
   if (!complete && !first) return false;
@@ -189,43 +216,46 @@ bool Session::render_pass(uint32_t index, std::stop_token stop, Monitor& monitor
   return complete;
 }
 
-void Session::render_tile(const Pass& pass, const PassState& state, int tile, Monitor& monitor) {
+void Session::render_tile(const Pass& pass, const PassState& state, int tile,
+                          const std::stop_token& stop, Monitor& monitor) {
   const int x0 = tile % tiles_.x * tile_size, y0 = tile / tiles_.x * tile_size;
   const int x1 = std::min(x0 + tile_size, film_.width());
   const int y1 = std::min(y0 + tile_size, film_.height());
-  const uint32_t replicate = pass.index % replicate_count;
-  const uint32_t first_index = pass.index / replicate_count * pass.samples_per_pixel;
-  const PixelFilter& filter = scene_.film().filter;
-  const float weight = 1.0f / float(pass.samples_per_pixel);
   uint64_t rays = 0;
   for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) {
-      PassPixel& pixel = pixels_[size_t(y) * size_t(film_.width()) + size_t(x)];
-      // The address of a pixel is its place in the whole picture, so a crop window shows the same.
-      const uint64_t address =
-          uint64_t(y + scene_.film().crop_offset.y) * uint64_t(scene_.film().size.x) +
-          uint64_t(x + scene_.film().crop_offset.x);
-      for (uint32_t s = 0; s < pass.samples_per_pixel; ++s) {
-        Sampler sampler =
-            Sampler::at(pass.seed, replicate, Stream::camera, address, first_index + s);
-        const Vec2f offset = filter.sample(sampler.next_2d());
-        SampleSink sink(integrator_.components());
-        integrator_.sample(state, {float(x) + 0.5f + offset.x, float(y) + 0.5f + offset.y}, sampler,
-                           sink);
-        rays += sink.rays();
-        for (int c = 0; c < component_count; ++c) {
-          const Spectrum& radiance = sink.radiance(Component(c));
-          if (radiance.is_finite())
-            pixel.radiance[size_t(c)] += radiance * weight;
-          else
-            ++monitor.dropped;
-        }
-        pixel.first_hit.albedo += sink.first_hit().albedo * weight;
-        pixel.first_hit.normal += sink.first_hit().normal * weight;
-        pixel.first_hit.depth += sink.first_hit().depth * weight;
-      }
-    }
+    for (int x = x0; x < x1 && !stop.stop_requested(); ++x)
+      rays += render_pixel(pass, state, x, y, stop, monitor);
   monitor.tile_done(rays);
+}
+
+uint64_t Session::render_pixel(const Pass& pass, const PassState& state, int x, int y,
+                               const std::stop_token& stop, Monitor& monitor) {
+  // The address of a pixel is its place in the whole picture, so a crop window shows the same.
+  const FilmSettings& film = scene_.film();
+  const uint64_t address =
+      uint64_t(y + film.crop_offset.y) * uint64_t(film.size.x) + uint64_t(x + film.crop_offset.x);
+  const uint32_t replicate = pass.index % replicate_count;
+  const uint32_t first_index = pass.index / replicate_count * pass.samples_per_pixel;
+  uint64_t rays = 0;
+  uint32_t done = 0;
+  PassPixel sum;
+  while (done < pass.samples_per_pixel && !(done > 0 && stop.stop_requested())) {
+    PassPixel block;
+    const uint32_t end = std::min(pass.samples_per_pixel, done + samples_per_block);
+    for (; done < end; ++done) {
+      Sampler sampler =
+          Sampler::at(pass.seed, replicate, Stream::camera, address, first_index + done);
+      const Vec2f offset = film.filter.sample(sampler.next_2d());
+      SampleSink sink(integrator_.components());
+      integrator_.sample(state, {float(x) + 0.5f + offset.x, float(y) + 0.5f + offset.y}, sampler,
+                         sink);
+      rays += sink.rays();
+      monitor.dropped += add_sample(sink, block);
+    }
+    add_scaled(block, 1, sum);
+  }
+  add_scaled(sum, 1.0f / float(done), pixels_[size_t(y) * size_t(film_.width()) + size_t(x)]);
+  return rays;
 }
 
 void Session::add_splats() {

@@ -73,7 +73,11 @@ class Session {
   void plan();
   /// False if it was cancelled midway.
   bool render_pass(uint32_t index, std::stop_token stop, Monitor& monitor);
-  void render_tile(const Pass& pass, const PassState& state, int tile, Monitor& monitor);
+  void render_tile(const Pass& pass, const PassState& state, int tile, const std::stop_token& stop,
+                   Monitor& monitor);
+  /// The mean over the pixel's samples, those before a stop request if there is one. Returns rays.
+  uint64_t render_pixel(const Pass& pass, const PassState& state, int x, int y,
+                        const std::stop_token& stop, Monitor& monitor);
   void add_splats();
 
   const Scene& scene_;

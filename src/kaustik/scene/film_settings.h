@@ -35,6 +35,7 @@ struct FilmSettings {
   Vec2i crop_size{768, 576};  ///< what is rendered
   PixelFilter filter;
   int sample_count = 0;  ///< the scene file's samples per pixel; 0: not given
+  Place place = {};      ///< in the scene file
 };
 
 /// Tables of "hdrfilm", the filters and the samplers.

@@ -43,16 +43,27 @@ std::string display_name(const Object& object) {
   return fmt::format("{} '{}' on line {}", object.family, object.type, object.place.line);
 }
 
+/// Where an object names its file; without one its own place.
+Place file_place(const Arguments& arguments) {
+  return arguments.info().find("filename") ? arguments.place_of("filename") : arguments.place();
+}
+
 }  // namespace
 
 template <typename Body>
-void SceneBuilder::collecting(const Body& body) {
+void SceneBuilder::collecting(const Place& place, const Body& body) {
   try {
     body();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
-    for (const Problem& problem : error.problems())
-      problems_.add(problem.message, problem.remedy, problem.place);
+    for (const Problem& problem : error.problems()) {
+      const bool in_other_file =
+          problem.place.file && place.file && *problem.place.file != *place.file;
+      problems_.add(in_other_file ? fmt::format("{} (named in {}:{}:{})", problem.message,
+                                                *place.file, place.line, place.column)
+                                  : problem.message,
+                    problem.remedy, problem.place.file ? problem.place : place);
+    }
   }
 }
 
@@ -94,7 +105,7 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
     problems_.add("the scene has no camera", "add <sensor type=\"perspective\"> with a to_world",
                   scene.place);
   else
-    collecting([&] { make_sensor(*sensor_); });
+    collecting(sensor_->place, [&] { make_sensor(*sensor_); });
   if (shapes_.empty() && instances_.empty())
     problems_.add("the scene has no shape", "add at least one <shape>", scene.place);
   problems_.throw_if_any();
@@ -172,7 +183,7 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
     static const Object default_bsdf{"bsdf", "diffuse", "", {}, {}, {}};
     built.surface.bsdf = create_bsdf(default_bsdf);
   }
-  collecting([&] { built.shape = type->create(arguments); });
+  collecting(file_place(arguments), [&] { built.shape = type->create(arguments); });
   if (!built.shape || !built.surface.bsdf) return std::nullopt;
   return built;
 }
@@ -230,7 +241,7 @@ std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<
   if (const TextureType* type = find_row(texture_types(), object->type)) {
     refuse_children(*object, {});
     const Arguments arguments = arguments_of(type->info, *object);
-    collecting([&] { texture = type->create(arguments); });
+    collecting(file_place(arguments), [&] { texture = type->create(arguments); });
   } else {
     unknown_type(*object, names_of(texture_types()));
   }
@@ -283,7 +294,7 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
     return make_constant_texture(reflectance_spectrum(arguments.color(name)));
   };
   std::shared_ptr<const Bsdf> bsdf;
-  collecting([&] { bsdf = type->create({arguments, nested, texture}); });
+  collecting(object.place, [&] { bsdf = type->create({arguments, nested, texture}); });
   return bsdf;
 }
 
@@ -330,7 +341,7 @@ void SceneBuilder::make_lights() {
     static const Transform identity;
     const Transform& to_world =
         type->info.find("to_world") ? arguments.transform("to_world") : identity;
-    collecting([&] {
+    collecting(pending.object->place, [&] {
       lights_.push_back(
           type->create({arguments, to_world, pending.shape, pending.shape_index, bounds_}));
     });

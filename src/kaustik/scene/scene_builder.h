@@ -45,9 +45,10 @@ class SceneBuilder {
   Arguments arguments_of(const TypeInfo& info, const Object& object);
   void refuse_children(const Object& object, const std::vector<std::string>& allowed_families);
   void unknown_type(const Object& object, const std::vector<std::string>& valid);
-  /// Runs `body` and turns what it throws into problems.
+  /// Runs `body` and turns what it throws into problems; those without a place get `place`, those
+  /// in another file tell that it was named there.
   template <typename Body>
-  void collecting(const Body& body);
+  void collecting(const Place& place, const Body& body);
 
   Problems problems_;
   std::vector<std::string> warnings_;

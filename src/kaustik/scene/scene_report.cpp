@@ -19,11 +19,20 @@ float largest_albedo(const Bsdf& bsdf) {
   return largest;
 }
 
-/// Distances to what the camera sees, over a grid of the picture; empty where it sees nothing.
+/// What the camera sees, over a grid of the picture.
 struct View {
   int rays = 0, hits = 0;
-  float nearest = infinity;
+  int black_backs = 0;       ///< hits of the unlit inner side of opaque surfaces
+  float nearest = infinity;  ///< of the hits
+  uint32_t nearest_shape = 0;
 };
+
+/// Whether a surface neither reflects nor lets through what comes to its back.
+bool is_black_from_behind(const Surface& surface) {
+  BsdfContext context;
+  context.texture.uv = {0.5f, 0.5f};
+  return surface.bsdf->albedo(context, normalize({0.3f, 0.2f, -1.0f}), Lobes::all).is_zero();
+}
 
 View look_around(const Scene& scene) {
   constexpr int grid = 16;
@@ -33,11 +42,18 @@ View look_around(const Scene& scene) {
     for (int x = 0; x < grid; ++x) {
       const Vec2f raster((float(x) + 0.5f) / grid * float(size.x),
                          (float(y) + 0.5f) / grid * float(size.y));
+      const Ray ray = scene.camera().sample_ray(raster);
       Hit hit;
       ++view.rays;
-      if (!scene.intersect(scene.camera().sample_ray(raster), hit)) continue;
+      if (!scene.intersect(ray, hit)) continue;
       ++view.hits;
-      view.nearest = std::min(view.nearest, hit.t);
+      const SurfacePoint point = scene.tracer().surface_point(ray, hit);
+      if (dot(point.ng, ray.direction) > 0 && is_black_from_behind(scene.surface(point.shape)))
+        ++view.black_backs;
+      if (hit.t < view.nearest) {
+        view.nearest = hit.t;
+        view.nearest_shape = point.shape;
+      }
     }
   return view;
 }
@@ -53,10 +69,16 @@ void describe_view(const Scene& scene, SceneReport& report) {
       fmt::format("picture    {} × {} pixels", scene.film().crop_size.x, scene.film().crop_size.y));
   if (view.hits == 0) report.warnings.push_back("the camera sees nothing: check its to_world");
   const float extent = length(scene.tracer().bounds().max - scene.tracer().bounds().min);
-  if (view.hits == view.rays && view.nearest < 1e-4f * extent)
+  if (view.hits < view.rays) return;
+  const std::string& name = scene.surface(view.nearest_shape).name;
+  if (view.black_backs == view.rays)
     report.warnings.push_back(fmt::format(
-        "the camera stands {:.2g} m from a surface that fills the picture: is it inside a wall?",
-        view.nearest));
+        "the camera sees only back sides, which are black: is it inside a wall ('{}')?", name));
+  else if (view.nearest < 1e-4f * extent)
+    report.warnings.push_back(fmt::format(
+        "the camera stands {:.2g} m from a surface that fills the picture: is it inside a wall "
+        "('{}')?",
+        view.nearest, name));
 }
 
 void describe_lights(const Scene& scene, SceneReport& report) {

@@ -50,6 +50,7 @@ void SceneBuilder::read_film(const Object& object) {
     return;
   }
   const Arguments arguments = arguments_of(film_info(), object);
+  film_.place = object.place;
   film_.size = {int(arguments.integer("width")), int(arguments.integer("height"))};
   film_.crop_offset = {int(arguments.integer("crop_offset_x")),
                        int(arguments.integer("crop_offset_y"))};

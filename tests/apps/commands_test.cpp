@@ -1,0 +1,207 @@
+// What the commands beside `render` make of good input.
+
+#include "kaustik/image/image_io.h"
+#include "kaustik/image/metrics.h"
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/photon/photon_file.h"
+#include "tests/apps/program.h"
+
+namespace kaustik::test {
+namespace {
+
+class Commands : public ProgramTest {
+ protected:
+  Commands() { write("scene.xml", small_scene()); }
+  bool same_pixels(const std::string& a, const std::string& b) const {
+    return compare_images(read_image(path(a)), read_image(path(b))).mse == 0;
+  }
+};
+
+/// The tables of all registries.
+std::vector<const TypeInfo*> registered_types() {
+  std::vector<const TypeInfo*> types = {&Camera::info(), &film_info()};
+  for (const auto& row : integrator_types()) types.push_back(&row.info);
+  for (const auto& row : shape_types()) types.push_back(&row.info);
+  for (const auto& row : bsdf_types()) types.push_back(&row.info);
+  for (const auto& row : texture_types()) types.push_back(&row.info);
+  for (const auto& row : light_types()) types.push_back(&row.info);
+  for (const TypeInfo& info : filter_infos()) types.push_back(&info);
+  for (const TypeInfo& info : sampler_infos()) types.push_back(&info);
+  return types;
+}
+
+TEST_F(Commands, HelpKnowsEveryTypeAndParameter) {
+  const std::string all = run_well({"help"}).out;
+  for (const TypeInfo* info : registered_types()) {
+    SCOPED_TRACE(info->family + " " + info->name);
+    EXPECT_TRUE(contains(all, "  " + info->name + " "));
+    EXPECT_TRUE(contains(all, info->sentence));
+    const std::string text = run_well({"help", info->name}).out;
+    EXPECT_TRUE(contains(text, info->family + " type=\"" + info->name + "\""));
+    for (const Parameter& parameter : info->parameters) {
+      EXPECT_TRUE(contains(text, parameter.name)) << parameter.name;
+      EXPECT_TRUE(parameter.no_effect || contains(text, parameter.sentence)) << parameter.name;
+    }
+  }
+}
+
+TEST_F(Commands, HelpShowsDefaultsRangesAndUnits) {
+  const std::string text = run_well({"help", "photonmap"}).out;
+  EXPECT_TRUE(contains(text, "caustic_neighbors (integer, default 60, 0 … 100000)")) << text;
+  EXPECT_TRUE(contains(text, "One of: constant, cone, epanechnikov")) << text;
+  EXPECT_TRUE(contains(run_well({"help", "rfilter"}).out, "type=\"tent\""));
+  for (const std::string command : {"render", "photons", "compare", "tonemap", "info"})
+    EXPECT_TRUE(contains(run_well({command, "--help"}).out, command));
+  EXPECT_FALSE(run_well({"--version"}).out.empty());
+}
+
+TEST_F(Commands, CompareOfEqualImages) {
+  run_well({"render", "scene.xml", "-q", "--spp", "2", "-o", "a.exr", "-o", "b.exr"});
+  const RunResult result = run_well({"compare", "a.exr", "b.exr", "-o", "difference.png"});
+  EXPECT_TRUE(contains(result.out, "mse                  0\n")) << result.out;
+  EXPECT_TRUE(contains(result.out, "relative_mse         0\n")) << result.out;
+  EXPECT_TRUE(contains(result.out, "mean_ratio           1.000000 1.000000 1.000000"))
+      << result.out;
+  EXPECT_EQ(read_image(path("difference.png")).width(), 24);
+}
+
+TEST_F(Commands, CompareOfDifferentImages) {
+  run_well({"render", "scene.xml", "-q", "--spp", "2", "-o", "a.exr"});
+  run_well({"render", "scene.xml", "-q", "--spp", "2", "-o", "b.exr", "--set",
+            "integrator.components=direct"});
+  const RunResult result = run_well({"compare", "b.exr", "a.exr"});
+  EXPECT_FALSE(contains(result.out, "mse                  0\n")) << result.out;
+  EXPECT_TRUE(contains(result.out, "mean_ratio           0.")) << result.out;
+  run_well({"render", "scene.xml", "-q", "--spp", "2", "-o", "c.exr", "-D", "size=8"});
+  const RunResult sizes = run({"compare", "c.exr", "a.exr"});
+  EXPECT_EQ(sizes.exit_code, 2) << sizes.err;
+  EXPECT_TRUE(contains(sizes.err, "remedy: ")) << sizes.err;
+}
+
+TEST_F(Commands, TonemapMakesThePictureThatRenderMakes) {
+  run_well({"render", "scene.xml", "-q", "--spp", "8", "--float", "-o", "a.exr", "-o", "a.png"});
+  run_well({"tonemap", "a.exr", "-o", "b.png"});
+  EXPECT_TRUE(same_pixels("a.png", "b.png"));
+  run_well({"tonemap", "a.exr", "-o", "c.png", "--operator", "linear", "--exposure", "1"});
+  EXPECT_FALSE(same_pixels("a.png", "c.png"));
+  run_well({"tonemap", "a.exr", "-o", "d.png", "--layer", "direct"});
+  EXPECT_FALSE(same_pixels("a.png", "d.png"));
+  const RunResult unknown = run({"tonemap", "a.exr", "-o", "e.png", "--layer", "drect"});
+  EXPECT_EQ(unknown.exit_code, 2) << unknown.err;
+  EXPECT_TRUE(contains(unknown.err, "direct")) << unknown.err;
+}
+
+TEST_F(Commands, InfoTellsWhatIsThere) {
+  const std::string text = run_well({"info", "scene.xml", "-D", "size=77"}).out;
+  EXPECT_TRUE(contains(text, "shapes     4 (4 triangles, 2 analytic or procedural)")) << text;
+  EXPECT_TRUE(contains(text, "77 × 77 pixels")) << text;
+  EXPECT_TRUE(contains(text, "surface 'lamp', 16.08")) << text;  // 8 π 0.64 W
+  EXPECT_TRUE(contains(text, "field of view 40° × 40°")) << text;
+  EXPECT_FALSE(contains(text, "warning")) << text;
+}
+
+TEST_F(Commands, InfoWarnsOfWhatCannotWork) {
+  const auto warned = [&](const SceneParts& parts, const std::string& warning) {
+    SCOPED_TRACE(warning);
+    write("odd.xml", scene_with(parts));
+    const RunResult result = run_well({"info", "odd.xml"});
+    EXPECT_TRUE(contains(result.out, "warning: ")) << result.out;
+    EXPECT_TRUE(contains(result.out, warning)) << result.out;
+  };
+  warned({"", true, true, false}, "the scene has no light");
+  warned({"<emitter type=\"point\"><rgb name=\"intensity\" value=\"0\"/></emitter>", true, true,
+          false},
+         "has no power");
+  Image bright(2, 2, {"R", "G", "B"});
+  for (int i = 0; i < 12; ++i) bright.at(i / 3 % 2, i / 6, i % 3) = 1.5f;
+  write_image(bright, path("bright.pfm"));
+  warned({"<shape type=\"sphere\" id=\"ball\"><bsdf type=\"diffuse\">"
+          "<texture type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" "
+          "value=\"bright.pfm\"/></texture></bsdf></shape>"},
+         "ball reflects 1.5 times what arrives");
+  warned({"<sensor type=\"perspective\"><transform name=\"to_world\">"
+          "<lookat origin=\"0,0,5\" target=\"0,0,9\" up=\"0,1,0\"/></transform></sensor>",
+          false},
+         "the camera sees nothing");
+  warned(
+      {"<sensor type=\"perspective\"><integer name=\"shutter_open\" value=\"3\"/></sensor>", false},
+      "'shutter_open' of sensor 'perspective' has no effect");
+}
+
+TEST_F(Commands, InfoWarnsOfACameraInAWall) {
+  const auto wall = [&](const std::string& bsdf, double distance) {
+    write("wall.xml",
+          scene_with({"<shape type=\"cube\" id=\"wall\"><transform name=\"to_world\">"
+                      "<scale value=\"" +
+                      std::to_string(distance) + "\"/><translate y=\"-4\" z=\"2\"/></transform>" +
+                      bsdf + "</shape>"}));
+    return run_well({"info", "wall.xml"}).out;
+  };
+  EXPECT_TRUE(contains(wall("", 0.2), "inside a wall")) << wall("", 0.2);
+  EXPECT_TRUE(contains(wall("", 0.2), "'wall'"));
+  EXPECT_FALSE(contains(wall("<bsdf type=\"dielectric\"/>", 0.2), "inside a wall"));
+  EXPECT_FALSE(contains(wall("<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>", 0.2),
+                        "inside a wall"));
+  EXPECT_TRUE(contains(wall("<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>", 1e-5),
+                       "inside a wall"));
+}
+
+TEST_F(Commands, PhotonsTellsWhatBecameOfThem) {
+  const RunResult result =
+      run_well({"photons", "scene.xml", "-o", "map.kpm", "--set", "integrator.caustic_photons=3000",
+                "--set", "integrator.global_photons=5000", "--seed", "4"});
+  const StoredPhotons stored = read_photon_file(path("map.kpm"));
+  EXPECT_EQ(stored.scene, "scene.xml");
+  EXPECT_EQ(stored.seed, 4u);
+  EXPECT_EQ(stored.settings.caustic_photons, 3000u);
+  EXPECT_GT(stored.maps.caustic.size(), 100u);
+  ASSERT_EQ(stored.maps.global_report.lights.size(), 1u);
+  const LightCounts& counts = stored.maps.global_report.lights[0];
+  EXPECT_EQ(counts.emitted, 5000u);
+  EXPECT_EQ(counts.nothing + counts.escaped + counts.absorbed + counts.too_long, 5000u);
+  for (const char* part : {"caustic map: ", "global map: ", "bytes per photon", "emitted", "stored",
+                           "nothing", "escaped", "absorbed", "too long", "0: lamp"})
+    EXPECT_TRUE(contains(result.out, part)) << part << " is missing in\n" << result.out;
+  EXPECT_TRUE(contains(result.out, std::to_string(counts.absorbed))) << result.out;
+}
+
+TEST_F(Commands, PhotonsAreTheSameForAnyNumberOfThreads) {
+  const auto trace = [&](const std::string& threads, const std::string& seed,
+                         const std::string& file) {
+    run_well({"photons", "scene.xml", "--threads", threads, "--seed", seed, "-o", file, "--set",
+              "integrator.caustic_photons=9000"});
+    return contents(file);
+  };
+  const std::string one = trace("1", "1", "a.kpm");
+  EXPECT_TRUE(one == trace("2", "1", "b.kpm"));
+  EXPECT_FALSE(one == trace("2", "2", "c.kpm"));
+}
+
+TEST_F(Commands, PhotonsExplainsEmptyMaps) {
+  write("plain.xml", scene_with({}));
+  const RunResult plain = run_well({"photons", "plain.xml", "-o", "map.kpm"});
+  EXPECT_TRUE(contains(plain.err, "no specular object")) << plain.err;
+  EXPECT_TRUE(contains(plain.err, "the global map is empty: of ")) << plain.err;
+  const RunResult none =
+      run_well({"photons", "scene.xml", "-o", "map.kpm", "--set", "integrator.caustic_photons=0"});
+  EXPECT_TRUE(contains(none.err, "no caustic photons are asked for")) << none.err;
+  write("dark.xml", scene_with({"", true, true, false}));
+  const RunResult dark = run_well({"photons", "dark.xml", "-o", "map.kpm"});
+  EXPECT_TRUE(contains(dark.err, "the scene has no light")) << dark.err;
+  EXPECT_TRUE(read_photon_file(path("map.kpm")).maps.global.empty());
+}
+
+TEST_F(Commands, CtrlCLeavesNoHalfPhotonMap) {
+  RunOptions interrupt;
+  interrupt.interrupt_at = "tracing photons";
+  interrupt.interrupt_delay_s = 0.2;
+  const RunResult result = run(
+      {"photons", "scene.xml", "-o", "map.kpm", "--set", "integrator.caustic_photons=300000000"},
+      interrupt);
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_TRUE(contains(result.err, "cancelled")) << result.err;
+  EXPECT_EQ(files(), (std::vector<std::string>{"scene.xml"}));
+}
+
+}  // namespace
+}  // namespace kaustik::test

@@ -1,0 +1,197 @@
+// What `render` makes of good input.
+
+#include "kaustik/image/image_io.h"
+#include "kaustik/image/metrics.h"
+#include "tests/apps/program.h"
+
+namespace kaustik::test {
+namespace {
+
+constexpr const char* small_photonmap =
+    "<integrator type=\"photonmap\"><integer name=\"global_photons\" value=\"3000\"/>"
+    "<integer name=\"caustic_photons\" value=\"3000\"/>"
+    "<integer name=\"samples_per_pass\" value=\"1\"/>"
+    "<integer name=\"cache_samples\" value=\"32\"/></integrator>";
+
+class Render : public ProgramTest {
+ protected:
+  Render() {
+    write("path.xml", small_scene());
+    write("lighttracer.xml", small_scene("<integrator type=\"lighttracer\"/>"));
+    write("photonmap.xml", small_scene(small_photonmap));
+  }
+  /// Sum of the red channel.
+  double brightness(const std::string& image) const {
+    const Image read = read_image(path(image));
+    double sum = 0;
+    for (int y = 0; y < read.height(); ++y)
+      for (int x = 0; x < read.width(); ++x) sum += read.at(x, y, 0);
+    return sum;
+  }
+  double mse(const std::string& a, const std::string& b) const {
+    return compare_images(read_image(path(a)), read_image(path(b))).mse;
+  }
+};
+
+TEST_F(Render, ThreadsMakeNoDifferenceToTheFiles) {
+  for (const std::string integrator : {"path", "lighttracer", "photonmap"}) {
+    SCOPED_TRACE(integrator);
+    const auto render = [&](const std::string& threads, const std::string& seed,
+                            const std::string& name) {
+      run_well({"render", integrator + ".xml", "-q", "--reproducible", "--passes", "3", "--spp",
+                "6", "--threads", threads, "--seed", seed, "-o", name + ".exr", "-o", name + ".png",
+                "-o", name + ".tif"});
+    };
+    render("1", "5", "one");
+    render("2", "5", "two");
+    render("2", "6", "other");
+    for (const std::string extension : {".exr", ".png", ".tif"}) {
+      EXPECT_FALSE(contents("one" + extension).empty());
+      EXPECT_TRUE(contents("one" + extension) == contents("two" + extension)) << extension;
+      EXPECT_FALSE(contents("one" + extension) == contents("other" + extension)) << extension;
+    }
+    EXPECT_GT(brightness("one.exr"), 0);
+    EXPECT_GT(mse("one.exr", "other.exr"), 0);
+  }
+}
+
+TEST_F(Render, OnlyWithoutReproducibleTheTimeIsWritten) {
+  run_well({"render", "path.xml", "-q", "--spp", "1", "-o", "a.exr"});
+  run_well({"render", "path.xml", "-q", "--spp", "1", "--reproducible", "-o", "b.exr"});
+  EXPECT_NE(read_image(path("a.exr")).find_metadata("render_seconds"), nullptr);
+  EXPECT_EQ(read_image(path("b.exr")).find_metadata("render_seconds"), nullptr);
+}
+
+TEST_F(Render, MetadataSaysHowThePictureCameAbout) {
+  run_well(
+      {"render", "path.xml", "-q", "--passes", "2", "--spp", "6", "--seed", "9", "-o", "a.exr"});
+  const Image image = read_image(path("a.exr"));
+  const auto text = [&](const char* key) {
+    const MetadataValue* value = image.find_metadata(key);
+    const auto* string = value ? std::get_if<std::string>(value) : nullptr;
+    return string ? *string : std::string();
+  };
+  const auto number = [&](const char* key) {
+    const MetadataValue* value = image.find_metadata(key);
+    const auto* integer = value ? std::get_if<int64_t>(value) : nullptr;
+    return integer ? *integer : int64_t{-1};
+  };
+  EXPECT_TRUE(contains(text("software"), "Kaustik "));
+  EXPECT_EQ(text("scene"), "path.xml");
+  EXPECT_EQ(text("integrator"), "path");
+  EXPECT_EQ(number("seed"), 9);
+  EXPECT_EQ(number("passes"), 2);
+  EXPECT_EQ(number("samples_per_pixel"), 6);
+}
+
+TEST_F(Render, DefinitionsAndSettingsChangeTheScene) {
+  run_well({"render", "path.xml", "-q", "--spp", "1", "-o", "a.exr", "-D", "size=10"});
+  EXPECT_EQ(read_image(path("a.exr")).width(), 10);
+  EXPECT_EQ(read_image(path("a.exr")).height(), 10);
+  run_well({"render", "path.xml", "-q", "--spp", "1", "-o", "a.exr", "--set", "film.width=12"});
+  EXPECT_EQ(read_image(path("a.exr")).width(), 12);
+  EXPECT_EQ(read_image(path("a.exr")).height(), 24);
+  run_well({"render", "path.xml", "-q", "--spp", "4", "-o", "a.exr"});
+  run_well({"render", "path.xml", "-q", "--spp", "4", "-o", "b.exr", "--set", "metal.radius=0.1"});
+  EXPECT_GT(mse("a.exr", "b.exr"), 0);
+  run_well({"render", "path.xml", "-q", "--spp", "4", "-o", "b.exr", "--set",
+            "integrator.components=direct"});
+  EXPECT_LT(brightness("b.exr"), 0.9 * brightness("a.exr"));
+}
+
+TEST_F(Render, IntegratorReplacesTheFilesOwn) {
+  run_well({"render", "path.xml", "-q", "--spp", "2", "-o", "a.exr"});
+  run_well({"render", "photonmap.xml", "-q", "--spp", "2", "--integrator", "path", "-o", "b.exr"});
+  EXPECT_EQ(mse("a.exr", "b.exr"), 0);
+  run_well(
+      {"render", "path.xml", "-q", "--spp", "2", "--integrator", "lighttracer", "-o", "c.exr"});
+  EXPECT_GT(mse("a.exr", "c.exr"), 0);
+}
+
+TEST_F(Render, EveryFormatIsWritten) {
+  std::vector<std::string> arguments = {"render", "path.xml", "-q", "--spp", "1"};
+  const std::vector<std::string> formats = {"exr", "hdr", "pfm", "tif", "png", "jpg", "ppm"};
+  for (const std::string& format : formats)
+    arguments.insert(arguments.end(), {"-o", "a." + format});
+  run_well(arguments);
+  for (const std::string& format : formats) EXPECT_EQ(read_image(path("a." + format)).width(), 24);
+}
+
+TEST_F(Render, WithoutOutputTheSceneNamesTheFile) {
+  run_well({"render", "path.xml", "-q", "--spp", "1"});
+  EXPECT_TRUE(exists("path.exr"));
+}
+
+TEST_F(Render, TimeLimitIsKept) {
+  run_well({"render", "path.xml", "-q", "--time", "0.2s", "-o", "a.exr"});
+  EXPECT_GT(brightness("a.exr"), 0);
+}
+
+TEST_F(Render, ProgressTellsPercentPassesAndRays) {
+  const RunResult shown = run_well({"render", "path.xml", "--spp", "2", "-o", "a.exr"});
+  EXPECT_TRUE(contains(shown.err, "100 %")) << shown.err;
+  EXPECT_TRUE(contains(shown.err, "rays/s")) << shown.err;
+  EXPECT_TRUE(contains(shown.err, "wrote a.exr")) << shown.err;
+  EXPECT_EQ(run_well({"render", "path.xml", "-q", "--spp", "2", "-o", "a.exr"}).err, "");
+}
+
+TEST_F(Render, ASceneWithoutLightIsBlackWithAWarning) {
+  write("dark.xml", scene_with({"", true, true, false}));
+  for (const std::string integrator : {"path", "lighttracer", "photonmap"}) {
+    const RunResult result =
+        run_well({"render", "dark.xml", "-q", "--integrator", integrator, "-o", "a.exr"});
+    EXPECT_TRUE(contains(result.err, "no light")) << result.err;
+    EXPECT_TRUE(contains(result.err, "add an <emitter>")) << result.err;
+    EXPECT_EQ(brightness("a.exr"), 0);
+  }
+}
+
+TEST_F(Render, AnEmptyCausticMapIsExplained) {
+  // The mirror is there, but the lamp's light goes the other way.
+  write("away.xml", scene_with({"<shape type=\"sphere\"><point name=\"center\" x=\"0\" y=\"0\" "
+                                "z=\"5\"/><bsdf type=\"conductor\"/></shape>"
+                                "<emitter type=\"spot\"><transform name=\"to_world\">"
+                                "<lookat origin=\"0,0,2\" target=\"0,0,0\" up=\"0,1,0\"/>"
+                                "</transform></emitter>",
+                                true, true, false}));
+  const RunResult result = run_well(
+      {"render", "away.xml", "-q", "--integrator", "photonmap", "--spp", "1", "-o", "a.exr"});
+  EXPECT_TRUE(contains(result.err, "the caustic map is empty")) << result.err;
+}
+
+TEST_F(Render, CtrlCInTheFirstPassWritesWhatIsThere) {
+  RunOptions interrupt;
+  interrupt.interrupt_at = "pass 0";
+  interrupt.interrupt_delay_s = 0.5;
+  write("old.exr", "old");
+  const RunResult result = run(
+      {"render", "path.xml", "--passes", "1", "--spp", "100000000", "-o", "old.exr"}, interrupt);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(contains(result.err, "cancelled: writing what is finished")) << result.err;
+  const Image image = read_image(path("old.exr"));
+  EXPECT_EQ(image.width(), 24);
+  EXPECT_NE(image.find_metadata("incomplete"), nullptr);
+}
+
+TEST_F(Render, CtrlCKeepsTheFinishedPasses) {
+  RunOptions interrupt;
+  interrupt.interrupt_at = "pass 0";
+  interrupt.interrupt_delay_s = 1;
+  for (const std::string integrator : {"path", "lighttracer", "photonmap"}) {
+    SCOPED_TRACE(integrator);
+    const RunResult result = run(
+        {"render", integrator + ".xml", "--passes", "1000000", "--spp", "1000000", "-o", "a.exr"},
+        interrupt);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(contains(result.err, "cancelled")) << result.err;
+    const Image image = read_image(path("a.exr"));
+    EXPECT_EQ(image.find_metadata("incomplete"), nullptr);
+    const MetadataValue* passes = image.find_metadata("passes");
+    ASSERT_NE(passes, nullptr);
+    EXPECT_GT(std::get<int64_t>(*passes), 0);
+    EXPECT_GT(brightness("a.exr"), 0);
+  }
+}
+
+}  // namespace
+}  // namespace kaustik::test
