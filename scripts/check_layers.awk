@@ -97,7 +97,6 @@ BEGIN {
   own("libpng", "^png", "image", not_in_word "png_(structp?|infop?|bytep?)" not_in_word)
   own("libjpeg", "^j(peglib|error|config|morecfg)\\.h", "image", not_in_word "jpeg_[a-z]+_struct")
   own("Embree", "^embree[34]/", "geometry", not_in_word "(RTC[A-Z][A-Za-z]+|rtc[A-Z][A-Za-z]+)")
-  own("tinyobjloader", "^tiny_obj", "geometry", not_in_word "tinyobj::")
   own("Highway", "^hwy/", "photon", not_in_word "hwy::")
   own("pugixml", "^pugi", "loader", not_in_word "pugi::")
   own("CLI11", "^CLI/", "apps", not_in_word "CLI::")
