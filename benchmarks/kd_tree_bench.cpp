@@ -15,12 +15,16 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/report.h"
+#include "benchmarks/shipped_scenes.h"
 #include "kaustik/base/parallel.h"
 #include "kaustik/photon/kd_tree.h"
 
 namespace {
 
 using namespace kaustik;
+using bench::median;
+using bench::report;
 using Tree = KdTree<3, Vec3f, uint32_t>;
 
 constexpr size_t neighbors = 50;
@@ -56,27 +60,20 @@ Cloud uniform_cloud(size_t count) {
   return cloud;
 }
 
-/// The photons of a reflecting ring on a plane: parallel light from one side meets the wall of a
-/// unit cylinder and lands on the floor, where its envelope is a nephroid.
-std::vector<Vec3f> nephroid_photons(size_t count) {
-  std::mt19937 random(2);
-  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
-  std::vector<Vec3f> photons;
-  while (photons.size() < count) {
-    const float y = 2.0f * unit(random) - 1.0f;
-    const float angle = std::asin(y);
-    const Vec3f wall(std::cos(angle), y, 0.0f);
-    const Vec3f direction(-std::cos(2.0f * angle), -std::sin(2.0f * angle), 0.0f);
-    const Vec3f photon = wall + direction * (1.5f * unit(random));
-    if (photon.x * photon.x + photon.y * photon.y < 1.0f) photons.push_back(photon);
-  }
-  return photons;
+/// The first `count` caustic photons of the metal ring, in an order that says nothing.
+std::vector<Vec3f> ring_photons(size_t count) {
+  const PhotonMap map = bench::ring_caustic(count);
+  std::vector<Vec3f> positions;
+  for (uint32_t i = 0; i < map.size(); ++i) positions.push_back(map.tree().key(i));
+  std::shuffle(positions.begin(), positions.end(), std::mt19937(2));
+  positions.resize(count);
+  return positions;
 }
 
 /// Queries are where such a cloud is looked at: at its own points, moved a little in their plane.
 Cloud photon_cloud(std::vector<Vec3f> photons) {
   std::mt19937 random(3);
-  std::normal_distribution<float> jitter(0.0f, 0.002f);
+  std::normal_distribution<float> jitter(0.0f, 0.0002f);  // m; the ring is 0.1 m wide
   Cloud cloud{std::move(photons), {}};
   for (size_t i = 0; i < query_count; ++i) {
     const Vec3f& near = cloud.points[random() % cloud.points.size()];
@@ -98,11 +95,6 @@ double cpu_seconds(const std::function<void()>& work) {
   return double(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 /// Median times of two pieces of work, run in turn.
 std::pair<double, double> compare(const std::function<double()>& seconds_of_ours,
                                   const std::function<double()>& seconds_of_theirs) {
@@ -112,13 +104,6 @@ std::pair<double, double> compare(const std::function<double()>& seconds_of_ours
     theirs.push_back(seconds_of_theirs());
   }
   return {median(ours), median(theirs)};
-}
-
-void report(const std::string& name, double value, const std::string& unit,
-            const std::string& compared_with) {
-  fmt::print(R"({{"name": "{}", "value": {:.3f}, "unit": "{}", "compared_with": "{}"}})"
-             "\n",
-             name, value, unit, compared_with);
 }
 
 std::vector<uint32_t> numbers(size_t count) {
@@ -255,7 +240,7 @@ int main() {
   constexpr size_t count = 1000000;
   const Cloud uniform = uniform_cloud(count);
   const size_t leaf_size = measure_search("knn50_uniform_vs_nanoflann", uniform);
-  measure_search("knn50_caustic_vs_nanoflann", photon_cloud(nephroid_photons(count)));
+  measure_search("knn50_caustic_vs_nanoflann", photon_cloud(ring_photons(count)));
   measure_build(uniform, leaf_size);
   const Tree tree = make_tree(uniform.points);
   report("kdtree_bytes_per_point", double(tree.size_in_bytes()) / double(count) - 4.0, "bytes",

@@ -5,7 +5,7 @@ set -euo pipefail
 
 build=(cmake ninja-build pkg-config libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
   libpng-dev libjpeg62-turbo-dev libhwy-dev libpugixml-dev libcli11-dev libfmt-dev libspdlog-dev
-  libgtest-dev libnanoflann-dev libtinyobjloader-dev)
+  libgtest-dev libnanoflann-dev)
 check=(clang clang-format libclang-rt-14-dev)
 package=(dpkg-dev file)
 bench=(blender)

@@ -382,6 +382,7 @@ SurfacePoint RayTracer::surface_point(const Ray& ray, const Hit& hit) const {
 
 const Shape& RayTracer::shape(uint32_t index) const { return *impl_->records[index].shape; }
 size_t RayTracer::shape_count() const { return impl_->records.size(); }
+const Geometry& RayTracer::geometry() const { return impl_->geometry; }
 Bounds3f RayTracer::bounds() const { return impl_->bounds; }
 size_t RayTracer::size_in_bytes() const { return size_t(std::max<int64_t>(0, impl_->bytes)); }
 void* RayTracer::embree_scene() const { return impl_->scene; }

@@ -41,6 +41,8 @@ class RayTracer {
 
   const Shape& shape(uint32_t index) const;
   size_t shape_count() const;
+  /// What it was made from.
+  const Geometry& geometry() const;
   Bounds3f bounds() const;
   /// Of the acceleration structure, without the shapes themselves.
   size_t size_in_bytes() const;

@@ -161,7 +161,7 @@ std::vector<Parameter> parameters() {
       number_parameter("cache_maximum_spacing", 40, "Greatest reach of a record.")
           .range(1, 1e6)
           .in("pixels"),
-      integer_parameter("samples_per_pass", 32, "Camera samples per pixel and pass.")
+      integer_parameter("samples_per_pass", 16, "Camera samples per pixel and pass.")
           .range(1, 65536),
   };
 }

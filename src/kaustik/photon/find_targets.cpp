@@ -130,33 +130,21 @@ void add_if_wanted(const Scene& scene, size_t index, Lobes lobes, const Transfor
   placed.push_back({&shape, transform, mean_albedo(bsdf, lobes), 0});
 }
 
-/// Whether the ray tracer tells what it was made from, and so where instances stand.
-template <typename Tracer>
-concept TellsInstances = requires(const Tracer& tracer) {
-  tracer.geometry().instances;
-};
-
-template <typename Tracer>
-std::vector<PlacedShape> placed_shapes(const Scene& scene, const Tracer& tracer, Lobes lobes) {
+std::vector<PlacedShape> placed_shapes(const Scene& scene, Lobes lobes) {
   std::vector<PlacedShape> placed;
-  if constexpr (!TellsInstances<Tracer>) {
-    for (size_t i = 0; i < tracer.shape_count(); ++i)
-      add_if_wanted(scene, i, lobes, nullptr, placed);
-  } else {
-    const auto& geometry = tracer.geometry();
-    for (size_t i = 0; i < geometry.shapes.size(); ++i)
-      add_if_wanted(scene, i, lobes, nullptr, placed);
-    std::vector<size_t> first_of_group;
-    size_t next = geometry.shapes.size();
-    for (const auto& group : geometry.groups) {
-      first_of_group.push_back(next);
-      next += group.size();
-    }
-    for (const auto& instance : geometry.instances)
-      for (size_t i = 0; i < geometry.groups[instance.group].size(); ++i)
-        add_if_wanted(scene, first_of_group[instance.group] + i, lobes, &instance.world_from_group,
-                      placed);
+  const Geometry& geometry = scene.tracer().geometry();
+  for (size_t i = 0; i < geometry.shapes.size(); ++i)
+    add_if_wanted(scene, i, lobes, nullptr, placed);
+  std::vector<size_t> first_of_group;
+  size_t next = geometry.shapes.size();
+  for (const auto& group : geometry.groups) {
+    first_of_group.push_back(next);
+    next += group.size();
   }
+  for (const Instance& instance : geometry.instances)
+    for (size_t i = 0; i < geometry.groups[instance.group].size(); ++i)
+      add_if_wanted(scene, first_of_group[instance.group] + i, lobes, &instance.world_from_group,
+                    placed);
   find_radii(placed);
   return placed;
 }
@@ -164,7 +152,7 @@ std::vector<PlacedShape> placed_shapes(const Scene& scene, const Tracer& tracer,
 }  // namespace
 
 std::vector<AimTarget> find_targets(const Scene& scene, Lobes lobes, int budget) {
-  const std::vector<PlacedShape> placed = placed_shapes(scene, scene.tracer(), lobes);
+  const std::vector<PlacedShape> placed = placed_shapes(scene, lobes);
   const auto limit = size_t(std::max(1, budget));
   std::vector<double> sizes;
   double total = 0;
