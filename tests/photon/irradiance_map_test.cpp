@@ -103,6 +103,7 @@ TEST(IrradianceMap, HasTheRightMean) {
 
 TEST(IrradianceMap, KnowsSidesAndItsReach) {
   EstimateSettings settings;
+  settings.maximum_radius = 0.3f;
   const IrradianceMap map(two_sided_map(5000, 3), other_places(5000, 3, 3), settings);
   EXPECT_FALSE(map.empty());
   Spectrum above, below, none;
