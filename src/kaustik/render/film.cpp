@@ -22,9 +22,8 @@ void check_size(const FilmSettings& settings) {
   } catch (const Error&) {
     throw Error(
         ErrorKind::input,
-        fmt::format("a picture of {} × {} pixels needs {:.0f} GB, more than this machine has",
-                    size.x, size.y,
-                    double(size.x) * double(size.y) * double(film_bytes_per_pixel) / 1e9),
+        fmt::format("a picture of {} × {} pixels is too large here: it needs {:.1f} GB", size.x,
+                    size.y, double(size.x) * double(size.y) * double(film_bytes_per_pixel) / 1e9),
         "choose a smaller width and height, or render it in parts by the film's crop window",
         settings.place);
   }

@@ -28,10 +28,12 @@ const TypeInfo& Camera::info() {
        choice_parameter("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"},
                         "What fov is measured along."),
        number_parameter("principal_point_offset_x", 0,
-                        "Shift of the picture's centre, as a share of its width.")
+                        "Where the picture's centre lies right of the optical axis, as a share of "
+                        "its width.")
            .range(-100, 100),
        number_parameter("principal_point_offset_y", 0,
-                        "Shift of the picture's centre, as a share of its height.")
+                        "Where the picture's centre lies below the optical axis, as a share of its "
+                        "height.")
            .range(-100, 100),
        ignored_parameter("near_clip", ParameterKind::number),
        ignored_parameter("far_clip", ParameterKind::number),
@@ -92,8 +94,8 @@ Camera::Camera(const Arguments& arguments, const FilmSettings& film)
 }
 
 Ray Camera::sample_ray(const Vec2f& raster) const {
-  const float sx = (raster.x + crop_offset_.x) / full_size_.x - principal_offset_.x;
-  const float sy = (raster.y + crop_offset_.y) / full_size_.y - principal_offset_.y;
+  const float sx = (raster.x + crop_offset_.x) / full_size_.x + principal_offset_.x;
+  const float sy = (raster.y + crop_offset_.y) / full_size_.y + principal_offset_.y;
   const Vec3f d = forward_ + left_ * ((1 - 2 * sx) * tan_x_) + up_ * ((1 - 2 * sy) * tan_y_);
   return {position_, normalize(d), infinity};
 }
@@ -107,8 +109,8 @@ CameraConnection Camera::connect(const Vec3f& point) const {
   const float cosine = -dot(c.direction, forward_);
   if (!(cosine > 0)) return c;
   const float x = -dot(c.direction, left_) / cosine, y = -dot(c.direction, up_) / cosine;
-  c.raster.x = (0.5f * (1 - x / tan_x_) + principal_offset_.x) * full_size_.x - crop_offset_.x;
-  c.raster.y = (0.5f * (1 - y / tan_y_) + principal_offset_.y) * full_size_.y - crop_offset_.y;
+  c.raster.x = (0.5f * (1 - x / tan_x_) - principal_offset_.x) * full_size_.x - crop_offset_.x;
+  c.raster.y = (0.5f * (1 - y / tan_y_) - principal_offset_.y) * full_size_.y - crop_offset_.y;
   // A margin of the widest filter: splats beyond the edge still reach pixels inside.
   constexpr float margin = 16;
   if (!(c.raster.x > -margin && c.raster.y > -margin && c.raster.x < crop_size_.x + margin &&

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "kaustik/base/color.h"
@@ -41,6 +42,12 @@ const TypeInfo& instance_info() {
 std::string display_name(const Object& object) {
   if (!object.id.empty()) return object.id;
   return fmt::format("{} '{}' on line {}", object.family, object.type, object.place.line);
+}
+
+/// Whether all that must be given was: what is missing has been reported already.
+bool has_all_required(const Arguments& arguments) {
+  return std::all_of(arguments.info().parameters.begin(), arguments.info().parameters.end(),
+                     [&](const Parameter& p) { return !p.required || arguments.has(p.name); });
 }
 
 /// Where an object names its file; without one its own place.
@@ -106,8 +113,11 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
                   scene.place);
   else
     collecting(sensor_->place, [&] { make_sensor(*sensor_); });
-  if (shapes_.empty() && instances_.empty())
-    problems_.add("the scene has no shape", "add at least one <shape>", scene.place);
+  const bool has_shape =
+      std::any_of(scene.children.begin(), scene.children.end(), [](const Child& child) {
+        return child.object->family == "shape" && child.object->type != shapegroup_info().name;
+      });
+  if (!has_shape) problems_.add("the scene has no shape", "add at least one <shape>", scene.place);
   problems_.throw_if_any();
 
   Scene::Parts parts;
@@ -183,6 +193,7 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
     static const Object default_bsdf{"bsdf", "diffuse", "", {}, {}, {}};
     built.surface.bsdf = create_bsdf(default_bsdf);
   }
+  if (!has_all_required(arguments)) return std::nullopt;
   collecting(file_place(arguments), [&] { built.shape = type->create(arguments); });
   if (!built.shape || !built.surface.bsdf) return std::nullopt;
   return built;
@@ -241,7 +252,8 @@ std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<
   if (const TextureType* type = find_row(texture_types(), object->type)) {
     refuse_children(*object, {});
     const Arguments arguments = arguments_of(type->info, *object);
-    collecting(file_place(arguments), [&] { texture = type->create(arguments); });
+    if (has_all_required(arguments))
+      collecting(file_place(arguments), [&] { texture = type->create(arguments); });
   } else {
     unknown_type(*object, names_of(texture_types()));
   }

@@ -1,0 +1,116 @@
+#include "kaustik/base/exact_sum.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <thread>
+#include <vector>
+
+namespace kaustik {
+namespace {
+
+/// Numbers of both signs over 24 orders of magnitude: floats would lose most of them.
+std::vector<double> numbers(size_t count) {
+  std::mt19937_64 generator(3);
+  std::uniform_real_distribution<double> exponent(-12, 12), sign(-1, 1);
+  std::vector<double> values;
+  for (size_t i = 0; i < count; ++i)
+    values.push_back(std::copysign(std::pow(10, exponent(generator)), sign(generator)));
+  return values;
+}
+
+Fixed sum_of(const std::vector<double>& values) {
+  Fixed sum = 0;
+  for (const double value : values) sum += fixed_from(value);
+  return sum;
+}
+
+TEST(ExactSum, KeepsNumbers) {
+  for (const double value : {0.0, 1.0, -1.0, 0.5, -0.75, 1e-18, -1e-18, 123456789.015625, 1e15,
+                             -1e15, 0x1p-64, -0x1p-64})
+    EXPECT_EQ(double_from(fixed_from(value)), value) << value;
+  for (const double value : numbers(10000))
+    EXPECT_NEAR(double_from(fixed_from(value)), value, 0x1p-63 + 1e-15 * std::fabs(value));
+}
+
+TEST(ExactSum, RoundsWhatIsTooSmallDown) {
+  EXPECT_EQ(double_from(fixed_from(0x1p-65)), 0);
+  EXPECT_EQ(double_from(fixed_from(1e-300)), 0);
+}
+
+TEST(ExactSum, CutsWhatIsTooLarge) {
+  EXPECT_EQ(double_from(fixed_from(1e30)), fixed_maximum);
+  EXPECT_EQ(double_from(fixed_from(-1e30)), -fixed_maximum);
+}
+
+TEST(ExactSum, OrderMakesNoDifference) {
+  std::vector<double> values = numbers(10000);
+  const Fixed sum = sum_of(values);
+  double plain = 0;
+  for (const double value : values) plain += value;
+  std::mt19937 generator(4);
+  bool plain_differs = false;
+  for (int i = 0; i < 10; ++i) {
+    std::shuffle(values.begin(), values.end(), generator);
+    EXPECT_TRUE(sum_of(values) == sum);
+    double other = 0;
+    for (const double value : values) other += value;
+    plain_differs = plain_differs || other != plain;
+  }
+  EXPECT_TRUE(plain_differs) << "the numbers are too tame for this test";
+}
+
+TEST(ExactSum, GroupingMakesNoDifference) {
+  const std::vector<double> values = numbers(999);
+  Fixed groups = 0;
+  for (size_t begin = 0; begin < values.size(); begin += 37)
+    groups += sum_of({values.begin() + std::ptrdiff_t(begin),
+                      values.begin() + std::ptrdiff_t(std::min(begin + 37, values.size()))});
+  EXPECT_TRUE(groups == sum_of(values));
+}
+
+TEST(ExactSum, CancelsCompletely) {
+  Fixed sum = 0;
+  const std::vector<double> values = numbers(1000);
+  for (const double value : values) sum += fixed_from(value);
+  for (const double value : values) sum -= fixed_from(value);
+  EXPECT_TRUE(sum == 0);
+}
+
+TEST(AtomicFixed, AddsLikeFixed) {
+  AtomicFixed atomic;
+  for (const double value : numbers(10000)) atomic.add(fixed_from(value));
+  EXPECT_TRUE(atomic.load() == sum_of(numbers(10000)));
+  atomic.clear();
+  EXPECT_TRUE(atomic.load() == 0);
+}
+
+TEST(AtomicFixed, CarriesAndBorrows) {
+  AtomicFixed atomic;
+  atomic.add(fixed_from(0.75));
+  atomic.add(fixed_from(0.75));
+  EXPECT_EQ(double_from(atomic.load()), 1.5);
+  atomic.add(fixed_from(-1.75));
+  EXPECT_EQ(double_from(atomic.load()), -0.25);
+  atomic.add(fixed_from(0.25));
+  EXPECT_TRUE(atomic.load() == 0);
+}
+
+TEST(AtomicFixed, ThreadsMakeNoDifference) {
+  const std::vector<double> values = numbers(20000);
+  const Fixed sum = sum_of(values);
+  for (int round = 0; round < 5; ++round) {
+    AtomicFixed atomic;
+    {
+      std::vector<std::jthread> threads;
+      for (size_t t = 0; t < 4; ++t)
+        threads.emplace_back([&, t] {
+          for (size_t i = t; i < values.size(); i += 4) atomic.add(fixed_from(values[i]));
+        });
+    }
+    EXPECT_TRUE(atomic.load() == sum);
+  }
+}
+
+}  // namespace
+}  // namespace kaustik

@@ -1,0 +1,252 @@
+// From descriptions to scenes: defaults, nesting, sharing, and every way to get it wrong.
+
+#include "tests/scene/scene_support.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+const std::string camera = any_camera;
+const std::string sphere = any_shape;
+
+TEST(BuildScene, Defaults) {
+  const auto scene = scene_of(camera + sphere);
+  EXPECT_EQ(scene->film().size, Vec2i(768, 576));
+  EXPECT_EQ(scene->film().crop_size, Vec2i(768, 576));
+  EXPECT_EQ(scene->film().crop_offset, Vec2i(0, 0));
+  EXPECT_EQ(scene->film().sample_count, 0);
+  EXPECT_FLOAT_EQ(scene->film().filter.radius(), 2.0f);  // Gaussian, 4 × 0.5 pixels
+  EXPECT_EQ(scene->camera().position(), Vec3f(0, 0, 0));
+  EXPECT_TRUE(scene->lights().empty());
+  EXPECT_TRUE(scene->warnings().empty());
+  ASSERT_EQ(scene->surface_count(), 1u);
+  // Without a bsdf a shape is diffuse with reflectance one half, as in Mitsuba.
+  const Surface& surface = scene->surface(0);
+  EXPECT_EQ(surface.light, -1);
+  EXPECT_EQ(surface.bsdf->lobes(), Lobes::diffuse);
+  EXPECT_FLOAT_EQ(surface.bsdf->albedo({}, {0, 0, 1}, Lobes::all)[0], 0.5f);
+}
+
+TEST(BuildScene, FilmFilterAndSampler) {
+  const auto scene = scene_of(
+      "<sensor type=\"perspective\">" +
+      film(100, 50,
+           "<integer name=\"crop_offset_x\" value=\"10\"/><integer name=\"crop_width\" "
+           "value=\"30\"/><integer name=\"crop_offset_y\" value=\"20\"/>"
+           "<rfilter type=\"tent\"><float name=\"radius\" value=\"1.5\"/></rfilter>") +
+      "<sampler type=\"multijitter\"><integer name=\"sample_count\" value=\"64\"/></sampler>"
+      "</sensor>" +
+      sphere);
+  EXPECT_EQ(scene->film().size, Vec2i(100, 50));
+  EXPECT_EQ(scene->film().crop_offset, Vec2i(10, 20));
+  EXPECT_EQ(scene->film().crop_size, Vec2i(30, 30));  // the rest of the height
+  EXPECT_FLOAT_EQ(scene->film().filter.radius(), 1.5f);
+  EXPECT_EQ(scene->film().sample_count, 64);
+  EXPECT_EQ(scene->film().place.line, 2);
+}
+
+TEST(BuildScene, SurfacesAreNamedForMessages) {
+  const auto scene = scene_of(camera + "<shape type=\"cube\" id=\"box\"/>\n" + sphere);
+  EXPECT_EQ(scene->surface(0).name, "box");
+  EXPECT_EQ(scene->surface(1).name, "shape 'sphere' on line 3");
+}
+
+TEST(BuildScene, ReferredBsdfsAreShared) {
+  const auto scene =
+      scene_of(camera + "<bsdf type=\"twosided\" id=\"paint\"><bsdf type=\"diffuse\"/></bsdf>" +
+               "<shape type=\"sphere\"><ref id=\"paint\"/></shape>"
+               "<shape type=\"cube\"><ref id=\"paint\"/></shape><shape type=\"disk\"/>");
+  EXPECT_EQ(scene->surface(0).bsdf, scene->surface(1).bsdf);
+  EXPECT_NE(scene->surface(0).bsdf, scene->surface(2).bsdf);
+}
+
+TEST(BuildScene, LightsKnowTheirShapesAndShapesTheirLights) {
+  const auto scene = scene_of(camera + "<emitter type=\"constant\"/>" + sphere +
+                              "<shape type=\"disk\"><emitter type=\"area\"/></shape>"
+                              "<emitter type=\"point\"/>"
+                              "<shape type=\"cube\"><emitter type=\"area\"/></shape>");
+  ASSERT_EQ(scene->lights().size(), 4u);
+  EXPECT_EQ(scene->surface(0).light, -1);
+  for (uint32_t shape : {1u, 2u}) {
+    const int light = scene->surface(shape).light;
+    ASSERT_GE(light, 0);
+    EXPECT_EQ(scene->lights()[size_t(light)]->shape(), int(shape));
+  }
+  EXPECT_EQ(scene->environment_lights(), std::vector<int>{0});
+}
+
+/// Distance along a ray from (x, 0, -10) along +z; infinite if there is nothing.
+float depth_at(const Scene& scene, float x) {
+  Hit hit;
+  return scene.intersect({{x, 0, -10}, {0, 0, 1}}, hit) ? hit.t : infinity;
+}
+
+TEST(BuildScene, GroupsAppearOnlyWhereTheyAreInstanced) {
+  const std::string group =
+      "<shape type=\"shapegroup\" id=\"pair\">"
+      "<shape type=\"sphere\" id=\"ball\"><bsdf type=\"conductor\"/></shape>"
+      "<shape type=\"sphere\"><point name=\"center\" x=\"4\" y=\"0\" z=\"0\"/></shape></shape>";
+  const auto instance = [](double x, double scale) {
+    return "<shape type=\"instance\"><ref id=\"pair\"/><transform name=\"to_world\"><scale "
+           "value=\"" +
+           std::to_string(scale) + "\"/><translate x=\"" + std::to_string(x) +
+           "\"/></transform></shape>";
+  };
+  const auto scene =
+      scene_of(camera + group + instance(20, 1) + instance(40, 2) + "<shape type=\"cube\"/>");
+  EXPECT_FLOAT_EQ(depth_at(*scene, 0), 9);  // the cube; not the group itself
+  EXPECT_EQ(depth_at(*scene, 4), infinity);
+  EXPECT_FLOAT_EQ(depth_at(*scene, 20), 9);
+  EXPECT_FLOAT_EQ(depth_at(*scene, 24), 9);
+  EXPECT_FLOAT_EQ(depth_at(*scene, 40), 8);
+  EXPECT_FLOAT_EQ(depth_at(*scene, 48), 8);
+  // Both instances share the surfaces of the group.
+  ASSERT_EQ(scene->surface_count(), 3u);
+  for (const float x : {20.0f, 40.0f}) {
+    const Ray ray{{x, 0, -10}, {0, 0, 1}};
+    Hit hit;
+    ASSERT_TRUE(scene->intersect(ray, hit));
+    EXPECT_EQ(scene->surface(scene->tracer().surface_point(ray, hit).shape).name, "ball");
+  }
+  EXPECT_EQ(scene_of(camera + group + sphere)->surface_count(), 1u);
+}
+
+TEST(BuildScene, GroupsThatCannotBe) {
+  const std::string instance = "<shape type=\"instance\"><ref id=\"g\"/></shape>";
+  expect_problem(camera + "\n<shape type=\"shapegroup\" id=\"g\"/>" + instance, "3:1",
+                 "the shape group is empty", "add a shape");
+  expect_problem(camera + "\n<shape type=\"instance\"/>", "3:1",
+                 "an instance needs exactly one shape group", "<ref");
+  expect_problem(camera + "\n<shape type=\"sphere\" id=\"g\"/>" + instance, "3:30",
+                 "an instance needs exactly one shape group", "<ref");
+  expect_problem(camera +
+                     "\n<shape type=\"shapegroup\" id=\"g\">\n<shape type=\"disk\">"
+                     "<emitter type=\"area\"/></shape></shape>" +
+                     instance,
+                 "4:20", "cannot be a light", "shape of its own");
+  expect_problem(camera +
+                     "\n<shape type=\"shapegroup\" id=\"h\"><shape type=\"disk\"/></shape>"
+                     "\n<shape type=\"shapegroup\" id=\"g\">\n<shape type=\"disk\"/>"
+                     "<shape type=\"instance\"><ref id=\"h\"/></shape></shape>" +
+                     instance,
+                 "5:21", "cannot be nested", "one group");
+}
+
+TEST(BuildScene, WhatIsMissing) {
+  expect_problem(sphere, "1:1", "the scene has no camera", "<sensor");
+  expect_problem(camera, "1:1", "the scene has no shape", "<shape>");
+  EXPECT_EQ(problems_of("").size(), 2u);
+  expect_problem(camera + "<shape type=\"ply\"/>", "2:29", "shape 'ply' needs 'filename'");
+}
+
+TEST(BuildScene, WhatIsThereTwice) {
+  expect_problem(camera + "\n" + camera + sphere, "3:1", "second camera", "line 2");
+  expect_problem(
+      "<sensor type=\"perspective\"><film type=\"hdrfilm\"/>\n<film "
+      "type=\"hdrfilm\"/></sensor>" +
+          sphere,
+      "3:1", "second film", "line 2");
+  expect_problem(camera +
+                     "<shape type=\"disk\"><bsdf type=\"diffuse\"/>\n<bsdf "
+                     "type=\"diffuse\"/></shape>",
+                 "3:1", "second bsdf");
+  expect_problem(camera +
+                     "<shape type=\"disk\"><emitter type=\"area\"/>\n<emitter "
+                     "type=\"area\"/></shape>",
+                 "3:1", "second emitter");
+  const Description two =
+      description_of(camera + sphere + "<integrator type=\"path\"/>\n<integrator type=\"path\"/>");
+  EXPECT_THROW(find_integrator(two), Error);
+}
+
+TEST(BuildScene, WhatStandsInTheWrongPlace) {
+  expect_problem(camera + sphere + "\n<film type=\"hdrfilm\"/>", "3:1",
+                 "a film cannot stand at the top", "it may hold");
+  expect_problem(camera + "\n<shape type=\"sphere\"><film type=\"hdrfilm\"/></shape>", "3:22",
+                 "shape 'sphere' cannot hold a film", "bsdf, emitter");
+  expect_problem(camera + sphere + "\n<emitter type=\"area\"/>", "3:1", "stands outside of a shape",
+                 "inside the <shape>");
+  expect_problem(camera + "\n<shape type=\"sphere\"><emitter type=\"point\"/></shape>", "3:22",
+                 "cannot belong to a shape", "at the top");
+  expect_problem(camera + sphere + "\n<float name=\"gamma\" value=\"1\"/>", "3:1",
+                 "the scene has no parameter 'gamma'");
+  expect_problem(camera + sphere + "\n<bsdf type=\"twosided\"/>", "3:1",
+                 "bsdf 'twosided' holds 0 bsdfs", "give it 1");
+  expect_problem(camera + sphere +
+                     "\n<bsdf type=\"diffuse\"><texture type=\"checkerboard\" "
+                     "name=\"reflectanc\"/></bsdf>",
+                 "3:22", "takes no texture 'reflectanc'", "did you mean 'reflectance'?");
+}
+
+TEST(BuildScene, LightsThatCannotShine) {
+  expect_problem(camera + "\n<shape type=\"sdf\"><emitter type=\"area\"/></shape>", "3:19",
+                 "cannot be sampled by area");
+}
+
+TEST(BuildScene, MistakesInUnusedObjectsAreToldToo) {
+  expect_problem(camera + sphere + "\n<bsdf type=\"difuse\"/>", "3:1", "unknown bsdf type",
+                 "did you mean 'diffuse'?");
+  expect_problem(camera + sphere + "\n<texture type=\"bitmp\"/>", "3:1", "unknown texture type",
+                 "did you mean 'bitmap'?");
+}
+
+TEST(BuildScene, AllProblemsAreToldTogether) {
+  const auto problems = problems_of(
+      "<shape type=\"spere\"/>\n<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/>"
+      "<bsdf type=\"difuse\"/></shape>");
+  ASSERT_EQ(problems.size(), 4u);  // and no camera
+  EXPECT_EQ(problems[0].place.line, 2);
+  EXPECT_EQ(problems[1].place.line, 3);
+}
+
+TEST(BuildScene, CropWindowsMustLieInThePicture) {
+  const auto cropped = [](const std::string& name, int value) {
+    return "<sensor type=\"perspective\">\n" +
+           film(64, 48,
+                "<integer name=\"" + name + "\" value=\"" + std::to_string(value) + "\"/>") +
+           "</sensor>" + sphere;
+  };
+  expect_problem(cropped("crop_width", 65), "3:1", "leaves the picture", "64×48");
+  expect_problem(cropped("crop_offset_y", 48), "3:1", "leaves the picture", "64×48");
+  EXPECT_EQ(scene_of(cropped("crop_width", 64))->film().crop_size, Vec2i(64, 48));
+  EXPECT_EQ(scene_of(cropped("crop_offset_y", 47))->film().crop_size, Vec2i(64, 1));
+}
+
+TEST(BuildScene, ParametersWithoutEffectAreReportedOnce) {
+  const std::string odd = "<shape type=\"sphere\"/>";
+  const auto scene = scene_of(
+      "<sensor type=\"perspective\"><float name=\"near_clip\" value=\"0.1\"/>"
+      "<float name=\"far_clip\" value=\"9\"/></sensor>" +
+      odd);
+  ASSERT_EQ(scene->warnings().size(), 2u);
+  EXPECT_EQ(scene->warnings()[0], "'near_clip' of sensor 'perspective' has no effect here");
+}
+
+TEST(BuildScene, ErrorsWithoutAPlaceGetThatOfTheFileName) {
+  expect_problem(
+      camera + "<shape type=\"ply\">\n <string name=\"filename\" value=\"no.ply\"/></shape>", "3:2",
+      "No such file", "check the name");
+}
+
+class CountingObserver final : public RayObserver {
+ public:
+  void on_ray(const Ray&, bool shadow) override { ++(shadow ? shadows : rays); }
+  int rays = 0, shadows = 0;
+};
+
+TEST(BuildScene, ObserversSeeEveryRay) {
+  CountingObserver observer;
+  BuildOptions options;
+  options.observer = &observer;
+  const auto scene = build_scene(description_of(camera + sphere), options);
+  Hit hit;
+  scene->intersect({{0, 0, -9}, {0, 0, 1}}, hit);
+  scene->occluded({{0, 0, -9}, {0, 0, 1}});
+  scene->occluded({{0, 0, -9}, {0, 0, 1}});
+  EXPECT_EQ(observer.rays, 1);
+  EXPECT_EQ(observer.shadows, 2);
+}
+
+}  // namespace
+}  // namespace kaustik

@@ -1,0 +1,100 @@
+// Pixel filters: what is sampled is what is evaluated.
+
+#include "kaustik/scene/film_settings.h"
+
+#include <gtest/gtest.h>
+
+#include "kaustik/base/sampler.h"
+#include "kaustik/base/statistics.h"
+
+namespace kaustik {
+namespace {
+
+#ifdef KAUSTIK_SLOW_BUILD
+constexpr uint32_t sample_count = 20000;
+#else
+constexpr uint32_t sample_count = 200000;
+#endif
+
+struct FilterCase {
+  std::string name;
+  PixelFilter filter;
+};
+
+std::vector<FilterCase> filters() {
+  using Kind = PixelFilter::Kind;
+  return {{"box", {Kind::box, 0.5f, 0}},
+          {"wide box", {Kind::box, 1.7f, 0}},
+          {"tent", {Kind::tent, 1, 0}},
+          {"wide tent", {Kind::tent, 2.5f, 0}},
+          {"gaussian", {Kind::gaussian, 2, 0.5f}},
+          {"cut gaussian", {Kind::gaussian, 1, 0.8f}}};
+}
+
+/// Chi-square of offsets scaled by `scale` against the filter's density, over 24 × 24 cells of a
+/// square a little larger than the filter.
+double p_value(const PixelFilter& filter, float scale) {
+  constexpr int cells = 24, steps = 16;
+  const double side = 2.1 * double(filter.radius()), cell = side / cells;
+  std::vector<double> observed(cells * cells), expected(cells * cells);
+  for (uint32_t i = 0; i < sample_count; ++i) {
+    // Independent points: a stratified sequence would fit too well.
+    const Vec2f offset = filter.sample(Sampler(hash_mix(7, i), 0).next_2d()) * scale;
+    const int x = int((double(offset.x) + side / 2) / cell);
+    const int y = int((double(offset.y) + side / 2) / cell);
+    if (x < 0 || y < 0 || x >= cells || y >= cells) return 0;
+    ++observed[size_t(y * cells + x)];
+  }
+  for (int y = 0; y < cells * steps; ++y)
+    for (int x = 0; x < cells * steps; ++x) {
+      const auto at = [&](int i) { return float((i + 0.5) * cell / steps - side / 2); };
+      expected[size_t(y / steps * cells + x / steps)] +=
+          double(filter.eval({at(x), at(y)})) * cell * cell / (steps * steps);
+    }
+  double mass = 0;
+  for (double& e : expected) {
+    mass += e;
+    e *= sample_count;
+  }
+  EXPECT_NEAR(mass, 1, 0.01) << "the filter is not normalised";
+  for (double& e : expected) e /= mass;
+  return chi_square_p_value(observed, expected);
+}
+
+TEST(PixelFilter, SamplesFollowTheDensity) {
+  for (const FilterCase& c : filters()) EXPECT_GT(p_value(c.filter, 1), 1e-3) << c.name;
+}
+
+// The twin: offsets that are 2 % too wide do not pass.
+TEST(PixelFilter, WrongSamplesWouldBeFound) {
+  for (const FilterCase& c : filters()) EXPECT_LT(p_value(c.filter, 1.02f), 1e-3) << c.name;
+}
+
+TEST(PixelFilter, IntegratesToOne) {
+  for (const FilterCase& c : filters()) {
+    constexpr int steps = 4001;
+    const double side = 2 * double(c.filter.radius());
+    double sum = 0;
+    for (int i = 0; i < steps; ++i)
+      sum += double(c.filter.eval({float((i + 0.5) / steps * side - side / 2), 0}));
+    // Along one axis: the other factor is the density at zero.
+    EXPECT_NEAR(sum * side / steps, std::sqrt(double(c.filter.eval({0, 0}))), 1e-3) << c.name;
+  }
+}
+
+TEST(PixelFilter, EndsAtItsRadius) {
+  for (const FilterCase& c : filters()) {
+    EXPECT_EQ(c.filter.eval({c.filter.radius() * 1.001f, 0}), 0) << c.name;
+    EXPECT_EQ(c.filter.eval({0, -c.filter.radius() * 1.001f}), 0) << c.name;
+    EXPECT_GT(c.filter.eval({c.filter.radius() * 0.99f, 0}), 0) << c.name;
+    for (const float u : {0.0f, 1e-6f, 0.5f, one_minus_epsilon}) {
+      const Vec2f offset = c.filter.sample({u, 1 - u});
+      EXPECT_LE(std::fabs(offset.x), c.filter.radius() * 1.0001f) << c.name;
+      EXPECT_LE(std::fabs(offset.y), c.filter.radius() * 1.0001f) << c.name;
+    }
+    EXPECT_NEAR(c.filter.sample({0.5f, 0.5f}).x, 0, 1e-5) << c.name;
+  }
+}
+
+}  // namespace
+}  // namespace kaustik

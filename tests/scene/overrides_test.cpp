@@ -1,0 +1,110 @@
+#include "kaustik/scene/overrides.h"
+
+#include "tests/scene/scene_support.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+const std::string objects =
+    "<integrator type=\"path\"><integer name=\"max_depth\" value=\"3\"/></integrator>"
+    "<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"width\" value=\"8\"/>"
+    "</film></sensor><bsdf type=\"diffuse\" id=\"white\"/>"
+    "<shape type=\"sphere\" id=\"ball\"><ref id=\"white\"/></shape>"
+    "<shape type=\"cube\"><bsdf type=\"diffuse\" id=\"shaded\">"
+    "<texture type=\"checkerboard\" name=\"reflectance\"/></bsdf></shape>";
+
+std::string refusal(const std::string& assignment) {
+  Description description = description_of(objects);
+  try {
+    override_property(description, assignment);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Overrides, ReplaceWhatTheFileSays) {
+  Description description = description_of(objects);
+  override_property(description, "film.width=20");
+  override_property(description, "film.height=10");
+  override_property(description, "ball.radius=2.5");
+  override_property(description, "ball.center=1, 2, 3");
+  override_property(description, "sensor.fov=30");
+  const auto scene = build_scene(description);
+  EXPECT_EQ(scene->film().size, Vec2i(20, 10));
+  EXPECT_NEAR(scene->camera().horizontal_fov(), 30, 1e-4);
+  EXPECT_NEAR(scene->tracer().shape(0).bounds().max.x, 3.5f, 1e-5f);
+}
+
+TEST(Overrides, TheLastOneCounts) {
+  Description description = description_of(objects);
+  override_property(description, "film.width=20");
+  override_property(description, "film.width=30");
+  EXPECT_EQ(build_scene(description)->film().size.x, 30);
+}
+
+TEST(Overrides, SharedObjectsChangeEverywhere) {
+  Description description = description_of(objects);
+  override_property(description, "white.reflectance=0.25");
+  const auto scene = build_scene(description);
+  EXPECT_FLOAT_EQ(scene->surface(0).bsdf->albedo({}, {0, 0, 1}, Lobes::all)[1], 0.25f);
+}
+
+TEST(Overrides, AValueTakesTheTexturesPlace) {
+  Description description = description_of(objects);
+  override_property(description, "shaded.reflectance=0.1,0.2,0.3");
+  const auto scene = build_scene(description);
+  for (const float u : {0.1f, 0.6f}) {
+    BsdfContext context;
+    context.texture.uv = {u, 0.1f};
+    EXPECT_FLOAT_EQ(scene->surface(1).bsdf->albedo(context, {0, 0, 1}, Lobes::all)[2], 0.3f);
+  }
+}
+
+TEST(Overrides, WhatIsWrong) {
+  EXPECT_NE(refusal("nonsense").find("object.parameter=value"), std::string::npos);
+  EXPECT_NE(refusal(".x=1").find("cannot read"), std::string::npos);
+  EXPECT_NE(refusal("film.=1").find("cannot read"), std::string::npos);
+  EXPECT_NE(refusal("bal.radius=1").find("did you mean 'ball'?"), std::string::npos);
+  EXPECT_NE(refusal("shape.radius=1").find("has 2 objects 'shape'"), std::string::npos);
+  EXPECT_EQ(refusal("ball.radius=a=b"), "");  // the table will tell
+}
+
+TEST(Overrides, WrongValuesAreToldWithTheirOrigin) {
+  Description description = description_of(objects);
+  override_property(description, "ball.radius=-1");
+  override_property(description, "film.width=many");
+  try {
+    build_scene(description);
+    FAIL();
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("command line: --set ball.radius=-1: 'radius' is -1"), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("--set film.width=many: 'width' has the wrong type"), std::string::npos)
+        << text;
+  }
+}
+
+TEST(Overrides, Integrators) {
+  Description description = description_of(objects);
+  override_integrator(description, "path");
+  EXPECT_EQ(find_integrator(description)->properties.size(), 1u);  // stays as it is
+  override_integrator(description, "lighttracer");
+  EXPECT_EQ(find_integrator(description)->type, "lighttracer");
+  EXPECT_TRUE(find_integrator(description)->properties.empty());
+  override_property(description, "integrator.max_depth=5");
+  EXPECT_EQ(find_integrator(description)->properties.size(), 1u);
+
+  Description without = description_of(std::string(any_camera) + any_shape);
+  EXPECT_EQ(find_integrator(without), nullptr);
+  override_property(without, "integrator.caustic_neighbors=5");
+  ASSERT_NE(find_integrator(without), nullptr);
+  EXPECT_EQ(find_integrator(without)->type, "photonmap");
+}
+
+}  // namespace
+}  // namespace kaustik
