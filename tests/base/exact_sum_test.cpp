@@ -26,8 +26,8 @@ Fixed sum_of(const std::vector<double>& values) {
 }
 
 TEST(ExactSum, KeepsNumbers) {
-  for (const double value : {0.0, 1.0, -1.0, 0.5, -0.75, 1e-18, -1e-18, 123456789.015625, 1e15,
-                             -1e15, 0x1p-64, -0x1p-64})
+  for (const double value : {0.0, 1.0, -1.0, 0.5, -0.75, 3 * 0x1p-62, -5 * 0x1p-62,
+                             123456789.015625, 1e15, -1e15, 0x1p-64, -0x1p-64})
     EXPECT_EQ(double_from(fixed_from(value)), value) << value;
   for (const double value : numbers(10000))
     EXPECT_NEAR(double_from(fixed_from(value)), value, 0x1p-63 + 1e-15 * std::fabs(value));

@@ -15,8 +15,8 @@ inline constexpr double fixed_maximum = 9.2e18;
 
 /// `value` must be finite; magnitudes beyond ±9.2e18 are cut there.
 inline Fixed fixed_from(double value) {
+  if (value < 0) return -fixed_from(-value);
   if (value > fixed_maximum) value = fixed_maximum;
-  if (value < -fixed_maximum) value = -fixed_maximum;
   // Exact: a double has 53 bits, so splitting off the integer part loses nothing; fractions below
   // 2^-64 are rounded toward zero.
   const double whole = std::floor(value);
@@ -25,6 +25,7 @@ inline Fixed fixed_from(double value) {
 }
 
 inline double double_from(Fixed value) {
+  if (value < 0) return -double_from(-value);
   return double(int64_t(value >> 64)) + double(uint64_t(value)) * 0x1p-64;
 }
 

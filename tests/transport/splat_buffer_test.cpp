@@ -1,0 +1,152 @@
+#include "kaustik/transport/splat_buffer.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <thread>
+
+namespace kaustik {
+namespace {
+
+constexpr int size = 16;
+
+FilmSettings film_with(PixelFilter::Kind kind, float radius, float stddev = 0) {
+  FilmSettings film;
+  film.size = film.crop_size = {size, size};
+  film.filter = PixelFilter(kind, radius, stddev);
+  return film;
+}
+
+/// Sum over pixels of what one splat of value 1 leaves.
+double total(const FilmSettings& film, const Vec2f& raster) {
+  SplatBuffer buffer(film, ComponentSet::all());
+  buffer.add(raster, Component::direct, Spectrum(1, 1, 1, 0));
+  double sum = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) sum += double(buffer.value(x, y, Component::direct)[1]);
+  return sum;
+}
+
+std::vector<Vec2f> inner_points(uint32_t count) {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<float> uniform(6, 10);
+  std::vector<Vec2f> points;
+  for (uint32_t i = 0; i < count; ++i) points.emplace_back(uniform(generator), uniform(generator));
+  return points;
+}
+
+TEST(SplatBuffer, WeightsOfPartitioningFiltersSumToOne) {
+  for (const FilmSettings& film :
+       {film_with(PixelFilter::Kind::box, 0.5f), film_with(PixelFilter::Kind::box, 1.5f),
+        film_with(PixelFilter::Kind::tent, 1), film_with(PixelFilter::Kind::tent, 2)})
+    for (const Vec2f& point : inner_points(200)) EXPECT_NEAR(total(film, point), 1, 1e-5);
+}
+
+// A Gaussian's samples at integer distances sum to 1 only in the mean over positions; the ripple is
+// 2 exp(−2π²σ²) along each axis (Poisson's sum).
+TEST(SplatBuffer, WeightsOfGaussiansSumToOneInTheMean) {
+  const FilmSettings film = film_with(PixelFilter::Kind::gaussian, 2, 0.5f);
+  constexpr int steps = 32;
+  double sum = 0;
+  for (int y = 0; y < steps; ++y)
+    for (int x = 0; x < steps; ++x) {
+      const double t = total(film, {8 + (float(x) + 0.5f) / steps, 8 + (float(y) + 0.5f) / steps});
+      EXPECT_NEAR(t, 1, 0.033);
+      sum += t;
+    }
+  EXPECT_NEAR(sum / (steps * steps), 1, 1e-4);
+}
+
+TEST(SplatBuffer, WeightsFollowTheFilter) {
+  const FilmSettings film = film_with(PixelFilter::Kind::tent, 1);
+  SplatBuffer buffer(film, ComponentSet::all());
+  buffer.add({5.75f, 3.5f}, Component::caustic, {2, 4, 8, 0});
+  EXPECT_FLOAT_EQ(buffer.value(5, 3, Component::caustic)[0], 2 * 0.75f);
+  EXPECT_FLOAT_EQ(buffer.value(6, 3, Component::caustic)[0], 2 * 0.25f);
+  EXPECT_FLOAT_EQ(buffer.value(5, 3, Component::caustic)[2], 8 * 0.75f);
+  EXPECT_EQ(buffer.value(4, 3, Component::caustic)[0], 0);
+  EXPECT_EQ(buffer.value(5, 3, Component::direct)[0], 0);
+}
+
+TEST(SplatBuffer, EdgesKeepWhatFallsInside) {
+  const FilmSettings film = film_with(PixelFilter::Kind::tent, 1);
+  EXPECT_NEAR(total(film, {0, 8.5f}), 0.5, 1e-6);  // half of it lies beyond the edge
+  EXPECT_NEAR(total(film, {-0.4f, 8.5f}), 0.1, 1e-6);
+  EXPECT_EQ(total(film, {-0.6f, 8.5f}), 0);
+  EXPECT_NEAR(total(film, {float(size), float(size)}), 0.25, 1e-6);
+  for (const float far : {-1e9f, 1e9f}) EXPECT_EQ(total(film, {far, far}), 0);
+}
+
+TEST(SplatBuffer, DropsAndCountsWhatIsNotFinite) {
+  SplatBuffer buffer(film_with(PixelFilter::Kind::box, 0.5f), ComponentSet::all());
+  buffer.add({3.5f, 3.5f}, Component::direct, Spectrum(infinity, 0, 0, 0));
+  buffer.add({3.5f, 3.5f}, Component::direct,
+             Spectrum(0, std::numeric_limits<float>::quiet_NaN(), 0, 0));
+  buffer.add({3.5f, 3.5f}, Component::direct, Spectrum());
+  EXPECT_EQ(buffer.dropped(), 2u);
+  EXPECT_TRUE(buffer.value(3, 3, Component::direct).is_zero());
+  buffer.clear();
+  EXPECT_EQ(buffer.dropped(), 0u);
+}
+
+TEST(SplatBuffer, IgnoresComponentsThatNobodyWants) {
+  ComponentSet wanted;
+  wanted.add(Component::caustic);
+  SplatBuffer buffer(film_with(PixelFilter::Kind::box, 0.5f), wanted);
+  EXPECT_TRUE(buffer.wants(Component::caustic));
+  EXPECT_FALSE(buffer.wants(Component::direct));
+  buffer.add({3.5f, 3.5f}, Component::direct, Spectrum(1));
+  buffer.add({3.5f, 3.5f}, Component::caustic, Spectrum(1));
+  EXPECT_TRUE(buffer.value(3, 3, Component::direct).is_zero());
+  EXPECT_FLOAT_EQ(buffer.value(3, 3, Component::caustic)[0], 1);
+  buffer.clear();
+  EXPECT_TRUE(buffer.value(3, 3, Component::caustic).is_zero());
+}
+
+struct Splat {
+  Vec2f raster;
+  Component component;
+  Spectrum value;
+};
+
+/// Over a wide range of magnitudes, so that the order would show in floats.
+std::vector<Splat> splats(int count) {
+  std::mt19937 generator(6);
+  std::uniform_real_distribution<float> where(-2, size + 2), exponent(-6, 6);
+  std::vector<Splat> list;
+  for (int i = 0; i < count; ++i)
+    list.push_back({{where(generator), where(generator)},
+                    Component(i % component_count),
+                    Spectrum(std::pow(10.0f, exponent(generator)), 1, 1e-7f, 0)});
+  return list;
+}
+
+void expect_same_bits(const SplatBuffer& a, const SplatBuffer& b) {
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x)
+      for (int c = 0; c < component_count; ++c)
+        ASSERT_EQ(a.value(x, y, Component(c)), b.value(x, y, Component(c)));
+}
+
+TEST(SplatBuffer, OrderAndThreadsMakeNoDifference) {
+  const FilmSettings film = film_with(PixelFilter::Kind::gaussian, 2, 0.5f);
+  const std::vector<Splat> list = splats(5000);
+  SplatBuffer forward(film, ComponentSet::all()), backward(film, ComponentSet::all()),
+      parallel(film, ComponentSet::all());
+  for (const Splat& s : list) forward.add(s.raster, s.component, s.value);
+  for (auto s = list.rbegin(); s != list.rend(); ++s)
+    backward.add(s->raster, s->component, s->value);
+  {
+    std::vector<std::jthread> threads;
+    for (size_t t = 0; t < 4; ++t)
+      threads.emplace_back([&, t] {
+        for (size_t i = t; i < list.size(); i += 4)
+          parallel.add(list[i].raster, list[i].component, list[i].value);
+      });
+  }
+  expect_same_bits(forward, backward);
+  expect_same_bits(forward, parallel);
+}
+
+}  // namespace
+}  // namespace kaustik
