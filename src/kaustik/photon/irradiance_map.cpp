@@ -25,8 +25,8 @@ bool IrradianceMap::lookup(const Vec3f& position, const Vec3f& side, Spectrum& i
   if (empty()) return false;
   static thread_local KdTree<3, Vec3f, Entry>::Neighbors neighbors;
   tree_.nearest(
-      position, 1, infinity, [&](uint32_t index) { return tree_.data(index).side.dot(side) > 0; },
-      neighbors);
+      position, 1, maximum_radius_sq_,
+      [&](uint32_t index) { return tree_.data(index).side.dot(side) > 0; }, neighbors);
   if (neighbors.empty()) return false;
   const Entry& entry = tree_.data(neighbors.index(0));
   irradiance = {entry.irradiance[0], entry.irradiance[1], entry.irradiance[2], entry.irradiance[3]};

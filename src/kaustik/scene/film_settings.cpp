@@ -3,6 +3,11 @@
 #include "kaustik/base/warp.h"
 
 namespace kaustik {
+namespace {
+
+constexpr size_t table_cells = 1024;
+
+}  // namespace
 
 PixelFilter::PixelFilter(Kind kind, float radius, float stddev)
     : kind_(kind), radius_(radius), stddev_(stddev) {
@@ -13,6 +18,22 @@ PixelFilter::PixelFilter(Kind kind, float radius, float stddev)
                          std::erf(radius_ / (stddev_ * std::numbers::sqrt2_v<float>)) -
                      2.0f * radius_ * gaussian_offset_;
   gaussian_norm_ = 1.0f / mass;
+  // The distribution function has no closed inverse with the offset.
+  auto table = std::make_shared<Table>();
+  for (size_t i = 0; i <= table_cells; ++i) {
+    const float x = radius_ * (2 * float(i) / float(table_cells) - 1);
+    const float gauss =
+        stddev_ * std::sqrt(0.5f * pi) * std::erf(x / (stddev_ * std::numbers::sqrt2_v<float>));
+    table->cdf.push_back(
+        std::clamp(0.5f + (gauss - x * gaussian_offset_) * gaussian_norm_, 0.0f, 1.0f));
+  }
+  table->cdf.front() = 0;
+  table->cdf.back() = 1;
+  for (size_t i = 0, cell = 0; i < table_cells; ++i) {
+    while (table->cdf[cell + 1] <= float(i) / float(table_cells)) ++cell;
+    table->guide.push_back(uint16_t(cell));
+  }
+  table_ = std::move(table);
 }
 
 float PixelFilter::eval_1d(float x) const {
@@ -38,18 +59,11 @@ float PixelFilter::sample_1d(float u) const {
     case Kind::gaussian:
       break;
   }
-  // Inverts the distribution function by bisection: it has no closed inverse with the offset.
-  const auto cdf = [&](float x) {
-    const float gauss =
-        stddev_ * std::sqrt(0.5f * pi) * std::erf(x / (stddev_ * std::numbers::sqrt2_v<float>));
-    return 0.5f + (gauss - x * gaussian_offset_) * gaussian_norm_;
-  };
-  float low = -radius_, high = radius_;
-  for (int i = 0; i < 24; ++i) {
-    const float middle = 0.5f * (low + high);
-    (cdf(middle) < u ? low : high) = middle;
-  }
-  return 0.5f * (low + high);
+  const std::vector<float>& cdf = table_->cdf;
+  size_t cell = table_->guide[size_t(u * float(table_cells))];
+  while (cell + 1 < table_cells && cdf[cell + 1] <= u) ++cell;
+  const float inside = (u - cdf[cell]) / (cdf[cell + 1] - cdf[cell]);
+  return radius_ * (2 * (float(cell) + inside) / float(table_cells) - 1);
 }
 
 Vec2f PixelFilter::sample(const Vec2f& u) const { return {sample_1d(u.x), sample_1d(u.y)}; }

@@ -1,4 +1,7 @@
 #pragma once
+#include <memory>
+#include <vector>
+
 #include "kaustik/base/parameters.h"
 #include "kaustik/base/vec.h"
 
@@ -26,6 +29,13 @@ class PixelFilter {
   float radius_ = 0.5f;
   float stddev_ = 0.5f;
   float gaussian_offset_ = 0, gaussian_norm_ = 1;
+  /// Of the Gaussian's distribution function: its values at evenly spaced offsets, and for evenly
+  /// spaced values the last of these below.
+  struct Table {
+    std::vector<float> cdf;
+    std::vector<uint16_t> guide;
+  };
+  std::shared_ptr<const Table> table_;
 };
 
 /// Size of the picture and what is recorded.
