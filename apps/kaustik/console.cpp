@@ -23,6 +23,14 @@ void on_interrupt(int signal) {
 
 void warn(const std::string& message) { spdlog::warn(message); }
 
+int usable_threads(int asked) {
+  const int available = int(std::thread::hardware_concurrency());
+  if (available == 0 || asked <= available) return asked;
+  warn(fmt::format("--threads {}: this machine runs {} at a time, so that many are used", asked,
+                   available));
+  return available;
+}
+
 std::string duration_text(double seconds) {
   const auto s = int64_t(seconds + 0.5);
   if (s >= 3600) return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);

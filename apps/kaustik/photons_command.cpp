@@ -58,8 +58,8 @@ void trace_photons(const PhotonsOptions& options) {
 
   const InterruptGuard interrupt;
   fmt::print(stderr, "tracing photons of {}\n", options.scene);
-  TracedPhotons traced =
-      trace_photon_maps(description, *scene, options.seed, options.threads, interrupt.token());
+  TracedPhotons traced = trace_photon_maps(description, *scene, options.seed,
+                                           usable_threads(options.threads), interrupt.token());
   StoredPhotons& stored = traced.photons;
   stored.scene = std::filesystem::path(options.scene).lexically_normal().string();
   write_photon_file(options.output, stored);

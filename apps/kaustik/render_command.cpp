@@ -73,7 +73,7 @@ void render(RenderOptions options) {
   tone_operator_from_name(options.tone);
   SessionSettings settings;
   settings.seed = options.seed;
-  settings.threads = options.threads;
+  settings.threads = usable_threads(options.threads);
   settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;
   if (!options.time.empty()) settings.seconds = parse_duration(options.time);
@@ -122,7 +122,8 @@ std::vector<std::pair<std::string, std::string>> parse_definitions(
 void add_render(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to image files.");
   command->footer(
-      "Ctrl-C (SIGINT, SIGTERM) ends the render, writes what is finished and exits with 0; a second "
+      "Ctrl-C (SIGINT, SIGTERM) ends the render, writes what is finished and exits with 0; a "
+      "second "
       "one ends the program at once.");
   auto options = std::make_shared<RenderOptions>();
   command->add_option("scene", options->scene, "Scene file (Mitsuba XML)")->required();

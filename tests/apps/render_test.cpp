@@ -122,6 +122,13 @@ TEST_F(Render, WithoutOutputTheSceneNamesTheFile) {
   EXPECT_TRUE(exists("path.exr"));
 }
 
+TEST_F(Render, MoreThreadsThanTheMachineHasAreNotUsed) {
+  const RunResult result =
+      run_well({"render", "path.xml", "-q", "--spp", "1", "--threads", "4096", "-o", "a.exr"});
+  EXPECT_TRUE(contains(result.err, "--threads 4096: this machine runs")) << result.err;
+  EXPECT_FALSE(contains(result.err, "TBB")) << result.err;
+}
+
 TEST_F(Render, TimeLimitIsKept) {
   run_well({"render", "path.xml", "-q", "--time", "0.2s", "-o", "a.exr"});
   EXPECT_GT(brightness("a.exr"), 0);

@@ -1,0 +1,159 @@
+// The film: exact sums, means with their errors, layers.
+
+#include "kaustik/render/film.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "kaustik/base/statistics.h"
+#include "kaustik/image/photometry.h"
+
+namespace kaustik {
+namespace {
+
+constexpr int width = 5, height = 4;
+
+FilmSettings film_settings(int w = width, int h = height) {
+  FilmSettings settings;
+  settings.size = settings.crop_size = {w, h};
+  return settings;
+}
+
+/// Made-up passes with values over many orders of magnitude, some negative.
+std::vector<std::vector<PassPixel>> made_up_passes(size_t count) {
+  std::mt19937 generator(1);
+  std::uniform_real_distribution<float> exponent(-8, 5), uniform(-1, 1);
+  std::vector<std::vector<PassPixel>> passes(count, std::vector<PassPixel>(width * height));
+  for (auto& pass : passes)
+    for (PassPixel& pixel : pass) {
+      for (Spectrum& radiance : pixel.radiance)
+        radiance = {std::pow(10.0f, exponent(generator)), uniform(generator) + 0.9f, 0.1f, 0};
+      pixel.first_hit.albedo = {0.5f, 0.25f, 1, 0};
+      pixel.first_hit.normal = {uniform(generator), uniform(generator), 0};
+      pixel.first_hit.depth = std::pow(10.0f, exponent(generator));
+    }
+  return passes;
+}
+
+Film filmed(const std::vector<std::vector<PassPixel>>& passes, const std::vector<uint32_t>& order) {
+  Film film(film_settings(), ComponentSet::all());
+  for (const uint32_t pass : order) film.add_pass(passes[pass], pass);
+  return film;
+}
+
+std::vector<uint32_t> counting(size_t count) {
+  std::vector<uint32_t> order;
+  for (size_t i = 0; i < count; ++i) order.push_back(uint32_t(i));
+  return order;
+}
+
+float value_at(const Image& image, int x, int y, const std::string& channel) {
+  return image.at(x, y, image.find_channel(channel));
+}
+
+TEST(Film, OrderOfThePassesMakesNoDifference) {
+  const auto passes = made_up_passes(20);
+  std::vector<uint32_t> order = counting(passes.size());
+  const Film forward = filmed(passes, order);
+  const Image expected = forward.image();
+  std::mt19937 generator(2);
+  for (int i = 0; i < 5; ++i) {
+    std::shuffle(order.begin(), order.end(), generator);
+    const Film shuffled = filmed(passes, order);
+    const Image image = shuffled.image();
+    for (int c = 0; c < expected.channel_count(); ++c)
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+          ASSERT_EQ(image.at(x, y, c), expected.at(x, y, c)) << expected.channel_names()[size_t(c)];
+    EXPECT_EQ(shuffled.mean_error(), forward.mean_error());
+    EXPECT_EQ(shuffled.relative_noise(), forward.relative_noise());
+  }
+}
+
+TEST(Film, MeansAndErrorsOfThePasses) {
+  const auto passes = made_up_passes(7);
+  const Film film = filmed(passes, counting(passes.size()));
+  EXPECT_EQ(film.pass_count(), 7u);
+  const Image image = film.image();
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      RunningStatistics green, caustic_red, depth;
+      for (const auto& pass : passes) {
+        const PassPixel& pixel = pass[size_t(y * width + x)];
+        double sum = 0;
+        for (const Spectrum& radiance : pixel.radiance) sum += double(radiance[1]);
+        green.add(sum);
+        caustic_red.add(double(pixel.radiance[size_t(Component::caustic)][0]));
+        depth.add(double(pixel.first_hit.depth));
+      }
+      EXPECT_NEAR(value_at(image, x, y, "G"), green.mean(), 1e-5 * std::fabs(green.mean()));
+      EXPECT_NEAR(value_at(image, x, y, "error.G"), green.standard_error(),
+                  1e-4 * green.standard_error());
+      EXPECT_NEAR(value_at(image, x, y, "caustic.R"), caustic_red.mean(),
+                  1e-5 * caustic_red.mean());
+      EXPECT_NEAR(value_at(image, x, y, "depth.Z"), depth.mean(), 1e-5 * depth.mean());
+      EXPECT_FLOAT_EQ(value_at(image, x, y, "albedo.G"), 0.25f);
+      EXPECT_FLOAT_EQ(value_at(image, x, y, "N.Z"), 0);
+    }
+}
+
+TEST(Film, LayersAreThoseOfTheComponents) {
+  ComponentSet set;
+  set.add(Component::caustic);
+  Film film(film_settings(), set);
+  const Image empty = film.image();
+  EXPECT_GE(empty.find_channel("caustic.R"), 0);
+  EXPECT_EQ(empty.find_channel("direct.R"), -1);
+  for (const char* name : {"R", "G", "B", "albedo.R", "N.X", "N.Y", "depth.Z", "error.B"})
+    EXPECT_GE(empty.find_channel(name), 0) << name;
+  for (int c = 0; c < empty.channel_count(); ++c)
+    for (const float value : empty.channel(c)) EXPECT_EQ(value, 0);
+}
+
+/// A pass whose pixels all have this luminance (of grey).
+std::vector<PassPixel> grey_pass(float value) {
+  std::vector<PassPixel> pass(width * height);
+  for (PassPixel& pixel : pass) pixel.radiance[0] = {value, value, value, 0};
+  return pass;
+}
+
+TEST(Film, MeanErrorComesFromTheReplicates) {
+  Film film(film_settings(), ComponentSet::all());
+  EXPECT_TRUE(std::isinf(film.mean_error()));
+  film.add_pass(grey_pass(1), 0);
+  EXPECT_TRUE(std::isinf(film.mean_error()));
+  film.add_pass(grey_pass(3), replicate_count);  // the same replicate again
+  EXPECT_TRUE(std::isinf(film.mean_error()));
+  film.add_pass(grey_pass(4), 1);
+  RunningStatistics means;
+  means.add(2);
+  means.add(4);
+  EXPECT_NEAR(film.mean_error(), means.standard_error() / means.mean(), 1e-6);
+}
+
+TEST(Film, NoiseIsRelative) {
+  Film film(film_settings(), ComponentSet::all());
+  film.add_pass(grey_pass(1), 0);
+  EXPECT_TRUE(std::isinf(film.relative_noise()));
+  film.add_pass(grey_pass(3), 1);
+  // Mean 2, variance of the mean 1.
+  EXPECT_NEAR(film.relative_noise(), std::sqrt(1 / 4.01), 1e-6);
+}
+
+TEST(Film, PicturesTooLargeAreRefusedWithTheirPlace) {
+  FilmSettings settings = film_settings(30000, 30000);
+  settings.place = place_in("scene.xml", 7, 3);
+  try {
+    const Film film(settings, ComponentSet::all());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_EQ(error.problems()[0].place.line, 7);
+    EXPECT_NE(error.problems()[0].message.find("30000 × 30000"), std::string::npos);
+    EXPECT_FALSE(error.problems()[0].remedy.empty());
+  }
+}
+
+}  // namespace
+}  // namespace kaustik

@@ -1,0 +1,453 @@
+// The session: which passes it plans, that they are complete and the same whoever computes them,
+// and how it stops.
+
+#include "kaustik/render/session.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include "kaustik/loader/mitsuba_xml.h"
+
+namespace kaustik {
+namespace {
+
+std::shared_ptr<const Scene> scene_with(const std::string& film, const std::string& objects) {
+  return build_scene(parse_mitsuba_xml(
+      "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"45\"/>"
+      "<transform name=\"to_world\"><lookat origin=\"0,-4,2\" target=\"0,0,0.5\" up=\"0,0,1\"/>"
+      "</transform>" +
+          film + "</sensor>" + objects + "</scene>",
+      "test.xml", ""));
+}
+
+std::string film_of(int width, int height, const std::string& inside = "") {
+  return "<film type=\"hdrfilm\"><integer name=\"width\" value=\"" + std::to_string(width) +
+         "\"/><integer name=\"height\" value=\"" + std::to_string(height) + "\"/>" + inside +
+         "</film>";
+}
+
+constexpr const char* room =
+    "<shape type=\"rectangle\"><transform name=\"to_world\"><scale "
+    "value=\"3\"/></transform></shape>"
+    "<shape type=\"sphere\"><point name=\"center\" x=\"0\" y=\"0\" z=\"0.6\"/>"
+    "<float name=\"radius\" value=\"0.6\"/><bsdf type=\"dielectric\"/></shape>"
+    "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.5\"/>"
+    "<rotate x=\"1\" angle=\"180\"/><translate z=\"3\"/></transform>"
+    "<emitter type=\"area\"><rgb name=\"radiance\" value=\"9\"/></emitter></shape>";
+
+std::shared_ptr<const Scene> plain_scene(int sample_count = 0) {
+  return scene_with(
+      film_of(20, 18) + (sample_count > 0 ? "<sampler type=\"independent\"><integer name=\""
+                                            "sample_count\" value=\"" +
+                                                std::to_string(sample_count) + "\"/></sampler>"
+                                          : std::string()),
+      room);
+}
+
+std::unique_ptr<Integrator> integrator_for(const Scene& scene, const std::string& type,
+                                           const std::string& parameters = "") {
+  std::vector<std::string> warnings;
+  return make_integrator(parse_mitsuba_xml("<scene version=\"3.0.0\"><integrator type=\"" + type +
+                                               "\">" + parameters + "</integrator></scene>",
+                                           "test.xml", ""),
+                         scene, warnings);
+}
+
+/// What a test wants to happen in an integrator.
+struct Script {
+  std::function<void(const Pass&, SplatBuffer&)> prepare = [](const Pass&, SplatBuffer&) {};
+  std::function<void(const Vec2f&, Sampler&, SampleSink&)> sample = [](const Vec2f&, Sampler&,
+                                                                       SampleSink& sink) {
+    sink.add(Component::direct, {1, 2, 3, 0});
+  };
+  bool splats = false;
+  std::vector<std::string> warnings;
+};
+
+class Scripted final : public Integrator {
+ public:
+  explicit Scripted(Script script) : script_(std::move(script)) {}
+  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
+                                     std::stop_token) const override {
+    script_.prepare(pass, splats);
+    auto state = std::make_unique<PassState>();
+    state->report.warnings = script_.warnings;
+    return state;
+  }
+  void sample(const PassState&, const Vec2f& raster, Sampler& sampler,
+              SampleSink& sink) const override {
+    script_.sample(raster, sampler, sink);
+  }
+  bool splats() const override { return script_.splats; }
+
+ private:
+  Script script_;
+};
+
+Image rendered(const Scene& scene, const Integrator& integrator, const SessionSettings& settings) {
+  Session session(scene, integrator, settings);
+  session.run();
+  return session.film().image();
+}
+
+void expect_same_bits(const Image& a, const Image& b) {
+  ASSERT_EQ(a.channel_names(), b.channel_names());
+  for (int c = 0; c < a.channel_count(); ++c)
+    ASSERT_TRUE(std::equal(a.channel(c).begin(), a.channel(c).end(), b.channel(c).begin()))
+        << a.channel_names()[size_t(c)];
+}
+
+TEST(Session, PlansPassesAndSamples) {
+  struct Case {
+    std::optional<uint32_t> passes, samples;
+    int scene_samples;
+    uint32_t expected_passes, expected_samples;
+  };
+  const std::optional<uint32_t> none;
+  // The scripted integrator takes 4 samples per pass where nobody asks for anything.
+  for (const Case& c : {Case{none, none, 0, 16, 4}, Case{3, none, 0, 3, 4}, Case{none, 1, 0, 1, 1},
+                        Case{none, 4, 0, 1, 4}, Case{none, 8, 0, 2, 4}, Case{none, 64, 0, 16, 4},
+                        Case{none, 640, 0, 16, 40}, Case{none, none, 8, 2, 4},
+                        Case{none, 16, 8, 4, 4}, Case{5, none, 10, 5, 2}, Case{2, 6, 0, 2, 3},
+                        Case{8, 2, 0, 2, 1}, Case{none, 7, 0, 2, 4}}) {
+    const auto scene = plain_scene(c.scene_samples);
+    const Scripted integrator{Script()};
+    SessionSettings settings;
+    settings.passes = c.passes;
+    settings.samples_per_pixel = c.samples;
+    Session session(*scene, integrator, settings);
+    const SessionReport report = session.run();
+    EXPECT_EQ(report.passes, c.expected_passes);
+    EXPECT_EQ(report.samples_per_pass, c.expected_samples);
+    EXPECT_EQ(session.film().pass_count(), c.expected_passes);
+    EXPECT_FALSE(report.cancelled);
+  }
+}
+
+TEST(Session, EveryPixelGetsItsSamplesWithinItsFilter) {
+  const auto scene = scene_with(film_of(21, 17, "<rfilter type=\"tent\"/>"), room);
+  std::atomic<int> outside = 0, total = 0;
+  Script script;
+  script.sample = [&](const Vec2f& raster, Sampler&, SampleSink& sink) {
+    ++total;
+    if (raster.x < -0.5f || raster.y < -0.5f || raster.x > 21.5f || raster.y > 17.5f) ++outside;
+    sink.add(Component::direct, {1, 2, 3, 0});
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.passes = 3;
+  settings.samples_per_pixel = 15;
+  const Image image = rendered(*scene, integrator, settings);
+  EXPECT_EQ(total, 15 * 21 * 17);
+  EXPECT_EQ(outside, 0);
+  for (const float value : image.channel(image.find_channel("G"))) EXPECT_FLOAT_EQ(value, 2);
+  for (const float value : image.channel(image.find_channel("direct.B"))) EXPECT_FLOAT_EQ(value, 3);
+  for (const float value : image.channel(image.find_channel("caustic.B"))) EXPECT_EQ(value, 0);
+}
+
+TEST(Session, ManySamplesAreSummedWithoutLoss) {
+  const auto scene = scene_with(film_of(1, 1), room);
+  Script script;
+  script.sample = [](const Vec2f&, Sampler&, SampleSink& sink) {
+    sink.add(Component::direct, Spectrum(0.1f, 0.1f, 0.1f, 0));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.passes = 1;
+  settings.samples_per_pixel = 3000000;
+  const Image image = rendered(*scene, integrator, settings);
+  EXPECT_NEAR(image.at(0, 0, 0), 0.1f, 1e-4f);  // one float sum would be off by 6 %
+}
+
+TEST(Session, ThreadsMakeNoDifference) {
+  const auto scene = plain_scene();
+  for (const char* type : {"path", "lighttracer", "photonmap"}) {
+    SCOPED_TRACE(type);
+    const auto integrator = integrator_for(
+        *scene, type,
+        std::string(type) == "photonmap" ? "<integer name=\"global_photons\" value=\"5000\"/>"
+                                           "<integer name=\"caustic_photons\" value=\"5000\"/>"
+                                         : "");
+    SessionSettings settings;
+    settings.passes = 2;
+    settings.samples_per_pixel = 4;
+    settings.seed = 3;
+    settings.threads = 1;
+    const Image one = rendered(*scene, *integrator, settings);
+    for (const int threads : {2, 0}) {
+      settings.threads = threads;
+      expect_same_bits(rendered(*scene, *integrator, settings), one);
+    }
+    settings.seed = 4;
+    const Image other = rendered(*scene, *integrator, settings);
+    EXPECT_FALSE(
+        std::equal(one.channel(0).begin(), one.channel(0).end(), other.channel(0).begin()));
+  }
+}
+
+TEST(Session, PassesAreTheSameWhoeverComputesThem) {
+  const auto scene = plain_scene();
+  const auto integrator = integrator_for(*scene, "path");
+  const auto passes = [&](uint32_t first, uint32_t count) {
+    SessionSettings settings;
+    settings.first_pass = first;
+    settings.passes = count;
+    settings.samples_per_pixel = 2 * count;
+    return rendered(*scene, *integrator, settings);
+  };
+  const Image all = passes(0, 4), head = passes(0, 3), tail = passes(3, 1);
+  for (int c = 0; c < 3; ++c)
+    for (size_t i = 0; i < all.pixel_count(); ++i)
+      EXPECT_NEAR(all.channel(c)[i], (3 * head.channel(c)[i] + tail.channel(c)[i]) / 4,
+                  1e-6f * all.channel(c)[i] + 1e-9f);
+  EXPECT_FALSE(std::equal(head.channel(0).begin(), head.channel(0).end(), tail.channel(0).begin()));
+}
+
+// A crop window holds what the whole picture holds there. (The raster positions differ in their
+// last bits, so a path now and then takes another turn.)
+TEST(Session, CropWindowsShowTheSamePixels) {
+  const auto whole = scene_with(film_of(40, 36), room);
+  const auto part = scene_with(
+      film_of(
+          40, 36,
+          "<integer name=\"crop_offset_x\" value=\"11\"/><integer name=\"crop_offset_y\" "
+          "value=\"9\"/><integer name=\"crop_width\" value=\"19\"/><integer name=\"crop_height\" "
+          "value=\"22\"/>"),
+      room);
+  SessionSettings settings;
+  settings.passes = 2;
+  settings.samples_per_pixel = 8;
+  const Image full = rendered(*whole, *integrator_for(*whole, "path"), settings);
+  const Image crop = rendered(*part, *integrator_for(*part, "path"), settings);
+  ASSERT_EQ(crop.width(), 19);
+  ASSERT_EQ(crop.height(), 22);
+  int different = 0, lit = 0;
+  for (int y = 0; y < 22; ++y)
+    for (int x = 0; x < 19; ++x) {
+      const float expected = full.at(x + 11, y + 9, 0);
+      lit += expected > 0 ? 1 : 0;
+      different += std::fabs(crop.at(x, y, 0) - expected) > 1e-3f * expected + 1e-6f ? 1 : 0;
+    }
+  EXPECT_GT(lit, 100);
+  EXPECT_LE(different, 19 * 22 / 50);
+}
+
+TEST(Session, CancellingKeepsTheFinishedPasses) {
+  const auto scene = plain_scene();
+  std::stop_source source;
+  Script script;
+  script.prepare = [&](const Pass& pass, SplatBuffer&) {
+    if (pass.index == 3) source.request_stop();
+  };
+  script.sample = [](const Vec2f&, Sampler& sampler, SampleSink& sink) {
+    sink.add(Component::direct, Spectrum(sampler.next_1d(), 0, 0, 0));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.passes = 10;
+  settings.samples_per_pixel = 20;
+  Session session(*scene, integrator, settings);
+  const SessionReport report = session.run(source.get_token());
+  EXPECT_TRUE(report.cancelled);
+  EXPECT_FALSE(report.incomplete_pass);
+  EXPECT_EQ(report.passes, 3u);
+
+  Script calm = script;
+  calm.prepare = [](const Pass&, SplatBuffer&) {};
+  settings.passes = 3;
+  settings.samples_per_pixel = 6;
+  expect_same_bits(session.film().image(), rendered(*scene, Scripted(calm), settings));
+}
+
+TEST(Session, CancellingTheFirstPassLeavesWhatIsThere) {
+  const auto scene = scene_with(film_of(64, 64), room);
+  std::stop_source source;
+  std::atomic<int> samples = 0;
+  Script script;
+  script.sample = [&](const Vec2f&, Sampler&, SampleSink& sink) {
+    if (++samples == 500) source.request_stop();
+    sink.add(Component::direct, Spectrum(1));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.passes = 1;
+  settings.samples_per_pixel = 4;
+  Session session(*scene, integrator, settings);
+  const SessionReport report = session.run(source.get_token());
+  EXPECT_TRUE(report.cancelled);
+  EXPECT_TRUE(report.incomplete_pass);
+  EXPECT_EQ(report.passes, 1u);
+  const Image image = session.film().image();
+  int lit = 0;
+  for (const float value : image.channel(0)) {
+    EXPECT_TRUE(value == 0 || value == 1) << value;
+    lit += value == 1 ? 1 : 0;
+  }
+  EXPECT_GE(lit, 120);
+  EXPECT_LT(lit, 64 * 64);
+}
+
+TEST(Session, APixelOfManySamplesCanBeCancelled) {
+  const auto scene = scene_with(film_of(2, 2), room);
+  std::stop_source source;
+  std::atomic<int> samples = 0;
+  Script script;
+  script.sample = [&](const Vec2f&, Sampler&, SampleSink& sink) {
+    if (++samples == 1000) source.request_stop();
+    sink.add(Component::direct, Spectrum(1));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.passes = 1;
+  settings.samples_per_pixel = 2000000000;
+  Session session(*scene, integrator, settings);
+  session.run(source.get_token());
+  EXPECT_LT(samples, 10000);
+  EXPECT_FLOAT_EQ(session.film().image().at(0, 0, 0), 1);  // the mean of those that were taken
+}
+
+TEST(Session, StopsInTime) {
+  const auto scene = plain_scene();
+  Script script;
+  script.prepare = [](const Pass&, SplatBuffer&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.seconds = 0.3;
+  Session session(*scene, integrator, settings);
+  const SessionReport report = session.run();
+  EXPECT_GE(report.passes, 1u);
+  EXPECT_LE(report.passes, 15u);
+  EXPECT_FALSE(report.cancelled);
+
+  settings.seconds = 1e-6;
+  Session hasty(*scene, integrator, settings);
+  EXPECT_EQ(hasty.run().passes, 1u);  // one pass at least
+
+  settings.seconds = 1000;
+  settings.passes = 2;
+  Session limited(*scene, integrator, settings);
+  EXPECT_EQ(limited.run().passes, 2u);
+}
+
+TEST(Session, TellsItsProgress) {
+  const auto scene = plain_scene();
+  Script script;
+  script.prepare = [](const Pass&, SplatBuffer&) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(120));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.passes = 5;
+  std::mutex mutex;
+  std::vector<Progress> told;
+  Session session(*scene, integrator, settings);
+  session.run({}, [&](const Progress& progress) {
+    ASSERT_TRUE(mutex.try_lock()) << "called from two threads at once";
+    told.push_back(progress);
+    mutex.unlock();
+  });
+  ASSERT_GE(told.size(), 3u);
+  for (size_t i = 1; i < told.size(); ++i) {
+    EXPECT_GE(told[i].fraction, told[i - 1].fraction);
+    EXPECT_GE(told[i].elapsed_s, told[i - 1].elapsed_s);
+    EXPECT_EQ(told[i].passes_total, 5u);
+    EXPECT_GT(told[i].memory_bytes, 0u);
+  }
+  EXPECT_EQ(told.back().stage, Progress::Stage::done);
+  EXPECT_EQ(told.back().fraction, 1);
+  EXPECT_EQ(told.back().passes_done, 5u);
+}
+
+TEST(Session, SamplesThatAreNotFiniteAreCountedAndLeftOut) {
+  const auto scene = plain_scene();
+  Script script;
+  script.sample = [](const Vec2f& raster, Sampler&, SampleSink& sink) {
+    const bool bad = raster.x < 1 && raster.x >= 0 && raster.y < 1 && raster.y >= 0;
+    sink.add(Component::direct, Spectrum(bad ? infinity : 1.0f));
+    sink.add(Component::caustic, Spectrum(2));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.passes = 1;
+  settings.samples_per_pixel = 16;
+  Session session(*scene, integrator, settings);
+  const SessionReport report = session.run();
+  EXPECT_GT(report.dropped_samples, 0u);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].find("not finite"), std::string::npos);
+  const Image image = session.film().image();
+  for (int c = 0; c < 3; ++c)
+    for (const float value : image.channel(c)) EXPECT_TRUE(std::isfinite(value));
+  EXPECT_FLOAT_EQ(image.at(10, 10, 0), 3);
+  EXPECT_FLOAT_EQ(image.at(0, 0, image.find_channel("caustic.R")), 2);
+}
+
+TEST(Session, WarningsAreToldOnce) {
+  const auto scene = plain_scene();
+  Script script;
+  script.warnings = {"the map is empty", "the moon is full"};
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.passes = 4;
+  Session session(*scene, integrator, settings);
+  EXPECT_EQ(session.run().warnings, script.warnings);
+}
+
+TEST(Session, SplatsCountOncePerPass) {
+  const auto scene = scene_with(film_of(8, 8, "<rfilter type=\"box\"/>"), room);
+  Script script;
+  script.splats = true;
+  script.prepare = [](const Pass& pass, SplatBuffer& splats) {
+    splats.add({3.5f, 4.5f}, Component::caustic, Spectrum(float(pass.index + 1)));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.passes = 3;
+  const Image image = rendered(*scene, integrator, settings);
+  EXPECT_FLOAT_EQ(image.at(3, 4, image.find_channel("caustic.G")), 2);  // the mean of 1, 2, 3
+  EXPECT_FLOAT_EQ(image.at(3, 4, 1), 4);                                // beside what is sampled
+  EXPECT_FLOAT_EQ(image.at(4, 4, 1), 2);
+}
+
+TEST(MakeIntegrator, ChoosesAndChecks) {
+  const auto scene = plain_scene();
+  std::vector<std::string> warnings;
+  const Description nothing = parse_mitsuba_xml("<scene version=\"3.0.0\"/>", "test.xml", "");
+  EXPECT_EQ(make_integrator(nothing, *scene, warnings)->default_samples_per_pass(),
+            integrator_for(*scene, "photonmap")->default_samples_per_pass());
+  EXPECT_TRUE(warnings.empty());
+  const auto refused = [&](const std::string& inside) -> std::string {
+    try {
+      make_integrator(
+          parse_mitsuba_xml("<scene version=\"3.0.0\">" + inside + "</scene>", "test.xml", ""),
+          *scene, warnings);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(refused("<integrator type=\"paht\"/>").find("did you mean 'path'?"), std::string::npos);
+  EXPECT_NE(refused("<integrator type=\"path\"><float name=\"depth\" value=\"1\"/></integrator>")
+                .find("no parameter 'depth'"),
+            std::string::npos);
+  EXPECT_NE(refused("<integrator type=\"path\"><shape type=\"cube\"/></integrator>")
+                .find("cannot hold a shape"),
+            std::string::npos);
+  EXPECT_NE(refused("<integrator type=\"path\"/><integrator type=\"path\"/>").find("second"),
+            std::string::npos);
+  EXPECT_EQ(refused("<integrator type=\"path\"><boolean name=\"hide_emitters\" value=\"true\"/>"
+                    "</integrator>"),
+            "");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("hide_emitters"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kaustik
