@@ -23,33 +23,36 @@ constexpr uint32_t owen_hash_reversed(uint32_t x, uint32_t seed) {
   return x;
 }
 
-/// Direction numbers of Sobol's second dimension (Pascal's triangle modulo 2), per byte of the
-/// index: the product of matrix and index is the exclusive or of four table entries.
+/// Sobol's second dimension (direction numbers: Pascal's triangle modulo 2) per byte: index and
+/// result both with their bits reversed, which is the form that scrambling works on. The product of
+/// matrix and index is the exclusive or of four table entries.
 constexpr auto make_sobol_tables() {
   std::array<std::array<uint32_t, 256>, 4> tables{};
   std::array<uint32_t, 32> directions{};
   directions[0] = 0x80000000u;
-  for (int i = 1; i < 32; ++i)
-    directions[size_t(i)] = directions[size_t(i - 1)] ^ (directions[size_t(i - 1)] >> 1);
-  for (int byte = 0; byte < 4; ++byte)
-    for (int value = 0; value < 256; ++value) {
+  for (size_t i = 1; i < 32; ++i) directions[i] = directions[i - 1] ^ (directions[i - 1] >> 1);
+  for (size_t byte = 0; byte < 4; ++byte)
+    for (size_t value = 0; value < 256; ++value) {
       uint32_t x = 0;
-      for (int bit = 0; bit < 8; ++bit)
-        if (value >> bit & 1) x ^= directions[size_t(byte * 8 + bit)];
-      tables[size_t(byte)][size_t(value)] = x;
+      for (size_t bit = 0; bit < 8; ++bit)
+        if (value >> bit & 1) x ^= directions[31 - (byte * 8 + bit)];
+      tables[byte][value] = reverse_bits(x);
     }
   return tables;
 }
 constexpr auto sobol_tables = make_sobol_tables();
 
-uint32_t sobol_second(uint32_t index) {
-  return sobol_tables[0][index & 255] ^ sobol_tables[1][index >> 8 & 255] ^
-         sobol_tables[2][index >> 16 & 255] ^ sobol_tables[3][index >> 24];
+uint32_t sobol_second_reversed(uint32_t reversed_index) {
+  return sobol_tables[0][reversed_index & 255] ^ sobol_tables[1][reversed_index >> 8 & 255] ^
+         sobol_tables[2][reversed_index >> 16 & 255] ^ sobol_tables[3][reversed_index >> 24];
 }
 
 float to_unit(uint32_t x) { return float(x >> 8) * 0x1p-24f; }
 
 }  // namespace
+
+Sampler::Sampler(uint64_t scramble, uint32_t index)
+    : scramble_(scramble), index_(index), reversed_index_(reverse_bits(index)) {}
 
 Vec2f Sampler::next_2d() {
   const uint32_t pair = pair_++;
@@ -59,12 +62,12 @@ Vec2f Sampler::next_2d() {
     return {to_unit(uint32_t(r)), to_unit(uint32_t(r >> 32))};
   }
   // The shuffle of the index is itself an Owen scramble, so any run of 2^k indices stays a net.
-  const uint32_t shuffled = reverse_bits(owen_hash_reversed(reverse_bits(index_), uint32_t(h)));
+  const uint32_t reversed = owen_hash_reversed(reversed_index_, uint32_t(h));
   const uint64_t seeds = h * 0xd1342543de82ef95ull + 1;
-  // The first Sobol dimension is the bit reversal of the index, so it is already reversed.
-  const uint32_t x = reverse_bits(owen_hash_reversed(shuffled, uint32_t(h >> 32)));
+  // The first Sobol dimension is the bit reversal of the index: reversed once more, the index.
+  const uint32_t x = reverse_bits(owen_hash_reversed(reverse_bits(reversed), uint32_t(h >> 32)));
   const uint32_t y =
-      reverse_bits(owen_hash_reversed(reverse_bits(sobol_second(shuffled)), uint32_t(seeds >> 32)));
+      reverse_bits(owen_hash_reversed(sobol_second_reversed(reversed), uint32_t(seeds >> 32)));
   return {to_unit(x), to_unit(y)};
 }
 

@@ -6,7 +6,15 @@
 namespace kaustik {
 
 /// What random numbers are drawn for; part of their address.
-enum class Stream : uint32_t { camera, photon_global, photon_caustic, photon_place, light_path, cache, training };
+enum class Stream : uint32_t {
+  camera,
+  photon_global,
+  photon_caustic,
+  photon_place,
+  light_path,
+  cache,
+  training
+};
 
 /// 64-bit mix of two values (the finaliser of splitmix64); the base of every address.
 constexpr uint64_t hash_mix(uint64_t a, uint64_t b) {
@@ -25,7 +33,7 @@ class Sampler {
  public:
   /// Points that share a scramble stratify one another over `index`; different scrambles are
   /// independent.
-  Sampler(uint64_t scramble, uint32_t index) : scramble_(scramble), index_(index) {}
+  Sampler(uint64_t scramble, uint32_t index);
 
   /// The sampler of one path: all that tells paths apart goes into the address.
   static Sampler at(uint64_t seed, uint32_t replicate_or_pass, Stream stream, uint64_t element,
@@ -53,7 +61,7 @@ class Sampler {
 
  private:
   uint64_t scramble_;
-  uint32_t index_;
+  uint32_t index_, reversed_index_;
   uint32_t pair_ = 0;
 };
 

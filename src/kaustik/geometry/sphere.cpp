@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "kaustik/base/fast_math.h"
 #include "kaustik/base/warp.h"
 #include "kaustik/geometry/shape_creators.h"
 #include "kaustik/geometry/shape_support.h"
@@ -37,9 +38,9 @@ class Sphere : public Shape {
  private:
   SurfacePoint point_at(const Vec3d& unit) const;
   /// 1 − cos of the half angle of the cone that the sphere fills, seen from a point at the given
-  /// squared distance of its centre; 0 where there is no such cone: from inside, and for all spheres
-  /// that face inward, which are seen from inside only (a point on the sphere itself would seem to
-  /// be outside half of the time, by rounding).
+  /// squared distance of its centre; 0 where there is no such cone: from inside, and for all
+  /// spheres that face inward, which are seen from inside only (a point on the sphere itself would
+  /// seem to be outside half of the time, by rounding).
   double one_minus_cos(double distance_sq) const;
   std::vector<Bounds3f> surface_cells(int resolution) const;
 
@@ -77,8 +78,8 @@ SurfacePoint Sphere::point_at(const Vec3d& unit) const {
   point.ng = n * side_;
   point.ns = point.ng;
   const Vec3f local(dot(n, axes_[0]), dot(n, axes_[1]), dot(n, axes_[2]));
-  const float phi = std::atan2(local.y, local.x);
-  const float theta = std::atan2(std::hypot(local.x, local.y), local.z);
+  const float phi = approximate_atan2(local.y, local.x);
+  const float theta = approximate_atan2(std::sqrt(local.x * local.x + local.y * local.y), local.z);
   point.uv = {(phi < 0 ? phi + 2 * pi : phi) * (0.5f * inv_pi), theta * inv_pi};
   point.dpdu = (axes_[1] * local.x - axes_[0] * local.y) * (2 * pi * float(radius_));
   point.error = position_rounding(point.position, n);

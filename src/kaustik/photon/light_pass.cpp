@@ -16,6 +16,10 @@ struct PhotonList {
   std::vector<Vec3f> positions;
   std::vector<Photon> photons;
 
+  void reserve(size_t count) {
+    positions.reserve(count);
+    photons.reserve(count);
+  }
   void add(const LightVertex& at, float scale) {
     const SurfaceVertex& vertex = at.vertex;
     const Vec3f& ng = vertex.point().ng;
@@ -34,11 +38,29 @@ struct PhotonList {
     positions.push_back(vertex.position());
     photons.push_back(photon);
   }
-  void append(const PhotonList& other) {
-    positions.insert(positions.end(), other.positions.begin(), other.positions.end());
-    photons.insert(photons.end(), other.photons.begin(), other.photons.end());
-  }
 };
+
+/// The lists one after another; in parallel, they are large.
+PhotonList concatenate(const std::vector<const PhotonList*>& lists) {
+  std::vector<size_t> begins;
+  size_t total = 0;
+  for (const PhotonList* list : lists) {
+    begins.push_back(total);
+    total += list->photons.size();
+  }
+  PhotonList result;
+  result.positions.resize(total);
+  result.photons.resize(total);
+  parallel_blocks(lists.size(), 16, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) {
+      const auto to = std::ptrdiff_t(begins[i]);
+      std::copy(lists[i]->positions.begin(), lists[i]->positions.end(),
+                result.positions.begin() + to);
+      std::copy(lists[i]->photons.begin(), lists[i]->photons.end(), result.photons.begin() + to);
+    }
+  });
+  return result;
+}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -78,7 +100,9 @@ class LightPass::Tracer {
         kind_(kind),
         light_(light),
         scale_(1.0f / float(count)),
-        storing_(without(Lobes::all, pass.settings_.traced | Lobes::delta)) {}
+        storing_(without(Lobes::all, pass.settings_.traced | Lobes::delta)) {
+    (kind == Kind::global ? global : caustic).reserve(photons_per_block);
+  }
 
   void trace(Sampler sampler) {
     const EmissionSampler& emission =
@@ -195,14 +219,16 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
       tracer->trace(Sampler::at(seed, index, stream, element, photon));
     results[i] = std::move(tracer);
   });
+  std::vector<const PhotonList*> global, caustic;
   for (size_t i = 0; i < blocks.size(); ++i) {
     if (!results[i]) continue;
-    deposits.global.append(results[i]->global);
-    deposits.caustic.append(results[i]->caustic);
+    global.push_back(&results[i]->global);
+    caustic.push_back(&results[i]->caustic);
     deposits.report.lights[size_t(blocks[i].light)].add(results[i]->counts);
     deposits.report.rays += results[i]->rays;
-    results[i].reset();
   }
+  deposits.global = concatenate(global);
+  deposits.caustic = concatenate(caustic);
 }
 
 std::vector<SurfaceSide> LightPass::trace_places(uint64_t seed, uint32_t index,
@@ -224,7 +250,8 @@ PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop)
   Deposits caustic, global;
   trace_kind(Kind::caustic, caustic_shares_, seed, index, Stream::photon_caustic, stop, caustic);
   trace_kind(Kind::global, global_shares_, seed, index, Stream::photon_global, stop, global);
-  global.global.append(caustic.global);
+  if (!caustic.global.photons.empty())
+    global.global = concatenate({&global.global, &caustic.global});
   caustic.report.target_count = target_count_;
   PhotonMaps maps;
   maps.places = trace_places(seed, index, stop);
