@@ -310,6 +310,13 @@ TEST(SceneFingerprint, TellsScenesApartButNotViews) {
   EXPECT_NE(one, described({light("point"), floor, sphere(Vec3d(0, 0, 1), 0.1, mirror())}));
   EXPECT_NE(one, described({light("point"),
                             placed("rectangle", Transform::scale(Vec3d(3, 2, 1)), black())}));
+  EXPECT_NE(one, described({light("point"), placed("rectangle", Transform::scale(Vec3d(3, 3, 1)),
+                                                   object("bsdf", "diffuse"))}));
+  const auto with_ball = [&](double radius) {
+    return described({light("point"), floor, sphere(Vec3d(0, 0, 0), radius, mirror())});
+  };
+  EXPECT_NE(with_ball(0.5), with_ball(0.6));  // the bounds are the floor's
+  EXPECT_EQ(with_ball(0.5), with_ball(0.5));
 
   const auto seen_from = [&](double x) {
     const auto root = object("scene", "", {}, {light("point"), floor});

@@ -224,6 +224,27 @@ class Reader {
   std::span<const uint8_t> rest_;
 };
 
+std::string text_of(const Bounds3f& b) {
+  return fmt::format("{:.5g} {:.5g} {:.5g} to {:.5g} {:.5g} {:.5g}", b.min.x, b.min.y, b.min.z,
+                     b.max.x, b.max.y, b.max.z);
+}
+
+/// Of what tells most scenes apart: every shape's place and colour, every light's power. Rounded,
+/// so that the last bits of another build make no difference.
+uint64_t digest_of(const Scene& scene) {
+  std::string text;
+  for (uint32_t i = 0; i < scene.surface_count(); ++i) {
+    BsdfContext context;
+    context.texture.uv = {0.5f, 0.5f};
+    const Spectrum albedo =
+        scene.surface(i).bsdf->albedo(context, normalize({0.3f, 0.2f, 1}), Lobes::all);
+    text += fmt::format("{} {:.3g} {:.3g} {:.3g};", text_of(scene.tracer().shape(i).bounds()),
+                        albedo[0], albedo[1], albedo[2]);
+  }
+  for (const auto& light : scene.lights()) text += fmt::format("{:.4g};", light->power().sum());
+  return checksum({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
 }  // namespace
 
 std::string scene_fingerprint(const Scene& scene) {
@@ -233,12 +254,10 @@ std::string scene_fingerprint(const Scene& scene) {
       triangles += mesh->triangles.size();
   Spectrum power;
   for (const auto& light : scene.lights()) power += light->power();
-  const Bounds3f b = scene.tracer().bounds();
   return fmt::format(
-      "{} shapes, {} triangles, bounds {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}, {} lights of "
-      "{:.5g} {:.5g} {:.5g} W",
-      scene.surface_count(), triangles, b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z,
-      scene.lights().size(), power[0], power[1], power[2]);
+      "{} shapes, {} triangles, bounds {}, {} lights of {:.5g} {:.5g} {:.5g} W, digest {:016x}",
+      scene.surface_count(), triangles, text_of(scene.tracer().bounds()), scene.lights().size(),
+      power[0], power[1], power[2], digest_of(scene));
 }
 
 void write_photon_file(const std::string& path, const StoredPhotons& photons) {

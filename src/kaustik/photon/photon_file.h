@@ -15,7 +15,7 @@ struct StoredPhotons {
 };
 
 /// A text that differs between scenes whose photons differ in all likelihood: counts, bounds, power
-/// of the lights. The camera makes no difference.
+/// of the lights, and a digest of all shapes' places and colours. The camera makes no difference.
 std::string scene_fingerprint(const Scene& scene);
 
 /// Writes atomically; throws as write_file_atomically() does. The times are left out, so that equal

@@ -7,13 +7,18 @@
 namespace kaustik {
 namespace {
 
+/// A copy of the description's photonmap integrator that traces its photons, or one with the
+/// default parameters.
 std::shared_ptr<Object> photonmap_of(const Description& description) {
   const std::string& type = PhotonMapSettings::info().name;
-  auto object = find_integrator(description);
-  if (object && object->type == type) return object;
-  object = std::make_shared<Object>();
+  const auto given = find_integrator(description);
+  auto object = std::make_shared<Object>();
   object->family = "integrator";
   object->type = type;
+  if (!given || given->type != type) return object;
+  *object = *given;
+  // The map that it asks for may be the one that is about to be written.
+  std::erase_if(object->properties, [](const Property& p) { return p.name == "photon_map"; });
   return object;
 }
 
