@@ -20,12 +20,14 @@ PixelFilter::PixelFilter(Kind kind, float radius, float stddev)
   gaussian_norm_ = 1.0f / mass;
   // The distribution function has no closed inverse with the offset.
   auto table = std::make_shared<Table>();
+  float so_far = 0;
   for (size_t i = 0; i <= table_cells; ++i) {
     const float x = radius_ * (2 * float(i) / float(table_cells) - 1);
     const float gauss =
         stddev_ * std::sqrt(0.5f * pi) * std::erf(x / (stddev_ * std::numbers::sqrt2_v<float>));
-    table->cdf.push_back(
-        std::clamp(0.5f + (gauss - x * gaussian_offset_) * gaussian_norm_, 0.0f, 1.0f));
+    // By rounding the tails would not rise everywhere.
+    so_far = std::clamp(0.5f + (gauss - x * gaussian_offset_) * gaussian_norm_, so_far, 1.0f);
+    table->cdf.push_back(so_far);
   }
   table->cdf.front() = 0;
   table->cdf.back() = 1;
