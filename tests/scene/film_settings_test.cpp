@@ -12,8 +12,10 @@ namespace {
 
 #ifdef KAUSTIK_SLOW_BUILD
 constexpr uint32_t sample_count = 20000;
+constexpr float planted_scale = 1.1f;
 #else
 constexpr uint32_t sample_count = 200000;
+constexpr float planted_scale = 1.02f;
 #endif
 
 struct FilterCase {
@@ -65,9 +67,9 @@ TEST(PixelFilter, SamplesFollowTheDensity) {
   for (const FilterCase& c : filters()) EXPECT_GT(p_value(c.filter, 1), 1e-3) << c.name;
 }
 
-// The twin: offsets that are 2 % too wide do not pass.
+// The twin: offsets that are a little too wide do not pass.
 TEST(PixelFilter, WrongSamplesWouldBeFound) {
-  for (const FilterCase& c : filters()) EXPECT_LT(p_value(c.filter, 1.02f), 1e-3) << c.name;
+  for (const FilterCase& c : filters()) EXPECT_LT(p_value(c.filter, planted_scale), 1e-3) << c.name;
 }
 
 TEST(PixelFilter, IntegratesToOne) {
@@ -88,7 +90,7 @@ TEST(PixelFilter, EndsAtItsRadius) {
     EXPECT_EQ(c.filter.eval({0, -c.filter.radius() * 1.001f}), 0) << c.name;
     EXPECT_GT(c.filter.eval({c.filter.radius() * 0.99f, 0}), 0) << c.name;
     for (const float u : {0.0f, 1e-6f, 0.5f, one_minus_epsilon}) {
-      const Vec2f offset = c.filter.sample({u, 1 - u});
+      const Vec2f offset = c.filter.sample({u, one_minus_epsilon - u});
       EXPECT_LE(std::fabs(offset.x), c.filter.radius() * 1.0001f) << c.name;
       EXPECT_LE(std::fabs(offset.y), c.filter.radius() * 1.0001f) << c.name;
     }
