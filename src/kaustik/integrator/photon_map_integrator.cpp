@@ -4,6 +4,7 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/camera_walk.h"
+#include "kaustik/photon/photon_file.h"
 
 namespace kaustik {
 namespace {
@@ -44,13 +45,26 @@ CachePoint cache_point_of(const CameraWalk& walk) {
 }  // namespace
 
 struct PhotonMapIntegrator::State final : PassState {
-  PhotonMaps maps;
+  std::shared_ptr<const PhotonMaps> maps;
   std::unique_ptr<PhotonLight> light;
   std::unique_ptr<IrradianceCache> cache;  ///< null: not used
 };
 
 PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene& scene)
-    : scene_(scene), settings_(arguments) {}
+    : scene_(scene), settings_(arguments) {
+  if (settings_.photon_file.empty()) return;
+  StoredPhotons stored = read_photon_file(settings_.photon_file);
+  const auto refuse = [&](const std::string& message) {
+    throw Error(ErrorKind::input, settings_.photon_file + " " + message,
+                "make the maps anew with `kaustik photons` from this scene and these settings",
+                settings_.photon_file_place);
+  };
+  if (stored.fingerprint != scene_fingerprint(scene))
+    refuse("holds photons of another scene (" + stored.scene + ")");
+  if (stored.settings.traced != settings_.light_pass.traced)
+    refuse("was traced with another specular_sampling");
+  stored_maps_ = std::make_shared<const PhotonMaps>(std::move(stored.maps));
+}
 
 std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(uint64_t seed) const {
   const std::lock_guard lock(light_pass_mutex_);
@@ -72,21 +86,30 @@ GatherRadii PhotonMapIntegrator::pass_radii(const PhotonMaps& maps, uint32_t ind
           radius(maps.global, settings_.global, settings_.global_radius)};
 }
 
+std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(const Pass& pass, PassReport& report,
+                                                               std::stop_token stop) const {
+  if (stored_maps_) return stored_maps_;
+  const auto lights = light_pass(pass.seed);
+  auto maps = std::make_shared<const PhotonMaps>(lights->trace(pass.seed, pass.index, stop));
+  report.photons = maps->global.size() + maps->caustic.size();
+  report.rays = maps->global_report.rays + maps->caustic_report.rays;
+  if (!stop.stop_requested()) report.warnings = lights->warnings(*maps);
+  return maps;
+}
+
 std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatBuffer&,
                                                         std::stop_token stop) const {
   auto state = std::make_unique<State>();
-  const auto lights = light_pass(pass.seed);
-  state->maps = lights->trace(pass.seed, pass.index, stop);
-  state->light = std::make_unique<PhotonLight>(scene_, settings_, state->maps,
-                                               pass_radii(state->maps, pass.index));
-  state->report.photons = state->maps.global.size() + state->maps.caustic.size();
-  if (!stop.stop_requested()) state->report.warnings = lights->warnings(state->maps);
+  state->maps = maps_of(pass, state->report, stop);
+  // Stored maps are the same in every pass: shrinking their radii would trade bias for noise that
+  // no number of passes removes.
+  state->light = std::make_unique<PhotonLight>(
+      scene_, settings_, *state->maps, pass_radii(*state->maps, stored_maps_ ? 0 : pass.index));
   const bool wants_indirect = settings_.components.has(Component::indirect) ||
                               settings_.components.has(Component::specular);
   if (settings_.cache && wants_indirect && settings_.global.neighbors > 0)
     fill_cache(*state, pass, stop);
-  state->report.rays =
-      state->maps.global_report.rays + state->maps.caustic_report.rays + state->light->rays();
+  state->report.rays += state->light->rays();
   return state;
 }
 

@@ -23,6 +23,9 @@ class PhotonMapIntegrator final : public Integrator {
 
  private:
   struct State;
+  /// The maps of a pass: traced, or the stored ones.
+  std::shared_ptr<const PhotonMaps> maps_of(const Pass& pass, PassReport& report,
+                                            std::stop_token stop) const;
   GatherRadii pass_radii(const PhotonMaps& maps, uint32_t index) const;
   void fill_cache(State& state, const Pass& pass, std::stop_token stop) const;
   /// The diffuse surfaces that a camera path meets, for the cache.
@@ -36,6 +39,7 @@ class PhotonMapIntegrator final : public Integrator {
 
   const Scene& scene_;
   PhotonMapSettings settings_;
+  std::shared_ptr<const PhotonMaps> stored_maps_;  ///< null: every pass traces its own
   mutable std::mutex light_pass_mutex_;
   mutable std::shared_ptr<const LightPass> light_pass_;
   mutable uint64_t light_pass_seed_ = 0;

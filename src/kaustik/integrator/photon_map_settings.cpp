@@ -67,6 +67,10 @@ std::vector<Parameter> parameters() {
       choice_parameter("preset", "default", {"default", "thesis"},
                        "Defaults of the parameters below: Kaustik's, or those of Schregle's thesis "
                        "(1998, appendix A)."),
+      text_parameter(
+          "photon_map", "",
+          "Maps made by `kaustik photons` to use in every pass instead of tracing new ones; "
+          "the error that is told is then the noise of the view alone."),
       integer_parameter("caustic_neighbors", 60,
                         "Caustic photons to find [numCaustic]; 0: no caustics.")
           .range(0, 100000),
@@ -227,6 +231,8 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   const bool any_gather =
       components.has(Component::indirect) || components.has(Component::specular);
   const bool any_caustic = any_gather || components.has(Component::caustic);
+  photon_file = arguments.text("photon_map");
+  photon_file_place = arguments.place_of("photon_map");
   light_pass.traced = traced();
   light_pass.reradiate = read.boolean("reradiate");
   light_pass.aim = read.boolean("aim");

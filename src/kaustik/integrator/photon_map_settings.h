@@ -19,6 +19,8 @@ enum class LevelOfDetail { none, linear, exponential };
 struct PhotonMapSettings {
   ComponentSet components = ComponentSet::all();
   LightPassSettings light_pass;
+  std::string photon_file;  ///< stored maps to use instead of tracing; empty: none
+  Place photon_file_place;
   EstimateSettings caustic, global;
   float minimum_radiance = 0;
   float caustic_radius = 0, global_radius = 0;  ///< cap of pass 0, m; 0: from the photons
