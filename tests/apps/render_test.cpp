@@ -166,6 +166,37 @@ TEST_F(Render, AnEmptyCausticMapIsExplained) {
   EXPECT_TRUE(contains(result.err, "the caustic map is empty")) << result.err;
 }
 
+TEST_F(Render, StoredPhotonsServeOtherViews) {
+  const std::vector<std::string> photons = {"--set", "integrator.global_photons=20000", "--set",
+                                            "integrator.caustic_photons=20000"};
+  const auto with = [](std::vector<std::string> arguments, const std::vector<std::string>& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  run_well(with({"photons", "photonmap.xml", "-o", "map.kpm"}, photons));
+  run_well(with({"render", "photonmap.xml", "-q", "--spp", "32", "-o", "traced.exr"}, photons));
+  const std::vector<std::string> stored = {"--set", "integrator.photon_map=map.kpm"};
+  run_well(with({"render", "photonmap.xml", "-q", "--spp", "32", "-o", "stored.exr"}, stored));
+  EXPECT_NEAR(brightness("stored.exr"), brightness("traced.exr"), 0.03 * brightness("traced.exr"));
+  // The view may be another, the scene may not; nor what counts as specular.
+  run_well(
+      with({"render", "photonmap.xml", "-q", "-o", "b.exr", "--set", "sensor.fov=20"}, stored));
+  const auto refused = [&](const std::vector<std::string>& change, const std::string& message) {
+    const RunResult wrong =
+        run(with(with({"render", "photonmap.xml", "-q", "-o", "c.exr"}, stored), change));
+    EXPECT_EQ(wrong.exit_code, 2) << wrong.err;
+    EXPECT_TRUE(contains(wrong.err, message)) << wrong.err;
+    EXPECT_TRUE(contains(wrong.err, "remedy: ")) << wrong.err;
+    EXPECT_FALSE(exists("c.exr"));
+  };
+  refused({"--set", "glass.radius=0.4"}, "another scene");
+  refused({"--set", "integrator.specular_sampling=perfect"}, "another specular_sampling");
+  write("map.kpm", contents("map.kpm").substr(0, 5000));
+  refused({}, "map.kpm: the photon map is damaged");
+  std::filesystem::remove(path("map.kpm"));
+  refused({}, "cannot read 'map.kpm'");
+}
+
 TEST_F(Render, CtrlCInTheFirstPassWritesWhatIsThere) {
   RunOptions interrupt;
   interrupt.interrupt_at = "pass 0";
