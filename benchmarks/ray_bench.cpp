@@ -7,6 +7,8 @@
 #endif
 #include <tbb/enumerable_thread_specific.h>
 
+#include <malloc.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -183,6 +185,10 @@ std::string million_triangle_scene(const std::filesystem::path& folder) {
 }  // namespace
 
 int main() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);  // as the program does
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
   const Description spheres = bench::load_shipped("cornell_spheres");
   compare_photons("photon_rays_vs_embree", spheres, 400000);
   const auto folder = std::filesystem::temp_directory_path() /

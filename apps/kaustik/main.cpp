@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -9,6 +11,15 @@
 #include "kaustik/base/error.h"
 
 namespace {
+
+/// Passes free and ask for the same large arrays again and again: keeping the pages spares the
+/// system from clearing them anew, 5 % of a light pass.
+void keep_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
+}
 
 constexpr int exit_system = 1, exit_input = 2;
 
@@ -49,6 +60,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("kaustik"));
   spdlog::set_pattern("%^%l%$: %v");
+  keep_memory();
   // A file that grows over the limit is then an error of the write, not the program's end.
   std::signal(SIGXFSZ, SIG_IGN);
   try {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "kaustik/base/sampler_details.h"
 #include "kaustik/base/vec.h"
 
 namespace kaustik {
@@ -33,7 +34,8 @@ class Sampler {
  public:
   /// Points that share a scramble stratify one another over `index`; different scrambles are
   /// independent.
-  Sampler(uint64_t scramble, uint32_t index);
+  Sampler(uint64_t scramble, uint32_t index)
+      : scramble_(scramble), index_(index), reversed_index_(sampler_details::reverse_bits(index)) {}
 
   /// The sampler of one path: all that tells paths apart goes into the address.
   static Sampler at(uint64_t seed, uint32_t replicate_or_pass, Stream stream, uint64_t element,
@@ -64,5 +66,23 @@ class Sampler {
   uint32_t index_, reversed_index_;
   uint32_t pair_ = 0;
 };
+
+inline Vec2f Sampler::next_2d() {
+  using namespace sampler_details;
+  const uint32_t pair = pair_++;
+  const uint64_t h = hash_mix(scramble_, pair);
+  if (pair >= stratified_pairs) {
+    const uint64_t r = hash_mix(h, index_);
+    return {to_unit(uint32_t(r)), to_unit(uint32_t(r >> 32))};
+  }
+  // The shuffle of the index is itself an Owen scramble, so any run of 2^k indices stays a net.
+  const uint32_t reversed = owen_hash_reversed(reversed_index_, uint32_t(h));
+  const uint64_t seeds = h * 0xd1342543de82ef95ull + 1;
+  // The first Sobol dimension is the bit reversal of the index: reversed once more, the index.
+  const uint32_t x = reverse_bits(owen_hash_reversed(reverse_bits(reversed), uint32_t(h >> 32)));
+  const uint32_t y =
+      reverse_bits(owen_hash_reversed(sobol_second_reversed(reversed), uint32_t(seeds >> 32)));
+  return {to_unit(x), to_unit(y)};
+}
 
 }  // namespace kaustik

@@ -34,6 +34,17 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
   state_.spread = scene.camera().pixel_spread();
 }
 
+CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
+    : scene_(other.scene_),
+      sampler_(sampler),
+      sink_(other.sink_),
+      state_(other.state_),
+      class_(other.class_),
+      ray_(other.ray_),
+      vertex_(other.vertex_),
+      previous_(other.previous_),
+      distance_(other.distance_) {}
+
 bool CameraWalk::advance() {
   Hit hit;
   ++rays_;
@@ -43,7 +54,7 @@ bool CameraWalk::advance() {
   }
   distance_ += hit.t;
   state_.footprint = distance_ * state_.spread;
-  vertex_ = SurfaceVertex(scene_, ray_, hit, TransportMode::radiance);
+  vertex_.meet(scene_, ray_, hit, TransportMode::radiance);
   if (state_.depth == 0) sink_.set_first_hit(describe_first_hit(vertex_, hit.t));
   if (vertex_.light() >= 0) add_emission();
   sampler_.start_vertex(uint32_t(state_.depth));

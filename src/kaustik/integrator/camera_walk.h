@@ -16,6 +16,8 @@ class CameraWalk {
   CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler, SampleSink& sink,
              Lobes traced = Lobes::specular);
   ~CameraWalk() { sink_.count_rays(rays_); }
+  /// A branch: the same path so far, to go on with numbers of its own.
+  CameraWalk(const CameraWalk& other, Sampler& sampler);
   CameraWalk(const CameraWalk&) = delete;
   CameraWalk& operator=(const CameraWalk&) = delete;
 
@@ -29,9 +31,9 @@ class CameraWalk {
   float footprint() const { return state_.footprint; }
   Sampler& sampler() { return sampler_; }
 
-  /// Adds light sampled at the vertex and reflected by its lobes, `samples` times. The
-  /// probabilities are those with which scatter() will choose the lobe classes there (0: never,
-  /// then light sampling alone has to find the light).
+  /// Adds light sampled at the vertex and reflected by its lobes, the mean of `samples`. The
+  /// probabilities are those that scatter() will be told there (0: never, then light sampling alone
+  /// has to find the light).
   void add_direct_light(float diffuse_probability, float glossy_probability, int samples = 1);
   /// Adds radiance that the vertex sends back of light that is `component` (caustic or indirect)
   /// to it; seen by a specular event it counts as specular.
@@ -40,8 +42,8 @@ class CameraWalk {
   }
   bool wants_photon_light(Component component) const { return sink_.wants(seen(component)); }
 
-  /// Chooses a direction by `lobes` (chosen with `probability`) for the next advance(); false if
-  /// the light is absorbed.
+  /// Chooses a direction by `lobes` for the next advance(); false if the light is absorbed.
+  /// `probability` is that of having chosen these lobes, or the number of branches that do so.
   bool scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u);
   /// Russian roulette on the throughput; false if the path ends.
   bool survive(float u);

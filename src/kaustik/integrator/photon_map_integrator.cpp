@@ -149,33 +149,51 @@ void PhotonMapIntegrator::collect_cache_points(const Vec2f& raster, Sampler samp
       points.push_back(cache_point_of(walk));
       if (points.size() - first >= cache_points_per_path) return;
     }
-    const Lobes traced = vertex.lobes() & settings_.traced();
-    if (!any(traced) || settings_.specular_sampling == SpecularSampling::none ||
-        walk.events() >= settings_.maximum_eye_events)
-      return;
-    const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
-    if (!walk.scatter(traced, 1, u_choice.x, u)) return;
-    if (walk.events() > roulette_depth && !walk.survive(u_choice.y)) return;
+    if (specular_rays(walk) == 0 || !scatter_specular(walk, 1)) return;
   }
 }
 
 void PhotonMapIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sampler& sampler,
                                  SampleSink& sink) const {
-  const State& state = static_cast<const State&>(pass_state);
   CameraWalk walk(scene_, raster, sampler, sink, settings_.traced());
-  const bool traces_glossy = settings_.specular_sampling == SpecularSampling::importance;
+  follow(static_cast<const State&>(pass_state), walk);
+}
+
+int PhotonMapIntegrator::specular_rays(const CameraWalk& walk) const {
+  if (!any(walk.vertex().lobes() & settings_.traced()) ||
+      settings_.specular_sampling == SpecularSampling::none ||
+      walk.events() >= settings_.maximum_eye_events)
+    return 0;
+  return walk.events() == 0 ? settings_.specular_samples : 1;
+}
+
+void PhotonMapIntegrator::follow(const State& state, CameraWalk& walk) const {
   while (walk.advance()) {
-    const Lobes traced = walk.vertex().lobes() & settings_.traced();
-    const bool goes_on = any(traced) && settings_.specular_sampling != SpecularSampling::none &&
-                         walk.events() < settings_.maximum_eye_events;
-    walk.add_direct_light(0, goes_on && traces_glossy ? 1 : 0,
-                          walk.events() == 0 ? settings_.light_samples : 1);
+    const int rays = specular_rays(walk);
+    const bool traces_glossy = settings_.specular_sampling == SpecularSampling::importance;
+    const int lights =
+        std::max(1, int(float(settings_.light_samples) * settings_.level_scale(walk.events())));
+    walk.add_direct_light(0, traces_glossy ? float(rays) : 0.0f, lights);
     add_photon_light(state, walk);
-    if (!goes_on) return;
-    const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
-    if (!walk.scatter(traced, 1, u_choice.x, u)) return;
-    if (walk.events() > roulette_depth && !walk.survive(u_choice.y)) return;
+    if (rays == 0) return;
+    if (rays == 1) {
+      if (!scatter_specular(walk, 1)) return;
+      continue;
+    }
+    for (int i = 0; i < rays; ++i) {
+      Sampler sampler = walk.sampler().split(2, uint32_t(i));
+      CameraWalk branch(walk, sampler);
+      if (scatter_specular(branch, rays)) follow(state, branch);
+    }
+    return;
   }
+}
+
+bool PhotonMapIntegrator::scatter_specular(CameraWalk& walk, int rays) const {
+  const Vec2f u = walk.sampler().next_2d(), u_choice = walk.sampler().next_2d();
+  if (!walk.scatter(walk.vertex().lobes() & settings_.traced(), float(rays), u_choice.x, u))
+    return false;
+  return walk.events() <= roulette_depth || walk.survive(u_choice.y);
 }
 
 void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk) const {

@@ -31,6 +31,11 @@ class PhotonMapIntegrator final : public Integrator {
   /// The diffuse surfaces that a camera path meets, for the cache.
   void collect_cache_points(const Vec2f& raster, Sampler sampler,
                             std::vector<CachePoint>& points) const;
+  /// Follows a path to its end.
+  void follow(const State& state, CameraWalk& walk) const;
+  /// How many specular rays leave the walk's vertex.
+  int specular_rays(const CameraWalk& walk) const;
+  bool scatter_specular(CameraWalk& walk, int rays) const;
   void add_photon_light(const State& state, CameraWalk& walk) const;
   Spectrum diffuse_irradiance(const State& state, CameraWalk& walk) const;
 

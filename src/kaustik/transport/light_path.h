@@ -48,7 +48,7 @@ LightPathResult trace_light_path(const Scene& scene, const Ray& emitted, const S
       result.end = LightPathEnd::escaped;
       return result;
     }
-    at.vertex = SurfaceVertex(scene, ray, hit, TransportMode::flux);
+    at.vertex.meet(scene, ray, hit, TransportMode::flux);
     at.distance = hit.t;
     const Lobes follow = handler(static_cast<const LightVertex&>(at));
     if (!any(follow)) {

@@ -2,9 +2,10 @@
 
 namespace kaustik {
 
-SurfaceVertex::SurfaceVertex(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
-                             float footprint)
-    : point_(scene.tracer().surface_point(ray, hit)), wo_(-ray.direction) {
+void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
+                         float footprint) {
+  point_ = scene.tracer().surface_point(ray, hit);
+  wo_ = -ray.direction;
   const Surface& surface = scene.surface(point_.shape);
   bsdf_ = surface.bsdf.get();
   light_ = surface.light;

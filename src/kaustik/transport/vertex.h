@@ -10,7 +10,12 @@ class SurfaceVertex {
   SurfaceVertex() = default;
   /// `mode` tells what the path carries; `footprint` is its width at the point, m.
   SurfaceVertex(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
-                float footprint = 0);
+                float footprint = 0) {
+    meet(scene, ray, hit, mode, footprint);
+  }
+  /// Makes this the vertex of another hit.
+  void meet(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
+            float footprint = 0);
 
   const SurfacePoint& point() const { return point_; }
   const Vec3f& position() const { return point_.position; }

@@ -1,9 +1,10 @@
-#include "kaustik/base/sampler.h"
-
+#pragma once
+// The arithmetic of Sampler: in a header because it runs for every dimension of every path.
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
-namespace kaustik {
-namespace {
+namespace kaustik::sampler_details {
 
 constexpr uint32_t reverse_bits(uint32_t x) {
   x = __builtin_bswap32(x);
@@ -40,35 +41,13 @@ constexpr auto make_sobol_tables() {
     }
   return tables;
 }
-constexpr auto sobol_tables = make_sobol_tables();
+inline constexpr auto sobol_tables = make_sobol_tables();
 
-uint32_t sobol_second_reversed(uint32_t reversed_index) {
+inline uint32_t sobol_second_reversed(uint32_t reversed_index) {
   return sobol_tables[0][reversed_index & 255] ^ sobol_tables[1][reversed_index >> 8 & 255] ^
          sobol_tables[2][reversed_index >> 16 & 255] ^ sobol_tables[3][reversed_index >> 24];
 }
 
-float to_unit(uint32_t x) { return float(x >> 8) * 0x1p-24f; }
+inline float to_unit(uint32_t x) { return float(x >> 8) * 0x1p-24f; }
 
-}  // namespace
-
-Sampler::Sampler(uint64_t scramble, uint32_t index)
-    : scramble_(scramble), index_(index), reversed_index_(reverse_bits(index)) {}
-
-Vec2f Sampler::next_2d() {
-  const uint32_t pair = pair_++;
-  const uint64_t h = hash_mix(scramble_, pair);
-  if (pair >= stratified_pairs) {
-    const uint64_t r = hash_mix(h, index_);
-    return {to_unit(uint32_t(r)), to_unit(uint32_t(r >> 32))};
-  }
-  // The shuffle of the index is itself an Owen scramble, so any run of 2^k indices stays a net.
-  const uint32_t reversed = owen_hash_reversed(reversed_index_, uint32_t(h));
-  const uint64_t seeds = h * 0xd1342543de82ef95ull + 1;
-  // The first Sobol dimension is the bit reversal of the index: reversed once more, the index.
-  const uint32_t x = reverse_bits(owen_hash_reversed(reverse_bits(reversed), uint32_t(h >> 32)));
-  const uint32_t y =
-      reverse_bits(owen_hash_reversed(sobol_second_reversed(reversed), uint32_t(seeds >> 32)));
-  return {to_unit(x), to_unit(y)};
-}
-
-}  // namespace kaustik
+}  // namespace kaustik::sampler_details
