@@ -69,7 +69,7 @@ TEST(AimedCaustics, DirectionalLight) {
   check({"directional",
          directional_light("0.3, 0.2, -1", 1) + sphere("0, 0, 0.7", 0.3, glass()) +
              sphere("0.4, 0.4, 0.4", 0.2, mirror()),
-         60'000, 300'000, 32});
+         60'000, 200'000});
 }
 TEST(AimedCaustics, EnvironmentLight) {
   check({"environment",
@@ -83,7 +83,7 @@ TEST(AimedCaustics, AreaLight) {
               diffuse("0, 0, 0") + area_light("5, 5, 5")) +
              sphere("0, 0, 0.6", 0.3, glass()) +
              cylinder("-0.5, -0.1, 0.3", "-0.5, 0.2, 0.5", 0.02, mirror()),
-         60'000, 300'000, 32});
+         60'000, 200'000});
 }
 
 #ifndef KAUSTIK_SLOW_BUILD

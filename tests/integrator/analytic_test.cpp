@@ -41,8 +41,8 @@ class Furnace : public testing::Test {
   TestScene scene_;
 };
 
-TEST_F(Furnace, Path) { check("path", render(scene_, "path", "", {128})); }
-TEST_F(Furnace, LightTracer) { check("lighttracer", render(scene_, "lighttracer", "", {800})); }
+TEST_F(Furnace, Path) { check("path", render(scene_, "path", "", {64})); }
+TEST_F(Furnace, LightTracer) { check("lighttracer", render(scene_, "lighttracer", "", {350})); }
 TEST_F(Furnace, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(20'000), {16}));
 }
@@ -67,9 +67,9 @@ class DiffuseSphere : public testing::Test {
   TestScene scene_;
 };
 
-TEST_F(DiffuseSphere, Path) { check("path", render(scene_, "path", "", {256})); }
+TEST_F(DiffuseSphere, Path) { check("path", render(scene_, "path", "", {100})); }
 TEST_F(DiffuseSphere, LightTracer) {
-  check("lighttracer", render(scene_, "lighttracer", "", {800}));
+  check("lighttracer", render(scene_, "lighttracer", "", {350}));
 }
 TEST_F(DiffuseSphere, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(20'000), {16}));
@@ -110,14 +110,14 @@ class ParallelPlates : public testing::Test {
   TestScene scene_;
 };
 
-TEST_F(ParallelPlates, Path) { check("path", render(scene_, "path", "", {128})); }
+TEST_F(ParallelPlates, Path) { check("path", render(scene_, "path", "", {64})); }
 TEST_F(ParallelPlates, LightTracer) {
-  check("lighttracer", render(scene_, "lighttracer", "", {800}));
+  check("lighttracer", render(scene_, "lighttracer", "", {350}));
 }
 /// Few neighbours of many photons, because their disks leave the plates at the mirrors.
 TEST_F(ParallelPlates, PhotonMap) {
   check("photonmap", render(scene_, "photonmap",
-                            set("global_photons", 100'000) + set("caustic_photons", 100'000) +
+                            set("global_photons", 60'000) + set("caustic_photons", 60'000) +
                                 set("global_neighbors", 6) + set("caustic_neighbors", 6),
                             {16}));
 }
@@ -160,7 +160,7 @@ TEST_F(DiskOverPlane, ClosedFormOnTheAxis) {
 }
 TEST_F(DiskOverPlane, Path) { check("path", render(scene_, "path", "", {64})); }
 TEST_F(DiskOverPlane, LightTracer) {
-  check("lighttracer", render(scene_, "lighttracer", "", {1600}));
+  check("lighttracer", render(scene_, "lighttracer", "", {700}));
 }
 TEST_F(DiskOverPlane, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(2000), {64}));
@@ -173,7 +173,7 @@ TEST_F(DiskOverPlane, OnTheAxis) {
                             scale("0.5, 0.5, 1") + rotate("1, 0, 0", 180) + translate("0, 0, 1"),
                             diffuse("0, 0, 0") + area_light("4, 4, 4")));
   for (const char* type : {"path", "photonmap"})
-    expect_mean(std::string(type) + " disk on the axis", render(spot, type, "", {256}).mean({""}),
+    expect_mean(std::string(type) + " disk on the axis", render(spot, type, "", {64}).mean({""}),
                 rho * radiance * a * a / (a * a + h * h));
 }
 

@@ -1,0 +1,166 @@
+// What the photon map integrator's parameters change, and what they must not.
+
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+/// A round room (no edges, so that photons have no borders to be missed at) with a lamp in it and,
+/// if asked for, two balls.
+std::string round_room(const std::string& wall, const std::string& objects = "") {
+  return camera("0, -0.8, 0", "0, 1, -0.2", 75, 16) + sphere("0, 0, 0", 1, wall, true) +
+         sphere("0.1, 0.1, 0.6", 0.2, diffuse("0, 0, 0") + area_light("10, 10, 10")) + objects;
+}
+const std::string balls =
+    sphere("-0.3, 0.2, -0.3", 0.25, mirror()) + sphere("0.35, 0.1, -0.3", 0.25, glass());
+
+std::string photons() {
+  return set("global_photons", 20'000) + set("caustic_photons", 20'000) +
+         set("global_neighbors", 12) + set("caustic_neighbors", 12) +
+         set("cache_minimum_spacing", 0.2) + set("cache_maximum_spacing", 4.0);
+}
+
+class Options : public testing::Test {
+ protected:
+  Options() : room_(round_room(diffuse("0.5, 0.5, 0.5"))) {}
+
+  RunningStatistics indirect(const std::string& parameters, double samples = 12) const {
+    return render(room_, "photonmap", set("components", "indirect") + photons() + parameters,
+                  {samples, 1})
+        .mean({"indirect"});
+  }
+  const RunningStatistics& by_path() const {
+    static const RunningStatistics reference =
+        render(room_, "path", set("components", "indirect"), {64, 2}).mean({"indirect"});
+    return reference;
+  }
+  TestScene room_;
+};
+
+/// A grid that directs gather rays changes only the noise, as long as it has a floor.
+TEST_F(Options, ImportanceOfCells) {
+  for (const char* weight : {"sum", "average"})
+    for (const double floor : {0.1, 0.5, 1.0})
+      expect_near_means(fmt::format("gather by {}, floor {}", weight, floor),
+                        indirect(set("irradiance_cache", false) + set("importance_weight", weight) +
+                                 set("importance_floor", floor)),
+                        by_path(), 0.005);
+}
+TEST_F(Options, IrradianceLookedUpOrEstimated) {
+  for (const int stride : {0, 1, 8})
+    expect_near_means(fmt::format("precompute stride {}", stride),
+                      indirect(set("irradiance_cache", false) + set("precompute_stride", stride)),
+                      by_path(), 0.005);
+}
+TEST_F(Options, Cache) {
+  expect_near_means("cache", indirect(""), by_path(), 0.01);
+  expect_near_means("cache without gradients", indirect(set("cache_gradients", false)), by_path(),
+                    0.01);
+  expect_near_means("cache by least distance", indirect(set("minimum_distance", true)), by_path(),
+                    0.01);
+}
+TEST_F(Options, Kernels) {
+  for (const char* kernel : {"cone", "epanechnikov"})
+    expect_near_means(std::string("global kernel ") + kernel,
+                      indirect(set("irradiance_cache", false) + set("global_kernel", kernel) +
+                               set("precompute_stride", 0)),
+                      by_path(), 0.005);
+}
+
+/// Caustic photons that go on as global ones bring just what global photons would have brought
+/// through the balls themselves.
+TEST(PhotonMapOptions, Reradiate) {
+  const TestScene scene(round_room(diffuse("0.5, 0.5, 0.5"), balls));
+  const auto measured = [&](bool reradiate) {
+    return render(scene, "photonmap",
+                  set("components", "caustic,indirect") + photons() + set("reradiate", reradiate) +
+                      set("irradiance_cache", false),
+                  {16, 1});
+  };
+  const Passes with = measured(true), without = measured(false);
+  expect_near_means("indirect, reradiated or not", with.mean({"indirect"}),
+                    without.mean({"indirect"}), 0.005);
+  EXPECT_NEAR(with.mean({"caustic"}).mean(), without.mean({"caustic"}).mean(),
+              1e-4 * without.mean({"caustic"}).mean());
+}
+
+/// On diffuse surfaces light is divided between caustics and indirect light by what is traced, but
+/// their sum is the same; what glossy lobes are seen to reflect is traced only by `importance`.
+TEST(PhotonMapOptions, SpecularSampling) {
+  const TestScene scene(round_room(diffuse("0.5, 0.5, 0.5"),
+                                   sphere("-0.3, 0.2, -0.3", 0.25, phong(0.2, 0.7, 15)) +
+                                       sphere("0.35, 0.1, -0.3", 0.25, phong(0.2, 0.7, 60))));
+  const auto measured = [&](const char* sampling) {
+    return render(scene, "photonmap",
+                  photons() + set("specular_sampling", sampling) + set("irradiance_cache", false),
+                  {16, 1});
+  };
+  const Passes all = measured("importance"), none = measured("none"), perfect = measured("perfect");
+  for (const Passes* part : {&none, &perfect}) {
+    EXPECT_EQ(part->mean({"specular"}).mean(), 0);
+    EXPECT_EQ(part->mean({"caustic"}).mean(), 0);  // no mirror, no glass
+    expect_near_means("direct by specular sampling", part->mean({"direct"}), all.mean({"direct"}),
+                      0, 0.01);
+    expect_near_means("diffuse light by specular sampling", part->mean({"indirect"}),
+                      all.mean({"caustic", "indirect"}), 0.01);
+  }
+  EXPECT_GT(all.mean({"caustic"}).mean(), 0);
+  EXPECT_GT(all.mean({"specular"}).mean(), 0);
+}
+
+/// With mirrors and glass alone `perfect` is all there is; `none` leaves out what they show.
+TEST(PhotonMapOptions, SpecularSamplingOfMirrors) {
+  const TestScene scene(round_room(diffuse("0.5, 0.5, 0.5"), balls));
+  const auto measured = [&](const char* sampling) {
+    return render(scene, "photonmap", photons() + set("specular_sampling", sampling), {8, 1});
+  };
+  const Passes all = measured("importance"), none = measured("none"), perfect = measured("perfect");
+  for (const char* layer : {"emission", "direct", "caustic", "indirect", "specular"})
+    EXPECT_NEAR(
+        perfect.mean({layer}).mean(), all.mean({layer}).mean(),
+        5 * std::hypot(perfect.mean({layer}).standard_error(), all.mean({layer}).standard_error()) +
+            1e-9)
+        << layer;
+  EXPECT_EQ(none.mean({"specular"}).mean(), 0);
+  EXPECT_GT(all.mean({"specular"}).mean(), 0);
+  expect_equal_means("direct without specular sampling", none.mean({"direct"}),
+                     all.mean({"direct"}));
+}
+
+/// The thesis's defaults: one level, no caustics, nothing specular, and bias; but a picture.
+TEST(PhotonMapOptions, ThesisPreset) {
+  const TestScene scene(round_room(diffuse("0.5, 0.5, 0.5"), balls));
+  const Passes thesis = render(scene, "photonmap", set("preset", "thesis"), {1, 1, 2});
+  const Passes ours = render(scene, "photonmap", photons(), {8, 1, 4});
+  EXPECT_EQ(thesis.mean({"caustic"}).mean(), 0);
+  EXPECT_EQ(thesis.mean({"specular"}).mean(), 0);
+  EXPECT_NEAR(thesis.mean({"direct"}).mean() / ours.mean({"direct"}).mean(), 1, 0.05);
+  // Cells without photons are left out.
+  EXPECT_GT(thesis.mean({"indirect"}).mean(), 0.4 * ours.mean({"indirect"}).mean());
+  EXPECT_LT(thesis.mean({"indirect"}).mean(), 1.05 * ours.mean({"indirect"}).mean());
+  // What is given wins over the preset.
+  const Passes with_caustics =
+      render(scene, "photonmap", set("preset", "thesis") + set("caustic_neighbors", 50), {1, 1, 1});
+  EXPECT_GT(with_caustics.mean({"caustic"}).mean(), 0);
+}
+
+TEST(PhotonMapOptions, CountsOfZeroSwitchAPartOff) {
+  const TestScene scene(round_room(diffuse("0.5, 0.5, 0.5"), balls));
+  const auto mean = [&](const std::string& parameter, const char* layer) {
+    return render(scene, "photonmap", set("cache_samples", 16) + parameter, {2, 1, 1})
+        .mean({layer})
+        .mean();
+  };
+  for (const char* name : {"caustic_neighbors", "caustic_photons"}) {
+    EXPECT_EQ(mean(set(name, 0), "caustic"), 0) << name;
+    EXPECT_GT(mean(set(name, 0), "indirect"), 0) << name;
+  }
+  EXPECT_EQ(mean(set("global_neighbors", 0), "indirect"), 0);
+  EXPECT_GT(mean(set("global_neighbors", 0), "caustic"), 0);
+}
+
+}  // namespace
+}  // namespace kaustik

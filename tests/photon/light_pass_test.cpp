@@ -1,0 +1,149 @@
+#include "kaustik/photon/light_pass.h"
+
+#include <gtest/gtest.h>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/base/statistics.h"
+#include "tests/photon/emission_scenes.h"
+
+namespace kaustik {
+namespace {
+
+using test::make_scene;
+using test::mirror;
+using test::object;
+using test::ObjectPointer;
+using test::sphere;
+
+#ifdef KAUSTIK_SLOW_BUILD
+constexpr uint32_t sample_divisor = 10;
+#else
+constexpr uint32_t sample_divisor = 1;
+#endif
+
+ObjectPointer diffuse(double rho) {
+  return object("bsdf", "diffuse", {{"reflectance", Rgb{rho, rho, rho}}});
+}
+ObjectPointer glass() { return object("bsdf", "dielectric", {{"int_ior", 1.5}, {"ext_ior", 1.0}}); }
+ObjectPointer room(double rho) {
+  const ObjectPointer shape = sphere(Vec3d(0, 0, 0), 2, diffuse(rho));
+  shape->properties.push_back({"flip_normals", true, {}});
+  return shape;
+}
+ObjectPointer lamp(const Vec3d& at, double intensity = 1) {
+  return object("emitter", "point",
+                {{"position", at}, {"intensity", Rgb{intensity, intensity, intensity}}});
+}
+
+LightPassSettings settings_of(uint32_t global, uint32_t caustic) {
+  LightPassSettings settings;
+  settings.global_photons = global;
+  settings.caustic_photons = caustic;
+  return settings;
+}
+
+/// Flux of a map, green.
+double flux_of(const PhotonMap& map) {
+  double sum = 0;
+  for (uint32_t i = 0; i < map.size(); ++i) sum += double(map.tree().data(i).flux[1]);
+  return sum;
+}
+
+/// In a closed room the photons that were reflected n times bring Φ ρⁿ, together Φ ρ/(1 − ρ); the
+/// first meeting is direct light and stores nothing.
+TEST(LightPass, GlobalFluxOfAClosedRoom) {
+  const auto scene = make_scene({room(0.6), lamp(Vec3d(0.3, 0.2, 0.5))});
+  const LightPass pass(*scene, settings_of(40'000 / sample_divisor, 1000), 1);
+  RunningStatistics flux;
+  for (uint32_t i = 0; i < 12; ++i) {
+    const PhotonMaps maps = pass.trace(1, i);
+    flux.add(flux_of(maps.global) / (4 * std::numbers::pi));
+    EXPECT_TRUE(maps.caustic.empty());
+    EXPECT_TRUE(pass.warnings(maps).empty());  // nothing specular: no caustics are no surprise
+    const LightCounts total = maps.global_report.total();
+    EXPECT_EQ(total.emitted, 40'000u / sample_divisor);
+    EXPECT_EQ(total.stored, maps.global.size());
+    EXPECT_EQ(total.absorbed, total.emitted);
+    EXPECT_NEAR(total.stored_flux, flux_of(maps.global), 1e-3 * total.stored_flux);
+  }
+  EXPECT_GT(z_test_p_value(flux, 0.6 / 0.4), 1e-3) << flux.mean();
+#ifndef KAUSTIK_SLOW_BUILD
+  EXPECT_LT(flux.standard_error(), 0.003 * 1.5);
+  EXPECT_LT(z_test_p_value(flux, 0.6 / 0.4 * 1.02), 1e-3);
+#endif
+}
+
+/// Every photon through a ball of glass about the lamp is a caustic one; none of them is lost, and
+/// re-radiated they bring what global photons bring by themselves otherwise.
+TEST(LightPass, GlassAroundTheLamp) {
+  const auto scene =
+      make_scene({room(0.5), lamp(Vec3d(0, 0, 0)), sphere(Vec3d(0, 0, 0), 0.5, glass())});
+  for (const bool reradiate : {false, true}) {
+    LightPassSettings settings = settings_of(20'000 / sample_divisor, 20'000 / sample_divisor);
+    settings.reradiate = reradiate;
+    const LightPass pass(*scene, settings, 1);
+    RunningStatistics caustic, global;
+    for (uint32_t i = 0; i < 8; ++i) {
+      const PhotonMaps maps = pass.trace(1, i);
+      caustic.add(flux_of(maps.caustic) / (4 * std::numbers::pi));
+      global.add(flux_of(maps.global) / (4 * std::numbers::pi));
+    }
+    // Light from the centre leaves the ball at once or after reflections inside.
+    EXPECT_NEAR(caustic.mean(), 1, 1e-3) << reradiate;
+    EXPECT_NEAR(global.mean(), 1, 4 * global.standard_error()) << reradiate;
+  }
+}
+
+TEST(LightPass, SaysWhyAMapIsEmpty) {
+  const auto explained = [](const std::vector<ObjectPointer>& objects) {
+    const auto scene = make_scene(objects);
+    const LightPass pass(*scene, settings_of(1000, 1000), 1);
+    std::string all;
+    for (const std::string& warning : pass.warnings(pass.trace(1, 0))) all += warning + "\n";
+    return all;
+  };
+  EXPECT_NE(explained({room(0.5)}).find("no light"), std::string::npos);
+  // All light leaves.
+  const std::string escaped =
+      explained({lamp(Vec3d(0, 0, 0)), sphere(Vec3d(5, 0, 0), 0.5, mirror())});
+  EXPECT_NE(escaped.find("the global map is empty"), std::string::npos);
+  EXPECT_NE(escaped.find("the caustic map is empty"), std::string::npos);
+  EXPECT_NE(escaped.find("left the scene"), std::string::npos);
+  EXPECT_EQ(explained({room(0.5), lamp(Vec3d(0, 0, 0))}), "");
+}
+
+/// What a lamp elsewhere emits does not take the photons of the one that makes the caustic.
+TEST(LightPass, BudgetsFollowWhatArrives) {
+  std::vector<ObjectPointer> objects = {sphere(Vec3d(0, 0, 0), 2, diffuse(0.5)),
+                                        lamp(Vec3d(0, 0, 4)), sphere(Vec3d(0, 0, 3), 0.3, glass())};
+  // Behind the big ball, many times as bright.
+  for (int i = 0; i < 50; ++i) objects.push_back(lamp(Vec3d(0.1 * (i - 25), 0, -3), 20));
+  const auto scene = make_scene(objects);
+  const LightPass pass(*scene, settings_of(0, 20'000), 1);
+  EXPECT_GT(pass.caustic_shares()[0], 17'000u);
+  for (size_t i = 1; i < 51; ++i) EXPECT_GE(pass.caustic_shares()[i], 1u);
+}
+
+TEST(LightPass, SameForAnyNumberOfThreads) {
+  const auto scene = make_scene({room(0.5), lamp(Vec3d(0.5, 0, 0)), lamp(Vec3d(0, 0.9, 0)),
+                                 sphere(Vec3d(0, 0, 0), 0.4, glass())});
+  const auto maps_of = [&](int threads) {
+    PhotonMaps maps;
+    with_threads(threads,
+                 [&] { maps = LightPass(*scene, settings_of(20'000, 20'000), 7).trace(7, 3); });
+    return maps;
+  };
+  const PhotonMaps one = maps_of(1), two = maps_of(2);
+  for (const auto map : {&PhotonMaps::global, &PhotonMaps::caustic}) {
+    const PhotonMap &a = one.*map, &b = two.*map;
+    ASSERT_EQ(a.size(), b.size());
+    ASSERT_GT(a.size(), 0u);
+    for (uint32_t i = 0; i < a.size(); ++i) {
+      ASSERT_EQ(a.tree().key(i), b.tree().key(i));
+      ASSERT_EQ(a.tree().data(i).flux, b.tree().data(i).flux);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kaustik
