@@ -27,7 +27,8 @@ std::string floor_from_above(double half_side) {
 
 Passes caustic(const TestScene& scene, bool aim, int photons, double samples, uint64_t seed) {
   return render(scene, "photonmap",
-                set("components", "caustic") + set("aim", aim) + set("caustic_photons", photons) +
+                set("components", "caustic") + set("aim", aim) +
+                    set("caustic_photons", int(photons * sample_share)) +
                     set("caustic_neighbors", 100'000) + set("caustic_radius", 0.2) +
                     set("caustic_kernel", "constant"),
                 {samples, seed});

@@ -104,7 +104,8 @@ TEST_F(BallLens, PhotonMapNearest) {
   const double expected = rho / pi_d * flux_seen() / (side * side);
   std::printf("  photonmap ball lens by nearest photons: ratio %.5f ± %.5f\n",
               found.mean() / expected, found.standard_error() / expected);
-  EXPECT_NEAR(found.mean(), expected, 0.01 * expected + 3 * found.standard_error());
+  EXPECT_NEAR(found.mean(), expected,
+              0.01 * expected + (slow_build ? 6 : 3) * found.standard_error());
 }
 
 // ---------------------------------------------------------------- nephroid
