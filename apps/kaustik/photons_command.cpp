@@ -26,11 +26,13 @@ std::string light_name(const Scene& scene, size_t light) {
 }
 
 void print_counts(const std::string& name, const LightCounts& c) {
-  fmt::print("  {:28} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11.4g}\n", name, c.emitted,
-             c.stored, c.nothing, c.escaped, c.absorbed, c.too_long, c.stored_flux);
+  fmt::print("  {:28} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11.4g}\n", name,
+             c.emitted, c.stored, c.nothing, c.escaped, c.absorbed, c.too_long, c.stopped,
+             c.stored_flux);
 }
 
-/// Photons are lost where they carry nothing, leave the scene, are absorbed, or go on for too long.
+/// Photons are lost where they carry nothing, leave the scene, are absorbed, go on for too long, or
+/// are stopped by a surface that does not send them on.
 void print_map(const char* name, const Scene& scene, const PhotonMap& map,
                const MapReport& report) {
   fmt::print("{} map: {} photons, {} rays", name, map.size(), report.rays);
@@ -38,8 +40,9 @@ void print_map(const char* name, const Scene& scene, const PhotonMap& map,
     fmt::print(", {:.1f} bytes per photon", double(map.size_in_bytes()) / double(map.size()));
   fmt::print("\n");
   if (report.lights.empty()) return;
-  fmt::print("  {:28} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11}\n", "light", "emitted",
-             "stored", "nothing", "escaped", "absorbed", "too long", "flux, W");
+  fmt::print("  {:28} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>11}\n", "light",
+             "emitted", "stored", "nothing", "escaped", "absorbed", "too long", "stopped",
+             "flux, W");
   for (size_t i = 0; i < report.lights.size(); ++i)
     print_counts(fmt::format("{}: {}", i, light_name(scene, i)), report.lights[i]);
   if (report.lights.size() > 1) print_counts("all", report.total());

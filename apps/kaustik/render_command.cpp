@@ -96,6 +96,9 @@ void render(RenderOptions options) {
   const SessionReport report =
       session.run(interrupt.token(), [&](const Progress& p) { line.show(p); });
   line.finish();
+  if (!options.quiet && std::isfinite(report.mean_error))
+    fmt::print(stderr, "mean of the picture: ±{:.2g} % (95 % confidence, {} passes)\n",
+               100 * report.mean_error, report.passes);
   for (const std::string& warning : report.warnings) warn(warning);
   if (report.cancelled) warn("cancelled: writing what is finished");
   const auto object = find_integrator(description);

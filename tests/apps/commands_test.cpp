@@ -158,9 +158,15 @@ TEST_F(Commands, PhotonsTellsWhatBecameOfThem) {
   ASSERT_EQ(stored.maps.global_report.lights.size(), 1u);
   const LightCounts& counts = stored.maps.global_report.lights[0];
   EXPECT_EQ(counts.emitted, 5000u);
-  EXPECT_EQ(counts.nothing + counts.escaped + counts.absorbed + counts.too_long, 5000u);
+  EXPECT_EQ(counts.nothing + counts.escaped + counts.absorbed + counts.too_long + counts.stopped,
+            5000u);
+  const LightCounts& caustic = stored.maps.caustic_report.lights[0];
+  EXPECT_EQ(
+      caustic.nothing + caustic.escaped + caustic.absorbed + caustic.too_long + caustic.stopped,
+      caustic.emitted);
+  EXPECT_GT(caustic.stopped, 0u);
   for (const char* part : {"caustic map: ", "global map: ", "bytes per photon", "emitted", "stored",
-                           "nothing", "escaped", "absorbed", "too long", "0: lamp"})
+                           "nothing", "escaped", "absorbed", "too long", "stopped", "0: lamp"})
     EXPECT_TRUE(contains(result.out, part)) << part << " is missing in\n" << result.out;
   EXPECT_TRUE(contains(result.out, std::to_string(counts.absorbed))) << result.out;
 }

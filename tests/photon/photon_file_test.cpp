@@ -133,6 +133,7 @@ void expect_same_report(const MapReport& a, const MapReport& b) {
     EXPECT_EQ(a.lights[i].escaped, b.lights[i].escaped);
     EXPECT_EQ(a.lights[i].absorbed, b.lights[i].absorbed);
     EXPECT_EQ(a.lights[i].too_long, b.lights[i].too_long);
+    EXPECT_EQ(a.lights[i].stopped, b.lights[i].stopped);
     EXPECT_EQ(a.lights[i].stored_flux, b.lights[i].stored_flux);
   }
 }
@@ -204,7 +205,7 @@ TEST_F(PhotonFile, OtherVersionsAndByteOrdersAreNamed) {
   bytes[12] = 9;
   seal(bytes);
   put(bytes);
-  expect_refused("has version 9, this program reads version 1");
+  expect_refused("has version 9, this program reads version 2");
   bytes = good;
   std::swap(bytes[8], bytes[11]);
   std::swap(bytes[9], bytes[10]);

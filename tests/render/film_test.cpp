@@ -129,7 +129,10 @@ TEST(Film, MeanErrorComesFromTheReplicates) {
   RunningStatistics means;
   means.add(2);
   means.add(4);
-  EXPECT_NEAR(film.mean_error(), means.standard_error() / means.mean(), 1e-6);
+  EXPECT_NEAR(
+      film.mean_error(),
+      student_t_quantile(0.975, double(means.count() - 1)) * means.standard_error() / means.mean(),
+      1e-5);
 }
 
 TEST(Film, NoiseIsRelative) {

@@ -115,7 +115,8 @@ bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec
   const BsdfSample sample = vertex_.sample(u_lobe, u, lobes);
   if (sample.event == Lobes::none || sample.weight.is_zero()) return false;
   state_.throughput *= sample.weight * (1 / probability);
-  state_.eta_scale *= sqr(sample.eta);
+  // Roulette must not see that this is one of several branches.
+  state_.roulette_scale *= sqr(sample.eta) * std::max(1.0f, probability);
   state_.pdf_forward = sample.event == Lobes::delta ? 0 : probability * sample.pdf_solid_angle;
   state_.depth += 1;
   class_.add_event(sample.event);
@@ -125,7 +126,7 @@ bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec
 }
 
 bool CameraWalk::survive(float u) {
-  const float survival = std::min(0.95f, state_.throughput.max_lane() * state_.eta_scale);
+  const float survival = std::min(0.95f, state_.throughput.max_lane() * state_.roulette_scale);
   if (!(u < survival)) return false;
   state_.throughput *= 1 / survival;
   return true;

@@ -17,8 +17,9 @@ const TypeInfo& LightTracer::info() {
                              "lighttracer",
                              "Unbiased light paths splatted to the camera; finds caustics of small "
                              "lamps, but nothing that "
-                             "the camera sees by a mirror or through glass.",
-                             {components_parameter(), max_depth_parameter(), rr_depth_parameter(),
+                             "the camera sees by a mirror, through glass or beyond the scene.",
+                             {components_parameter(), max_depth_parameter(),
+                              ignored_parameter("rr_depth", ParameterKind::integer),
                               ignored_parameter("hide_emitters", ParameterKind::boolean)}};
   return info;
 }

@@ -107,7 +107,7 @@ bool PhotonLight::importance(const SurfacePoint& at, const Frame& frame, const H
     counts = &count_storage;
   }
   const Vec3f side = dot(frame.z, at.ng) < 0 ? -at.ng : at.ng;
-  maps_.global.visit_nearest(at.position, side, settings_.global.neighbors, radii_.global,
+  maps_.global.visit_nearest(at.position, side, settings_.importance_photons, infinity,
                              [&](const Photon& photon, const Vec3f& position) {
                                const Vec3f local =
                                    frame.to_local(photon.incident_direction(position, at.position));
@@ -126,13 +126,14 @@ Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, int samples
                                         Sampler& sampler) const {
   HemisphereGrid grid{settings_.gather_theta_cells, settings_.gather_phi_cells};
   // With fewer photons than cells the grid would be mostly empty.
-  while (grid.count() > std::max(1, settings_.global.neighbors) &&
+  while (grid.count() > settings_.importance_photons &&
          (grid.theta_cells > 1 || grid.phi_cells > 1)) {
     grid.theta_cells = std::max(1, grid.theta_cells / 2);
     grid.phi_cells = std::max(1, grid.phi_cells / 2);
   }
   const Vec3f n = vertex.facing_normal();
   const Frame frame(n);
+  // One per thread is enough: gather rays never gather again.
   static thread_local std::vector<float> cells;
   double total = 0;
   if (importance(vertex.point(), frame, grid, cells))

@@ -33,7 +33,8 @@ float typical_radius(const PhotonMap& map, int neighbors) {
   }
   const auto quantile = radii.begin() + std::ptrdiff_t(radii.size() * 95 / 100);
   std::nth_element(radii.begin(), quantile, radii.end());
-  return 2 * *quantile;
+  // Too few photons to tell, or all at one place.
+  return *quantile > 0 ? 2 * *quantile : infinity;
 }
 
 /// The walk's vertex as the cache sees it.
@@ -63,6 +64,9 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
     refuse("holds photons of another scene (" + stored.scene + ")");
   if (stored.settings.traced != settings_.light_pass.traced)
     refuse("was traced with another specular_sampling");
+  if ((settings_.light_pass.caustic_photons > 0 && stored.settings.caustic_photons == 0) ||
+      (settings_.light_pass.global_photons > 0 && stored.settings.global_photons == 0))
+    refuse("was traced without photons that are needed here");
   stored_maps_ = std::make_shared<const PhotonMaps>(std::move(stored.maps));
 }
 
@@ -202,11 +206,14 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
   if (!any(local)) return;
   if (walk.wants_photon_light(Component::caustic))
     walk.add_photon_light(Component::caustic, state.light->caustic(vertex, local, walk.events()));
-  if (!any(local & Lobes::diffuse) || settings_.global.neighbors <= 0 ||
-      !walk.wants_photon_light(Component::indirect))
-    return;
-  walk.add_photon_light(Component::indirect,
-                        vertex.diffuse_value() * diffuse_irradiance(state, walk));
+  if (settings_.global.neighbors <= 0 || !walk.wants_photon_light(Component::indirect)) return;
+  if (any(local & Lobes::diffuse))
+    walk.add_photon_light(Component::indirect,
+                          vertex.diffuse_value() * diffuse_irradiance(state, walk));
+  // Glossy lobes that are not traced: the approximate solution is all that is left for them.
+  if (any(local & Lobes::glossy))
+    walk.add_photon_light(Component::indirect,
+                          state.light->global(vertex, local & Lobes::glossy, walk.events()));
 }
 
 Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk& walk) const {

@@ -112,7 +112,7 @@ std::vector<Parameter> parameters() {
       boolean_parameter("aim", true, "Aim caustic photons at specular objects."),
       integer_parameter("aim_targets", 128,
                         "Boxes that specular objects are divided into for that [distribQuality].")
-          .range(1, 4096),
+          .range(1, 128),
       integer_parameter("max_light_level", -1,
                         "Longest light path in scattering events [-l]; -1: any.")
           .range(-1, 1 << 20),
@@ -124,6 +124,11 @@ std::vector<Parameter> parameters() {
                         "Gather rays per camera sample where the irradiance cache does not serve "
                         "[numDiffuse].")
           .range(1, 1000000),
+      integer_parameter(
+          "importance_photons", 50,
+          "Global photons whose directions direct the gather rays; the grid has no more "
+          "cells than that.")
+          .range(1, 100000),
       integer_parameter("importance_theta_cells", 3,
                         "Rings of the grid that directs gather rays [impThetaIntervals].")
           .range(1, 1000),
@@ -207,6 +212,7 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   diffuse_samples = int(read.integer("diffuse_samples"));
   gather_theta_cells = int(read.integer("importance_theta_cells"));
   gather_phi_cells = int(read.integer("importance_phi_cells"));
+  importance_photons = int(read.integer("importance_photons"));
   importance_by_average = read.text("importance_weight") == "average";
   importance_floor = read.number("importance_floor");
   const std::string sampling = read.text("specular_sampling");

@@ -27,9 +27,10 @@ struct PhotonMapSettings {
 
   int light_samples = 1;
   int diffuse_samples = 0;  ///< gather rays per camera sample where the cache does not serve
+  int importance_photons = 50;
   int gather_theta_cells = 3, gather_phi_cells = 14;
   bool importance_by_average = false;  ///< cells weighted by mean flux instead of summed flux
-  float importance_floor = 0.1f;       ///< share of the samples that is spread evenly
+  float importance_floor = 0.25f;      ///< share of the samples that is spread evenly
 
   bool cache = true;
   CacheSettings cache_settings;

@@ -77,6 +77,7 @@ void LightCounts::add(const LightCounts& other) {
   escaped += other.escaped;
   absorbed += other.absorbed;
   too_long += other.too_long;
+  stopped += other.stopped;
   stored_flux += other.stored_flux;
 }
 
@@ -123,6 +124,7 @@ class LightPass::Tracer {
     if (result.end == LightPathEnd::escaped) ++counts.escaped;
     if (result.end == LightPathEnd::absorbed) ++counts.absorbed;
     if (result.end == LightPathEnd::too_long) ++counts.too_long;
+    if (result.end == LightPathEnd::stopped) ++counts.stopped;
   }
 
   PhotonList global, caustic;
@@ -136,7 +138,8 @@ class LightPass::Tracer {
       return Lobes::all;
     }
     // With re-radiation the caustic photons bring what specular events began.
-    return pass_.settings_.reradiate ? without(Lobes::all, pass_.settings_.traced) : Lobes::all;
+    const bool brought = pass_.settings_.reradiate && pass_.settings_.caustic_photons > 0;
+    return brought ? without(Lobes::all, pass_.settings_.traced) : Lobes::all;
   }
 
   Lobes meet_caustic(const LightVertex& at) {
@@ -274,8 +277,11 @@ std::vector<std::string> LightPass::warnings(const PhotonMaps& maps) const {
       return fmt::format("the {} map is empty: the scene has no light", name);
     return fmt::format(
         "the {} map is empty: of {} photons {} carried nothing, {} left the scene, {} were "
-        "absorbed before a surface that could store them, {} reached the longest path",
-        name, total.emitted, total.nothing, total.escaped, total.absorbed, total.too_long);
+        "absorbed "
+        "before a surface that could store them, {} reached the longest path, {} met no specular "
+        "object",
+        name, total.emitted, total.nothing, total.escaped, total.absorbed, total.too_long,
+        total.stopped);
   };
   if (settings_.global_photons > 0 && maps.global.empty())
     list.push_back(explain("global", maps.global_report));

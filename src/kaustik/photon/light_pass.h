@@ -32,6 +32,8 @@ struct LightCounts {
   uint64_t escaped = 0;  ///< left the scene
   uint64_t absorbed = 0;
   uint64_t too_long = 0;   ///< reached the limit of events
+  uint64_t stopped = 0;    ///< came to a surface that does not send them on: caustic photons to one
+                           ///< without specular lobes
   double stored_flux = 0;  ///< W over all stored photons
   void add(const LightCounts& other);
 };

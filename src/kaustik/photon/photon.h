@@ -61,10 +61,10 @@ class PackedDirection {
 /// Flux that arrived at a surface; its position is the key in the photon map. 28 bytes.
 struct Photon {
   std::array<float, Spectrum::lane_count> flux{};  ///< W that arrives, before any attenuation
-  float distance = 0;         ///< to the origin, m (infinite for lights at infinity)
-  PackedDirection direction;  ///< toward the origin
-  CoarseNormal side;          ///< geometric normal on the side on which it arrived
-  uint8_t on_front = 1;       ///< whether that side is the side of the surface's own normal
+  float distance = 0;                              ///< to the origin, m
+  PackedDirection direction;                       ///< toward the origin
+  CoarseNormal side;     ///< geometric normal on the side on which it arrived
+  uint8_t on_front = 1;  ///< whether that side is the side of the surface's own normal
 
   Spectrum flux_spectrum() const { return {flux[0], flux[1], flux[2], flux[3]}; }
   /// Unit direction toward the origin from a point `at` near the photon's position: what

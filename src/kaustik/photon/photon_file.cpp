@@ -22,7 +22,7 @@ namespace {
 // A byte over 127 and both kinds of line ends show damage by transfers as text.
 constexpr std::array<uint8_t, 8> magic = {0x89, 'K', 'P', 'M', '\r', '\n', 0x1a, '\n'};
 constexpr uint32_t byte_order_mark = 0x01020304, swapped_byte_order_mark = 0x04030201;
-constexpr uint32_t version = 1;  // to be raised whenever the layout changes, Photon's included
+constexpr uint32_t version = 2;  // to be raised whenever the layout changes, Photon's included
 constexpr size_t checksum_size = sizeof(uint64_t);
 constexpr size_t bytes_per_photon = sizeof(Vec3f) + sizeof(Photon);
 constexpr size_t bytes_per_light = 7 * sizeof(uint64_t);
@@ -71,7 +71,7 @@ class Writer {
     put(uint64_t(report.lights.size()));
     for (const LightCounts& c : report.lights) {
       for (const uint64_t count :
-           {c.emitted, c.stored, c.nothing, c.escaped, c.absorbed, c.too_long})
+           {c.emitted, c.stored, c.nothing, c.escaped, c.absorbed, c.too_long, c.stopped})
         put(count);
       put(c.stored_flux);
     }
@@ -194,7 +194,7 @@ class Reader {
     report.lights.resize(lights);
     for (LightCounts& c : report.lights) {
       for (uint64_t* count :
-           {&c.emitted, &c.stored, &c.nothing, &c.escaped, &c.absorbed, &c.too_long})
+           {&c.emitted, &c.stored, &c.nothing, &c.escaped, &c.absorbed, &c.too_long, &c.stopped})
         *count = get<uint64_t>();
       c.stored_flux = get<double>();
       if (!std::isfinite(c.stored_flux)) damaged("a light's flux is not finite");
@@ -229,19 +229,43 @@ std::string text_of(const Bounds3f& b) {
                      b.max.x, b.max.y, b.max.z);
 }
 
-/// Of what tells most scenes apart: every shape's place and colour, every light's power. Rounded,
-/// so that the last bits of another build make no difference.
+std::string text_of(const Vec3f& v) { return fmt::format("{:.4g} {:.4g} {:.4g};", v.x, v.y, v.z); }
+
+/// How a surface scatters: its albedo, and where it sends a few directions from either side.
+std::string text_of(const Bsdf& bsdf) {
+  BsdfContext context;
+  context.texture.uv = {0.5f, 0.5f};
+  std::string text;
+  for (const float side : {1.0f, -1.0f}) {
+    const Vec3f wo = normalize(Vec3f(0.3f, 0.2f, side));
+    const Spectrum albedo = bsdf.albedo(context, wo, Lobes::all);
+    text += fmt::format("{:.3g} {:.3g} {:.3g};", albedo[0], albedo[1], albedo[2]);
+    for (const float u : {0.02f, 0.98f})
+      text += text_of(bsdf.sample(context, wo, u, {0.4f, 0.7f}, Lobes::all).wi);
+  }
+  return text;
+}
+
+/// What a light sends out: its power and a few of its rays.
+std::string text_of(const Light& light) {
+  std::string text = fmt::format("{:.4g};", light.power().sum());
+  for (const float u : {0.2f, 0.7f}) {
+    const EmissionSample ray = light.sample_emission({u, 0.4f}, {0.6f, u});
+    text += text_of(ray.point.position) + text_of(ray.direction);
+  }
+  return text;
+}
+
+/// Of what tells scenes apart: shapes, where instances stand, how surfaces scatter, what lights
+/// send out. Rounded, so that the last bits of another build make no difference.
 uint64_t digest_of(const Scene& scene) {
   std::string text;
-  for (uint32_t i = 0; i < scene.surface_count(); ++i) {
-    BsdfContext context;
-    context.texture.uv = {0.5f, 0.5f};
-    const Spectrum albedo =
-        scene.surface(i).bsdf->albedo(context, normalize({0.3f, 0.2f, 1}), Lobes::all);
-    text += fmt::format("{} {:.3g} {:.3g} {:.3g};", text_of(scene.tracer().shape(i).bounds()),
-                        albedo[0], albedo[1], albedo[2]);
-  }
-  for (const auto& light : scene.lights()) text += fmt::format("{:.4g};", light->power().sum());
+  for (uint32_t i = 0; i < scene.surface_count(); ++i)
+    text += text_of(scene.tracer().shape(i).bounds()) + text_of(*scene.surface(i).bsdf);
+  for (const Instance& instance : scene.tracer().geometry().instances)
+    for (const Vec3f& p : {Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(0, 0, 1)})
+      text += text_of(instance.world_from_group.point(p));
+  for (const auto& light : scene.lights()) text += text_of(*light);
   return checksum({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 

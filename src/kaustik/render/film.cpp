@@ -125,7 +125,8 @@ double Film::mean_error() const {
   for (size_t r = 0; r < replicate_count; ++r)
     if (replicate_passes_[r] > 0) means.add(double_from(replicate_sums_[r]) / replicate_passes_[r]);
   if (means.count() < 2 || !(means.mean() > 0)) return std::numeric_limits<double>::infinity();
-  return means.standard_error() / means.mean();
+  return student_t_quantile(0.975, double(means.count() - 1)) * means.standard_error() /
+         means.mean();
 }
 
 double Film::relative_noise() const {

@@ -30,8 +30,8 @@ class Film {
   /// The mean of the passes: "R" "G" "B", a layer per component, "albedo", "N", "depth", and
   /// "error" (standard error of the mean per channel, over passes). All zero without a pass.
   Image image() const;
-  /// Relative standard error of the picture's mean luminance, from Student's t over the means of
-  /// the replicates; infinite with fewer than two replicates.
+  /// Half the width of the 95 % confidence interval of the picture's mean luminance, relative to
+  /// it: Student's t over the means of the replicates; infinite with fewer than two replicates.
   double mean_error() const;
   /// Square root of the mean over pixels of variance/(mean² + 0.01): how noisy the picture is.
   double relative_noise() const;

@@ -35,9 +35,12 @@ int add_sample(const SampleSink& sink, PassPixel& sum) {
     else
       ++dropped;
   }
-  sum.first_hit.albedo += sink.first_hit().albedo;
-  sum.first_hit.normal += sink.first_hit().normal;
-  sum.first_hit.depth += sink.first_hit().depth;
+  const FirstHit& hit = sink.first_hit();
+  if (!hit.albedo.is_finite() || !is_finite(hit.normal) || !std::isfinite(hit.depth))
+    return dropped + 1;
+  sum.first_hit.albedo += hit.albedo;
+  sum.first_hit.normal += hit.normal;
+  sum.first_hit.depth += hit.depth;
   return dropped;
 }
 
@@ -178,6 +181,7 @@ SessionReport Session::run(std::stop_token stop,
   });
   report_.cancelled = stop.stop_requested();
   report_.passes = film_.pass_count();
+  report_.mean_error = film_.mean_error();
   report_.rays = monitor.rays;
   report_.photons = monitor.photons;
   report_.dropped_samples = monitor.dropped + splats_.dropped();

@@ -47,6 +47,7 @@ struct SessionReport {
   uint64_t dropped_samples = 0;  ///< not finite, left out
   double seconds = 0;
   double light_seconds = 0;  ///< of it, in light passes
+  double mean_error = 0;     ///< Film::mean_error()
   bool cancelled = false;
   bool incomplete_pass = false;  ///< cancelled in the first pass: the picture is only part of it
   std::vector<std::string> warnings;

@@ -27,8 +27,9 @@ float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, int ligh
 
 /// Power heuristic with exponent 2 for one sample each (Veach 1997).
 inline float mis_weight(float pdf, float other_pdf) {
-  const float a = pdf * pdf, b = other_pdf * other_pdf;
-  return a > 0 ? a / (a + b) : 0.0f;
+  if (!(pdf > 0)) return 0;
+  const float ratio = other_pdf / pdf;  // squares of densities may overflow, those of ratios vanish
+  return 1 / (1 + ratio * ratio);
 }
 
 /// One of the two classes of lobes (diffuse, specular) of a vertex, chosen by their albedos, so

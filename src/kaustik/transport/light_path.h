@@ -14,6 +14,9 @@ struct LightVertex {
   float distance = 0;         ///< from the path's previous vertex, m
 };
 
+/// Events after which no light path goes on for certain.
+inline constexpr int certain_events = 16;
+
 struct LightPathLimits {
   int maximum_events = 1 << 20;    ///< scattering events
   Lobes traced = Lobes::specular;  ///< lobes whose events count as specular
@@ -63,7 +66,9 @@ LightPathResult trace_light_path(const Scene& scene, const Ray& emitted, const S
     const Vec2f u = sampler.next_2d();
     const Vec2f u_choice = sampler.next_2d();
     const BsdfSample sample = at.vertex.sample(u_choice.x, u, follow);
-    const float survival = std::min(1.0f, sample.weight.max_lane());
+    // Light that total reflection or perfect mirrors trap would never end.
+    const float limit = at.path_class.events() < certain_events ? 1.0f : 0.95f;
+    const float survival = std::min(limit, sample.weight.max_lane());
     if (sample.event == Lobes::none || !(u_choice.y < survival)) {
       result.end = LightPathEnd::absorbed;
       return result;

@@ -13,10 +13,11 @@ struct PathState {
   float footprint = 0;             ///< width of the path's beam at the last vertex, m
   float spread = 0;                ///< growth of the footprint per metre
   bool single_wavelength = false;  ///< dispersed: only the first lane is valid (spectral mode)
-  float pdf_forward = 0;  ///< density per solid angle of the last direction as sampled; 0: delta
-  float pdf_reverse = 0;  ///< density of the same segment sampled from its other end; 0: unknown
-  float eta_scale = 1;    ///< product of the squared relative indices crossed, for roulette
-  int depth = 0;          ///< scattering events so far
+  float pdf_forward = 0;     ///< density per solid angle of the last direction as sampled; 0: delta
+  float pdf_reverse = 0;     ///< density of the same segment sampled from its other end; 0: unknown
+  float roulette_scale = 1;  ///< what roulette multiplies the throughput by: the product of the
+                             ///< squared relative indices crossed and of the numbers of branches
+  int depth = 0;             ///< scattering events so far
 };
 
 }  // namespace kaustik
