@@ -87,8 +87,8 @@ TEST(PhotonMapOptions, Reradiate) {
               1e-4 * without.mean({"caustic"}).mean());
 }
 
-/// On diffuse surfaces light is divided between caustics and indirect light by what is traced, but
-/// their sum is the same; what glossy lobes are seen to reflect is traced only by `importance`.
+/// Light is divided between caustics, indirect and specular light by what is traced, but their sum
+/// is the same: photons light the lobes that are not traced.
 TEST(PhotonMapOptions, SpecularSampling) {
   const TestScene scene(round_room(diffuse("0.5, 0.5, 0.5"),
                                    sphere("-0.3, 0.2, -0.3", 0.25, phong(0.2, 0.7, 15)) +
@@ -104,8 +104,9 @@ TEST(PhotonMapOptions, SpecularSampling) {
     EXPECT_EQ(part->mean({"caustic"}).mean(), 0);  // no mirror, no glass
     expect_near_means("direct by specular sampling", part->mean({"direct"}), all.mean({"direct"}),
                       0, 0.01);
-    expect_near_means("diffuse light by specular sampling", part->mean({"indirect"}),
-                      all.mean({"caustic", "indirect"}), 0.01);
+    // The estimate at the balls themselves is blurred over their small surface.
+    expect_near_means("other light by specular sampling", part->mean({"indirect"}),
+                      all.mean({"caustic", "indirect", "specular"}), 0.02, 0.01);
   }
   EXPECT_GT(all.mean({"caustic"}).mean(), 0);
   EXPECT_GT(all.mean({"specular"}).mean(), 0);
