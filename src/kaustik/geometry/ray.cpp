@@ -1,14 +1,18 @@
 #include "kaustik/geometry/ray.h"
 
+#include <bit>
+
 namespace kaustik {
 namespace {
 
-/// One step away from `from` in the direction of `offset`.
+/// `from` + `offset` and one float further in that direction; what std::nextafter does for finite
+/// numbers, inline.
 float round_outward(float from, float offset) {
   const float moved = from + offset;
-  if (offset > 0) return std::nextafter(moved, infinity);
-  if (offset < 0) return std::nextafter(moved, -infinity);
-  return moved;
+  if (offset == 0) return moved;
+  if (moved == 0) return std::copysign(std::numeric_limits<float>::denorm_min(), offset);
+  const bool away_from_zero = (moved > 0) == (offset > 0);
+  return std::bit_cast<float>(std::bit_cast<uint32_t>(moved) + (away_from_zero ? 1u : ~0u));
 }
 
 Vec3f offset_by(const SurfacePoint& point, const Vec3f& direction, float distance) {

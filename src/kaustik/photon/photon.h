@@ -8,14 +8,17 @@
 
 namespace kaustik {
 
+/// Halves away from zero, as std::lround does, but inline.
+inline int nearest_integer(float x) { return int(x + std::copysign(0.5f, x)); }
+
 /// A unit vector in 3 × 8 bits, exact enough to tell half spaces apart.
 class CoarseNormal {
  public:
   CoarseNormal() = default;
   explicit CoarseNormal(const Vec3f& n)
-      : x_(int8_t(std::lround(n.x * 127))),
-        y_(int8_t(std::lround(n.y * 127))),
-        z_(int8_t(std::lround(n.z * 127))) {}
+      : x_(int8_t(nearest_integer(n.x * 127))),
+        y_(int8_t(nearest_integer(n.y * 127))),
+        z_(int8_t(nearest_integer(n.z * 127))) {}
   /// Dot product, times 127.
   float dot(const Vec3f& v) const { return float(x_) * v.x + float(y_) * v.y + float(z_) * v.z; }
   int8_t x() const { return x_; }
@@ -40,8 +43,8 @@ class PackedDirection {
       y = (1 - std::fabs(x)) * std::copysign(1.0f, y);
       x = folded;
     }
-    x_ = int16_t(std::lround(x * 32767));
-    y_ = int16_t(std::lround(y * 32767));
+    x_ = int16_t(nearest_integer(x * 32767));
+    y_ = int16_t(nearest_integer(y * 32767));
   }
   Vec3f unpack() const {
     float x = float(x_) / 32767, y = float(y_) / 32767;

@@ -8,6 +8,7 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
   wo_ = -ray.direction;
   const Surface& surface = scene.surface(point_.shape);
   bsdf_ = surface.bsdf.get();
+  lobes_ = bsdf_->lobes();
   light_ = surface.light;
   context_.texture.uv = point_.uv;
   context_.texture.footprint = footprint;

@@ -20,7 +20,7 @@ class SurfaceVertex {
   const SurfacePoint& point() const { return point_; }
   const Vec3f& position() const { return point_.position; }
   const Bsdf& bsdf() const { return *bsdf_; }
-  Lobes lobes() const { return bsdf_->lobes(); }
+  Lobes lobes() const { return lobes_; }
   const Vec3f& wo() const { return wo_; }
   int light() const { return light_; }
   const BsdfContext& context() const { return context_; }
@@ -54,6 +54,7 @@ class SurfaceVertex {
 
   SurfacePoint point_;
   const Bsdf* bsdf_ = nullptr;
+  Lobes lobes_ = Lobes::none;  ///< of the bsdf
   int light_ = -1;
   BsdfContext context_;
   Frame frame_;
