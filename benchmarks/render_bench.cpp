@@ -45,6 +45,11 @@ double error_of_reference(const Image& reference) {
 void compare_methods(const std::string& name, double seconds) {
   const std::string path =
       std::string(KAUSTIK_SOURCE_DIR) + "/benchmarks/references/" + name + ".exr";
+  if (!std::filesystem::exists(path)) {
+    fmt::print(stderr, "render_bench: there is no {}; make it: benchmarks/make_references.sh 60m\n",
+               path);
+    return;
+  }
   const Image reference = read_image(path);
   const double photonmap = error_of(name, "photonmap", seconds, reference);
   const double by_path = error_of(name, "path", seconds, reference);
