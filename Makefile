@@ -24,7 +24,7 @@ build: configure
 render: configure
 	@cmake --build --preset release --target kaustik
 	@mkdir -p out
-	$(program) render $(scene) -o out/cornell_box.exr -o out/cornell_box.tif -o out/cornell_box.png
+	$(program) render $(scene) -o out/cornell_box.exr -o out/cornell_box.tif -o out/cornell_box.png --tonemap linear --exposure 1
 
 test: build
 	ctest --preset release

@@ -37,6 +37,18 @@ Parameter ignored_sampling_weight() {
   return ignored_parameter("sampling_weight", ParameterKind::number);
 }
 
+LightSample toward_point(const SurfacePoint& point, const Vec3f& reference) {
+  LightSample result;
+  const Vec3f to_light = point.position - reference;
+  const float distance_sq = length_sq(to_light);
+  if (!(distance_sq > 0)) return result;
+  result.distance = std::sqrt(distance_sq);
+  result.direction = to_light * (1.0f / result.distance);
+  result.point = point;
+  result.delta = true;
+  return result;
+}
+
 SurfacePoint free_point(const Vec3f& position) {
   SurfacePoint point;
   point.position = position;

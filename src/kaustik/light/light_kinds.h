@@ -27,6 +27,9 @@ Parameter ignored_sampling_weight();
 
 /// A point off every surface: all but the position is zero.
 SurfacePoint free_point(const Vec3f& position);
+/// A point light at `point` seen from `reference`: where it is, without its light (radiance and
+/// density zero); nothing where both coincide.
+LightSample toward_point(const SurfacePoint& point, const Vec3f& reference);
 
 /// The disk that rays of infinite lights start from: across their direction, just outside of the
 /// scene, as large as the scene's bounding sphere.

@@ -25,17 +25,11 @@ class SpotLight final : public Light {
   bool is_delta() const override { return true; }
 
   LightSample sample_toward(const Vec3f& reference, const Vec2f&) const override {
-    LightSample result;
-    const Vec3f to_light = point_.position - reference;
-    const float distance_sq = length_sq(to_light);
-    if (!(distance_sq > 0)) return result;
-    result.distance = std::sqrt(distance_sq);
-    result.direction = to_light * (1.0f / result.distance);
-    result.point = point_;
-    result.delta = true;
+    LightSample result = toward_point(point_, reference);
+    if (!result.delta) return result;
     const float falloff = cone_.falloff(frame_.to_local(-result.direction));
     if (falloff > 0) {
-      result.radiance = intensity_ * (falloff / distance_sq);
+      result.radiance = intensity_ * (falloff / sqr(result.distance));
       result.pdf_solid_angle = 1;
     }
     return result;
