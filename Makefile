@@ -30,6 +30,7 @@ test: build
 	ctest --preset release
 
 bench: build
+	@scripts/install_packages.sh bench
 	@scripts/run_benchmarks.sh $(BUILD)
 
 install: configure

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of the named groups: build, check, package. Asks nothing, and
+# Installs the Debian packages of the named groups: build, check, package, bench. Asks nothing, and
 # needs no network when everything is there already.
 set -euo pipefail
 
@@ -8,6 +8,7 @@ build=(cmake ninja-build pkg-config libembree-dev libtbb-dev libimath-dev libope
   libgtest-dev libnanoflann-dev)
 check=(clang clang-format libclang-rt-14-dev)
 package=(dpkg-dev file)
+bench=(blender)
 
 wanted=()
 for group in "$@"; do
@@ -15,7 +16,8 @@ for group in "$@"; do
     build) wanted+=("${build[@]}") ;;
     check) wanted+=("${check[@]}") ;;
     package) wanted+=("${package[@]}") ;;
-    *) echo "$0: no group '$group'; there are build, check and package" >&2; exit 2 ;;
+    bench) wanted+=("${bench[@]}") ;;
+    *) echo "$0: no group '$group'; there are build, check, package and bench" >&2; exit 2 ;;
   esac
 done
 
