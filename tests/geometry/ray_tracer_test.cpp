@@ -159,6 +159,53 @@ TEST(RayTracer, InstancesAreCopiesInTheirPlace) {
   EXPECT_LT(differ, 20);
 }
 
+TEST(RayTracer, RaysInPacketsMeetWhatSingleRaysMeet) {
+  const Transform first = placement(0.5), second = Transform::translate({-4, 5, 1}) * placement(2);
+  const auto floor = make_shape("rectangle", {{"to_world", Transform::scale({9, 9, 9}), {}}});
+  const auto ball = bumpy_ball(4);
+  const RayTracer tracer(
+      Geometry{{floor, ball}, {group_shapes(Transform())}, {{0, first}, {0, second}}});
+  Random random(44);
+  int met = 0, instanced = 0, missed = 0, differ = 0;
+  for (size_t round = 0; round < size_t(2000 / samples_divisor); ++round) {
+    std::vector<Ray> rays(1 + round % 19);
+    for (Ray& ray : rays) {
+      ray = random_ray(random, tracer);
+      if (random.uniform() < 0.2f) ray.t_max = 5;
+    }
+    std::vector<Hit> hits(rays.size());
+    tracer.intersect(rays, hits);
+    for (size_t i = 0; i < rays.size(); ++i) {
+      Hit single;
+      single.t = infinity;
+      tracer.intersect(rays[i], single);
+      if ((hits[i].t < infinity) != (single.t < infinity)) {
+        ++differ;  // at an edge
+        continue;
+      }
+      if (!(single.t < infinity)) {
+        ++missed;
+        continue;
+      }
+      if (hits[i].shape != single.shape || hits[i].instance != single.instance ||
+          hits[i].primitive != single.primitive) {
+        ++differ;
+        continue;
+      }
+      ++met;
+      instanced += single.instance != no_instance;
+      const SurfacePoint a = tracer.surface_point(rays[i], hits[i]),
+                         b = tracer.surface_point(rays[i], single);
+      EXPECT_LT(length(a.position - b.position), 1e-4f);
+      EXPECT_GT(dot(a.ng, b.ng), 0.9999f);
+    }
+  }
+  EXPECT_GT(met, 5000 / samples_divisor);
+  EXPECT_GT(instanced, 500 / samples_divisor);
+  EXPECT_GT(missed, 500 / samples_divisor);
+  EXPECT_LT(differ, 20);
+}
+
 TEST(RayTracer, SameHitsFromAnyNumberOfThreadsAndBuilds) {
   const auto shape = bumpy_ball(6);
   constexpr size_t rays = 20000;

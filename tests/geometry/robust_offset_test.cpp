@@ -37,7 +37,10 @@ void leave(const RayTracer& tracer, const SurfacePoint& point, Random& random, f
   for (const float side : {1.0f, -1.0f}) {
     if (side < 0 && !both_sides) break;
     const Vec3f direction = leaving_direction(random, point.ng * side);
-    if (tracer.occluded(spawn_ray(point, direction))) ++tally.self_hits;
+    const Ray ray = spawn_ray(point, direction);
+    Hit in_packet;
+    tracer.intersect({&ray, 1}, {&in_packet, 1});
+    if (tracer.occluded(ray) || in_packet.t < infinity) ++tally.self_hits;
     const Vec3f moved = offset_origin(point, direction) - point.position;
     tally.largest_offset_ulps =
         std::max(tally.largest_offset_ulps, double(length(moved)) / (double(magnitude) * 0x1p-23));

@@ -9,7 +9,6 @@
 #endif
 
 #include <atomic>
-#include <cassert>
 #include <mutex>
 
 #include "kaustik/geometry/mesh_surface.h"
@@ -60,6 +59,19 @@ InstanceRecord make_instance(const Transform& world_from_group, uint32_t first_s
   return record;
 }
 
+/// Where a mesh is read at a hit of it; asked for early, for several hits at once, since in large
+/// meshes each is a cache miss.
+inline void prefetch_triangle(const ShapeRecord& record, const Hit& hit) {
+  if (record.mesh) __builtin_prefetch(&record.mesh->triangles[hit.primitive]);
+}
+inline void prefetch_corners(const ShapeRecord& record, const Hit& hit) {
+  if (!record.mesh) return;
+  for (const uint32_t corner : record.mesh->triangles[hit.primitive]) {
+    __builtin_prefetch(&record.mesh->positions[corner]);
+    if (!record.mesh->normals.empty()) __builtin_prefetch(&record.mesh->normals[corner]);
+  }
+}
+
 /// A point of a group's space brought to the world.
 SurfacePoint placed(const InstanceRecord& instance, const SurfacePoint& local) {
   SurfacePoint point = local;
@@ -85,8 +97,11 @@ inline SurfacePoint mesh_point(const TriangleMesh& mesh, const Hit& hit) {
   return point;
 }
 
-Ray ray_of(const RTCRay& r) {
-  return {{r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z}, r.tfar};
+/// Lane `i` of a packet of `n` rays.
+Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {
+  return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+          {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
+          RTCRayN_tfar(rays, n, i)};
 }
 
 void shape_bounds(const RTCBoundsFunctionArguments* arguments) {
@@ -97,26 +112,47 @@ void shape_bounds(const RTCBoundsFunctionArguments* arguments) {
 }
 
 void intersect_shape(const RTCIntersectFunctionNArguments* arguments) {
-  if (!arguments->valid[0]) return;
-  assert(arguments->N == 1);
-  auto& rayhit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-  const auto hit =
-      static_cast<const Shape*>(arguments->geometryUserPtr)->intersect(ray_of(rayhit.ray));
-  if (!hit) return;
-  rayhit.ray.tfar = hit->t;
-  rayhit.hit.Ng_x = hit->ng.x, rayhit.hit.Ng_y = hit->ng.y, rayhit.hit.Ng_z = hit->ng.z;
-  rayhit.hit.u = hit->u, rayhit.hit.v = hit->v;
-  rayhit.hit.primID = arguments->primID;
-  rayhit.hit.geomID = arguments->geomID;
-  rayhit.hit.instID[0] = arguments->context->instID[0];
+  const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
+  const unsigned n = arguments->N;
+  RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
+  RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, n);
+  for (unsigned i = 0; i < n; ++i) {
+    if (!arguments->valid[i]) continue;
+    const auto hit = shape.intersect(ray_of(rays, n, i));
+    if (!hit) continue;
+    RTCRayN_tfar(rays, n, i) = hit->t;
+    RTCHitN_Ng_x(hits, n, i) = hit->ng.x, RTCHitN_Ng_y(hits, n, i) = hit->ng.y;
+    RTCHitN_Ng_z(hits, n, i) = hit->ng.z;
+    RTCHitN_u(hits, n, i) = hit->u, RTCHitN_v(hits, n, i) = hit->v;
+    RTCHitN_primID(hits, n, i) = arguments->primID;
+    RTCHitN_geomID(hits, n, i) = arguments->geomID;
+    RTCHitN_instID(hits, n, i, 0) = arguments->context->instID[0];
+  }
 }
 
 void occluded_by_shape(const RTCOccludedFunctionNArguments* arguments) {
-  if (!arguments->valid[0]) return;
-  assert(arguments->N == 1);
-  auto& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
-  if (static_cast<const Shape*>(arguments->geometryUserPtr)->intersect(ray_of(ray)))
-    ray.tfar = -infinity;
+  const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
+  const unsigned n = arguments->N;
+  for (unsigned i = 0; i < n; ++i)
+    if (arguments->valid[i] && shape.intersect(ray_of(arguments->ray, n, i)))
+      RTCRayN_tfar(arguments->ray, n, i) = -infinity;
+}
+
+constexpr size_t packet_size = 8;
+
+void fill(RTCRayHit8& out, size_t i, const Ray& ray) {
+  out.ray.org_x[i] = ray.origin.x, out.ray.org_y[i] = ray.origin.y;
+  out.ray.org_z[i] = ray.origin.z;
+  out.ray.tnear[i] = std::numeric_limits<float>::min();
+  out.ray.dir_x[i] = ray.direction.x, out.ray.dir_y[i] = ray.direction.y;
+  out.ray.dir_z[i] = ray.direction.z;
+  out.ray.time[i] = 0;
+  out.ray.tfar[i] = ray.t_max;
+  out.ray.mask[i] = 0xffffffffu;
+  out.ray.id[i] = 0;
+  out.ray.flags[i] = 0;
+  out.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+  out.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
 }
 
 void fill(RTCRay& out, const Ray& ray) {
@@ -138,6 +174,16 @@ inline void trace_closest(RTCScene scene, RTCRayHit& rayhit) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene, &context, &rayhit);
+#endif
+}
+
+inline void trace_closest(RTCScene scene, const int* valid, RTCRayHit8& rayhits) {
+#if RTC_VERSION_MAJOR >= 4
+  rtcIntersect8(valid, scene, &rayhits, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect8(valid, scene, &context, &rayhits);
 #endif
 }
 
@@ -177,6 +223,8 @@ struct RayTracer::Impl {
   void commit(RTCScene target);
   void check();
   void release();
+  void place_hit(uint32_t geometry_id, uint32_t instance_id, Hit& hit) const;
+  void intersect_packet(std::span<const Ray> rays, std::span<Hit> hits) const;
   SurfacePoint point_of_others(const ShapeRecord& record, const Ray& ray, const Hit& hit) const;
 
   static void on_error(void* self, RTCError code, const char* text);
@@ -342,6 +390,15 @@ SurfacePoint RayTracer::Impl::point_of_others(const ShapeRecord& record, const R
 RayTracer::RayTracer(Geometry geometry) : impl_(std::make_unique<Impl>(std::move(geometry))) {}
 RayTracer::~RayTracer() = default;
 
+void RayTracer::Impl::place_hit(uint32_t geometry_id, uint32_t instance_id, Hit& hit) const {
+  hit.shape = geometry_id;
+  hit.instance = no_instance;
+  if (instance_id == RTC_INVALID_GEOMETRY_ID) return;
+  // Instances were attached behind the shapes that stand in the world.
+  hit.instance = instance_id - uint32_t(geometry.shapes.size());
+  hit.shape += instances[hit.instance].first_shape;
+}
+
 bool RayTracer::intersect(const Ray& ray, Hit& hit) const {
   RTCRayHit rayhit;
   fill(rayhit.ray, ray);
@@ -353,15 +410,42 @@ bool RayTracer::intersect(const Ray& ray, Hit& hit) const {
   hit.u = rayhit.hit.u;
   hit.v = rayhit.hit.v;
   hit.ng = {rayhit.hit.Ng_x, rayhit.hit.Ng_y, rayhit.hit.Ng_z};
-  hit.shape = rayhit.hit.geomID;
   hit.primitive = rayhit.hit.primID;
-  hit.instance = no_instance;
-  if (rayhit.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
-    // Instances were attached behind the shapes that stand in the world.
-    hit.instance = rayhit.hit.instID[0] - uint32_t(impl_->geometry.shapes.size());
-    hit.shape += impl_->instances[hit.instance].first_shape;
-  }
+  impl_->place_hit(rayhit.hit.geomID, rayhit.hit.instID[0], hit);
   return true;
+}
+
+void RayTracer::Impl::intersect_packet(std::span<const Ray> rays, std::span<Hit> hits) const {
+  alignas(32) int valid[packet_size];
+  RTCRayHit8 packet;
+  for (size_t i = 0; i < packet_size; ++i) {
+    valid[i] = i < rays.size() ? -1 : 0;
+    fill(packet, i, rays[std::min(i, rays.size() - 1)]);
+  }
+  trace_closest(scene, valid, packet);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    Hit& hit = hits[i];
+    if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
+      hit.t = infinity;
+      continue;
+    }
+    hit.t = packet.ray.tfar[i];
+    hit.u = packet.hit.u[i];
+    hit.v = packet.hit.v[i];
+    hit.ng = {packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]};
+    hit.primitive = packet.hit.primID[i];
+    place_hit(packet.hit.geomID[i], packet.hit.instID[0][i], hit);
+    prefetch_triangle(records[hit.shape], hit);
+  }
+}
+
+void RayTracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+  for (size_t begin = 0; begin < rays.size(); begin += packet_size) {
+    const size_t count = std::min(packet_size, rays.size() - begin);
+    impl_->intersect_packet(rays.subspan(begin, count), hits.subspan(begin, count));
+  }
+  for (const Hit& hit : hits.first(rays.size()))
+    if (hit.t < infinity) prefetch_corners(impl_->records[hit.shape], hit);
 }
 
 bool RayTracer::occluded(const Ray& ray) const {

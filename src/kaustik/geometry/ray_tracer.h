@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "kaustik/geometry/shape.h"
@@ -34,6 +35,10 @@ class RayTracer {
 
   /// Closest hit in (0, ray.t_max); false if none.
   bool intersect(const Ray& ray, Hit& hit) const;
+  /// The same for many rays at once, which is faster, most of all if they are alike: hits[i]
+  /// belongs to rays[i], its `t` is infinite if there is none. How rays are grouped may change the
+  /// last bits of a hit.
+  void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
   /// Whether anything lies in (0, ray.t_max).
   bool occluded(const Ray& ray) const;
   /// World-space geometry of a hit.

@@ -68,7 +68,7 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, int light, uint32
     ++counts.splats;
     splats.add(connection.raster, component, value);
   };
-  for (uint32_t i = begin; i < end; ++i) {
+  const auto emit = [&](uint32_t i) -> std::optional<LightPath> {
     Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::light_path, uint64_t(light), i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const EmittedRay emitted = emission_.sample(light, u_position, u_direction, sampler.next_1d());
@@ -81,23 +81,22 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, int light, uint32
                   (cosine / emitted.pdf_position),
               connection);
     }
-    if (emitted.flux.is_zero() || maximum_events_ < 1) continue;
-    const LightPathResult result = trace_light_path(
-        scene_, emitted.ray, emitted.flux, sampler, limits, [&](const LightVertex& at) {
-          const SurfaceVertex& vertex = at.vertex;
-          const Lobes seen = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
-          if (!any(seen)) return Lobes::all;
-          const CameraConnection connection = scene_.camera().connect(vertex.position());
-          if (!(connection.importance > 0)) return Lobes::all;
-          for (const Lobes lobes : {Lobes::diffuse, Lobes::glossy})
-            if (any(seen & lobes))
-              splat(vertex.point(), at.path_class.component_seen_by(lobes),
-                    at.state.throughput * vertex.eval_cosine(connection.direction, lobes),
-                    connection);
-          return Lobes::all;
-        });
-    counts.rays += result.rays;
-  }
+    if (emitted.flux.is_zero() || maximum_events_ < 1) return std::nullopt;
+    return LightPath(emitted.ray, emitted.flux, Lobes::specular, sampler);
+  };
+  const auto see = [&](const LightVertex& at) {
+    const SurfaceVertex& vertex = at.vertex;
+    const Lobes seen = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
+    if (!any(seen)) return Lobes::all;
+    const CameraConnection connection = scene_.camera().connect(vertex.position());
+    if (!(connection.importance > 0)) return Lobes::all;
+    for (const Lobes lobes : {Lobes::diffuse, Lobes::glossy})
+      if (any(seen & lobes))
+        splat(vertex.point(), at.path_class.component_seen_by(lobes),
+              at.state.throughput * vertex.eval_cosine(connection.direction, lobes), connection);
+    return Lobes::all;
+  };
+  counts.rays += trace_light_paths(scene_, begin, end, limits, emit, see).rays;
   return counts;
 }
 

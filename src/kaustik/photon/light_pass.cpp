@@ -105,26 +105,20 @@ class LightPass::Tracer {
     (kind == Kind::global ? global : caustic).reserve(photons_per_block);
   }
 
-  void trace(Sampler sampler) {
-    const EmissionSampler& emission =
-        kind_ == Kind::global ? *pass_.global_emission_ : *pass_.caustic_emission_;
-    const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
-    const EmittedRay emitted = emission.sample(light_, u_position, u_direction, sampler.next_1d());
-    ++counts.emitted;
-    if (emitted.flux.is_zero()) {
-      ++counts.nothing;
-      return;
-    }
+  /// Photons `begin` to `end`; `sampler_of(i)` gives the random numbers of the i-th.
+  template <typename SamplerOf>
+  void trace(uint32_t begin, uint32_t end, const SamplerOf& sampler_of) {
     const LightPathLimits limits{pass_.settings_.maximum_events, pass_.settings_.traced};
-    const LightPathResult result = trace_light_path(
-        pass_.scene_, emitted.ray, emitted.flux, sampler, limits, [this](const LightVertex& at) {
+    const LightPathCounts ends = trace_light_paths(
+        pass_.scene_, begin, end, limits, [&](uint32_t photon) { return emit(sampler_of(photon)); },
+        [this](const LightVertex& at) {
           return kind_ == Kind::global ? meet_global(at) : meet_caustic(at);
         });
-    rays += result.rays;
-    if (result.end == LightPathEnd::escaped) ++counts.escaped;
-    if (result.end == LightPathEnd::absorbed) ++counts.absorbed;
-    if (result.end == LightPathEnd::too_long) ++counts.too_long;
-    if (result.end == LightPathEnd::stopped) ++counts.stopped;
+    rays += ends.rays;
+    counts.escaped += ends.escaped;
+    counts.absorbed += ends.absorbed;
+    counts.too_long += ends.too_long;
+    counts.stopped += ends.stopped;
   }
 
   PhotonList global, caustic;
@@ -132,6 +126,19 @@ class LightPass::Tracer {
   uint64_t rays = 0;
 
  private:
+  std::optional<LightPath> emit(Sampler sampler) {
+    const EmissionSampler& emission =
+        kind_ == Kind::global ? *pass_.global_emission_ : *pass_.caustic_emission_;
+    const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
+    const EmittedRay emitted = emission.sample(light_, u_position, u_direction, sampler.next_1d());
+    ++counts.emitted;
+    if (emitted.flux.is_zero()) {
+      ++counts.nothing;
+      return std::nullopt;
+    }
+    return LightPath(emitted.ray, emitted.flux, pass_.settings_.traced, sampler);
+  }
+
   Lobes meet_global(const LightVertex& at) {
     if (at.path_class.diffuse_events() > 0) {
       store(at, global);
@@ -218,8 +225,9 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
     auto tracer = std::make_unique<Tracer>(*this, kind, block.light, shares[size_t(block.light)]);
     // Kinds draw from different addresses even where they share a stream (training).
     const uint64_t element = uint64_t(block.light) * 2 + (kind == Kind::caustic ? 1 : 0);
-    for (uint32_t photon = block.begin; photon < block.end; ++photon)
-      tracer->trace(Sampler::at(seed, index, stream, element, photon));
+    tracer->trace(block.begin, block.end, [&](uint32_t photon) {
+      return Sampler::at(seed, index, stream, element, photon);
+    });
     results[i] = std::move(tracer);
   });
   std::vector<const PhotonList*> global, caustic;

@@ -45,6 +45,12 @@ class Scene {
     if (parts_.observer) parts_.observer->on_ray(ray, false);
     return parts_.tracer->intersect(ray, hit);
   }
+  /// Closest hits of many rays at once; an infinite `t` says that there is none.
+  void intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+    if (parts_.observer)
+      for (const Ray& ray : rays) parts_.observer->on_ray(ray, false);
+    parts_.tracer->intersect(rays, hits);
+  }
   bool occluded(const Ray& ray) const {
     if (parts_.observer) parts_.observer->on_ray(ray, true);
     return parts_.tracer->occluded(ray);
