@@ -126,7 +126,9 @@ bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec
 }
 
 bool CameraWalk::survive(float u) {
-  const float survival = std::min(0.95f, state_.throughput.max_lane() * state_.roulette_scale);
+  // The square root keeps more paths: the longest of a bright room matter to their neighbours too.
+  const float survival =
+      std::min(0.95f, std::sqrt(state_.throughput.max_lane() * state_.roulette_scale));
   if (!(u < survival)) return false;
   state_.throughput *= 1 / survival;
   return true;

@@ -7,6 +7,11 @@
 #include "kaustik/transport/light_path.h"
 
 namespace kaustik {
+namespace {
+
+constexpr int most_targets = 128;  ///< boxes that specular objects are divided into
+
+}  // namespace
 
 struct LightTracer::Counts {
   uint64_t rays = 0, splats = 0;
@@ -20,6 +25,9 @@ const TypeInfo& LightTracer::info() {
                              "the camera sees by a mirror, through glass or beyond the scene.",
                              {components_parameter(), max_depth_parameter(),
                               ignored_parameter("rr_depth", ParameterKind::integer),
+                              boolean_parameter("aim", true,
+                                                "Photons for caustics apart from the others, aimed "
+                                                "at specular objects."),
                               ignored_parameter("hide_emitters", ParameterKind::boolean)}};
   return info;
 }
@@ -30,6 +38,29 @@ LightTracer::LightTracer(const Arguments& arguments, const Scene& scene)
       maximum_events_(read_maximum_events(arguments)),
       emission_(scene) {
   for (const auto& light : scene.lights()) powers_.push_back(light->power().sum());
+  if (!arguments.boolean("aim") || !components_.has(Component::caustic)) return;
+  std::vector<AimTarget> targets = find_targets(scene, Lobes::specular, most_targets);
+  if (!targets.empty()) aimed_emission_.emplace(scene, std::move(targets));
+}
+
+std::vector<LightTracer::Job> LightTracer::jobs(uint32_t total) const {
+  ComponentSet caustics, others;
+  for (int i = 0; i < component_count; ++i) {
+    const auto component = Component(i);
+    if (!components_.has(component)) continue;
+    (component == Component::caustic && aimed_emission_ ? caustics : others).add(component);
+  }
+  const uint32_t aimed = caustics.empty() ? 0 : others.empty() ? total : std::max(1u, total / 2);
+  std::vector<Job> list;
+  const auto add = [&](uint32_t count, const ComponentSet& wanted, bool is_aimed) {
+    if (wanted.empty()) return;
+    const std::vector<uint32_t> shares = share_photons(std::max(1u, count), powers_, powers_);
+    for (size_t light = 0; light < shares.size(); ++light)
+      if (shares[light] > 0) list.push_back({int(light), is_aimed, shares[light], wanted});
+  };
+  add(aimed, caustics, true);
+  add(total - aimed, others, false);
+  return list;
 }
 
 std::unique_ptr<PassState> LightTracer::prepare(const Pass& pass, SplatBuffer& splats,
@@ -38,13 +69,11 @@ std::unique_ptr<PassState> LightTracer::prepare(const Pass& pass, SplatBuffer& s
   const Vec2i size = scene_.film().crop_size;
   const uint64_t wanted = uint64_t(size.x) * uint64_t(size.y) * pass.samples_per_pixel;
   const auto total = uint32_t(std::min<uint64_t>(wanted, 0x7fffffffu));
-  const std::vector<uint32_t> shares = share_photons(total, powers_, powers_);
   std::atomic<uint64_t> rays{0}, hits{0};
-  for (size_t light = 0; light < shares.size(); ++light)
-    parallel_blocks(shares[light], 1024, [&](size_t begin, size_t end, size_t) {
+  for (const Job& job : jobs(total))
+    parallel_blocks(job.count, 1024, [&](size_t begin, size_t end, size_t) {
       if (stop.stop_requested()) return;
-      const Counts counts =
-          trace_block(pass, int(light), uint32_t(begin), uint32_t(end), shares[light], splats);
+      const Counts counts = trace_block(pass, job, uint32_t(begin), uint32_t(end), splats);
       rays += counts.rays;
       hits += counts.splats;
     });
@@ -53,15 +82,16 @@ std::unique_ptr<PassState> LightTracer::prepare(const Pass& pass, SplatBuffer& s
   return state;
 }
 
-LightTracer::Counts LightTracer::trace_block(const Pass& pass, int light, uint32_t begin,
-                                             uint32_t end, uint32_t count,
-                                             SplatBuffer& splats) const {
+LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, uint32_t begin,
+                                             uint32_t end, SplatBuffer& splats) const {
   Counts counts;
   const LightPathLimits limits{std::max(0, maximum_events_ - 1), Lobes::specular};
+  const EmissionSampler& emission = job.aimed ? *aimed_emission_ : emission_;
   const auto splat = [&](const SurfacePoint& point, Component component, const Spectrum& intensity,
                          const CameraConnection& connection) {
+    if (!job.wanted.has(component)) return;
     const Spectrum value =
-        intensity * (connection.importance / (sqr(connection.distance) * float(count)));
+        intensity * (connection.importance / (sqr(connection.distance) * float(job.count)));
     if (value.is_zero()) return;
     ++counts.rays;
     if (scene_.occluded(spawn_ray_to(point, scene_.camera().position()))) return;
@@ -69,15 +99,17 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, int light, uint32
     splats.add(connection.raster, component, value);
   };
   const auto emit = [&](uint32_t i) -> std::optional<LightPath> {
-    Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::light_path, uint64_t(light), i);
+    const uint64_t element = uint64_t(job.light) * 2 + (job.aimed ? 1 : 0);
+    Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::light_path, element, i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
-    const EmittedRay emitted = emission_.sample(light, u_position, u_direction, sampler.next_1d());
-    if (emitted.on_surface && splats.wants(Component::emission)) {
+    const EmittedRay emitted =
+        emission.sample(job.light, u_position, u_direction, sampler.next_1d());
+    if (emitted.on_surface && job.wanted.has(Component::emission)) {
       const CameraConnection connection = scene_.camera().connect(emitted.origin.position);
       const float cosine = dot(connection.direction, emitted.origin.ng);
       if (connection.importance > 0 && cosine > 0 && emitted.pdf_position > 0)
         splat(emitted.origin, Component::emission,
-              scene_.lights()[size_t(light)]->emitted(emitted.origin, connection.direction) *
+              scene_.lights()[size_t(job.light)]->emitted(emitted.origin, connection.direction) *
                   (cosine / emitted.pdf_position),
               connection);
     }
@@ -86,15 +118,17 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, int light, uint32
   };
   const auto see = [&](const LightVertex& at) {
     const SurfaceVertex& vertex = at.vertex;
+    // Only specular events lead from the lamp to a caustic.
+    const Lobes follow = job.aimed ? vertex.lobes() & Lobes::specular : Lobes::all;
     const Lobes seen = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
-    if (!any(seen)) return Lobes::all;
+    if (!any(seen)) return follow;
     const CameraConnection connection = scene_.camera().connect(vertex.position());
-    if (!(connection.importance > 0)) return Lobes::all;
+    if (!(connection.importance > 0)) return follow;
     for (const Lobes lobes : {Lobes::diffuse, Lobes::glossy})
       if (any(seen & lobes))
         splat(vertex.point(), at.path_class.component_seen_by(lobes),
               at.state.throughput * vertex.eval_cosine(connection.direction, lobes), connection);
-    return Lobes::all;
+    return follow;
   };
   counts.rays += trace_light_paths(scene_, begin, end, limits, emit, see).rays;
   return counts;

@@ -1,12 +1,14 @@
 #pragma once
+#include <optional>
+
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/photon/emission.h"
 
 namespace kaustik {
 
 /// Light paths from the lamps, splatted to the camera at every vertex that it sees: unbiased, and
-/// the referee for L S⁺ D E, which path tracing cannot find. What the camera sees by a specular
-/// event is out of its reach.
+/// the referee for L S⁺ D E, which path tracing cannot find. Caustics have photons of their own,
+/// aimed at what is specular. What the camera sees by a specular event is out of its reach.
 class LightTracer final : public Integrator {
  public:
   LightTracer(const Arguments& arguments, const Scene& scene);
@@ -21,13 +23,22 @@ class LightTracer final : public Integrator {
 
  private:
   struct Counts;
-  Counts trace_block(const Pass& pass, int light, uint32_t begin, uint32_t end, uint32_t count,
+  /// Photons of one light that are emitted alike.
+  struct Job {
+    int light;
+    bool aimed;      ///< at specular objects, for caustics alone
+    uint32_t count;  ///< photons
+    ComponentSet wanted;
+  };
+  std::vector<Job> jobs(uint32_t total) const;
+  Counts trace_block(const Pass& pass, const Job& job, uint32_t begin, uint32_t end,
                      SplatBuffer& splats) const;
 
   const Scene& scene_;
   ComponentSet components_;
   int maximum_events_;
   EmissionSampler emission_;
+  std::optional<EmissionSampler> aimed_emission_;  ///< where there is anything to aim at
   std::vector<double> powers_;
 };
 

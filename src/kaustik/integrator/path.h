@@ -13,6 +13,8 @@ class PathIntegrator final : public Integrator {
   std::unique_ptr<PassState> prepare(const Pass&, SplatBuffer&, std::stop_token) const override;
   void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
               SampleSink& sink) const override;
+  /// Only samples of one pass stratify one another from the start.
+  uint32_t default_samples_per_pass() const override { return 16; }
   ComponentSet components() const override { return components_; }
 
  private:
