@@ -102,8 +102,7 @@ TEST(AimedCaustics, LampsElsewhereDoNotStarveOne) {
   const RunningStatistics of_many = caustic(with_many, true, photons, 16, 1).mean({"caustic"});
   std::printf("  caustic of one lamp: error %.5f alone, %.5f among 51\n",
               one.standard_error() / one.mean(), of_many.standard_error() / of_many.mean());
-  EXPECT_NEAR(of_many.mean(), one.mean(),
-              4 * std::hypot(one.standard_error(), of_many.standard_error()));
+  expect_equal_means("caustic of one lamp among 51", of_many, one);
   // A standard deviation over 16 values is itself uncertain by a fifth.
   EXPECT_LT(of_many.standard_error(), 2 * 1.5 * one.standard_error());
 }

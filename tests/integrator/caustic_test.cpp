@@ -99,13 +99,10 @@ TEST_F(BallLens, PhotonMapNearest) {
       render(scene_, "photonmap",
              set("components", "caustic") + set("caustic_photons", 100'000) +
                  set("caustic_neighbors", 50) + set("caustic_kernel", "cone"),
-             {32})
+             {128})
           .mean({"caustic"});
-  const double expected = rho / pi_d * flux_seen() / (side * side);
-  std::printf("  photonmap ball lens by nearest photons: ratio %.5f ± %.5f\n",
-              found.mean() / expected, found.standard_error() / expected);
-  EXPECT_NEAR(found.mean(), expected,
-              0.01 * expected + (slow_build ? 6 : 3) * found.standard_error());
+  expect_near_means("photonmap ball lens by nearest photons",
+                    Comparison(found, rho / pi_d * flux_seen() / (side * side)), 0.01);
 }
 
 // ---------------------------------------------------------------- nephroid

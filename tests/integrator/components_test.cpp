@@ -1,8 +1,9 @@
-// The photon map against the unbiased integrators, component by component: `path` for what it finds
-// well, `lighttracer` for caustics.
+// The photon map against the unbiased integrators, component by component: `path` for what the
+// camera finds, `lighttracer` for what light paths find better, caustics first of all.
 
 #include <array>
 
+#include "kaustik/scene/overrides.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
 
@@ -65,119 +66,225 @@ const std::string lamp_behind_glass =
                sphere("0, 0, 0.7", 0.3, glass()) +
                    sphere("0, 0, 0.7", 0.2, diffuse("0, 0, 0") + area_light("10, 9, 8")));
 
+/// One of the scenes that ship, as a picture of 20 pixels.
+Description shipped(const std::string& name, int size = 20) {
+  return load_mitsuba_xml(fmt::format("{}/scenes/{}/{}.xml", KAUSTIK_SOURCE_DIR, name, name),
+                          {{{"size", std::to_string(size)}}});
+}
+
 /// Parameters for pictures of 20 pixels, whose cache would be too coarse, and few neighbours, whose
 /// disks hardly reach over the edges of walls.
-std::string fine_estimates() {
+std::string fine_estimates(int caustic_photons = 60'000) {
   return set("cache_minimum_spacing", 0.2) + set("cache_maximum_spacing", 4.0) +
-         set("caustic_neighbors", 8) + set("global_neighbors", 8) + set("caustic_photons", 60'000) +
-         set("global_photons", 40'000);
+         set("cache_quality", 0.1) + set("caustic_neighbors", 8) + set("global_neighbors", 8) +
+         set("caustic_photons", int(caustic_photons * sample_share)) +
+         set("global_photons", int(40'000 * sample_share));
 }
 
-struct Samples {
-  double photonmap, path;
+constexpr double one_percent = 0.01;
+
+/// The photon map's pictures, and `path`'s with the same numbers of the camera: lamps in view,
+/// direct light and mirror images of both are the same in both, so the difference is that of the
+/// light that photons carry.
+struct Measurement {
+  Measurement(std::string scene_name, const TestScene& scene, double samples,
+              const std::string& parameters = fine_estimates())
+      : name(std::move(scene_name)),
+        found(render(scene, "photonmap", parameters, {samples, 1})),
+        path(render(scene, "path", "", {samples, 1})) {}
+
+  /// Both sample these alike, and neither has a bias.
+  void expect_equal_to_path(const std::string& layer) const {
+    expect_equal_means(name + " " + layer,
+                       Comparison::same_seed(found.values({layer}), path.values({layer})));
+  }
+  void expect_near_path(const std::string& layer) const {
+    expect_near_means(name + " " + layer,
+                      Comparison::same_seed(found.values({layer}), path.values({layer})),
+                      one_percent);
+  }
+  void expect_near(const Passes& referee, const std::string& layer,
+                   const PixelWeight& weight = {}) const {
+    expect_near_means(name + " " + layer, found.mean({layer}, weight),
+                      referee.mean({layer}, weight), one_percent);
+  }
+  /// The scene has no such light.
+  void expect_none(const std::string& layer) const {
+    EXPECT_EQ(found.mean({layer}).mean(), 0) << name << " " << layer;
+    EXPECT_EQ(path.mean({layer}).mean(), 0) << name << " " << layer;
+  }
+
+  std::string name;
+  Passes found, path;
 };
 
-void compare(const std::string& name, const TestScene& scene,
-             const std::vector<std::string>& layers, const Samples& samples) {
-  const Passes found = render(scene, "photonmap", fine_estimates(), {samples.photonmap, 1});
-  const Passes path = render(scene, "path", "", {samples.path, 2});
-  for (const std::string& layer : layers)
-    // What `path` finds of caustics behind mirrors are rare and bright samples.
-    expect_near_means(name + " " + layer, found.mean({layer}), path.mean({layer}), 0.01,
-                      layer == "specular" ? 0.008 : 0.005);
+Passes by_light(const TestScene& scene, double samples, const std::string& components) {
+  return render(scene, "lighttracer", set("components", components.c_str()), {samples, 3});
 }
 
-TEST(Components, Box) { compare("box", TestScene(box), {"direct", "indirect"}, {8, 32}); }
+/// Caustics alone, for which the camera takes more samples and the lamps send more photons.
+struct CausticSamples {
+  double per_pixel;
+  int photons = 100'000, neighbors = 30;
+};
+void check_caustic(const std::string& name, const TestScene& scene, const CausticSamples& samples,
+                   const Passes& light, const PixelWeight& weight = {}) {
+  const Passes found = render(scene, "photonmap",
+                              set("components", "caustic") +
+                                  set("caustic_photons", int(samples.photons * sample_share)) +
+                                  set("caustic_neighbors", samples.neighbors),
+                              {samples.per_pixel, 1});
+  expect_near_means(fmt::format("{} caustic, {} neighbours", name, samples.neighbors),
+                    found.mean({"caustic"}, weight), light.mean({"caustic"}, weight), one_percent);
+}
+
+TEST(Components, CornellBox) {
+  const TestScene scene(shipped("cornell_box"));
+  const Measurement m("cornell_box", scene, 16);
+  m.expect_equal_to_path("emission");
+  m.expect_equal_to_path("direct");
+  m.expect_none("caustic");
+  m.expect_near(by_light(scene, 200, "indirect"), "indirect");
+  m.expect_none("specular");
+}
+
+/// The lamp is so small that `path` hardly ever finds it behind mirror and glass: for what these
+/// show there is the room below.
+TEST(Components, CornellSpheres) {
+  const TestScene scene(shipped("cornell_spheres"));
+  const Measurement m("cornell_spheres", scene, 32);
+  m.expect_equal_to_path("emission");
+  m.expect_equal_to_path("direct");
+  m.expect_near(by_light(scene, 200, "indirect"), "indirect");
+}
+/// The glass sphere's focus is half of all: a few pixels, so these apart and closer up.
+TEST(Components, CausticsOfCornellSpheres) {
+  const TestScene scene(shipped("cornell_spheres"));
+  check_caustic("cornell_spheres, but for the focus,", scene, {32, 200'000, 8},
+                by_light(scene, 900, "caustic"),
+                [](int x, int y) { return x >= 11 && x < 16 && y >= 16 ? 0.0 : 1.0; });
+  Description focus = shipped("cornell_spheres", 120);
+  for (const char* assignment : {"film.crop_offset_x=66", "film.crop_offset_y=96",
+                                 "film.crop_width=30", "film.crop_height=24"})
+    override_property(focus, assignment);
+  const TestScene close_up(focus);
+  check_caustic("cornell_spheres, focus,", close_up, {48}, by_light(close_up, 300, "caustic"));
+}
+
+/// Rooms like that with a large lamp, which `path` finds by any way.
+void check_room(const std::string& name, const std::string& left, const std::string& right) {
+  const TestScene scene(balls_in_room(left, right));
+  const Measurement m(name, scene, 64);
+  m.expect_none("emission");  // the camera is below the lamp and looks ahead
+  m.expect_equal_to_path("direct");
+  m.expect_near(by_light(scene, 350, "indirect"), "indirect");
+  m.expect_near_path("specular");
+}
+/// The same balls where most light paths come to where the camera sees them.
+void check_caustics_in_the_open(const std::string& name, const std::string& left,
+                                const std::string& right, double light_samples) {
+  const TestScene scene(balls_on_floor(left, right));
+  check_caustic(name, scene, {64}, by_light(scene, light_samples, "caustic"));
+}
 TEST(Components, MirrorAndGlass) {
-  compare("spheres", TestScene(balls_in_room(mirror(), glass())),
-          {"direct", "indirect", "specular"}, {8, 48});
+  check_room("spheres", mirror(), glass());
+  check_caustics_in_the_open("spheres", mirror(), glass(), 400);
 }
 TEST(Components, RoughAndPolishedMetal) {
-  compare("GGX", TestScene(balls_in_room(ggx(0.05), ggx(0.3))), {"direct", "indirect", "specular"},
-          {8, 72});
+  check_room("GGX", ggx(0.05), ggx(0.3));
+  check_caustics_in_the_open("GGX", ggx(0.05), ggx(0.3), 900);
 }
+
 TEST(Components, LampBehindGlass) {
-  compare("lamp behind glass", TestScene(lamp_behind_glass), {"specular"}, {16, 48});
-}
-
-/// Caustics as light paths find them, in the open, where most of those come to where the camera
-/// sees them.
-void compare_caustics(const std::string& name, const std::string& text) {
-  const TestScene scene(text);
-  const RunningStatistics found =
-      render(scene, "photonmap",
-             set("components", "caustic") + set("caustic_photons", 100'000) +
-                 set("caustic_neighbors", 30),
-             {24, 1})
-          .mean({"caustic"});
-  const Passes light = render(scene, "lighttracer", set("components", "caustic"), {300, 3});
-  expect_near_means(name + " caustic", found, light.mean({"caustic"}), 0.01);
-}
-
-TEST(Components, CausticsOfMirrorAndGlass) {
-  compare_caustics("spheres", balls_on_floor(mirror(), glass()));
-}
-TEST(Components, CausticsOfRoughAndPolishedMetal) {
-  compare_caustics("GGX", balls_on_floor(ggx(0.05), ggx(0.3)));
-}
-TEST(Components, CausticsOfALampBehindGlass) {
-  compare_caustics("lamp behind glass", lamp_behind_glass);
+  const TestScene scene(lamp_behind_glass);
+  const Measurement m("lamp behind glass", scene, 64, fine_estimates(200'000));
+  const Passes light = by_light(scene, 400, "caustic");
+  m.expect_none("emission");
+  m.expect_none("direct");
+  m.expect_near(light, "caustic");
+  m.expect_near(by_light(scene, 1300, "indirect"), "indirect");
+  m.expect_near_path("specular");
+  check_caustic("lamp behind glass", scene, {32}, light);
 }
 
 /// Also what two unbiased integrators find that share nothing but the scene: where the camera sees
 /// no mirror, light paths find all.
 TEST(Components, PhongFloor) {
   const TestScene scene(glossy_floor);
-  const Passes found = render(scene, "photonmap", fine_estimates(), {16, 1});
-  const Passes path = render(scene, "path", "", {160, 2});
-  const Passes light = render(scene, "lighttracer", "", {500, 3});
-  for (const char* layer : {"direct", "caustic", "indirect", "specular"}) {
-    expect_near_means(std::string("Phong floor ") + layer, found.mean({layer}), path.mean({layer}),
-                      0.01, 0.008);
-    expect_near_means(std::string("lighttracer and path ") + layer, light.mean({layer}),
-                      path.mean({layer}), 0, 0.01);
-  }
+  const Measurement m("Phong floor", scene, 64);
+  const Passes path = render(scene, "path", "", {800, 2});
+  const Passes light = render(scene, "lighttracer", "", {1500, 3});
+  m.expect_equal_to_path("emission");
+  m.expect_equal_to_path("direct");
+  m.expect_near(path, "indirect");
+  m.expect_near(path, "specular");
+  check_caustic("Phong floor", scene, {32, 240'000, 8}, light);
   expect_equal_means("lighttracer and path", light.mean({""}), path.mean({""}));
-  for (const Passes* passes : {&path, &light, &found})
+  for (const char* layer : {"direct", "caustic", "indirect"})
+    expect_equal_means(std::string("lighttracer and path ") + layer, light.mean({layer}),
+                       path.mean({layer}));
+  for (const Passes* passes : {&path, &light, &m.found})
     EXPECT_NEAR(passes->mean({"emission", "direct", "caustic", "indirect", "specular"}).mean(),
                 passes->mean({""}).mean(), 1e-6);
 }
 
-/// Mean square error over pixels of the mean of n passes falls like 1/n. The reference's own
-/// variance is taken off.
-TEST(Components, ErrorFallsWithPasses) {
-  const TestScene scene(balls_in_room(diffuse("0.5, 0.5, 0.5"), ggx(0.3)));
-  const Passes found = render(scene, "photonmap", fine_estimates(), {4, 1});
-  const Passes reference = render(scene, "path", "", {48, 2});
-  const auto pixel_of = [](const Passes& passes, int pixel, size_t count) {
+/// Slope of the logarithm of the mean square error over pixels of a mean of n pictures, n = 1, 2, 4
+/// … 16, over that of n. The reference's own variance is taken off.
+double slope_of_error(const std::string& what, const std::vector<Image>& found,
+                      const Passes& reference, const std::string& layer) {
+  const auto pixel_of = [&](const std::vector<Image>& images, size_t pixel, size_t count) {
     RunningStatistics values;
     for (size_t i = 0; i < count; ++i)
-      values.add(
-          double(passes.images()[i].channel(passes.images()[i].find_channel("G"))[size_t(pixel)]));
+      values.add(double(images[i].channel(images[i].find_channel(layer + ".G"))[pixel]));
     return values;
   };
   RunningStatistics x, y;
   double xy = 0;
-  std::printf("  mean square error over passes:");
-  for (size_t n = 1; n <= found.images().size(); n *= 2) {
+  std::printf("  mean square error of %s over passes:", what.c_str());
+  const size_t pixels = found.front().channel(0).size();
+  for (size_t n = 1; n <= found.size(); n *= 2) {
     double sum = 0;
-    for (int pixel = 0; pixel < 400; ++pixel) {
-      const RunningStatistics truth = pixel_of(reference, pixel, reference.images().size());
+    for (size_t pixel = 0; pixel < pixels; ++pixel) {
+      const RunningStatistics truth =
+          pixel_of(reference.images(), pixel, reference.images().size());
       sum += std::pow(pixel_of(found, pixel, n).mean() - truth.mean(), 2) -
              std::pow(truth.standard_error(), 2);
     }
-    std::printf(" %zu: %.3g", n, sum / 400);
+    const double error = std::max(sum / double(pixels), 1e-12);
+    std::printf(" %zu: %.3g", n, error);
     x.add(std::log(double(n)));
-    y.add(std::log(std::max(sum, 1e-12)));
-    xy += std::log(double(n)) * std::log(std::max(sum, 1e-12));
+    y.add(std::log(error));
+    xy += std::log(double(n)) * std::log(error);
   }
   const double slope =
       (xy - double(x.count()) * x.mean() * y.mean()) / (double(x.count() - 1) * x.variance());
   std::printf(", slope %.2f\n", slope);
-  if (!slow_build) {
-    EXPECT_LT(slope, -0.7);
-    EXPECT_GT(slope, -1.3);
-  }
+  return slope;
+}
+
+/// Noise alone falls like 1/n, the bias of shrinking radii (α = 2/3) slower. The twin is the same
+/// pass again and again.
+void check_slope(const std::string& layer, const Passes& found, const Passes& reference) {
+  const double slope = slope_of_error(layer, found.images(), reference, layer);
+  const std::vector<Image> repeated(found.images().size(), found.images().front());
+  const double twin = slope_of_error(layer + ", the same pass,", repeated, reference, layer);
+  if (slow_build) return;
+  EXPECT_LT(slope, -0.6) << layer;
+  EXPECT_GT(slope, -1.4) << layer;
+  EXPECT_GT(twin, -0.3) << layer;
+}
+
+TEST(Components, ErrorFallsWithPasses) {
+  const TestScene room(balls_in_room(mirror(), ggx(0.3)));
+  const Passes found = render(room, "photonmap", fine_estimates(), {4, 1});
+  const Passes path = render(room, "path", "", {100, 2});
+  check_slope("direct", found, path);
+  check_slope("specular", found, path);
+  check_slope("indirect", found, by_light(room, 300, "indirect"));
+  const TestScene open(balls_on_floor(glass(), ggx(0.3)));
+  check_slope("caustic",
+              render(open, "photonmap", set("components", "caustic") + fine_estimates(), {4, 1}),
+              by_light(open, 400, "caustic"));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // The same seed makes the same bits, whatever the number of threads; other seeds and other
 // replicates are independent of it.
 
+#include <array>
+
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
 
@@ -10,9 +12,10 @@ namespace {
 using namespace test;
 
 /// Something of everything: area lamp, delta, glossy and diffuse surfaces.
-TestScene small_scene() {
+TestScene small_scene(int size = 40) {
   return TestScene(
-      camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 40) + flat("rectangle", "", phong(0.4, 0.3, 20)) +
+      camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, size) +
+      flat("rectangle", "", phong(0.4, 0.3, 20)) +
       flat("rectangle", rotate("1, 0, 0", 90) + translate("0, 1, 1"), diffuse("0.5, 0.3, 0.2")) +
       flat("rectangle", scale("0.2, 0.2, 1") + rotate("1, 0, 0", 180) + translate("0, 0.1, 1.4"),
            diffuse("0, 0, 0") + area_light("10, 9, 8")) +
@@ -68,32 +71,123 @@ TEST(Determinism, OtherSeedsDiffer) {
         << m.type;
 }
 
-/// Passes by pixel: in the mean over many pixels the products of deviations of two different
-/// passes vanish. Pixels of one pass may share photons, so blocks of them make one value.
-TEST(Determinism, ReplicatesAreIndependent) {
-  const TestScene scene = small_scene();
-  for (const Method& m : methods()) {
-    const Passes passes = render(scene, m.type, m.parameters, {4 / sample_share, 3, 16});
-    const auto value = [&](size_t pass, size_t block) {
-      const Image& image = passes.images()[pass];
-      return Passes::mean_of(image, {""}, [&](int x, int y) {
-        return size_t(y / 8 * 5 + x / 8) == block ? 1.0 : 0.0;
-      });
-    };
-    // Correlation of pass i with pass i + 1 over the blocks, each block's own mean taken off.
-    RunningStatistics products;
-    for (size_t block = 0; block < 25; ++block) {
-      RunningStatistics all;
-      for (size_t i = 0; i < 16; ++i) all.add(value(i, block));
-      if (!(all.variance() > 0)) continue;
-      for (size_t i = 0; i < 16; i += 2)
-        products.add((value(i, block) - all.mean()) * (value(i + 1, block) - all.mean()) /
-                     all.variance());
+/// Pictures of several seeds and passes, as radiance of blocks of pixels: neighbours share photons.
+class SeedsAndPasses {
+ public:
+  static constexpr size_t seeds = 8, passes = 8, side = 5, blocks = side * side;
+
+  SeedsAndPasses(const TestScene& scene, const Method& method, double samples) {
+    const auto integrator = scene.integrator(method.type, method.parameters);
+    for (size_t seed = 0; seed < seeds; ++seed) {
+      const Passes rendered =
+          render(scene, *integrator, {samples / sample_share, seed + 1, uint32_t(passes)});
+      for (size_t pass = 0; pass < passes; ++pass)
+        for (size_t block = 0; block < blocks; ++block)
+          at(seed, pass, block) = Passes::mean_of(rendered.images()[pass], {""}, [&](int x, int y) {
+            const int width = rendered.images()[pass].width() / int(side);
+            return size_t(y / width) * side + size_t(x / width) == block ? 1.0 : 0.0;
+          });
     }
-    // Taking off the mean of 16 itself makes −1/16.
-    EXPECT_NEAR(products.mean(), -1.0 / 16, 4 * products.standard_error()) << m.type;
-    EXPECT_LT(products.standard_error(), 0.15) << m.type;
   }
+  double& at(size_t seed, size_t pass, size_t block) {
+    return values_[(seed * passes + pass) * blocks + block];
+  }
+  double at(size_t seed, size_t pass, size_t block) const {
+    return values_[(seed * passes + pass) * blocks + block];
+  }
+
+ private:
+  std::array<double, seeds * passes * blocks> values_{};
+};
+
+/// A relation of two pictures: what is added to the first one's seed and pass.
+struct Relation {
+  const char* name;
+  size_t seed, pass;
+};
+constexpr Relation relations[] = {{"passes of a seed", 0, 1},
+                                  {"passes of a seed, farther apart", 0, 3},
+                                  {"seeds", 1, 0},
+                                  {"the next seed's pass before", 1, SeedsAndPasses::passes - 1}};
+
+/// Correlation of each picture with the one that stands in the given relation to it, in the mean
+/// over blocks. Each block's own mean over all pictures is taken off, which leaves −1/(n − 1) of n
+/// pictures that are independent. Blocks of one picture share photons, so it makes one value.
+RunningStatistics correlation(const SeedsAndPasses& pictures, const Relation& relation) {
+  constexpr size_t seeds = SeedsAndPasses::seeds, passes = SeedsAndPasses::passes;
+  std::array<RunningStatistics, SeedsAndPasses::blocks> of_block;
+  for (size_t block = 0; block < SeedsAndPasses::blocks; ++block)
+    for (size_t seed = 0; seed < seeds; ++seed)
+      for (size_t pass = 0; pass < passes; ++pass)
+        of_block[block].add(pictures.at(seed, pass, block));
+  constexpr double count = seeds * passes;
+  RunningStatistics result;
+  for (size_t seed = 0; seed < seeds; ++seed)
+    for (size_t pass = 0; pass < passes; ++pass) {
+      const size_t other_seed = (seed + relation.seed) % seeds,
+                   other_pass = (pass + relation.pass) % passes;
+      RunningStatistics over_blocks;
+      for (size_t block = 0; block < SeedsAndPasses::blocks; ++block) {
+        const double mean = of_block[block].mean(), variance = of_block[block].variance();
+        if (!(variance > 0)) continue;  // nothing is seen there
+        over_blocks.add((pictures.at(seed, pass, block) - mean) *
+                        (pictures.at(other_seed, other_pass, block) - mean) /
+                        (variance * (count - 1) / count));
+      }
+      EXPECT_GE(over_blocks.count(), 15);
+      result.add(over_blocks.mean());
+    }
+  return result;
+}
+double p_value_of_independence(const SeedsAndPasses& pictures, const Relation& relation) {
+  return t_test_p_value(correlation(pictures, relation),
+                        -1.0 / (SeedsAndPasses::seeds * SeedsAndPasses::passes - 1));
+}
+
+/// The picture that `share` of every other one's deviations is taken from.
+struct Planted {
+  size_t seed_stride, pass_stride;  ///< 0: the same for all seeds or all passes
+};
+SeedsAndPasses planted(const SeedsAndPasses& pictures, double share, const Planted& source) {
+  SeedsAndPasses result = pictures;
+  for (size_t seed = 0; seed < SeedsAndPasses::seeds; ++seed)
+    for (size_t pass = 0; pass < SeedsAndPasses::passes; ++pass)
+      for (size_t block = 0; block < SeedsAndPasses::blocks; ++block)
+        result.at(seed, pass, block) =
+            (1 - share) * pictures.at(seed, pass, block) +
+            share * pictures.at(seed * source.seed_stride, pass * source.pass_stride, block);
+  return result;
+}
+
+/// Pictures of different seeds and passes have nothing in common. The twins have: the same picture
+/// for all passes of a seed or for all seeds, and one of which half is the same.
+void expect_independence(const std::string& what, const SeedsAndPasses& pictures) {
+  for (const Relation& relation : relations) {
+    const RunningStatistics found = correlation(pictures, relation);
+    std::printf("  %s: correlation of %s %.3f ± %.3f\n", what.c_str(), relation.name, found.mean(),
+                found.standard_error());
+    EXPECT_GT(p_value_of_independence(pictures, relation), check_level())
+        << what << ": " << relation.name;
+  }
+  for (const double share : {1.0, 0.5}) {
+    const SeedsAndPasses same_passes = planted(pictures, share, {1, 0}),
+                         same_seeds = planted(pictures, share, {0, 1});
+    EXPECT_LT(p_value_of_independence(same_passes, relations[0]), check_level()) << what;
+    EXPECT_LT(p_value_of_independence(same_passes, relations[1]), check_level()) << what;
+    EXPECT_LT(p_value_of_independence(same_seeds, relations[2]), check_level()) << what;
+  }
+}
+
+TEST(Determinism, ReplicatesAreIndependent) {
+  const TestScene scene = small_scene(20);
+  for (const Method& m : methods()) expect_independence(m.type, SeedsAndPasses(scene, m, 4));
+}
+
+/// The same of so few photons that most of the noise is theirs.
+TEST(Determinism, PhotonsOfReplicatesAreIndependent) {
+  const Method few{"photonmap", set("components", "caustic,indirect") + set("global_photons", 300) +
+                                    set("caustic_photons", 300) + set("irradiance_cache", false)};
+  expect_independence("photons", SeedsAndPasses(small_scene(10), few, 64));
 }
 
 }  // namespace
