@@ -22,16 +22,16 @@ TestScene small_scene(int size = 40) {
       sphere("-0.45, 0.3, 0.401", 0.4, mirror()) + sphere("0.45, -0.05, 0.401", 0.4, glass()));
 }
 
-const std::string few_photons = set("global_photons", 5000) + set("caustic_photons", 5000);
-
 struct Method {
   std::string type, parameters;
 };
-std::vector<Method> methods() {
+std::vector<Method> methods(int photons = 5000) {
+  const std::string counts =
+      set("global_photons", photons) + set("caustic_photons", photons) + set("cache_samples", 32);
   return {{"path", ""},
           {"lighttracer", ""},
-          {"photonmap", few_photons},
-          {"photonmap", few_photons + set("irradiance_cache", false) + set("reradiate", true)}};
+          {"photonmap", counts},
+          {"photonmap", counts + set("irradiance_cache", false) + set("reradiate", true)}};
 }
 
 bool same_bits(const Passes& a, const Passes& b) {
@@ -76,11 +76,9 @@ class SeedsAndPasses {
  public:
   static constexpr size_t seeds = 8, passes = 8, side = 5, blocks = side * side;
 
-  SeedsAndPasses(const TestScene& scene, const Method& method, double samples) {
-    const auto integrator = scene.integrator(method.type, method.parameters);
+  SeedsAndPasses(const TestScene& scene, const Integrator& integrator, double samples) {
     for (size_t seed = 0; seed < seeds; ++seed) {
-      const Passes rendered =
-          render(scene, *integrator, {samples / sample_share, seed + 1, uint32_t(passes)});
+      const Passes rendered = render(scene, integrator, {samples, seed + 1, uint32_t(passes)});
       for (size_t pass = 0; pass < passes; ++pass)
         for (size_t block = 0; block < blocks; ++block)
           at(seed, pass, block) = Passes::mean_of(rendered.images()[pass], {""}, [&](int x, int y) {
@@ -180,14 +178,45 @@ void expect_independence(const std::string& what, const SeedsAndPasses& pictures
 
 TEST(Determinism, ReplicatesAreIndependent) {
   const TestScene scene = small_scene(20);
-  for (const Method& m : methods()) expect_independence(m.type, SeedsAndPasses(scene, m, 4));
+  for (const Method& m : methods(1000))
+    expect_independence(m.type, SeedsAndPasses(scene, *scene.integrator(m.type, m.parameters), 4));
 }
+
+/// An error in a method: one of the numbers of a pass does not get into its light pass.
+class ForgetfulIntegrator final : public Integrator {
+ public:
+  ForgetfulIntegrator(const Integrator& right, bool forgets_seed)
+      : right_(right), forgets_seed_(forgets_seed) {}
+  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
+                                     std::stop_token stop) const override {
+    Pass wrong = pass;
+    (forgets_seed_ ? wrong.seed = 0 : wrong.index = 0);
+    return right_.prepare(wrong, splats, stop);
+  }
+  void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
+              SampleSink& sink) const override {
+    right_.sample(state, raster, sampler, sink);
+  }
+  ComponentSet components() const override { return right_.components(); }
+
+ private:
+  const Integrator& right_;
+  bool forgets_seed_;
+};
 
 /// The same of so few photons that most of the noise is theirs.
 TEST(Determinism, PhotonsOfReplicatesAreIndependent) {
-  const Method few{"photonmap", set("components", "caustic,indirect") + set("global_photons", 300) +
-                                    set("caustic_photons", 300) + set("irradiance_cache", false)};
-  expect_independence("photons", SeedsAndPasses(small_scene(10), few, 64));
+  const TestScene scene = small_scene(10);
+  const auto right = scene.integrator(
+      "photonmap", set("components", "caustic,indirect") + set("global_photons", 300) +
+                       set("caustic_photons", 300) + set("irradiance_cache", false));
+  constexpr double samples = 32;
+  expect_independence("photons", SeedsAndPasses(scene, *right, samples));
+  const SeedsAndPasses same_passes(scene, ForgetfulIntegrator(*right, false), samples),
+      same_seeds(scene, ForgetfulIntegrator(*right, true), samples);
+  EXPECT_LT(p_value_of_independence(same_passes, relations[0]), check_level());
+  EXPECT_LT(p_value_of_independence(same_passes, relations[1]), check_level());
+  EXPECT_LT(p_value_of_independence(same_seeds, relations[2]), check_level());
 }
 
 }  // namespace
