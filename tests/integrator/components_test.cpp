@@ -161,7 +161,7 @@ TEST(Components, CornellSpheres) {
 TEST(Components, CausticsOfCornellSpheres) {
   const TestScene scene(shipped("cornell_spheres"));
   check_caustic("cornell_spheres, but for the focus,", scene, {32, 200'000, 8},
-                by_light(scene, 900, "caustic"),
+                by_light(scene, 400, "caustic"),
                 [](int x, int y) { return x >= 11 && x < 16 && y >= 16 ? 0.0 : 1.0; });
   Description focus = shipped("cornell_spheres", 120);
   for (const char* assignment : {"film.crop_offset_x=66", "film.crop_offset_y=96",
@@ -192,7 +192,7 @@ TEST(Components, MirrorAndGlass) {
 }
 TEST(Components, RoughAndPolishedMetal) {
   check_room("GGX", ggx(0.05), ggx(0.3));
-  check_caustics_in_the_open("GGX", ggx(0.05), ggx(0.3), 900);
+  check_caustics_in_the_open("GGX", ggx(0.05), ggx(0.3), 500);
 }
 
 TEST(Components, LampBehindGlass) {
