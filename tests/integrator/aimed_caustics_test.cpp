@@ -87,6 +87,21 @@ TEST(AimedCaustics, AreaLight) {
          60'000, 200'000});
 }
 
+/// The light tracer aims as well; what it finds of a caustic is the same without.
+TEST(AimedCaustics, LightTracer) {
+  const TestScene scene(floor_from_above(0.8) + lamp + sphere("0, 0, 0.4", 0.2, glass()) +
+                        sphere("0.3, -0.3, 0.2", 0.1, mirror()));
+  const auto caustic_of = [&](bool aim, double samples, uint64_t seed) {
+    return render(scene, "lighttracer", set("components", "caustic") + set("aim", aim),
+                  {samples, seed})
+        .mean({"caustic"});
+  };
+  const RunningStatistics aimed = caustic_of(true, 200, 1), unaimed = caustic_of(false, 1500, 2);
+  expect_equal_means("aimed light tracer", aimed, unaimed);
+  // Aiming is worth it.
+  EXPECT_LT(aimed.standard_error(), 1.5 * unaimed.standard_error());
+}
+
 #ifndef KAUSTIK_SLOW_BUILD
 /// Fifty lamps far off, hidden behind a wall from the ball of glass that the last one shines on.
 TEST(AimedCaustics, LampsElsewhereDoNotStarveOne) {

@@ -16,8 +16,9 @@ constexpr int cache_strides[] = {8, 4, 2, 1};
 /// Surfaces of one camera path that ask for records.
 constexpr size_t cache_points_per_path = 4;
 
-/// Twice the 95 % quantile of the radius that `neighbors` photons take: what is sparser than that
-/// is better estimated from fewer photons than from far ones.
+/// The radius that `neighbors` photons take at three quarters of the photons. What is sparser is
+/// better estimated from fewer photons than from far ones: where the dim surroundings of a focus
+/// reach into it for their neighbours, its light is counted twice.
 float typical_radius(const PhotonMap& map, int neighbors) {
   constexpr size_t probes = 512;
   if (map.empty() || neighbors <= 0) return infinity;
@@ -31,10 +32,10 @@ float typical_radius(const PhotonMap& map, int neighbors) {
         [&](uint32_t other) { return map.tree().data(other).side.same_side(photon.side); }, found);
     radii.push_back(std::sqrt(found.farthest_sq()));
   }
-  const auto quantile = radii.begin() + std::ptrdiff_t(radii.size() * 95 / 100);
+  const auto quantile = radii.begin() + std::ptrdiff_t(radii.size() * 3 / 4);
   std::nth_element(radii.begin(), quantile, radii.end());
   // Too few photons to tell, or all at one place.
-  return *quantile > 0 ? 2 * *quantile : infinity;
+  return *quantile > 0 ? *quantile : infinity;
 }
 
 /// The walk's vertex as the cache sees it.
@@ -118,7 +119,13 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
 }
 
 void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_token stop) const {
-  state.cache = std::make_unique<IrradianceCache>(settings_.cache_settings);
+  // Its errors have to vanish as well: all lengths shrink as the gather radii do.
+  const float shrinkage = pass_radius(1, stored_maps_ ? 0 : pass.index);
+  CacheSettings cache_settings = settings_.cache_settings;
+  cache_settings.quality *= shrinkage;
+  cache_settings.minimum_spacing *= shrinkage;
+  cache_settings.maximum_spacing *= shrinkage;
+  state.cache = std::make_unique<IrradianceCache>(cache_settings);
   const Vec2i size = scene_.film().crop_size;
   const Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::cache, 0, 0);
   uint32_t round = 0;
