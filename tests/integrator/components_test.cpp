@@ -262,14 +262,15 @@ double slope_of_error(const std::string& what, const std::vector<Image>& found,
   return slope;
 }
 
-/// Noise alone falls like 1/n, the bias of shrinking radii (α = 2/3) slower. The twin is the same
-/// pass again and again.
+/// Noise alone falls like 1/n, the squared bias of shrinking radii like n^(−2/3) (α = 2/3); five
+/// correlated points leave the slope uncertain by about 0.2. The twin is the same pass again and
+/// again.
 void check_slope(const std::string& layer, const Passes& found, const Passes& reference) {
   const double slope = slope_of_error(layer, found.images(), reference, layer);
   const std::vector<Image> repeated(found.images().size(), found.images().front());
   const double twin = slope_of_error(layer + ", the same pass,", repeated, reference, layer);
   if (slow_build) return;
-  EXPECT_LT(slope, -0.6) << layer;
+  EXPECT_LT(slope, -0.45) << layer;
   EXPECT_GT(slope, -1.4) << layer;
   EXPECT_GT(twin, -0.3) << layer;
 }
