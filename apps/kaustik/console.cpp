@@ -45,6 +45,17 @@ std::string count_text(double count) {
   return fmt::format("{:.0f} ", count);
 }
 
+namespace {
+
+std::string bar_text(double fraction) {
+  constexpr int width = 24;
+  const int filled = int(fraction * width);
+  return fmt::format("[{}{}] {:3.0f} %", std::string(size_t(filled), '#'),
+                     std::string(size_t(width - filled), '-'), 100 * fraction);
+}
+
+}  // namespace
+
 ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 void ProgressLine::show(const Progress& p) {
@@ -52,10 +63,7 @@ void ProgressLine::show(const Progress& p) {
   const bool done = p.stage == Progress::Stage::done;
   if (!terminal_ && !done && p.elapsed_s - last_printed_s_ < 5) return;
   last_printed_s_ = p.elapsed_s;
-  constexpr int bar_width = 24;
-  const int filled = int(p.fraction * bar_width);
-  std::string line = fmt::format("[{}{}] {:3.0f} %", std::string(size_t(filled), '#'),
-                                 std::string(size_t(bar_width - filled), '-'), 100 * p.fraction);
+  std::string line = bar_text(p.fraction);
   line += p.passes_total > 0 ? fmt::format("  pass {}/{}", p.passes_done, p.passes_total)
                              : fmt::format("  pass {}", p.passes_done);
   if (done)
@@ -67,6 +75,22 @@ void ProgressLine::show(const Progress& p) {
   line += fmt::format("  {} MB", p.memory_bytes >> 20);
   if (std::isfinite(p.relative_error))
     line += fmt::format("  error {:.2f} %", 100 * p.relative_error);
+  print(line);
+}
+
+void ProgressLine::show(double fraction, double elapsed_s) {
+  if (quiet_ || elapsed_s < 1) return;
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock || elapsed_s - last_printed_s_ < (terminal_ ? 0.2 : 5)) return;
+  last_printed_s_ = elapsed_s;
+  std::string line = bar_text(fraction);
+  if (fraction > 1e-3)
+    line += fmt::format("  {} left", duration_text(elapsed_s * (1 / fraction - 1)));
+  print(line);
+}
+
+void ProgressLine::print(const std::string& text) {
+  std::string line = text;
   if (terminal_) {
     const size_t width = line.size();
     if (width < width_) line += std::string(width_ - width, ' ');

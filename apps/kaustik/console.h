@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -14,12 +15,16 @@ class ProgressLine {
  public:
   explicit ProgressLine(bool quiet);
   void show(const Progress& progress);
+  /// Percent and time left of work that is no render, called from any thread.
+  void show(double fraction, double elapsed_s);
   void finish();
 
  private:
+  void print(const std::string& line);
   bool quiet_, terminal_;
   double last_printed_s_ = -1e9;
   size_t width_ = 0;
+  std::mutex mutex_;
 };
 
 /// Turns the first interrupt (Ctrl-C) or termination signal into a stop request; a second one ends

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 
 #include "commands.h"
@@ -61,8 +62,15 @@ void trace_photons(const PhotonsOptions& options) {
 
   const InterruptGuard interrupt;
   fmt::print(stderr, "tracing photons of {}\n", options.scene);
-  TracedPhotons traced = trace_photon_maps(description, *scene, options.seed,
-                                           usable_threads(options.threads), interrupt.token());
+  ProgressLine line(false);
+  const auto start = std::chrono::steady_clock::now();
+  TracedPhotons traced = trace_photon_maps(
+      description, *scene, options.seed, usable_threads(options.threads), interrupt.token(),
+      [&](double share) {
+        line.show(share,
+                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      });
+  line.finish();
   StoredPhotons& stored = traced.photons;
   stored.scene = std::filesystem::path(options.scene).lexically_normal().string();
   write_photon_file(options.output, stored);

@@ -187,11 +187,11 @@ class ForgetfulIntegrator final : public Integrator {
  public:
   ForgetfulIntegrator(const Integrator& right, bool forgets_seed)
       : right_(right), forgets_seed_(forgets_seed) {}
-  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
-                                     std::stop_token stop) const override {
+  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token stop,
+                                     const ProgressFunction& progress) const override {
     Pass wrong = pass;
     (forgets_seed_ ? wrong.seed = 0 : wrong.index = 0);
-    return right_.prepare(wrong, splats, stop);
+    return right_.prepare(wrong, splats, stop, progress);
   }
   void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
               SampleSink& sink) const override {

@@ -124,6 +124,20 @@ TEST(LightPass, BudgetsFollowWhatArrives) {
   for (size_t i = 1; i < 51; ++i) EXPECT_GE(pass.caustic_shares()[i], 1u);
 }
 
+TEST(LightPass, TellsItsProgress) {
+  const auto scene =
+      make_scene({room(0.5), lamp(Vec3d(0.5, 0, 0)), sphere(Vec3d(0, 0, 0), 0.4, glass())});
+  LightPassSettings settings = settings_of(20'000, 20'000);
+  settings.place_stride = 4;
+  std::vector<double> told;
+  const ProgressFunction listener = [&](double share) { told.push_back(share); };
+  with_threads(1, [&] { LightPass(*scene, settings, 1).trace(1, 0, {}, listener); });
+  ASSERT_GT(told.size(), 10u);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_GT(told.front(), 0);
+  EXPECT_DOUBLE_EQ(told.back(), 1);
+}
+
 TEST(LightPass, SameForAnyNumberOfThreads) {
   const auto scene = make_scene({room(0.5), lamp(Vec3d(0.5, 0, 0)), lamp(Vec3d(0, 0.9, 0)),
                                  sphere(Vec3d(0, 0, 0), 0.4, glass())});

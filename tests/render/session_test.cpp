@@ -71,9 +71,10 @@ struct Script {
 class Scripted final : public Integrator {
  public:
   explicit Scripted(Script script) : script_(std::move(script)) {}
-  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
-                                     std::stop_token) const override {
+  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token,
+                                     const ProgressFunction& progress) const override {
     script_.prepare(pass, splats);
+    progress(0.5);
     auto state = std::make_unique<PassState>();
     state->report.warnings = script_.warnings;
     return state;

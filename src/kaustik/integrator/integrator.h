@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kaustik/base/progress.h"
 #include "kaustik/base/sampler.h"
 #include "kaustik/scene/scene.h"
 #include "kaustik/transport/component.h"
@@ -71,7 +72,8 @@ class Integrator {
   /// The light pass: what the samples of this pass need; may add to `splats`. Runs in parallel
   /// inside; returns early (state unusable) once `stop` is requested.
   virtual std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
-                                             std::stop_token stop) const = 0;
+                                             std::stop_token stop,
+                                             const ProgressFunction& progress) const = 0;
   /// The visualisation pass for one point of the raster.
   virtual void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
                       SampleSink& sink) const = 0;

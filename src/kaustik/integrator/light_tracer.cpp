@@ -64,18 +64,21 @@ std::vector<LightTracer::Job> LightTracer::jobs(uint32_t total) const {
 }
 
 std::unique_ptr<PassState> LightTracer::prepare(const Pass& pass, SplatBuffer& splats,
-                                                std::stop_token stop) const {
+                                                std::stop_token stop,
+                                                const ProgressFunction& progress) const {
   auto state = std::make_unique<PassState>();
   const Vec2i size = scene_.film().crop_size;
   const uint64_t wanted = uint64_t(size.x) * uint64_t(size.y) * pass.samples_per_pixel;
   const auto total = uint32_t(std::min<uint64_t>(wanted, 0x7fffffffu));
   std::atomic<uint64_t> rays{0}, hits{0};
+  WorkCounter counter(total, progress);
   for (const Job& job : jobs(total))
     parallel_blocks(job.count, 1024, [&](size_t begin, size_t end, size_t) {
       if (stop.stop_requested()) return;
       const Counts counts = trace_block(pass, job, uint32_t(begin), uint32_t(end), splats);
       rays += counts.rays;
       hits += counts.splats;
+      counter.add(end - begin);
     });
   state->report.rays = rays;
   state->report.photons = hits;

@@ -14,8 +14,8 @@ class LightTracer final : public Integrator {
   LightTracer(const Arguments& arguments, const Scene& scene);
   static const TypeInfo& info();
 
-  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
-                                     std::stop_token stop) const override;
+  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token stop,
+                                     const ProgressFunction& progress) const override;
   void sample(const PassState&, const Vec2f&, Sampler&, SampleSink&) const override {}
   bool splats() const override { return true; }
   bool samples_camera() const override { return false; }

@@ -21,8 +21,8 @@ PathIntegrator::PathIntegrator(const Arguments& arguments, const Scene& scene)
       maximum_events_(read_maximum_events(arguments)),
       roulette_depth_(int(arguments.integer("rr_depth"))) {}
 
-std::unique_ptr<PassState> PathIntegrator::prepare(const Pass&, SplatBuffer&,
-                                                   std::stop_token) const {
+std::unique_ptr<PassState> PathIntegrator::prepare(const Pass&, SplatBuffer&, std::stop_token,
+                                                   const ProgressFunction&) const {
   return std::make_unique<PassState>();
 }
 

@@ -10,7 +10,8 @@ class PathIntegrator final : public Integrator {
   PathIntegrator(const Arguments& arguments, const Scene& scene);
   static const TypeInfo& info();
 
-  std::unique_ptr<PassState> prepare(const Pass&, SplatBuffer&, std::stop_token) const override;
+  std::unique_ptr<PassState> prepare(const Pass&, SplatBuffer&, std::stop_token,
+                                     const ProgressFunction&) const override;
   void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
               SampleSink& sink) const override;
   /// Only samples of one pass stratify one another from the start.

@@ -91,11 +91,13 @@ GatherRadii PhotonMapIntegrator::pass_radii(const PhotonMaps& maps, uint32_t ind
           radius(maps.global, settings_.global, settings_.global_radius)};
 }
 
-std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(const Pass& pass, PassReport& report,
-                                                               std::stop_token stop) const {
+std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
+    const Pass& pass, PassReport& report, std::stop_token stop,
+    const ProgressFunction& progress) const {
   if (stored_maps_) return stored_maps_;
   const auto lights = light_pass(pass.seed);
-  auto maps = std::make_shared<const PhotonMaps>(lights->trace(pass.seed, pass.index, stop));
+  auto maps =
+      std::make_shared<const PhotonMaps>(lights->trace(pass.seed, pass.index, stop, progress));
   report.photons = maps->global.size() + maps->caustic.size();
   report.rays = maps->global_report.rays + maps->caustic_report.rays;
   if (!stop.stop_requested()) report.warnings = lights->warnings(*maps);
@@ -103,9 +105,13 @@ std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(const Pass& pass,
 }
 
 std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatBuffer&,
-                                                        std::stop_token stop) const {
+                                                        std::stop_token stop,
+                                                        const ProgressFunction& progress) const {
   auto state = std::make_unique<State>();
-  state->maps = maps_of(pass, state->report, stop);
+  // The light pass counts as one half, the cache as the other.
+  state->maps = maps_of(pass, state->report, stop, [&](double share) {
+    if (progress) progress(0.5 * share);
+  });
   // Stored maps are the same in every pass: shrinking their radii would trade bias for noise that
   // no number of passes removes.
   state->light = std::make_unique<PhotonLight>(
@@ -113,12 +119,15 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
   const bool wants_indirect = settings_.components.has(Component::indirect) ||
                               settings_.components.has(Component::specular);
   if (settings_.cache && wants_indirect && settings_.global.neighbors > 0)
-    fill_cache(*state, pass, stop);
+    fill_cache(*state, pass, stop, [&](double share) {
+      if (progress) progress(0.5 + 0.5 * share);
+    });
   state->report.rays += state->light->rays();
   return state;
 }
 
-void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_token stop) const {
+void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_token stop,
+                                     const ProgressFunction& progress) const {
   // Its errors have to vanish as well: all lengths shrink as the gather radii do.
   const float shrinkage = pass_radius(1, stored_maps_ ? 0 : pass.index);
   CacheSettings cache_settings = settings_.cache_settings;
@@ -146,6 +155,7 @@ void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_t
     for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
     if (stop.stop_requested()) return;
     state.cache->fill_round(points, *state.light, sampler, round++, stop);
+    progress(double(round) / double(std::size(cache_strides)));
   }
 }
 

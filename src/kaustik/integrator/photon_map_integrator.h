@@ -14,8 +14,8 @@ class PhotonMapIntegrator final : public Integrator {
  public:
   PhotonMapIntegrator(const Arguments& arguments, const Scene& scene);
 
-  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
-                                     std::stop_token stop) const override;
+  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token stop,
+                                     const ProgressFunction& progress) const override;
   void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
               SampleSink& sink) const override;
   uint32_t default_samples_per_pass() const override { return settings_.samples_per_pass; }
@@ -25,9 +25,11 @@ class PhotonMapIntegrator final : public Integrator {
   struct State;
   /// The maps of a pass: traced, or the stored ones.
   std::shared_ptr<const PhotonMaps> maps_of(const Pass& pass, PassReport& report,
-                                            std::stop_token stop) const;
+                                            std::stop_token stop,
+                                            const ProgressFunction& progress) const;
   GatherRadii pass_radii(const PhotonMaps& maps, uint32_t index) const;
-  void fill_cache(State& state, const Pass& pass, std::stop_token stop) const;
+  void fill_cache(State& state, const Pass& pass, std::stop_token stop,
+                  const ProgressFunction& progress) const;
   /// The diffuse surfaces that a camera path meets, for the cache.
   void collect_cache_points(const Vec2f& raster, Sampler sampler,
                             std::vector<CachePoint>& points) const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <numeric>
 
 #include "kaustik/base/parallel.h"
 
@@ -197,7 +198,10 @@ std::vector<uint32_t> LightPass::train(Kind kind, uint32_t total, uint64_t seed)
   if (lights > 1) {
     const auto tries = uint32_t(std::clamp<size_t>(total / 4 / lights, 64, 16384));
     Deposits deposits;
-    trace_kind(kind, std::vector<uint32_t>(lights, tries), seed, 0, Stream::training, {}, deposits);
+    const ProgressFunction nobody;
+    WorkCounter counter(0, nobody);
+    trace_kind(kind, std::vector<uint32_t>(lights, tries), seed, 0, Stream::training, {}, counter,
+               deposits);
     for (size_t i = 0; i < lights; ++i) arriving[i] = deposits.report.lights[i].stored_flux;
   } else {
     arriving = power;
@@ -207,7 +211,7 @@ std::vector<uint32_t> LightPass::train(Kind kind, uint32_t total, uint64_t seed)
 
 void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint64_t seed,
                            uint32_t index, Stream stream, std::stop_token stop,
-                           Deposits& deposits) const {
+                           WorkCounter& counter, Deposits& deposits) const {
   deposits.report.lights.assign(shares.size(), {});
   struct Block {
     int light;
@@ -229,6 +233,7 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
       return Sampler::at(seed, index, stream, element, photon);
     });
     results[i] = std::move(tracer);
+    counter.add(block.end - block.begin);
   });
   std::vector<const PhotonList*> global, caustic;
   for (size_t i = 0; i < blocks.size(); ++i) {
@@ -242,13 +247,18 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
   deposits.caustic = concatenate(caustic);
 }
 
-std::vector<SurfaceSide> LightPass::trace_places(uint64_t seed, uint32_t index,
-                                                 std::stop_token stop) const {
+std::vector<uint32_t> LightPass::place_shares() const {
   if (settings_.place_stride == 0) return {};
   std::vector<uint32_t> shares = global_shares_;
   for (uint32_t& share : shares) share /= settings_.place_stride;
+  return shares;
+}
+
+std::vector<SurfaceSide> LightPass::trace_places(uint64_t seed, uint32_t index,
+                                                 std::stop_token stop, WorkCounter& counter) const {
   Deposits deposits;
-  trace_kind(Kind::global, shares, seed, index, Stream::photon_place, stop, deposits);
+  trace_kind(Kind::global, place_shares(), seed, index, Stream::photon_place, stop, counter,
+             deposits);
   std::vector<SurfaceSide> places;
   places.reserve(deposits.global.photons.size());
   for (size_t i = 0; i < deposits.global.photons.size(); ++i)
@@ -256,16 +266,23 @@ std::vector<SurfaceSide> LightPass::trace_places(uint64_t seed, uint32_t index,
   return places;
 }
 
-PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop) const {
+PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop,
+                            const ProgressFunction& progress) const {
   const auto start = std::chrono::steady_clock::now();
+  uint64_t total = 0;
+  for (const auto& shares : {caustic_shares_, global_shares_, place_shares()})
+    total += std::accumulate(shares.begin(), shares.end(), uint64_t(0));
+  WorkCounter counter(total, progress);
   Deposits caustic, global;
-  trace_kind(Kind::caustic, caustic_shares_, seed, index, Stream::photon_caustic, stop, caustic);
-  trace_kind(Kind::global, global_shares_, seed, index, Stream::photon_global, stop, global);
+  trace_kind(Kind::caustic, caustic_shares_, seed, index, Stream::photon_caustic, stop, counter,
+             caustic);
+  trace_kind(Kind::global, global_shares_, seed, index, Stream::photon_global, stop, counter,
+             global);
   if (!caustic.global.photons.empty())
     global.global = concatenate({&global.global, &caustic.global});
   caustic.report.target_count = target_count_;
   PhotonMaps maps;
-  maps.places = trace_places(seed, index, stop);
+  maps.places = trace_places(seed, index, stop, counter);
   maps.global_report = std::move(global.report);
   maps.caustic_report = std::move(caustic.report);
   maps.trace_seconds = seconds_since(start);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "kaustik/base/progress.h"
 #include "kaustik/photon/emission.h"
 #include "kaustik/photon/irradiance_map.h"
 #include "kaustik/photon/photon_map.h"
@@ -63,8 +64,10 @@ class LightPass {
   /// Trains the budgets with photons of `seed`. The scene must outlive this.
   LightPass(const Scene& scene, const LightPassSettings& settings, uint64_t seed);
 
-  /// The maps of pass `index`: the same for any number of threads.
-  PhotonMaps trace(uint64_t seed, uint32_t index, std::stop_token stop = {}) const;
+  /// The maps of pass `index`: the same for any number of threads. `progress` is told of photons,
+  /// not of the building of the trees.
+  PhotonMaps trace(uint64_t seed, uint32_t index, std::stop_token stop = {},
+                   const ProgressFunction& progress = {}) const;
 
   /// Why a map that was asked for is empty. (A scene without specular objects has no caustics:
   /// that is no warning.)
@@ -77,8 +80,11 @@ class LightPass {
   class Tracer;
   enum class Kind { global, caustic };
   void trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint64_t seed, uint32_t index,
-                  Stream stream, std::stop_token stop, Deposits& deposits) const;
-  std::vector<SurfaceSide> trace_places(uint64_t seed, uint32_t index, std::stop_token stop) const;
+                  Stream stream, std::stop_token stop, WorkCounter& counter,
+                  Deposits& deposits) const;
+  std::vector<uint32_t> place_shares() const;
+  std::vector<SurfaceSide> trace_places(uint64_t seed, uint32_t index, std::stop_token stop,
+                                        WorkCounter& counter) const;
   std::vector<uint32_t> train(Kind kind, uint32_t total, uint64_t seed) const;
 
   const Scene& scene_;

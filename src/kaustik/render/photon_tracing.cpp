@@ -37,7 +37,8 @@ void explain_empty_maps(const StoredPhotons& photons, std::vector<std::string>& 
 }  // namespace
 
 TracedPhotons trace_photon_maps(const Description& description, const Scene& scene, uint64_t seed,
-                                int threads, std::stop_token stop) {
+                                int threads, std::stop_token stop,
+                                const ProgressFunction& progress) {
   TracedPhotons traced;
   const auto object = photonmap_of(description);
   Description alone{std::make_shared<Object>()};
@@ -53,7 +54,7 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
   photons.settings = PhotonMapSettings(arguments).light_pass;
   with_threads(threads, [&] {
     const LightPass pass(scene, photons.settings, seed);
-    photons.maps = pass.trace(seed, 0, stop);
+    photons.maps = pass.trace(seed, 0, stop, progress);
     for (const std::string& warning : pass.warnings(photons.maps))
       traced.warnings.push_back(warning);
   });

@@ -18,6 +18,7 @@ struct TracedPhotons {
 /// parameters) in pass 0 of `seed`, on `threads` threads (0: all). Throws Error(input) for wrong
 /// parameters, Error(system) if stopped: half a map is of no use.
 TracedPhotons trace_photon_maps(const Description& description, const Scene& scene, uint64_t seed,
-                                int threads, std::stop_token stop = {});
+                                int threads, std::stop_token stop = {},
+                                const ProgressFunction& progress = {});
 
 }  // namespace kaustik

@@ -65,14 +65,24 @@ size_t resident_bytes() {
 class Session::Monitor {
  public:
   Monitor(const Session& session, const std::function<void(const Progress&)>& listener)
-      : session_(session), listener_(listener), start_(Clock::now()) {}
+      : session_(session),
+        listener_(listener),
+        start_(Clock::now()),
+        light_share_(session.integrator_.samples_camera() ? 0.3 : 1) {}
 
   void start_pass() {
     pass_start_ = Clock::now();
     tiles_done_ = 0;
+    light_done_ = 0;
+  }
+  void light_pass_at(double share) {
+    light_done_ = share;
+    tell(Progress::Stage::light, false);
   }
   void light_pass_done(const PassReport& report) {
     light_seconds += seconds_since(pass_start_);
+    light_done_ = 1;
+    if (passes_done_ == 0 && light_seconds < 0.1) light_share_ = 0;
     rays += report.rays;
     photons += report.photons;
     tell(Progress::Stage::picture, false);
@@ -85,6 +95,8 @@ class Session::Monitor {
   void pass_done() {
     ++passes_done_;
     tiles_done_ = 0;
+    light_done_ = 0;
+    light_share_ = std::min(1.0, light_seconds / std::max(1e-9, elapsed()));
     noise_ = session_.film_.relative_noise();
     tell(Progress::Stage::light, false);
   }
@@ -119,7 +131,9 @@ class Session::Monitor {
     const double tiles = double(session_.tiles_.x) * session_.tiles_.y;
     double f = 0;
     if (session_.pass_count_ > 0)
-      f = (passes_done_ + double(tiles_done_) / tiles) / session_.pass_count_;
+      f = (passes_done_ + light_share_ * light_done_ +
+           (1 - light_share_) * double(tiles_done_) / tiles) /
+          session_.pass_count_;
     if (session_.settings_.seconds) f = std::max(f, elapsed_s / *session_.settings_.seconds);
     return std::min(f, 0.999);
   }
@@ -130,6 +144,8 @@ class Session::Monitor {
   bool told_ = false;
   std::mutex mutex_;
   std::atomic<uint32_t> passes_done_{0}, tiles_done_{0};
+  std::atomic<double> light_done_{0};  ///< of this pass's light pass
+  std::atomic<double> light_share_;    ///< of a pass's time; a guess before the first is done
   std::atomic<double> noise_{std::numeric_limits<double>::infinity()};
 };
 
@@ -201,7 +217,8 @@ bool Session::render_pass(uint32_t index, std::stop_token stop, Monitor& monitor
   if (integrator_.splats()) splats_.clear();
   std::fill(pixels_.begin(), pixels_.end(), PassPixel{});
   monitor.tell(Progress::Stage::light, false);
-  const auto state = integrator_.prepare(pass, splats_, stop);
+  const auto state =
+      integrator_.prepare(pass, splats_, stop, [&](double share) { monitor.light_pass_at(share); });
   monitor.light_pass_done(state->report);
   for (const std::string& warning : state->report.warnings)
     if (std::find(report_.warnings.begin(), report_.warnings.end(), warning) ==
