@@ -28,18 +28,17 @@ double mean_of(const std::vector<double>& values, size_t count) {
   return count > 0 ? sum / double(count) : 0;
 }
 
-/// Mean without the largest thousandth; reorders the values.
-double trimmed_mean(std::vector<double>& values) {
+double ratio(double a, double b) { return a == b ? 1 : a / b; }
+
+}  // namespace
+
+double trimmed_mean(std::vector<double> values) {
   const size_t dropped = values.size() / 1000;
   std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(dropped), values.end(),
                    std::greater<>());
   values.erase(values.begin(), values.begin() + std::ptrdiff_t(dropped));
   return mean_of(values, values.size());
 }
-
-double ratio(double a, double b) { return a == b ? 1 : a / b; }
-
-}  // namespace
 
 ImageComparison compare_images(const Image& image, const Image& reference,
                                const std::string& layer) {
@@ -74,7 +73,7 @@ ImageComparison compare_images(const Image& image, const Image& reference,
   for (int c = 0; c < 3; ++c)
     result.mean_ratio[c] = ratio(result.mean[c], result.reference_mean[c]);
   result.relative_mse = mean_of(pixel_errors, pixel_errors.size());
-  result.relative_mse_trimmed = trimmed_mean(pixel_errors);
+  result.relative_mse_trimmed = trimmed_mean(std::move(pixel_errors));
   return result;
 }
 

@@ -20,6 +20,9 @@ struct ImageComparison {
   size_t non_finite_pixels = 0;
 };
 
+/// Mean without the largest thousandth of the values (their number rounded down).
+double trimmed_mean(std::vector<double> values);
+
 /// Throws Error(input) if the sizes differ, an image has no such layer, or no pixel is finite in
 /// both.
 ImageComparison compare_images(const Image& image, const Image& reference,
