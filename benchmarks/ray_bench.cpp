@@ -111,8 +111,8 @@ void compare(const std::string& name, const Scene& scene, Recorder& recorder, co
     rates.push_back(double(count) / bare / 1e6);
   }
   bench::report(name, bench::median(ratios), "ratio of rays per second",
-                fmt::format("rtcIntersect1/rtcOccluded1 on the same {} rays, {} threads, {:.1f} "
-                            "Mrays/s",
+                fmt::format("rtcIntersect1/rtcOccluded1 on the same {} rays in the same order, {} "
+                            "threads, {:.1f} Mrays/s",
                             count, threads, bench::median(rates)));
 }
 

@@ -97,7 +97,7 @@ TEST_F(BallLens, PhotonMap) {
 TEST_F(BallLens, PhotonMapNearest) {
   const RunningStatistics found =
       render(scene_, "photonmap",
-             set("components", "caustic") + set("caustic_photons", 100'000) +
+             set("components", "caustic") + set("caustic_photons", 200'000) +
                  set("caustic_neighbors", 50) + set("caustic_kernel", "cone"),
              {128})
           .mean({"caustic"});

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "tests/support/forgetful.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
 
@@ -182,28 +183,6 @@ TEST(Determinism, ReplicatesAreIndependent) {
     expect_independence(m.type, SeedsAndPasses(scene, *scene.integrator(m.type, m.parameters), 4));
 }
 
-/// An error in a method: one of the numbers of a pass does not get into its light pass.
-class ForgetfulIntegrator final : public Integrator {
- public:
-  ForgetfulIntegrator(const Integrator& right, bool forgets_seed)
-      : right_(right), forgets_seed_(forgets_seed) {}
-  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token stop,
-                                     const ProgressFunction& progress) const override {
-    Pass wrong = pass;
-    (forgets_seed_ ? wrong.seed = 0 : wrong.index = 0);
-    return right_.prepare(wrong, splats, stop, progress);
-  }
-  void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
-              SampleSink& sink) const override {
-    right_.sample(state, raster, sampler, sink);
-  }
-  ComponentSet components() const override { return right_.components(); }
-
- private:
-  const Integrator& right_;
-  bool forgets_seed_;
-};
-
 /// The same of so few photons that most of the noise is theirs.
 TEST(Determinism, PhotonsOfReplicatesAreIndependent) {
   const TestScene scene = small_scene(10);
@@ -212,8 +191,9 @@ TEST(Determinism, PhotonsOfReplicatesAreIndependent) {
                        set("caustic_photons", 300) + set("irradiance_cache", false));
   constexpr double samples = 32;
   expect_independence("photons", SeedsAndPasses(scene, *right, samples));
-  const SeedsAndPasses same_passes(scene, ForgetfulIntegrator(*right, false), samples),
-      same_seeds(scene, ForgetfulIntegrator(*right, true), samples);
+  const SeedsAndPasses same_passes(
+      scene, ForgetfulIntegrator(*right, ForgetfulIntegrator::Forgets::index), samples),
+      same_seeds(scene, ForgetfulIntegrator(*right, ForgetfulIntegrator::Forgets::seed), samples);
   EXPECT_LT(p_value_of_independence(same_passes, relations[0]), check_level());
   EXPECT_LT(p_value_of_independence(same_passes, relations[1]), check_level());
   EXPECT_LT(p_value_of_independence(same_seeds, relations[2]), check_level());

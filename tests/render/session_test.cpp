@@ -111,10 +111,10 @@ TEST(Session, PlansPassesAndSamples) {
   const std::optional<uint32_t> none;
   // The scripted integrator takes 4 samples per pass where nobody asks for anything.
   for (const Case& c : {Case{none, none, 0, 16, 4}, Case{3, none, 0, 3, 4}, Case{none, 1, 0, 1, 1},
-                        Case{none, 4, 0, 1, 4}, Case{none, 8, 0, 2, 4}, Case{none, 64, 0, 16, 4},
-                        Case{none, 640, 0, 16, 40}, Case{none, none, 8, 2, 4},
+                        Case{none, 4, 0, 4, 1}, Case{none, 8, 0, 4, 2}, Case{none, 64, 0, 16, 4},
+                        Case{none, 640, 0, 16, 40}, Case{none, none, 8, 4, 2},
                         Case{none, 16, 8, 4, 4}, Case{5, none, 10, 5, 2}, Case{2, 6, 0, 2, 3},
-                        Case{8, 2, 0, 2, 1}, Case{none, 7, 0, 2, 4}}) {
+                        Case{8, 2, 0, 2, 1}, Case{none, 7, 0, 4, 2}, Case{none, 28, 0, 7, 4}}) {
     const auto scene = plain_scene(c.scene_samples);
     const Scripted integrator{Script()};
     SessionSettings settings;

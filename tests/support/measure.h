@@ -213,7 +213,8 @@ inline void expect_sharp(const std::string& what, const Comparison& c, double la
 
 /// The first has the mean of the second, and the check is sharp enough to tell it from one that is
 /// off by 2 %: its standard error is at most 0.3 %, and the wrong value, farther off on the side
-/// where the right one lies, fails.
+/// where the right one lies, would fail. (Errors planted in scenes and methods have tests of their
+/// own.)
 inline void expect_equal_means(const std::string& what, const Comparison& c,
                                double largest_error = sharp) {
   expect_sharp(what, c, largest_error);
@@ -238,8 +239,7 @@ inline double nearness_level() { return slow_build ? check_level() : 0.05; }
 /// The same where the first is an estimate whose bias the parameters make small: its mean lies
 /// within `tolerance` of the other's, relatively. What is measured may lie beyond it by as much as
 /// the noise explains, 1.7 standard errors of at most 0.3 %, so at ± 1 % all that is off by 1.5 %
-/// fails. The twin has an error of twice the tolerance planted on top of the estimate's own, and
-/// must fail.
+/// fails. An error of twice the tolerance on top of the estimate's own would fail.
 inline void expect_near_means(const std::string& what, const Comparison& c, double tolerance,
                               double largest_error = sharp) {
   expect_sharp(what, c, largest_error);

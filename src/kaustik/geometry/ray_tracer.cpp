@@ -8,7 +8,10 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <atomic>
+#include <cassert>
+#include <limits>
 #include <mutex>
 
 #include "kaustik/geometry/mesh_surface.h"
@@ -166,7 +169,8 @@ void fill(RTCRay& out, const Ray& ray) {
   out.flags = 0;
 }
 
-// Rays come one by one from anywhere: the default of both versions is to expect incoherent ones.
+// Single rays and packets come from anywhere: the default of both versions is to expect incoherent
+// ones.
 inline void trace_closest(RTCScene scene, RTCRayHit& rayhit) {
 #if RTC_VERSION_MAJOR >= 4
   rtcIntersect1(scene, &rayhit, nullptr);
@@ -440,6 +444,7 @@ void RayTracer::Impl::intersect_packet(std::span<const Ray> rays, std::span<Hit>
 }
 
 void RayTracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
+  assert(hits.size() >= rays.size());
   for (size_t begin = 0; begin < rays.size(); begin += packet_size) {
     const size_t count = std::min(packet_size, rays.size() - begin);
     impl_->intersect_packet(rays.subspan(begin, count), hits.subspan(begin, count));

@@ -14,7 +14,7 @@ class PathIntegrator final : public Integrator {
                                      const ProgressFunction&) const override;
   void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
               SampleSink& sink) const override;
-  /// Only samples of one pass stratify one another from the start.
+  /// Passes are independent replicates: only samples of one pass stratify one another.
   uint32_t default_samples_per_pass() const override { return 16; }
   ComponentSet components() const override { return components_; }
 

@@ -18,8 +18,9 @@ constexpr size_t cache_points_per_path = 4;
 
 /// The radius that `neighbors` photons take at three quarters of the photons. What is sparser is
 /// better estimated from fewer photons than from far ones: where the dim surroundings of a focus
-/// reach into it for their neighbours, its light is counted twice.
-float typical_radius(const PhotonMap& map, int neighbors) {
+/// reach into it for their neighbours, its light is counted twice. Their noise goes with the
+/// passes; for stored maps, where it does not, the radius is twice that of 95 % of the photons.
+float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
   constexpr size_t probes = 512;
   if (map.empty() || neighbors <= 0) return infinity;
   std::vector<float> radii;
@@ -32,10 +33,10 @@ float typical_radius(const PhotonMap& map, int neighbors) {
         [&](uint32_t other) { return map.tree().data(other).side.same_side(photon.side); }, found);
     radii.push_back(std::sqrt(found.farthest_sq()));
   }
-  const auto quantile = radii.begin() + std::ptrdiff_t(radii.size() * 3 / 4);
+  const auto quantile = radii.begin() + std::ptrdiff_t(radii.size() * (stored ? 95 : 75) / 100);
   std::nth_element(radii.begin(), quantile, radii.end());
   // Too few photons to tell, or all at one place.
-  return *quantile > 0 ? *quantile : infinity;
+  return *quantile > 0 ? (stored ? 2 : 1) * *quantile : infinity;
 }
 
 /// The walk's vertex as the cache sees it.
@@ -72,17 +73,23 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
 }
 
 std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(uint64_t seed) const {
-  const std::lock_guard lock(light_pass_mutex_);
-  if (!light_pass_ || light_pass_seed_ != seed) {
-    light_pass_ = std::make_shared<const LightPass>(scene_, settings_.light_pass, seed);
-    light_pass_seed_ = seed;
+  {
+    const std::lock_guard lock(light_pass_mutex_);
+    if (light_pass_ && light_pass_seed_ == seed) return light_pass_;
   }
+  // Outside the lock: it runs in parallel, and a thread that waits for the others may take up any
+  // work meanwhile, this one's too.
+  auto trained = std::make_shared<const LightPass>(scene_, settings_.light_pass, seed);
+  const std::lock_guard lock(light_pass_mutex_);
+  light_pass_ = std::move(trained);
+  light_pass_seed_ = seed;
   return light_pass_;
 }
 
 GatherRadii PhotonMapIntegrator::pass_radii(const PhotonMaps& maps, uint32_t index) const {
   const auto radius = [&](const PhotonMap& map, const EstimateSettings& estimate, float given) {
-    const float first = given > 0 ? given : typical_radius(map, estimate.neighbors);
+    const float first =
+        given > 0 ? given : typical_radius(map, estimate.neighbors, stored_maps_ != nullptr);
     return std::min(
         pass_radius(first, index),
         radius_of_least_radiance(estimate.neighbors, map.mean_flux(), settings_.minimum_radiance));

@@ -103,7 +103,8 @@ std::vector<Parameter> parameters() {
           .in("W/(sr m²)"),
       number_parameter("caustic_radius", 0,
                        "Largest search radius for caustic photons in the first pass, it shrinks in "
-                       "later ones; 0: from the photons.")
+                       "later ones (not of stored maps); 0: what is enough for three quarters of "
+                       "the photons.")
           .range(0, 1e30)
           .in("m"),
       number_parameter("global_radius", 0, "The same for global photons.").range(0, 1e30).in("m"),
@@ -157,17 +158,19 @@ std::vector<Parameter> parameters() {
       boolean_parameter("irradiance_cache", true,
                         "Interpolate diffuse indirect light between points where it was gathered."),
       integer_parameter("cache_samples", 128, "Gather rays per cache record.").range(4, 1000000),
-      number_parameter("cache_quality", 0.25, "Allowed error of the cache: lower is denser.")
+      number_parameter("cache_quality", 0.25,
+                       "Allowed error of the cache in the first pass: lower is denser. It shrinks "
+                       "in later ones as the search radii do, and so do the spacings.")
           .range(1e-3, 10),
       boolean_parameter("cache_gradients", true, "Interpolate with gradients."),
       boolean_parameter(
           "minimum_distance", false,
           "Records reach by the minimum instead of the harmonic mean distance of what "
           "they see [minDist]."),
-      number_parameter("cache_minimum_spacing", 3, "Least reach of a record.")
+      number_parameter("cache_minimum_spacing", 3, "Least reach of a record in the first pass.")
           .range(0, 1e6)
           .in("pixels"),
-      number_parameter("cache_maximum_spacing", 40, "Greatest reach of a record.")
+      number_parameter("cache_maximum_spacing", 40, "Greatest reach of a record in the first pass.")
           .range(1, 1e6)
           .in("pixels"),
       integer_parameter("samples_per_pass", 16, "Camera samples per pixel and pass.")

@@ -59,6 +59,8 @@ class EmissionSampler {
   const Scene* scene_;
 };
 
+inline constexpr int default_target_budget = 128;
+
 /// Boxes of every shape (and instance) whose bsdf has any of `lobes`, at most `budget` of them,
 /// weighted by the albedo of those lobes. Long and hollow shapes get more boxes than compact ones.
 /// For caustics: Lobes::specular or Lobes::delta.

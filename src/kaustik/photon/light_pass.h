@@ -22,7 +22,7 @@ struct LightPassSettings {
   /// One place where global photons land, for looking up irradiance, for so many global photons;
   /// 0: none.
   uint32_t place_stride = 0;
-  int target_budget = 128;  ///< boxes that these are divided into for aiming
+  int target_budget = default_target_budget;  ///< boxes that these are divided into for aiming
 };
 
 /// What became of the photons of one light.

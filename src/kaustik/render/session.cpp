@@ -15,6 +15,8 @@ namespace {
 
 constexpr int tile_size = 16;
 constexpr uint32_t default_passes = 16;
+/// Fewer tell too little of the error.
+constexpr uint32_t least_passes = 4;
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
@@ -171,7 +173,7 @@ void Session::plan() {
     samples = uint32_t(scene_.film().sample_count);
   if (samples) {
     pass_count_ = settings_.passes.value_or(
-        std::clamp((*samples + by_integrator - 1) / by_integrator, 1u, default_passes));
+        std::clamp((*samples + by_integrator - 1) / by_integrator, least_passes, default_passes));
     pass_count_ = std::min(pass_count_, *samples);
     samples_per_pass_ = (*samples + pass_count_ - 1) / std::max(1u, pass_count_);
   } else {

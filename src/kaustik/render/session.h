@@ -17,8 +17,8 @@ struct SessionSettings {
   int threads = 0;  ///< 0: all
   uint32_t first_pass = 0;
   std::optional<uint32_t> passes;  ///< how many; absent: see `samples_per_pixel` and `seconds`
-  /// Samples per pixel of all passes together; absent: the scene's, else the integrator's default
-  /// per pass.
+  /// Samples per pixel of all passes together, at least four where there are so many samples;
+  /// absent: the scene's, else the integrator's default per pass.
   std::optional<uint32_t> samples_per_pixel;
   /// Stop before the pass that would end later than this; at least one pass is always finished.
   std::optional<double> seconds;

@@ -45,7 +45,7 @@ class Scene {
     if (parts_.observer) parts_.observer->on_ray(ray, false);
     return parts_.tracer->intersect(ray, hit);
   }
-  /// Closest hits of many rays at once; an infinite `t` says that there is none.
+  /// Closest hits of many rays at once, as RayTracer::intersect.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const {
     if (parts_.observer)
       for (const Ray& ray : rays) parts_.observer->on_ray(ray, false);

@@ -1,5 +1,7 @@
 #include "kaustik/transport/light_path.h"
 
+#include <algorithm>
+
 namespace kaustik {
 
 bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, LightPath& path) {

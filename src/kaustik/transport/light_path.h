@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "kaustik/base/sampler.h"
 #include "kaustik/transport/path_class.h"
