@@ -36,8 +36,8 @@ class RayTracer {
   /// Closest hit in (0, ray.t_max); false if none.
   bool intersect(const Ray& ray, Hit& hit) const;
   /// The same for many rays at once, which is faster, most of all if they are alike: hits[i]
-  /// belongs to rays[i], its `t` is infinite if there is none; `hits` is as long as `rays` or longer. How rays are grouped may change the
-  /// last bits of a hit.
+  /// belongs to rays[i], its `t` is infinite if there is none; `hits` is as long as `rays` or
+  /// longer. How rays are grouped may change the last bits of a hit.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
   /// Whether anything lies in (0, ray.t_max).
   bool occluded(const Ray& ray) const;
