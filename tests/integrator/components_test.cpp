@@ -296,6 +296,22 @@ TEST(Components, ErrorFallsWithPasses) {
             flattest_slope);
 }
 
+/// What is not wanted is not followed, and the rest has the same bits.
+TEST(Components, PathAloneFindsTheSame) {
+  const TestScene scene(balls_in_room(mirror(), ggx(0.3)));
+  const Image all = render(scene, "path", "", {2, 1, 1}).images().front();
+  for (const std::string_view component : component_names) {
+    const std::string name(component);
+    const Image alone =
+        render(scene, "path", set("components", name.c_str()), {2, 1, 1}).images().front();
+    for (const char* lane : {".R", ".G", ".B"}) {
+      const auto x = all.channel(all.find_channel(name + lane)),
+                 y = alone.channel(alone.find_channel(name + lane));
+      EXPECT_TRUE(std::equal(x.begin(), x.end(), y.begin(), y.end())) << name << lane;
+    }
+  }
+}
+
 #ifndef KAUSTIK_SLOW_BUILD
 /// A lamp that is 3 % brighter for one of the two: the checks notice.
 TEST(Components, PlantedErrorsFail) {

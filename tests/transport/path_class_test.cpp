@@ -46,6 +46,17 @@ std::string name_of(const Events& events) {
   return name;
 }
 
+/// By trying all that may follow, up to three events.
+bool may_find(const Events& events, Lobes traced, Component wanted) {
+  for (int more = 0; more <= 3; ++more)
+    for (const Events& before : sequences(more)) {
+      Events all = before;  // light meets first what the camera's path meets last
+      all.insert(all.end(), events.begin(), events.end());
+      if (owner(all, traced) == wanted) return true;
+    }
+  return false;
+}
+
 template <typename Check>
 void for_all_paths(const Check& check) {
   for (const Lobes traced : {Lobes::specular, Lobes::delta})
@@ -117,6 +128,18 @@ TEST(ComponentSet, HoldsWhatWasAdded) {
     EXPECT_EQ(set.has(c), c == Component::caustic || c == Component::emission);
     EXPECT_TRUE(ComponentSet::all().has(c));
   }
+}
+
+TEST(CameraPathClass, KnowsWhatMayStillBeFound) {
+  for_all_paths([](const Events& events, Lobes traced) {
+    for (int i = 0; i < component_count; ++i) {
+      ComponentSet wanted;
+      wanted.add(Component(i));
+      EXPECT_EQ(camera_path(events, traced).may_find(wanted),
+                may_find(events, traced, Component(i)))
+          << component_names[size_t(i)];
+    }
+  });
 }
 
 }  // namespace

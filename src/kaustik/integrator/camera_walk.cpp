@@ -89,6 +89,8 @@ void CameraWalk::add_background() {
 void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probability,
                                   int samples) {
   if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
+  // What nobody wants costs no shadow ray; its random numbers are drawn, so that the others stay.
+  const auto wanted = [&](Lobes lobe) { return sink_.wants(class_.component_after(lobe)); };
   for (int i = 0; i < samples; ++i) {
     DirectLight light;
     bool found;
@@ -100,9 +102,11 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
     }
     if (!found) continue;
     const float share = 1.0f / float(samples);
-    const Spectrum by_diffuse =
-        reflected(vertex_, light, Lobes::diffuse, diffuse_probability) * share;
-    const Spectrum by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability) * share;
+    Spectrum by_diffuse, by_glossy;
+    if (wanted(Lobes::diffuse))
+      by_diffuse = reflected(vertex_, light, Lobes::diffuse, diffuse_probability) * share;
+    if (wanted(Lobes::glossy))
+      by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability) * share;
     if (by_diffuse.is_zero() && by_glossy.is_zero()) continue;
     ++rays_;
     if (scene_.occluded(light.shadow_ray)) continue;

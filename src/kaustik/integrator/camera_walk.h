@@ -42,6 +42,9 @@ class CameraWalk {
   }
   bool wants_photon_light(Component component) const { return sink_.wants(seen(component)); }
 
+  /// Whether anything that is wanted may be found further on.
+  bool may_find_more() const { return class_.may_find(sink_.wanted()); }
+
   /// Chooses a direction by `lobes` for the next advance(); false if the light is absorbed.
   /// `probability` is that of having chosen these lobes, or the number of branches that do so.
   bool scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u);

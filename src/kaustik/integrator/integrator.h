@@ -43,6 +43,7 @@ class SampleSink {
   const FirstHit& first_hit() const { return first_hit_; }
   uint64_t rays() const { return rays_; }
   bool wants(Component component) const { return wanted_.has(component); }
+  ComponentSet wanted() const { return wanted_; }
 
  private:
   ComponentSet wanted_;

@@ -36,6 +36,7 @@ void PathIntegrator::sample(const PassState&, const Vec2f& raster, Sampler& samp
     Vec2f u_choice = sampler.next_2d();
     const LobeChoice choice = choose_lobes(walk.vertex(), u_choice.x);
     if (!walk.scatter(choice.lobes, choice.probability, u_choice.x, u)) return;
+    if (!walk.may_find_more()) return;
     if (walk.events() > roulette_depth_ && !walk.survive(u_choice.y)) return;
   }
 }

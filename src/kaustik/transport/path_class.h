@@ -28,6 +28,13 @@ class CameraPathClass {
     if (first_specular_) return Component::specular;
     return rest_specular_ ? Component::caustic : Component::indirect;
   }
+  /// Whether light that is met now or after more events may be one of `wanted`.
+  bool may_find(ComponentSet wanted) const {
+    if (events_ == 0) return !wanted.empty();
+    if (wanted.has(component())) return true;
+    if (first_specular_) return wanted.has(Component::specular);
+    return wanted.has(Component::indirect) || (rest_specular_ && wanted.has(Component::caustic));
+  }
   /// Of light that arrives at the current vertex and leaves it by `event`.
   Component component_after(Lobes event) const {
     CameraPathClass next = *this;
