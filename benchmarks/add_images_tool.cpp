@@ -1,4 +1,4 @@
-// add_images_tool A B OUT: the sum of two independent renders, with the standard error of the sum.
+// add_images_tool OUT A B ...: the sum of independent renders, with the standard error of the sum.
 #include <cmath>
 
 #include "benchmarks/report.h"
@@ -7,20 +7,29 @@
 
 int main(int argc, char** argv) {
   using namespace kaustik;
-  if (argc != 4) return 2;
+  if (argc < 3) {
+    fmt::print(stderr, "usage: add_images_tool OUT A B ...\n");
+    return 2;
+  }
   try {
-    const Image a = read_image(argv[1]), b = read_image(argv[2]);
-    Image sum(a.width(), a.height(), {"R", "G", "B", "error.R", "error.G", "error.B"});
-    for (const char* layer : {"", "error"}) {
-      const RgbView x = rgb_view(a, layer), y = rgb_view(b, layer);
-      const bool error = *layer != 0;
-      for (int c = 0; c < 3; ++c)
-        for (size_t i = 0; i < sum.pixel_count(); ++i) {
-          const float u = x.planes[size_t(c)][i], v = y.planes[size_t(c)][i];
-          sum.channel(error ? 3 + c : c)[i] = error ? std::hypot(u, v) : u + v;
-        }
+    Image sum = read_image(argv[2]);
+    sum = Image(sum.width(), sum.height(), {"R", "G", "B", "error.R", "error.G", "error.B"});
+    for (int i = 2; i < argc; ++i) {
+      const Image part = read_image(argv[i]);
+      if (part.width() != sum.width() || part.height() != sum.height())
+        throw Error(ErrorKind::input, std::string(argv[i]) + " has another size", "", {});
+      for (const char* layer : {"", "error"}) {
+        const RgbView view = rgb_view(part, layer);
+        const bool error = *layer != 0;
+        for (int c = 0; c < 3; ++c)
+          for (size_t k = 0; k < sum.pixel_count(); ++k) {
+            float& total = sum.channel(error ? 3 + c : c)[k];
+            const float value = view.planes[size_t(c)][k];
+            total = error ? std::hypot(total, value) : total + value;
+          }
+      }
     }
-    write_image(sum, argv[3]);
+    write_image(sum, argv[1]);
   } catch (const Error& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;
