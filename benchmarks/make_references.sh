@@ -28,8 +28,8 @@ for scene in "$@"; do
       finish cornell_box
       ;;
     metal_ring) # the lamp in the mirror, by way of the table, is what `path` takes most samples for
-      part metal_ring path emission,direct,indirect 1536 3
-      part metal_ring path specular 12288 12
+      part metal_ring path emission,direct,indirect 1024 2
+      part metal_ring path specular 10240 10
       part metal_ring lighttracer caustic 1536 6
       finish metal_ring
       ;;
