@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -17,7 +18,7 @@ class WorkCounter {
       : total_(total), listener_(listener) {}
   void add(uint64_t work) {
     const uint64_t done = done_ += work;
-    if (listener_ && total_ > 0) listener_(double(done) / double(total_));
+    if (listener_ && total_ > 0) listener_(std::min(1.0, double(done) / double(total_)));
   }
 
  private:

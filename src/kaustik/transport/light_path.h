@@ -55,9 +55,9 @@ bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, LightPath& pa
 
 /// Follows the light paths `begin` to `end`. `emit(i)` gives the i-th, or nothing. At every surface
 /// `handler(const LightVertex&)` answers with the lobes by which the path may go on (Lobes::none
-/// stops it). Some dozens of paths advance side by side: their rays are traced together and the
-/// memory that they need is fetched together, which is up to twice as fast as one after another.
-/// The order is the same in every run.
+/// stops it). Some dozens of paths advance side by side: their rays are traced in packets, and the
+/// memory that they need is fetched early (`make bench` compares with rays one by one). The order
+/// is the same in every run.
 template <typename Emit, typename Handler>
 LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t end,
                                   const LightPathLimits& limits, const Emit& emit,
@@ -71,12 +71,16 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
   SurfaceVertex vertex;
   // False where the path has come to its end.
   const auto meet = [&](LightPath& path, const Hit& hit) {
-    if (!(hit.t < infinity)) return ++counts.escaped, false;
+    const auto ended = [](uint64_t& count) {
+      ++count;
+      return false;
+    };
+    if (!(hit.t < infinity)) return ended(counts.escaped);
     vertex.meet(scene, path.ray, hit, TransportMode::flux);
     const Lobes follow = handler(LightVertex{vertex, path.state, path.path_class, hit.t});
-    if (!any(follow)) return ++counts.stopped, false;
-    if (path.path_class.events() >= limits.maximum_events) return ++counts.too_long, false;
-    if (!scatter_light_path(vertex, follow, path)) return ++counts.absorbed, false;
+    if (!any(follow)) return ended(counts.stopped);
+    if (path.path_class.events() >= limits.maximum_events) return ended(counts.too_long);
+    if (!scatter_light_path(vertex, follow, path)) return ended(counts.absorbed);
     return true;
   };
   while (begin < end) {
