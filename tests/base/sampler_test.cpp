@@ -152,6 +152,19 @@ TEST(sampler, branches_stratify_one_another) {
   EXPECT_NE(parent.split(3, 0).next_2d(), branches[0]);
 }
 
+TEST(sampler, forks_are_stratified_over_the_indices_of_the_parent) {
+  std::vector<Vec2f> first, second;
+  for (uint32_t i = 0; i < 256; ++i) {
+    Sampler parent(5, i);
+    parent.next_2d();
+    first.push_back(parent.fork(0).next_2d());
+    second.push_back(parent.fork(1).next_2d());
+  }
+  EXPECT_TRUE(is_net(first));
+  EXPECT_TRUE(is_net(second));
+  EXPECT_NE(first, second);
+}
+
 TEST(sampler, branches_of_different_parents_are_independent) {
   std::vector<Vec2f> points;
   for (uint32_t i = 0; i < uint32_t(count); ++i)

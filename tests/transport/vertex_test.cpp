@@ -271,7 +271,8 @@ TEST(DirectLight, IrradianceOfADisk) {
       Hit hit;
       const Ray ray = spawn_ray(vertex.point(), light.wi);
       ASSERT_TRUE(scene->intersect(ray, hit));
-      EXPECT_NEAR(direct_light_pdf(*scene, vertex, 0, scene->tracer().surface_point(ray, hit)),
+      EXPECT_NEAR(direct_light_pdf(*scene, vertex, LightChoice::one, 0,
+                                   scene->tracer().surface_point(ray, hit)),
                   light.pdf_solid_angle, 1e-3f * light.pdf_solid_angle);
     }
   }
@@ -279,6 +280,47 @@ TEST(DirectLight, IrradianceOfADisk) {
   EXPECT_LT(irradiance.standard_error(), 0.003 * expected);
   EXPECT_GT(z_test_p_value(irradiance, expected), 1e-3);
   EXPECT_LT(z_test_p_value(irradiance, 1.02 * expected), 1e-3);
+}
+
+/// Every light sampled, over the sum of closed forms: a disk of radius 0.5 at height 1 (π L sin²)
+/// and a point light at height 2 (I/h²). More samples go to the light that brings more, every light
+/// has one at least, and the mean stays.
+TEST(DirectLight, IrradianceByEveryLight) {
+  const auto scene =
+      scene_of(flat("") +
+               "<shape type=\"disk\"><transform name=\"to_world\"><scale value=\"0.5\"/>"
+               "<rotate x=\"1\" angle=\"180\"/><translate z=\"1\"/></transform>"
+               "<emitter type=\"area\"><rgb name=\"radiance\" value=\"3\"/></emitter></shape>"
+               "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"0\" z=\"2\"/>"
+               "<rgb name=\"intensity\" value=\"0.2\"/></emitter>");
+  const SurfaceVertex vertex =
+      vertex_seen_from(*scene, normalize({3, 0, 1}), TransportMode::radiance);
+  const double disk = std::numbers::pi * 3 * 0.25 / 1.25, point = 0.2 / 4;
+  std::vector<double> variances;
+  for (const int samples : {1, 8}) {
+    RunningStatistics irradiance;
+    int taken = 0, of_disk = 0;
+    for (uint32_t i = 0; i < 20000; ++i) {
+      Sampler sampler(hash_mix(12, i), 0);
+      double sum = 0;
+      sample_direct_lights(
+          *scene, vertex, {LightChoice::all, samples}, sampler, [&](const DirectLight& light) {
+            sum += double(light.radiance[0]) * double(light.light == 1 ? 1.0f : light.wi.z);
+            ++taken;
+            of_disk += light.light == 0;
+          });
+      irradiance.add(sum);
+    }
+    EXPECT_EQ(taken, 20000 * (light_sample_count(*scene, vertex, 0, samples) +
+                              light_sample_count(*scene, vertex, 1, samples)));
+    EXPECT_EQ(light_sample_count(*scene, vertex, 1, samples), samples == 1 ? 1 : 2);
+    EXPECT_GE(of_disk, taken / 2);
+    EXPECT_LT(irradiance.standard_error(), 0.003 * (disk + point));
+    EXPECT_GT(z_test_p_value(irradiance, disk + point), 1e-3) << samples;
+    EXPECT_LT(z_test_p_value(irradiance, 1.02 * (disk + point)), 1e-3) << samples;
+    variances.push_back(irradiance.variance());
+  }
+  EXPECT_LT(variances[1], 0.5 * variances[0]);
 }
 
 TEST(DirectLight, MisWeightsSumToOne) {

@@ -58,6 +58,12 @@ class Sampler {
     return {hash_mix(hash_mix(scramble_, (uint64_t(index_) << 32) | pair_), ~uint64_t(key)), index};
   }
 
+  /// More dimensions for the same index, one set for each `key`: for quantities whose number is not
+  /// known beforehand. Over consecutive indices they are as well stratified as those of the parent.
+  Sampler fork(uint32_t key) const {
+    return {hash_mix(hash_mix(scramble_, pair_), uint64_t(key) | 0x100000000ull), index_};
+  }
+
   static constexpr uint32_t pairs_per_vertex = 8;
   static constexpr uint32_t stratified_pairs = 4 * pairs_per_vertex;
 

@@ -25,11 +25,12 @@ Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes 
 }  // namespace
 
 CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler, SampleSink& sink,
-                       Lobes traced)
+                       Lobes traced, LightChoice light_choice)
     : scene_(scene),
       sampler_(sampler),
       sink_(sink),
       class_(traced),
+      light_choice_(light_choice),
       ray_(scene.camera().sample_ray(raster)) {
   state_.spread = scene.camera().pixel_spread();
 }
@@ -40,6 +41,7 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
       sink_(other.sink_),
       state_(other.state_),
       class_(other.class_),
+      light_choice_(other.light_choice_),
       ray_(other.ray_),
       vertex_(other.vertex_),
       previous_(other.previous_),
@@ -66,7 +68,8 @@ bool CameraWalk::advance() {
 template <typename Where>
 float CameraWalk::emission_weight(int light, const Where& where) const {
   if (state_.pdf_forward == 0) return 1;
-  return mis_weight(state_.pdf_forward, direct_light_pdf(scene_, previous_, light, where));
+  return mis_weight(state_.pdf_forward,
+                    direct_light_pdf(scene_, previous_, light_choice_, light, where));
 }
 
 void CameraWalk::add_emission() {
@@ -91,28 +94,19 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
   if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
   // What nobody wants costs no shadow ray; its random numbers are drawn, so that the others stay.
   const auto wanted = [&](Lobes lobe) { return sink_.wants(class_.component_after(lobe)); };
-  for (int i = 0; i < samples; ++i) {
-    DirectLight light;
-    bool found;
-    if (samples == 1) {
-      found = sample_direct_light(scene_, vertex_, sampler_, light);
-    } else {
-      Sampler branch = sampler_.split(0, uint32_t(i));
-      found = sample_direct_light(scene_, vertex_, branch, light);
-    }
-    if (!found) continue;
-    const float share = 1.0f / float(samples);
+  const auto take = [&](const DirectLight& light) {
     Spectrum by_diffuse, by_glossy;
     if (wanted(Lobes::diffuse))
-      by_diffuse = reflected(vertex_, light, Lobes::diffuse, diffuse_probability) * share;
+      by_diffuse = reflected(vertex_, light, Lobes::diffuse, diffuse_probability);
     if (wanted(Lobes::glossy))
-      by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability) * share;
-    if (by_diffuse.is_zero() && by_glossy.is_zero()) continue;
+      by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability);
+    if (by_diffuse.is_zero() && by_glossy.is_zero()) return;
     ++rays_;
-    if (scene_.occluded(light.shadow_ray)) continue;
+    if (scene_.occluded(light.shadow_ray)) return;
     add_reflected(Lobes::diffuse, by_diffuse);
     add_reflected(Lobes::glossy, by_glossy);
-  }
+  };
+  sample_direct_lights(scene_, vertex_, {light_choice_, samples}, sampler_, take);
 }
 
 bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u) {

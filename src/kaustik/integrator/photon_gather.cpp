@@ -49,12 +49,15 @@ Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes, 
 
 Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes,
                                              Sampler& sampler, uint64_t& rays) const {
-  DirectLight light;
-  if (!sample_direct_light(scene_, vertex, sampler, light)) return {};
-  const Spectrum reflected = vertex.eval_cosine(light.wi, lobes) * light.radiance;
-  if (reflected.is_zero()) return {};
-  ++rays;
-  return scene_.occluded(light.shadow_ray) ? Spectrum() : reflected;
+  Spectrum sum;
+  const auto take = [&](const DirectLight& light) {
+    const Spectrum reflected = vertex.eval_cosine(light.wi, lobes) * light.radiance;
+    if (reflected.is_zero()) return;
+    ++rays;
+    if (!scene_.occluded(light.shadow_ray)) sum += reflected;
+  };
+  sample_direct_lights(scene_, vertex, {settings_.light_choice, 1}, sampler, take);
+  return sum;
 }
 
 RadianceSource::Incoming PhotonLight::incoming(const SurfacePoint& from, const Vec3f& direction,

@@ -183,7 +183,7 @@ void PhotonMapIntegrator::collect_cache_points(const Vec2f& raster, Sampler samp
 
 void PhotonMapIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sampler& sampler,
                                  SampleSink& sink) const {
-  CameraWalk walk(scene_, raster, sampler, sink, settings_.traced());
+  CameraWalk walk(scene_, raster, sampler, sink, settings_.traced(), settings_.light_choice);
   follow(static_cast<const State&>(pass_state), walk);
 }
 

@@ -50,6 +50,7 @@ class PresetReader {
         {"max_eye_level", int64_t{1}},
         {"precompute_stride", int64_t{0}},
         {"irradiance_cache", false},
+        {"light_sampling", std::string("all")},
     };
     if (!thesis_ || arguments_.given(name)) return nullptr;
     for (const auto& [key, value] : table)
@@ -120,7 +121,13 @@ std::vector<Parameter> parameters() {
       integer_parameter("max_eye_level", -1,
                         "Longest camera path in scattering events [-e]; -1: any.")
           .range(-1, 1 << 20),
-      integer_parameter("light_samples", 1, "Shadow rays per camera sample.").range(1, 4096),
+      choice_parameter("light_sampling", "one", {"one", "all"},
+                       "Lights that a surface samples: one for each shadow ray, chosen by what it "
+                       "may send, or every one, as in the thesis."),
+      integer_parameter("light_samples", 1,
+                        "Shadow rays per camera sample; where every light is sampled, they are "
+                        "shared among the lights by incident flux, and each has one at least.")
+          .range(1, 4096),
       integer_parameter("diffuse_samples", 4,
                         "Gather rays per camera sample where the irradiance cache does not serve "
                         "[numDiffuse].")
@@ -211,6 +218,7 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   minimum_radiance = read.number("minimum_radiance");
   caustic_radius = read.number("caustic_radius");
   global_radius = read.number("global_radius");
+  light_choice = read.text("light_sampling") == "all" ? LightChoice::all : LightChoice::one;
   light_samples = int(read.integer("light_samples"));
   diffuse_samples = int(read.integer("diffuse_samples"));
   gather_theta_cells = int(read.integer("importance_theta_cells"));

@@ -2,6 +2,7 @@
 #include "kaustik/irradiance/irradiance_cache.h"
 #include "kaustik/photon/light_pass.h"
 #include "kaustik/transport/component.h"
+#include "kaustik/transport/direct_light.h"
 
 namespace kaustik {
 
@@ -25,6 +26,7 @@ struct PhotonMapSettings {
   float minimum_radiance = 0;
   float caustic_radius = 0, global_radius = 0;  ///< cap of pass 0, m; 0: from the photons
 
+  LightChoice light_choice = LightChoice::one;
   int light_samples = 1;
   int diffuse_samples = 0;  ///< gather rays per camera sample where the cache does not serve
   int importance_photons = 50;

@@ -17,14 +17,21 @@ bool sample_direct_light(const Scene& scene, const SurfaceVertex& vertex, Sample
   const Vec2f u = sampler.next_2d();
   const LightSelector::Choice choice =
       scene.light_selector().choose(vertex.position(), selection_normal(vertex), u_light);
-  if (choice.light < 0) return false;
-  const LightSample sample =
-      scene.lights()[size_t(choice.light)]->sample_toward(vertex.position(), u);
+  if (choice.light < 0 || !sample_direct_light_of(scene, vertex, choice.light, u, result))
+    return false;
+  result.radiance *= 1 / choice.probability;
+  result.pdf_solid_angle *= choice.probability;
+  return true;
+}
+
+bool sample_direct_light_of(const Scene& scene, const SurfaceVertex& vertex, int light,
+                            const Vec2f& u, DirectLight& result) {
+  const LightSample sample = scene.lights()[size_t(light)]->sample_toward(vertex.position(), u);
   if (!(sample.pdf_solid_angle > 0) || sample.radiance.is_zero()) return false;
-  const float pdf = sample.pdf_solid_angle * choice.probability;
+  result.light = light;
   result.wi = sample.direction;
-  result.radiance = sample.radiance * (1 / pdf);
-  result.pdf_solid_angle = sample.delta ? 0 : pdf;
+  result.radiance = sample.radiance * (1 / sample.pdf_solid_angle);
+  result.pdf_solid_angle = sample.delta ? 0 : sample.pdf_solid_angle;
   if (sample.on_surface)
     result.shadow_ray = spawn_ray_to(vertex.point(), sample.point);
   else if (std::isfinite(sample.distance))
@@ -35,15 +42,34 @@ bool sample_direct_light(const Scene& scene, const SurfaceVertex& vertex, Sample
   return true;
 }
 
-float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, int light,
-                       const SurfacePoint& on_light) {
-  return scene.light_selector().probability(vertex.position(), selection_normal(vertex), light) *
+int light_sample_count(const Scene& scene, const SurfaceVertex& vertex, int light, int samples) {
+  const float share =
+      scene.light_selector().probability(vertex.position(), selection_normal(vertex), light);
+  return share > 0 ? std::max(1, int(std::lround(share * float(samples)))) : 0;
+}
+
+namespace {
+
+/// Chance, or expected number, of samples that go to this light.
+float choice_factor(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
+                    int light) {
+  const float probability =
+      scene.light_selector().probability(vertex.position(), selection_normal(vertex), light);
+  // The number of samples is left out of the weights, here as there: they only have to agree.
+  return choice == LightChoice::one ? probability : (probability > 0 ? 1.0f : 0.0f);
+}
+
+}  // namespace
+
+float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
+                       int light, const SurfacePoint& on_light) {
+  return choice_factor(scene, vertex, choice, light) *
          scene.lights()[size_t(light)]->pdf_toward(vertex.position(), on_light);
 }
 
-float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, int light,
-                       const Vec3f& direction) {
-  return scene.light_selector().probability(vertex.position(), selection_normal(vertex), light) *
+float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
+                       int light, const Vec3f& direction) {
+  return choice_factor(scene, vertex, choice, light) *
          scene.lights()[size_t(light)]->pdf_toward_direction(direction);
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <utility>
+
 #include "kaustik/base/sampler.h"
 #include "kaustik/transport/vertex.h"
 
@@ -6,6 +8,7 @@ namespace kaustik {
 
 /// Light that arrives at a vertex straight from a light, found by sampling one light.
 struct DirectLight {
+  int light = -1;     ///< index in the scene
   Vec3f wi;           ///< unit, toward the light
   Spectrum radiance;  ///< arriving radiance over its density, W/m² per projected sr: multiply
                       ///< by f·cosine; without visibility
@@ -13,17 +16,43 @@ struct DirectLight {
   Ray shadow_ray;             ///< occluded: no light
 };
 
+/// Which lights a vertex samples.
+enum class LightChoice {
+  one,  ///< one for each sample, chosen in proportion to what it may send there
+  all   ///< every one that may reach the vertex
+};
+
+/// How many samples of direct light a vertex takes.
+struct LightSampling {
+  LightChoice choice = LightChoice::one;
+  /// With LightChoice::all shared among the lights by the flux that they may send; each has one at
+  /// least. At least 1.
+  int samples = 1;
+};
+
 /// Samples one light; false if nothing can arrive. Two dimension pairs of `sampler`.
 bool sample_direct_light(const Scene& scene, const SurfaceVertex& vertex, Sampler& sampler,
                          DirectLight& result);
+/// Samples light `light`; false if nothing can arrive.
+bool sample_direct_light_of(const Scene& scene, const SurfaceVertex& vertex, int light,
+                            const Vec2f& u, DirectLight& result);
+/// How many of `samples` light `light` gets with LightChoice::all; 0 where it can't reach.
+int light_sample_count(const Scene& scene, const SurfaceVertex& vertex, int light, int samples);
 
-/// Density per solid angle with which sample_direct_light at `vertex` finds the point `on_light` of
-/// an area light …
-float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, int light,
-                       const SurfacePoint& on_light);
+/// Calls `take(const DirectLight&)` for every sample that may bring light. Their radiances are
+/// already divided by the numbers of samples: what they reflect, summed, is the estimate. At most
+/// two dimension pairs of `sampler`.
+template <typename Take>
+void sample_direct_lights(const Scene& scene, const SurfaceVertex& vertex,
+                          const LightSampling& sampling, Sampler& sampler, const Take& take);
+
+/// Density per solid angle with which a sample at `vertex` finds the point `on_light` of an area
+/// light …
+float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
+                       int light, const SurfacePoint& on_light);
 /// … or an environment light in `direction`.
-float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, int light,
-                       const Vec3f& direction);
+float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
+                       int light, const Vec3f& direction);
 
 /// Power heuristic with exponent 2 for one sample each (Veach 1997).
 inline float mis_weight(float pdf, float other_pdf) {
@@ -41,5 +70,34 @@ struct LobeChoice {
 LobeChoice choose_lobes(const SurfaceVertex& vertex, float& u);
 /// The probability with which choose_lobes picks the diffuse class.
 float diffuse_probability(const SurfaceVertex& vertex);
+
+template <typename Take>
+void sample_direct_lights(const Scene& scene, const SurfaceVertex& vertex,
+                          const LightSampling& sampling, Sampler& sampler, const Take& take) {
+  DirectLight light;
+  const auto take_share = [&](int count) {
+    light.radiance *= 1.0f / float(count);
+    take(std::as_const(light));
+  };
+  if (sampling.choice == LightChoice::one) {
+    if (sampling.samples == 1) {
+      if (sample_direct_light(scene, vertex, sampler, light)) take_share(1);
+      return;
+    }
+    for (int i = 0; i < sampling.samples; ++i) {
+      Sampler branch = sampler.split(0, uint32_t(i));
+      if (sample_direct_light(scene, vertex, branch, light)) take_share(sampling.samples);
+    }
+    return;
+  }
+  for (size_t i = 0; i < scene.lights().size(); ++i) {
+    const int count = light_sample_count(scene, vertex, int(i), sampling.samples);
+    const Sampler of_light = sampler.fork(uint32_t(i));
+    for (int k = 0; k < count; ++k) {
+      Sampler branch = count == 1 ? of_light : of_light.split(0, uint32_t(k));
+      if (sample_direct_light_of(scene, vertex, int(i), branch.next_2d(), light)) take_share(count);
+    }
+  }
+}
 
 }  // namespace kaustik
