@@ -25,12 +25,11 @@ Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes 
 }  // namespace
 
 CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler, SampleSink& sink,
-                       Lobes traced, LightChoice light_choice)
+                       Lobes traced)
     : scene_(scene),
       sampler_(sampler),
       sink_(sink),
       class_(traced),
-      light_choice_(light_choice),
       ray_(scene.camera().sample_ray(raster)) {
   state_.spread = scene.camera().pixel_spread();
 }
@@ -90,7 +89,8 @@ void CameraWalk::add_background() {
 }
 
 void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probability,
-                                  int samples) {
+                                  const LightSampling& sampling) {
+  light_choice_ = sampling.choice;
   if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
   // What nobody wants costs no shadow ray; its random numbers are drawn, so that the others stay.
   const auto wanted = [&](Lobes lobe) { return sink_.wants(class_.component_after(lobe)); };
@@ -106,7 +106,7 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
     add_reflected(Lobes::diffuse, by_diffuse);
     add_reflected(Lobes::glossy, by_glossy);
   };
-  sample_direct_lights(scene_, vertex_, {light_choice_, samples}, sampler_, take);
+  sample_direct_lights(scene_, vertex_, sampling, sampler_, take);
 }
 
 bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u) {

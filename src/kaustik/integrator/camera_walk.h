@@ -12,10 +12,9 @@ namespace kaustik {
 /// integrators differ in what they do at a vertex and in where they go on.
 class CameraWalk {
  public:
-  /// `traced`: lobes whose events count as specular; `light_choice`: the lights that vertices
-  /// sample. Starts with the ray through `raster`.
+  /// `traced`: lobes whose events count as specular. Starts with the ray through `raster`.
   CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler, SampleSink& sink,
-             Lobes traced = Lobes::specular, LightChoice light_choice = LightChoice::one);
+             Lobes traced = Lobes::specular);
   ~CameraWalk() { sink_.count_rays(rays_); }
   /// A branch: the same path so far, to go on with numbers of its own.
   CameraWalk(const CameraWalk& other, Sampler& sampler);
@@ -32,11 +31,10 @@ class CameraWalk {
   float footprint() const { return state_.footprint; }
   Sampler& sampler() { return sampler_; }
 
-  /// Adds light sampled at the vertex and reflected by its lobes, the mean of `samples` (see
-  /// LightSampling). The
-  /// probabilities are those that scatter() will be told there (0: never, then light sampling alone
-  /// has to find the light).
-  void add_direct_light(float diffuse_probability, float glossy_probability, int samples = 1);
+  /// Adds light sampled at the vertex and reflected by its lobes. The probabilities are those that
+  /// scatter() will be told there (0: never, then light sampling alone has to find the light).
+  void add_direct_light(float diffuse_probability, float glossy_probability,
+                        const LightSampling& sampling = {});
   /// Adds radiance that the vertex sends back of light that is `component` (caustic or indirect)
   /// to it; seen by a specular event it counts as specular.
   void add_photon_light(Component component, const Spectrum& radiance) {
@@ -70,7 +68,7 @@ class CameraWalk {
   SampleSink& sink_;
   PathState state_;
   CameraPathClass class_;
-  LightChoice light_choice_;
+  LightChoice light_choice_ = LightChoice::one;  ///< of the last add_direct_light()
   Ray ray_;
   SurfaceVertex vertex_, previous_;
   float distance_ = 0;

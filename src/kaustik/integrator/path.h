@@ -1,25 +1,22 @@
 #pragma once
-#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/illumination_model.h"
 
 namespace kaustik {
 
 /// Unbiased path tracing with next-event estimation and multiple importance sampling; names the
 /// component of every contribution. A referee for the biased methods.
-class PathIntegrator final : public Integrator {
+class PathIntegrator final : public IlluminationModel {
  public:
   PathIntegrator(const Arguments& arguments, const Scene& scene);
   static const TypeInfo& info();
 
-  std::unique_ptr<PassState> prepare(const Pass&, SplatBuffer&, std::stop_token,
-                                     const ProgressFunction&) const override;
-  void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
-              SampleSink& sink) const override;
+  bool reflect(const PassState& state, CameraWalk& walk,
+               const RadianceTracer& tracer) const override;
   /// Passes are independent replicates: only samples of one pass stratify one another.
   uint32_t default_samples_per_pass() const override { return 16; }
   ComponentSet components() const override { return components_; }
 
  private:
-  const Scene& scene_;
   ComponentSet components_;
   int maximum_events_;
   int roulette_depth_;

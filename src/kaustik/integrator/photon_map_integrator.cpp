@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "kaustik/base/parallel.h"
-#include "kaustik/integrator/camera_walk.h"
 #include "kaustik/photon/photon_file.h"
 
 namespace kaustik {
@@ -54,7 +53,7 @@ struct PhotonMapIntegrator::State final : PassState {
 };
 
 PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene& scene)
-    : scene_(scene), settings_(arguments) {
+    : IlluminationModel(scene), settings_(arguments) {
   if (settings_.photon_file.empty()) return;
   StoredPhotons stored = read_photon_file(settings_.photon_file);
   const auto refuse = [&](const std::string& message) {
@@ -79,7 +78,7 @@ std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(uint64_t seed) 
   }
   // Outside the lock: it runs in parallel, and a thread that waits for the others may take up any
   // work meanwhile, this one's too.
-  auto trained = std::make_shared<const LightPass>(scene_, settings_.light_pass, seed);
+  auto trained = std::make_shared<const LightPass>(scene(), settings_.light_pass, seed);
   const std::lock_guard lock(light_pass_mutex_);
   light_pass_ = std::move(trained);
   light_pass_seed_ = seed;
@@ -122,7 +121,7 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
   // Stored maps are the same in every pass: shrinking their radii would trade bias for noise that
   // no number of passes removes.
   state->light = std::make_unique<PhotonLight>(
-      scene_, settings_, *state->maps, pass_radii(*state->maps, stored_maps_ ? 0 : pass.index));
+      scene(), settings_, *state->maps, pass_radii(*state->maps, stored_maps_ ? 0 : pass.index));
   const bool wants_indirect = settings_.components.has(Component::indirect) ||
                               settings_.components.has(Component::specular);
   if (settings_.cache && wants_indirect && settings_.global.neighbors > 0)
@@ -142,7 +141,7 @@ void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_t
   cache_settings.minimum_spacing *= shrinkage;
   cache_settings.maximum_spacing *= shrinkage;
   state.cache = std::make_unique<IrradianceCache>(cache_settings);
-  const Vec2i size = scene_.film().crop_size;
+  const Vec2i size = scene().film().crop_size;
   const Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::cache, 0, 0);
   uint32_t round = 0;
   for (const int stride : cache_strides) {
@@ -169,7 +168,7 @@ void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_t
 void PhotonMapIntegrator::collect_cache_points(const Vec2f& raster, Sampler sampler,
                                                std::vector<CachePoint>& points) const {
   SampleSink nowhere{ComponentSet()};
-  CameraWalk walk(scene_, raster, sampler, nowhere, settings_.traced());
+  CameraWalk walk(scene(), raster, sampler, nowhere, settings_.traced());
   const size_t first = points.size();
   while (walk.advance()) {
     const SurfaceVertex& vertex = walk.vertex();
@@ -181,12 +180,6 @@ void PhotonMapIntegrator::collect_cache_points(const Vec2f& raster, Sampler samp
   }
 }
 
-void PhotonMapIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sampler& sampler,
-                                 SampleSink& sink) const {
-  CameraWalk walk(scene_, raster, sampler, sink, settings_.traced(), settings_.light_choice);
-  follow(static_cast<const State&>(pass_state), walk);
-}
-
 int PhotonMapIntegrator::specular_rays(const CameraWalk& walk) const {
   if (!any(walk.vertex().lobes() & settings_.traced()) ||
       settings_.specular_sampling == SpecularSampling::none ||
@@ -195,26 +188,23 @@ int PhotonMapIntegrator::specular_rays(const CameraWalk& walk) const {
   return walk.events() == 0 ? settings_.specular_samples : 1;
 }
 
-void PhotonMapIntegrator::follow(const State& state, CameraWalk& walk) const {
-  while (walk.advance()) {
-    const int rays = specular_rays(walk);
-    const bool traces_glossy = settings_.specular_sampling == SpecularSampling::importance;
-    const int lights =
-        std::max(1, int(float(settings_.light_samples) * settings_.level_scale(walk.events())));
-    walk.add_direct_light(0, traces_glossy ? float(rays) : 0.0f, lights);
-    add_photon_light(state, walk);
-    if (rays == 0) return;
-    if (rays == 1) {
-      if (!scatter_specular(walk, 1)) return;
-      continue;
-    }
-    for (int i = 0; i < rays; ++i) {
-      Sampler sampler = walk.sampler().split(2, uint32_t(i));
-      CameraWalk branch(walk, sampler);
-      if (scatter_specular(branch, rays)) follow(state, branch);
-    }
-    return;
+bool PhotonMapIntegrator::reflect(const PassState& pass_state, CameraWalk& walk,
+                                  const RadianceTracer& tracer) const {
+  const auto& state = static_cast<const State&>(pass_state);
+  const int rays = specular_rays(walk);
+  const bool traces_glossy = settings_.specular_sampling == SpecularSampling::importance;
+  const int lights =
+      std::max(1, int(float(settings_.light_samples) * settings_.level_scale(walk.events())));
+  walk.add_direct_light(0, traces_glossy ? float(rays) : 0.0f, {settings_.light_choice, lights});
+  add_photon_light(state, walk);
+  if (rays == 0) return false;
+  if (rays == 1) return scatter_specular(walk, 1);
+  for (int i = 0; i < rays; ++i) {
+    Sampler sampler = walk.sampler().split(2, uint32_t(i));
+    CameraWalk branch(walk, sampler);
+    if (scatter_specular(branch, rays)) tracer.follow(branch);
   }
+  return false;
 }
 
 bool PhotonMapIntegrator::scatter_specular(CameraWalk& walk, int rays) const {

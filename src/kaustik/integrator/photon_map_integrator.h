@@ -1,23 +1,22 @@
 #pragma once
 #include <mutex>
 
-#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/illumination_model.h"
 #include "kaustik/integrator/photon_gather.h"
 
 namespace kaustik {
 
-class CameraWalk;
-
 /// Two-pass photon mapping (Jensen 1996, Schregle 1998). Every pass has maps and an irradiance
 /// cache of its own and shrinking search radii, so that the mean of the passes converges.
-class PhotonMapIntegrator final : public Integrator {
+class PhotonMapIntegrator final : public IlluminationModel {
  public:
   PhotonMapIntegrator(const Arguments& arguments, const Scene& scene);
 
   std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token stop,
                                      const ProgressFunction& progress) const override;
-  void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
-              SampleSink& sink) const override;
+  bool reflect(const PassState& state, CameraWalk& walk,
+               const RadianceTracer& tracer) const override;
+  Lobes traced() const override { return settings_.traced(); }
   uint32_t default_samples_per_pass() const override { return settings_.samples_per_pass; }
   ComponentSet components() const override { return settings_.components; }
 
@@ -33,8 +32,6 @@ class PhotonMapIntegrator final : public Integrator {
   /// The diffuse surfaces that a camera path meets, for the cache.
   void collect_cache_points(const Vec2f& raster, Sampler sampler,
                             std::vector<CachePoint>& points) const;
-  /// Follows a path to its end.
-  void follow(const State& state, CameraWalk& walk) const;
   /// How many specular rays leave the walk's vertex.
   int specular_rays(const CameraWalk& walk) const;
   bool scatter_specular(CameraWalk& walk, int rays) const;
@@ -44,7 +41,6 @@ class PhotonMapIntegrator final : public Integrator {
   /// The light pass of a seed, its budgets trained when it is first asked for.
   std::shared_ptr<const LightPass> light_pass(uint64_t seed) const;
 
-  const Scene& scene_;
   PhotonMapSettings settings_;
   std::shared_ptr<const PhotonMaps> stored_maps_;  ///< null: every pass traces its own
   mutable std::mutex light_pass_mutex_;
