@@ -1,0 +1,25 @@
+#pragma once
+// What make_scenes can make: one source file and one row of the table in registry.cpp each.
+
+#include <span>
+
+#include "kit/scene_folder.h"
+
+namespace kaustik::scenes {
+
+struct SceneOptions {
+  uint64_t seed = 1;   ///< of everything random
+  int maze_size = 12;  ///< cells along each side of the maze
+};
+
+struct SceneMaker {
+  std::string name;
+  std::string sentence;
+  SceneFolder (*make)(const SceneOptions&);
+};
+
+std::span<const SceneMaker> scene_makers();
+
+SceneFolder make_point_spotlight(const SceneOptions& options);
+
+}  // namespace kaustik::scenes
