@@ -155,20 +155,20 @@ TEST(Irradiance, OfTheEnvironment) {
 TEST(Irradiance, OfAPoint) {
   const auto light =
       make_light("point", {{"intensity", Value(5.0), {}}, {"position", Value(Vec3d(3, 0, 4)), {}}});
-  const LightSample s = light->sample_toward({0, 0, 0}, {0.5f, 0.5f});
+  const LightSample s = light->sample_toward(Vec3f(0, 0, 0), {0.5f, 0.5f});
   EXPECT_TRUE(s.delta && light->is_delta());
   EXPECT_FLOAT_EQ(s.pdf_solid_angle, 1);
   EXPECT_FLOAT_EQ(s.distance, 5);
   EXPECT_FLOAT_EQ(s.radiance[0], 5.0f / 25);
   EXPECT_FLOAT_EQ(s.direction.x, 0.6f);
   EXPECT_FLOAT_EQ(s.direction.z, 0.8f);
-  EXPECT_EQ(light->pdf_toward({0, 0, 0}, s.point), 0);
+  EXPECT_EQ(light->pdf_toward(Vec3f(0, 0, 0), s.point), 0);
 }
 
 TEST(Irradiance, OfADirection) {
   const auto light = make_light(
       "directional", {{"irradiance", Value(5.0), {}}, {"direction", Value(Vec3d(0, 3, -4)), {}}});
-  const LightSample s = light->sample_toward({0, 0, 0}, {0.5f, 0.5f});
+  const LightSample s = light->sample_toward(Vec3f(0, 0, 0), {0.5f, 0.5f});
   EXPECT_TRUE(s.delta && light->is_delta() && light->is_infinite());
   EXPECT_FLOAT_EQ(s.radiance[0], 5);
   EXPECT_NEAR(length(s.direction - Vec3f(0, -0.6f, 0.8f)), 0, 1e-6);
@@ -177,13 +177,13 @@ TEST(Irradiance, OfADirection) {
 
 TEST(AreaLight, ShinesOnTheSideOfTheNormalOnly) {
   const auto light = area_light(make_disk({0, 0, 1}, {0, 0, 1}, 0.5f));
-  const LightSample behind = light->sample_toward({0, 0, 0}, {0.3f, 0.3f});
+  const LightSample behind = light->sample_toward(Vec3f(0, 0, 0), {0.3f, 0.3f});
   EXPECT_EQ(behind.pdf_solid_angle, 0);
   EXPECT_TRUE(behind.radiance.is_zero());
-  EXPECT_EQ(light->pdf_toward({0, 0, 0}, behind.point), 0);
+  EXPECT_EQ(light->pdf_toward(Vec3f(0, 0, 0), behind.point), 0);
   EXPECT_TRUE(light->emitted(behind.point, {0, 0, -1}).is_zero());
   EXPECT_TRUE(light->emitted(behind.point, {1, 0, 0}).is_zero());
-  const LightSample before = light->sample_toward({0, 0, 2}, {0.3f, 0.3f});
+  const LightSample before = light->sample_toward(Vec3f(0, 0, 2), {0.3f, 0.3f});
   EXPECT_GT(before.pdf_solid_angle, 0);
   EXPECT_FLOAT_EQ(before.radiance[2], 2);
 }

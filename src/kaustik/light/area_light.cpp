@@ -1,6 +1,8 @@
 #include "kaustik/base/warp.h"
+#include "kaustik/light/emission_ball.h"
 #include "kaustik/light/light_kinds.h"
 #include "kaustik/light/normal_cone.h"
+#include "kaustik/light/power_distribution.h"
 
 namespace kaustik {
 namespace {
@@ -13,13 +15,15 @@ class AreaLight final : public Light {
       : radiance_(radiance),
         shape_(std::move(light_shape)),
         shape_index_(shape_index),
-        area_(shape_->area()) {
+        area_(shape_->area()),
+        is_dark_(radiance.is_zero()) {
     const DirectionCone normals = cone_of_normals(*shape_);
     bounds_.position = shape_->bounds();
     bounds_.axis = normals.axis;
     bounds_.cos_spread = normals.cos_angle;
     // The hemispheres about the normals: the cone's angle and another 90°.
     bounds_.cos_angle = normals.cos_angle > 0 ? -safe_sqrt(1.0f - sqr(normals.cos_angle)) : -1.0f;
+    ball_ = EmissionBall(bounds_, importance_of(AreaLight::power()));
   }
 
   Spectrum power() const override { return radiance_ * (pi * area_); }
@@ -27,7 +31,12 @@ class AreaLight final : public Light {
   bool is_delta() const override { return false; }
   int shape() const override { return shape_index_; }
 
-  LightSample sample_toward(const Vec3f& reference, const Vec2f& u) const override {
+  float expected_irradiance(const LightQuery& query) const override {
+    return is_dark_ ? 0.0f : ball_.irradiance(query.reference, query.normal);
+  }
+
+  LightSample sample_toward(const LightQuery& query, const Vec2f& u) const override {
+    const Vec3f& reference = query.reference;
     float pdf_solid_angle = 0;
     const ShapeSample s = shape_->sample_toward(reference, u, pdf_solid_angle);
     LightSample result;
@@ -46,9 +55,9 @@ class AreaLight final : public Light {
     return result;
   }
 
-  float pdf_toward(const Vec3f& reference, const SurfacePoint& point) const override {
-    if (!(dot(point.ng, point.position - reference) < 0)) return 0;
-    return shape_->pdf_toward(reference, point);
+  float pdf_toward(const LightQuery& query, const SurfacePoint& point) const override {
+    if (!(dot(point.ng, point.position - query.reference) < 0)) return 0;
+    return shape_->pdf_toward(query.reference, point);
   }
 
   Spectrum emitted(const SurfacePoint& point, const Vec3f& direction) const override {
@@ -98,6 +107,8 @@ class AreaLight final : public Light {
   int shape_index_;
   float area_;
   LightBounds bounds_;
+  bool is_dark_;
+  EmissionBall ball_;
 };
 
 std::unique_ptr<Light> create_area(const LightInputs& inputs) {

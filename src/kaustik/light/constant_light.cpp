@@ -19,7 +19,9 @@ class ConstantLight final : public Light {
   bool is_delta() const override { return false; }
   bool is_infinite() const override { return true; }
 
-  LightSample sample_toward(const Vec3f&, const Vec2f& u) const override {
+  float expected_irradiance(const LightQuery&) const override { return pi * radiance_.sum(); }
+
+  LightSample sample_toward(const LightQuery&, const Vec2f& u) const override {
     LightSample result;
     result.direction = square_to_sphere(u);
     result.radiance = radiance_;

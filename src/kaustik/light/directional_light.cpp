@@ -20,8 +20,13 @@ class DirectionalLight final : public Light {
   bool is_delta() const override { return true; }
   bool is_infinite() const override { return true; }
 
-  LightSample sample_toward(const Vec3f&, const Vec2f&) const override {
+  float expected_irradiance(const LightQuery& query) const override {
+    return irradiance_.sum() * receiver_cosine(query, direction_);
+  }
+
+  LightSample sample_toward(const LightQuery&, const Vec2f&) const override {
     LightSample result;
+    result.only_sampled = true;
     result.direction = -direction_;
     result.delta = true;
     result.radiance = irradiance_;

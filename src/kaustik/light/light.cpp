@@ -4,7 +4,8 @@
 
 namespace kaustik {
 
-float Light::pdf_toward(const Vec3f&, const SurfacePoint&) const { return 0; }
+float Light::classical_attenuation(const Vec3f&) const { return 1; }
+float Light::pdf_toward(const LightQuery&, const SurfacePoint&) const { return 0; }
 float Light::pdf_toward_direction(const Vec3f&) const { return 0; }
 Spectrum Light::emitted(const SurfacePoint&, const Vec3f&) const { return {}; }
 Spectrum Light::background(const Vec3f&) const { return {}; }

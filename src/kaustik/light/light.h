@@ -7,6 +7,18 @@
 
 namespace kaustik {
 
+/// A point that asks a light for light.
+struct LightQuery {
+  Vec3f reference{0, 0, 0};
+  Vec3f normal{0, 0, 0};  ///< of the surface there; its sign does not matter; zero: none
+  /// Recursion level of the path that asks: the deeper, the more coarsely lights may be sampled.
+  int level = 0;
+
+  LightQuery() = default;
+  LightQuery(const Vec3f& at, const Vec3f& surface_normal = Vec3f(0, 0, 0), int recursion_level = 0)
+      : reference(at), normal(surface_normal), level(recursion_level) {}
+};
+
 /// Light that a point may receive, found by sampling a light.
 struct LightSample {
   Vec3f direction{0, 0, 0};   ///< unit, from the reference point to the light
@@ -15,6 +27,7 @@ struct LightSample {
                               ///< its position is)
   bool on_surface = false;
   bool delta = false;         ///< the light is a point or a single direction
+  bool only_sampled = false;  ///< no ray meets the light: nothing to weigh the sample against
   Spectrum radiance;          ///< arriving, W/(sr·m²); for delta lights irradiance on a facing
                               ///< surface, W/m²
   float pdf_solid_angle = 0;  ///< 1 for delta lights; zero: no light can arrive
@@ -53,16 +66,26 @@ class Light {
   /// Total emitted flux, W. For infinite lights that through the scene's bounding disk.
   virtual Spectrum power() const = 0;
   virtual LightBounds bounds() const = 0;
-  /// A single point or direction: found only by sampling the light.
+  /// A single point or direction.
   virtual bool is_delta() const = 0;
   /// Shines from infinity (directional or environment).
   virtual bool is_infinite() const { return false; }
   /// Index into the scene's shapes if it is an area light, else −1.
   virtual int shape() const { return -1; }
 
-  virtual LightSample sample_toward(const Vec3f& reference, const Vec2f& u) const = 0;
+  /// Estimate of the irradiance that the light gives the queried point without shadows, on either
+  /// side of the surface (facing the light where there is no normal); W/m², sum of the lanes. What
+  /// samples are shared out by: zero only where no light can arrive, and rather too high than too
+  /// low. This is the thesis's brightness times projection.
+  virtual float expected_irradiance(const LightQuery& query) const = 0;
+  /// For classical ray tracing alone: factor on light that arrives at `reference`, which replaces
+  /// the inverse square of the distance by the emitter's `attenuation`. 1 where none is given.
+  /// Photons, and everything else that is physical, ignore it.
+  virtual float classical_attenuation(const Vec3f& reference) const;
+
+  virtual LightSample sample_toward(const LightQuery& query, const Vec2f& u) const = 0;
   /// Density of sample_toward, for a point on the light (area lights) …
-  virtual float pdf_toward(const Vec3f& reference, const SurfacePoint& point) const;
+  virtual float pdf_toward(const LightQuery& query, const SurfacePoint& point) const;
   /// … or for a direction from the reference (environment lights).
   virtual float pdf_toward_direction(const Vec3f& direction) const;
 

@@ -4,6 +4,7 @@
 
 #include "kaustik/base/color.h"
 #include "kaustik/base/warp.h"
+#include "kaustik/light/emission_ball.h"
 
 namespace kaustik {
 
@@ -45,7 +46,7 @@ LightSample toward_point(const SurfacePoint& point, const Vec3f& reference) {
   result.distance = std::sqrt(distance_sq);
   result.direction = to_light * (1.0f / result.distance);
   result.point = point;
-  result.delta = true;
+  result.delta = result.only_sampled = true;
   return result;
 }
 
@@ -55,6 +56,11 @@ SurfacePoint free_point(const Vec3f& position) {
   point.ng = point.ns = point.dpdu = Vec3f(0, 0, 0);
   point.uv = Vec2f(0, 0);
   return point;
+}
+
+float receiver_cosine(const LightQuery& query, const Vec3f& direction) {
+  if (query.normal == Vec3f(0, 0, 0)) return 1;
+  return std::clamp(abs_dot(query.normal, direction), minimum_receiver_cosine, 1.0f);
 }
 
 EmissionDisk::EmissionDisk(const Bounds3f& scene_bounds) {

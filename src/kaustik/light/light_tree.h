@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kaustik/light/emission_ball.h"
 #include "kaustik/light/light.h"
 
 namespace kaustik {
@@ -28,15 +29,9 @@ class LightTree {
   float probability(const Vec3f& reference, const Vec3f& normal, int light) const;
 
  private:
-  /// The lights below a node: a sphere around their places, a cone around the directions where they
-  /// shine brightest, how far beyond that they shine, and their intensity.
+  /// The lights below a node.
   struct Node {
-    Vec3f center;
-    float radius;
-    Vec3f axis;
-    float cos_spread, sin_spread;
-    float cos_falloff;  ///< of the angle beyond the spread at which light ends
-    float intensity;    ///< relative
+    EmissionBall emission;  ///< with a relative intensity
     bool leaf;
     int32_t child;  ///< the left child, the right one follows; of leaves the light
   };
@@ -46,7 +41,6 @@ class LightTree {
     int depth = -1;  ///< −1: not in the tree
   };
 
-  static float importance(const Node& node, const Vec3f& reference, const Vec3f& normal);
   float probability_of_left(const Node& node, const Vec3f& reference, const Vec3f& normal) const;
 
   std::vector<Node> nodes_;

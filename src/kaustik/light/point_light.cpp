@@ -1,4 +1,5 @@
 #include "kaustik/base/warp.h"
+#include "kaustik/light/attenuation.h"
 #include "kaustik/light/light_kinds.h"
 
 namespace kaustik {
@@ -7,8 +8,9 @@ namespace {
 /// Shines alike in all directions from a point.
 class PointLight final : public Light {
  public:
-  PointLight(const Spectrum& intensity, const Vec3f& position)
-      : intensity_(intensity), point_(free_point(position)) {}
+  PointLight(const Spectrum& intensity, const Vec3f& position,
+             const ClassicalAttenuation& attenuation)
+      : intensity_(intensity), point_(free_point(position)), attenuation_(attenuation) {}
 
   Spectrum power() const override { return intensity_ * (4.0f * pi); }
   LightBounds bounds() const override {
@@ -18,8 +20,17 @@ class PointLight final : public Light {
   }
   bool is_delta() const override { return true; }
 
-  LightSample sample_toward(const Vec3f& reference, const Vec2f&) const override {
-    LightSample result = toward_point(point_, reference);
+  float expected_irradiance(const LightQuery& query) const override {
+    const LightSample at = toward_point(point_, query.reference);
+    if (!at.delta) return 0;
+    return intensity_.sum() / sqr(at.distance) * receiver_cosine(query, at.direction);
+  }
+  float classical_attenuation(const Vec3f& reference) const override {
+    return attenuation_.factor(length(point_.position - reference));
+  }
+
+  LightSample sample_toward(const LightQuery& query, const Vec2f&) const override {
+    LightSample result = toward_point(point_, query.reference);
     if (!result.delta) return result;
     result.radiance = intensity_ / sqr(result.distance);
     result.pdf_solid_angle = 1;
@@ -49,6 +60,7 @@ class PointLight final : public Light {
  private:
   Spectrum intensity_;
   SurfacePoint point_;  ///< without a normal
+  ClassicalAttenuation attenuation_;
 };
 
 std::unique_ptr<Light> create_point(const LightInputs& inputs) {
@@ -57,7 +69,9 @@ std::unique_ptr<Light> create_point(const LightInputs& inputs) {
                              ? Vec3f(inputs.arguments.point("position"))
                              : emitter_transform(inputs).point({0, 0, 0});
   return with_finite_power(
-      std::make_unique<PointLight>(emission_argument(inputs, "intensity"), position), inputs);
+      std::make_unique<PointLight>(emission_argument(inputs, "intensity"), position,
+                                   ClassicalAttenuation(inputs.arguments)),
+      inputs);
 }
 
 }  // namespace
@@ -70,7 +84,7 @@ LightType point_light_type() {
       {color_parameter("intensity", 1, "Radiant intensity.").in("W/sr"),
        optional(point_parameter("position", {0, 0, 0}, "Where it is; instead of `to_world`.")),
        transform_parameter("to_world", "World from the light, which is at the origin."),
-       ignored_sampling_weight()}};
+       attenuation_parameter(), ignored_sampling_weight()}};
   return {info, false, create_point};
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "kaustik/light/attenuation.h"
 #include "kaustik/light/light_kinds.h"
 #include "kaustik/light/spot_cone.h"
 
@@ -10,8 +11,12 @@ namespace {
 class SpotLight final : public Light {
  public:
   SpotLight(const Spectrum& intensity, const Vec3f& position, const Vec3f& axis,
-            const SpotCone& cone)
-      : intensity_(intensity), point_(free_point(position)), frame_(axis), cone_(cone) {}
+            const SpotCone& cone, const ClassicalAttenuation& attenuation)
+      : intensity_(intensity),
+        point_(free_point(position)),
+        frame_(axis),
+        cone_(cone),
+        attenuation_(attenuation) {}
 
   Spectrum power() const override { return intensity_ * cone_.solid_angle(); }
   LightBounds bounds() const override {
@@ -24,8 +29,18 @@ class SpotLight final : public Light {
   }
   bool is_delta() const override { return true; }
 
-  LightSample sample_toward(const Vec3f& reference, const Vec2f&) const override {
-    LightSample result = toward_point(point_, reference);
+  float expected_irradiance(const LightQuery& query) const override {
+    const LightSample at = toward_point(point_, query.reference);
+    if (!at.delta) return 0;
+    return intensity_.sum() * cone_.falloff(frame_.to_local(-at.direction)) / sqr(at.distance) *
+           receiver_cosine(query, at.direction);
+  }
+  float classical_attenuation(const Vec3f& reference) const override {
+    return attenuation_.factor(length(point_.position - reference));
+  }
+
+  LightSample sample_toward(const LightQuery& query, const Vec2f&) const override {
+    LightSample result = toward_point(point_, query.reference);
     if (!result.delta) return result;
     const float falloff = cone_.falloff(frame_.to_local(-result.direction));
     if (falloff > 0) {
@@ -64,6 +79,7 @@ class SpotLight final : public Light {
   SurfacePoint point_;  ///< without a normal
   Frame frame_;
   SpotCone cone_;
+  ClassicalAttenuation attenuation_;
 };
 
 /// Whether the map keeps angles, up to rounding of its numbers.
@@ -98,7 +114,8 @@ std::unique_ptr<Light> create_spot(const LightInputs& inputs) {
   return with_finite_power(
       std::make_unique<SpotLight>(emission_argument(inputs, "intensity"), to_world.point({0, 0, 0}),
                                   normalize(to_world.vector({0, 0, 1})),
-                                  cone_argument(inputs.arguments)),
+                                  cone_argument(inputs.arguments),
+                                  ClassicalAttenuation(inputs.arguments)),
       inputs);
 }
 
@@ -119,7 +136,7 @@ LightType spot_light_type() {
                     .range(0, 180)
                     .in("degrees")),
        transform_parameter("to_world", "World from the light, which shines along its +z."),
-       ignored_sampling_weight()}};
+       attenuation_parameter(), ignored_sampling_weight()}};
   return {info, false, create_spot};
 }
 

@@ -31,7 +31,7 @@ bool sample_direct_light_of(const Scene& scene, const SurfaceVertex& vertex, int
   result.light = light;
   result.wi = sample.direction;
   result.radiance = sample.radiance * (1 / sample.pdf_solid_angle);
-  result.pdf_solid_angle = sample.delta ? 0 : sample.pdf_solid_angle;
+  result.pdf_solid_angle = sample.only_sampled ? 0 : sample.pdf_solid_angle;
   if (sample.on_surface)
     result.shadow_ray = spawn_ray_to(vertex.point(), sample.point);
   else if (std::isfinite(sample.distance))

@@ -12,8 +12,9 @@ struct DirectLight {
   Vec3f wi;           ///< unit, toward the light
   Spectrum radiance;  ///< arriving radiance over its density, W/m² per projected sr: multiply
                       ///< by f·cosine; without visibility
-  float pdf_solid_angle = 0;  ///< choice of the light included; 0 for delta lights (no MIS)
-  Ray shadow_ray;             ///< occluded: no light
+  float pdf_solid_angle =
+      0;           ///< choice of the light included; 0 where no ray meets the light (no MIS)
+  Ray shadow_ray;  ///< occluded: no light
 };
 
 /// Which lights a vertex samples.

@@ -1,0 +1,31 @@
+#include "kaustik/light/attenuation.h"
+
+namespace kaustik {
+
+ClassicalAttenuation::ClassicalAttenuation(const Arguments& arguments) {
+  if (!arguments.given("attenuation")) return;
+  const Vec3d given = arguments.point("attenuation");
+  if (!(given.x >= 0 && given.y >= 0 && given.z >= 0 && given.x + given.y + given.z > 0))
+    throw Error(ErrorKind::input,
+                "'attenuation' has a number below zero, or nothing but zeros: light would grow "
+                "without bound",
+                "give the constant, the linear and the quadratic part, each at least 0",
+                arguments.place_of("attenuation"));
+  constant_ = given.x;
+  linear_ = given.y;
+  quadratic_ = given.z;
+}
+
+float ClassicalAttenuation::factor(float distance) const {
+  const double d = distance, falloff = constant_ + d * (linear_ + d * quadratic_);
+  return falloff > 0 ? float(d * d / falloff) : 1.0f;
+}
+
+Parameter attenuation_parameter() {
+  return optional(point_parameter(
+      "attenuation", {0, 0, 1},
+      "Constant, linear and quadratic part of the fall with distance in classical ray tracing "
+      "alone; photons, paths and everything else physical ignore it."));
+}
+
+}  // namespace kaustik
