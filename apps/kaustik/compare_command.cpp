@@ -27,7 +27,7 @@ void compare(const CompareOptions& options) {
   if (c.non_finite_pixels > 0) fmt::print("non_finite_pixels    {}\n", c.non_finite_pixels);
   if (options.difference.empty()) return;
   WriteOptions write;
-  write.tone_mapping.op = ToneOperator::srgb;
+  write.tone = make_tone_operator("srgb");
   write_image(difference_image(image, reference, float(options.scale), options.layer),
               options.difference, write);
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "kaustik/image/tone_mapping.h"
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/scene/camera.h"
 
@@ -22,6 +23,7 @@ std::vector<const TypeInfo*> all_types() {
   types.push_back(&film_info());
   for (const TypeInfo& info : filter_infos()) types.push_back(&info);
   for (const TypeInfo& info : sampler_infos()) types.push_back(&info);
+  add(tone_operator_types());
   return types;
 }
 

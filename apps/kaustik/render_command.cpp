@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <optional>
@@ -15,12 +16,12 @@ namespace {
 
 struct RenderOptions {
   std::string scene;
-  std::vector<std::string> outputs, definitions, settings;
+  std::vector<std::string> outputs, definitions, settings, tone_settings;
   std::string integrator, time, tone = "histogram";
   std::optional<uint32_t> passes, spp;
   uint64_t seed = 0;
   int threads = 0;
-  float exposure = 0;
+  std::optional<double> exposure;
   bool full_float = false, reproducible = false, quiet = false;
 };
 
@@ -53,13 +54,24 @@ void set_metadata(Image& image, const RenderOptions& options, const Scene& scene
   if (!options.reproducible) image.set_metadata("render_seconds", report.seconds);
 }
 
-void write_outputs(const Image& image, const RenderOptions& options, const Scene& scene) {
+/// "tonemap.key=0.3" is for the tone mapping operator, everything else for the scene.
+void sort_settings(RenderOptions& options) {
+  const std::string prefix = "tonemap.";
+  const auto for_scene = std::stable_partition(
+      options.settings.begin(), options.settings.end(),
+      [&](const std::string& setting) { return !setting.starts_with(prefix); });
+  for (auto setting = for_scene; setting != options.settings.end(); ++setting)
+    options.tone_settings.push_back(setting->substr(prefix.size()));
+  options.settings.erase(for_scene, options.settings.end());
+  if (options.exposure)
+    options.tone_settings.push_back(fmt::format("exposure={}", *options.exposure));
+}
+
+void write_outputs(const Image& image, const RenderOptions& options,
+                   std::shared_ptr<const ToneOperator> tone) {
   WriteOptions write;
   write.exr_half = !options.full_float;
-  write.tone_mapping.op = tone_operator_from_name(options.tone);
-  write.tone_mapping.exposure = options.exposure;
-  write.tone_mapping.horizontal_fov = scene.camera().horizontal_fov();
-  write.tone_mapping.vertical_fov = scene.camera().vertical_fov();
+  write.tone = std::move(tone);
   for (const std::string& output : options.outputs) {
     write_image(image, output, write);
     if (!options.quiet) fmt::print(stderr, "wrote {}\n", output);
@@ -70,7 +82,8 @@ void render(RenderOptions options) {
   if (options.outputs.empty())
     options.outputs.push_back(std::filesystem::path(options.scene).stem().string() + ".exr");
   for (const std::string& output : options.outputs) check_writable(output);
-  tone_operator_from_name(options.tone);
+  sort_settings(options);
+  const auto tone = make_tone_operator(options.tone, options.tone_settings);
   SessionSettings settings;
   settings.seed = options.seed;
   settings.threads = usable_threads(options.threads);
@@ -104,7 +117,7 @@ void render(RenderOptions options) {
   const auto object = find_integrator(description);
   Image image = session.film().image();
   set_metadata(image, options, *scene, object ? object->type : "photonmap", report);
-  write_outputs(image, options, *scene);
+  write_outputs(image, options, tone);
 }
 
 }  // namespace
@@ -156,8 +169,9 @@ void add_render(CLI::App& program) {
   command->add_option("--threads", options->threads, "Threads; 0: all [0]")
       ->check(CLI::Range(0, 4096));
   command->add_option("--tonemap", options->tone,
-                      "For 8-bit images: histogram, linear or srgb [histogram]");
-  command->add_option("--exposure", options->exposure, "Stops, for --tonemap linear [0]");
+                      "For 8-bit images: histogram, reinhard, aces, linear, srgb [histogram]; its "
+                      "parameters: --set tonemap.key=0.3");
+  command->add_option("--exposure", options->exposure, "The same as --set tonemap.exposure=…");
   command->add_flag("--float", options->full_float, "EXR with 32-bit instead of 16-bit floats");
   command->add_flag("--reproducible", options->reproducible,
                     "Write no times, so that equal renders are equal files");

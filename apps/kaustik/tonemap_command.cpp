@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <set>
+
 #include "commands.h"
+#include "console.h"
 #include "kaustik/base/error.h"
 #include "kaustik/image/image_io.h"
 
@@ -8,31 +12,85 @@ namespace kaustik::app {
 namespace {
 
 struct TonemapOptions {
-  std::string input, output, layer, tone = "histogram";
-  float exposure = 0, fov = 0, display_maximum = 100, display_range = 100;
+  std::vector<std::string> inputs, outputs, settings;
+  std::string layer, tone = "histogram";
+  std::optional<double> exposure, fov, display_maximum, display_range;
+  int quality = 95;
+  bool quiet = false;
 };
 
-void tonemap(const TonemapOptions& options) {
-  check_writable(options.output);
-  const Image image = read_image(options.input);
-  WriteOptions write;
-  ToneMapping& mapping = write.tone_mapping;
-  mapping.op = tone_operator_from_name(options.tone);
-  mapping.exposure = options.exposure;
-  mapping.display_max_luminance = options.display_maximum;
-  mapping.display_dynamic_range = options.display_range;
-  const auto read_fov = [&](const char* key, float& fov) {
-    if (const MetadataValue* value = image.find_metadata(key))
-      if (const double* degrees = std::get_if<double>(value)) fov = float(*degrees);
+/// What is to be written of each input: one input may have several outputs; several inputs have as
+/// many outputs, or one folder, in which each keeps its name.
+std::vector<std::vector<std::string>> outputs_of(const TonemapOptions& options) {
+  namespace fs = std::filesystem;
+  const auto inside = [](const std::string& folder, const std::string& input) {
+    return (fs::path(folder) / fs::path(input).stem()).string() + ".png";
   };
-  read_fov("horizontal_fov", mapping.horizontal_fov);
-  read_fov("vertical_fov", mapping.vertical_fov);
-  if (options.fov > 0) {
-    mapping.horizontal_fov = options.fov;
-    mapping.vertical_fov = 0;
+  std::vector<std::vector<std::string>> result(options.inputs.size());
+  if (options.inputs.size() == 1) {
+    for (const std::string& output : options.outputs)
+      result[0].push_back(fs::is_directory(output) ? inside(output, options.inputs[0]) : output);
+    return result;
   }
-  write.layer = options.layer;
-  write_image(image, options.output, write);
+  const bool is_folder = options.outputs.size() == 1 && fs::is_directory(options.outputs[0]);
+  if (!is_folder && options.outputs.size() != options.inputs.size())
+    throw Error(ErrorKind::input,
+                fmt::format("{} images to read, but {} to write", options.inputs.size(),
+                            options.outputs.size()),
+                "give as many -o as images, or -o with an existing folder");
+  for (size_t i = 0; i < options.inputs.size(); ++i)
+    result[i].push_back(is_folder ? inside(options.outputs[0], options.inputs[i])
+                                  : options.outputs[i]);
+  return result;
+}
+
+void check_outputs(const std::vector<std::vector<std::string>>& outputs) {
+  std::set<std::string> seen;
+  for (const auto& list : outputs)
+    for (const std::string& output : list) {
+      check_shown_writable(output);
+      if (!seen.insert(std::filesystem::path(output).lexically_normal().string()).second)
+        throw Error(ErrorKind::input, fmt::format("'{}' would be written twice", output),
+                    "give every picture a name of its own");
+    }
+}
+
+std::shared_ptr<const ToneOperator> operator_of(const TonemapOptions& options) {
+  std::vector<std::string> settings = options.settings;
+  const auto add = [&](const char* name, const std::optional<double>& value) {
+    if (value) settings.push_back(fmt::format("{}={}", name, *value));
+  };
+  add("exposure", options.exposure);
+  add("display_maximum", options.display_maximum);
+  add("display_range", options.display_range);
+  return make_tone_operator(options.tone, settings);
+}
+
+void warn_of_bad_pixels(const std::string& input, const BadPixels& bad) {
+  const auto tell = [&](size_t count, const char* what) {
+    if (count > 0)
+      warn(fmt::format("{}: {} pixel{} {}", input, count, count == 1 ? "" : "s", what));
+  };
+  tell(bad.not_a_number, "not a number: shown black");
+  tell(bad.infinite, "infinite: shown white, or black if negative");
+  tell(bad.negative, "of negative luminance: shown black");
+}
+
+void tonemap(const TonemapOptions& options) {
+  const auto tone = operator_of(options);
+  const std::vector<std::vector<std::string>> outputs = outputs_of(options);
+  check_outputs(outputs);
+  for (size_t i = 0; i < options.inputs.size(); ++i) {
+    const Image image = read_image(options.inputs[i]);
+    warn_of_bad_pixels(options.inputs[i], count_bad_pixels(rgb_view(image, options.layer)));
+    std::optional<FieldOfView> view = field_of_view(image);
+    if (options.fov) view = FieldOfView{float(*options.fov), 0};
+    if (!view && tone->needs_view() && !options.quiet)
+      fmt::print(stderr, "{}: no field of view in its metadata: {}° across assumed (--fov)\n",
+                 options.inputs[i], FieldOfView{}.horizontal);
+    const Image shown = tone_map(image, *tone, options.layer, view);
+    for (const std::string& output : outputs[i]) write_shown_image(shown, output, options.quality);
+  }
 }
 
 }  // namespace
@@ -40,19 +98,32 @@ void tonemap(const TonemapOptions& options) {
 void add_tonemap(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "tonemap",
-      "Turn a high dynamic range image (exr, hdr, pfm, LogLuv tif) into one for displays.");
+      "Turn high dynamic range images (exr, hdr, pfm, LogLuv tif) into ones for displays.");
+  command->footer(
+      "Every parameter of every operator: kaustik help tonemap\n"
+      "Several images: kaustik tonemap a.exr b.exr -o pictures/");
   auto o = std::make_shared<TonemapOptions>();
-  command->add_option("input", o->input, "Image to read")->required();
-  command->add_option("-o,--output", o->output, "png, jpg or ppm to write")->required();
-  command->add_option("--operator", o->tone, "histogram, linear or srgb [histogram]");
+  command->add_option("inputs", o->inputs, "Images to read")->required();
+  command
+      ->add_option("-o,--output", o->outputs,
+                   "png, jpg, ppm or tif (8 bits) to write, or a folder; may be repeated")
+      ->required()
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_option("--operator", o->tone, "histogram, reinhard, aces, linear, srgb [histogram]");
+  command
+      ->add_option("--set", o->settings, "Change a parameter of the operator: human=true, key=0.36")
+      ->type_name("PARAMETER=VALUE")
+      ->allow_extra_args(false);
   command->add_option("--layer", o->layer, "Layer of an EXR, such as caustic [the picture itself]");
-  command->add_option("--exposure", o->exposure, "Stops, for --operator linear [0]");
+  command->add_option("--exposure", o->exposure, "The same as --set exposure=…");
   command->add_option("--fov", o->fov, "Horizontal field of view, degrees [from the file, else 50]")
       ->check(CLI::Range(0.001, 179.9));
-  command->add_option("--display-maximum", o->display_maximum, "Display white, cd/m² [100]")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--display-range", o->display_range, "Display white over black [100]")
-      ->check(CLI::Range(1.01, 1e9));
+  command->add_option("--display-maximum", o->display_maximum,
+                      "The same as --set display_maximum=…");
+  command->add_option("--display-range", o->display_range, "The same as --set display_range=…");
+  command->add_option("--quality", o->quality, "Of jpg [95]")->check(CLI::Range(1, 100));
+  command->add_flag("-q,--quiet", o->quiet, "No notes");
   command->callback([o] { tonemap(*o); });
 }
 

@@ -217,7 +217,7 @@ TEST_F(EightBit, srgb_is_linear_again_after_reading) {
     for (int x = 0; x < 64; ++x)
       for (int c = 0; c < 3; ++c) image.at(x, y, c) = float(x + y + 20 * c) / 170;
   WriteOptions options;
-  options.tone_mapping.op = ToneOperator::srgb;
+  options.tone = make_tone_operator("srgb");
   for (const auto& [name, tolerance] :
        {std::pair("a.png", 0.5f / 255), std::pair("a.ppm", 0.5f / 255),
         std::pair("a.jpg", 8.0f / 255)}) {
@@ -241,7 +241,7 @@ TEST_F(EightBit, layers_can_be_chosen) {
   Image image(4, 4, {"R", "G", "B", "direct.R", "direct.G", "direct.B"});
   for (float& value : image.channel(3)) value = 1;
   WriteOptions options;
-  options.tone_mapping.op = ToneOperator::srgb;
+  options.tone = make_tone_operator("srgb");
   options.layer = "direct";
   const Image back = written_and_read(image, "a.png", options);
   EXPECT_EQ(back.at(0, 0, 0), 1);

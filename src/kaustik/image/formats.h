@@ -50,7 +50,8 @@ Image decode_pfm(ByteView file);
 Bytes encode_ppm(const Image& display_linear);
 Image decode_pnm(ByteView file);  ///< values as encoded in the file, over their maximum
 
-Bytes encode_tiff(const Image& image, const std::string& layer);
+Bytes encode_logluv_tiff(const Image& image, const std::string& layer);
+Bytes encode_srgb_tiff(const Image& display_linear);
 Image decode_tiff(ByteView file);
 
 Bytes encode_png(const Image& display_linear);

@@ -19,13 +19,8 @@ using formats::ByteView;
 struct Writer {
   const char* extension;
   Bytes (*encode)(const Image&, const WriteOptions&);
+  Bytes (*encode_shown)(const Image& shown, int jpeg_quality);  ///< null: only for radiance
 };
-
-Image shown(const Image& image, const WriteOptions& options) {
-  Image picture = tone_map(image, options.tone_mapping, options.layer);
-  for (const auto& [key, value] : image.metadata()) picture.set_metadata(key, value);
-  return picture;
-}
 
 Bytes write_exr(const Image& image, const WriteOptions& options) {
   return formats::encode_exr(image, options.exr_half);
@@ -36,37 +31,70 @@ Bytes write_hdr(const Image& image, const WriteOptions& options) {
 Bytes write_pfm(const Image& image, const WriteOptions& options) {
   return formats::encode_pfm(image, options.layer);
 }
-Bytes write_tiff(const Image& image, const WriteOptions& options) {
-  return formats::encode_tiff(image, options.layer);
-}
-Bytes write_png(const Image& image, const WriteOptions& options) {
-  return formats::encode_png(shown(image, options));
-}
-Bytes write_jpeg(const Image& image, const WriteOptions& options) {
-  return formats::encode_jpeg(shown(image, options), options.jpeg_quality);
-}
-Bytes write_ppm(const Image& image, const WriteOptions& options) {
-  return formats::encode_ppm(shown(image, options));
+Bytes write_logluv(const Image& image, const WriteOptions& options) {
+  return formats::encode_logluv_tiff(image, options.layer);
 }
 
-constexpr Writer writers[] = {{".exr", write_exr},  {".hdr", write_hdr},   {".pfm", write_pfm},
-                              {".tif", write_tiff}, {".tiff", write_tiff}, {".png", write_png},
-                              {".jpg", write_jpeg}, {".jpeg", write_jpeg}, {".ppm", write_ppm}};
+Bytes show_png(const Image& shown, int) { return formats::encode_png(shown); }
+Bytes show_ppm(const Image& shown, int) { return formats::encode_ppm(shown); }
+Bytes show_tiff(const Image& shown, int) { return formats::encode_srgb_tiff(shown); }
 
-const Writer& writer_for(const std::string& path) {
+template <Bytes (*encode)(const Image&, int)>
+Bytes tone_mapped(const Image& image, const WriteOptions& options) {
+  const auto tone = options.tone ? options.tone : make_tone_operator("histogram");
+  return encode(tone_map(image, *tone, options.layer, options.view), options.jpeg_quality);
+}
+
+constexpr Writer writers[] = {{".exr", write_exr, nullptr},
+                              {".hdr", write_hdr, nullptr},
+                              {".pfm", write_pfm, nullptr},
+                              {".tif", write_logluv, show_tiff},
+                              {".tiff", write_logluv, show_tiff},
+                              {".png", tone_mapped<show_png>, show_png},
+                              {".jpg", tone_mapped<formats::encode_jpeg>, formats::encode_jpeg},
+                              {".jpeg", tone_mapped<formats::encode_jpeg>, formats::encode_jpeg},
+                              {".ppm", tone_mapped<show_ppm>, show_ppm}};
+
+/// Throws for an extension that is unknown, or `for_display` none of a format for displays.
+const Writer& writer_for(const std::string& path, bool for_display) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
   std::string known;
   for (const Writer& writer : writers) {
+    if (for_display && !writer.encode_shown) continue;
     if (extension == writer.extension) return writer;
     known += std::string(known.empty() ? "" : ", ") + writer.extension;
   }
-  const std::string found = extension.empty()
-                                ? std::string("no extension")
-                                : fmt::format("the unknown extension '{}'", extension);
-  throw Error(ErrorKind::input, fmt::format("cannot write '{}': it has {}", path, found),
+  const std::string found = extension.empty() ? std::string("it has no extension")
+                            : for_display
+                                ? fmt::format("'{}' is no format for displays", extension)
+                                : fmt::format("it has the unknown extension '{}'", extension);
+  throw Error(ErrorKind::input, fmt::format("cannot write '{}': {}", path, found),
               "give the name one of " + known);
+}
+
+/// Encodes by calling `encode` and writes; every problem names the file.
+template <typename Encode>
+void write_encoded(const Image& image, const std::string& path, const Encode& encode) {
+  if (image.empty())
+    throw Error(ErrorKind::input, fmt::format("cannot write '{}': the image is empty", path),
+                "give it a size and channels");
+  Bytes bytes;
+  try {
+    bytes = encode();
+  } catch (const Error& error) {
+    const Problem& problem = error.problems().front();
+    throw Error(error.kind(), fmt::format("cannot write '{}': {}", path, problem.message),
+                problem.remedy);
+  } catch (const formats::BadImage& error) {
+    throw Error(ErrorKind::input, fmt::format("cannot write '{}': {}", path, error.what()),
+                "choose another format");
+  } catch (const std::exception& error) {
+    throw Error(ErrorKind::system, fmt::format("cannot write '{}': {}", path, error.what()),
+                "choose another format or a smaller image");
+  }
+  write_file_atomically(path, bytes);
 }
 
 struct Reader {
@@ -119,29 +147,23 @@ Image read_image(const std::string& path, const ReadOptions& options) {
 
 void write_image(const Image& image, const std::string& path, const WriteOptions& options) {
   check_writable(path);
-  if (image.empty())
-    throw Error(ErrorKind::input, fmt::format("cannot write '{}': the image is empty", path),
-                "give it a size and channels");
-  Bytes bytes;
-  try {
-    bytes = writer_for(path).encode(image, options);
-  } catch (const Error& error) {
-    const Problem& problem = error.problems().front();
-    throw Error(error.kind(), fmt::format("cannot write '{}': {}", path, problem.message),
-                problem.remedy);
-  } catch (const formats::BadImage& error) {
-    throw Error(ErrorKind::input, fmt::format("cannot write '{}': {}", path, error.what()),
-                "choose another format");
-  } catch (const std::exception& error) {
-    throw Error(ErrorKind::system, fmt::format("cannot write '{}': {}", path, error.what()),
-                "choose another format or a smaller image");
-  }
-  write_file_atomically(path, bytes);
+  write_encoded(image, path, [&] { return writer_for(path, false).encode(image, options); });
+}
+
+void write_shown_image(const Image& shown, const std::string& path, int jpeg_quality) {
+  check_shown_writable(path);
+  write_encoded(shown, path,
+                [&] { return writer_for(path, true).encode_shown(shown, jpeg_quality); });
 }
 
 void check_writable(const std::string& path) {
   check_output_path(path);
-  writer_for(path);
+  writer_for(path, false);
+}
+
+void check_shown_writable(const std::string& path) {
+  check_output_path(path);
+  writer_for(path, true);
 }
 
 }  // namespace kaustik

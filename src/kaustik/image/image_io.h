@@ -21,9 +21,10 @@ Image read_image(const std::string& path, const ReadOptions& options = {});
 struct WriteOptions {
   /// EXR channels as 16-bit floats; one that holds a finite value above 65504 is kept at 32 bits.
   bool exr_half = true;
-  ToneMapping tone_mapping;  ///< for the 8-bit formats
-  std::string layer;         ///< what the formats with one layer show; "": the picture itself
-  int jpeg_quality = 95;     ///< 1 to 100
+  std::shared_ptr<const ToneOperator> tone;  ///< for the 8-bit formats; null: "histogram"
+  std::optional<FieldOfView> view;           ///< see tone_map()
+  std::string layer;      ///< what the formats with one layer show; "": the picture itself
+  int jpeg_quality = 95;  ///< 1 to 100
 };
 
 /// Writes by extension, atomically: .exr (all channels, metadata as attributes), .hdr (Radiance
@@ -34,8 +35,14 @@ struct WriteOptions {
 /// cannot hold, Error(system) if writing fails; a file that was there before is then unharmed.
 void write_image(const Image& image, const std::string& path, const WriteOptions& options = {});
 
+/// Writes what tone_map() made: .png, .jpg/.jpeg, .ppm, and .tif/.tiff with 8-bit sRGB. Else as
+/// write_image().
+void write_shown_image(const Image& shown, const std::string& path, int jpeg_quality = 95);
+
 /// Throws Error(input) if write_image() could not write here: unknown extension, folder missing or
 /// not writable, path is a folder. To be called before a long render.
 void check_writable(const std::string& path);
+/// The same for write_shown_image().
+void check_shown_writable(const std::string& path);
 
 }  // namespace kaustik

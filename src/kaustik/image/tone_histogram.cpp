@@ -1,0 +1,112 @@
+// "histogram": the visibility matching operator of Ward Larson, Rushmeier and Piatko 1997.
+
+#include "kaustik/base/error.h"
+#include "kaustik/image/eye_model.h"
+#include "kaustik/image/histogram_adjustment.h"
+#include "kaustik/image/photometry.h"
+#include "kaustik/image/tone_operators.h"
+#include "kaustik/image/vision.h"
+
+namespace kaustik {
+namespace {
+
+class Histogram : public ToneOperator {
+ public:
+  explicit Histogram(const Arguments& arguments) {
+    const bool human = arguments.boolean("human");
+    const auto model = [&](const char* name) {
+      return arguments.given(name) ? arguments.boolean(name) : human;
+    };
+    has_glare_ = model("glare");
+    loses_acuity_ = model("acuity");
+    loses_color_ = model("color_sensitivity");
+    settings_.human_contrast = model("contrast_sensitivity");
+    settings_.smooth = arguments.boolean("smooth");
+    settings_.bins = int(arguments.integer("bins"));
+    settings_.display_white = arguments.number("display_maximum");
+    settings_.display_black = settings_.display_white / arguments.number("display_range");
+    if (!arguments.has("display_minimum")) return;
+    settings_.display_black = arguments.number("display_minimum");
+    if (settings_.display_black > settings_.display_white / 1.01)
+      throw Error(ErrorKind::input, "display_minimum is not below display_maximum",
+                  "give the luminance of the display's black, such as 0.5 cd/m²",
+                  arguments.place_of("display_minimum"));
+  }
+
+  bool needs_view() const override { return true; }
+  /// The order of the paper's section 6.
+  std::vector<Vec3f> displayed(Picture picture) const override {
+    Grid<Vec3f> foveal = foveal_means(picture);
+    if (has_glare_) {
+      const Grid<Vec3f> scattered = veil(foveal, picture);
+      add_veil(picture, scattered);
+      foveal = foveal_means(picture);
+    }
+    if (loses_acuity_) blur_to_acuity(picture, foveal);
+    if (loses_color_) {
+      for (Vec3f& colour : picture.pixels) colour = seen_color(colour);
+      for (Vec3f& colour : foveal.cells) colour = seen_color(colour);
+    }
+    std::vector<float> luminances;
+    for (const Vec3f& colour : foveal.cells) luminances.push_back(luminance(colour));
+    apply(HistogramAdjustment(luminances, settings_), picture.pixels);
+    return std::move(picture.pixels);
+  }
+
+ private:
+  /// The display adds its black to what it is sent.
+  void apply(const HistogramAdjustment& curve, std::vector<Vec3f>& pixels) const {
+    const double black = settings_.display_black, range = settings_.display_white - black;
+    for (Vec3f& colour : pixels) {
+      const float y = photopic(colour);
+      if (!(y > 0)) {
+        colour = Vec3f(0);
+        continue;
+      }
+      const double shown = (double(curve.display_luminance(white_efficacy * y)) - black) / range;
+      // Hue first: for the darkest colours the factor alone would overflow.
+      colour = colour / y * float(shown);
+    }
+  }
+
+  HistogramSettings settings_;
+  bool has_glare_, loses_acuity_, loses_color_;
+};
+
+std::vector<Parameter> parameters() {
+  return {
+      number_parameter("display_maximum", 100, "Luminance of the display's white.")
+          .range(1e-3, 1e6)
+          .in("cd/m²"),
+      number_parameter("display_range", 100, "The display's white over its black.")
+          .range(1.01, 1e9),
+      optional(number_parameter("display_minimum", 1,
+                                "Luminance of the display's black, in place of display_range."))
+          .range(1e-9, 1e6)
+          .in("cd/m²"),
+      boolean_parameter("human", false, "What the next four default to."),
+      boolean_parameter("contrast_sensitivity", false,
+                        "Show no more contrast than an eye sees at that luminance (instead of no "
+                        "more than the scene has)."),
+      boolean_parameter("glare", false, "The veil of light that is scattered inside the eye."),
+      boolean_parameter("acuity", false, "Blur what is too dark to be seen sharply."),
+      boolean_parameter("color_sensitivity", false, "Colours fade in the dark."),
+      boolean_parameter("smooth", true,
+                        "No bands where few parts of the picture are; false: the paper's "
+                        "algorithm to the letter."),
+      integer_parameter("bins", 100, "Bins of the histogram of log luminance.").range(2, 100000)};
+}
+
+}  // namespace
+
+ToneOperatorType histogram_tone() {
+  return {{"tonemap", "histogram",
+           "Histogram adjustment, with models of human vision (Ward Larson, Rushmeier and Piatko "
+           "1997): what is visible in the scene is visible on the display.",
+           parameters()},
+          [](const Arguments& arguments) -> std::unique_ptr<ToneOperator> {
+            return std::make_unique<Histogram>(arguments);
+          }};
+}
+
+}  // namespace kaustik
