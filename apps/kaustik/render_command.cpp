@@ -159,7 +159,8 @@ void add_render(CLI::App& program) {
       ->type_name("OBJECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
   command->add_option("--integrator", options->integrator,
-                      "Use this method instead of the file's: photonmap, path, lighttracer");
+                      "Use this method instead of the file's: photonmap, path, lighttracer, "
+                      "raytracing, localphong");
   command->add_option("--passes", options->passes, "Number of passes")
       ->check(CLI::Range(1u, 1u << 30));
   command->add_option("--spp", options->spp, "Samples per pixel over all passes")

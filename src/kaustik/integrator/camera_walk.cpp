@@ -89,7 +89,7 @@ void CameraWalk::add_background() {
 }
 
 void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probability,
-                                  const LightSampling& sampling) {
+                                  const LightSampling& sampling, bool shadows) {
   light_choice_ = sampling.choice;
   if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
   // What nobody wants costs no shadow ray; its random numbers are drawn, so that the others stay.
@@ -101,8 +101,10 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
     if (wanted(Lobes::glossy))
       by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability);
     if (by_diffuse.is_zero() && by_glossy.is_zero()) return;
-    ++rays_;
-    if (scene_.occluded(light.shadow_ray)) return;
+    if (shadows) {
+      ++rays_;
+      if (scene_.occluded(light.shadow_ray)) return;
+    }
     add_reflected(Lobes::diffuse, by_diffuse);
     add_reflected(Lobes::glossy, by_glossy);
   };

@@ -27,14 +27,17 @@ class CameraWalk {
   const SurfaceVertex& vertex() const { return vertex_; }
   /// Scattering events so far.
   int events() const { return state_.depth; }
+  /// Whether the camera sees the vertex directly or by specular events alone.
+  bool all_events_specular() const { return class_.all_specular(); }
   /// Half the width of a pixel at the vertex, m.
   float footprint() const { return state_.footprint; }
   Sampler& sampler() { return sampler_; }
 
   /// Adds light sampled at the vertex and reflected by its lobes. The probabilities are those that
   /// scatter() will be told there (0: never, then light sampling alone has to find the light).
+  /// Without `shadows` nothing holds light off.
   void add_direct_light(float diffuse_probability, float glossy_probability,
-                        const LightSampling& sampling = {});
+                        const LightSampling& sampling = {}, bool shadows = true);
   /// Adds radiance that the vertex sends back of light that is `component` (caustic or indirect)
   /// to it; seen by a specular event it counts as specular.
   void add_photon_light(Component component, const Spectrum& radiance) {

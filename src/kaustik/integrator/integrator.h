@@ -90,10 +90,11 @@ class Integrator {
 
 struct IntegratorType {
   const TypeInfo& info;
+  bool is_model;  ///< an IlluminationModel, which single surfaces may have as their own
   /// `scene` must outlive the integrator.
   std::unique_ptr<Integrator> (*create)(const Arguments&, const Scene& scene);
 };
-/// "path", "lighttracer", "photonmap".
+/// "path", "lighttracer", "photonmap", "localphong", "raytracing".
 const std::vector<IntegratorType>& integrator_types();
 
 /// The row `components`, which every integrator has, and its reading; throws Error for an unknown

@@ -2,15 +2,20 @@
 
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/integrator/light_tracer.h"
+#include "kaustik/integrator/local_phong.h"
 #include "kaustik/integrator/path.h"
 #include "kaustik/integrator/photon_map_integrator.h"
+#include "kaustik/integrator/ray_tracing.h"
 
 namespace kaustik {
 namespace {
 
 template <typename T>
-std::unique_ptr<Integrator> make(const Arguments& arguments, const Scene& scene) {
-  return std::make_unique<T>(arguments, scene);
+IntegratorType row(const TypeInfo& info) {
+  return {info, std::is_base_of_v<IlluminationModel, T>,
+          [](const Arguments& arguments, const Scene& scene) -> std::unique_ptr<Integrator> {
+            return std::make_unique<T>(arguments, scene);
+          }};
 }
 
 std::vector<std::string> valid_components() {
@@ -21,9 +26,11 @@ std::vector<std::string> valid_components() {
 
 const std::vector<IntegratorType>& integrator_types() {
   static const std::vector<IntegratorType> types{
-      {PathIntegrator::info(), make<PathIntegrator>},
-      {LightTracer::info(), make<LightTracer>},
-      {PhotonMapSettings::info(), make<PhotonMapIntegrator>},
+      row<PathIntegrator>(PathIntegrator::info()),
+      row<LightTracer>(LightTracer::info()),
+      row<PhotonMapIntegrator>(PhotonMapSettings::info()),
+      row<LocalPhong>(LocalPhong::info()),
+      row<RayTracing>(RayTracing::info()),
   };
   return types;
 }

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/integrator/make_integrator.h"
 
 namespace kaustik {
 namespace {
@@ -295,25 +296,7 @@ std::unique_ptr<Integrator> make_integrator(const Description& description, cons
                                             std::vector<std::string>& warnings) {
   static const Object default_object{"integrator", "photonmap", "", {}, {}, {}};
   const std::shared_ptr<Object> given = find_integrator(description);
-  const Object& object = given ? *given : default_object;
-  std::vector<std::string> valid;
-  for (const IntegratorType& row : integrator_types()) {
-    valid.push_back(row.info.name);
-    if (row.info.name != object.type) continue;
-    Problems problems;
-    const Arguments arguments(row.info, object.properties, object.place, problems);
-    for (const Child& child : object.children)
-      problems.add(
-          fmt::format("integrator '{}' cannot hold a {}", object.type, child.object->family),
-          "remove it", child.object->place);
-    problems.throw_if_any();
-    for (const std::string& ignored : arguments.ignored())
-      warnings.push_back(
-          fmt::format("'{}' of integrator '{}' has no effect here", ignored, object.type));
-    return row.create(arguments, scene);
-  }
-  throw Error(ErrorKind::input, fmt::format("unknown integrator type '{}'", object.type),
-              suggest(object.type, valid), object.place);
+  return make_integrator(given ? *given : default_object, scene, warnings);
 }
 
 }  // namespace kaustik

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "kaustik/scene/scene.h"
+
 namespace kaustik {
 namespace {
 
@@ -18,8 +20,7 @@ void collect(const std::shared_ptr<Object>& object, std::vector<std::shared_ptr<
 }
 
 std::shared_ptr<Object> integrator_of(Description& description) {
-  for (const Child& child : description.scene->children)
-    if (child.object->family == "integrator") return child.object;
+  if (auto object = find_integrator(description)) return object;
   auto object = std::make_shared<Object>();
   object->family = "integrator";
   object->type = "photonmap";

@@ -18,6 +18,8 @@ struct Surface {
   std::shared_ptr<const Bsdf> bsdf;  ///< never null
   int light = -1;                    ///< index into Scene::lights(), −1: none
   std::string name;                  ///< the shape's id or "type, line n", for messages
+  /// The integrator that the shape itself holds, if any: how this surface looks.
+  std::shared_ptr<const Object> illumination;
 };
 
 /// Sees every ray that is traced; for benchmarks that repeat them.
@@ -82,7 +84,8 @@ struct BuildOptions {
 std::shared_ptr<const Scene> build_scene(const Description& description,
                                          const BuildOptions& options = {});
 
-/// The integrator object of a description, null if it has none. Throws Error if it has several.
+/// The scene's integrator object, null if it has none. Those that shapes refer to are the shapes',
+/// if there is another. Throws Error if there are several.
 std::shared_ptr<Object> find_integrator(const Description& description);
 
 }  // namespace kaustik

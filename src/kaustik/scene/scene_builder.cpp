@@ -173,7 +173,7 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
     unknown_type(object, valid);
     return std::nullopt;
   }
-  refuse_children(object, {"bsdf", "emitter"});
+  refuse_children(object, {"bsdf", "emitter", "integrator"});
   BuiltShape built;
   built.object = &object;
   built.surface.name = display_name(object);
@@ -184,6 +184,10 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
       built.surface.bsdf = make_bsdf(child.object);
       if (++bsdf_count == 2)
         problems_.add("the shape has a second bsdf", "keep one", child.object->place);
+    } else if (child.object->family == "integrator") {
+      if (built.surface.illumination)
+        problems_.add("the shape has a second integrator", "keep one", child.object->place);
+      built.surface.illumination = child.object;
     } else if (child.object->family == "emitter" && in_group) {
       problems_.add("a shape of a shape group cannot be a light",
                     "place the light as a shape of its own", child.object->place);

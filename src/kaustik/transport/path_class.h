@@ -21,6 +21,7 @@ class CameraPathClass {
     }
     ++events_;
   }
+  bool all_specular() const { return events_ == 0 || (first_specular_ && rest_specular_); }
   /// Of light that is met after the events so far.
   Component component() const {
     if (events_ == 0) return Component::emission;

@@ -1,0 +1,30 @@
+#include "kaustik/integrator/local_phong.h"
+
+namespace kaustik {
+namespace {
+
+std::vector<Parameter> parameters() {
+  std::vector<Parameter> rows = LocalLight::parameters();
+  rows.insert(rows.begin(), components_parameter());
+  return rows;
+}
+
+}  // namespace
+
+const TypeInfo& LocalPhong::info() {
+  static const TypeInfo info{"integrator", "localphong",
+                             "Local illumination as in Phong's model: direct light by each "
+                             "surface's bsdf, and ambient light; no mirror images.",
+                             parameters()};
+  return info;
+}
+
+LocalPhong::LocalPhong(const Arguments& arguments, const Scene& scene)
+    : IlluminationModel(scene), components_(read_components(arguments)), light_(arguments) {}
+
+bool LocalPhong::reflect(const PassState&, CameraWalk& walk, const RadianceTracer&) const {
+  light_.add_to(walk, Lobes::all);
+  return false;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,96 @@
+#include "kaustik/integrator/make_integrator.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "kaustik/integrator/surface_models.h"
+
+namespace kaustik {
+namespace {
+
+std::vector<std::string> type_names(bool models_only) {
+  std::vector<std::string> names;
+  for (const IntegratorType& row : integrator_types())
+    if (row.is_model || !models_only) names.push_back(row.info.name);
+  return names;
+}
+
+const IntegratorType& type_of(const Object& object, bool of_surface = false) {
+  for (const IntegratorType& row : integrator_types())
+    if (row.info.name == object.type) return row;
+  throw Error(ErrorKind::input, fmt::format("unknown integrator type '{}'", object.type),
+              suggest(object.type, type_names(of_surface)), object.place);
+}
+
+/// What belongs to the picture cannot be said of one surface.
+void refuse_what_is_the_scenes(const Arguments& arguments, Problems& problems) {
+  for (const char* name : {"components", "samples_per_pass"})
+    if (arguments.info().find(name) && arguments.given(name))
+      problems.add(fmt::format("'{}' in the integrator of a single shape", name),
+                   "give it to the scene's integrator: it holds for the whole picture",
+                   arguments.place_of(name));
+}
+
+std::unique_ptr<Integrator> create(const Object& object, const Scene& scene, bool of_surface,
+                                   std::vector<std::string>& warnings) {
+  const IntegratorType& type = type_of(object);
+  Problems problems;
+  const Arguments arguments(type.info, object.properties, object.place, problems);
+  for (const Child& child : object.children)
+    problems.add(fmt::format("integrator '{}' cannot hold a {}", object.type, child.object->family),
+                 "remove it", child.object->place);
+  if (of_surface) refuse_what_is_the_scenes(arguments, problems);
+  problems.throw_if_any();
+  for (const std::string& ignored : arguments.ignored())
+    warnings.push_back(
+        fmt::format("'{}' of integrator '{}' has no effect here", ignored, object.type));
+  return type.create(arguments, scene);
+}
+
+/// The scene's surfaces by their own models' objects, in the order in which they come.
+std::vector<std::pair<const Object*, std::vector<uint32_t>>> own_models(const Scene& scene) {
+  std::vector<std::pair<const Object*, std::vector<uint32_t>>> models;
+  std::map<const Object*, size_t> known;
+  for (uint32_t i = 0; i < scene.surface_count(); ++i) {
+    const Object* object = scene.surface(i).illumination.get();
+    if (!object) continue;
+    const auto [entry, is_new] = known.try_emplace(object, models.size());
+    if (is_new) models.push_back({object, {}});
+    models[entry->second].second.push_back(i);
+  }
+  return models;
+}
+
+std::unique_ptr<IlluminationModel> create_model(const Object& object, const Scene& scene,
+                                                std::vector<std::string>& warnings) {
+  if (!type_of(object, true).is_model)
+    throw Error(ErrorKind::input,
+                fmt::format("integrator '{}' cannot belong to a single shape", object.type),
+                fmt::format("one of these can: {}", fmt::join(type_names(true), ", ")),
+                object.place);
+  auto integrator = create(object, scene, true, warnings);
+  return std::unique_ptr<IlluminationModel>(static_cast<IlluminationModel*>(integrator.release()));
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_integrator(const Object& object, const Scene& scene,
+                                            std::vector<std::string>& warnings) {
+  auto of_scene = create(object, scene, false, warnings);
+  std::vector<SurfaceModels::Model> of_surfaces;
+  for (auto& [own, surfaces] : own_models(scene))
+    of_surfaces.push_back({create_model(*own, scene, warnings), std::move(surfaces)});
+  if (of_surfaces.empty()) return of_scene;
+  if (!type_of(object).is_model) {
+    warnings.push_back(fmt::format(
+        "the integrators of single shapes have no effect with integrator '{}'", object.type));
+    return of_scene;
+  }
+  return std::make_unique<SurfaceModels>(
+      scene,
+      std::unique_ptr<IlluminationModel>(static_cast<IlluminationModel*>(of_scene.release())),
+      std::move(of_surfaces));
+}
+
+}  // namespace kaustik

@@ -1,0 +1,12 @@
+#pragma once
+#include "kaustik/integrator/integrator.h"
+
+namespace kaustik {
+
+/// Makes the integrator that `object` describes for `scene`, which must outlive it, and the models
+/// of the scene's surfaces that have one of their own (Surface::illumination). What is accepted
+/// without effect goes to `warnings`. Throws Error for unknown types and wrong parameters.
+std::unique_ptr<Integrator> make_integrator(const Object& object, const Scene& scene,
+                                            std::vector<std::string>& warnings);
+
+}  // namespace kaustik
