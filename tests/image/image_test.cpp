@@ -62,6 +62,18 @@ TEST(Image, refuses_names_that_are_empty_or_twice_there) {
   expect_input_error([] { Image(1, 1, {"R", "R"}); }, "'R'");
 }
 
+TEST(RgbView, finds_channels_of_other_programs) {
+  Image image(1, 1, {"View.Combined.r", "View.Combined.g", "View.Combined.b", "Mist.V", "mask"});
+  for (int c = 0; c < image.channel_count(); ++c) image.at(0, 0, c) = float(c);
+  EXPECT_EQ(rgb_view(image, "View.Combined")[0], Vec3f(0, 1, 2));
+  EXPECT_EQ(rgb_view(image, "Mist")[0], Vec3f(3));
+  EXPECT_EQ(rgb_view(image, "mask")[0], Vec3f(4));
+  expect_input_error([&] { rgb_view(image); }, "View.Combined.r");
+  Image single(1, 1, {"irradiance"});
+  single.at(0, 0, 0) = 7;
+  EXPECT_EQ(rgb_view(single)[0], Vec3f(7));
+}
+
 TEST(RgbView, finds_layers) {
   Image image(1, 1,
               {"R", "G", "B", "direct.R", "direct.G", "direct.B", "N.X", "N.Y", "N.Z", "depth.Z"});

@@ -250,6 +250,25 @@ TEST_F(EightBit, layers_can_be_chosen) {
   expect_input_error([&] { write_image(image, path("b.png"), options); }, "'nothing'");
 }
 
+TEST_F(EightBit, shown_pictures_go_to_every_format_for_displays) {
+  const Image image = testing::test_picture(40, 30, 1);
+  Image shown = tone_map(image, *make_tone_operator("srgb"));
+  shown.set_metadata("scene", std::string("a b"));
+  for (const char* name : {"a.png", "a.ppm", "a.tif", "a.tiff"}) {
+    write_shown_image(shown, path(name));
+    const Image back = read_image(path(name), {.srgb_to_linear = false});
+    EXPECT_TRUE(back.is_srgb_encoded()) << name;
+    ASSERT_EQ(back.width(), 40);
+    for (int c = 0; c < 3; ++c)
+      for (size_t i = 0; i < back.pixel_count(); ++i)
+        ASSERT_NEAR(back.channel(c)[i], srgb_from_linear(shown.channel(c)[i]), 0.51 / 255) << name;
+  }
+  EXPECT_EQ(std::get<std::string>(*read_image(path("a.tif")).find_metadata("scene")), "a b");
+  for (const char* name : {"a.exr", "a.hdr", "a.pfm"})
+    testing::expect_input_error([&] { write_shown_image(shown, path(name)); },
+                                "is no format for displays");
+}
+
 TEST_F(EightBit, limits_of_jpeg_are_told) {
   WriteOptions options;
   options.jpeg_quality = 101;

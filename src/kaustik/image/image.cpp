@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 #include <set>
 
 #include "kaustik/base/error.h"
@@ -94,24 +95,28 @@ const MetadataValue* Image::find_metadata(std::string_view key) const {
 }
 
 RgbView rgb_view(const Image& image, const std::string& layer) {
-  const std::string prefix = layer.empty() ? "" : layer + ".";
-  static constexpr std::array<std::array<const char*, 3>, 4> choices = {
-      {{"R", "G", "B"}, {"X", "Y", "Z"}, {"Y", "Y", "Y"}, {"Z", "Z", "Z"}}};
-  for (const auto& names : choices) {
+  const auto view_of = [&](const std::array<std::string, 3>& names) -> std::optional<RgbView> {
     RgbView view;
-    int found = 0;
     for (size_t i = 0; i < 3; ++i) {
-      const int index = image.find_channel(prefix + names[i]);
-      if (index < 0) break;
+      const int index = image.find_channel(names[i]);
+      if (index < 0) return std::nullopt;
       view.planes[i] = image.channel(index);
-      ++found;
     }
-    if (found == 3) return view;
-  }
-  throw Error(ErrorKind::input,
-              layer.empty() ? std::string("the image has no colour channels")
-                            : fmt::format("the image has no layer '{}'", layer),
-              fmt::format("its channels are: {}", fmt::join(image.channel_names(), ", ")));
+    return view;
+  };
+  const std::string prefix = layer.empty() ? "" : layer + ".";
+  for (const char* names : {"RGB", "rgb", "XYZ", "YYY", "ZZZ", "VVV"})
+    if (const auto view = view_of({prefix + names[0], prefix + names[1], prefix + names[2]}))
+      return *view;
+  std::string alone = layer;
+  if (layer.empty() && image.channel_count() == 1 && image.find_channel("A") < 0)
+    alone = image.channel_names()[0];
+  if (const auto view = view_of({alone, alone, alone})) return *view;
+  throw Error(
+      ErrorKind::input,
+      layer.empty() ? std::string("the image has no colour channels")
+                    : fmt::format("the image has no layer '{}'", layer),
+      fmt::format("name a layer; the channels are: {}", fmt::join(image.channel_names(), ", ")));
 }
 
 }  // namespace kaustik

@@ -90,9 +90,10 @@ struct RgbView {
   }
 };
 
-/// The channels "R", "G", "B" (else "X", "Y", "Z", else "Y" or "Z" thrice) of `layer`, "" for the
-/// picture itself. Throws Error(input) if the image has none. Valid as long as the image is and
-/// keeps its channels.
+/// The channels "R", "G", "B" (else "r", "g", "b", else "X", "Y", "Z", else "Y", "Z" or "V" thrice)
+/// of `layer`, "" for the picture itself; else the one channel that is called like the layer, or
+/// the image's only one (but for opacity), thrice. Throws Error(input) if the image has none. Valid
+/// as long as the image is and keeps its channels.
 RgbView rgb_view(const Image& image, const std::string& layer = {});
 
 }  // namespace kaustik

@@ -71,7 +71,14 @@ int keep_error(TIFF*, void* user_data, const char*, const char* format, va_list 
   if (file.error.empty()) file.error = text;
   return 1;  // do not call the global handler, which prints
 }
-int drop_warning(TIFF*, void*, const char*, const char*, va_list) { return 1; }
+/// Drops it, unless the file ends before the value of a tag: without it the unit or the field of
+/// view would be wrong.
+int drop_warning(TIFF* tiff, void* user_data, const char* module, const char* format,
+                 va_list arguments) {
+  if (std::string_view(format).starts_with("IO error"))
+    return keep_error(tiff, user_data, module, format, arguments);
+  return 1;
+}
 
 struct CloseTiff {
   void operator()(TIFF* tiff) const { TIFFClose(tiff); }

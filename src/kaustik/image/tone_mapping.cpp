@@ -34,8 +34,9 @@ std::vector<Property> properties(const std::vector<std::string>& settings) {
 }  // namespace
 
 const std::vector<ToneOperatorType>& tone_operator_types() {
-  static const std::vector<ToneOperatorType> types{histogram_tone(), reinhard_tone(), aces_tone(),
-                                                   linear_tone(), srgb_tone()};
+  static const std::vector<ToneOperatorType> types{histogram_tone(), reinhard_tone(),
+                                                   aces_tone(),      linear_tone(),
+                                                   srgb_tone(),      falsecolor_tone()};
   return types;
 }
 

@@ -10,6 +10,7 @@ ToneOperatorType linear_tone();
 ToneOperatorType histogram_tone();
 ToneOperatorType reinhard_tone();
 ToneOperatorType aces_tone();
+ToneOperatorType falsecolor_tone();
 
 /// The row "exposure" that several operators have, in stops.
 Parameter exposure_parameter();
