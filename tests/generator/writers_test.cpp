@@ -17,9 +17,9 @@ TEST(PlyWriter, SizesFollowTheLayout) {
     return text.size() - (text.find("end_header\n") + 11);
   };
   constexpr size_t faces = 12 * (1 + 3 * 2);
-  EXPECT_EQ(body({.normals = false, .uvs = false}), 8 * 12 + faces);
-  EXPECT_EQ(body({.normals = true, .uvs = false}), 24 * 24 + faces);
-  EXPECT_EQ(body({.normals = true, .uvs = true}), 24 * 32 + faces);
+  EXPECT_EQ(body({.normals = Normals::flat, .uvs = false}), 8 * 12 + faces);
+  EXPECT_EQ(body({.normals = Normals::stored, .uvs = false}), 24 * 24 + faces);
+  EXPECT_EQ(body({.normals = Normals::stored, .uvs = true}), 24 * 32 + faces);
 }
 
 TEST(PlyWriter, LastBitsOfCoordinatesDontShow) {
@@ -63,7 +63,7 @@ TEST(XmlWriter, LinesKeepToAHundredColumnsAndValuesAreEscaped) {
 TEST(SceneFolder, FilesAndMeshesAreNamedOnce) {
   SceneFolder scene("hut", "A hut.");
   scene.add_bsdf("wood", object("bsdf", "diffuse"));
-  scene.add_mesh("wall", box({0, 0, 0}, {1, 1, 1}), "wood", {.normals = false});
+  scene.add_mesh("wall", box({0, 0, 0}, {1, 1, 1}), "wood", {.normals = Normals::flat});
   EXPECT_THROW(scene.write_mesh("wall", box({0, 0, 0}, {1, 1, 1})), std::logic_error);
   EXPECT_THROW(scene.shape("roof", "wood"), std::logic_error);
   const auto files = scene.files();

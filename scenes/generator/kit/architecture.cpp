@@ -149,4 +149,15 @@ std::vector<Mesh> board_floor(const Vec2d& low, const Vec2d& high, double board_
   return all_shaded(std::move(meshes));
 }
 
+std::vector<Mesh> chequered_floor(const Vec2d& low, const Vec2d& high, double slab) {
+  std::vector<Mesh> meshes(2);
+  const int nx = int(std::ceil((high.x - low.x) / slab)),
+            ny = int(std::ceil((high.y - low.y) / slab));
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i)
+      add_board(meshes[size_t(i + j) % 2], low + Vec2d(i + 0.5, j + 0.5) * slab, {1, 0},
+                {slab, slab}, low, high);
+  return all_shaded(std::move(meshes));
+}
+
 }  // namespace kaustik::scenes

@@ -42,4 +42,7 @@ std::vector<Mesh> herringbone_floor(const Vec2d& low, const Vec2d& high, double 
 std::vector<Mesh> board_floor(const Vec2d& low, const Vec2d& high, double board_length,
                               double board_width, int groups, uint64_t seed);
 
+/// Square slabs over [low, high], tops at z = 0, in two meshes like the fields of a chessboard.
+std::vector<Mesh> chequered_floor(const Vec2d& low, const Vec2d& high, double slab);
+
 }  // namespace kaustik::scenes

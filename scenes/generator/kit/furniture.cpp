@@ -170,7 +170,7 @@ Mesh amphora(double h) {
   profile.insert(profile.end(), outside.begin(), outside.end());
   profile.insert(profile.end(), {{0.12, 1.0}, {0.105, 1.0}, {0.06, 0.90}, {0.06, 0.82}, {0, 0.80}});
   for (Vec2d& p : profile) p *= h;
-  Mesh mesh = revolved(profile, 48);
+  Mesh mesh = revolved(profile, 36);
   SweepOptions round;
   round.crease_degrees = 60;
   for (const double side : {-1.0, 1.0})
@@ -191,7 +191,7 @@ Mesh bowl(double r) {
   const Curve inside = smooth_curve({{0.96, 0.75}, {0.89, 0.53}, {0.66, 0.27}, {0, 0.12}}, 6);
   profile.insert(profile.end(), inside.begin(), inside.end());
   for (Vec2d& p : profile) p *= r;
-  return revolved(profile, 48);
+  return revolved(profile, 36);
 }
 
 Curve frame_outline(double w, double d) {

@@ -16,7 +16,7 @@ using Record = std::vector<float>;
 Record record_of(const Vertex& v, const PlyLayout& layout) {
   Record record;
   for (int axis = 0; axis < 3; ++axis) record.push_back(rounded(v.position[axis], 0x1p-16));
-  if (layout.normals)
+  if (layout.normals == Normals::stored)
     for (int axis = 0; axis < 3; ++axis) record.push_back(rounded(v.normal[axis], 0x1p-10));
   if (layout.uvs) {
     record.push_back(rounded(v.uv.x, 0x1p-12));
@@ -40,7 +40,7 @@ std::string header(size_t vertices, size_t faces, const PlyLayout& layout, bool 
       fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", vertices);
   const auto property = [&](const char* name) { text += fmt::format("property float {}\n", name); };
   for (const char* name : {"x", "y", "z"}) property(name);
-  if (layout.normals)
+  if (layout.normals == Normals::stored)
     for (const char* name : {"nx", "ny", "nz"}) property(name);
   if (layout.uvs)
     for (const char* name : {"u", "v"}) property(name);

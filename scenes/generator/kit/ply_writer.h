@@ -3,10 +3,15 @@
 
 namespace kaustik::scenes {
 
-/// What a mesh file holds beside positions. Without normals it is meant to be loaded with
-/// `face_normals`, and what only differed by them becomes one vertex.
+enum class Normals {
+  stored,  ///< in the file
+  smooth,  ///< made by whoever loads it, smooth everywhere; for bodies without creases
+  flat     ///< of the faces, by `face_normals` in the scene file
+};
+
+/// What a mesh file holds beside positions. What differs only by something else becomes one vertex.
 struct PlyLayout {
-  bool normals = true;
+  Normals normals = Normals::stored;
   bool uvs = false;
 };
 

@@ -33,11 +33,13 @@ void SceneFolder::add_view(const View& view, int spp) {
   sensor.add(transform({look_at(view.origin, view.target)}));
   sensor.add(std::move(film));
   sensor.add(object("sampler", "independent", {side("sample_count", "spp")}));
-  add(std::move(sensor));
+  add(std::move(sensor).said("The camera."));
 }
 
 void SceneFolder::add_bsdf(const std::string& id, Xml bsdf) {
-  add(object("bsdf", "twosided", {std::move(bsdf)}, id));
+  const char* heading = has_bsdfs_ ? "" : "Materials.";
+  has_bsdfs_ = true;
+  add(object("bsdf", "twosided", {std::move(bsdf)}, id).said(heading));
 }
 
 void SceneFolder::write_mesh(const std::string& name, const Mesh& mesh, const PlyLayout& layout) {
@@ -52,7 +54,7 @@ Xml SceneFolder::shape(const std::string& mesh, const std::string& bsdf_id) cons
   for (const auto& [known, layout] : layouts_) {
     if (known != mesh) continue;
     Xml shape = object("shape", "ply", {text("filename", "meshes/" + mesh + ".ply")});
-    if (!layout.normals) shape.add(boolean("face_normals", true));
+    if (layout.normals == Normals::flat) shape.add(boolean("face_normals", true));
     if (!bsdf_id.empty()) shape.add(ref(bsdf_id));
     return shape;
   }

@@ -54,7 +54,10 @@ class SceneFolder {
   std::vector<SceneFile> files_;
   std::vector<std::pair<std::string, PlyLayout>> layouts_;  ///< by mesh
   size_t triangles_ = 0;
+  bool has_bsdfs_ = false;
 };
+
+inline constexpr double luminous_efficacy = 179;  ///< lm/W of white light
 
 /// Luminance of linear Rec. 709.
 double luminance(const Vec3d& rgb);

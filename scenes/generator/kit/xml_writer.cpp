@@ -76,6 +76,11 @@ Xml Xml::said(std::string comment) && {
   return std::move(*this);
 }
 
+Xml Xml::named(const std::string& name) && {
+  attributes_.emplace_back("name", name);
+  return std::move(*this);
+}
+
 std::string Xml::opening() const {
   std::string out = "<" + tag_;
   for (const auto& [name, value] : attributes_) out += " " + name + "=\"" + escaped(value) + "\"";

@@ -1,5 +1,6 @@
 #include "kit/architecture.h"
 #include "kit/furniture.h"
+#include "scenes/materials.h"
 #include "scenes/scenes.h"
 
 namespace kaustik::scenes {
@@ -8,33 +9,23 @@ namespace {
 const Vec3d low(-2.4, -2.6, 0), high(2.4, 2.2, 2.7);
 
 void add_materials(SceneFolder& scene) {
-  const auto matt = [&](const char* id, const Vec3d& color) {
-    scene.add_bsdf(id, object("bsdf", "diffuse", {rgb("reflectance", color)}));
-  };
-  matt("wall", {0.80, 0.78, 0.74});
-  matt("ceiling", {0.85, 0.84, 0.82});
-  matt("red", {0.66, 0.05, 0.035});
-  matt("clay", {0.55, 0.28, 0.17});
-  matt("earth", {0.06, 0.045, 0.035});
-  matt("leaf", {0.10, 0.24, 0.06});
-  matt("cane", {0.52, 0.39, 0.22});
-  const auto glossy = [&](const char* id, const Vec3d& color, double gloss, double exponent) {
-    scene.add_bsdf(id, object("bsdf", "phong",
-                              {rgb("diffuse_reflectance", color),
-                               gray("specular_reflectance", gloss), number("exponent", exponent)}));
-  };
-  glossy("lacquer", {0.05, 0.03, 0.025}, 0.04, 40);
-  glossy("bentwood", {0.14, 0.06, 0.03}, 0.04, 40);
-  const Vec3d oak(0.42, 0.28, 0.16);
-  for (int i = 0; i < 6; ++i)
-    glossy(("oak_" + std::to_string(i)).c_str(), oak * (0.85 + 0.15 * (i % 3)), 0.03, 60);
-  scene.add_bsdf(
-      "brass", object("bsdf", "roughconductor", {text("material", "CuZn"), number("alpha", 0.15)}));
+  Materials m(scene);
+  m.matt("wall", {0.80, 0.78, 0.74});
+  m.matt("ceiling", {0.85, 0.84, 0.82});
+  m.matt("red", {0.66, 0.05, 0.035});
+  m.matt("clay", {0.55, 0.28, 0.17});
+  m.matt("earth", {0.06, 0.045, 0.035});
+  m.matt("leaf", {0.10, 0.24, 0.06});
+  m.matt("cane", {0.52, 0.39, 0.22});
+  m.glossy("lacquer", {0.05, 0.03, 0.025}, 0.04, 40);
+  m.glossy("bentwood", {0.14, 0.06, 0.03}, 0.04, 40);
+  m.wood("oak", {0.42, 0.28, 0.16}, 6, 0.03, 60);
+  m.metal("brass", "CuZn", 0.15);
 }
 
 void add_room(SceneFolder& scene, uint64_t seed) {
   const RoomShell shell = room_shell(low, high, 0.2);
-  const PlyLayout flat{.normals = false};
+  const PlyLayout flat{.normals = Normals::flat};
   scene.add_mesh("walls", merged({shell.west, shell.east, shell.south, shell.north}), "wall", flat,
                  "The room: 4.8 m x 4.8 m, 2.7 m high, closed on all sides.");
   scene.add_mesh("ceiling", shell.ceiling, "ceiling", flat);
@@ -43,7 +34,7 @@ void add_room(SceneFolder& scene, uint64_t seed) {
       herringbone_floor({low.x, low.y}, {high.x, high.y}, 0.48, 0.08, 3, seed);
   for (size_t i = 0; i < boards.size(); ++i)
     scene.add_mesh("parquet_" + std::to_string(i), boards[i], "oak_" + std::to_string(i),
-                   {.normals = false},
+                   {.normals = Normals::flat},
                    i == 0 ? "Parquet: three kinds of boards along x, three along y." : "");
   Mesh mouldings =
       moulding_around(skirting_outline(0.12, 0.018), {low.x, low.y}, {high.x, high.y}, 0);
@@ -60,7 +51,8 @@ void add_furniture(SceneFolder& scene, uint64_t seed) {
   const Vec3d screen_at(0.32, 0.85, 0);
   scene.add_mesh("screen_frame", placed(screen.frame, -8, screen_at), "lacquer", {},
                  "The folding screen that the spotlight hits.");
-  scene.add_mesh("screen_cloth", placed(screen.cloth, -8, screen_at), "red", {.normals = false});
+  scene.add_mesh("screen_cloth", placed(screen.cloth, -8, screen_at), "red",
+                 {.normals = Normals::flat});
   scene.add_mesh("screen_hinges", placed(screen.hinges, -8, screen_at), "brass");
 
   const BentwoodChair chair = bentwood_chair();
@@ -96,8 +88,8 @@ SceneFolder make_point_spotlight(const SceneOptions& options) {
                     "outside of its cone is lit by what the screen and the floor throw back. After "
                     "figure 8.2 of R. Schregle, \"Rendering with Photon Maps\" (1998). Lengths in "
                     "metres, z is up.");
-  scene.add(object("integrator", "photonmap"));
   scene.add_view({.origin = {-0.45, -2.5, 1.35}, .target = {-0.08, 0.6, 1.02}, .fov = 60});
+  scene.add(object("integrator", "photonmap"));
   add_materials(scene);
   add_room(scene, options.seed);
   add_furniture(scene, options.seed);

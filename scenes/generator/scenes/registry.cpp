@@ -3,7 +3,14 @@
 namespace kaustik::scenes {
 
 std::span<const SceneMaker> scene_makers() {
-  static const std::vector<SceneMaker> makers = {};
+  static const std::vector<SceneMaker> makers = {
+      {"point_spotlight", "A spotlight on a red folding screen in a pale room.",
+       make_point_spotlight},
+      {"museum", "A museum's hall with lamps on its exhibits, in the evening sun.", make_museum},
+      {"gallery_1", "A gallery of pictures lit through lampshades.", make_gallery_1},
+      {"gallery_2", "A long gallery with two rows of lampshades.", make_gallery_2},
+      {"maze", "A random maze at dusk with lamps in its ways.", make_maze},
+  };
   return makers;
 }
 

@@ -21,5 +21,9 @@ struct SceneMaker {
 std::span<const SceneMaker> scene_makers();
 
 SceneFolder make_point_spotlight(const SceneOptions& options);
+SceneFolder make_museum(const SceneOptions& options);
+SceneFolder make_gallery_1(const SceneOptions& options);
+SceneFolder make_gallery_2(const SceneOptions& options);
+SceneFolder make_maze(const SceneOptions& options);
 
 }  // namespace kaustik::scenes
