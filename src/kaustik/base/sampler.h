@@ -14,7 +14,8 @@ enum class Stream : uint32_t {
   photon_place,
   light_path,
   cache,
-  training
+  training,
+  photon_shadow
 };
 
 /// 64-bit mix of two values (the finaliser of splitmix64); the base of every address.

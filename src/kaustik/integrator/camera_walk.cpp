@@ -89,7 +89,8 @@ void CameraWalk::add_background() {
 }
 
 void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probability,
-                                  const LightSampling& sampling, bool shadows) {
+                                  const LightSampling& sampling, bool shadows,
+                                  ShadowSight* sight) {
   light_choice_ = sampling.choice;
   if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
   // What nobody wants costs no shadow ray; its random numbers are drawn, so that the others stay.
@@ -101,12 +102,19 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
     if (wanted(Lobes::glossy))
       by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability);
     if (by_diffuse.is_zero() && by_glossy.is_zero()) return;
-    if (shadows) {
+    LightSight seen;
+    if (!shadows)
+      seen = {1, 0};
+    else if (sight)
+      seen = sight->of(light.light);
+    float visible = seen.known;
+    if (seen.by_ray > 0) {
       ++rays_;
-      if (scene_.occluded(light.shadow_ray)) return;
+      if (!scene_.occluded(light.shadow_ray)) visible += seen.by_ray;
     }
-    add_reflected(Lobes::diffuse, by_diffuse);
-    add_reflected(Lobes::glossy, by_glossy);
+    if (!(visible > 0)) return;
+    add_reflected(Lobes::diffuse, by_diffuse * visible);
+    add_reflected(Lobes::glossy, by_glossy * visible);
   };
   sample_direct_lights(scene_, vertex_, sampling, sampler_, take);
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include "kaustik/base/sampler.h"
 #include "kaustik/integrator/integrator.h"
+#include "kaustik/photon/shadow_map.h"
 #include "kaustik/transport/direct_light.h"
 #include "kaustik/transport/path_class.h"
 #include "kaustik/transport/path_state.h"
@@ -35,9 +36,11 @@ class CameraWalk {
 
   /// Adds light sampled at the vertex and reflected by its lobes. The probabilities are those that
   /// scatter() will be told there (0: never, then light sampling alone has to find the light).
-  /// Without `shadows` nothing holds light off.
+  /// Without `shadows` nothing holds light off; where `sight` knows whether light arrives, no shadow
+  /// ray is traced.
   void add_direct_light(float diffuse_probability, float glossy_probability,
-                        const LightSampling& sampling = {}, bool shadows = true);
+                        const LightSampling& sampling = {}, bool shadows = true,
+                        ShadowSight* sight = nullptr);
   /// Adds radiance that the vertex sends back of light that is `component` (caustic or indirect)
   /// to it; seen by a specular event it counts as specular.
   void add_photon_light(Component component, const Spectrum& radiance) {

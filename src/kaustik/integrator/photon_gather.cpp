@@ -13,8 +13,14 @@ constexpr int gather_roulette_depth = 4;
 }  // namespace
 
 PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
-                         const PhotonMaps& maps, const GatherRadii& radii)
-    : scene_(scene), settings_(settings), maps_(maps), radii_(radii) {
+                         const PhotonMaps& maps, const GatherRadii& radii, const ShadowMap* shadows,
+                         const ShadowSettings& shadow_settings)
+    : scene_(scene),
+      settings_(settings),
+      maps_(maps),
+      radii_(radii),
+      shadows_(shadows),
+      shadow_settings_(shadow_settings) {
   precomputed_ = IrradianceMap(maps.global, maps.places,
                                at_level(settings.global, radii.global, gather_level));
 }
@@ -47,14 +53,20 @@ Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes, 
   return vertex.diffuse_value() * irradiance;
 }
 
-Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes,
+Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes, int level,
                                              Sampler& sampler, uint64_t& rays) const {
   Spectrum sum;
+  ShadowSight sight(shadows_, shadow_settings_, vertex, level);
   const auto take = [&](const DirectLight& light) {
     const Spectrum reflected = vertex.eval_cosine(light.wi, lobes) * light.radiance;
     if (reflected.is_zero()) return;
-    ++rays;
-    if (!scene_.occluded(light.shadow_ray)) sum += reflected;
+    const LightSight seen = sight.of(light.light);
+    float visible = seen.known;
+    if (seen.by_ray > 0) {
+      ++rays;
+      if (!scene_.occluded(light.shadow_ray)) visible += seen.by_ray;
+    }
+    sum += reflected * visible;
   };
   sample_direct_lights(scene_, vertex, {settings_.light_choice, 1}, sampler, take);
   return sum;
@@ -76,7 +88,8 @@ RadianceSource::Incoming PhotonLight::incoming(const SurfacePoint& from, const V
     sampler.start_vertex(uint32_t(events));
     const Lobes local = vertex.lobes() & settings_.local();
     if (any(local))
-      result.radiance += throughput * (reflected_direct_light(vertex, local, sampler, rays) +
+      result.radiance += throughput * (reflected_direct_light(vertex, local, gather_level + events,
+                                                              sampler, rays) +
                                        caustic(vertex, local, gather_level + events) +
                                        gathered_global(vertex, local, gather_level + events));
     const Lobes traced = vertex.lobes() & settings_.traced();

@@ -15,9 +15,10 @@ struct GatherRadii {
 /// along gather rays. Immutable during the visualisation pass.
 class PhotonLight final : public RadianceSource {
  public:
-  /// All must outlive this.
+  /// `shadows` may be null: shadow rays alone tell what light arrives. All must outlive this.
   PhotonLight(const Scene& scene, const PhotonMapSettings& settings, const PhotonMaps& maps,
-              const GatherRadii& radii);
+              const GatherRadii& radii, const ShadowMap* shadows,
+              const ShadowSettings& shadow_settings);
 
   /// Radiance by caustic photons [L G⁺ → x] that `lobes` send back; `level` for level of detail.
   Spectrum caustic(const SurfaceVertex& vertex, Lobes lobes, int level) const;
@@ -44,13 +45,15 @@ class PhotonLight final : public RadianceSource {
   EstimateSettings at_level(const EstimateSettings& settings, float radius, int level) const;
   /// Global light at the end of a gather ray: looked up where it was computed beforehand.
   Spectrum gathered_global(const SurfaceVertex& vertex, Lobes lobes, int level) const;
-  Spectrum reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes, Sampler& sampler,
-                                  uint64_t& rays) const;
+  Spectrum reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes, int level,
+                                  Sampler& sampler, uint64_t& rays) const;
 
   const Scene& scene_;
   const PhotonMapSettings& settings_;
   const PhotonMaps& maps_;
   GatherRadii radii_;
+  const ShadowMap* shadows_;
+  const ShadowSettings& shadow_settings_;
   IrradianceMap precomputed_;
   mutable std::atomic<uint64_t> rays_{0};  ///< counts only; changes no result
 };

@@ -20,22 +20,7 @@ constexpr size_t cache_points_per_path = 4;
 /// reach into it for their neighbours, its light is counted twice. Their noise goes with the
 /// passes; for stored maps, where it does not, the radius is twice that of 95 % of the photons.
 float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
-  constexpr size_t probes = 512;
-  if (map.empty() || neighbors <= 0) return infinity;
-  std::vector<float> radii;
-  for (size_t i = 0; i < probes; ++i) {
-    const auto index = uint32_t(i * map.size() / probes);
-    const Photon& photon = map.tree().data(index);
-    KdTree<3, Vec3f, Photon>::Neighbors found;
-    map.tree().nearest(
-        map.tree().key(index), size_t(neighbors), infinity,
-        [&](uint32_t other) { return map.tree().data(other).side.same_side(photon.side); }, found);
-    radii.push_back(std::sqrt(found.farthest_sq()));
-  }
-  const auto quantile = radii.begin() + std::ptrdiff_t(radii.size() * (stored ? 95 : 75) / 100);
-  std::nth_element(radii.begin(), quantile, radii.end());
-  // Too few photons to tell, or all at one place.
-  return *quantile > 0 ? (stored ? 2 : 1) * *quantile : infinity;
+  return stored ? 2 * map.typical_radius(neighbors, 0.95f) : map.typical_radius(neighbors, 0.75f);
 }
 
 /// The walk's vertex as the cache sees it.
@@ -48,6 +33,8 @@ CachePoint cache_point_of(const CameraWalk& walk) {
 
 struct PhotonMapIntegrator::State final : PassState {
   std::shared_ptr<const PhotonMaps> maps;
+  std::unique_ptr<ShadowMap> shadows;  ///< null: shadow rays alone
+  ShadowSettings shadow_settings;
   std::unique_ptr<PhotonLight> light;
   std::unique_ptr<IrradianceCache> cache;  ///< null: not used
 };
@@ -118,10 +105,12 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
   state->maps = maps_of(pass, state->report, stop, [&](double share) {
     if (progress) progress(0.5 * share);
   });
+  add_shadow_photons(*state, pass, stop);
   // Stored maps are the same in every pass: shrinking their radii would trade bias for noise that
   // no number of passes removes.
   state->light = std::make_unique<PhotonLight>(
-      scene(), settings_, *state->maps, pass_radii(*state->maps, stored_maps_ ? 0 : pass.index));
+      scene(), settings_, *state->maps, pass_radii(*state->maps, stored_maps_ ? 0 : pass.index),
+      state->shadows.get(), state->shadow_settings);
   const bool wants_indirect = settings_.components.has(Component::indirect) ||
                               settings_.components.has(Component::specular);
   if (settings_.cache && wants_indirect && settings_.global.neighbors > 0)
@@ -130,6 +119,21 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
     });
   state->report.rays += state->light->rays();
   return state;
+}
+
+void PhotonMapIntegrator::add_shadow_photons(State& state, const Pass& pass,
+                                             std::stop_token stop) const {
+  if (settings_.shadow_photons == 0) return;
+  ShadowReport report;
+  state.shadows = std::make_unique<ShadowMap>(
+      trace_shadow_photons(scene_, settings_.shadow_photons, pass.seed, pass.index, stop, report));
+  state.report.rays += report.rays;
+  state.report.photons += state.shadows->size();
+  state.shadow_settings = settings_.shadows;
+  const float first = settings_.shadow_radius > 0 ? settings_.shadow_radius
+                                                  : state.shadows->tree().typical_radius(
+                                                        settings_.shadows.neighbors, 0.75f);
+  state.shadow_settings.maximum_radius = pass_radius(first, pass.index);
 }
 
 void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_token stop,
@@ -195,7 +199,9 @@ bool PhotonMapIntegrator::reflect(const PassState& pass_state, CameraWalk& walk,
   const bool traces_glossy = settings_.specular_sampling == SpecularSampling::importance;
   const int lights =
       std::max(1, int(float(settings_.light_samples) * settings_.level_scale(walk.events())));
-  walk.add_direct_light(0, traces_glossy ? float(rays) : 0.0f, {settings_.light_choice, lights});
+  ShadowSight sight(state.shadows.get(), state.shadow_settings, walk.vertex(), walk.events());
+  walk.add_direct_light(0, traces_glossy ? float(rays) : 0.0f, {settings_.light_choice, lights},
+                        &sight);
   add_photon_light(state, walk);
   if (rays == 0) return false;
   if (rays == 1) return scatter_specular(walk, 1);

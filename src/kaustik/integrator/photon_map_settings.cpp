@@ -128,6 +128,23 @@ std::vector<Parameter> parameters() {
                         "Shadow rays per camera sample; where every light is sampled, they are "
                         "shared among the lights by incident flux, and each has one at least.")
           .range(1, 4096),
+      integer_parameter("shadow_photons", 0,
+                        "Rays to emit in a pass for shadow photons, over all lights: where all of "
+                        "a light's photons nearby are lit, or all are in shadow, no shadow ray is "
+                        "traced (biased: shadows get coarse edges, less so in later passes); 0: "
+                        "shadow rays alone.")
+          .range(0, 2000000000),
+      integer_parameter("shadow_neighbors", 50, "Shadow photons to find, of all lights together.")
+          .range(1, 100000),
+      number_parameter("shadow_radius", 0,
+                       "Largest search radius for shadow photons in the first pass, it shrinks in "
+                       "later ones; 0: what is enough for three quarters of the photons.")
+          .range(0, 1e30)
+          .in("m"),
+      integer_parameter("shadow_accurate_levels", 1,
+                        "Recursion levels that trace shadow rays in penumbrae; deeper ones, gather "
+                        "rays among them, take the share of the lit photons.")
+          .range(0, 1 << 20),
       integer_parameter("diffuse_samples", 4,
                         "Gather rays per camera sample where the irradiance cache does not serve "
                         "[numDiffuse].")
@@ -220,6 +237,10 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   global_radius = read.number("global_radius");
   light_choice = read.text("light_sampling") == "all" ? LightChoice::all : LightChoice::one;
   light_samples = int(read.integer("light_samples"));
+  shadow_photons = uint32_t(read.integer("shadow_photons"));
+  shadows.neighbors = int(read.integer("shadow_neighbors"));
+  shadows.accurate_levels = int(read.integer("shadow_accurate_levels"));
+  shadow_radius = read.number("shadow_radius");
   diffuse_samples = int(read.integer("diffuse_samples"));
   gather_theta_cells = int(read.integer("importance_theta_cells"));
   gather_phi_cells = int(read.integer("importance_phi_cells"));

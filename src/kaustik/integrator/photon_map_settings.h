@@ -1,6 +1,7 @@
 #pragma once
 #include "kaustik/irradiance/irradiance_cache.h"
 #include "kaustik/photon/light_pass.h"
+#include "kaustik/photon/shadow_pass.h"
 #include "kaustik/transport/component.h"
 #include "kaustik/transport/direct_light.h"
 
@@ -28,7 +29,10 @@ struct PhotonMapSettings {
 
   LightChoice light_choice = LightChoice::one;
   int light_samples = 1;
-  int diffuse_samples = 0;  ///< gather rays per camera sample where the cache does not serve
+  uint32_t shadow_photons = 0;  ///< rays to emit for them; 0: none
+  ShadowSettings shadows;       ///< without the radius, which is each pass's own
+  float shadow_radius = 0;      ///< cap of pass 0, m; 0: from the photons
+  int diffuse_samples = 0;      ///< gather rays per camera sample where the cache does not serve
   int importance_photons = 50;
   int gather_theta_cells = 3, gather_phi_cells = 14;
   bool importance_by_average = false;  ///< cells weighted by mean flux instead of summed flux

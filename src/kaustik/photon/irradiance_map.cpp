@@ -5,7 +5,7 @@ namespace kaustik {
 IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide>& places,
                              const EstimateSettings& settings) {
   if (map.empty() || settings.neighbors <= 0) return;
-  maximum_radius_sq_ = sqr(settings.maximum_radius);
+  maximum_radius_ = settings.maximum_radius;
   std::vector<Vec3f> positions(places.size());
   std::vector<Entry> entries(places.size());
   parallel_blocks(places.size(), 256, [&](size_t begin, size_t end, size_t) {
@@ -18,17 +18,15 @@ IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide
       entries[i].side = places[i].side;
     }
   });
-  tree_.assign(std::move(positions), std::move(entries));
+  tree_ = {std::move(positions), std::move(entries)};
 }
 
 bool IrradianceMap::lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance) const {
   if (empty()) return false;
-  static thread_local KdTree<3, Vec3f, Entry>::Neighbors neighbors;
-  tree_.nearest(
-      position, 1, maximum_radius_sq_,
-      [&](uint32_t index) { return tree_.data(index).side.dot(side) > 0; }, neighbors);
+  static thread_local SidedTree<Entry>::Neighbors neighbors;
+  tree_.nearest(position, side, false, 1, maximum_radius_, neighbors);
   if (neighbors.empty()) return false;
-  const Entry& entry = tree_.data(neighbors.index(0));
+  const Entry& entry = tree_.tree().data(neighbors.index(0));
   irradiance = {entry.irradiance[0], entry.irradiance[1], entry.irradiance[2], entry.irradiance[3]};
   return true;
 }

@@ -32,9 +32,10 @@ class IrradianceMap {
   struct Entry {
     std::array<float, Spectrum::lane_count> irradiance{};
     CoarseNormal side;
+    uint8_t on_front = 1;  ///< places ask for their own side alone
   };
-  KdTree<3, Vec3f, Entry> tree_;
-  float maximum_radius_sq_ = 0;
+  SidedTree<Entry> tree_;
+  float maximum_radius_ = 0;
 };
 
 }  // namespace kaustik

@@ -60,10 +60,7 @@ PhotonMap::PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons) 
   double sum = 0;
   for (const Photon& photon : photons) sum += photon.flux_spectrum().max_lane();
   mean_flux_ = photons.empty() ? 0 : float(sum / double(photons.size()));
-  tree_.assign(std::move(positions), std::move(photons));
-  sides_.reserve(tree_.size());
-  for (const Photon& photon : tree_.data())
-    sides_.add(photon.side.x(), photon.side.y(), photon.side.z(), photon.on_front != 0);
+  tree_ = {std::move(positions), std::move(photons)};
 }
 
 PhotonMap::Neighbors& PhotonMap::workspace() {
@@ -71,21 +68,12 @@ PhotonMap::Neighbors& PhotonMap::workspace() {
   return neighbors;
 }
 
-void PhotonMap::find(const Vec3f& position, const Vec3f& normal, bool both_sides, int count,
-                     float maximum_radius, Neighbors& neighbors) const {
-  const PhotonSides::Query query = PhotonSides::query(normal, both_sides);
-  const auto accept = [&](uint32_t first, uint32_t mask) {
-    return sides_.accept(query, first, mask);
-  };
-  tree_.nearest(position, size_t(count), sqr(maximum_radius), accept, neighbors);
-}
-
 DensityEstimate PhotonMap::irradiance(const Vec3f& position, const Vec3f& side,
                                       const EstimateSettings& settings) const {
   DensityEstimate estimate;
   if (settings.neighbors <= 0 || empty()) return estimate;
   Neighbors& neighbors = workspace();
-  find(position, side, false, settings.neighbors, settings.maximum_radius, neighbors);
+  tree_.nearest(position, side, false, settings.neighbors, settings.maximum_radius, neighbors);
   const Disk disk = disk_of(neighbors, settings.maximum_radius);
   estimate.found = int(neighbors.size());
   estimate.radius = std::sqrt(disk.radius_sq);
@@ -93,7 +81,7 @@ DensityEstimate PhotonMap::irradiance(const Vec3f& position, const Vec3f& side,
   const KernelWeight weight(settings, disk.radius_sq);
   for (size_t i = 0; i < disk.count; ++i)
     estimate.value +=
-        tree_.data(neighbors.index(i)).flux_spectrum() * weight(neighbors.distance_sq(i));
+        tree().data(neighbors.index(i)).flux_spectrum() * weight(neighbors.distance_sq(i));
   return estimate;
 }
 
@@ -117,8 +105,8 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   if (settings.neighbors <= 0 || empty()) return estimate;
   Neighbors& neighbors = workspace();
   const bool both_sides = vertex.bsdf().transmits();
-  find(vertex.position(), both_sides ? vertex.point().ng : side, both_sides, settings.neighbors,
-       settings.maximum_radius, neighbors);
+  tree_.nearest(vertex.position(), both_sides ? vertex.point().ng : side, both_sides,
+                settings.neighbors, settings.maximum_radius, neighbors);
   const Disk disk = disk_of(neighbors, settings.maximum_radius);
   estimate.found = int(neighbors.size());
   estimate.radius = std::sqrt(disk.radius_sq);
@@ -126,8 +114,8 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   const KernelWeight weight(settings, disk.radius_sq);
   for (size_t i = 0; i < disk.count; ++i) {
     const uint32_t index = neighbors.index(i);
-    const Photon& photon = tree_.data(index);
-    const Vec3f wi = photon.incident_direction(tree_.key(index), vertex.position());
+    const Photon& photon = tree().data(index);
+    const Vec3f wi = photon.incident_direction(tree().key(index), vertex.position());
     estimate.value +=
         vertex.eval(wi, asked) * photon.flux_spectrum() * weight(neighbors.distance_sq(i));
   }

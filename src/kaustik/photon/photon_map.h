@@ -1,9 +1,7 @@
 #pragma once
 #include <string>
 
-#include "kaustik/photon/kd_tree.h"
-#include "kaustik/photon/photon.h"
-#include "kaustik/photon/photon_sides.h"
+#include "kaustik/photon/sided_tree.h"
 #include "kaustik/transport/vertex.h"
 
 namespace kaustik {
@@ -41,10 +39,14 @@ class PhotonMap {
 
   size_t size() const { return tree_.size(); }
   bool empty() const { return tree_.empty(); }
-  size_t size_in_bytes() const { return tree_.size_in_bytes() + sides_.size_in_bytes(); }
+  size_t size_in_bytes() const { return tree_.size_in_bytes(); }
   /// Mean over photons of the largest lane of flux, W.
   float mean_flux() const { return mean_flux_; }
-  const KdTree<3, Vec3f, Photon>& tree() const { return tree_; }
+  const KdTree<3, Vec3f, Photon>& tree() const { return tree_.tree(); }
+  /// See SidedTree.
+  float typical_radius(int neighbors, float quantile) const {
+    return tree_.typical_radius(neighbors, quantile);
+  }
 
   /// Irradiance on the side of `vertex` from which it is seen. Photons that arrived on the other
   /// side are rejected during the search.
@@ -63,21 +65,16 @@ class PhotonMap {
   void visit_nearest(const Vec3f& position, const Vec3f& side, int count, float maximum_radius,
                      const Visit& visit) const {
     auto& neighbors = workspace();
-    find(position, side, false, count, maximum_radius, neighbors);
+    tree_.nearest(position, side, false, count, maximum_radius, neighbors);
     for (size_t i = 0; i < neighbors.size(); ++i)
-      visit(tree_.data(neighbors.index(i)), tree_.key(neighbors.index(i)));
+      visit(tree().data(neighbors.index(i)), tree().key(neighbors.index(i)));
   }
 
  private:
-  using Neighbors = KdTree<3, Vec3f, Photon>::Neighbors;
+  using Neighbors = SidedTree<Photon>::Neighbors;
   static Neighbors& workspace();
-  /// Photons that arrived on the side of `normal`, or (`both_sides`) on either side of a surface
-  /// whose own normal lies in the half space of `normal`.
-  void find(const Vec3f& position, const Vec3f& normal, bool both_sides, int count,
-            float maximum_radius, Neighbors& neighbors) const;
 
-  KdTree<3, Vec3f, Photon> tree_;
-  PhotonSides sides_;  ///< in the tree's order
+  SidedTree<Photon> tree_;
   float mean_flux_ = 0;
 };
 

@@ -42,21 +42,33 @@ bool sample_direct_light_of(const Scene& scene, const SurfaceVertex& vertex, int
   return true;
 }
 
-int light_sample_count(const Scene& scene, const SurfaceVertex& vertex, int light, int samples) {
-  const float share =
-      scene.light_selector().probability(vertex.position(), selection_normal(vertex), light);
-  return share > 0 ? std::max(1, int(std::lround(share * float(samples)))) : 0;
+void share_light_samples(const Scene& scene, const SurfaceVertex& vertex, int samples,
+                         std::vector<int>& counts) {
+  static thread_local std::vector<float> irradiances;
+  const LightQuery query(vertex.position(), selection_normal(vertex));
+  irradiances.clear();
+  double total = 0;
+  for (const auto& light : scene.lights()) {
+    irradiances.push_back(light->expected_irradiance(query));
+    total += double(irradiances.back());
+  }
+  counts.assign(irradiances.size(), 0);
+  for (size_t i = 0; i < counts.size(); ++i)
+    if (irradiances[i] > 0)
+      counts[i] = std::max(1, int(std::lround(double(irradiances[i]) / total * samples)));
 }
 
 namespace {
 
-/// Chance, or expected number, of samples that go to this light.
+/// The light's chance with LightChoice::one; else whether it is sampled at all. How many samples it
+/// gets is left out of the weights, here as there: they only have to agree.
 float choice_factor(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
                     int light) {
-  const float probability =
-      scene.light_selector().probability(vertex.position(), selection_normal(vertex), light);
-  // The number of samples is left out of the weights, here as there: they only have to agree.
-  return choice == LightChoice::one ? probability : (probability > 0 ? 1.0f : 0.0f);
+  const Vec3f normal = selection_normal(vertex);
+  if (choice == LightChoice::one)
+    return scene.light_selector().probability(vertex.position(), normal, light);
+  const Light& of = *scene.lights()[size_t(light)];
+  return of.expected_irradiance({vertex.position(), normal}) > 0 ? 1.0f : 0.0f;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 #include <utility>
+#include <vector>
 
 #include "kaustik/base/sampler.h"
 #include "kaustik/transport/vertex.h"
@@ -26,8 +27,7 @@ enum class LightChoice {
 /// How many samples of direct light a vertex takes.
 struct LightSampling {
   LightChoice choice = LightChoice::one;
-  /// With LightChoice::all shared among the lights by the flux that they may send; each has one at
-  /// least. At least 1.
+  /// With LightChoice::all shared among the lights, see share_light_samples. At least 1.
   int samples = 1;
 };
 
@@ -37,8 +37,10 @@ bool sample_direct_light(const Scene& scene, const SurfaceVertex& vertex, Sample
 /// Samples light `light`; false if nothing can arrive.
 bool sample_direct_light_of(const Scene& scene, const SurfaceVertex& vertex, int light,
                             const Vec2f& u, DirectLight& result);
-/// How many of `samples` light `light` gets with LightChoice::all; 0 where it can't reach.
-int light_sample_count(const Scene& scene, const SurfaceVertex& vertex, int light, int samples);
+/// How many of `samples` each light gets with LightChoice::all: in proportion to the irradiance
+/// that it may bring, at least one, and none where no light can arrive.
+void share_light_samples(const Scene& scene, const SurfaceVertex& vertex, int samples,
+                         std::vector<int>& counts);
 
 /// Calls `take(const DirectLight&)` for every sample that may bring light. Their radiances are
 /// already divided by the numbers of samples: what they reflect, summed, is the estimate. At most
@@ -91,8 +93,10 @@ void sample_direct_lights(const Scene& scene, const SurfaceVertex& vertex,
     }
     return;
   }
-  for (size_t i = 0; i < scene.lights().size(); ++i) {
-    const int count = light_sample_count(scene, vertex, int(i), sampling.samples);
+  static thread_local std::vector<int> counts;
+  share_light_samples(scene, vertex, sampling.samples, counts);
+  for (size_t i = 0; i < counts.size(); ++i) {
+    const int count = counts[i];
     const Sampler of_light = sampler.fork(uint32_t(i));
     for (int k = 0; k < count; ++k) {
       Sampler branch = count == 1 ? of_light : of_light.split(0, uint32_t(k));

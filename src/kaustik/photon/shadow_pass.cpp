@@ -1,0 +1,94 @@
+#include "kaustik/photon/shadow_pass.h"
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/base/sampler.h"
+
+namespace kaustik {
+namespace {
+
+constexpr uint32_t rays_per_block = 2048;
+
+/// Rays of one light, `begin` to `end` of it, and what they left.
+struct Block {
+  int light;
+  uint32_t begin, end;
+  std::vector<Vec3f> positions{};
+  std::vector<ShadowPhoton> photons{};
+  uint64_t rays = 0, emitted = 0, lit = 0;
+};
+
+std::vector<Block> blocks_of(const std::vector<uint32_t>& shares) {
+  std::vector<Block> blocks;
+  for (size_t light = 0; light < shares.size(); ++light)
+    for (uint32_t begin = 0; begin < shares[light]; begin += rays_per_block)
+      blocks.push_back({int(light), begin, std::min(shares[light], begin + rays_per_block)});
+  return blocks;
+}
+
+void store(const SurfacePoint& point, const Vec3f& direction, bool shadowed, Block& block) {
+  const bool on_front = dot(direction, point.ng) < 0;
+  ShadowPhoton photon;
+  photon.side = CoarseNormal(on_front ? point.ng : -point.ng);
+  photon.on_front = on_front;
+  photon.light = uint32_t(block.light) & 0x7fffffffu;
+  photon.shadowed = shadowed;
+  block.positions.push_back(point.position);
+  block.photons.push_back(photon);
+  if (!shadowed) ++block.lit;
+}
+
+/// Through all surfaces until the ray leaves the scene.
+void follow(const Scene& scene, Ray ray, Block& block) {
+  Hit hit;
+  for (bool shadowed = false;; shadowed = true) {
+    ++block.rays;
+    if (!scene.intersect(ray, hit)) return;
+    const SurfacePoint point = scene.tracer().surface_point(ray, hit);
+    if (any(scene.surface(point.shape).bsdf->lobes() & (Lobes::diffuse | Lobes::glossy)))
+      store(point, ray.direction, shadowed, block);
+    ray = spawn_ray(point, ray.direction);
+  }
+}
+
+void trace(const Scene& scene, const EmissionSampler& emission, uint64_t seed, uint32_t pass,
+           Block& block) {
+  for (uint32_t i = block.begin; i < block.end; ++i) {
+    Sampler sampler = Sampler::at(seed, pass, Stream::photon_shadow, uint64_t(block.light), i);
+    const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
+    const EmittedRay emitted =
+        emission.sample(block.light, u_position, u_direction, sampler.next_1d());
+    if (emitted.flux.is_zero()) continue;
+    ++block.emitted;
+    follow(scene, emitted.ray, block);
+  }
+}
+
+}  // namespace
+
+ShadowMap trace_shadow_photons(const Scene& scene, uint32_t count, uint64_t seed, uint32_t pass,
+                               std::stop_token stop, ShadowReport& report) {
+  std::vector<double> powers;
+  for (const auto& light : scene.lights()) powers.push_back(double(light->power().sum()));
+  report = {};
+  report.lights.resize(powers.size());
+  if (count == 0) return {};
+  std::vector<Block> blocks = blocks_of(share_photons(count, powers, powers));
+  const EmissionSampler emission(scene);
+  parallel_blocks(blocks.size(), 1, [&](size_t i, size_t, size_t) {
+    if (!stop.stop_requested()) trace(scene, emission, seed, pass, blocks[i]);
+  });
+  std::vector<Vec3f> positions;
+  std::vector<ShadowPhoton> photons;
+  for (const Block& block : blocks) {
+    ShadowCounts& counts = report.lights[size_t(block.light)];
+    counts.emitted += block.emitted;
+    counts.lit += block.lit;
+    counts.shadowed += block.photons.size() - block.lit;
+    report.rays += block.rays;
+    positions.insert(positions.end(), block.positions.begin(), block.positions.end());
+    photons.insert(photons.end(), block.photons.begin(), block.photons.end());
+  }
+  return {std::move(positions), std::move(photons)};
+}
+
+}  // namespace kaustik
