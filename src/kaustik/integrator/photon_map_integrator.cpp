@@ -126,7 +126,7 @@ void PhotonMapIntegrator::add_shadow_photons(State& state, const Pass& pass,
   if (settings_.shadow_photons == 0) return;
   ShadowReport report;
   state.shadows = std::make_unique<ShadowMap>(
-      trace_shadow_photons(scene_, settings_.shadow_photons, pass.seed, pass.index, stop, report));
+      trace_shadow_photons(scene(), settings_.shadow_photons, pass.seed, pass.index, stop, report));
   state.report.rays += report.rays;
   state.report.photons += state.shadows->size();
   state.shadow_settings = settings_.shadows;
