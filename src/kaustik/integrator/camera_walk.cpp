@@ -89,8 +89,7 @@ void CameraWalk::add_background() {
 }
 
 void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probability,
-                                  const LightSampling& sampling, bool shadows,
-                                  ShadowSight* sight) {
+                                  const LightSampling& sampling, bool shadows, ShadowSight* sight) {
   light_choice_ = sampling.choice;
   if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
   // What nobody wants costs no shadow ray; its random numbers are drawn, so that the others stay.

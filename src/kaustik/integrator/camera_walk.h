@@ -36,8 +36,8 @@ class CameraWalk {
 
   /// Adds light sampled at the vertex and reflected by its lobes. The probabilities are those that
   /// scatter() will be told there (0: never, then light sampling alone has to find the light).
-  /// Without `shadows` nothing holds light off; where `sight` knows whether light arrives, no shadow
-  /// ray is traced.
+  /// Without `shadows` nothing holds light off; where `sight` knows whether light arrives, no
+  /// shadow ray is traced.
   void add_direct_light(float diffuse_probability, float glossy_probability,
                         const LightSampling& sampling = {}, bool shadows = true,
                         ShadowSight* sight = nullptr);

@@ -201,7 +201,7 @@ bool PhotonMapIntegrator::reflect(const PassState& pass_state, CameraWalk& walk,
       std::max(1, int(float(settings_.light_samples) * settings_.level_scale(walk.events())));
   ShadowSight sight(state.shadows.get(), state.shadow_settings, walk.vertex(), walk.events());
   walk.add_direct_light(0, traces_glossy ? float(rays) : 0.0f, {settings_.light_choice, lights},
-                        &sight);
+                        true, &sight);
   add_photon_light(state, walk);
   if (rays == 0) return false;
   if (rays == 1) return scatter_specular(walk, 1);
