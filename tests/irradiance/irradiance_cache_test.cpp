@@ -27,7 +27,7 @@ constexpr int resolution = 100;
 const Vec3f up(0, 0, 1);
 
 CachePoint cache_point(const Vec3f& position, const Vec3f& normal, float pixel_width = 0) {
-  return {surface_point(position, normal), normal, pixel_width};
+  return {surface_point(position, normal), normal, pixel_width, 1};
 }
 
 /// A square grid of points on the plane z = 0 over [0, 1]².
@@ -63,8 +63,10 @@ std::vector<CachePoint> room_points(int n) {
   return points;
 }
 
-CacheSettings settings_with(float quality, int samples) {
+CacheSettings settings_with(float quality, int samples,
+                            CacheMetric metric = CacheMetric::split_sphere) {
   CacheSettings settings;
+  settings.metric = metric;
   settings.quality = quality;
   settings.hemisphere.samples = samples;
   return settings;
@@ -126,23 +128,40 @@ double floor_error(const CacheSettings& settings, size_t* records = nullptr) {
   return std::sqrt(sum / double(probes.size()));
 }
 
-TEST(irradiance_cache, error_falls_with_quality) {
+void expect_error_falls(CacheMetric metric, const float (&qualities)[3]) {
   size_t coarse_records, medium_records, fine_records;
-  const double coarse = floor_error(settings_with(0.6f, 2500), &coarse_records);
-  const double medium = floor_error(settings_with(0.3f, 2500), &medium_records);
-  const double fine = floor_error(settings_with(0.1f, 2500), &fine_records);
+  const double coarse = floor_error(settings_with(qualities[0], 2500, metric), &coarse_records);
+  const double medium = floor_error(settings_with(qualities[1], 2500, metric), &medium_records);
+  const double fine = floor_error(settings_with(qualities[2], 2500, metric), &fine_records);
   EXPECT_LT(coarse_records, medium_records);
   EXPECT_LT(medium_records, fine_records);
   EXPECT_LT(medium, 0.7 * coarse);
   EXPECT_LT(fine, 0.7 * medium);
-  EXPECT_LT(fine, 0.01);
+  EXPECT_LT(fine, 0.015);
+}
+
+TEST(irradiance_cache, error_falls_with_quality) {
+  expect_error_falls(CacheMetric::split_sphere, {0.6f, 0.3f, 0.1f});
+  expect_error_falls(CacheMetric::hessian, {2.4f, 1.2f, 0.6f});
 }
 
 TEST(irradiance_cache, gradients_make_it_better) {
-  CacheSettings settings = settings_with(0.3f, 2500);
-  const double with = floor_error(settings);
-  settings.gradients = false;
-  EXPECT_LT(with, 0.7 * floor_error(settings));
+  for (const CacheMetric metric : {CacheMetric::split_sphere, CacheMetric::hessian}) {
+    CacheSettings settings = settings_with(0.3f, 2500, metric);
+    const double with = floor_error(settings);
+    settings.gradients = false;
+    EXPECT_LT(with, 0.7 * floor_error(settings));
+  }
+}
+
+TEST(irradiance_cache, hessian_spends_records_better) {
+  size_t by_distance, by_hessian;
+  const double error_by_distance =
+      floor_error(settings_with(0.25f, 2500, CacheMetric::split_sphere), &by_distance);
+  const double error_by_hessian =
+      floor_error(settings_with(0.6f, 2500, CacheMetric::hessian), &by_hessian);
+  EXPECT_LE(by_hessian, by_distance * 13 / 10);
+  EXPECT_LT(error_by_hessian, 0.7 * error_by_distance);
 }
 
 TEST(irradiance_cache, neighbours_clamp_and_minimum_distances_are_shorter) {

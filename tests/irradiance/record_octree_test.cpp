@@ -12,7 +12,8 @@ namespace {
 
 constexpr float tolerance = 0.3f;
 
-/// Random records near the unit sphere, `clustered` all at nearly one place.
+/// Random records near the unit sphere, `clustered` all at nearly one place; half of them serve
+/// less far in one direction.
 std::vector<CacheRecord> random_records(uint32_t count, bool clustered) {
   std::vector<CacheRecord> records(count);
   for (uint32_t i = 0; i < count; ++i) {
@@ -21,6 +22,11 @@ std::vector<CacheRecord> random_records(uint32_t count, bool clustered) {
     r.normal = square_to_sphere(clustered ? s.next_2d() * 0.05f : s.next_2d());
     r.position = clustered ? Vec3f(s.next_1d(), s.next_1d(), s.next_1d()) * 1e-3f : r.normal;
     r.reach = 0.01f + 0.3f * std::pow(s.next_1d(), 3.0f);
+    if (i % 2 == 0) {
+      const float aspect = 1 + 4 * s.next_1d();
+      const Vec3f axis = Frame(r.normal).to_world(Vec3f(0.6f, 0.8f, 0));
+      r.squeeze = axis * (std::sqrt(sqr(aspect) - 1) / r.reach);
+    }
     r.irradiance = Spectrum(1 + s.next_1d(), s.next_1d(), 0, 0);
     for (int axis = 0; axis < 3; ++axis) {
       r.per_metre[axis] = Spectrum(s.next_1d() - 0.5f);
@@ -29,6 +35,8 @@ std::vector<CacheRecord> random_records(uint32_t count, bool clustered) {
   }
   return records;
 }
+
+double sqr_of(double x) { return x * x; }
 
 /// The definition in the header, record by record.
 struct BruteForce {
@@ -42,9 +50,10 @@ struct BruteForce {
       const Vec3f d = p - r.position;
       const double height = 0.5 * double(dot(d, n + r.normal));
       const double factor = height < 0 ? 10 : 3;
-      const double error_sq =
-          (double(length_sq(d)) + factor * factor * height * height) / double(sqr(r.reach)) +
-          (1 - double(dot(n, r.normal))) / double(sqr(tolerance));
+      const double minor_sq = 1 / (1 / double(sqr(r.reach)) + double(length_sq(r.squeeze)));
+      const double error_sq = double(length_sq(d)) / double(sqr(r.reach)) +
+                              double(sqr(dot(d, r.squeeze))) + sqr_of(factor * height) / minor_sq +
+                              (1 - double(dot(n, r.normal))) / double(sqr(tolerance));
       best = std::min(best, error_sq);
       if (error_sq >= limit * limit) continue;
       const double w = std::pow(1 - error_sq / (limit * limit), 2);
@@ -75,6 +84,9 @@ void compare_with_brute_force(const std::vector<CacheRecord>& records, float sca
       }
       if (std::fabs(expected.best - 1) > 1e-4) {
         EXPECT_EQ(octree.serves(p, n), expected.best < 1);
+      }
+      if (std::fabs(expected.best - 2) > 1e-4) {
+        EXPECT_EQ(octree.serves(p, n, std::sqrt(2.0f)), expected.best < 2);
       }
     }
     served += octree.serves(p, n);
@@ -113,19 +125,22 @@ TEST(record_octree, a_point_that_is_no_number_finds_nothing) {
 }
 
 TEST(neighbor_clamping, keeps_the_slope_below_one_and_takes_no_more) {
-  const auto records = random_records(203, false);
-  NeighborClamping clamping;
-  for (const CacheRecord& r : records)
-    clamping.add(r.position, r.normal, r.reach > 0.2f ? infinity : r.reach);
+  const auto records = random_records(503, false);
+  const auto distance = [](const CacheRecord& r) { return r.reach > 0.2f ? infinity : r.reach; };
+  std::vector<NeighborClamping::Site> sites;
+  for (const CacheRecord& r : records) sites.push_back({r.position, r.normal, distance(r)});
+  const NeighborClamping clamping(sites);
+  int lowered = 0;
   for (const CacheRecord& r : records) {
-    const float own = r.reach > 0.2f ? infinity : r.reach;
-    float expected = own;
+    float expected = distance(r);
     for (const CacheRecord& other : records)
-      if (dot(r.normal, other.normal) >= 0 && other.reach <= 0.2f)
-        expected = std::min(expected, other.reach + length(r.position - other.position));
-    EXPECT_NEAR(clamping.clamped(r.position, r.normal, own, 0), expected, 1e-6f);
-    EXPECT_EQ(clamping.clamped(r.position, r.normal, own, records.size() + 1), own);
+      if (dot(r.normal, other.normal) >= 0)
+        expected = std::min(expected, distance(other) + length(r.position - other.position));
+    EXPECT_EQ(clamping.clamped(r.position, r.normal, distance(r)), expected);
+    lowered += expected < distance(r);
   }
+  EXPECT_GT(lowered, 100);
+  EXPECT_EQ(NeighborClamping({}).clamped({0, 0, 0}, {0, 0, 1}, 3), 3);
 }
 
 TEST(spaced_subset, keeps_apart_and_leaves_no_gaps) {

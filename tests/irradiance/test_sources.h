@@ -93,4 +93,22 @@ class RectangleSource : public RadianceSource {
   }
 };
 
+/// A plane that glows evenly high above, half hidden by a black rectangle in front of it.
+class HiddenSkySource : public RadianceSource {
+ public:
+  RectangleSource screen;
+  float sky_height = 3;
+
+  Incoming incoming(const SurfacePoint& from, const Vec3f& d, Sampler& sampler) const override {
+    const Incoming hit = screen.incoming(from, d, sampler);
+    if (!hit.radiance.is_zero()) return {Spectrum(), hit.distance};
+    return {Spectrum(1), (sky_height - from.position.z) / d.z};
+  }
+
+  /// Irradiance while the normal looks straight at the plane.
+  double irradiance(const Vec3d& at, const Vec3d& normal) const {
+    return double(pi) - screen.form_integral(at, normal);
+  }
+};
+
 }  // namespace kaustik::test

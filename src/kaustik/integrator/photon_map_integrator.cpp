@@ -26,7 +26,7 @@ float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
 /// The walk's vertex as the cache sees it.
 CachePoint cache_point_of(const CameraWalk& walk) {
   const SurfaceVertex& vertex = walk.vertex();
-  return {vertex.point(), vertex.facing_normal(), 2 * walk.footprint()};
+  return {vertex.point(), vertex.facing_normal(), 2 * walk.footprint(), 1};
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ class PresetReader {
         {"precompute_stride", int64_t{0}},
         {"irradiance_cache", false},
         {"light_sampling", std::string("all")},
+        {"cache_metric", std::string("split_sphere")},
     };
     if (!thesis_ || arguments_.given(name)) return nullptr;
     for (const auto& [key, value] : table)
@@ -182,6 +183,9 @@ std::vector<Parameter> parameters() {
       boolean_parameter("irradiance_cache", true,
                         "Interpolate diffuse indirect light between points where it was gathered."),
       integer_parameter("cache_samples", 128, "Gather rays per cache record.").range(4, 1000000),
+      choice_parameter("cache_metric", "hessian", {"split_sphere", "hessian"},
+                       "What tells how far a record of the cache serves: the distance of what it "
+                       "sees [the thesis's], or the second derivative of the irradiance."),
       number_parameter("cache_quality", 0.25,
                        "Allowed error of the cache in the first pass: lower is denser. It shrinks "
                        "in later ones as the search radii do, and so do the spacings.")
@@ -261,6 +265,8 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   samples_per_pass = uint32_t(read.integer("samples_per_pass"));
   cache = read.boolean("irradiance_cache");
   cache_settings.hemisphere.samples = int(read.integer("cache_samples"));
+  cache_settings.metric =
+      read.text("cache_metric") == "hessian" ? CacheMetric::hessian : CacheMetric::split_sphere;
   cache_settings.quality = read.number("cache_quality");
   cache_settings.gradients = read.boolean("cache_gradients");
   cache_settings.minimum_distance = read.boolean("minimum_distance");

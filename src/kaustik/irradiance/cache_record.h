@@ -8,12 +8,19 @@ namespace kaustik {
 struct CacheRecord {
   Vec3f position;
   Vec3f normal;
-  float reach = 0;      ///< m: how far it serves on a plane, > 0
+  float reach = 0;  ///< m: how far it serves on a plane, > 0 …
+  /// … and in which direction less: a tangent vector of length √(1/r² − 1/reach²), 1/m, where r is
+  /// the reach in its direction; zero: it serves equally far all around.
+  Vec3f squeeze{0, 0, 0};
   Spectrum irradiance;  ///< W/m²
   /// By axis x, y, z: what is added per metre that the point moves …
   Spectrum per_metre[3];
   /// … and per unit that the normal changes.
   Spectrum per_normal[3];
+
+  float inverse_reach_sq() const { return 1 / sqr(reach); }
+  /// 1/r² of the shorter reach.
+  float inverse_minor_sq() const { return inverse_reach_sq() + length_sq(squeeze); }
 
   /// Irradiance at `offset` from the position with another normal; may be negative.
   Spectrum extrapolate(const Vec3f& offset, const Vec3f& other_normal) const {

@@ -1,16 +1,11 @@
 #include "kaustik/irradiance/hemisphere.h"
 
+#include "kaustik/irradiance/cell_mesh.h"
+
 namespace kaustik {
 namespace {
 
 constexpr uint32_t ray_key = 0x4e15;  // of Sampler::split; any constant
-
-/// What is known of one cell after sampling.
-struct Cell {
-  Spectrum radiance;           // mean
-  float inverse_distance = 0;  // mean, 1/m
-  bool open = false;           // some direction in it lies above the geometric surface
-};
 
 /// Importance as it may be used: finite, not negative; false if nothing is left of it.
 bool clean_importance(size_t cells, std::vector<float>& importance) {
@@ -76,12 +71,14 @@ class HemisphereSampling {
                      const HemisphereGrid& grid, const Sampler& sampler)
       : source_(source), at_(at), frame_(frame), grid_(grid), sampler_(sampler) {}
 
-  Cell sample_cell(int index, uint32_t count, HemisphereEstimate& estimate) {
-    Cell cell;
+  HemisphereCell sample_cell(int index, uint32_t count, HemisphereEstimate& estimate) {
+    HemisphereCell cell;
+    cell.direction = grid_.direction(index, Vec2f(0.5f));
     uint32_t valid = 0;
     for (uint32_t i = 0; i < count; ++i) {
       Sampler sampler = sampler_.split(ray_key, next_index_++);
-      const Vec3f direction = frame_.to_world(grid_.direction(index, sampler.next_2d()));
+      const Vec3f local = grid_.direction(index, sampler.next_2d());
+      const Vec3f direction = frame_.to_world(local);
       if (dot(at_.ng, direction) * dot(at_.ng, frame_.z) < 0) {
         ++valid;  // below the surface: dark
         continue;
@@ -95,6 +92,7 @@ class HemisphereSampling {
         continue;
       }
       ++valid;
+      if (!(cell.distance < infinity)) cell.direction = local, cell.distance = incoming.distance;
       cell.radiance += incoming.radiance;
       cell.inverse_distance += inverse_distance_of(incoming.distance);
       estimate.minimum_distance = std::min(estimate.minimum_distance, incoming.distance);
@@ -133,7 +131,7 @@ struct TangentSum {
 /// exactly over the cell, so azimuthal means of unit vectors carry the factor sin(Δφ/2)/(Δφ/2).
 class CellSums {
  public:
-  CellSums(const HemisphereGrid& grid, const std::vector<Cell>& cells)
+  CellSums(const HemisphereGrid& grid, const std::vector<HemisphereCell>& cells)
       : grid_(grid), cells_(cells), delta_phi_(2 * pi / float(grid.phi_cells)) {
     shrink_ = std::sin(0.5f * delta_phi_) / (0.5f * delta_phi_);
     directions_.resize(size_t(grid.phi_cells) * 2);  // centres and lower borders, alternately
@@ -155,7 +153,7 @@ class CellSums {
 
   float mean_inverse_distance() const {
     double total = 0;
-    for (const Cell& c : cells_) total += double(c.inverse_distance);
+    for (const HemisphereCell& c : cells_) total += double(c.inverse_distance);
     return float(total / double(cells_.size()));
   }
 
@@ -187,7 +185,7 @@ class CellSums {
   }
 
  private:
-  const Cell& cell(int i, int j) const { return cells_[size_t(i * grid_.phi_cells + j)]; }
+  const HemisphereCell& cell(int i, int j) const { return cells_[size_t(i * grid_.phi_cells + j)]; }
   Vec2f center(int j) const { return directions_[size_t(2 * j + 1)]; }
   Vec2f border(int j) const { return directions_[size_t(2 * j)]; }
   static Vec2f turned(const Vec2f& v) { return {-v.y, v.x}; }
@@ -196,13 +194,13 @@ class CellSums {
     const float s = sine(i);
     return 0.5f * (std::asin(s) - s * safe_sqrt(1 - s * s));
   }
-  static Spectrum border_change(const Cell& a, const Cell& b) {
+  static Spectrum border_change(const HemisphereCell& a, const HemisphereCell& b) {
     if (!a.open || !b.open) return Spectrum();  // the horizon moves along with the point
     return (a.radiance - b.radiance) * std::max(a.inverse_distance, b.inverse_distance);
   }
 
   const HemisphereGrid& grid_;
-  const std::vector<Cell>& cells_;
+  const std::vector<HemisphereCell>& cells_;
   float delta_phi_, shrink_;
   std::vector<Vec2f> directions_;
 };
@@ -242,7 +240,7 @@ HemisphereEstimate sample_hemisphere(const RadianceSource& source, const Surface
 
   HemisphereEstimate estimate;
   HemisphereSampling sampling(source, at, frame, plan.grid, sampler);
-  std::vector<Cell> cells(plan.counts.size());
+  std::vector<HemisphereCell> cells(plan.counts.size());
   for (size_t i = 0; i < cells.size(); ++i)
     cells[i] = sampling.sample_cell(int(i), plan.counts[i], estimate);
 
@@ -251,6 +249,7 @@ HemisphereEstimate sample_hemisphere(const RadianceSource& source, const Surface
   estimate.harmonic_distance = 1 / sums.mean_inverse_distance();
   sums.rotation().to_world(frame, estimate.rotation_gradient);
   sums.translation().to_world(frame, estimate.translation_gradient);
+  if (settings.hessian) estimate.translation_hessian = translation_hessian(plan.grid, cells);
   return estimate;
 }
 

@@ -49,6 +49,12 @@ struct HemisphereSettings {
   int samples = 200;  ///< rays per record, at least one per cell
   /// Share of the samples that is spent by importance instead of evenly, in [0, 1).
   float importance_share = 0.25f;
+  bool hessian = false;  ///< the estimate's translation_hessian is wanted
+};
+
+/// A symmetric matrix in a tangent plane, per lane.
+struct TangentHessian {
+  Spectrum xx, xy, yy;
 };
 
 /// Irradiance at a point with what the cache needs to extrapolate it. To first order the irradiance
@@ -57,6 +63,8 @@ struct HemisphereEstimate {
   Spectrum irradiance;                               ///< W/m²
   Vec3f rotation_gradient[Spectrum::lane_count];     ///< per lane, W/m² per radian
   Vec3f translation_gradient[Spectrum::lane_count];  ///< per lane, W/m² per m, in the tangent plane
+  /// W/m² per m², in the x and y axes of Frame(normal); zero where it isn't wanted.
+  TangentHessian translation_hessian;
   float harmonic_distance = infinity;  ///< m, over projected solid angle; infinite: all open
   float minimum_distance = infinity;   ///< m
   uint32_t rays = 0;

@@ -7,6 +7,7 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/irradiance/neighbor_clamping.h"
 #include "kaustik/irradiance/record_octree.h"
+#include "kaustik/irradiance/record_reach.h"
 #include "kaustik/irradiance/spaced_subset.h"
 
 namespace kaustik {
@@ -15,44 +16,42 @@ namespace {
 constexpr size_t query_block = 1024;
 /// To this share of the largest reach the spacing of new records is halved from step to step.
 constexpr float minimum_step_spacing = 1.0f / 65536;
+/// Where the width of pixels isn't known, the points are taken to be so many of them across.
+constexpr float unknown_pixels = 500;
 
 /// A record as it was computed. How far it reaches also depends on its neighbours.
 struct ComputedRecord {
   Vec3f position;
   Vec3f normal;
   HemisphereEstimate estimate;
-  float distance;          ///< m, to what it sees: harmonic mean or minimum; may be infinite
-  float clamped_distance;  ///< m, ≤ distance: by the neighbours
-  float gradient_limit;    ///< m, over which the gradients would change the irradiance by itself
+  Validity validity;
+  float clamped_radius;                ///< m, ≤ the validity's: by the neighbours
+  float gradient_radius;               ///< m, another limit, which neighbours don't share
   float minimum_reach, maximum_reach;  ///< m
 };
 
-/// Σ E / Σ |∇E| over the lanes; infinite without gradients.
-float gradient_limit(const HemisphereEstimate& estimate) {
-  float gradients = 0;
-  for (const Vec3f& gradient : estimate.translation_gradient) gradients += length(gradient);
-  return gradients > 0 ? std::max(0.0f, estimate.irradiance.sum()) / gradients : infinity;
-}
-
-float reach_of(const ComputedRecord& record, float quality) {
-  const float distance = std::min(record.clamped_distance, record.gradient_limit);
-  return std::clamp(quality * distance, record.minimum_reach, record.maximum_reach);
+void set_reach(const ComputedRecord& computed, float quality, CacheRecord& record) {
+  const float radius = std::min(computed.clamped_radius, computed.gradient_radius);
+  const float minor = std::clamp(quality * radius, computed.minimum_reach, computed.maximum_reach);
+  record.reach = std::min(minor * computed.validity.aspect, computed.maximum_reach);
+  record.squeeze = computed.validity.axis * safe_sqrt(1 / sqr(minor) - record.inverse_reach_sq());
 }
 
 /// Puts the gradients into the form for extrapolation. A lane's translation gradient is limited to
-/// E/R, where R is the distance that the reach stands for: within its reach the record changes by
-/// at most the share a, also where the reach was raised to the minimum.
+/// E/R, where R is the radius that the shorter reach stands for: within it the record changes by at
+/// most the share a, also where the reach was raised to the minimum.
 CacheRecord finished(const ComputedRecord& computed, const CacheSettings& settings) {
   const HemisphereEstimate& estimate = computed.estimate;
   CacheRecord record;
   record.position = computed.position;
   record.normal = computed.normal;
-  record.reach = reach_of(computed, settings.quality);
+  set_reach(computed, settings.quality, record);
   record.irradiance = estimate.irradiance;
   if (!settings.gradients) return record;
+  const float limit_by_irradiance = settings.quality * std::sqrt(record.inverse_minor_sq());
   for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
     const Vec3f& along = estimate.translation_gradient[lane];
-    const float limit = std::max(0.0f, estimate.irradiance[lane]) * settings.quality / record.reach;
+    const float limit = std::max(0.0f, estimate.irradiance[lane]) * limit_by_irradiance;
     const float size = length(along);
     const float scale = size > limit ? limit / size : 1.0f;
     if (!std::isfinite(size) || !is_finite(estimate.rotation_gradient[lane])) continue;
@@ -82,11 +81,12 @@ Bounds3f bounds_of(const std::vector<CachePoint>& points, const std::vector<uint
 }  // namespace
 
 struct IrradianceCache::Impl {
-  explicit Impl(const CacheSettings& s) : settings(s) {}
+  explicit Impl(const CacheSettings& s) : settings(s) {
+    settings.hemisphere.hessian = s.metric == CacheMetric::hessian;
+  }
 
   CacheSettings settings;
   std::vector<ComputedRecord> records;
-  NeighborClamping clamping;
   RecordOctree octree;
   uint64_t rays = 0, dropped = 0;
   float extent = 0;  ///< m, diagonal of the points of the first round that had any
@@ -98,6 +98,10 @@ struct IrradianceCache::Impl {
     const float wanted =
         p.pixel_width > 0 ? settings.maximum_spacing * p.pixel_width : settings.quality * extent;
     return std::max(wanted, minimum_reach(p));
+  }
+
+  float pixel_width(const CachePoint& p) const {
+    return p.pixel_width > 0 ? p.pixel_width : extent / unknown_pixels;
   }
 
   std::vector<uint32_t> finite_points(const std::vector<CachePoint>& points) const;
@@ -129,7 +133,8 @@ std::vector<uint32_t> IrradianceCache::Impl::misses(const std::vector<CachePoint
   parallel_blocks(candidates.size(), query_block, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
       const CachePoint& p = points[candidates[i]];
-      served[i] = octree.serves(p.point.position, p.normal);
+      const float tolerance = std::clamp(p.tolerance, 1.0f, RecordOctree::overlap);
+      served[i] = octree.serves(p.point.position, p.normal, tolerance);
     }
   });
   std::vector<uint32_t> result;
@@ -158,10 +163,14 @@ ComputedRecord IrradianceCache::Impl::compute(const CachePoint& at, const Radian
   record.position = at.point.position;
   record.normal = at.normal;
   record.estimate = sample_hemisphere(source, at.point, at.normal, settings.hemisphere, sampler);
-  record.distance = settings.minimum_distance ? record.estimate.minimum_distance
-                                              : record.estimate.harmonic_distance;
-  record.clamped_distance = record.distance;
-  record.gradient_limit = settings.gradients ? gradient_limit(record.estimate) : infinity;
+  record.gradient_radius = infinity;
+  if (settings.metric == CacheMetric::hessian) {
+    record.validity = hessian_validity(record.estimate, at.normal, pixel_width(at));
+  } else {
+    record.validity.radius = split_sphere_radius(record.estimate, settings.minimum_distance);
+    if (settings.gradients) record.gradient_radius = gradient_radius(record.estimate);
+  }
+  record.clamped_radius = record.validity.radius;
   record.minimum_reach = minimum_reach(at);
   record.maximum_reach = maximum_reach(at);
   return record;
@@ -169,11 +178,16 @@ ComputedRecord IrradianceCache::Impl::compute(const CachePoint& at, const Radian
 
 /// New records by all others, old records by the new ones.
 void IrradianceCache::Impl::clamp_by_neighbors(size_t first_new) {
+  std::vector<NeighborClamping::Site> sites;
+  for (const ComputedRecord& r : records)
+    sites.push_back({r.position, r.normal, r.validity.radius});
+  const NeighborClamping fresh({sites.begin() + std::ptrdiff_t(first_new), sites.end()});
+  const NeighborClamping all(std::move(sites));
   parallel_blocks(records.size(), 64, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
       ComputedRecord& r = records[i];
-      r.clamped_distance =
-          clamping.clamped(r.position, r.normal, r.clamped_distance, i < first_new ? first_new : 0);
+      r.clamped_radius =
+          (i < first_new ? fresh : all).clamped(r.position, r.normal, r.clamped_radius);
     }
   });
 }
@@ -184,7 +198,6 @@ void IrradianceCache::Impl::insert(std::vector<ComputedRecord> fresh) {
     rays += record.estimate.rays;
     dropped += record.estimate.dropped;
     if (!record.estimate.irradiance.is_finite()) continue;  // overflow
-    clamping.add(record.position, record.normal, record.distance);
     records.push_back(std::move(record));
   }
   if (settings.neighbor_clamping) clamp_by_neighbors(first_new);
@@ -242,8 +255,7 @@ bool IrradianceCache::interpolate(const CachePoint& at, Spectrum& irradiance, fl
 
 size_t IrradianceCache::record_count() const { return impl_->records.size(); }
 size_t IrradianceCache::size_in_bytes() const {
-  return impl_->records.capacity() * sizeof(ComputedRecord) + impl_->clamping.size_in_bytes() +
-         impl_->octree.size_in_bytes();
+  return impl_->records.capacity() * sizeof(ComputedRecord) + impl_->octree.size_in_bytes();
 }
 uint64_t IrradianceCache::rays_traced() const { return impl_->rays; }
 uint64_t IrradianceCache::rays_dropped() const { return impl_->dropped; }

@@ -14,22 +14,33 @@ struct CachePoint {
   SurfacePoint point;
   Vec3f normal;           ///< unit shading normal on the side that receives the light
   float pixel_width = 0;  ///< size of a pixel's footprint there, m; 0: unknown
+  /// How much larger an error than at other points is allowed when the cache is filled; from 1 to
+  /// RecordOctree::overlap.
+  float tolerance = 1;
+};
+
+/// What tells how far records serve.
+enum class CacheMetric {
+  split_sphere,  ///< the distance of what they see
+  hessian        ///< the second derivative of the irradiance
 };
 
 struct CacheSettings {
-  float quality = 0.15f;  ///< Ward's error a > 0: a record serves within about a·R
+  CacheMetric metric = CacheMetric::hessian;
+  float quality = 0.15f;  ///< a > 0: a record serves within a·R; R see record_reach.h
   bool gradients = true;
-  bool minimum_distance = false;  ///< R from the minimum instead of the harmonic mean distance
+  bool minimum_distance = false;  ///< split_sphere: R from the minimum instead of the mean
   float minimum_spacing = 3;      ///< pixels: records are valid at least this far …
   float maximum_spacing = 40;     ///< … and at most this far
   bool neighbor_clamping = true;  ///< Křivánek et al. 2006
   HemisphereSettings hemisphere;
 };
 
-/// Cached irradiance with gradients (Ward, Rubinstein and Clear 1988; Ward and Heckbert 1992) over
-/// any source of radiance. Filled in rounds, each in steps, then read-only: all queries of a step
-/// see the records of the steps before, and new ones are inserted in the order of the points, so
-/// the cache has the same bits for any number of threads.
+/// Cached irradiance with gradients (Ward, Rubinstein and Clear 1988; Ward and Heckbert 1992;
+/// Schwarzhaupt, Jensen and Jarosz 2012) over any source of radiance. Filled in rounds, each in
+/// steps, then read-only: all queries of a step see the records of the steps before, and new ones
+/// are inserted in the order of the points, so the cache has the same bits for any number of
+/// threads.
 class IrradianceCache {
  public:
   /// Throws std::invalid_argument unless quality > 0 and 0 ≤ minimum ≤ maximum spacing.

@@ -21,6 +21,15 @@ float distance_sq_to_box(const Vec3f& p, const Vec3f& lower, float size) {
   return sum;
 }
 
+/// Half the size of the box around the ellipsoid d²/reach² + (d·squeeze)² ≤ 1.
+Vec3f half_extent(const CacheRecord& record) {
+  const float ratio = record.inverse_reach_sq() / record.inverse_minor_sq();
+  Vec3f half;
+  for (int axis = 0; axis < 3; ++axis)
+    half[axis] = record.reach * safe_sqrt(1 - sqr(record.reach * record.squeeze[axis]) * ratio);
+  return half;
+}
+
 Vec3f child_offset(int child, float size) {
   return Vec3f(float(child & 1), float((child >> 1) & 1), float((child >> 2) & 1)) * size;
 }
@@ -66,10 +75,18 @@ class RecordOctree::Builder {
     for (const uint32_t index : list) {
       const CacheRecord& record = tree_.records_[index];
       const float reach = record.reach * overlap + slack_;
-      if (distance_sq_to_box(record.position, lower, size) <= reach * reach)
+      if (distance_sq_to_box(record.position, lower, size) <= reach * reach &&
+          box_overlaps(record, lower, size))
         result.push_back(index);
     }
     return result;
+  }
+
+  bool box_overlaps(const CacheRecord& record, const Vec3f& lower, float size) const {
+    const Vec3f half = half_extent(record) * overlap + Vec3f(slack_);
+    const Vec3f low = lower - record.position, high = low + Vec3f(size);
+    return low.x <= half.x && low.y <= half.y && low.z <= half.z && high.x >= -half.x &&
+           high.y >= -half.y && high.z >= -half.z;
   }
 
   void make_leaf(Node& node, const std::vector<uint32_t>& list) {
@@ -82,8 +99,10 @@ class RecordOctree::Builder {
         for (int axis = 0; axis < 3; ++axis) {
           block.position[axis][lane] = record.position[axis];
           block.normal[axis][lane] = record.normal[axis];
+          block.squeeze[axis][lane] = record.squeeze[axis];
         }
-        block.inverse_reach_sq[lane] = 1 / sqr(record.reach);
+        block.inverse_reach_sq[lane] = record.inverse_reach_sq();
+        block.inverse_minor_sq[lane] = record.inverse_minor_sq();
         block.record[lane] = list[begin + lane];
       }
       tree_.blocks_.push_back(block);
@@ -123,9 +142,10 @@ inline RecordOctree::Lanes RecordOctree::error_sq(const Block& b, const Point& a
   const Lanes front = Lanes{} + sqr(height_factor_front);
   const Lanes behind = Lanes{} + sqr(height_factor_behind);
   const Lanes factor_sq = height < 0 ? behind : front;
-  const Lanes distance_sq = dx * dx + dy * dy + dz * dz + factor_sq * height * height;
-  const Lanes error_sq =
-      distance_sq * b.inverse_reach_sq + (1 - cosine) * inverse_normal_tolerance_sq_;
+  const Lanes squeezed = dx * b.squeeze[0] + dy * b.squeeze[1] + dz * b.squeeze[2];
+  const Lanes error_sq = (dx * dx + dy * dy + dz * dz) * b.inverse_reach_sq + squeezed * squeezed +
+                         factor_sq * height * height * b.inverse_minor_sq +
+                         (1 - cosine) * inverse_normal_tolerance_sq_;
   const Lanes never = Lanes{} + infinity;
   return cosine > 0 ? error_sq : never;
 }
@@ -152,12 +172,13 @@ inline const RecordOctree::Node* RecordOctree::leaf_at(const Vec3f& position) co
   return node;
 }
 
-bool RecordOctree::serves(const Vec3f& position, const Vec3f& normal) const {
+bool RecordOctree::serves(const Vec3f& position, const Vec3f& normal, float tolerance) const {
   const Node* leaf = leaf_at(position);
   if (!leaf) return false;
   for (uint32_t i = 0; i < leaf->blocks; ++i) {
     const Lanes error = error_sq(blocks_[leaf->first + i], {position, normal});
-    if (error[0] < 1 || error[1] < 1 || error[2] < 1 || error[3] < 1) return true;
+    const Lanes rest = tolerance * tolerance - error;
+    if (rest[0] > 0 || rest[1] > 0 || rest[2] > 0 || rest[3] > 0) return true;
   }
   return false;
 }

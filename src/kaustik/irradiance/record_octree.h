@@ -10,11 +10,11 @@ namespace kaustik {
 /// overlaps it, with a copy of what the test needs in SIMD blocks: a query walks down to one leaf
 /// and reads its blocks one after the other.
 ///
-/// The error of a record for a point is
-///   ε² = (d² + (c h)²)/reach² + (1 − n·n')/a²,
-/// with the distance d, the height h over the plane between both normals, and c larger behind the
-/// record than in front of it: a smooth form of Ward's d/R + √(1 − n·n') (1988) and of his test for
-/// points in front of the record. The record serves the point where ε < 1 and takes part in
+/// The error of a record for a point at the offset d is
+///   ε² = d²/reach² + (d·squeeze)² + (c h/r)² + (1 − n·n')/a²,
+/// with the shorter reach r, the height h over the plane between both normals, and c larger behind
+/// the record than in front of it: a smooth form of Ward's d/R + √(1 − n·n') (1988) and of his test
+/// for points in front of the record. The record serves the point where ε < 1 and takes part in
 /// interpolation, with a weight that falls to zero, where ε < overlap.
 class RecordOctree {
  public:
@@ -26,8 +26,8 @@ class RecordOctree {
   /// `normal_tolerance`: the a of the formula. All numbers in the records must be finite.
   RecordOctree(std::vector<CacheRecord> records, float normal_tolerance);
 
-  /// Whether any record serves the point.
-  bool serves(const Vec3f& position, const Vec3f& normal) const;
+  /// Whether any record serves the point with an error ε below `tolerance` ≤ overlap.
+  bool serves(const Vec3f& position, const Vec3f& normal, float tolerance = 1) const;
   /// Weighted mean of the records' extrapolations, in which negative lanes become zero (further
   /// than its gradients hold a record knows no better). False where there are none. All reaches
   /// are multiplied by `relax` ≥ 1; more than 1 is slower.
@@ -42,7 +42,8 @@ class RecordOctree {
   struct Block {
     Lanes position[3];
     Lanes normal[3];  ///< zero in unused lanes, which therefore never serve
-    Lanes inverse_reach_sq;
+    Lanes squeeze[3];
+    Lanes inverse_reach_sq, inverse_minor_sq;
     uint32_t record[4];
   };
   struct Node {
