@@ -124,9 +124,8 @@ std::vector<double> HistogramAdjustment::ceilings() const {
   return result;
 }
 
-void HistogramAdjustment::set_curve(const std::vector<double>& bins) {
+void HistogramAdjustment::set_curve(const std::vector<double>& bins, double total) {
   cumulative_.assign(bins.size() + 1, 0.0);
-  const double total = sum_of(bins);
   double below = 0;
   for (size_t i = 0; i < bins.size(); ++i) {
     below += bins[i];
@@ -140,7 +139,7 @@ bool HistogramAdjustment::cut_as_in_the_paper(std::vector<double> bins) {
   for (;;) {
     const double total = sum_of(bins);
     if (total < tolerance) return false;
-    set_curve(bins);
+    set_curve(bins, total);
     const std::vector<double> highest = ceilings();
     double cut = 0;
     for (size_t i = 0; i < bins.size(); ++i) {
@@ -150,29 +149,30 @@ bool HistogramAdjustment::cut_as_in_the_paper(std::vector<double> bins) {
     }
     if (cut > tolerance) continue;
     if (!(sum_of(bins) > 0)) return false;
-    set_curve(bins);
+    set_curve(bins, sum_of(bins));
     return true;
   }
 }
 
-/// False if the display's range is ample. With human contrast the ceilings depend on the curve,
-/// which is therefore found by going half the way to the next one again and again.
+/// False if luminance is to be scaled. With human contrast the ceilings depend on the curve, which
+/// is therefore found by going half the way to the next one again and again.
 bool HistogramAdjustment::adjust_smoothly(const std::vector<double>& bins) {
-  set_curve(std::vector<double>(bins.size(), 1.0));
-  std::vector<double> shares(bins.size(), 1 / double(bins.size()));
-  double all = 0;
-  const int rounds = settings_.human_contrast ? 60 : 1;
-  for (int round = 0; round < rounds; ++round) {
-    std::vector<double> highest = ceilings();
-    all = sum_of(highest);
-    if (all < 1)
-      for (double& ceiling : highest) ceiling /= all;
-    const std::vector<double> next = shares_under(bins, highest);
-    for (size_t i = 0; i < shares.size(); ++i)
-      shares[i] = settings_.human_contrast ? (shares[i] + next[i]) / 2 : next[i];
-    set_curve(shares);
+  if (!settings_.human_contrast) {
+    const std::vector<double> highest = ceilings();
+    if (sum_of(highest) < 1) return false;
+    set_curve(shares_under(bins, highest), 1);
+    return true;
   }
-  return all >= 1;
+  std::vector<double> shares(bins.size(), 1 / double(bins.size()));
+  constexpr int rounds = 60;
+  for (int round = 0; round < rounds; ++round) {
+    set_curve(shares, 1);
+    const std::vector<double> highest = ceilings();
+    const std::vector<double> next = sum_of(highest) < 1 ? highest : shares_under(bins, highest);
+    for (size_t i = 0; i < shares.size(); ++i) shares[i] = (shares[i] + next[i]) / 2;
+  }
+  set_curve(shares, 1);
+  return true;
 }
 
 void HistogramAdjustment::scale_linearly() {

@@ -28,7 +28,8 @@ struct HistogramSettings {
 /// count as "ample". `smooth` therefore shares samples between neighbouring bins, lets no bin have
 /// less than 15 % of its ceiling (more if the crowds cannot fill the display's range; less where
 /// that would take over a quarter of it), and solves for the cut histogram exactly instead of to
-/// 2.5 %.
+/// 2.5 %. With human contrast an ample display is used from its black upward as far as the visible
+/// differences of the scene reach.
 class HistogramAdjustment {
  public:
   /// `luminances` of foveal samples, cd/m²; those not positive and finite are left out, and those
@@ -50,7 +51,7 @@ class HistogramAdjustment {
   std::vector<double> count(const std::vector<double>& logs) const;
   double visible_slope(double log_world) const;
   std::vector<double> ceilings() const;
-  void set_curve(const std::vector<double>& bins);
+  void set_curve(const std::vector<double>& bins, double total);
   bool cut_as_in_the_paper(std::vector<double> bins);
   bool adjust_smoothly(const std::vector<double>& bins);
   void scale_linearly();

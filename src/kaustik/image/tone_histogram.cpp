@@ -12,7 +12,8 @@ namespace {
 
 class Histogram : public ToneOperator {
  public:
-  explicit Histogram(const Arguments& arguments) {
+  explicit Histogram(const Arguments& arguments)
+      : exposure_(float(std::exp2(arguments.number("exposure")))) {
     const bool human = arguments.boolean("human");
     const auto model = [&](const char* name) {
       return arguments.given(name) ? arguments.boolean(name) : human;
@@ -36,6 +37,7 @@ class Histogram : public ToneOperator {
   bool needs_view() const override { return true; }
   /// The order of the paper's section 6.
   std::vector<Vec3f> displayed(Picture picture) const override {
+    for (Vec3f& colour : picture.pixels) colour *= exposure_;
     Grid<Vec3f> foveal = foveal_means(picture);
     if (has_glare_) {
       const Grid<Vec3f> scattered = veil(foveal, picture);
@@ -70,6 +72,7 @@ class Histogram : public ToneOperator {
   }
 
   HistogramSettings settings_;
+  float exposure_;
   bool has_glare_, loses_acuity_, loses_color_;
 };
 
@@ -84,6 +87,10 @@ std::vector<Parameter> parameters() {
                                 "Luminance of the display's black, in place of display_range."))
           .range(1e-9, 1e6)
           .in("cd/m²"),
+      number_parameter("exposure", 0,
+                       "Doublings of the scene's light; only models of the eye depend on it.")
+          .range(-100, 100)
+          .in("stops"),
       boolean_parameter("human", false, "What the next four default to."),
       boolean_parameter("contrast_sensitivity", false,
                         "Show no more contrast than an eye sees at that luminance (instead of no "
