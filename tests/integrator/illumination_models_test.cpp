@@ -37,6 +37,17 @@ TEST(LocalPhong, WithAndWithoutShadows) {
   EXPECT_NEAR(one_pixel(scene, "localphong", set("ambient", 0.25)), 0.6 * 0.25, 1e-5);
   EXPECT_NEAR(one_pixel(scene, "localphong", set("shadows", false)), direct_on_floor, 1e-4);
 }
+/// Constant light falls off as the emitter says, in the classical models alone.
+TEST(LocalPhong, ClassicalAttenuation) {
+  const TestScene scene(
+      looking_down + flat("rectangle", scale("4, 4, 1"), diffuse("0.6")) +
+      R"(<emitter type="point"><point name="position" value="0, 0, 2"/>
+         <rgb name="intensity" value="5"/><vector name="attenuation" value="1, 0.5, 0"/></emitter>)");
+  const double attenuated = 0.6 / M_PI * 5 / (1 + 0.5 * 2);
+  EXPECT_NEAR(one_pixel(scene, "localphong", ""), attenuated, 1e-5);
+  EXPECT_NEAR(one_pixel(scene, "raytracing", ""), attenuated, 1e-5);
+  EXPECT_NEAR(one_pixel(scene, "path", ""), direct_on_floor, 1e-5);
+}
 /// What is the same from everywhere is reflected by the albedo: as a path tracer finds on a convex
 /// body in an even environment.
 TEST(LocalPhong, AmbientLightIsAnEvenEnvironment) {

@@ -63,7 +63,7 @@ TEST(PhotonMapLimits, SeveralSpecularRaysChangeOnlyTheNoise) {
                      Comparison::same_seed(specular(4, 128), specular(1, 256)));
 }
 
-TEST(PhotonMapLimits, LightAndEyeLevels) {
+TEST(PhotonMapLimits, LightLevels) {
   const TestScene scene(ball_room(mirror_ball));
   const auto mean = [&](const std::string& parameters, const std::string& component) {
     return render(scene, "photonmap",
@@ -75,8 +75,6 @@ TEST(PhotonMapLimits, LightAndEyeLevels) {
   // One event: caustics by one reflection and indirect light by one bounce are left.
   EXPECT_GT(mean(set("max_light_level", 1), "caustic"), 0);
   EXPECT_LT(mean(set("max_light_level", 1), "indirect"), 0.99 * mean("", "indirect"));
-  EXPECT_EQ(mean(set("max_eye_level", 0), "specular"), 0);
-  EXPECT_GT(mean(set("max_eye_level", 1), "specular"), 0);
 }
 
 TEST(PhotonMapLimits, LevelOfDetailAndLightSamplesKeepTheMean) {

@@ -89,7 +89,7 @@ void CameraWalk::add_background() {
 }
 
 void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probability,
-                                  const LightSampling& sampling, bool shadows, ShadowSight* sight) {
+                                  const LightSampling& sampling, const LightRules& rules) {
   light_choice_ = sampling.choice;
   if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
   // What nobody wants costs no shadow ray; its random numbers are drawn, so that the others stay.
@@ -102,18 +102,20 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
       by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability);
     if (by_diffuse.is_zero() && by_glossy.is_zero()) return;
     LightSight seen;
-    if (!shadows)
+    if (!rules.shadows)
       seen = {1, 0};
-    else if (sight)
-      seen = sight->of(light.light);
-    float visible = seen.known;
+    else if (rules.sight)
+      seen = rules.sight->of(light.light);
+    float factor = seen.known;
     if (seen.by_ray > 0) {
       ++rays_;
-      if (!scene_.occluded(light.shadow_ray)) visible += seen.by_ray;
+      if (!scene_.occluded(light.shadow_ray)) factor += seen.by_ray;
     }
-    if (!(visible > 0)) return;
-    add_reflected(Lobes::diffuse, by_diffuse * visible);
-    add_reflected(Lobes::glossy, by_glossy * visible);
+    if (!(factor > 0)) return;
+    if (rules.classical_attenuation)
+      factor *= scene_.lights()[size_t(light.light)]->classical_attenuation(vertex_.position());
+    add_reflected(Lobes::diffuse, by_diffuse * factor);
+    add_reflected(Lobes::glossy, by_glossy * factor);
   };
   sample_direct_lights(scene_, vertex_, sampling, sampler_, take);
 }

@@ -8,6 +8,13 @@
 
 namespace kaustik {
 
+/// What a model changes in direct light.
+struct LightRules {
+  bool shadows = true;                 ///< without, nothing holds light off
+  bool classical_attenuation = false;  ///< see Light::classical_attenuation
+  ShadowSight* sight = nullptr;        ///< where it knows whether light arrives, no ray is traced
+};
+
 /// A path that is followed from the camera, vertex by vertex. Knows the component of everything
 /// that it finds and weighs light found by scattering against light found by sampling lights; the
 /// integrators differ in what they do at a vertex and in where they go on.
@@ -36,11 +43,8 @@ class CameraWalk {
 
   /// Adds light sampled at the vertex and reflected by its lobes. The probabilities are those that
   /// scatter() will be told there (0: never, then light sampling alone has to find the light).
-  /// Without `shadows` nothing holds light off; where `sight` knows whether light arrives, no
-  /// shadow ray is traced.
   void add_direct_light(float diffuse_probability, float glossy_probability,
-                        const LightSampling& sampling = {}, bool shadows = true,
-                        ShadowSight* sight = nullptr);
+                        const LightSampling& sampling = {}, const LightRules& rules = {});
   /// Adds radiance that the vertex sends back of light that is `component` (caustic or indirect)
   /// to it; seen by a specular event it counts as specular.
   void add_photon_light(Component component, const Spectrum& radiance) {

@@ -23,11 +23,11 @@ std::vector<Parameter> LocalLight::parameters() {
 
 LocalLight::LocalLight(const Arguments& arguments)
     : sampling_{LightChoice::all, int(arguments.integer("light_samples"))},
-      shadows_(arguments.boolean("shadows")),
+      rules_{arguments.boolean("shadows"), true},
       ambient_(emission_spectrum(arguments.color("ambient"))) {}
 
 void LocalLight::add_to(CameraWalk& walk, Lobes lobes) const {
-  walk.add_direct_light(0, 0, sampling_, shadows_);
+  walk.add_direct_light(0, 0, sampling_, rules_);
   if (ambient_.is_zero() || !walk.wants_photon_light(Component::indirect)) return;
   // What a surface reflects of light that is the same from everywhere is its albedo.
   walk.add_photon_light(Component::indirect, ambient_ * walk.vertex().albedo(lobes));

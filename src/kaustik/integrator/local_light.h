@@ -17,7 +17,7 @@ class LocalLight {
 
  private:
   LightSampling sampling_;
-  bool shadows_;
+  LightRules rules_;
   Spectrum ambient_;  ///< radiance that comes from everywhere, W/(sr·m²)
 };
 

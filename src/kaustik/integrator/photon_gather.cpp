@@ -5,8 +5,8 @@
 namespace kaustik {
 namespace {
 
-/// A gather ray is the second level of the camera's path.
-constexpr int gather_level = 1;
+/// The level for which irradiance is computed beforehand: where most gather rays end.
+constexpr int precomputed_level = 1;
 /// Specular events that a gather ray follows before roulette.
 constexpr int gather_roulette_depth = 4;
 
@@ -22,41 +22,54 @@ PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
       shadows_(shadows),
       shadow_settings_(shadow_settings) {
   precomputed_ = IrradianceMap(maps.global, maps.places,
-                               at_level(settings.global, radii.global, gather_level));
+                               at_level(settings.global, radii.global, precomputed_level));
 }
 
 EstimateSettings PhotonLight::at_level(const EstimateSettings& settings, float radius,
-                                       int level) const {
+                                       int recursion) const {
   EstimateSettings result = settings;
   result.maximum_radius = radius;
   if (settings.neighbors > 0)
-    result.neighbors = std::max(2, int(float(settings.neighbors) * settings_.level_scale(level)));
+    result.neighbors = settings_.count_at(settings.neighbors, recursion, 2);
   return result;
 }
 
-Spectrum PhotonLight::caustic(const SurfaceVertex& vertex, Lobes lobes, int level) const {
-  return maps_.caustic.radiance(vertex, lobes, at_level(settings_.caustic, radii_.caustic, level))
+Spectrum PhotonLight::caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion) const {
+  return maps_.caustic
+      .radiance(vertex, lobes, at_level(settings_.caustic, radii_.caustic, recursion))
       .value;
 }
 
-Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int level) const {
-  return maps_.global.radiance(vertex, lobes, at_level(settings_.global, radii_.global, level))
+Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int recursion) const {
+  return maps_.global.radiance(vertex, lobes, at_level(settings_.global, radii_.global, recursion))
       .value;
 }
 
-Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes, int level) const {
+Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes,
+                                      int recursion) const {
   Spectrum irradiance;
   const Vec3f& ng = vertex.point().ng;
   if ((vertex.lobes() & lobes) != Lobes::diffuse || vertex.bsdf().transmits() ||
       !precomputed_.lookup(vertex.position(), vertex.on_front() ? ng : -ng, irradiance))
-    return global(vertex, lobes, level);
+    return global(vertex, lobes, recursion);
   return vertex.diffuse_value() * irradiance;
 }
 
-Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes, int level,
-                                             Sampler& sampler, uint64_t& rays) const {
+Spectrum PhotonLight::gathered_indirect(const SurfaceVertex& vertex, Lobes lobes, Sampler& sampler,
+                                        const EyeLevel& at) const {
+  if (settings_.approximates(at) || !any(lobes & vertex.lobes() & Lobes::diffuse))
+    return gathered_global(vertex, lobes, at.recursion);
+  Spectrum light = vertex.diffuse_value() * gather_irradiance(vertex, sampler, at);
+  if (any(lobes & vertex.lobes() & Lobes::glossy))
+    light += global(vertex, Lobes::glossy, at.recursion);
+  return light;
+}
+
+Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes,
+                                             int recursion, Sampler& sampler,
+                                             uint64_t& rays) const {
   Spectrum sum;
-  ShadowSight sight(shadows_, shadow_settings_, vertex, level);
+  ShadowSight sight(shadows_, shadow_settings_, vertex, recursion);
   const auto take = [&](const DirectLight& light) {
     const Spectrum reflected = vertex.eval_cosine(light.wi, lobes) * light.radiance;
     if (reflected.is_zero()) return;
@@ -72,8 +85,8 @@ Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, Lobes 
   return sum;
 }
 
-RadianceSource::Incoming PhotonLight::incoming(const SurfacePoint& from, const Vec3f& direction,
-                                               Sampler& sampler) const {
+RadianceSource::Incoming PhotonLight::gathered(const SurfacePoint& from, const Vec3f& direction,
+                                               Sampler& sampler, const EyeLevel& at) const {
   Incoming result;
   Spectrum throughput(1.0f);
   float eta_scale = 1;
@@ -86,16 +99,15 @@ RadianceSource::Incoming PhotonLight::incoming(const SurfacePoint& from, const V
     if (events == 0) result.distance = hit.t;
     const SurfaceVertex vertex(scene_, ray, hit, TransportMode::radiance);
     sampler.start_vertex(uint32_t(events));
+    const EyeLevel level{at.recursion + 1 + events, at.gathers + 1};
     const Lobes local = vertex.lobes() & settings_.local();
     if (any(local))
-      result.radiance += throughput * (reflected_direct_light(vertex, local, gather_level + events,
-                                                              sampler, rays) +
-                                       caustic(vertex, local, gather_level + events) +
-                                       gathered_global(vertex, local, gather_level + events));
+      result.radiance +=
+          throughput * (reflected_direct_light(vertex, local, level.recursion, sampler, rays) +
+                        caustic(vertex, local, level.recursion) +
+                        gathered_indirect(vertex, local, sampler, level));
     const Lobes traced = vertex.lobes() & settings_.traced();
-    if (!any(traced) || settings_.specular_sampling == SpecularSampling::none ||
-        events >= settings_.maximum_eye_events)
-      break;
+    if (!any(traced) || !settings_.traces_specular(level)) break;
     const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
     const BsdfSample sample = vertex.sample(u_choice.x, u, traced);
     if (sample.event == Lobes::none || sample.weight.is_zero()) break;
@@ -138,8 +150,9 @@ bool PhotonLight::importance(const SurfacePoint& at, const Frame& frame, const H
   return true;
 }
 
-Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, int samples,
-                                        Sampler& sampler) const {
+Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, Sampler& sampler,
+                                        const EyeLevel& at) const {
+  const int samples = settings_.count_at(settings_.diffuse_samples, at.recursion);
   HemisphereGrid grid{settings_.gather_theta_cells, settings_.gather_phi_cells};
   // With fewer photons than cells the grid would be mostly empty.
   while (grid.count() > settings_.importance_photons &&
@@ -149,8 +162,9 @@ Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, int samples
   }
   const Vec3f n = vertex.facing_normal();
   const Frame frame(n);
-  // One per thread is enough: gather rays never gather again.
-  static thread_local std::vector<float> cells;
+  // Kept for the next call on this thread; gather rays that gather again find none and make one.
+  static thread_local std::vector<float> spare_cells;
+  std::vector<float> cells = std::move(spare_cells);
   double total = 0;
   if (importance(vertex.point(), frame, grid, cells))
     for (const float cell : cells) total += cell;
@@ -174,8 +188,9 @@ Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, int samples
     if (!(p > 0)) continue;
     const Vec3f direction = frame.to_world(grid.direction(cell, u));
     if (dot(direction, vertex.point().ng) * dot(n, vertex.point().ng) <= 0) continue;
-    sum += incoming(vertex.point(), direction, branch).radiance * (pi / (p * float(samples)));
+    sum += gathered(vertex.point(), direction, branch, at).radiance * (pi / (p * float(samples)));
   }
+  spare_cells = std::move(cells);
   return sum;
 }
 

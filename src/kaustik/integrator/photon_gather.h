@@ -20,32 +20,41 @@ class PhotonLight final : public RadianceSource {
               const GatherRadii& radii, const ShadowMap* shadows,
               const ShadowSettings& shadow_settings);
 
-  /// Radiance by caustic photons [L G⁺ → x] that `lobes` send back; `level` for level of detail.
-  Spectrum caustic(const SurfaceVertex& vertex, Lobes lobes, int level) const;
+  /// Radiance by caustic photons [L G⁺ → x] that `lobes` send back at a recursion level.
+  Spectrum caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion) const;
   /// The same by global photons: the approximate solution for diffuse indirect light.
-  Spectrum global(const SurfaceVertex& vertex, Lobes lobes, int level) const;
+  Spectrum global(const SurfaceVertex& vertex, Lobes lobes, int recursion) const;
 
-  /// Diffuse indirect light along a ray: what the surface there sends back of direct, caustic and
-  /// global light by lobes that are not traced; specular events on the way are followed. No
-  /// emission: lamps are seen by direct light and caustics.
+  /// Diffuse indirect light along a gather ray from a surface at level `at`: what the surface there
+  /// sends back of direct, caustic and global light by lobes that are not traced; specular events
+  /// on the way are followed. No emission: lamps are seen by direct light and caustics.
+  Incoming gathered(const SurfacePoint& from, const Vec3f& direction, Sampler& sampler,
+                    const EyeLevel& at) const;
+  /// The same from what the camera itself sees.
   Incoming incoming(const SurfacePoint& from, const Vec3f& direction,
-                    Sampler& sampler) const override;
+                    Sampler& sampler) const override {
+    return gathered(from, direction, sampler, {});
+  }
   /// Flux of the global photons near the point, by cell.
   bool importance(const SurfacePoint& at, const Frame& frame, const HemisphereGrid& grid,
                   std::vector<float>& cell_importance) const override;
 
-  /// Diffuse indirect irradiance at `vertex` by `samples` gather rays drawn in proportion to the
-  /// photons' flux over a grid of the hemisphere (Jensen 1995, Schregle 1998 corrected: density
-  /// p relative to the uniform grid, E ≈ mean of π L/p).
-  Spectrum gather_irradiance(const SurfaceVertex& vertex, int samples, Sampler& sampler) const;
+  /// Diffuse indirect irradiance at `vertex` by gather rays drawn in proportion to the photons'
+  /// flux over a grid of the hemisphere (Jensen 1995, Schregle 1998 corrected: density p relative
+  /// to the uniform grid, E ≈ mean of π L/p).
+  Spectrum gather_irradiance(const SurfaceVertex& vertex, Sampler& sampler,
+                             const EyeLevel& at) const;
 
   uint64_t rays() const { return rays_.load(std::memory_order_relaxed); }
 
  private:
-  EstimateSettings at_level(const EstimateSettings& settings, float radius, int level) const;
-  /// Global light at the end of a gather ray: looked up where it was computed beforehand.
-  Spectrum gathered_global(const SurfaceVertex& vertex, Lobes lobes, int level) const;
-  Spectrum reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes, int level,
+  EstimateSettings at_level(const EstimateSettings& settings, float radius, int recursion) const;
+  /// Diffuse indirect light at the end of a gather ray: gathered once more, or from the map.
+  Spectrum gathered_indirect(const SurfaceVertex& vertex, Lobes lobes, Sampler& sampler,
+                             const EyeLevel& at) const;
+  /// From the map: looked up where it was computed beforehand.
+  Spectrum gathered_global(const SurfaceVertex& vertex, Lobes lobes, int recursion) const;
+  Spectrum reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes, int recursion,
                                   Sampler& sampler, uint64_t& rays) const;
 
   const Scene& scene_;

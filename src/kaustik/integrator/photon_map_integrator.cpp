@@ -29,6 +29,9 @@ CachePoint cache_point_of(const CameraWalk& walk) {
   return {vertex.point(), vertex.facing_normal(), 2 * walk.footprint(), 1};
 }
 
+/// Of the walk's vertex: the camera's side gathers nothing on its way.
+EyeLevel level_of(const CameraWalk& walk) { return {walk.events(), 0}; }
+
 }  // namespace
 
 struct PhotonMapIntegrator::State final : PassState {
@@ -176,7 +179,7 @@ void PhotonMapIntegrator::collect_cache_points(const Vec2f& raster, Sampler samp
   const size_t first = points.size();
   while (walk.advance()) {
     const SurfaceVertex& vertex = walk.vertex();
-    if (any(vertex.lobes() & Lobes::diffuse)) {
+    if (any(vertex.lobes() & Lobes::diffuse) && !settings_.approximates(level_of(walk))) {
       points.push_back(cache_point_of(walk));
       if (points.size() - first >= cache_points_per_path) return;
     }
@@ -186,8 +189,7 @@ void PhotonMapIntegrator::collect_cache_points(const Vec2f& raster, Sampler samp
 
 int PhotonMapIntegrator::specular_rays(const CameraWalk& walk) const {
   if (!any(walk.vertex().lobes() & settings_.traced()) ||
-      settings_.specular_sampling == SpecularSampling::none ||
-      walk.events() >= settings_.maximum_eye_events)
+      !settings_.traces_specular(level_of(walk)))
     return 0;
   return walk.events() == 0 ? settings_.specular_samples : 1;
 }
@@ -197,11 +199,12 @@ bool PhotonMapIntegrator::reflect(const PassState& pass_state, CameraWalk& walk,
   const auto& state = static_cast<const State&>(pass_state);
   const int rays = specular_rays(walk);
   const bool traces_glossy = settings_.specular_sampling == SpecularSampling::importance;
-  const int lights =
-      std::max(1, int(float(settings_.light_samples) * settings_.level_scale(walk.events())));
+  const int lights = settings_.count_at(settings_.light_samples, walk.events());
   ShadowSight sight(state.shadows.get(), state.shadow_settings, walk.vertex(), walk.events());
+  LightRules rules;
+  rules.sight = &sight;
   walk.add_direct_light(0, traces_glossy ? float(rays) : 0.0f, {settings_.light_choice, lights},
-                        true, &sight);
+                        rules);
   add_photon_light(state, walk);
   if (rays == 0) return false;
   if (rays == 1) return scatter_specular(walk, 1);
@@ -227,13 +230,15 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
   if (walk.wants_photon_light(Component::caustic))
     walk.add_photon_light(Component::caustic, state.light->caustic(vertex, local, walk.events()));
   if (settings_.global.neighbors <= 0 || !walk.wants_photon_light(Component::indirect)) return;
-  if (any(local & Lobes::diffuse))
+  const bool gathers = any(local & Lobes::diffuse) && !settings_.approximates(level_of(walk));
+  if (gathers)
     walk.add_photon_light(Component::indirect,
                           vertex.diffuse_value() * diffuse_irradiance(state, walk));
   // Glossy lobes that are not traced: the approximate solution is all that is left for them.
-  if (any(local & Lobes::glossy))
+  const Lobes approximated = gathers ? local & Lobes::glossy : local;
+  if (any(approximated))
     walk.add_photon_light(Component::indirect,
-                          state.light->global(vertex, local & Lobes::glossy, walk.events()));
+                          state.light->global(vertex, approximated, walk.events()));
 }
 
 Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk& walk) const {
@@ -243,9 +248,7 @@ Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk&
     if (state.cache->interpolate(point, irradiance)) return irradiance;
     if (state.cache->interpolate(point, irradiance, 2)) return irradiance;
   }
-  const int samples =
-      std::max(1, int(float(settings_.diffuse_samples) * settings_.level_scale(walk.events())));
-  return state.light->gather_irradiance(walk.vertex(), samples, walk.sampler());
+  return state.light->gather_irradiance(walk.vertex(), walk.sampler(), level_of(walk));
 }
 
 }  // namespace kaustik

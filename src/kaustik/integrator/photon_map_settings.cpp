@@ -47,7 +47,7 @@ class PresetReader {
         {"specular_sampling", std::string("none")},
         {"specular_samples", int64_t{25}},
         {"minimum_radiance", 0.004},
-        {"max_eye_level", int64_t{1}},
+        {"count_specular_levels", true},
         {"precompute_stride", int64_t{0}},
         {"irradiance_cache", false},
         {"light_sampling", std::string("all")},
@@ -119,9 +119,14 @@ std::vector<Parameter> parameters() {
       integer_parameter("max_light_level", -1,
                         "Longest light path in scattering events [-l]; -1: any.")
           .range(-1, 1 << 20),
-      integer_parameter("max_eye_level", -1,
-                        "Longest camera path in scattering events [-e]; -1: any.")
-          .range(-1, 1 << 20),
+      integer_parameter("max_eye_level", 1,
+                        "Levels at which diffuse indirect light is gathered; from there on it is "
+                        "estimated from the global map, but never at what the camera itself sees "
+                        "[-e].")
+          .range(0, 64),
+      boolean_parameter("count_specular_levels", false,
+                        "Mirrors and refractions count as levels too, and at max_eye_level "
+                        "specular light is left out, as in the thesis: light is lost."),
       choice_parameter("light_sampling", "one", {"one", "all"},
                        "Lights that a surface samples: one for each shadow ray, chosen by what it "
                        "may send, or every one, as in the thesis."),
@@ -261,7 +266,8 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
                     : detail == "linear" ? LevelOfDetail::linear
                                          : LevelOfDetail::exponential;
   level_factor = read.number("level_factor");
-  maximum_eye_events = events_from(read.integer("max_eye_level"));
+  maximum_eye_level = int(read.integer("max_eye_level"));
+  count_specular_levels = read.boolean("count_specular_levels");
   samples_per_pass = uint32_t(read.integer("samples_per_pass"));
   cache = read.boolean("irradiance_cache");
   cache_settings.hemisphere.samples = int(read.integer("cache_samples"));
@@ -297,14 +303,14 @@ Lobes PhotonMapSettings::local() const {
   return Lobes(uint8_t(Lobes::all) & ~uint8_t(traced() | Lobes::delta));
 }
 
-float PhotonMapSettings::level_scale(int level) const {
+float PhotonMapSettings::level_scale(int recursion) const {
   switch (level_of_detail) {
     case LevelOfDetail::none:
       return 1;
     case LevelOfDetail::linear:
-      return std::max(0.05f, 1 - level_factor * float(level));
+      return std::max(0.05f, 1 - level_factor * float(recursion));
     case LevelOfDetail::exponential:
-      return std::pow(level_factor, float(level));
+      return std::pow(level_factor, float(recursion));
   }
   return 1;
 }

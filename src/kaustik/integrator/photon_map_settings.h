@@ -17,6 +17,12 @@ enum class SpecularSampling {
 /// How counts fall with the recursion level.
 enum class LevelOfDetail { none, linear, exponential };
 
+/// Where a surface stands on a path from the camera.
+struct EyeLevel {
+  int recursion = 0;  ///< events before it: what level of detail goes by
+  int gathers = 0;    ///< gather rays among them
+};
+
 /// All parameters of the photon map integrator.
 struct PhotonMapSettings {
   ComponentSet components = ComponentSet::all();
@@ -45,7 +51,8 @@ struct PhotonMapSettings {
   int specular_samples = 1;
   LevelOfDetail level_of_detail = LevelOfDetail::none;
   float level_factor = 0.5f;
-  int maximum_eye_events = 1 << 20;
+  int maximum_eye_level = 1;
+  bool count_specular_levels = false;
   uint32_t samples_per_pass = 4;
 
   static const TypeInfo& info();
@@ -56,7 +63,24 @@ struct PhotonMapSettings {
   /// Lobes of `vertex` that photons light (all that are neither traced nor delta).
   Lobes local() const;
   /// Scale of counts at a recursion level (0: the camera's first surface).
-  float level_scale(int level) const;
+  float level_scale(int recursion) const;
+  /// A count at a recursion level, at least `least`.
+  int count_at(int count, int recursion, int least = 1) const {
+    return std::max(least, int(float(count) * level_scale(recursion)));
+  }
+  /// Whether diffuse indirect light is estimated from the global map alone: at max_eye_level and
+  /// beyond, but never at what the camera itself sees.
+  bool approximates(const EyeLevel& level) const { return level.recursion > 0 && at_limit(level); }
+  /// Whether specular light is followed from there.
+  bool traces_specular(const EyeLevel& level) const {
+    return specular_sampling != SpecularSampling::none &&
+           !(count_specular_levels && at_limit(level));
+  }
+
+ private:
+  bool at_limit(const EyeLevel& level) const {
+    return (count_specular_levels ? level.recursion : level.gathers) >= maximum_eye_level;
+  }
 };
 
 }  // namespace kaustik
