@@ -39,9 +39,8 @@ TEST(LocalPhong, WithAndWithoutShadows) {
 }
 /// Constant light falls off as the emitter says, in the classical models alone.
 TEST(LocalPhong, ClassicalAttenuation) {
-  const TestScene scene(
-      looking_down + flat("rectangle", scale("4, 4, 1"), diffuse("0.6")) +
-      R"(<emitter type="point"><point name="position" value="0, 0, 2"/>
+  const TestScene scene(looking_down + flat("rectangle", scale("4, 4, 1"), diffuse("0.6")) +
+                        R"(<emitter type="point"><point name="position" value="0, 0, 2"/>
          <rgb name="intensity" value="5"/><vector name="attenuation" value="1, 0.5, 0"/></emitter>)");
   const double attenuated = 0.6 / M_PI * 5 / (1 + 0.5 * 2);
   EXPECT_NEAR(one_pixel(scene, "localphong", ""), attenuated, 1e-5);
