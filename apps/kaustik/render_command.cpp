@@ -169,9 +169,10 @@ void add_render(CLI::App& program) {
   command->add_option("--seed", options->seed, "Seed of all random numbers [0]");
   command->add_option("--threads", options->threads, "Threads; 0: all [0]")
       ->check(CLI::Range(0, 4096));
-  command->add_option("--tonemap", options->tone,
-                      "For 8-bit images: histogram, reinhard, aces, linear, srgb [histogram]; its "
-                      "parameters: --set tonemap.key=0.3");
+  command->add_option(
+      "--tonemap", options->tone,
+      fmt::format("For 8-bit images: {} [histogram]; its parameters: --set tonemap.key=0.3",
+                  fmt::join(tone_operator_names(), ", ")));
   command->add_option("--exposure", options->exposure, "The same as --set tonemap.exposure=…");
   command->add_flag("--float", options->full_float, "EXR with 32-bit instead of 16-bit floats");
   command->add_flag("--reproducible", options->reproducible,

@@ -110,7 +110,8 @@ void add_tonemap(CLI::App& program) {
       ->required()
       ->take_all()
       ->allow_extra_args(false);
-  command->add_option("--operator", o->tone, "histogram, reinhard, aces, linear, srgb [histogram]");
+  command->add_option("--operator", o->tone,
+                      fmt::format("{} [histogram]", fmt::join(tone_operator_names(), ", ")));
   command
       ->add_option("--set", o->settings, "Change a parameter of the operator: human=true, key=0.36")
       ->type_name("PARAMETER=VALUE")

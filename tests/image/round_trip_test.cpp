@@ -148,6 +148,28 @@ TEST_F(RoundTrip, hdr_headers_of_other_programs) {
   for (int x = 0; x < 4; ++x) EXPECT_NEAR(repeated.at(x, 0, 1), 64.5 / 256, 1e-6);
 }
 
+TEST_F(RoundTrip, hdr_keeps_the_field_of_view) {
+  Image image(2, 1, {"R", "G", "B"});
+  write_image(image, path("without.hdr"));
+  EXPECT_FALSE(field_of_view(read_image(path("without.hdr"))));
+  image.set_metadata("horizontal_fov", 45.5);
+  image.set_metadata("vertical_fov", 30.25);
+  write_image(image, path("with.hdr"));
+  EXPECT_EQ(field_of_view(read_image(path("with.hdr")))->horizontal, 45.5f);
+  EXPECT_EQ(field_of_view(read_image(path("with.hdr")))->vertical, 30.25f);
+
+  const auto view_of = [&](const std::string& line) {
+    put(path("other.hdr"),
+        "#?RADIANCE\n" + line + "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n" + std::string(4, 'x'));
+    return field_of_view(read_image(path("other.hdr")));
+  };
+  const auto view = view_of("VIEW= -vtv -vp 1 2 3 -vd 0 1 0 -vu 0 0 1 -vh 60 -vv 40 -vs 0 -vl 0\n");
+  EXPECT_EQ(view->horizontal, 60);
+  EXPECT_EQ(view->vertical, 40);
+  EXPECT_FALSE(view_of("VIEW= -vta -vh 180 -vv 180\n"));  // a fisheye
+  EXPECT_FALSE(view_of("VIEW= -vtv -vh many\n"));
+}
+
 TEST_F(RoundTrip, logluv_keeps_luminance_within_its_step) {
   const Image image = test_picture(200, 30, 12);
   const Image back = written_and_read(image, "a.tif");

@@ -8,10 +8,12 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <sstream>
 
 #include "kaustik/image/formats.h"
 #include "kaustik/image/photometry.h"
+#include "kaustik/image/picture.h"
 
 namespace kaustik::formats {
 namespace {
@@ -114,6 +116,7 @@ struct Header {
   float exposure = 1;  ///< stored values are radiance times this
   bool is_bottom_up = false, is_right_to_left = false, has_columns_first = false;
   int width = 0, height = 0;
+  std::optional<FieldOfView> view;
 };
 
 float positive_number(const std::string& text) {
@@ -143,6 +146,20 @@ void read_resolution(const std::string& line, Header& header) {
   header.is_bottom_up = sign[y] == '+';
 }
 
+/// The angles of a perspective view: " -vtv -vp 0 1 2 … -vh 45 -vv 30 …". Other projections have
+/// none in our sense.
+std::optional<FieldOfView> read_view(const std::string& options) {
+  std::istringstream in(options);
+  FieldOfView view{0, 0};
+  for (std::string option; in >> option;) {
+    if (option.starts_with("-vt") && option != "-vtv") return std::nullopt;
+    if (option == "-vh") in >> view.horizontal;
+    if (option == "-vv") in >> view.vertical;
+  }
+  const auto is_angle = [](float degrees) { return degrees > 0 && degrees < 180; };
+  return is_angle(view.horizontal) && is_angle(view.vertical) ? std::optional(view) : std::nullopt;
+}
+
 Header read_header(Cursor& cursor) {
   Header header;
   for (std::string line = cursor.line(); !line.empty(); line = cursor.line()) {
@@ -153,6 +170,8 @@ Header read_header(Cursor& cursor) {
         throw BadImage(fmt::format("pixel format '{}' is not supported", format));
     } else if (line.starts_with("EXPOSURE=")) {
       header.exposure *= positive_number(line.substr(9));  // several multiply
+    } else if (line.starts_with("VIEW=")) {
+      header.view = read_view(line.substr(5));  // the last counts
     }
   }
   read_resolution(cursor.line(), header);
@@ -205,7 +224,10 @@ void read_line(Cursor& cursor, std::vector<Rgbe>& line) {
 Bytes encode_hdr(const Image& image, const std::string& layer) {
   const RgbView rgb = rgb_view(image, layer);
   Bytes bytes;
-  append(bytes, "#?RADIANCE\nSOFTWARE=Kaustik\nFORMAT=32-bit_rle_rgbe\n\n");
+  append(bytes, "#?RADIANCE\nSOFTWARE=Kaustik\n");
+  if (const auto view = field_of_view(image); view && view->vertical > 0)
+    append(bytes, fmt::format("VIEW= -vtv -vh {} -vv {}\n", view->horizontal, view->vertical));
+  append(bytes, "FORMAT=32-bit_rle_rgbe\n\n");
   append(bytes, fmt::format("-Y {} +X {}\n", image.height(), image.width()));
   std::vector<Rgbe> line(size_t(image.width()));
   for (size_t y = 0; y < size_t(image.height()); ++y) {
@@ -221,6 +243,10 @@ Image decode_hdr(ByteView file) {
   constexpr double most_pixels_per_byte = 100;
   check_header_size(header.width, header.height, 3, file.size(), most_pixels_per_byte);
   Image image(header.width, header.height, {"R", "G", "B"});
+  if (header.view) {
+    image.set_metadata("horizontal_fov", double(header.view->horizontal));
+    image.set_metadata("vertical_fov", double(header.view->vertical));
+  }
   const int lines = header.has_columns_first ? header.width : header.height;
   std::vector<Rgbe> line(size_t(header.has_columns_first ? header.height : header.width));
   for (int major = 0; major < lines; ++major) {

@@ -40,11 +40,15 @@ const std::vector<ToneOperatorType>& tone_operator_types() {
   return types;
 }
 
+std::vector<std::string> tone_operator_names() {
+  std::vector<std::string> names;
+  for (const ToneOperatorType& type : tone_operator_types()) names.push_back(type.info.name);
+  return names;
+}
+
 std::shared_ptr<const ToneOperator> make_tone_operator(const std::string& name,
                                                        const std::vector<std::string>& settings) {
-  std::vector<std::string> names;
   for (const ToneOperatorType& type : tone_operator_types()) {
-    names.push_back(type.info.name);
     if (type.info.name != name) continue;
     Problems problems;
     const Arguments arguments(type.info, properties(settings), {}, problems);
@@ -52,7 +56,7 @@ std::shared_ptr<const ToneOperator> make_tone_operator(const std::string& name,
     return type.make(arguments);
   }
   throw Error(ErrorKind::input, fmt::format("unknown tone mapping '{}'", name),
-              suggest(name, names));
+              suggest(name, tone_operator_names()));
 }
 
 Vec3f into_gamut(const Vec3f& rgb) {

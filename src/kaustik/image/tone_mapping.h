@@ -29,6 +29,7 @@ struct ToneOperatorType {
 };
 /// All operators: the one place that names them.
 const std::vector<ToneOperatorType>& tone_operator_types();
+std::vector<std::string> tone_operator_names();
 
 /// The operator of this name with parameters given as texts "name=value". Throws Error(input) for
 /// what its table does not know.
