@@ -148,21 +148,16 @@ void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_t
   cache_settings.minimum_spacing *= shrinkage;
   cache_settings.maximum_spacing *= shrinkage;
   state.cache = std::make_unique<IrradianceCache>(cache_settings);
-  const Vec2i size = scene().film().crop_size;
   const Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::cache, 0, 0);
   uint32_t round = 0;
   for (const int stride : cache_strides) {
-    std::vector<std::vector<CachePoint>> rows(size_t((size.y + stride - 1) / stride));
+    const Vec2i first = scene().film().crop_offset / stride;
+    const Vec2i end =
+        (scene().film().crop_offset + scene().film().crop_size + Vec2i(stride - 1)) / stride;
+    std::vector<std::vector<CachePoint>> rows(size_t(end.y - first.y));
     parallel_blocks(rows.size(), 1, [&](size_t row, size_t, size_t) {
-      if (stop.stop_requested()) return;
-      for (int x = 0; x < size.x; x += stride) {
-        const int y = int(row) * stride;
-        Sampler jitter = Sampler::at(pass.seed, pass.index, Stream::cache,
-                                     uint64_t(y) * uint64_t(size.x) + uint64_t(x) + 1, round);
-        const Vec2f u = jitter.next_2d();
-        const Vec2f raster(float(x) + u.x * float(stride), float(y) + u.y * float(stride));
-        collect_cache_points(raster, jitter, rows[row]);
-      }
+      for (int x = first.x; x < end.x && !stop.stop_requested(); ++x)
+        collect_cache_points(Vec2i(x, first.y + int(row)) * stride, stride, pass, round, rows[row]);
     });
     std::vector<CachePoint> points;
     for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
@@ -172,8 +167,14 @@ void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_t
   }
 }
 
-void PhotonMapIntegrator::collect_cache_points(const Vec2f& raster, Sampler sampler,
+void PhotonMapIntegrator::collect_cache_points(const Vec2i& pixel, int stride, const Pass& pass,
+                                               uint32_t round,
                                                std::vector<CachePoint>& points) const {
+  const FilmSettings& film = scene().film();
+  const uint64_t address = uint64_t(pixel.y) * uint64_t(film.size.x) + uint64_t(pixel.x) + 1;
+  Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::cache, address, round);
+  const Vec2i corner = pixel - film.crop_offset;
+  const Vec2f raster = Vec2f(float(corner.x), float(corner.y)) + sampler.next_2d() * float(stride);
   SampleSink nowhere{ComponentSet()};
   CameraWalk walk(scene(), raster, sampler, nowhere, settings_.traced());
   const size_t first = points.size();

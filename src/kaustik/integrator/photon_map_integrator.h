@@ -30,8 +30,10 @@ class PhotonMapIntegrator final : public IlluminationModel {
   void add_shadow_photons(State& state, const Pass& pass, std::stop_token stop) const;
   void fill_cache(State& state, const Pass& pass, std::stop_token stop,
                   const ProgressFunction& progress) const;
-  /// The diffuse surfaces that a camera path meets, for the cache.
-  void collect_cache_points(const Vec2f& raster, Sampler sampler,
+  /// The diffuse surfaces that a camera path through the square of `stride` pixels from `pixel` on
+  /// meets, for the cache. Pixels are those of the whole picture: in a crop window the cache is
+  /// filled from the same points, but for those outside, so what it holds agrees in the mean.
+  void collect_cache_points(const Vec2i& pixel, int stride, const Pass& pass, uint32_t round,
                             std::vector<CachePoint>& points) const;
   /// How many specular rays leave the walk's vertex.
   int specular_rays(const CameraWalk& walk) const;

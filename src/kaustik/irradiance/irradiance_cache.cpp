@@ -32,8 +32,11 @@ struct ComputedRecord {
 
 void set_reach(const ComputedRecord& computed, float quality, CacheRecord& record) {
   const float radius = std::min(computed.clamped_radius, computed.gradient_radius);
-  const float minor = std::clamp(quality * radius, computed.minimum_reach, computed.maximum_reach);
-  record.reach = std::min(minor * computed.validity.aspect, computed.maximum_reach);
+  const auto within = [&](float reach) {
+    return std::clamp(reach, computed.minimum_reach, computed.maximum_reach);
+  };
+  const float minor = within(quality * radius);
+  record.reach = within(quality * radius * computed.validity.aspect);
   record.squeeze = computed.validity.axis * safe_sqrt(1 / sqr(minor) - record.inverse_reach_sq());
 }
 
