@@ -23,6 +23,8 @@ void on_interrupt(int signal) {
 
 void warn(const std::string& message) { spdlog::warn(message); }
 
+void note(const std::string& message) { spdlog::info(message); }
+
 int usable_threads(int asked) {
   const int available = int(std::thread::hardware_concurrency());
   if (available == 0 || asked <= available) return asked;

@@ -41,6 +41,8 @@ class InterruptGuard {
 };
 
 void warn(const std::string& message);
+/// What the user may want to know, on standard error.
+void note(const std::string& message);
 /// Threads to use where `asked` are asked for (0: all): no more than the machine runs at a time.
 int usable_threads(int asked);
 /// "1 h 02 min", "3 min 04 s", "12 s".

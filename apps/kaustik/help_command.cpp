@@ -4,6 +4,7 @@
 #include "kaustik/image/tone_mapping.h"
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/scene/camera.h"
+#include "thesis_settings.h"
 
 namespace kaustik::app {
 namespace {
@@ -55,6 +56,7 @@ void print_table(const TypeInfo& info) {
 }
 
 void help(const std::string& name) {
+  if (name == "thesis") return print_thesis_variables();
   std::vector<std::string> names;
   bool found = false;
   for (const TypeInfo* info : all_types()) {
@@ -82,7 +84,10 @@ void add_help(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("help", "Print the parameters of a type, or list all types.");
   auto name = std::make_shared<std::string>();
-  command->add_option("type", *name, "Type or family, such as photonmap, bsdf, film");
+  command->add_option(
+      "type", *name,
+      "Type or family, such as photonmap, bsdf, film; or \"thesis\": variables of the "
+      "environment");
   command->callback([name] { help(*name); });
 }
 

@@ -9,6 +9,7 @@
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/photon_tracing.h"
 #include "kaustik/scene/overrides.h"
+#include "thesis_settings.h"
 
 namespace kaustik::app {
 namespace {
@@ -56,6 +57,8 @@ void trace_photons(const PhotonsOptions& options) {
   Description description = load_mitsuba_xml(options.scene, load);
   // Before the settings, so that they speak of the integrator that is used.
   override_integrator(description, "photonmap");
+  for (const std::string& applied : apply_thesis_variables(description, environment()))
+    note(applied);
   for (const std::string& setting : options.settings) override_property(description, setting);
   const auto scene = build_scene(description);
   for (const std::string& warning : scene->warnings()) warn(warning);

@@ -65,6 +65,8 @@ class Capture {
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
   if (!options.folder.empty() && ::chdir(options.folder.c_str()) != 0) ::_exit(126);
+  for (const std::string& variable : options.environment)
+    ::putenv(const_cast<char*>(variable.c_str()));
   ::execv(argv[0], argv.data());
   ::_exit(127);
 }

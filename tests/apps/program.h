@@ -18,7 +18,8 @@ inline constexpr double patience_s = 60;
 #endif
 
 struct RunOptions {
-  std::string folder;  ///< working folder
+  std::string folder;                    ///< working folder
+  std::vector<std::string> environment;  ///< "name=value", added to this program's own
   double timeout_s = patience_s;
   std::optional<rlim_t> file_size_limit;  ///< bytes that a file may have (RLIMIT_FSIZE)
   /// Sends SIGINT this long after standard error holds this text.

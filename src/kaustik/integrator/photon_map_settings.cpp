@@ -48,6 +48,7 @@ class PresetReader {
         {"specular_samples", int64_t{25}},
         {"minimum_radiance", 0.004},
         {"count_specular_levels", true},
+        {"aim_targets", int64_t{32}},
         {"precompute_stride", int64_t{0}},
         {"irradiance_cache", false},
         {"light_sampling", std::string("all")},
@@ -254,6 +255,9 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   gather_theta_cells = int(read.integer("importance_theta_cells"));
   gather_phi_cells = int(read.integer("importance_phi_cells"));
   importance_photons = int(read.integer("importance_photons"));
+  // The thesis directs gather rays by the photons of its estimates.
+  if (read.thesis() && !arguments.given("importance_photons") && global.neighbors > 0)
+    importance_photons = global.neighbors;
   importance_by_average = read.text("importance_weight") == "average";
   importance_floor = read.number("importance_floor");
   const std::string sampling = read.text("specular_sampling");

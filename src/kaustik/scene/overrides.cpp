@@ -56,6 +56,12 @@ std::shared_ptr<Object> find_object(Description& description, const std::string&
 }  // namespace
 
 void override_property(Description& description, const std::string& assignment) {
+  override_property(description, assignment,
+                    place_in(fmt::format("command line: --set {}", assignment)));
+}
+
+void override_property(Description& description, const std::string& assignment,
+                       const Place& origin) {
   const size_t equals = assignment.find('=');
   const size_t dot = assignment.substr(0, equals).rfind('.');
   if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == equals)
@@ -65,8 +71,7 @@ void override_property(Description& description, const std::string& assignment) 
   const auto object = find_object(description, assignment.substr(0, dot));
   std::erase_if(object->properties, [&](const Property& p) { return p.name == name; });
   std::erase_if(object->children, [&](const Child& c) { return c.name == name; });
-  object->properties.push_back({name, Untyped{assignment.substr(equals + 1)},
-                                place_in(fmt::format("command line: --set {}", assignment))});
+  object->properties.push_back({name, Untyped{assignment.substr(equals + 1)}, origin});
 }
 
 void override_integrator(Description& description, const std::string& type) {

@@ -1,0 +1,160 @@
+#include "thesis_settings.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/scene/overrides.h"
+
+namespace kaustik::app {
+namespace {
+
+enum class Kind {
+  same,    ///< the value of our parameter
+  length,  ///< the same, at least 1
+  flag,    ///< counts by being there
+  quality  ///< of a tessellation: our parameter is a number of pieces
+};
+
+struct Variable {
+  const char* name;
+  const char* parameter;
+  Kind kind = Kind::same;
+};
+
+constexpr Variable variables_of_thesis[] = {
+    {"photonMap.numCaustic", "caustic_neighbors"},
+    {"photonMap.totalCaustic", "caustic_photons"},
+    {"photonMap.causticFilter", "caustic_filter"},
+    {"photonMap.numGlobal", "global_neighbors"},
+    {"photonMap.totalGlobal", "global_photons"},
+    {"photonMap.numDiffuse", "diffuse_samples"},
+    {"photonMap.impThetaIntervals", "importance_theta_cells"},
+    {"photonMap.impPhiIntervals", "importance_phi_cells"},
+    {"photonMap.minDist", "minimum_distance", Kind::flag},
+    {"photonMap.specularSampling", "specular_sampling"},
+    {"photonMap.numSpecular", "specular_samples"},
+    {"photonMap.minRadiance", "minimum_radiance"},
+    {"photonMap.reradiate", "reradiate", Kind::flag},
+    {"photonMap.distribQuality", "aim_targets", Kind::quality},
+    {"maxLightLevel", "max_light_level", Kind::length},
+    {"maxEyeLevel", "max_eye_level"},
+};
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+const Variable* find_variable(const std::string& name) {
+  for (const Variable& variable : variables_of_thesis)
+    if (name == variable.name) return &variable;
+  return nullptr;
+}
+
+[[noreturn]] void fail_unknown(const std::string& name, const Place& place) {
+  std::vector<std::string> names;
+  for (const Variable& variable : variables_of_thesis) names.emplace_back(variable.name);
+  throw Error(ErrorKind::input, fmt::format("the thesis has no variable '{}'", name),
+              suggest(name, names), place);
+}
+
+[[noreturn]] void fail_value(const std::string& name, const std::string& value,
+                             const std::string& remedy, const Place& place) {
+  throw Error(ErrorKind::input, fmt::format("'{}' cannot be '{}'", name, value), remedy, place);
+}
+
+int whole_number(const Variable& variable, const std::string& value, int least,
+                 const Place& place) {
+  int number = 0;
+  const char* end = value.data() + value.size();
+  const auto [rest, code] = std::from_chars(value.data(), end, number);
+  if (code != std::errc{} || rest != end || number < least)
+    fail_value(variable.name, value, fmt::format("give a whole number, {} or larger", least),
+               place);
+  return number;
+}
+
+/// What our parameter has to be for the variable's value.
+std::string translated(const Variable& variable, const std::string& value, const Place& place) {
+  switch (variable.kind) {
+    case Kind::same:
+      if (value.empty()) fail_value(variable.name, value, "give a value, or unset it", place);
+      break;
+    case Kind::length:
+      whole_number(variable, value, 1, place);
+      break;
+    case Kind::flag:
+      for (const char* yes : {"", "1", "true", "yes", "on"})
+        if (lower_case(value) == yes) return "true";
+      fail_value(variable.name, value, "it counts by being there: unset it to switch it off",
+                 place);
+    case Kind::quality:
+      // 128 boxes are the most that photons are aimed at.
+      return std::to_string(32 << std::min(whole_number(variable, value, 0, place), 2));
+  }
+  return value;
+}
+
+const Parameter& parameter_of(const Variable& variable) {
+  for (const IntegratorType& type : integrator_types())
+    if (type.info.name == "photonmap")
+      if (const Parameter* parameter = type.info.find(variable.parameter)) return *parameter;
+  throw std::logic_error(fmt::format("photonmap has no parameter {}", variable.parameter));
+}
+
+}  // namespace
+
+std::vector<std::string> environment() {
+  std::vector<std::string> variables;
+  for (char** entry = environ; entry && *entry; ++entry) variables.emplace_back(*entry);
+  std::sort(variables.begin(), variables.end());
+  return variables;
+}
+
+std::vector<std::string> apply_thesis_variables(Description& description,
+                                                const std::vector<std::string>& variables) {
+  const auto integrator = find_integrator(description);
+  std::vector<std::string> report;
+  for (const std::string& entry : variables) {
+    const size_t equals = std::min(entry.find('='), entry.size());
+    const std::string name = entry.substr(0, equals);
+    const Variable* variable = find_variable(name);
+    if (!variable && !lower_case(name).starts_with("photonmap.")) continue;
+    if (integrator && integrator->type != "photonmap")
+      return {fmt::format("the environment's {} has no effect with integrator '{}'", name,
+                          integrator->type)};
+    const Place place = place_in(fmt::format("environment: {}", entry));
+    if (!variable) fail_unknown(name, place);
+    const std::string value =
+        translated(*variable, entry.substr(std::min(equals + 1, entry.size())), place);
+    override_property(description, fmt::format("integrator.{}={}", variable->parameter, value),
+                      place);
+    report.push_back(
+        fmt::format("{} of the environment: {} = {}", name, variable->parameter, value));
+  }
+  return report;
+}
+
+void print_thesis_variables() {
+  fmt::print(
+      "Variables of the environment by which Schregle's thesis (1998, appendix A) sets its photon "
+      "map.\nThey apply to integrator photonmap; --set, -l and -e win over them, and they win over "
+      "the\nscene file. Shells cannot assign names with a dot, env can:\n"
+      "  env photonMap.numGlobal=80 photonMap.minDist=1 kaustik render scene.xml\n"
+      "The thesis's defaults: integrator parameter preset = thesis.\n");
+  for (const Variable& variable : variables_of_thesis) {
+    const Parameter& parameter = parameter_of(variable);
+    fmt::print("\n  {:28} {}\n      {}\n", variable.name, variable.parameter, parameter.sentence);
+    if (variable.kind == Kind::flag) fmt::print("      A flag: counts by being there.\n");
+    if (variable.kind == Kind::quality)
+      fmt::print("      0, 1, 2: into 32, 64, 128 boxes; more changes nothing.\n");
+    if (!parameter.choices.empty())
+      fmt::print("      One of: {}\n", fmt::join(parameter.choices, ", "));
+  }
+}
+
+}  // namespace kaustik::app
