@@ -224,8 +224,10 @@ CacheSettings settings_of(const Variant& variant, float quality) {
   return settings;
 }
 
-/// The error at so many records, by a power law between two measurements beside that number.
+/// The error at so many records, by a power law between the measurements beside that number; NaN
+/// beyond them.
 double error_at(const std::vector<Outcome>& curve, double records) {
+  if (records < curve.front().records || records > curve.back().records) return std::nan("");
   size_t next = 1;
   while (next + 1 < curve.size() && curve[next].records < records) ++next;
   const Outcome &a = curve[next - 1], &b = curve[next];
