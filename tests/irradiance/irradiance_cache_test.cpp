@@ -182,6 +182,24 @@ TEST(irradiance_cache, neighbours_clamp_and_minimum_distances_are_shorter) {
   EXPECT_GT(records(false, true), records(false, false) * 11 / 10);
 }
 
+TEST(irradiance_cache, points_that_tolerate_more_ask_for_fewer_records) {
+  const RoomSource room;
+  auto points = room_points(resolution);
+  const auto records = [&](float tolerance) {
+    for (CachePoint& p : points) p.tolerance = tolerance;
+    IrradianceCache cache(settings_with(0.3f, 60));
+    fill(cache, points, room);
+    for (const CachePoint& p : points) {
+      Spectrum e;
+      EXPECT_TRUE(cache.interpolate(p, e));
+    }
+    return cache.record_count();
+  };
+  EXPECT_LT(records(1.5f), records(1) * 8 / 10);
+  EXPECT_EQ(records(100), records(RecordOctree::overlap));
+  EXPECT_EQ(records(0), records(1));
+}
+
 TEST(irradiance_cache, sides_do_not_share) {
   IrradianceCache cache(settings_with(0.3f, 50));
   fill(cache, floor_points(30), UniformSource(Spectrum(1), 1));
