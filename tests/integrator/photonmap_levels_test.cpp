@@ -130,5 +130,33 @@ TEST_F(LevelOfDetailTest, GatherRaysAndGlobalPhotons) {
   check(set("level_of_detail", "linear") + set("level_factor", 0.25), {1, 0, 6, 20});
 }
 
+/// Rays that the cache costs where all its points are at the second level.
+uint64_t cache_rays(const TestScene& scene, const std::string& parameters) {
+  const auto integrator = scene.integrator("photonmap", parameters);
+  SplatBuffer splats(scene.scene().film(), ComponentSet());
+  return integrator->prepare({1, 0, 1}, splats, {}, {})->report.rays;
+}
+TEST(LevelOfDetail, QualityOfTheIrradianceCache) {
+  const std::string room =
+      flat("rectangle", scale("1, 1, 1"), diffuse("0.5, 0.5, 0.5")) +
+      flat("rectangle", rotate("1, 0, 0", 90) + translate("0, 1, 1"), diffuse("0.5, 0.5, 0.5")) +
+      sphere("0.2, 0.2, 0.3", 0.2, diffuse("0.5, 0.5, 0.5")) + point_light("0, -0.5, 1.5", 3);
+  const std::string camera_here = camera("0, -2, 1", "0, 0.3, 0.4", 50, 32);
+  const std::string parameters = set("global_photons", 1000) + set("caustic_photons", 0) +
+                                 set("cache_samples", 16) + set("cache_quality", 0.1) +
+                                 set("cache_minimum_spacing", 0.1) +
+                                 set("global_neighbors", 2);  // as few as at any level
+  const TestScene direct(camera_here + room);
+  const TestScene through_shell(camera_here + room + sphere("0, -2, 1", 1e-3, glass(1)));
+  for (const char* detail : {"exponential", "linear"}) {
+    const std::string halved = set("level_of_detail", detail) + set("level_factor", 0.5);
+    const auto rays = [&](const TestScene& scene, const std::string& more) {
+      return double(cache_rays(scene, parameters + more));
+    };
+    EXPECT_EQ(rays(direct, halved), rays(direct, "")) << detail;
+    EXPECT_LT(rays(through_shell, halved), 0.8 * rays(through_shell, "")) << detail;
+  }
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -24,9 +24,10 @@ float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
 }
 
 /// The walk's vertex as the cache sees it.
-CachePoint cache_point_of(const CameraWalk& walk) {
+CachePoint cache_point_of(const CameraWalk& walk, const PhotonMapSettings& settings) {
   const SurfaceVertex& vertex = walk.vertex();
-  return {vertex.point(), vertex.facing_normal(), 2 * walk.footprint(), 1};
+  return {vertex.point(), vertex.facing_normal(), 2 * walk.footprint(),
+          settings.cache_tolerance(walk.events())};
 }
 
 /// Of the walk's vertex: the camera's side gathers nothing on its way.
@@ -181,7 +182,7 @@ void PhotonMapIntegrator::collect_cache_points(const Vec2i& pixel, int stride, c
   while (walk.advance()) {
     const SurfaceVertex& vertex = walk.vertex();
     if (any(vertex.lobes() & Lobes::diffuse) && !settings_.approximates(level_of(walk))) {
-      points.push_back(cache_point_of(walk));
+      points.push_back(cache_point_of(walk, settings_));
       if (points.size() - first >= cache_points_per_path) return;
     }
     if (specular_rays(walk) == 0 || !scatter_specular(walk, 1)) return;
@@ -245,7 +246,7 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
 Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk& walk) const {
   Spectrum irradiance;
   if (state.cache) {
-    const CachePoint point = cache_point_of(walk);
+    const CachePoint point = cache_point_of(walk, settings_);
     if (state.cache->interpolate(point, irradiance)) return irradiance;
     if (state.cache->interpolate(point, irradiance, 2)) return irradiance;
   }

@@ -68,6 +68,8 @@ struct PhotonMapSettings {
   int count_at(int count, int recursion, int least = 1) const {
     return std::max(least, int(float(count) * level_scale(recursion)));
   }
+  /// How much larger an error of the irradiance cache is allowed at a recursion level.
+  float cache_tolerance(int recursion) const { return 1 / level_scale(recursion); }
   /// Whether diffuse indirect light is estimated from the global map alone: at max_eye_level and
   /// beyond, but never at what the camera itself sees.
   bool approximates(const EyeLevel& level) const { return level.recursion > 0 && at_limit(level); }
