@@ -120,17 +120,6 @@ TEST(BuildScene, GroupsThatCannotBe) {
                  "an instance needs exactly one shape group", "<ref");
   expect_problem(camera + "\n<shape type=\"sphere\" id=\"g\"/>" + instance, "3:30",
                  "an instance needs exactly one shape group", "<ref");
-  expect_problem(camera +
-                     "\n<shape type=\"shapegroup\" id=\"g\">\n<shape type=\"disk\">"
-                     "<emitter type=\"area\"/></shape></shape>" +
-                     instance,
-                 "4:20", "cannot be a light", "shape of its own");
-  expect_problem(camera +
-                     "\n<shape type=\"shapegroup\" id=\"h\"><shape type=\"disk\"/></shape>"
-                     "\n<shape type=\"shapegroup\" id=\"g\">\n<shape type=\"disk\"/>"
-                     "<shape type=\"instance\"><ref id=\"h\"/></shape></shape>" +
-                     instance,
-                 "5:21", "cannot be nested", "one group");
 }
 
 TEST(BuildScene, WhatIsMissing) {

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "kaustik/scene/placed_scenes.h"
 #include "kaustik/scene/scene.h"
 #include "kaustik/scene/scene_builder.h"
 
@@ -29,7 +30,10 @@ std::set<const Object*> integrators_of_shapes(const Object& scene) {
 std::shared_ptr<const Scene> build_scene(const Description& description,
                                          const BuildOptions& options) {
   SceneBuilder builder;
-  Scene::Parts parts = builder.build(*description.scene);
+  std::vector<std::string> warnings;
+  const Description flat = flatten_placed_scenes(description, warnings);
+  Scene::Parts parts = builder.build(*flat.scene);
+  parts.warnings.insert(parts.warnings.begin(), warnings.begin(), warnings.end());
   parts.observer = options.observer;
   return std::make_shared<const Scene>(std::move(parts));
 }

@@ -26,7 +26,11 @@ std::vector<std::string> names_of(const std::vector<Row>& rows) {
 
 const TypeInfo& shapegroup_info() {
   static const TypeInfo info{
-      "shape", "shapegroup", "Shapes that appear only through instances.", {}};
+      "shape",
+      "shapegroup",
+      "Shapes, or a whole scene with lamps and instances of other groups, that appear only "
+      "through instances.",
+      {}};
   return info;
 }
 
@@ -164,8 +168,7 @@ void SceneBuilder::add_top_level(const Object& object) {
   }
 }
 
-std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& object,
-                                                                 bool in_group) {
+std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& object) {
   const ShapeType* type = find_row(shape_types(), object.type);
   if (!type) {
     std::vector<std::string> valid = names_of(shape_types());
@@ -188,9 +191,6 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
       if (built.surface.illumination)
         problems_.add("the shape has a second integrator", "keep one", child.object->place);
       built.surface.illumination = child.object;
-    } else if (child.object->family == "emitter" && in_group) {
-      problems_.add("a shape of a shape group cannot be a light",
-                    "place the light as a shape of its own", child.object->place);
     }
   }
   if (!built.surface.bsdf) {
@@ -204,7 +204,7 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
 }
 
 void SceneBuilder::add_shape(const Object& object) {
-  std::optional<BuiltShape> built = make_shape(object, false);
+  std::optional<BuiltShape> built = make_shape(object);
   if (!built) return;
   const int index = int(shapes_.size());
   for (const Child& child : object.children) {
@@ -226,12 +226,7 @@ uint32_t SceneBuilder::group_index(const std::shared_ptr<Object>& group) {
   refuse_children(*group, {"shape"});
   for (const Child& child : group->children) {
     if (child.object->family != "shape") continue;
-    if (child.object->type == "instance" || child.object->type == "shapegroup") {
-      problems_.add("shape groups cannot be nested", "put the shapes into one group",
-                    child.object->place);
-      continue;
-    }
-    if (auto built = make_shape(*child.object, true)) groups_[index].push_back(std::move(*built));
+    if (auto built = make_shape(*child.object)) groups_[index].push_back(std::move(*built));
   }
   if (group->children.empty())
     problems_.add("the shape group is empty", "add a shape to it", group->place);

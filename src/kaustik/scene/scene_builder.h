@@ -30,7 +30,7 @@ class SceneBuilder {
   void add_shape(const Object& object);
   void add_instance(const Object& object);
   uint32_t group_index(const std::shared_ptr<Object>& group);
-  std::optional<BuiltShape> make_shape(const Object& object, bool in_group);
+  std::optional<BuiltShape> make_shape(const Object& object);
   std::shared_ptr<const Bsdf> make_bsdf(const std::shared_ptr<Object>& object);
   std::shared_ptr<const Bsdf> create_bsdf(const Object& object);
   std::shared_ptr<const Texture> make_texture(const std::shared_ptr<Object>& object);

@@ -1,0 +1,211 @@
+#include "kaustik/scene/placed_scenes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "kaustik/light/light.h"
+
+namespace kaustik {
+namespace {
+
+constexpr int maximum_levels = 64;
+constexpr size_t maximum_placements = 1'000'000;
+
+bool is_shape(const Object& object, const char* type) {
+  return object.family == "shape" && object.type == type;
+}
+bool shines(const Object& object) {
+  return object.family == "shape" &&
+         std::any_of(object.children.begin(), object.children.end(),
+                     [](const Child& child) { return child.object->family == "emitter"; });
+}
+/// Only there for others to refer to, which have it already.
+bool is_definition(const Object& object) {
+  return object.family == "bsdf" || object.family == "texture" || object.family == "medium" ||
+         is_shape(object, "shapegroup");
+}
+bool is_of_whole_picture(const Object& object) {
+  return object.family == "sensor" || object.family == "integrator";
+}
+/// What a group may hold as far as the scene builder goes, mistakes included: it will tell them.
+bool stays_in_group(const Object& object) {
+  return !is_definition(object) && !is_of_whole_picture(object) && object.family != "emitter" &&
+         !is_shape(object, "instance") && !shines(object);
+}
+
+const Property* find_property(const Object& object, const std::string& name) {
+  for (const Property& property : object.properties)
+    if (property.name == name) return &property;
+  return nullptr;
+}
+/// The identity where none is given, and where it is none: that will be told when it is read.
+Transform to_world_of(const Object& object) {
+  const Property* property = find_property(object, "to_world");
+  const Transform* given = property ? std::get_if<Transform>(&property->value) : nullptr;
+  return given ? *given : Transform();
+}
+void set_property(Object& object, const std::string& name, const Value& value) {
+  const Property* old = find_property(object, name);
+  const Place place = old ? old->place : object.place;
+  std::erase_if(object.properties, [&](const Property& p) { return p.name == name; });
+  object.properties.push_back({name, value, place});
+}
+
+Transform compose(const Transform& outer, const Object& object) {
+  const Transform composed = outer * to_world_of(object);
+  double rows[4][4];
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) rows[i][j] = composed.at(i, j);
+  try {
+    return Transform(rows);
+  } catch (const std::invalid_argument&) {
+    throw Error(ErrorKind::input, "the transforms of a placed scene shrink or grow it to nothing",
+                "use less extreme scales", object.place);
+  }
+}
+
+std::shared_ptr<Object> with_to_world(const Object& object, const Transform& to_world) {
+  auto copy = std::make_shared<Object>(object);
+  set_property(*copy, "to_world", to_world);
+  return copy;
+}
+
+/// An emitter brought to where `world` puts it.
+std::shared_ptr<Object> placed_emitter(const Object& emitter, const Transform& world) {
+  for (const LightType& type : light_types()) {
+    if (type.info.name != emitter.type || type.needs_shape) continue;
+    const Parameter* to_world = type.info.find("to_world");
+    if (!to_world || to_world->no_effect)
+      throw Error(ErrorKind::input,
+                  fmt::format("emitter '{}' lights the whole world: it cannot stand in a shape "
+                              "group",
+                              emitter.type),
+                  "put it at the top of the scene", emitter.place);
+  }
+  const auto point_of = [&](const char* name) -> const Vec3d* {
+    const Property* given = find_property(emitter, name);
+    return given ? std::get_if<Vec3d>(&given->value) : nullptr;
+  };
+  if (const Vec3d* position = point_of("position")) {
+    auto copy = with_to_world(emitter, world * Transform::translate(*position));
+    std::erase_if(copy->properties, [](const Property& p) { return p.name == "position"; });
+    return copy;
+  }
+  if (const Vec3d* direction = point_of("direction")) {
+    auto copy = std::make_shared<Object>(emitter);
+    set_property(*copy, "direction", Vec3d(world.vector(Vec3f(*direction))));
+    return copy;
+  }
+  return with_to_world(emitter, compose(world, emitter));
+}
+
+class Flattener {
+ public:
+  explicit Flattener(std::vector<std::string>& warnings) : warnings_(warnings) {}
+
+  Description flatten(const Object& scene) {
+    Description flat{std::make_shared<Object>(scene)};
+    top_ = flat.scene.get();
+    top_->children.clear();
+    for (const Child& child : scene.children) {
+      const Object* group = group_of(*child.object);
+      if (group && !is_flat(*group)) {
+        placements_ += 1 + placements_in(*child.object, 0);
+        if (placements_ > maximum_placements)
+          throw Error(ErrorKind::input,
+                      fmt::format("instances of instances make more than {} placements",
+                                  maximum_placements),
+                      "use fewer, or put shapes into one group", child.object->place);
+        place(*child.object, Transform(), 0);
+      } else {
+        top_->children.push_back(child);
+      }
+    }
+    return flat;
+  }
+
+ private:
+  /// The group that an instance places; null for everything else.
+  static const Object* group_of(const Object& object) {
+    if (!is_shape(object, "instance") || object.children.size() != 1) return nullptr;
+    const Object* group = object.children[0].object.get();
+    return is_shape(*group, "shapegroup") ? group : nullptr;
+  }
+  static bool is_flat(const Object& group) {
+    return std::all_of(group.children.begin(), group.children.end(),
+                       [](const Child& child) { return stays_in_group(*child.object); });
+  }
+
+  static void check_level(const Object& instance, int level) {
+    if (level >= maximum_levels)
+      throw Error(ErrorKind::input,
+                  fmt::format("instances nest more than {} levels deep", maximum_levels),
+                  "make the scene flatter", instance.place);
+  }
+  /// How many placements one of `instance`'s group brings with it, or more than the most.
+  size_t placements_in(const Object& instance, int level) {
+    check_level(instance, level);
+    const Object& group = *group_of(instance);
+    const auto known = placements_in_.find(&group);
+    if (known != placements_in_.end()) return known->second;
+    size_t count = 0;
+    for (const Child& child : group.children)
+      if (group_of(*child.object) && count <= maximum_placements)
+        count += 1 + placements_in(*child.object, level + 1);
+    return placements_in_[&group] = std::min(count, maximum_placements + 1);
+  }
+
+  void place(const Object& instance, const Transform& outer, int level) {
+    check_level(instance, level);
+    const Transform world = compose(outer, instance);
+    const Object& group = *group_of(instance);
+    if (const auto dark = dark_part(instance.children[0].object)) {
+      auto placed = with_to_world(instance, world);
+      placed->children[0].object = dark;
+      top_->children.push_back({"", placed});
+    }
+    for (const Child& child : group.children) place_part(*child.object, world, level);
+  }
+
+  void place_part(const Object& part, const Transform& world, int level) {
+    if (group_of(part))
+      place(part, world, level + 1);
+    else if (part.family == "emitter")
+      top_->children.push_back({"", placed_emitter(part, world)});
+    else if (shines(part))
+      top_->children.push_back({"", with_to_world(part, compose(world, part))});
+    else if (is_shape(part, "instance"))
+      top_->children.push_back({"", std::make_shared<Object>(part)});  // the builder refuses it
+    else if (is_of_whole_picture(part) && reported_.insert(&part).second)
+      warnings_.push_back(fmt::format("the {} of a placed scene has no effect", part.family));
+  }
+
+  /// The group's shapes that stay in it, one object for all placements; null if there are none.
+  std::shared_ptr<Object> dark_part(const std::shared_ptr<Object>& group) {
+    const auto [entry, is_new] = dark_parts_.try_emplace(group.get());
+    if (!is_new) return entry->second;
+    auto dark = std::make_shared<Object>(*group);
+    std::erase_if(dark->children, [](const Child& c) { return !stays_in_group(*c.object); });
+    if (!dark->children.empty() || group->children.empty()) entry->second = dark;
+    return entry->second;
+  }
+
+  std::vector<std::string>& warnings_;
+  Object* top_ = nullptr;
+  size_t placements_ = 0;
+  std::map<const Object*, size_t> placements_in_;
+  std::map<const Object*, std::shared_ptr<Object>> dark_parts_;
+  std::set<const Object*> reported_;
+};
+
+}  // namespace
+
+Description flatten_placed_scenes(const Description& description,
+                                  std::vector<std::string>& warnings) {
+  return Flattener(warnings).flatten(*description.scene);
+}
+
+}  // namespace kaustik
