@@ -6,8 +6,8 @@
 
 namespace kaustik {
 
-/// A description in which groups hold nothing but shapes that do not shine, and its equal
-/// otherwise. Groups may be whole scenes: with instances of other groups, to any depth, with shapes
+/// An equal description in which groups hold nothing but shapes that do not shine. The groups of
+/// `description` may be whole scenes: with instances of other groups, to any depth, with shapes
 /// that shine and with lamps. Each placement of such a group becomes an instance of its dark
 /// shapes, which all placements share, a copy of each lamp and shining shape where it comes to
 /// stand, and placements of the groups in it. What a placed scene cannot bring with it (its camera,
