@@ -17,12 +17,15 @@ std::string furnace(bool through_shell, int size = 4) {
          sphere("0, 0, 0", 1, diffuse("0.5, 0.5, 0.5") + area_light("1, 1, 1"), true) +
          (through_shell ? sphere("0, 0, 0", 0.01, glass(1)) : "");
 }
+std::string light_paths_of(int max_light_level) {
+  return set("max_light_level", max_light_level) + set("precompute_stride", 0) +
+         set("global_photons", int(50'000 * sample_share)) + set("global_neighbors", 100) +
+         set("caustic_neighbors", 0) + set("importance_floor", 1.0) +
+         set("irradiance_cache", false) + set("diffuse_samples", 2);
+}
 /// Photons of one bounce: in the global map the light has the radiance 1/2 before it is reflected.
 std::string one_bounce(int max_eye_level, bool count_specular) {
-  return set("max_light_level", 1) + set("global_photons", int(50'000 * sample_share)) +
-         set("caustic_neighbors", 0) + set("importance_floor", 1.0) +
-         set("irradiance_cache", false) + set("diffuse_samples", 2) + set("precompute_stride", 0) +
-         set("global_neighbors", 100) + set("max_eye_level", max_eye_level) +
+  return light_paths_of(1) + set("max_eye_level", max_eye_level) +
          set("count_specular_levels", count_specular);
 }
 constexpr double ground = 1 + 1 / 2.0;  // what shines, and direct light
@@ -37,6 +40,15 @@ TEST(PhotonMapLevels, GatherRaysGatherAgain) {
                 render(scene, "photonmap", one_bounce(level, level > 1), {16}).mean({"indirect"}),
                 expected);
   }
+}
+/// Photons of two bounces bring one more term.
+TEST(PhotonMapLevels, LightPathsEndAtTheirLimit) {
+  const TestScene scene(furnace(false));
+  double expected = 1 / 4.0 + 1 / 8.0;
+  for (int level = 1; level <= 3; ++level, expected += std::pow(0.5, level + 2))
+    expect_mean(fmt::format("light paths of {} events", level),
+                render(scene, "photonmap", light_paths_of(level), {16}).mean({"indirect"}),
+                expected);
 }
 /// With no level at all, what the camera sees is gathered all the same.
 TEST(PhotonMapLevels, TheFirstSurfaceIsNeverApproximated) {
