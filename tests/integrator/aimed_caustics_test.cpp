@@ -25,7 +25,8 @@ std::string floor_from_above(double half_side) {
          flat("rectangle", scale("1, 1, 1"), diffuse("0.5, 0.5, 0.5"));
 }
 
-Passes caustic(const TestScene& scene, bool aim, int photons, double samples, uint64_t seed) {
+Passes caustic(const TestScene& scene, const char* aim, int photons, double samples,
+               uint64_t seed) {
   return render(scene, "photonmap",
                 set("components", "caustic") + set("aim", aim) +
                     set("caustic_photons", int(photons * sample_share)) +
@@ -36,11 +37,12 @@ Passes caustic(const TestScene& scene, bool aim, int photons, double samples, ui
 
 void check(const Case& c, double half_side = 0.8) {
   const TestScene scene(floor_from_above(half_side) + c.objects);
-  const RunningStatistics aimed = caustic(scene, true, c.photons, c.samples, 1).mean({"caustic"});
   const RunningStatistics unaimed =
-      caustic(scene, false, c.unaimed_photons, c.samples, 2).mean({"caustic"});
+      caustic(scene, "none", c.unaimed_photons, c.samples, 2).mean({"caustic"});
   EXPECT_GT(unaimed.mean(), 0);
-  expect_equal_means(c.name, aimed, unaimed);
+  for (const char* aim : {"boxes", "projection_map"})
+    expect_equal_means(c.name + ", " + aim,
+                       caustic(scene, aim, c.photons, c.samples, 1).mean({"caustic"}), unaimed);
 }
 
 const std::string lamp = point_light("0.3, 0.2, 1", 1);
@@ -91,15 +93,18 @@ TEST(AimedCaustics, AreaLight) {
 TEST(AimedCaustics, LightTracer) {
   const TestScene scene(floor_from_above(0.8) + lamp + sphere("0, 0, 0.4", 0.2, glass()) +
                         sphere("0.3, -0.3, 0.2", 0.1, mirror()));
-  const auto caustic_of = [&](bool aim, double samples, uint64_t seed) {
+  const auto caustic_of = [&](const char* aim, double samples, uint64_t seed) {
     return render(scene, "lighttracer", set("components", "caustic") + set("aim", aim),
                   {samples, seed})
         .mean({"caustic"});
   };
-  const RunningStatistics aimed = caustic_of(true, 200, 1), unaimed = caustic_of(false, 1500, 2);
-  expect_equal_means("aimed light tracer", aimed, unaimed);
-  // Aiming is worth it.
-  EXPECT_LT(aimed.standard_error(), 1.5 * unaimed.standard_error());
+  const RunningStatistics unaimed = caustic_of("none", 1500, 2);
+  for (const char* aim : {"boxes", "projection_map"}) {
+    const RunningStatistics aimed = caustic_of(aim, 200, 1);
+    expect_equal_means(std::string("aimed light tracer, ") + aim, aimed, unaimed);
+    // Aiming is worth it.
+    EXPECT_LT(aimed.standard_error(), 1.5 * unaimed.standard_error());
+  }
 }
 
 #ifndef KAUSTIK_SLOW_BUILD
@@ -113,8 +118,8 @@ TEST(AimedCaustics, LampsElsewhereDoNotStarveOne) {
     many += point_light(fmt::format("{}, {}, 1", 3 + i % 5, i / 5 - 5), 20);
   const TestScene with_one(ball), with_many(many);
   constexpr int photons = 20'000;
-  const RunningStatistics one = caustic(with_one, true, photons, 16, 1).mean({"caustic"});
-  const RunningStatistics of_many = caustic(with_many, true, photons, 16, 1).mean({"caustic"});
+  const RunningStatistics one = caustic(with_one, "boxes", photons, 16, 1).mean({"caustic"});
+  const RunningStatistics of_many = caustic(with_many, "boxes", photons, 16, 1).mean({"caustic"});
   std::printf("  caustic of one lamp: error %.5f alone, %.5f among 51\n",
               one.standard_error() / one.mean(), of_many.standard_error() / of_many.mean());
   expect_equal_means("caustic of one lamp among 51", of_many, one);

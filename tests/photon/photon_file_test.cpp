@@ -41,7 +41,7 @@ StoredPhotons traced(const Scene& scene, uint32_t photons) {
   stored.settings.global_photons = stored.settings.caustic_photons = photons;
   stored.settings.maximum_events = 9;
   stored.settings.traced = Lobes::delta;
-  stored.settings.aim = false;
+  stored.settings.aim = Aim::projection_map;
   stored.settings.target_budget = 33;
   stored.maps = LightPass(scene, stored.settings, stored.seed).trace(stored.seed, 0);
   return stored;
@@ -153,7 +153,7 @@ TEST_F(PhotonFile, KeepsEverything) {
   EXPECT_EQ(read.settings.maximum_events, 9);
   EXPECT_EQ(read.settings.traced, Lobes::delta);
   EXPECT_FALSE(read.settings.reradiate);
-  EXPECT_FALSE(read.settings.aim);
+  EXPECT_EQ(read.settings.aim, Aim::projection_map);
   EXPECT_EQ(read.settings.target_budget, 33);
   expect_same_map(written.maps.global, read.maps.global);
   expect_same_map(written.maps.caustic, read.maps.caustic);

@@ -13,17 +13,15 @@ struct LightTracer::Counts {
 };
 
 const TypeInfo& LightTracer::info() {
-  static const TypeInfo info{"integrator",
-                             "lighttracer",
-                             "Unbiased light paths splatted to the camera; finds caustics of small "
-                             "lamps, but nothing that "
-                             "the camera sees by a mirror, through glass or beyond the scene.",
-                             {components_parameter(), max_depth_parameter(),
-                              ignored_parameter("rr_depth", ParameterKind::integer),
-                              boolean_parameter("aim", true,
-                                                "Photons for caustics apart from the others, aimed "
-                                                "at specular objects."),
-                              ignored_parameter("hide_emitters", ParameterKind::boolean)}};
+  static const TypeInfo info{
+      "integrator",
+      "lighttracer",
+      "Unbiased light paths splatted to the camera; finds caustics of small "
+      "lamps, but nothing that "
+      "the camera sees by a mirror, through glass or beyond the scene.",
+      {components_parameter(), max_depth_parameter(),
+       ignored_parameter("rr_depth", ParameterKind::integer), aim_parameter(),
+       ignored_parameter("hide_emitters", ParameterKind::boolean)}};
   return info;
 }
 
@@ -33,9 +31,10 @@ LightTracer::LightTracer(const Arguments& arguments, const Scene& scene)
       maximum_events_(read_maximum_events(arguments)),
       emission_(scene) {
   for (const auto& light : scene.lights()) powers_.push_back(light->power().sum());
-  if (!arguments.boolean("aim") || !components_.has(Component::caustic)) return;
-  std::vector<AimTarget> targets = find_targets(scene, Lobes::specular, default_target_budget);
-  if (!targets.empty()) aimed_emission_.emplace(scene, std::move(targets));
+  const Aim aim = read_aim(arguments.text("aim"));
+  if (aim == Aim::none || !components_.has(Component::caustic)) return;
+  aimed_emission_.emplace(scene, Lobes::specular, default_target_budget, aim);
+  if (aimed_emission_->target_count() == 0) aimed_emission_.reset();
 }
 
 std::vector<LightTracer::Job> LightTracer::jobs(uint32_t total) const {

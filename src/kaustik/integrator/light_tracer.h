@@ -8,7 +8,7 @@ namespace kaustik {
 
 /// Light paths from the lamps, splatted to the camera at every vertex that it sees: unbiased, and
 /// the referee for L S⁺ D E, which path tracing cannot find. Caustics have photons of their own,
-/// aimed at what is specular by the same code as those of photon maps (`aim` = false is independent
+/// aimed at what is specular by the same code as those of photon maps (`aim` = none is independent
 /// of it). What the camera sees by a specular event is out of its reach.
 class LightTracer final : public Integrator {
  public:

@@ -113,10 +113,11 @@ std::vector<Parameter> parameters() {
       number_parameter("global_radius", 0, "The same for global photons.").range(0, 1e30).in("m"),
       boolean_parameter("reradiate", false,
                         "Caustic photons go on as global ones from where they land [reradiate]."),
-      boolean_parameter("aim", true, "Aim caustic photons at specular objects."),
-      integer_parameter("aim_targets", 128,
-                        "Boxes that specular objects are divided into for that [distribQuality].")
-          .range(1, 128),
+      aim_parameter(),
+      integer_parameter("aim_targets", default_target_budget,
+                        "Boxes that specular objects are divided into for that [distribQuality]; "
+                        "above 128 only projection_map uses more.")
+          .range(1, 4096),
       integer_parameter("max_light_level", -1,
                         "Longest light path in scattering events [-l]; -1: any.")
           .range(-1, 1 << 20),
@@ -289,7 +290,7 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   photon_file_place = arguments.place_of("photon_map");
   light_pass.traced = traced();
   light_pass.reradiate = read.boolean("reradiate");
-  light_pass.aim = read.boolean("aim");
+  light_pass.aim = read_aim(read.text("aim"));
   light_pass.target_budget = int(read.integer("aim_targets"));
   light_pass.maximum_events = events_from(read.integer("max_light_level"));
   // A count of zero, to find or in total, switches that type of photon off.

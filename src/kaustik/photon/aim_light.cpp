@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kaustik/base/warp.h"
+#include "kaustik/photon/facing_origins.h"
 
 namespace kaustik {
 namespace {
@@ -16,14 +17,13 @@ SurfacePoint free_point(const Vec3f& position) {
   return point;
 }
 
-/// A sample that carries nothing.
+}  // namespace
+
 EmittedRay no_ray() {
   EmittedRay result;
   result.origin = free_point({0, 0, 0});
   return result;
 }
-
-}  // namespace
 
 EmittedRay sample_own(const Light& light, const Vec2f& u_position, const Vec2f& u_direction) {
   const EmissionSample s = light.sample_emission(u_position, u_direction);
@@ -119,19 +119,10 @@ Vec3f AimedLight::cap_direction(const Vec3f& sphere_center, float threshold, con
   return Frame(axis).to_world(square_to_cone(u, cap_height(sphere_center, threshold)));
 }
 
-/// A point of the ball, uniform in the cap that faces sphere `i`; found by a ray from outside, so
-/// that the shape itself says where and how exact it is.
+/// A point of the ball, uniform in the cap that faces sphere `i`.
 bool AimedLight::ball_origin(size_t i, const Vec2f& u, SurfacePoint& origin) const {
   const Vec3f outward = cap_direction(table_.center(i), table_.cap_threshold[i], u);
-  const Ray ray{ball_.center + outward * (2.0f * ball_.radius), -outward};
-  const auto met = shape_->intersect(ray);
-  if (!met) return false;
-  Hit hit;
-  hit.t = met->t;
-  hit.u = met->u;
-  hit.v = met->v;
-  hit.ng = met->ng;
-  origin = shape_->surface_point(ray, hit);
+  if (!point_of_ball(*shape_, ball_, outward, origin)) return false;
   origin.shape = uint32_t(light_->shape());
   return true;
 }

@@ -1,14 +1,36 @@
 #pragma once
+#include <functional>
+
 #include "kaustik/photon/aim_density.h"
 #include "kaustik/photon/aim_spheres.h"
 
 namespace kaustik {
+
+/// A ray that carries nothing.
+EmittedRay no_ray();
 
 /// Emission of one light, by its own distribution. `aim_light.h` is where emission gets its
 /// densities; EmissionSampler is what the rest sees.
 EmittedRay sample_own(const Light& light, const Vec2f& u_position, const Vec2f& u_direction);
 /// Joint density of sample_own.
 float own_pdf(const Light& light, const SurfacePoint& origin, const Vec3f& direction);
+
+/// Emission of one light toward targets. Immutable.
+class LightEmission {
+ public:
+  virtual ~LightEmission() = default;
+  virtual EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction,
+                            float u_target) const = 0;
+  /// Joint density of sample().
+  virtual float pdf(const SurfacePoint& origin, const Vec3f& direction) const = 0;
+};
+
+/// Whether rays of the light's own distribution that `aimed_pdf` does not leave out carry flux
+/// about as even as aimed rays would (rays that are left out counted as without flux): then aiming
+/// is not worth its time.
+bool own_serves_as_well(const Light& light,
+                        const std::function<float(const SurfacePoint&, const Vec3f&)>& aimed_pdf,
+                        int probes);
 
 /// What the aims of all lights are made from.
 struct AimInputs {
@@ -17,15 +39,15 @@ struct AimInputs {
   int probes = 16;  ///< origins that estimate what a light sends to each sphere
 };
 
-/// Emission of one light toward bounding spheres. Immutable.
-class AimedLight {
+/// Emission of one light toward bounding spheres.
+class AimedLight final : public LightEmission {
  public:
   /// `shape`: of area lights, else null. All must outlive this.
   AimedLight(const Light& light, const Shape* shape, const AimInputs& inputs);
 
-  EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction, float u_target) const;
-  /// Joint density of sample().
-  float pdf(const SurfacePoint& origin, const Vec3f& direction) const;
+  EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction,
+                    float u_target) const override;
+  float pdf(const SurfacePoint& origin, const Vec3f& direction) const override;
 
  private:
   enum class Kind {
@@ -40,7 +62,6 @@ class AimedLight {
   };
 
   void add_spheres(const AimInputs& inputs);
-  void choose_distribution(int probes);
   void set_own_limit();
   double flux_toward(const AimSphere& sphere, int probes) const;
   double flux_into_cone(const SurfacePoint& origin, const AimCone& cone, uint32_t probe) const;

@@ -55,7 +55,10 @@ AimedLight::AimedLight(const Light& light, const Shape* shape, const AimInputs& 
     kind_ = Kind::dark;
     return;
   }
-  choose_distribution(inputs.probes * 16);
+  const auto aimed_pdf = [this](const SurfacePoint& origin, const Vec3f& direction) {
+    return pdf(origin, direction);
+  };
+  if (own_serves_as_well(light, aimed_pdf, inputs.probes * 16)) kind_ = Kind::own;
 }
 
 /// Where cones are wider than what the light emits into, the light knows better.
@@ -162,24 +165,24 @@ void AimedLight::set_chances(std::vector<double> chances) {
   }
 }
 
-/// Compares, over rays that meet a sphere, how much the flux per photon varies (photons that miss
-/// counted as zero) with and without aiming, by rays of the light's own distribution.
-void AimedLight::choose_distribution(int probes) {
+bool own_serves_as_well(const Light& light,
+                        const std::function<float(const SurfacePoint&, const Vec3f&)>& aimed_pdf,
+                        int probes) {
   double own_squares = 0, aimed_squares = 0;
   int useful = 0;
   for (uint32_t k = 0; k < uint32_t(probes); ++k) {
     Sampler sampler(probe_scramble + 3, k);
     const Vec2f u = sampler.next_2d();
-    const EmissionSample s = light_->sample_emission(u, sampler.next_2d());
-    const float aimed_pdf = pdf(s.point, s.direction);
-    if (!(aimed_pdf > 0)) continue;
+    const EmissionSample s = light.sample_emission(u, sampler.next_2d());
+    const float aimed = aimed_pdf(s.point, s.direction);
+    if (!(aimed > 0)) continue;
     ++useful;
     const double flux_sq = double(sqr(s.flux.max_lane()));
     own_squares += flux_sq;
-    aimed_squares += flux_sq * double(s.pdf_position * s.pdf_direction) / double(aimed_pdf);
+    aimed_squares += flux_sq * double(s.pdf_position * s.pdf_direction) / double(aimed);
   }
   // Aiming costs time as well; and few useful rays are a reason to aim, not a measurement.
-  if (useful >= 8 && aimed_squares > 0.9 * own_squares) kind_ = Kind::own;
+  return useful >= 8 && aimed_squares > 0.9 * own_squares;
 }
 
 }  // namespace kaustik

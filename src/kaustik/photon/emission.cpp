@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "kaustik/photon/aim_light.h"
+#include "kaustik/photon/projection_map.h"
 
 namespace kaustik {
 
@@ -16,39 +17,75 @@ const Shape* shape_of(const Scene& scene, const Light& light) {
 }
 }  // namespace
 
-struct EmissionSampler::Aim {
-  std::vector<AimedLight> lights;
-};
-
 EmissionSampler::EmissionSampler(const Scene& scene) : scene_(&scene) {}
 
 EmissionSampler::EmissionSampler(const Scene& scene, std::vector<AimTarget> targets)
-    : aim_(std::make_unique<Aim>()), scene_(&scene) {
-  const Bounds3f scene_bounds = scene.tracer().bounds();
+    : scene_(&scene) {
+  aim_at(std::move(targets), {});
+}
+
+EmissionSampler::EmissionSampler(const Scene& scene, Lobes lobes, int budget, Aim aim)
+    : scene_(&scene) {
+  std::vector<AimTarget> targets = find_targets(scene, lobes, budget, Aim::boxes);
+  target_count_ = targets.size();
+  if (aim == Aim::none) return;
+  std::vector<AimTarget> seen_by_cells;
+  if (aim == Aim::projection_map)
+    seen_by_cells = find_targets(scene, lobes, budget, Aim::projection_map);
+  aim_at(std::move(targets), seen_by_cells);
+}
+
+void EmissionSampler::aim_at(std::vector<AimTarget> targets,
+                             const std::vector<AimTarget>& seen_by_cells) {
+  aimed_ = true;
+  target_count_ = std::max(targets.size(), seen_by_cells.size());
+  const Bounds3f scene_bounds = scene_->tracer().bounds();
+  std::vector<Bounds3f> boxes;
+  for (const AimTarget& target : seen_by_cells) boxes.push_back(target.box);
   std::vector<AimSphere> spheres;
   for (const AimTarget& target : merge_targets(std::move(targets), max_spheres))
     spheres.push_back(bounding_sphere(target, scene_bounds));
   // The more lights, the less is spent on each.
-  const int probes = std::clamp(4096 / int(std::max<size_t>(1, scene.lights().size())), 2, 16);
-  for (const auto& light : scene.lights())
-    aim_->lights.emplace_back(*light, shape_of(scene, *light),
-                              AimInputs{spheres, scene_bounds, probes});
+  const double lights = double(std::max<size_t>(1, scene_->lights().size()));
+  const int probes = std::clamp(int(4096 / lights), 2, 16);
+  const int resolution = std::clamp(int(128 / std::sqrt(lights)), 8, 64);
+  for (const auto& light : scene_->lights()) {
+    const Shape* shape = shape_of(*scene_, *light);
+    const ProjectionInputs inputs{boxes, scene_bounds, resolution, std::max(2, probes / 2)};
+    // An environment's planes are as many as its directions: no map could hold them.
+    if (boxes.empty() || (light->is_infinite() && !light->is_delta()))
+      lights_.push_back(
+          std::make_unique<AimedLight>(*light, shape, AimInputs{spheres, scene_bounds, probes}));
+    else if (light->is_infinite())
+      lights_.push_back(std::make_unique<ProjectionPlane>(*light, inputs));
+    else
+      lights_.push_back(std::make_unique<ProjectionMap>(*light, shape, inputs));
+  }
 }
 
 EmissionSampler::~EmissionSampler() = default;
 
 EmittedRay EmissionSampler::sample(int light, const Vec2f& u_position, const Vec2f& u_direction,
                                    float u_target) const {
-  if (aim_) return aim_->lights[size_t(light)].sample(u_position, u_direction, u_target);
+  if (aimed_) return lights_[size_t(light)]->sample(u_position, u_direction, u_target);
   return sample_own(*scene_->lights()[size_t(light)], u_position, u_direction);
 }
 
 float EmissionSampler::pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const {
-  if (aim_) return aim_->lights[size_t(light)].pdf(origin, direction);
+  if (aimed_) return lights_[size_t(light)]->pdf(origin, direction);
   return own_pdf(*scene_->lights()[size_t(light)], origin, direction);
 }
 
-bool EmissionSampler::aimed() const { return aim_ != nullptr; }
+Parameter aim_parameter() {
+  return choice_parameter("aim", "boxes", {"none", "boxes", "projection_map"},
+                          "How photons for caustics are aimed at specular objects: not at all, at "
+                          "the spheres around their boxes, or through the cells of a projection "
+                          "map that their boxes are seen in.");
+}
+
+Aim read_aim(const std::string& name) {
+  return name == "none" ? Aim::none : name == "boxes" ? Aim::boxes : Aim::projection_map;
+}
 
 namespace {
 

@@ -3,9 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "kaustik/base/parameters.h"
 #include "kaustik/scene/scene.h"
 
 namespace kaustik {
+
+class LightEmission;
 
 /// What emission may be aimed at: a box that contains part of an object, and how much it matters
 /// (its albedo). Everything that counts must lie inside some target's box.
@@ -27,21 +30,36 @@ struct EmittedRay {
   float pdf_direction = 0;
 };
 
+/// How emission is aimed at targets.
+enum class Aim {
+  none,           ///< by the light's own distribution
+  boxes,          ///< at the boxes' bounding spheres
+  projection_map  ///< through the cells of a projection map
+};
+/// The parameter `aim` of integrators, and its reading.
+Parameter aim_parameter();
+Aim read_aim(const std::string& name);
+inline constexpr Aim default_aim = Aim::boxes;
+
 /// The only source of emission densities. Per light: by the light's own distribution, or aimed, so
-/// that few rays miss the targets' boxes, with exact densities. A light with a place chooses a
-/// target by the flux that goes there and samples the cone that the target's bounding sphere
-/// subtends at the origin (density: the sum over all cones that hold the direction); an infinite
-/// light samples the disks of the bounding spheres projected along the direction (likewise).
-/// Spherical lights only use the side that faces the target. Where a target surrounds the origin,
-/// or takes more than the light emits into, the light's own distribution stands in for its cone.
-/// Lights whose own distribution serves the targets as well use that. A target has no chance only
-/// where bounds prove that the light cannot reach it. Immutable.
+/// that few rays miss the targets' boxes, with exact densities.
+/// By `Aim::boxes` a light with a place chooses a target by the flux that goes there and samples
+/// the cone that the target's bounding sphere subtends at the origin (density: the sum over all
+/// cones that hold the direction); an infinite light samples the disks of the bounding spheres
+/// projected along the direction (likewise). Spherical lights only use the side that faces the
+/// target. Where a target surrounds the origin, or takes more than the light emits into, the
+/// light's own distribution stands in for its cone. By `Aim::projection_map` see ProjectionMap;
+/// environment lights are aimed as by `boxes`. Lights whose own distribution serves the targets as
+/// well use that. A target has no chance only where bounds prove that the light cannot reach it.
+/// Immutable.
 class EmissionSampler {
  public:
   /// By power: every light by its own distribution. `scene` must outlive this.
   explicit EmissionSampler(const Scene& scene);
-  /// Aimed at `targets`. With no targets nothing is emitted.
+  /// Aimed by Aim::boxes at `targets`. With no targets nothing is emitted.
   EmissionSampler(const Scene& scene, std::vector<AimTarget> targets);
+  /// Aimed at what has any of `lobes`, see find_targets; by power for Aim::none.
+  EmissionSampler(const Scene& scene, Lobes lobes, int budget, Aim aim);
   ~EmissionSampler();
 
   /// A ray of light `light`. Dimensions: `u_target` picks the target.
@@ -51,20 +69,28 @@ class EmissionSampler {
   /// on light `light` (on the plane across the direction, for infinite lights: any point of the
   /// ray's line) along `direction`.
   float pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const;
-  bool aimed() const;
+  bool aimed() const { return aimed_; }
+  /// Boxes that there are to aim at (by power: found, not aimed at).
+  size_t target_count() const { return target_count_; }
 
  private:
-  struct Aim;
-  std::unique_ptr<Aim> aim_;  ///< null: by power
+  void aim_at(std::vector<AimTarget> targets, const std::vector<AimTarget>& seen_by_cells);
+
+  /// One per light; empty: by power.
+  std::vector<std::unique_ptr<LightEmission>> lights_;
+  bool aimed_ = false;
+  size_t target_count_ = 0;
   const Scene* scene_;
 };
 
 inline constexpr int default_target_budget = 128;
 
 /// Boxes of every shape (and instance) whose bsdf has any of `lobes`, at most `budget` of them,
-/// weighted by the albedo of those lobes. Long and hollow shapes get more boxes than compact ones.
-/// For caustics: Lobes::specular or Lobes::delta.
-std::vector<AimTarget> find_targets(const Scene& scene, Lobes lobes, int budget);
+/// weighted by the albedo of those lobes. For Aim::boxes as many as serve best, since each costs
+/// time: long and hollow shapes get more boxes than compact ones. For Aim::projection_map, where
+/// they cost none, as many as there may be. For caustics: Lobes::specular or Lobes::delta.
+std::vector<AimTarget> find_targets(const Scene& scene, Lobes lobes, int budget,
+                                    Aim aim = default_aim);
 
 /// How many photons each light emits: nine tenths of `total` in proportion to `arriving` (flux that
 /// arrived in a training pass, per light; any unit), the rest mostly by `power`. Lights without

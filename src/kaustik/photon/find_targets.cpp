@@ -151,7 +151,7 @@ std::vector<PlacedShape> placed_shapes(const Scene& scene, Lobes lobes) {
 
 }  // namespace
 
-std::vector<AimTarget> find_targets(const Scene& scene, Lobes lobes, int budget) {
+std::vector<AimTarget> find_targets(const Scene& scene, Lobes lobes, int budget, Aim aim) {
   const std::vector<PlacedShape> placed = placed_shapes(scene, lobes);
   const auto limit = size_t(std::max(1, budget));
   std::vector<double> sizes;
@@ -166,7 +166,8 @@ std::vector<AimTarget> find_targets(const Scene& scene, Lobes lobes, int budget)
   std::vector<AimTarget> targets;
   for (size_t i = 0; i < placed.size(); ++i) {
     const int share = 1 + (total > 0 ? int(spare * sizes[i] / total) : 0);
-    const std::vector<AimTarget> boxes = best_boxes(placed[i], share);
+    const std::vector<AimTarget> boxes =
+        aim == Aim::boxes ? best_boxes(placed[i], share) : boxes_of(placed[i], share);
     targets.insert(targets.end(), boxes.begin(), boxes.end());
   }
   return merge_targets(std::move(targets), limit);

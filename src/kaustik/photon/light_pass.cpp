@@ -180,10 +180,9 @@ LightPass::LightPass(const Scene& scene, const LightPassSettings& settings, uint
       settings_(settings),
       global_emission_(std::make_unique<EmissionSampler>(scene)) {
   if (settings_.caustic_photons > 0) {
-    std::vector<AimTarget> targets = find_targets(scene, settings_.traced, settings_.target_budget);
-    target_count_ = targets.size();
-    caustic_emission_ = settings_.aim ? std::make_unique<EmissionSampler>(scene, std::move(targets))
-                                      : std::make_unique<EmissionSampler>(scene);
+    caustic_emission_ = std::make_unique<EmissionSampler>(scene, settings_.traced,
+                                                          settings_.target_budget, settings_.aim);
+    target_count_ = caustic_emission_->target_count();
   }
   global_shares_ = train(Kind::global, settings_.global_photons, seed);
   caustic_shares_ = train(Kind::caustic, settings_.caustic_photons, seed);

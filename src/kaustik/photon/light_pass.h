@@ -18,7 +18,7 @@ struct LightPassSettings {
   int maximum_events = 1 << 20;    ///< scattering events of a light path
   Lobes traced = Lobes::specular;  ///< lobes whose events count as specular (G)
   bool reradiate = false;          ///< caustic photons go on as global ones
-  bool aim = true;                 ///< caustic photons are aimed at specular objects
+  Aim aim = default_aim;           ///< how caustic photons are aimed at specular objects
   /// One place where global photons land, for looking up irradiance, for so many global photons;
   /// 0: none.
   uint32_t place_stride = 0;

@@ -181,7 +181,9 @@ class Reader {
     if (traced > uint8_t(Lobes::all)) damaged("a setting in it is not valid");
     s.traced = Lobes(traced);
     s.reradiate = get_flag();
-    s.aim = get_flag();
+    const auto aim = get<uint8_t>();
+    if (aim > uint8_t(Aim::projection_map)) damaged("a setting in it is not valid");
+    s.aim = Aim(aim);
     s.target_budget = get<int32_t>();
     return s;
   }
