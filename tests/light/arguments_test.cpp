@@ -38,7 +38,8 @@ TEST(LightArguments, NamesOfAllTypes) {
     EXPECT_EQ(type.info.family, "emitter");
     EXPECT_EQ(type.needs_shape, type.info.name == "area");
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"area", "point", "spot", "directional", "constant"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"area", "point", "spot", "directional", "constant",
+                                             "envmap", "sunsky", "sky", "sun", "background"}));
 }
 
 TEST(LightArguments, ContradictionsAreErrors) {

@@ -42,6 +42,11 @@ std::vector<LightCase> every_light() {
       {"directional", make_light("directional", {{"irradiance", white, {}},
                                                  {"direction", Value(Vec3d(1, 2, -0.5)), {}}})});
   cases.push_back({"constant", make_light("constant", {{"radiance", colored, {}}})});
+  const Value turned(Transform::rotate({1, 2, 3}, 50));
+  cases.push_back({"envmap", make_envmap(8, 5, spotted_pixels(40), {{"to_world", turned, {}}})});
+  // With a sun that is wide enough for the cells of a histogram.
+  cases.push_back({"sunsky", make_light("sunsky", {{"sun_aperture", Value(50.0), {}},
+                                                   {"sun_direction", Value(Vec3d(1, 0, 1)), {}}})});
   return cases;
 }
 

@@ -3,6 +3,8 @@
 #include <stdexcept>
 
 #include "kaustik/base/warp.h"
+#include "kaustik/image/image_io.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kaustik::testing {
 
@@ -19,6 +21,33 @@ std::unique_ptr<Light> make_light(const std::string& type, const std::vector<Pro
     return candidate.create({arguments, Transform(), std::move(shape), 7, scene_bounds});
   }
   throw std::logic_error("no such light");
+}
+
+std::unique_ptr<Light> make_envmap(int width, int height, const std::vector<Rgb>& pixels,
+                                   std::vector<Property> properties) {
+  Image image(width, height, {"R", "G", "B"});
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    image.channel(0)[i] = float(pixels[i].r);
+    image.channel(1)[i] = float(pixels[i].g);
+    image.channel(2)[i] = float(pixels[i].b);
+  }
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("environment.exr");
+  WriteOptions options;
+  options.exr_half = false;
+  write_image(image, path, options);
+  properties.push_back({"filename", Value(path), {}});
+  return make_light("envmap", properties);
+}
+
+std::vector<Rgb> spotted_pixels(int count) {
+  Random random(3);
+  std::vector<Rgb> pixels;
+  for (int i = 0; i < count; ++i) {
+    const double value = i % 7 == 3 ? 20 * random.next() : i % 5 == 0 ? 0 : random.next();
+    pixels.push_back({value, 0.5 * value + 0.1 * random.next(), 0.3 * value});
+  }
+  return pixels;
 }
 
 std::shared_ptr<const Shape> make_shape(const std::string& type,

@@ -55,6 +55,12 @@ std::unique_ptr<Light> make_light(const std::string& type, const std::vector<Pro
                                   std::shared_ptr<const Shape> shape = nullptr,
                                   const Bounds3f& scene_bounds = test_bounds());
 
+/// An environment of a picture with one float per pixel and channel, row by row.
+std::unique_ptr<Light> make_envmap(int width, int height, const std::vector<Rgb>& pixels,
+                                   std::vector<Property> properties = {});
+/// A picture with some bright pixels among dim ones.
+std::vector<Rgb> spotted_pixels(int count);
+
 /// A shape by its type's name.
 std::shared_ptr<const Shape> make_shape(const std::string& type,
                                         const std::vector<Property>& properties);

@@ -82,7 +82,7 @@ void CameraWalk::add_emission() {
 void CameraWalk::add_background() {
   for (const int index : scene_.environment_lights()) {
     const Light& light = *scene_.lights()[size_t(index)];
-    if (light.is_delta()) continue;
+    if (light.is_delta() || (light.is_only_seen() && state_.pdf_forward > 0)) continue;
     sink_.add(class_.component(), state_.throughput * light.background(ray_.direction) *
                                       emission_weight(index, ray_.direction));
   }

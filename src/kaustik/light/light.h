@@ -70,6 +70,9 @@ class Light {
   virtual bool is_delta() const = 0;
   /// Shines from infinity (directional or environment).
   virtual bool is_infinite() const { return false; }
+  /// Lights nothing: background() is only for rays that leave the scene straight from the camera or
+  /// after delta events.
+  virtual bool is_only_seen() const { return false; }
   /// Index into the scene's shapes if it is an area light, else −1.
   virtual int shape() const { return -1; }
 
@@ -130,7 +133,7 @@ struct LightType {
   /// Throws Error where arguments contradict one another, or the shape cannot be a light.
   std::unique_ptr<Light> (*create)(const LightInputs&);
 };
-/// "area", "point", "spot", "directional", "constant".
+/// One row per type of emitter.
 const std::vector<LightType>& light_types();
 
 /// Chooses one of many lights for a reference point: by power for up to 16, by a light tree

@@ -8,6 +8,13 @@
 
 namespace kaustik {
 
+bool keeps_angles(const Transform& t) {
+  const Vec3f x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
+  const float size = length_sq(z), tolerance = 1e-3f * size;
+  return std::fabs(length_sq(x) - size) < tolerance && std::fabs(length_sq(y) - size) < tolerance &&
+         abs_dot(x, y) < tolerance && abs_dot(y, z) < tolerance && abs_dot(x, z) < tolerance;
+}
+
 Spectrum emission_argument(const LightInputs& inputs, std::string_view name) {
   return emission_spectrum(inputs.arguments.color(name));
 }

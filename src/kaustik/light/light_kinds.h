@@ -13,7 +13,14 @@ LightType point_light_type();
 LightType spot_light_type();
 LightType directional_light_type();
 LightType constant_light_type();
+LightType envmap_light_type();
+LightType sunsky_light_type();
+LightType sky_light_type();
+LightType sun_light_type();
+LightType background_light_type();
 
+/// Whether the map keeps angles, up to rounding of its numbers.
+bool keeps_angles(const Transform& t);
 /// A color argument of something that emits.
 Spectrum emission_argument(const LightInputs& inputs, std::string_view name);
 /// The emitter's own `to_world` if the arguments give it, else that of the inputs.

@@ -82,14 +82,6 @@ class SpotLight final : public Light {
   ClassicalAttenuation attenuation_;
 };
 
-/// Whether the map keeps angles, up to rounding of its numbers.
-bool keeps_angles(const Transform& t) {
-  const Vec3f x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
-  const float size = length_sq(z), tolerance = 1e-3f * size;
-  return std::fabs(length_sq(x) - size) < tolerance && std::fabs(length_sq(y) - size) < tolerance &&
-         abs_dot(x, y) < tolerance && abs_dot(y, z) < tolerance && abs_dot(x, z) < tolerance;
-}
-
 SpotCone cone_argument(const Arguments& arguments) {
   const double cutoff = arguments.number("cutoff_angle");
   const double beam = arguments.has("beam_width") ? arguments.number("beam_width") : 0.75 * cutoff;

@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "kaustik/image/image_io.h"
+#include "kaustik/image/picture_argument.h"
 #include "kaustik/material/bsdf_kinds.h"
 #include "kaustik/material/uv_transform.h"
 
@@ -93,37 +93,10 @@ const TypeInfo& info() {
   return info;
 }
 
-/// Errors of reading get the place of the file name.
-Image read_at(const Arguments& arguments) {
+std::shared_ptr<const Texture> create(const Arguments& arguments) {
   ReadOptions options;
   options.srgb_to_linear = !arguments.boolean("raw");
-  try {
-    return read_image(arguments.text("filename"), options);
-  } catch (const Error& error) {
-    std::vector<Problem> problems = error.problems();
-    for (Problem& problem : problems)
-      if (!problem.place.file) problem.place = arguments.place_of("filename");
-    throw Error(error.kind(), std::move(problems));
-  }
-}
-
-/// A texture that is negative or not finite would poison every path that meets it.
-void check_pixels(const Image& image, const Arguments& arguments) {
-  const RgbView pixels = rgb_view(image);
-  for (size_t i = 0; i < image.pixel_count(); ++i) {
-    const Vec3f c = pixels[i];
-    if (is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0) continue;
-    throw Error(ErrorKind::input,
-                "picture '" + arguments.text("filename") + "' has a value at (" +
-                    std::to_string(i % size_t(image.width())) + ", " +
-                    std::to_string(i / size_t(image.width())) + ") that is negative or not finite",
-                "repair the picture", arguments.place_of("filename"));
-  }
-}
-
-std::shared_ptr<const Texture> create(const Arguments& arguments) {
-  const Image image = read_at(arguments);
-  check_pixels(image, arguments);
+  const Image image = read_picture_argument(arguments, options);
   const std::string& wrap = arguments.text("wrap_mode");
   return std::make_shared<Bitmap>(image, arguments.text("filter_type") == "nearest",
                                   wrap == "clamp"    ? Wrap::clamp
