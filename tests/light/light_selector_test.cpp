@@ -252,7 +252,7 @@ TEST(LightSelector, WithoutPowerThereIsNoChoice) {
   }
 }
 
-TEST(LightSelector, AFewLightsAreChosenByPower) {
+TEST(LightSelector, AFewLightsAreChosenByWhatTheyGive) {
   Lights lights;
   for (const double strength : {1.0, 0.0, 3.0})
     lights.push_back(make_light("point", {{"intensity", Value(Rgb{0, 0, strength}), {}}}));
@@ -260,6 +260,40 @@ TEST(LightSelector, AFewLightsAreChosenByPower) {
   EXPECT_FLOAT_EQ(selector.probability({9, 9, 9}, {}, 0), 0.25f);
   EXPECT_EQ(selector.probability({9, 9, 9}, {}, 1), 0);
   EXPECT_FLOAT_EQ(selector.probability({9, 9, 9}, {}, 2), 0.75f);
+}
+
+TEST(LightSelector, NearLampsComeBeforeFarOnes) {
+  Lights lights;
+  for (const double x : {0.0, 10.0})
+    lights.push_back(make_light("point", {{"position", Value(Vec3d(x, 0, 0)), {}}}));
+  const LightSelector selector(lights);
+  EXPECT_GT(selector.probability({1, 0, 0}, {}, 0), 0.95f);
+  EXPECT_GT(selector.probability({1, 0, 0}, {}, 1), 0.02f);
+  EXPECT_FLOAT_EQ(selector.probability({5, 0, 0}, {}, 0), 0.5f);
+}
+
+/// In a room with a window the sky's light mostly meets walls, which nobody knows here.
+TEST(LightSelector, ABrightSkyDoesNotStarveLamps) {
+  for (const int lamps : {1, 3, 40}) {
+    Lights lights;
+    lights.push_back(make_light("constant", {{"radiance", Value(1000.0), {}}}));
+    for (int i = 0; i < lamps; ++i)
+      lights.push_back(make_light("point", {{"position", Value(Vec3d(i, 0, 1)), {}}}));
+    const LightSelector selector(lights);
+    EXPECT_NEAR(selector.probability({0, 0, 0}, {0, 0, 1}, 0), 0.8, 1e-6);
+  }
+}
+
+TEST(LightSelector, OneLightCostsNoChoice) {
+  Lights lights;
+  lights.push_back(make_light("point", {{"intensity", Value(0.0), {}}}));
+  lights.push_back(make_light("constant", {}));
+  const LightSelector selector(lights);
+  float u = 0.25f;
+  const auto choice = selector.choose({0, 0, 0}, {0, 0, 1}, u);
+  EXPECT_EQ(choice.light, 1);
+  EXPECT_EQ(choice.probability, 1);
+  EXPECT_EQ(u, 0.25f);
 }
 
 TEST(LightSelector, LightsAtOnePlaceAreAllFound) {

@@ -6,6 +6,7 @@
 
 #include "kaustik/base/fast_math.h"
 #include "kaustik/base/warp.h"
+#include "kaustik/geometry/make_sphere.h"
 #include "kaustik/geometry/shape_creators.h"
 #include "kaustik/geometry/shape_support.h"
 
@@ -216,6 +217,11 @@ const TypeInfo& sphere_info() {
        transform_parameter("to_world", "Places the sphere in the world; one scale for all axes."),
        boolean_parameter("flip_normals", false, "The inside is the front.")}};
   return info;
+}
+
+std::unique_ptr<Shape> make_sphere(const Vec3d& center, double radius) {
+  const std::array<Vec3d, 3> axes = {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
+  return std::make_unique<Sphere>(center, radius, axes, false);
 }
 
 std::unique_ptr<Shape> create_sphere(const Arguments& arguments) {

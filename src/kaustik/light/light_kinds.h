@@ -18,6 +18,8 @@ LightType sunsky_light_type();
 LightType sky_light_type();
 LightType sun_light_type();
 LightType background_light_type();
+LightType distributed_light_type();
+LightType distributed_spot_light_type();
 
 /// Whether the map keeps angles, up to rounding of its numbers.
 bool keeps_angles(const Transform& t);

@@ -1,8 +1,6 @@
-#include <fmt/format.h>
-
 #include "kaustik/light/attenuation.h"
 #include "kaustik/light/light_kinds.h"
-#include "kaustik/light/spot_cone.h"
+#include "kaustik/light/spot_arguments.h"
 
 namespace kaustik {
 namespace {
@@ -82,21 +80,6 @@ class SpotLight final : public Light {
   ClassicalAttenuation attenuation_;
 };
 
-SpotCone cone_argument(const Arguments& arguments) {
-  const double cutoff = arguments.number("cutoff_angle");
-  const double beam = arguments.has("beam_width") ? arguments.number("beam_width") : 0.75 * cutoff;
-  if (!(cutoff > 0))
-    throw Error(ErrorKind::input, "'cutoff_angle' is 0: this spot would be dark",
-                "give an angle of more than 0 up to 180 degrees",
-                arguments.place_of("cutoff_angle"));
-  if (beam > cutoff)
-    throw Error(ErrorKind::input,
-                fmt::format("'beam_width' is {}, more than the 'cutoff_angle' of {}", beam, cutoff),
-                "the beam lies inside of the cutoff angle", arguments.place_of("beam_width"));
-  const double radians = std::numbers::pi / 180;
-  return SpotCone(cutoff * radians, beam * radians);
-}
-
 std::unique_ptr<Light> create_spot(const LightInputs& inputs) {
   const Transform& to_world = emitter_transform(inputs);
   if (!keeps_angles(to_world))
@@ -106,7 +89,7 @@ std::unique_ptr<Light> create_spot(const LightInputs& inputs) {
   return with_finite_power(
       std::make_unique<SpotLight>(emission_argument(inputs, "intensity"), to_world.point({0, 0, 0}),
                                   normalize(to_world.vector({0, 0, 1})),
-                                  cone_argument(inputs.arguments),
+                                  spot_cone_argument(inputs.arguments),
                                   ClassicalAttenuation(inputs.arguments)),
       inputs);
 }
@@ -114,21 +97,16 @@ std::unique_ptr<Light> create_spot(const LightInputs& inputs) {
 }  // namespace
 
 LightType spot_light_type() {
-  static const TypeInfo info{
-      "emitter",
-      "spot",
-      "Light from a point into a cone about its +z axis.",
-      {color_parameter("intensity", 1, "Radiant intensity within the beam.").in("W/sr"),
-       number_parameter("cutoff_angle", 20, "Angle from the axis from which on it is dark.")
-           .range(0, 180)
-           .in("degrees"),
-       optional(number_parameter("beam_width", 15,
-                                 "Angle from the axis from which on intensity falls, linearly with "
-                                 "the angle; 3/4 of `cutoff_angle` if not given.")
-                    .range(0, 180)
-                    .in("degrees")),
-       transform_parameter("to_world", "World from the light, which shines along its +z."),
-       attenuation_parameter(), ignored_sampling_weight()}};
+  static const TypeInfo info = [] {
+    std::vector<Parameter> rows = spot_cone_parameters();
+    rows.insert(rows.begin(),
+                color_parameter("intensity", 1, "Radiant intensity within the beam.").in("W/sr"));
+    rows.push_back(
+        transform_parameter("to_world", "World from the light, which shines along its +z."));
+    rows.push_back(attenuation_parameter());
+    rows.push_back(ignored_sampling_weight());
+    return TypeInfo{"emitter", "spot", "Light from a point into a cone about its +z axis.", rows};
+  }();
   return {info, false, create_spot};
 }
 

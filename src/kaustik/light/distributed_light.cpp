@@ -1,0 +1,196 @@
+// The emitters `distributed` and `distributedspot`: a glowing ball that is no part of the geometry.
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "kaustik/base/warp.h"
+#include "kaustik/geometry/make_sphere.h"
+#include "kaustik/light/attenuation.h"
+#include "kaustik/light/emission_ball.h"
+#include "kaustik/light/light_kinds.h"
+#include "kaustik/light/power_distribution.h"
+#include "kaustik/light/spot_arguments.h"
+
+namespace kaustik {
+namespace {
+
+struct DistributedSettings {
+  Spectrum intensity;  ///< from afar, on the axis, W/sr
+  Vec3f position{0, 0, 0};
+  float radius = 0;
+  Vec3f axis{0, 0, 1};
+  std::optional<SpotCone> cone;
+  ClassicalAttenuation attenuation;
+};
+
+/// Shines outward from a sphere that nothing meets: rays pass through it and it throws no shadow.
+/// Its radiance is the same for all its points; a spot's depends on the direction to the axis.
+class DistributedLight final : public Light {
+ public:
+  explicit DistributedLight(const DistributedSettings& settings)
+      : settings_(settings),
+        radiance_(settings.intensity * (1.0f / (pi * sqr(settings.radius)))),
+        frame_(settings.axis),
+        sphere_(make_sphere(Vec3d(settings.position), double(settings.radius))) {
+    if (settings_.cone) {
+      bounds_.axis = frame_.z;
+      bounds_.cos_angle = bounds_.cos_spread = settings_.cone->cos_cutoff();
+      // Points whose whole hemisphere lies outside of the cone stay dark.
+      if (bounds_.cos_angle > 0) cap_height_ = 1.0f + safe_sqrt(1.0f - sqr(bounds_.cos_angle));
+    }
+    bounds_.position = sphere_->bounds();
+    ball_ = EmissionBall(bounds_, importance_of(DistributedLight::power()));
+  }
+
+  Spectrum power() const override {
+    return settings_.intensity * (settings_.cone ? settings_.cone->solid_angle() : 4.0f * pi);
+  }
+  LightBounds bounds() const override { return bounds_; }
+  bool is_delta() const override { return false; }
+
+  float expected_irradiance(const LightQuery& query) const override {
+    return radiance_.is_zero() ? 0.0f : ball_.irradiance(query.reference, query.normal);
+  }
+  float classical_attenuation(const Vec3f& reference) const override {
+    return settings_.attenuation.factor(length(settings_.position - reference));
+  }
+
+  /// Nothing arrives inside of the sphere.
+  LightSample sample_toward(const LightQuery& query, const Vec2f& u) const override {
+    LightSample result;
+    result.only_sampled = true;
+    float pdf = 0;
+    const ShapeSample s = sphere_->sample_toward(query.reference, u, pdf);
+    const Vec3f to_light = s.point.position - query.reference;
+    const float distance = length(to_light);
+    if (!(pdf > 0) || !(distance > 0)) return result;
+    result.direction = to_light * (1.0f / distance);
+    result.distance = distance;
+    result.point = free_point(s.point.position);
+    if (!(dot(s.point.ng, result.direction) < 0)) return result;
+    result.radiance = radiance_ * falloff(-result.direction);
+    result.pdf_solid_angle = pdf;
+    return result;
+  }
+
+  EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction) const override {
+    EmissionSample result = sample_origin(u_position);
+    const Frame normal(normal_at(result.point));
+    result.direction = settings_.cone ? frame_.to_world(settings_.cone->sample(u_direction))
+                                      : normal.to_world(square_to_cosine_hemisphere(u_direction));
+    result.pdf_direction = emission_pdf_direction(result.point, result.direction);
+    if (result.pdf_direction > 0)
+      result.flux = emitted_from(result.point, result.direction) *
+                    (1.0f / (result.pdf_position * result.pdf_direction));
+    return result;
+  }
+  float emission_pdf_position(const SurfacePoint&) const override {
+    return 1.0f / (2.0f * pi * sqr(settings_.radius) * cap_height_);
+  }
+  float emission_pdf_direction(const SurfacePoint& point, const Vec3f& direction) const override {
+    return settings_.cone ? settings_.cone->pdf(frame_.to_local(direction))
+                          : cosine_hemisphere_pdf(dot(normal_at(point), direction));
+  }
+
+  EmissionSample sample_origin(const Vec2f& u) const override {
+    EmissionSample result;
+    const Vec3f normal = frame_.to_world(square_to_cone(u, cap_height_));
+    result.point = free_point(settings_.position + normal * settings_.radius);
+    result.pdf_position = emission_pdf_position(result.point);
+    return result;
+  }
+  /// With the cosine to the sphere's normal, which the point has not got: W/(sr·m²).
+  Spectrum emitted_from(const SurfacePoint& point, const Vec3f& direction) const override {
+    return radiance_ * (falloff(direction) * std::max(0.0f, dot(normal_at(point), direction)));
+  }
+
+ private:
+  float falloff(const Vec3f& direction) const {
+    return settings_.cone ? settings_.cone->falloff(frame_.to_local(direction)) : 1.0f;
+  }
+  Vec3f normal_at(const SurfacePoint& point) const {
+    return normalize(point.position - settings_.position);
+  }
+
+  DistributedSettings settings_;
+  Spectrum radiance_;
+  Frame frame_;
+  std::shared_ptr<const Shape> sphere_;
+  float cap_height_ = 2;  ///< 1 − cosine of the part of the sphere around the axis that shines
+  LightBounds bounds_;
+  EmissionBall ball_;
+};
+
+/// From `intensity`, or from `power` over the solid angle that the light shines into.
+Spectrum intensity_argument(const LightInputs& inputs, float solid_angle) {
+  const Arguments& arguments = inputs.arguments;
+  if (!arguments.given("power")) return emission_argument(inputs, "intensity");
+  if (arguments.given("intensity"))
+    throw Error(ErrorKind::input,
+                fmt::format("emitter '{}' has both 'intensity' and 'power'", arguments.info().name),
+                "give one of them", arguments.place_of("power"));
+  return emission_argument(inputs, "power") * (1.0f / solid_angle);
+}
+
+std::unique_ptr<Light> create_distributed(const LightInputs& inputs) {
+  const Arguments& arguments = inputs.arguments;
+  const bool is_spot = arguments.info().find("cutoff_angle") != nullptr;
+  DistributedSettings settings;
+  const Transform& to_world = emitter_transform(inputs);
+  if (!keeps_angles(to_world))
+    throw Error(ErrorKind::input, "'to_world' distorts this light",
+                "leave out shear and scaling by unequal factors", arguments.place_of("to_world"));
+  settings.position = to_world.point({0, 0, 0});
+  if (is_spot) {
+    settings.cone = spot_cone_argument(arguments);
+    settings.axis = normalize(to_world.vector({0, 0, 1}));
+  } else {
+    reject_beside_to_world(inputs, "position");
+    if (arguments.given("position")) settings.position = Vec3f(arguments.point("position"));
+  }
+  settings.radius = float(arguments.number("radius") * double(length(to_world.vector({0, 0, 1}))));
+  settings.intensity =
+      intensity_argument(inputs, settings.cone ? settings.cone->solid_angle() : 4.0f * pi);
+  settings.attenuation = ClassicalAttenuation(arguments);
+  return with_finite_power(std::make_unique<DistributedLight>(settings), inputs);
+}
+
+/// Rows that both have.
+std::vector<Parameter> with_shared_rows(std::vector<Parameter> rows) {
+  const std::vector<Parameter> shared = {
+      number_parameter("radius", 0.1, "Of the sphere, scaled by `to_world`.")
+          .range(1e-6, 1e18)
+          .in("m"),
+      color_parameter("intensity", 1, "Radiant intensity from afar (a spot's within its beam).")
+          .in("W/sr"),
+      optional(
+          color_parameter("power", 1, "All the light it gives; instead of `intensity`.").in("W")),
+      transform_parameter("to_world", "World from the light, whose centre is the origin."),
+      attenuation_parameter(),
+      ignored_sampling_weight()};
+  rows.insert(rows.end(), shared.begin(), shared.end());
+  return rows;
+}
+
+}  // namespace
+
+LightType distributed_light_type() {
+  static const TypeInfo info{
+      "emitter", "distributed",
+      "A glowing ball that is no part of the scene: invisible, without a shadow of its own, but "
+      "with soft ones behind what it lights.",
+      with_shared_rows({optional(
+          point_parameter("position", {0, 0, 0}, "Its centre; instead of `to_world`."))})};
+  return {info, false, create_distributed};
+}
+
+LightType distributed_spot_light_type() {
+  static const TypeInfo info{
+      "emitter", "distributedspot",
+      "The ball of `distributed`, shining into a cone about its +z axis as `spot` does.",
+      with_shared_rows(spot_cone_parameters())};
+  return {info, false, create_distributed};
+}
+
+}  // namespace kaustik
