@@ -39,7 +39,8 @@ TEST(LightArguments, NamesOfAllTypes) {
     EXPECT_EQ(type.needs_shape, type.info.name == "area");
   }
   EXPECT_EQ(names, (std::vector<std::string>{"area", "point", "spot", "directional", "constant",
-                                             "envmap", "sunsky", "sky", "sun", "background"}));
+                                             "envmap", "sunsky", "sky", "sun", "background",
+                                             "distributed", "distributedspot"}));
 }
 
 TEST(LightArguments, ContradictionsAreErrors) {

@@ -42,6 +42,14 @@ std::vector<LightCase> every_light() {
       {"directional", make_light("directional", {{"irradiance", white, {}},
                                                  {"direction", Value(Vec3d(1, 2, -0.5)), {}}})});
   cases.push_back({"constant", make_light("constant", {{"radiance", colored, {}}})});
+  cases.push_back({"distributed", make_light("distributed", {{"intensity", colored, {}},
+                                                             {"radius", Value(0.3), {}}})});
+  cases.push_back(
+      {"distributed spot",
+       make_light("distributedspot",
+                  {{"radius", Value(0.3), {}},
+                   {"cutoff_angle", Value(50.0), {}},
+                   {"to_world", Value(Transform::look_at({1, 1, 1}, {3, 2, 0}, {0, 0, 1})), {}}})});
   const Value turned(Transform::rotate({1, 2, 3}, 50));
   cases.push_back({"envmap", make_envmap(8, 5, spotted_pixels(40), {{"to_world", turned, {}}})});
   // With a sun that is wide enough for the cells of a histogram.
@@ -90,6 +98,12 @@ Vec2f position_coordinates(const LightCase& test, const EmissionSample& sample) 
   if (test.name == "ball") {
     const Vec3f n = (p - Vec3f(0, 2, 4)) * (1 / 0.3f);
     return {0.5f * (1 - n.z), std::atan2(n.y, n.x) / (2 * pi) + 0.5f};
+  }
+  if (test.name.starts_with("distributed")) {
+    const Vec3f origin = center(test.light->bounds().position);
+    const Vec3f n = Frame(test.light->bounds().axis).to_local((p - origin) * (1 / 0.3f));
+    const float area = 1 / test.light->emission_pdf_position(sample.point);
+    return {(1 - n.z) * (2 * pi * sqr(0.3f)) / area, std::atan2(n.y, n.x) / (2 * pi) + 0.5f};
   }
   const bool infinite = test.light->is_infinite();
   const Vec3f middle = infinite ? center(test_bounds()) : Vec3f(1, 1, 1);

@@ -1,6 +1,7 @@
 #include "kaustik/base/warp.h"
 #include "kaustik/light/emission_ball.h"
 #include "kaustik/light/light_kinds.h"
+#include "kaustik/light/mesh_faces.h"
 #include "kaustik/light/normal_cone.h"
 #include "kaustik/light/power_distribution.h"
 
@@ -8,25 +9,31 @@ namespace kaustik {
 namespace {
 
 /// Emits the same radiance from every point of a shape in every direction on the side of its
-/// geometric normal.
+/// geometric normal, or on both.
 class AreaLight final : public Light {
  public:
-  AreaLight(const Spectrum& radiance, std::shared_ptr<const Shape> light_shape, int shape_index)
+  AreaLight(const Spectrum& radiance, std::shared_ptr<const Shape> light_shape, int shape_index,
+            bool two_sided)
       : radiance_(radiance),
         shape_(std::move(light_shape)),
         shape_index_(shape_index),
         area_(shape_->area()),
+        two_sided_(two_sided),
         is_dark_(radiance.is_zero()) {
-    const DirectionCone normals = cone_of_normals(*shape_);
+    const DirectionCone normals = two_sided ? DirectionCone() : cone_of_normals(*shape_);
     bounds_.position = shape_->bounds();
     bounds_.axis = normals.axis;
     bounds_.cos_spread = normals.cos_angle;
     // The hemispheres about the normals: the cone's angle and another 90°.
     bounds_.cos_angle = normals.cos_angle > 0 ? -safe_sqrt(1.0f - sqr(normals.cos_angle)) : -1.0f;
-    ball_ = EmissionBall(bounds_, importance_of(AreaLight::power()));
+    // Spread over all directions a sheet's light would seem half of what it is in front of it.
+    ball_ = EmissionBall(bounds_, importance_of(AreaLight::power()) * (two_sided ? 2 : 1));
+    const TriangleMesh* mesh = shape_->mesh();
+    if (mesh && mesh->triangles.size() >= MeshFaces::least_triangles)
+      faces_ = std::make_unique<MeshFaces>(*shape_, two_sided);
   }
 
-  Spectrum power() const override { return radiance_ * (pi * area_); }
+  Spectrum power() const override { return radiance_ * (pi * emitting_area()); }
   LightBounds bounds() const override { return bounds_; }
   bool is_delta() const override { return false; }
   int shape() const override { return shape_index_; }
@@ -38,7 +45,8 @@ class AreaLight final : public Light {
   LightSample sample_toward(const LightQuery& query, const Vec2f& u) const override {
     const Vec3f& reference = query.reference;
     float pdf_solid_angle = 0;
-    const ShapeSample s = shape_->sample_toward(reference, u, pdf_solid_angle);
+    const ShapeSample s = faces_ ? faces_->sample_toward(query, u, pdf_solid_angle)
+                                 : shape_->sample_toward(reference, u, pdf_solid_angle);
     LightSample result;
     if (!(pdf_solid_angle > 0)) return result;
     const Vec3f to_light = s.point.position - reference;
@@ -48,7 +56,7 @@ class AreaLight final : public Light {
     result.distance = distance;
     result.point = placed(s.point);
     result.on_surface = true;
-    if (dot(s.point.ng, result.direction) < 0) {
+    if (two_sided_ || dot(s.point.ng, result.direction) < 0) {
       result.radiance = radiance_;
       result.pdf_solid_angle = pdf_solid_angle;
     }
@@ -56,12 +64,12 @@ class AreaLight final : public Light {
   }
 
   float pdf_toward(const LightQuery& query, const SurfacePoint& point) const override {
-    if (!(dot(point.ng, point.position - query.reference) < 0)) return 0;
-    return shape_->pdf_toward(query.reference, point);
+    if (!two_sided_ && !(dot(point.ng, point.position - query.reference) < 0)) return 0;
+    return faces_ ? faces_->pdf_toward(query, point) : shape_->pdf_toward(query.reference, point);
   }
 
   Spectrum emitted(const SurfacePoint& point, const Vec3f& direction) const override {
-    return dot(point.ng, direction) > 0 ? radiance_ : Spectrum();
+    return two_sided_ || dot(point.ng, direction) > 0 ? radiance_ : Spectrum();
   }
 
   EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction) const override {
@@ -76,19 +84,26 @@ class AreaLight final : public Light {
   }
 
   float emission_pdf_position(const SurfacePoint&) const override {
-    return area_ > 0 ? 1.0f / area_ : 0.0f;
+    return area_ > 0 ? 1.0f / emitting_area() : 0.0f;
   }
   float emission_pdf_direction(const SurfacePoint& point, const Vec3f& direction) const override {
     return cosine_hemisphere_pdf(dot(point.ng, direction));
   }
 
+  /// Of a light with two sides on either of them: the normal of the point tells which.
   EmissionSample sample_origin(const Vec2f& u) const override {
-    const ShapeSample s = shape_->sample_area(u);
+    const bool behind = two_sided_ && u.x < 0.5f;
+    const float u_area = !two_sided_ ? u.x : rescaled(u.x, behind ? 0.0f : 0.5f, 0.5f);
+    const ShapeSample s = shape_->sample_area({u_area, u.y});
     EmissionSample result;
     if (!(s.pdf_area > 0)) return result;
     result.point = placed(s.point);
+    if (behind) {
+      result.point.ng = -result.point.ng;
+      result.point.ns = -result.point.ns;
+    }
     result.on_surface = true;
-    result.pdf_position = s.pdf_area;
+    result.pdf_position = two_sided_ ? 0.5f * s.pdf_area : s.pdf_area;
     return result;
   }
   Spectrum emitted_from(const SurfacePoint& point, const Vec3f& direction) const override {
@@ -96,6 +111,7 @@ class AreaLight final : public Light {
   }
 
  private:
+  float emitting_area() const { return two_sided_ ? 2.0f * area_ : area_; }
   /// A point of the shape as a point of the scene.
   SurfacePoint placed(SurfacePoint point) const {
     if (shape_index_ >= 0) point.shape = uint32_t(shape_index_);
@@ -106,9 +122,11 @@ class AreaLight final : public Light {
   std::shared_ptr<const Shape> shape_;
   int shape_index_;
   float area_;
+  bool two_sided_;
   LightBounds bounds_;
   bool is_dark_;
   EmissionBall ball_;
+  std::unique_ptr<const MeshFaces> faces_;  ///< of meshes of more than a few triangles
 };
 
 std::unique_ptr<Light> create_area(const LightInputs& inputs) {
@@ -119,9 +137,10 @@ std::unique_ptr<Light> create_area(const LightInputs& inputs) {
   if (!inputs.shape->can_sample())
     throw Error(ErrorKind::input, "this shape cannot be a light: no points can be sampled on it",
                 "use another shape for the light", place);
-  return with_finite_power(std::make_unique<AreaLight>(emission_argument(inputs, "radiance"),
-                                                       inputs.shape, inputs.shape_index),
-                           inputs);
+  return with_finite_power(
+      std::make_unique<AreaLight>(emission_argument(inputs, "radiance"), inputs.shape,
+                                  inputs.shape_index, inputs.arguments.boolean("two_sided")),
+      inputs);
 }
 
 }  // namespace
@@ -132,6 +151,7 @@ LightType area_light_type() {
       "area",
       "Diffuse light from the surface of the shape that it stands in, on the side of the normal.",
       {color_parameter("radiance", 1, "Emitted radiance.").in("W/(sr·m²)"),
+       boolean_parameter("two_sided", false, "The back shines as the front does."),
        ignored_sampling_weight()}};
   return {info, true, create_area};
 }

@@ -25,14 +25,15 @@ LightTree::LightTree(std::vector<Item> items, size_t light_count) : paths_(light
   }
 }
 
-float LightTree::probability_of_left(const Node& node, const Vec3f& reference,
-                                     const Vec3f& normal) const {
+float LightTree::probability_of_left(const Node& node, const Vec3f& reference, const Vec3f& normal,
+                                     bool informed) const {
   const Node& left = nodes_[size_t(node.child)];
   const Node& right = nodes_[size_t(node.child) + 1];
-  float a = left.emission.irradiance(reference, normal);
-  float b = right.emission.irradiance(reference, normal);
+  float a = informed ? left.emission.irradiance(reference, normal) : 0.0f;
+  float b = informed ? right.emission.irradiance(reference, normal) : 0.0f;
   if (a == 0 && b == 0) {
-    // Neither can light the point, which the parent's looser bounds could not tell.
+    // Not to be told apart, or neither can light the point, which the parent's looser bounds could
+    // not tell.
     a = left.emission.intensity;
     b = right.emission.intensity;
   }
@@ -41,12 +42,12 @@ float LightTree::probability_of_left(const Node& node, const Vec3f& reference,
   return std::clamp(a / (a + b), minimum_share, 1.0f - minimum_share);
 }
 
-LightSelector::Choice LightTree::choose(const Vec3f& reference, const Vec3f& normal,
-                                        float& u) const {
+LightSelector::Choice LightTree::choose(const Vec3f& reference, const Vec3f& normal, float& u,
+                                        int informed_depth) const {
   float probability = 1;
   const Node* node = &nodes_.front();
-  while (!node->leaf) {
-    const float left = probability_of_left(*node, reference, normal);
+  for (int depth = 0; !node->leaf; ++depth) {
+    const float left = probability_of_left(*node, reference, normal, depth < informed_depth);
     const bool go_right = !(u < left);
     const float share = go_right ? 1.0f - left : left;
     u = rescaled(u, go_right ? left : 0.0f, share);
@@ -56,13 +57,14 @@ LightSelector::Choice LightTree::choose(const Vec3f& reference, const Vec3f& nor
   return {node->child, probability};
 }
 
-float LightTree::probability(const Vec3f& reference, const Vec3f& normal, int light) const {
+float LightTree::probability(const Vec3f& reference, const Vec3f& normal, int light,
+                             int informed_depth) const {
   const Path& path = paths_[size_t(light)];
   if (path.depth < 0) return 0;
   float probability = 1;
   const Node* node = &nodes_.front();
   for (int i = 0; i < path.depth; ++i) {
-    const float left = probability_of_left(*node, reference, normal);
+    const float left = probability_of_left(*node, reference, normal, i < informed_depth);
     const bool go_right = (path.turns >> i) & 1;
     probability *= go_right ? 1.0f - left : left;
     node = &nodes_[size_t(node->child) + go_right];

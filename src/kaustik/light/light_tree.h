@@ -23,10 +23,14 @@ class LightTree {
   explicit LightTree(std::vector<Item> items, size_t light_count);
 
   bool empty() const { return nodes_.empty(); }
-  /// Not while empty. `u` is replaced by a fresh uniform number.
-  LightSelector::Choice choose(const Vec3f& reference, const Vec3f& normal, float& u) const;
+  static constexpr int whole_depth = 64;
+  /// Not while empty. `u` is replaced by a fresh uniform number. Children of nodes at
+  /// `informed_depth` and deeper are chosen by their intensity, whatever the point.
+  LightSelector::Choice choose(const Vec3f& reference, const Vec3f& normal, float& u,
+                               int informed_depth = whole_depth) const;
   /// Exactly what choose() reports; 0 for lights that are not in the tree.
-  float probability(const Vec3f& reference, const Vec3f& normal, int light) const;
+  float probability(const Vec3f& reference, const Vec3f& normal, int light,
+                    int informed_depth = whole_depth) const;
 
  private:
   /// The lights below a node.
@@ -41,7 +45,8 @@ class LightTree {
     int depth = -1;  ///< −1: not in the tree
   };
 
-  float probability_of_left(const Node& node, const Vec3f& reference, const Vec3f& normal) const;
+  float probability_of_left(const Node& node, const Vec3f& reference, const Vec3f& normal,
+                            bool informed) const;
 
   std::vector<Node> nodes_;
   std::vector<Path> paths_;  ///< per light of the scene

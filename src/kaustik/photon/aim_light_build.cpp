@@ -34,6 +34,12 @@ bool can_reach(const LightBounds& light, const AimSphere& sphere) {
   return cos_nearest >= light.cos_angle - 1e-4f;
 }
 
+/// Whether an area light shines from its back as well: then no side of a ball is all of it.
+bool shines_behind(const Light& light) {
+  const SurfacePoint point = light.sample_origin({0.75f, 0.5f}).point;
+  return !light.emitted(point, -point.ng).is_zero();
+}
+
 }  // namespace
 
 AimedLight::AimedLight(const Light& light, const Shape* shape, const AimInputs& inputs)
@@ -46,7 +52,7 @@ AimedLight::AimedLight(const Light& light, const Shape* shape, const AimInputs& 
     kind_ = Kind::infinite;
   } else {
     kind_ = Kind::place;
-    if (shape) ball_ = find_ball(*shape);
+    if (shape && !shines_behind(light)) ball_ = find_ball(*shape);
     if (ball_.radius > 0) kind_ = Kind::ball;
     set_own_limit();
   }

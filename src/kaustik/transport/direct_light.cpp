@@ -26,7 +26,8 @@ bool sample_direct_light(const Scene& scene, const SurfaceVertex& vertex, Sample
 
 bool sample_direct_light_of(const Scene& scene, const SurfaceVertex& vertex, int light,
                             const Vec2f& u, DirectLight& result) {
-  const LightSample sample = scene.lights()[size_t(light)]->sample_toward(vertex.position(), u);
+  const LightSample sample = scene.lights()[size_t(light)]->sample_toward(
+      {vertex.position(), selection_normal(vertex)}, u);
   if (!(sample.pdf_solid_angle > 0) || sample.radiance.is_zero()) return false;
   result.light = light;
   result.wi = sample.direction;
@@ -76,7 +77,8 @@ float choice_factor(const Scene& scene, const SurfaceVertex& vertex, LightChoice
 float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
                        int light, const SurfacePoint& on_light) {
   return choice_factor(scene, vertex, choice, light) *
-         scene.lights()[size_t(light)]->pdf_toward(vertex.position(), on_light);
+         scene.lights()[size_t(light)]->pdf_toward({vertex.position(), selection_normal(vertex)},
+                                                   on_light);
 }
 
 float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
