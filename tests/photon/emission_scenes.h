@@ -45,6 +45,11 @@ inline const std::vector<std::string>& light_kinds() {
                                                  "mesh",  "directional", "constant"};
   return kinds;
 }
+/// That share their way of aiming with one of the above, but not their emission.
+inline const std::vector<std::string>& further_light_kinds() {
+  static const std::vector<std::string> kinds = {"sunsky", "distributedspot", "two-sided ball"};
+  return kinds;
+}
 
 /// A light at about (0, 0, 2) that shines down, or from everywhere.
 inline ObjectPointer light(const std::string& kind) {
@@ -63,6 +68,15 @@ inline ObjectPointer light(const std::string& kind) {
         black(), {area});
   if (kind == "directional")
     return object("emitter", "directional", {{"direction", Vec3d(0.3, 0.2, -1)}});
+  if (kind == "sunsky")
+    return object("emitter", "sunsky",
+                  {{"sun_direction", Vec3d(0.3, 0.2, 1)}, {"sun_aperture", 20.0}});
+  if (kind == "distributedspot")
+    return object("emitter", "distributedspot",
+                  {{"to_world", down}, {"radius", 0.3}, {"cutoff_angle", 50.0}});
+  if (kind == "two-sided ball")
+    return sphere(Vec3d(0, 0, 2), 0.3, black(),
+                  {object("emitter", "area", {{"radiance", Rgb{1, 1, 1}}, {"two_sided", true}})});
   return object("emitter", "constant");
 }
 

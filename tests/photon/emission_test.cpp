@@ -13,6 +13,7 @@
 namespace kaustik {
 namespace {
 
+using test::further_light_kinds;
 using test::light;
 using test::light_kinds;
 using test::make_scene;
@@ -331,6 +332,18 @@ TEST(AimedEmission, FluxThatArrivesIsThatOfTheLight) {
                   flux_level())
             << kind << " light, target " << targets.name << ", " << name_of(aim);
       }
+    }
+  }
+}
+
+TEST(AimedEmission, FurtherLightsKeepTheirDensitiesAndTheirFlux) {
+  for (const std::string& kind : further_light_kinds()) {
+    const auto scene = scene_of(kind, target_sets()[1]);
+    const EmissionSampler aimed = aimed_at(*scene);
+    EXPECT_GT(density_p_value(*scene, aimed, 1.0f), flux_level()) << kind;
+    EXPECT_GT(flux_p_value(*scene, aimed, anywhere, 1.0), flux_level()) << kind;
+    if (sample_divisor == 1) {
+      EXPECT_LT(flux_p_value(*scene, aimed, anywhere, 1.03), flux_level()) << kind;
     }
   }
 }

@@ -136,10 +136,10 @@ struct LightType {
 /// One row per type of emitter.
 const std::vector<LightType>& light_types();
 
-/// Chooses one of many lights for a reference point: by power for up to 16, by a light tree
-/// (bounds, orientation, distance; Conty Estevez and Kulla 2018) for more, where infinite lights
-/// are a group of their own with a fixed share. Every light that can reach the point has a chance
-/// above zero; lights without power have none. Immutable.
+/// Chooses one of many lights for a reference point: up to 16 by the irradiance that they may give,
+/// more by a light tree (Conty Estevez and Kulla 2018). Infinite lights and the others are groups,
+/// of which neither gets less than a fifth. Every light that can reach the point has a chance above
+/// zero; lights without power have none. Immutable.
 class LightSelector {
  public:
   /// `lights` must outlive this.
