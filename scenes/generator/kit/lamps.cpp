@@ -1,5 +1,6 @@
 #include "kit/lamps.h"
 
+#include "kit/surface.h"
 #include "kit/sweep.h"
 
 namespace kaustik::scenes {
@@ -63,10 +64,10 @@ Xml glowing_rectangle(const Vec3d& center, const Vec2d& size, double watts, cons
 }
 
 Mesh lampshade(double radius0, double radius1, double z0, double z1) {
-  constexpr double thickness = 0.001;
-  return revolved(
-      {{radius0, z0}, {radius1, z1}, {radius1 - thickness, z1}, {radius0 - thickness, z0}}, 40,
-      true);
+  return sheet(48, 1, [=](double u, double v) {
+    const double angle = u == 1 ? 0 : 2 * pi_d * u, radius = radius0 + (radius1 - radius0) * v;
+    return Vec3d(radius * std::cos(angle), radius * std::sin(angle), z0 + (z1 - z0) * v);
+  });
 }
 
 ShadedLamp pendant_lamp(const Vec3d& mount, double drop, double shade_radius) {

@@ -25,7 +25,7 @@ Xml glowing_disk(const CanSpot& spot, double watts, const Vec3d& color);
 /// A flat rectangular lamp, horizontal, `size` across, shining down from `center`, as a shape.
 Xml glowing_rectangle(const Vec3d& center, const Vec2d& size, double watts, const Vec3d& color);
 
-/// A lampshade: a cone of cloth with a wall, open at both ends, from height z0 to z1.
+/// A lampshade: a cone of thin cloth without a wall, open at both ends, from height z0 to z1.
 Mesh lampshade(double radius0, double radius1, double z0, double z1);
 /// A lamp with a shade, in its parts.
 struct ShadedLamp {

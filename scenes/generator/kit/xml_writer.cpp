@@ -77,7 +77,9 @@ Xml Xml::said(std::string comment) && {
 }
 
 Xml Xml::named(const std::string& name) && {
-  attributes_.emplace_back("name", name);
+  std::erase_if(attributes_, [](const auto& attribute) { return attribute.first == "name"; });
+  const bool has_type = !attributes_.empty() && attributes_[0].first == "type";
+  attributes_.insert(attributes_.begin() + (has_type ? 1 : 0), {"name", name});
   return std::move(*this);
 }
 

@@ -19,7 +19,7 @@ class Xml {
   Xml& add(Xml child);  ///< returns the child, until the next one is added
   Xml with(Xml child) &&;
   Xml said(std::string comment) &&;
-  Xml named(const std::string& name) &&;  ///< with a name, as what fills a parameter has
+  Xml named(const std::string& name) &&;  ///< with this name
 
   /// Indented by two spaces; an element with few plain children stands on one line where that
   /// fits 100 columns; comments are wrapped there. A comment at the first level starts a

@@ -23,15 +23,15 @@ void add_materials(SceneFolder& scene, const Vec3d& wall_color) {
   m.matt("wall", wall_color);
   m.matt("plaster", {0.80, 0.78, 0.74});
   m.matt("black", {0.03, 0.03, 0.03});
-  m.marble("light_marble", {0.80, 0.78, 0.74}, {0.48, 0.47, 0.46}, 0.12, 600);
-  m.marble("dark_marble", {0.16, 0.17, 0.16}, {0.44, 0.43, 0.40}, 0.12, 600);
-  m.marble("ceiling_marble", {0.74, 0.69, 0.61}, {0.50, 0.42, 0.34}, 0.08, 300);
+  m.glossy("light_marble", marble({0.82, 0.79, 0.74}, {0.34, 0.33, 0.32}, 0.5, 1), 0.16, 600);
+  m.glossy("dark_marble", marble({0.10, 0.12, 0.11}, {0.62, 0.60, 0.56}, 0.4, 2), 0.16, 600);
+  m.glossy("ceiling_marble", marble({0.78, 0.72, 0.63}, {0.36, 0.27, 0.20}, 0.8, 3), 0.08, 300);
   m.glossy("leather", {0.22, 0.08, 0.04}, 0.05, 30);
   m.glossy("enamel", {0.05, 0.05, 0.055}, 0.05, 60);
   m.glossy("porcelain", {0.20, 0.30, 0.42}, 0.10, 300);
   m.metal("brass", "CuZn", 0.12);
   m.metal("gold", "Au", 0.25);
-  m.lampshade("shade", {0.60, 0.50, 0.36});
+  m.cloth("shade", {0.42, 0.38, 0.30}, {0.46, 0.38, 0.26});
 }
 
 void add_room(SceneFolder& scene, const Room& room) {

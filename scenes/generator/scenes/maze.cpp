@@ -15,10 +15,12 @@ constexpr double cell = 1.3, thickness = 0.20, wall_height = 1.15, post_width = 
 
 void add_materials(SceneFolder& scene) {
   Materials m(scene);
-  m.matt("wall", {0.70, 0.62, 0.50});
+  m.matt("wall", masonry({0.76, 0.66, 0.52}, {0.46, 0.41, 0.34}, {0.325, 0.18}, 0.010, 0.5, 0.28));
   m.matt("stone", {0.62, 0.58, 0.52});
-  m.matt("paving_0", {0.46, 0.30, 0.21});
-  m.matt("paving_1", {0.52, 0.36, 0.26});
+  for (int i = 0; i < 2; ++i)
+    m.matt(fmt::format("paving_{}", i),
+           masonry(Vec3d(0.54, 0.37, 0.27) * (1 - 0.14 * i), {0.25, 0.22, 0.19}, {0.1625, 0.1625},
+                   0.006, 0, 0.25));
   m.matt("lawn", {0.09, 0.17, 0.05});
   m.matt("black", {0.03, 0.03, 0.03});
   m.glossy("iron", {0.045, 0.05, 0.05}, 0.05, 40);
@@ -162,8 +164,8 @@ SceneFolder make_maze(const SceneOptions& options) {
   add_walls(scene, maze);
   add_lamps(scene, maze, options.seed + 1);
   scene.add(object("emitter", "constant",
-                   {rgb("radiance", lamp_intensity(4 / luminous_efficacy, 1, {0.45, 0.75, 1.7}))})
-                .said("The sky after sunset, 4 cd/m2."));
+                   {rgb("radiance", lamp_intensity(7 / luminous_efficacy, 1, {0.45, 0.75, 1.7}))})
+                .said("The sky after sunset, 7 cd/m2."));
   return scene;
 }
 

@@ -42,7 +42,8 @@ void add_paintings(SceneFolder& scene, const std::vector<Painting>& paintings, u
                    {.normals = Normals::flat, .uvs = true});
     frames.append(placed(frame(frame_outline(frame_width, frame_depth), p.width, p.height), p));
   }
-  scene.add_mesh("frames", frames, "gold", {}, "Frames of the pictures.");
+  // Flat: light that metal reflects by bent normals reaches places where it can't come from.
+  scene.add_mesh("frames", frames, "gold", {.normals = Normals::flat}, "Frames of the pictures.");
 }
 
 }  // namespace kaustik::scenes

@@ -7,6 +7,8 @@ namespace kaustik::scenes {
 namespace {
 
 const Vec3d low(-2.4, -2.6, 0), high(2.4, 2.2, 2.7);
+constexpr double board_length = 0.48, board_width = 0.08;
+const BoardWood oak{{0.50, 0.33, 0.19}, {0.28, 0.16, 0.08}, board_width, (low + high) * 0.5, 3, 3};
 
 void add_materials(SceneFolder& scene) {
   Materials m(scene);
@@ -19,7 +21,7 @@ void add_materials(SceneFolder& scene) {
   m.matt("cane", {0.52, 0.39, 0.22});
   m.glossy("lacquer", {0.05, 0.03, 0.025}, 0.04, 40);
   m.glossy("bentwood", {0.14, 0.06, 0.03}, 0.04, 40);
-  m.wood("oak", {0.42, 0.28, 0.16}, 6, 0.03, 60);
+  m.boards("oak", oak, 0.03, 60);
   m.metal("brass", "CuZn", 0.15);
 }
 
@@ -31,7 +33,7 @@ void add_room(SceneFolder& scene, uint64_t seed) {
   scene.add_mesh("ceiling", shell.ceiling, "ceiling", flat);
   scene.add_mesh("floor", moved(shell.floor, {0, 0, -0.025}), "oak_0", flat);
   const std::vector<Mesh> boards =
-      herringbone_floor({low.x, low.y}, {high.x, high.y}, 0.48, 0.08, 3, seed);
+      herringbone_floor({low.x, low.y}, {high.x, high.y}, board_length, board_width, 3, seed);
   for (size_t i = 0; i < boards.size(); ++i)
     scene.add_mesh("parquet_" + std::to_string(i), boards[i], "oak_" + std::to_string(i),
                    {.normals = Normals::flat},
