@@ -20,6 +20,8 @@ std::vector<const TypeInfo*> all_types() {
   add(bsdf_types());
   add(texture_types());
   add(light_types());
+  add(medium_types());
+  add(phase_function_types());
   types.push_back(&Camera::info());
   types.push_back(&film_info());
   for (const TypeInfo& info : filter_infos()) types.push_back(&info);

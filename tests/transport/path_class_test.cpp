@@ -9,6 +9,9 @@
 namespace kaustik {
 namespace {
 
+/// Stands for scattering in a medium among the lobes.
+constexpr Lobes in_medium = Lobes::none;
+
 /// Events in the order in which light meets them.
 using Events = std::vector<Lobes>;
 
@@ -18,7 +21,7 @@ std::vector<Events> sequences(int length) {
   for (int i = 0; i < length; ++i) {
     std::vector<Events> longer;
     for (const Events& events : result)
-      for (const Lobes event : {Lobes::diffuse, Lobes::glossy, Lobes::delta}) {
+      for (const Lobes event : {Lobes::diffuse, Lobes::glossy, Lobes::delta, in_medium}) {
         longer.push_back(events);
         longer.back().push_back(event);
       }
@@ -31,7 +34,8 @@ std::vector<Events> sequences(int length) {
 Component owner(const Events& events, Lobes traced) {
   const auto is_specular = [&](Lobes event) { return any(event & traced); };
   if (events.empty()) return Component::emission;
-  const Lobes last = events.back();  // at the first surface that the camera sees
+  const Lobes last = events.back();  // where the camera's path is scattered first
+  if (last == in_medium) return Component::volume;
   if (events.size() == 1) return last == Lobes::delta ? Component::specular : Component::direct;
   if (is_specular(last)) return Component::specular;
   for (size_t i = 0; i + 1 < events.size(); ++i)
@@ -42,8 +46,20 @@ Component owner(const Events& events, Lobes traced) {
 std::string name_of(const Events& events) {
   std::string name = "L";
   for (const Lobes event : events)
-    name += event == Lobes::diffuse ? " diffuse" : event == Lobes::glossy ? " glossy" : " delta";
+    name += event == Lobes::diffuse  ? " diffuse"
+            : event == Lobes::glossy ? " glossy"
+            : event == Lobes::delta  ? " delta"
+                                     : " medium";
   return name;
+}
+
+/// Adds an event to a path from either end.
+template <typename PathClass>
+void add(PathClass& path, Lobes event) {
+  if (event == in_medium)
+    path.add_medium_event();
+  else
+    path.add_event(event);
 }
 
 /// By trying all that may follow, up to three events.
@@ -69,7 +85,7 @@ void for_all_paths(const Check& check) {
 
 CameraPathClass camera_path(const Events& events, Lobes traced) {
   CameraPathClass path(traced);
-  for (auto event = events.rbegin(); event != events.rend(); ++event) path.add_event(*event);
+  for (auto event = events.rbegin(); event != events.rend(); ++event) add(path, *event);
   return path;
 }
 
@@ -79,14 +95,16 @@ TEST(PathClass, CameraPathsFollowTheDefinition) {
     EXPECT_EQ(camera_path(events, traced).component(), owner(events, traced));
     ++paths;
   });
-  EXPECT_EQ(paths, 2 * (1 + 3 + 9 + 27 + 81));
+  EXPECT_EQ(paths, 2 * (1 + 4 + 16 + 64 + 256));
 }
 
 TEST(PathClass, AskingAheadIsTheSameAsGoingOn) {
   for_all_paths([&](const Events& events, Lobes traced) {
     if (events.empty()) return;
     const CameraPathClass before = camera_path({events.begin() + 1, events.end()}, traced);
-    EXPECT_EQ(before.component_after(events.front()), owner(events, traced));
+    EXPECT_EQ(events.front() == in_medium ? before.component_in_medium()
+                                          : before.component_after(events.front()),
+              owner(events, traced));
   });
 }
 
@@ -95,7 +113,9 @@ TEST(PathClass, LightPathsAgreeWithCameraPaths) {
     // Nothing can be connected to the camera through a delta lobe.
     if (events.empty() || events.back() == Lobes::delta) return;
     LightPathClass path(traced);
-    for (size_t i = 0; i + 1 < events.size(); ++i) path.add_event(events[i]);
+    for (size_t i = 0; i + 1 < events.size(); ++i) add(path, events[i]);
+    // What the camera sees in a medium is a component of its own, whatever came before.
+    if (events.back() == in_medium) return;
     EXPECT_EQ(path.component_seen_by(events.back()), camera_path(events, traced).component());
   });
 }
@@ -105,7 +125,7 @@ TEST(PathClass, CausticPhotonsAreThoseOfCausticPaths) {
     LightPathClass path(traced);
     int diffuse = 0;
     for (const Lobes event : events) {
-      path.add_event(event);
+      add(path, event);
       diffuse += any(event & traced) ? 0 : 1;
     }
     EXPECT_EQ(path.events(), int(events.size()));

@@ -15,7 +15,8 @@ enum class Stream : uint32_t {
   light_path,
   cache,
   training,
-  photon_shadow
+  photon_shadow,
+  photon_volume
 };
 
 /// 64-bit mix of two values (the finaliser of splitmix64); the base of every address.

@@ -32,6 +32,7 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
       class_(traced),
       ray_(scene.camera().sample_ray(raster)) {
   state_.spread = scene.camera().pixel_spread();
+  state_.medium = scene.camera_medium();
 }
 
 CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
@@ -43,23 +44,64 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
       light_choice_(other.light_choice_),
       ray_(other.ray_),
       vertex_(other.vertex_),
+      in_medium_(other.in_medium_),
       previous_(other.previous_),
-      distance_(other.distance_) {}
+      distance_(other.distance_),
+      segments_(other.segments_) {}
 
-bool CameraWalk::advance() {
-  Hit hit;
-  ++rays_;
-  if (!scene_.intersect(ray_, hit)) {
-    add_background();
-    return false;
+/// Goes on until `pass_medium(length)`, asked about every segment through a medium, answers that
+/// the path is scattered, or until a surface that is more than a boundary of media.
+template <typename PassMedium>
+CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
+  for (;;) {
+    sampler_.start_vertex(segments_++);
+    Hit hit;
+    ++rays_;
+    const bool found = scene_.intersect(ray_, hit);
+    if (state_.medium && pass_medium(hit.t)) {
+      if (found && state_.depth == 0)
+        sink_.set_first_hit(describe_first_hit(
+            SurfaceVertex(scene_, ray_, hit, TransportMode::radiance), distance_ + hit.t));
+      return Arrival::medium;
+    }
+    if (!found) {
+      add_background();
+      return Arrival::nothing;
+    }
+    distance_ += hit.t;
+    state_.footprint = distance_ * state_.spread;
+    vertex_.meet(scene_, ray_, hit, TransportMode::radiance);
+    if (!vertex_.is_null()) break;
+    state_.medium = vertex_.medium_toward(ray_.direction, state_.medium);
+    ray_ = spawn_ray(vertex_.point(), ray_.direction);
   }
-  distance_ += hit.t;
-  state_.footprint = distance_ * state_.spread;
-  vertex_.meet(scene_, ray_, hit, TransportMode::radiance);
-  if (state_.depth == 0) sink_.set_first_hit(describe_first_hit(vertex_, hit.t));
+  if (state_.depth == 0) sink_.set_first_hit(describe_first_hit(vertex_, distance_));
   if (vertex_.light() >= 0) add_emission();
-  sampler_.start_vertex(uint32_t(state_.depth));
-  return true;
+  return Arrival::surface;
+}
+
+bool CameraWalk::advance(const VolumeLight* volume) {
+  const Component in_medium = class_.component_in_medium();
+  if (!sink_.wants(in_medium)) volume = nullptr;
+  return travel([&](float length) {
+           if (volume && state_.medium->scatters())
+             sink_.add(in_medium,
+                       state_.throughput * volume->radiance(ray_, length, *state_.medium));
+           state_.throughput *= state_.medium->transmittance(length);
+           return false;
+         }) == Arrival::surface;
+}
+
+CameraWalk::Arrival CameraWalk::fly() {
+  return travel([&](float length) {
+    const Medium::Flight flight =
+        state_.medium->sample_flight(length, state_.throughput, sampler_.next_2d());
+    state_.throughput *= flight.weight;
+    if (!flight.scattered) return false;
+    in_medium_ = Receiver(ray_.origin + ray_.direction * flight.distance);
+    distance_ += flight.distance;
+    return true;
+  });
 }
 
 /// Weight of light found by the last event against sampling it (a point of an area light or a
@@ -106,18 +148,43 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
       seen = {1, 0};
     else if (rules.sight)
       seen = rules.sight->of(light.light);
-    float factor = seen.known;
-    if (seen.by_ray > 0) {
-      ++rays_;
-      if (!scene_.occluded(light.shadow_ray)) factor += seen.by_ray;
-    }
-    if (!(factor > 0)) return;
+    Spectrum factor(seen.known);
+    if (seen.by_ray > 0)
+      factor += shadow_ray_transmittance(scene_, light.shadow_ray,
+                                         vertex_.medium_toward(light.wi, state_.medium), rays_) *
+                seen.by_ray;
+    if (factor.is_zero()) return;
     if (rules.classical_attenuation)
       factor *= scene_.lights()[size_t(light.light)]->classical_attenuation(vertex_.position());
     add_reflected(Lobes::diffuse, by_diffuse * factor);
     add_reflected(Lobes::glossy, by_glossy * factor);
   };
   sample_direct_lights(scene_, vertex_, sampling, sampler_, take);
+}
+
+void CameraWalk::add_medium_light() {
+  const Component component = class_.component_in_medium();
+  const auto take = [&](const DirectLight& light) {
+    if (!sink_.wants(component)) return;
+    const float phase = state_.medium->phase().eval(-ray_.direction, light.wi);
+    const float weight =
+        light.pdf_solid_angle == 0 ? 1.0f : mis_weight(light.pdf_solid_angle, phase);
+    const Spectrum visible =
+        shadow_ray_transmittance(scene_, light.shadow_ray, state_.medium, rays_);
+    sink_.add(component, state_.throughput * light.radiance * visible * (phase * weight));
+  };
+  light_choice_ = LightChoice::one;
+  sample_direct_lights(scene_, in_medium_, {light_choice_, 1}, sampler_, take);
+}
+
+void CameraWalk::scatter_in_medium(const Vec2f& u) {
+  const PhaseFunction& phase = state_.medium->phase();
+  const Vec3f wo = -ray_.direction, wi = phase.sample(wo, u);
+  state_.pdf_forward = phase.eval(wo, wi);
+  state_.depth += 1;
+  class_.add_medium_event();
+  previous_ = in_medium_;
+  ray_ = {in_medium_.point.position, wi, infinity};
 }
 
 bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u) {
@@ -129,7 +196,8 @@ bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec
   state_.pdf_forward = sample.event == Lobes::delta ? 0 : probability * sample.pdf_solid_angle;
   state_.depth += 1;
   class_.add_event(sample.event);
-  previous_ = vertex_;
+  previous_ = Receiver(vertex_);
+  state_.medium = vertex_.medium_toward(sample.wi, state_.medium);
   ray_ = spawn_ray(vertex_.point(), sample.wi);
   return true;
 }

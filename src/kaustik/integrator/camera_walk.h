@@ -5,6 +5,8 @@
 #include "kaustik/transport/direct_light.h"
 #include "kaustik/transport/path_class.h"
 #include "kaustik/transport/path_state.h"
+#include "kaustik/transport/visibility.h"
+#include "kaustik/transport/volume_light.h"
 
 namespace kaustik {
 
@@ -30,9 +32,16 @@ class CameraWalk {
   CameraWalk& operator=(const CameraWalk&) = delete;
 
   /// Goes to the next surface and adds the light that shines from there or from beyond the scene.
-  /// False if there is no surface.
-  bool advance();
+  /// False if there is no surface. Media on the way take their share; what they scatter into the
+  /// path is added where `volume` is given.
+  bool advance(const VolumeLight* volume = nullptr);
+  /// The same by free flight: the path may also come to a point in a medium, where the next event
+  /// is add_medium_light() and scatter_in_medium() instead of what there is for surfaces.
+  enum class Arrival { nothing, surface, medium };
+  Arrival fly();
   const SurfaceVertex& vertex() const { return vertex_; }
+  /// That the path arrived at the vertex through; null: vacuum.
+  const Medium* medium() const { return state_.medium; }
   /// Scattering events so far.
   int events() const { return state_.depth; }
   /// Whether the camera sees the vertex directly or by specular events alone.
@@ -46,7 +55,7 @@ class CameraWalk {
   void add_direct_light(float diffuse_probability, float glossy_probability,
                         const LightSampling& sampling = {}, const LightRules& rules = {});
   /// Adds radiance that the vertex sends back of light that is `component` (caustic or indirect)
-  /// to it; seen by a specular event it counts as specular.
+  /// to it; seen by another event it counts as that event's.
   void add_photon_light(Component component, const Spectrum& radiance) {
     sink_.add(seen(component), state_.throughput * radiance);
   }
@@ -54,6 +63,11 @@ class CameraWalk {
 
   /// Whether anything that is wanted may be found further on.
   bool may_find_more() const { return class_.may_find(sink_.wanted()); }
+
+  /// Adds light sampled at the point in the medium and scattered there.
+  void add_medium_light();
+  /// Chooses a direction by the medium's phase function for the next fly().
+  void scatter_in_medium(const Vec2f& u);
 
   /// Chooses a direction by `lobes` for the next advance(); false if the light is absorbed.
   /// `probability` is that of having chosen these lobes, or the number of branches that do so.
@@ -63,7 +77,7 @@ class CameraWalk {
 
  private:
   Component seen(Component component) const {
-    return state_.depth == 0 ? component : Component::specular;
+    return state_.depth == 0 ? component : class_.component_after(Lobes::diffuse);
   }
   void add_reflected(Lobes event, const Spectrum& radiance) {
     sink_.add(class_.component_after(event), state_.throughput * radiance);
@@ -72,6 +86,8 @@ class CameraWalk {
   float emission_weight(int light, const Where& where) const;
   void add_background();
   void add_emission();
+  template <typename PassMedium>
+  Arrival travel(const PassMedium& pass_medium);
 
   const Scene& scene_;
   Sampler& sampler_;
@@ -80,8 +96,12 @@ class CameraWalk {
   CameraPathClass class_;
   LightChoice light_choice_ = LightChoice::one;  ///< of the last add_direct_light()
   Ray ray_;
-  SurfaceVertex vertex_, previous_;
+  SurfaceVertex vertex_;
+  Receiver in_medium_;  ///< the point where fly() came to in a medium
+  Receiver previous_;   ///< where the last event was
   float distance_ = 0;
+  uint32_t segments_ = 0;  ///< traced so far: those across null boundaries count, each has a block
+                           ///< of random numbers
   uint64_t rays_ = 0;
 };
 

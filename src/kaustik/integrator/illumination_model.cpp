@@ -9,7 +9,7 @@ class SingleModel final : public RadianceTracer {
   SingleModel(const IlluminationModel& model, const PassState& state)
       : model_(model), state_(state) {}
   void follow(CameraWalk& walk) const override {
-    while (walk.advance() && model_.reflect(state_, walk, *this)) {
+    while (model_.advance(state_, walk) && model_.reflect(state_, walk, *this)) {
     }
   }
 
@@ -19,6 +19,8 @@ class SingleModel final : public RadianceTracer {
 };
 
 }  // namespace
+
+bool IlluminationModel::advance(const PassState&, CameraWalk& walk) const { return walk.advance(); }
 
 void IlluminationModel::sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
                                SampleSink& sink) const {

@@ -19,6 +19,11 @@ class IlluminationModel : public Integrator {
   /// `scene` must outlive this.
   explicit IlluminationModel(const Scene& scene) : scene_(scene) {}
 
+  /// Takes the walk to the next surface and adds the light that shines into it on the way: from
+  /// lamps, and what media scatter. False if there is no surface. A scene has one model for its
+  /// media: that of the integrator, whatever models its surfaces have.
+  virtual bool advance(const PassState& state, CameraWalk& walk) const;
+
   /// Adds what the walk's vertex reflects of light that is known there, and for the rest chooses
   /// the walk's next direction: false if there is none. Where several directions are followed,
   /// each is a branch for `tracer`. `state` is of this model's prepare().

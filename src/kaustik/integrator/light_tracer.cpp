@@ -5,6 +5,7 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/path_parameters.h"
 #include "kaustik/transport/light_path.h"
+#include "kaustik/transport/visibility.h"
 
 namespace kaustik {
 
@@ -85,17 +86,19 @@ std::unique_ptr<PassState> LightTracer::prepare(const Pass& pass, SplatBuffer& s
 LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, uint32_t begin,
                                              uint32_t end, SplatBuffer& splats) const {
   Counts counts;
-  const LightPathLimits limits{std::max(0, maximum_events_ - 1), Lobes::specular};
+  const LightPathLimits limits{std::max(0, maximum_events_ - 1), Lobes::specular,
+                               job.aimed ? MediumEvents::stop : MediumEvents::follow};
   const EmissionSampler& emission = job.aimed ? *aimed_emission_ : emission_;
-  const auto splat = [&](const SurfacePoint& point, Component component, const Spectrum& intensity,
-                         const CameraConnection& connection) {
+  const auto splat = [&](const SurfacePoint& point, const Medium* medium, Component component,
+                         const Spectrum& intensity, const CameraConnection& connection) {
     const Spectrum value =
         intensity * (connection.importance / (sqr(connection.distance) * float(job.count)));
     if (value.is_zero()) return;
-    ++counts.rays;
-    if (scene_.occluded(spawn_ray_to(point, scene_.camera().position()))) return;
+    const Spectrum visible = shadow_ray_transmittance(
+        scene_, spawn_ray_to(point, scene_.camera().position()), medium, counts.rays);
+    if (visible.is_zero()) return;
     ++counts.splats;
-    splats.add(connection.raster, component, value);
+    splats.add(connection.raster, component, value * visible);
   };
   const auto emit = [&](uint32_t i) -> std::optional<LightPath> {
     const uint64_t element = uint64_t(job.light) * 2 + (job.aimed ? 1 : 0);
@@ -107,13 +110,14 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
       const CameraConnection connection = scene_.camera().connect(emitted.origin.position);
       const float cosine = dot(connection.direction, emitted.origin.ng);
       if (connection.importance > 0 && cosine > 0 && emitted.pdf_position > 0)
-        splat(emitted.origin, Component::emission,
+        splat(emitted.origin, scene_.light_medium(job.light), Component::emission,
               scene_.lights()[size_t(job.light)]->emitted(emitted.origin, connection.direction) *
                   (cosine / emitted.pdf_position),
               connection);
     }
     if (emitted.flux.is_zero() || maximum_events_ < 1) return std::nullopt;
-    return LightPath(emitted.ray, emitted.flux, Lobes::specular, sampler);
+    return LightPath(emitted.ray, emitted.flux, scene_.light_medium(job.light), Lobes::specular,
+                     sampler);
   };
   const auto see = [&](const LightVertex& at) {
     const SurfaceVertex& vertex = at.vertex;
@@ -125,11 +129,22 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
     if (!(connection.importance > 0)) return follow;
     for (const Lobes lobes : {Lobes::diffuse, Lobes::glossy})
       if (any(seen & lobes) && job.wanted.has(at.path_class.component_seen_by(lobes)))
-        splat(vertex.point(), at.path_class.component_seen_by(lobes),
+        splat(vertex.point(), vertex.medium_toward(connection.direction, at.state.medium),
+              at.path_class.component_seen_by(lobes),
               at.state.throughput * vertex.eval_cosine(connection.direction, lobes), connection);
     return follow;
   };
-  counts.rays += trace_light_paths(scene_, begin, end, limits, emit, see).rays;
+  const auto see_in_medium = [&](const LightMediumVertex& at) {
+    if (!job.wanted.has(Component::volume)) return;
+    const CameraConnection connection = scene_.camera().connect(at.position);
+    if (!(connection.importance > 0)) return;
+    SurfacePoint point;
+    point.position = at.position;
+    splat(point, &at.medium, Component::volume,
+          at.flux * at.medium.phase().eval(at.wo, connection.direction), connection);
+  };
+  counts.rays +=
+      trace_light_paths(scene_, begin, end, limits, emit, Handlers{see, see_in_medium}).rays;
   return counts;
 }
 

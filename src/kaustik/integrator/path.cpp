@@ -20,6 +20,22 @@ PathIntegrator::PathIntegrator(const Arguments& arguments, const Scene& scene)
       maximum_events_(read_maximum_events(arguments)),
       roulette_depth_(int(arguments.integer("rr_depth"))) {}
 
+bool PathIntegrator::advance(const PassState&, CameraWalk& walk) const {
+  for (;;) {
+    const CameraWalk::Arrival arrival = walk.fly();
+    if (arrival != CameraWalk::Arrival::medium) return arrival == CameraWalk::Arrival::surface;
+    if (walk.events() >= maximum_events_) return false;
+    walk.add_medium_light();
+    walk.scatter_in_medium(walk.sampler().next_2d());
+    if (!goes_on(walk, walk.sampler().next_1d())) return false;
+  }
+}
+
+bool PathIntegrator::goes_on(CameraWalk& walk, float u) const {
+  if (!walk.may_find_more()) return false;
+  return walk.events() <= roulette_depth_ || walk.survive(u);
+}
+
 bool PathIntegrator::reflect(const PassState&, CameraWalk& walk, const RadianceTracer&) const {
   if (walk.events() >= maximum_events_) return false;
   const float diffuse = diffuse_probability(walk.vertex());
@@ -28,8 +44,7 @@ bool PathIntegrator::reflect(const PassState&, CameraWalk& walk, const RadianceT
   Vec2f u_choice = walk.sampler().next_2d();
   const LobeChoice choice = choose_lobes(walk.vertex(), u_choice.x);
   if (!walk.scatter(choice.lobes, choice.probability, u_choice.x, u)) return false;
-  if (!walk.may_find_more()) return false;
-  return walk.events() <= roulette_depth_ || walk.survive(u_choice.y);
+  return goes_on(walk, u_choice.y);
 }
 
 }  // namespace kaustik

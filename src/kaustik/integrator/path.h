@@ -10,6 +10,8 @@ class PathIntegrator final : public IlluminationModel {
   PathIntegrator(const Arguments& arguments, const Scene& scene);
   static const TypeInfo& info();
 
+  /// Through media by free flight, with next-event estimation where it is scattered.
+  bool advance(const PassState& state, CameraWalk& walk) const override;
   bool reflect(const PassState& state, CameraWalk& walk,
                const RadianceTracer& tracer) const override;
   /// Passes are independent replicates: only samples of one pass stratify one another.
@@ -17,6 +19,8 @@ class PathIntegrator final : public IlluminationModel {
   ComponentSet components() const override { return components_; }
 
  private:
+  bool goes_on(CameraWalk& walk, float u) const;
+
   ComponentSet components_;
   int maximum_events_;
   int roulette_depth_;

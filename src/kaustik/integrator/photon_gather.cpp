@@ -1,6 +1,7 @@
 #include "kaustik/integrator/photon_gather.h"
 
 #include "kaustik/transport/direct_light.h"
+#include "kaustik/transport/visibility.h"
 
 namespace kaustik {
 namespace {
@@ -9,12 +10,14 @@ namespace {
 constexpr int precomputed_level = 1;
 /// Specular events that a gather ray follows before roulette.
 constexpr int gather_roulette_depth = 4;
+/// Gather rays average over so many directions that one volume photon out of these is enough.
+constexpr size_t coarse_volume_stride = 8;
 
 }  // namespace
 
 PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
                          const PhotonMaps& maps, const GatherRadii& radii, const ShadowMap* shadows,
-                         const ShadowSettings& shadow_settings)
+                         const ShadowSettings& shadow_settings, uint32_t pass)
     : scene_(scene),
       settings_(settings),
       maps_(maps),
@@ -23,6 +26,21 @@ PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
       shadow_settings_(shadow_settings) {
   precomputed_ = IrradianceMap(maps.global, maps.places,
                                at_level(settings.global, radii.global, precomputed_level));
+  if (!maps.volume.empty()) make_volume_maps(pass);
+}
+
+void PhotonLight::make_volume_maps(uint32_t pass) {
+  // What a disc blurs is two-dimensional, so the radii shrink as those on surfaces do (Knaus and
+  // Zwicker 2011, section 5).
+  const float shrinkage = pass_radius(1, pass);
+  volume_ = VolumePhotonMap(maps_.volume, settings_.volume_neighbors, shrinkage);
+  std::vector<VolumePhoton> few;
+  for (size_t i = 0; i < maps_.volume.size(); i += coarse_volume_stride) {
+    few.push_back(maps_.volume[i]);
+    const size_t stands_for = std::min(coarse_volume_stride, maps_.volume.size() - i);
+    few.back().flux *= float(stands_for);
+  }
+  coarse_volume_ = VolumePhotonMap(std::move(few), settings_.volume_neighbors, shrinkage);
 }
 
 EstimateSettings PhotonLight::at_level(const EstimateSettings& settings, float radius,
@@ -55,18 +73,18 @@ Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes,
   return vertex.diffuse_value() * irradiance;
 }
 
-Spectrum PhotonLight::gathered_indirect(const SurfaceVertex& vertex, Lobes lobes, Sampler& sampler,
-                                        const EyeLevel& at) const {
+Spectrum PhotonLight::gathered_indirect(const SurfaceVertex& vertex, const Medium* medium,
+                                        Lobes lobes, Sampler& sampler, const EyeLevel& at) const {
   if (settings_.approximates(at) || !any(lobes & vertex.lobes() & Lobes::diffuse))
     return gathered_global(vertex, lobes, at.recursion);
-  Spectrum light = vertex.diffuse_value() * gather_irradiance(vertex, sampler, at);
+  Spectrum light = vertex.diffuse_value() * gather_irradiance(vertex, medium, sampler, at);
   if (any(lobes & vertex.lobes() & Lobes::glossy))
     light += global(vertex, Lobes::glossy, at.recursion);
   return light;
 }
 
-Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes,
-                                             int recursion, Sampler& sampler,
+Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, const Medium* medium,
+                                             Lobes lobes, int recursion, Sampler& sampler,
                                              uint64_t& rays) const {
   Spectrum sum;
   ShadowSight sight(shadows_, shadow_settings_, vertex, recursion);
@@ -74,38 +92,52 @@ Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, Lobes 
     const Spectrum reflected = vertex.eval_cosine(light.wi, lobes) * light.radiance;
     if (reflected.is_zero()) return;
     const LightSight seen = sight.of(light.light);
-    float visible = seen.known;
-    if (seen.by_ray > 0) {
-      ++rays;
-      if (!scene_.occluded(light.shadow_ray)) visible += seen.by_ray;
-    }
+    Spectrum visible(seen.known);
+    if (seen.by_ray > 0)
+      visible += shadow_ray_transmittance(scene_, light.shadow_ray,
+                                          vertex.medium_toward(light.wi, medium), rays) *
+                 seen.by_ray;
     sum += reflected * visible;
   };
   sample_direct_lights(scene_, vertex, {settings_.light_choice, 1}, sampler, take);
   return sum;
 }
 
-RadianceSource::Incoming PhotonLight::gathered(const SurfacePoint& from, const Vec3f& direction,
-                                               Sampler& sampler, const EyeLevel& at) const {
+RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const SurfacePoint& from,
+                                               const Vec3f& direction, Sampler& sampler,
+                                               const EyeLevel& at) const {
   Incoming result;
   Spectrum throughput(1.0f);
   float eta_scale = 1;
   Ray ray = spawn_ray(from, direction);
+  float distance = 0;
   uint64_t rays = 0;
-  for (int events = 0;; ++events) {
+  int events = 0;
+  for (;;) {
     Hit hit;
     ++rays;
-    if (!scene_.intersect(ray, hit)) break;
-    if (events == 0) result.distance = hit.t;
+    const bool found = scene_.intersect(ray, hit);
+    if (medium) {
+      result.radiance += throughput * coarse_volume_.radiance(ray, hit.t, *medium);
+      throughput *= medium->transmittance(hit.t);
+    }
+    if (!found) break;
     const SurfaceVertex vertex(scene_, ray, hit, TransportMode::radiance);
+    distance += hit.t;
+    if (vertex.is_null()) {
+      medium = vertex.medium_toward(ray.direction, medium);
+      ray = spawn_ray(vertex.point(), ray.direction);
+      continue;
+    }
+    if (events == 0) result.distance = distance;
     sampler.start_vertex(uint32_t(events));
     const EyeLevel level{at.recursion + 1 + events, at.gathers + 1};
     const Lobes local = vertex.lobes() & settings_.local();
     if (any(local))
-      result.radiance +=
-          throughput * (reflected_direct_light(vertex, local, level.recursion, sampler, rays) +
-                        caustic(vertex, local, level.recursion) +
-                        gathered_indirect(vertex, local, sampler, level));
+      result.radiance += throughput * (reflected_direct_light(vertex, medium, local,
+                                                              level.recursion, sampler, rays) +
+                                       caustic(vertex, local, level.recursion) +
+                                       gathered_indirect(vertex, medium, local, sampler, level));
     const Lobes traced = vertex.lobes() & settings_.traced();
     if (!any(traced) || !settings_.traces_specular(level)) break;
     const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
@@ -118,7 +150,9 @@ RadianceSource::Incoming PhotonLight::gathered(const SurfacePoint& from, const V
       if (!(u_choice.y < survival)) break;
       throughput *= 1 / survival;
     }
+    medium = vertex.medium_toward(sample.wi, medium);
     ray = spawn_ray(vertex.point(), sample.wi);
+    ++events;
   }
   rays_.fetch_add(rays, std::memory_order_relaxed);
   return result;
@@ -150,8 +184,8 @@ bool PhotonLight::importance(const SurfacePoint& at, const Frame& frame, const H
   return true;
 }
 
-Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, Sampler& sampler,
-                                        const EyeLevel& at) const {
+Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, const Medium* medium,
+                                        Sampler& sampler, const EyeLevel& at) const {
   const int samples = settings_.count_at(settings_.diffuse_samples, at.recursion);
   HemisphereGrid grid{settings_.gather_theta_cells, settings_.gather_phi_cells};
   // With fewer photons than cells the grid would be mostly empty.
@@ -188,7 +222,8 @@ Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, Sampler& sa
     if (!(p > 0)) continue;
     const Vec3f direction = frame.to_world(grid.direction(cell, u));
     if (dot(direction, vertex.point().ng) * dot(n, vertex.point().ng) <= 0) continue;
-    sum += gathered(vertex.point(), direction, branch, at).radiance * (pi / (p * float(samples)));
+    sum += gathered(medium, vertex.point(), direction, branch, at).radiance *
+           (pi / (p * float(samples)));
   }
   spare_cells = std::move(cells);
   return sum;

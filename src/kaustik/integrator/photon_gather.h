@@ -15,10 +15,11 @@ struct GatherRadii {
 /// along gather rays. Immutable during the visualisation pass.
 class PhotonLight final : public RadianceSource {
  public:
-  /// `shadows` may be null: shadow rays alone tell what light arrives. All must outlive this.
+  /// `shadows` may be null: shadow rays alone tell what light arrives. `pass` numbers the pass,
+  /// whose discs of volume photons shrink. All must outlive this.
   PhotonLight(const Scene& scene, const PhotonMapSettings& settings, const PhotonMaps& maps,
               const GatherRadii& radii, const ShadowMap* shadows,
-              const ShadowSettings& shadow_settings);
+              const ShadowSettings& shadow_settings, uint32_t pass);
 
   /// Radiance by caustic photons [L G⁺ → x] that `lobes` send back at a recursion level.
   Spectrum caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion) const;
@@ -27,13 +28,19 @@ class PhotonLight final : public RadianceSource {
 
   /// Diffuse indirect light along a gather ray from a surface at level `at`: what the surface there
   /// sends back of direct, caustic and global light by lobes that are not traced; specular events
-  /// on the way are followed. No emission: lamps are seen by direct light and caustics.
-  Incoming gathered(const SurfacePoint& from, const Vec3f& direction, Sampler& sampler,
-                    const EyeLevel& at) const;
+  /// on the way are followed. No emission: lamps are seen by direct light and caustics. `medium`,
+  /// in which the surface lies, and others on the way take their share, and what they scatter into
+  /// the ray counts too.
+  Incoming gathered(const Medium* medium, const SurfacePoint& from, const Vec3f& direction,
+                    Sampler& sampler, const EyeLevel& at) const;
   /// The same from what the camera itself sees.
   Incoming incoming(const SurfacePoint& from, const Vec3f& direction,
                     Sampler& sampler) const override {
-    return gathered(from, direction, sampler, {});
+    return gathered(nullptr, from, direction, sampler, {});
+  }
+  Incoming incoming_through(const Medium* medium, const SurfacePoint& from, const Vec3f& direction,
+                            Sampler& sampler) const override {
+    return gathered(medium, from, direction, sampler, {});
   }
   /// Flux of the global photons near the point, by cell.
   bool importance(const SurfacePoint& at, const Frame& frame, const HemisphereGrid& grid,
@@ -42,20 +49,24 @@ class PhotonLight final : public RadianceSource {
   /// Diffuse indirect irradiance at `vertex` by gather rays drawn in proportion to the photons'
   /// flux over a grid of the hemisphere (Jensen 1995, Schregle 1998 corrected: density p relative
   /// to the uniform grid, E ≈ mean of π L/p).
-  Spectrum gather_irradiance(const SurfaceVertex& vertex, Sampler& sampler,
+  Spectrum gather_irradiance(const SurfaceVertex& vertex, const Medium* medium, Sampler& sampler,
                              const EyeLevel& at) const;
+
+  /// Light that media scatter, for the camera's rays.
+  const VolumeLight& volume() const { return volume_; }
 
   uint64_t rays() const { return rays_.load(std::memory_order_relaxed); }
 
  private:
   EstimateSettings at_level(const EstimateSettings& settings, float radius, int recursion) const;
   /// Diffuse indirect light at the end of a gather ray: gathered once more, or from the map.
-  Spectrum gathered_indirect(const SurfaceVertex& vertex, Lobes lobes, Sampler& sampler,
-                             const EyeLevel& at) const;
+  Spectrum gathered_indirect(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
+                             Sampler& sampler, const EyeLevel& at) const;
   /// From the map: looked up where it was computed beforehand.
   Spectrum gathered_global(const SurfaceVertex& vertex, Lobes lobes, int recursion) const;
-  Spectrum reflected_direct_light(const SurfaceVertex& vertex, Lobes lobes, int recursion,
-                                  Sampler& sampler, uint64_t& rays) const;
+  Spectrum reflected_direct_light(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
+                                  int recursion, Sampler& sampler, uint64_t& rays) const;
+  void make_volume_maps(uint32_t pass);
 
   const Scene& scene_;
   const PhotonMapSettings& settings_;
@@ -64,6 +75,8 @@ class PhotonLight final : public RadianceSource {
   const ShadowMap* shadows_;
   const ShadowSettings& shadow_settings_;
   IrradianceMap precomputed_;
+  VolumePhotonMap volume_;                 ///< for the camera's rays …
+  VolumePhotonMap coarse_volume_;          ///< … and with fewer photons for gather rays
   mutable std::atomic<uint64_t> rays_{0};  ///< counts only; changes no result
 };
 

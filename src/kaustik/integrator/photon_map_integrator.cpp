@@ -27,7 +27,7 @@ float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
 CachePoint cache_point_of(const CameraWalk& walk, const PhotonMapSettings& settings) {
   const SurfaceVertex& vertex = walk.vertex();
   return {vertex.point(), vertex.facing_normal(), 2 * walk.footprint(),
-          settings.cache_tolerance(walk.events())};
+          settings.cache_tolerance(walk.events()), walk.medium()};
 }
 
 /// Of the walk's vertex: the camera's side gathers nothing on its way.
@@ -45,6 +45,10 @@ struct PhotonMapIntegrator::State final : PassState {
 
 PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene& scene)
     : IlluminationModel(scene), settings_(arguments) {
+  if (scene.has_media() && settings_.shadow_photons > 0)
+    throw Error(ErrorKind::input,
+                "shadow photons know nothing of media and null boundaries, and the scene has some",
+                "set 'shadow_photons' to 0", arguments.place_of("shadow_photons"));
   if (settings_.photon_file.empty()) return;
   StoredPhotons stored = read_photon_file(settings_.photon_file);
   const auto refuse = [&](const std::string& message) {
@@ -59,6 +63,12 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
   if ((settings_.light_pass.caustic_photons > 0 && stored.settings.caustic_photons == 0) ||
       (settings_.light_pass.global_photons > 0 && stored.settings.global_photons == 0))
     refuse("was traced without photons that are needed here");
+  if (scene.has_scattering() && settings_.light_pass.volume_photons > 0)
+    throw Error(ErrorKind::input,
+                "stored maps hold no photons of media, and a medium of this scene scatters light",
+                "leave out 'photon_map', or set 'volume_photons' to 0 for a picture without that "
+                "light",
+                settings_.photon_file_place);
   stored_maps_ = std::make_shared<const PhotonMaps>(std::move(stored.maps));
 }
 
@@ -95,8 +105,8 @@ std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
   const auto lights = light_pass(pass.seed);
   auto maps =
       std::make_shared<const PhotonMaps>(lights->trace(pass.seed, pass.index, stop, progress));
-  report.photons = maps->global.size() + maps->caustic.size();
-  report.rays = maps->global_report.rays + maps->caustic_report.rays;
+  report.photons = maps->global.size() + maps->caustic.size() + maps->volume.size();
+  report.rays = maps->global_report.rays + maps->caustic_report.rays + maps->volume_report.rays;
   if (!stop.stop_requested()) report.warnings = lights->warnings(*maps);
   return maps;
 }
@@ -114,7 +124,7 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
   // no number of passes removes.
   state->light = std::make_unique<PhotonLight>(
       scene(), settings_, *state->maps, pass_radii(*state->maps, stored_maps_ ? 0 : pass.index),
-      state->shadows.get(), state->shadow_settings);
+      state->shadows.get(), state->shadow_settings, pass.index);
   const bool wants_indirect = settings_.components.has(Component::indirect) ||
                               settings_.components.has(Component::specular);
   if (settings_.cache && wants_indirect && settings_.global.neighbors > 0)
@@ -196,6 +206,10 @@ int PhotonMapIntegrator::specular_rays(const CameraWalk& walk) const {
   return walk.events() == 0 ? settings_.specular_samples : 1;
 }
 
+bool PhotonMapIntegrator::advance(const PassState& state, CameraWalk& walk) const {
+  return walk.advance(&static_cast<const State&>(state).light->volume());
+}
+
 bool PhotonMapIntegrator::reflect(const PassState& pass_state, CameraWalk& walk,
                                   const RadianceTracer& tracer) const {
   const auto& state = static_cast<const State&>(pass_state);
@@ -250,7 +264,8 @@ Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk&
     if (state.cache->interpolate(point, irradiance)) return irradiance;
     if (state.cache->interpolate(point, irradiance, 2)) return irradiance;
   }
-  return state.light->gather_irradiance(walk.vertex(), walk.sampler(), level_of(walk));
+  return state.light->gather_irradiance(walk.vertex(), walk.medium(), walk.sampler(),
+                                        level_of(walk));
 }
 
 }  // namespace kaustik

@@ -14,6 +14,8 @@ class PhotonMapIntegrator final : public IlluminationModel {
 
   std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token stop,
                                      const ProgressFunction& progress) const override;
+  /// Through media that take their share, with the beam radiance estimate of what they scatter.
+  bool advance(const PassState& state, CameraWalk& walk) const override;
   bool reflect(const PassState& state, CameraWalk& walk,
                const RadianceTracer& tracer) const override;
   Lobes traced() const override { return settings_.traced(); }

@@ -94,6 +94,14 @@ std::vector<Parameter> parameters() {
           .range(0, 2000000000),
       choice_parameter("global_kernel", "constant", {"constant", "cone", "epanechnikov"},
                        "How global photons are weighted by their distance."),
+      integer_parameter("volume_neighbors", 20,
+                        "Photon whose distance is the radius of a volume photon's disc in the "
+                        "first pass; it shrinks in later ones; 0: no light from media.")
+          .range(0, 100000),
+      integer_parameter("volume_photons", 50000,
+                        "Photons to emit in a pass, over all lights, for the light that media "
+                        "scatter; each leaves one on every segment of its path through a medium.")
+          .range(0, 2000000000),
       integer_parameter(
           "precompute_stride", 4,
           "Gather rays look up irradiance that is computed beforehand at one place for "
@@ -285,6 +293,7 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   cache_settings.maximum_spacing = read.number("cache_maximum_spacing");
   const bool any_gather =
       components.has(Component::indirect) || components.has(Component::specular);
+  volume_neighbors = int(read.integer("volume_neighbors"));
   const bool any_caustic = any_gather || components.has(Component::caustic);
   photon_file = arguments.text("photon_map");
   photon_file_place = arguments.place_of("photon_map");
@@ -298,6 +307,8 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
     light_pass.global_photons = uint32_t(read.integer("global_photons"));
   if (caustic.neighbors > 0 && any_caustic)
     light_pass.caustic_photons = uint32_t(read.integer("caustic_photons"));
+  if (volume_neighbors > 0 && (any_gather || components.has(Component::volume)))
+    light_pass.volume_photons = uint32_t(read.integer("volume_photons"));
 }
 
 Lobes PhotonMapSettings::traced() const {

@@ -30,6 +30,7 @@ struct PhotonMapSettings {
   std::string photon_file;  ///< stored maps to use instead of tracing; empty: none
   Place photon_file_place;
   EstimateSettings caustic, global;
+  int volume_neighbors = 0;
   float minimum_radiance = 0;
   float caustic_radius = 0, global_radius = 0;  ///< cap of pass 0, m; 0: from the photons
 

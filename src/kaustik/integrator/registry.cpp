@@ -38,7 +38,7 @@ const std::vector<IntegratorType>& integrator_types() {
 Parameter components_parameter() {
   return text_parameter("components", "all",
                         "Parts of the light to compute, separated by commas: emission, direct, "
-                        "caustic, indirect, specular, or all.");
+                        "caustic, indirect, specular, volume, or all.");
 }
 
 ComponentSet read_components(const Arguments& arguments) {

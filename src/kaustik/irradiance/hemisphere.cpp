@@ -68,8 +68,8 @@ float inverse_distance_of(float distance) {
 class HemisphereSampling {
  public:
   HemisphereSampling(const RadianceSource& source, const SurfacePoint& at, const Frame& frame,
-                     const HemisphereGrid& grid, const Sampler& sampler)
-      : source_(source), at_(at), frame_(frame), grid_(grid), sampler_(sampler) {}
+                     const HemisphereGrid& grid, const Sampler& sampler, const Medium* medium)
+      : source_(source), at_(at), frame_(frame), grid_(grid), sampler_(sampler), medium_(medium) {}
 
   HemisphereCell sample_cell(int index, uint32_t count, HemisphereEstimate& estimate) {
     HemisphereCell cell;
@@ -85,7 +85,8 @@ class HemisphereSampling {
       }
       cell.open = true;
       sampler.start_vertex(0);
-      const RadianceSource::Incoming incoming = source_.incoming(at_, direction, sampler);
+      const RadianceSource::Incoming incoming =
+          source_.incoming_through(medium_, at_, direction, sampler);
       ++estimate.rays;
       if (!incoming.radiance.is_finite()) {
         ++estimate.dropped;
@@ -110,6 +111,7 @@ class HemisphereSampling {
   const Frame& frame_;
   const HemisphereGrid& grid_;
   const Sampler& sampler_;
+  const Medium* medium_;
   uint32_t next_index_ = 0;
 };
 
@@ -233,13 +235,13 @@ Vec3f HemisphereGrid::direction(int cell, const Vec2f& st) const {
 
 HemisphereEstimate sample_hemisphere(const RadianceSource& source, const SurfacePoint& at,
                                      const Vec3f& normal, const HemisphereSettings& settings,
-                                     const Sampler& sampler) {
+                                     const Sampler& sampler, const Medium* medium) {
   const Frame frame(normal);
   Sampler offset = sampler;
   const Plan plan = plan_samples(source, at, frame, settings, offset.next_1d());
 
   HemisphereEstimate estimate;
-  HemisphereSampling sampling(source, at, frame, plan.grid, sampler);
+  HemisphereSampling sampling(source, at, frame, plan.grid, sampler, medium);
   std::vector<HemisphereCell> cells(plan.counts.size());
   for (size_t i = 0; i < cells.size(); ++i)
     cells[i] = sampling.sample_cell(int(i), plan.counts[i], estimate);

@@ -5,6 +5,7 @@
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/spectrum.h"
 #include "kaustik/geometry/ray.h"
+#include "kaustik/medium/medium.h"
 
 namespace kaustik {
 
@@ -36,6 +37,12 @@ class RadianceSource {
   /// the block of vertex 0.
   virtual Incoming incoming(const SurfacePoint& from, const Vec3f& direction,
                             Sampler& sampler) const = 0;
+  /// The same where the surface lies in `medium` (null: vacuum), for sources that know media.
+  virtual Incoming incoming_through(const Medium* medium, const SurfacePoint& from,
+                                    const Vec3f& direction, Sampler& sampler) const {
+    (void)medium;
+    return incoming(from, direction, sampler);
+  }
   /// Relative importance ≥ 0 of the cells in the hemisphere of `frame`.z, one number a cell; false
   /// if unknown (then all are alike). Called before any ray of that hemisphere is traced.
   virtual bool importance(const SurfacePoint& at, const Frame& frame, const HemisphereGrid& grid,
@@ -74,9 +81,10 @@ struct HemisphereEstimate {
 /// Samples every cell of the hemisphere about unit `normal` at least once and derives irradiance
 /// and gradients from the cells' means (Ward and Heckbert 1992, in the form for the mapping above).
 /// The irradiance is unbiased: how many samples a cell gets is settled before any is seen.
-/// Directions below the geometric surface carry nothing and cost no ray.
+/// Directions below the geometric surface carry nothing and cost no ray. `medium`: that the light
+/// arrives through.
 HemisphereEstimate sample_hemisphere(const RadianceSource& source, const SurfacePoint& at,
                                      const Vec3f& normal, const HemisphereSettings& settings,
-                                     const Sampler& sampler);
+                                     const Sampler& sampler, const Medium* medium = nullptr);
 
 }  // namespace kaustik

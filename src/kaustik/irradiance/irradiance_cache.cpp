@@ -165,7 +165,8 @@ ComputedRecord IrradianceCache::Impl::compute(const CachePoint& at, const Radian
   ComputedRecord record;
   record.position = at.point.position;
   record.normal = at.normal;
-  record.estimate = sample_hemisphere(source, at.point, at.normal, settings.hemisphere, sampler);
+  record.estimate =
+      sample_hemisphere(source, at.point, at.normal, settings.hemisphere, sampler, at.medium);
   record.gradient_radius = infinity;
   if (settings.metric == CacheMetric::hessian) {
     record.validity = hessian_validity(record.estimate, at.normal, pixel_width(at));

@@ -17,6 +17,7 @@ struct CachePoint {
   /// How much larger an error than at other points is allowed when the cache is filled; from 1 to
   /// RecordOctree::overlap.
   float tolerance = 1;
+  const Medium* medium = nullptr;  ///< that the light arrives through; null: vacuum
 };
 
 /// What tells how far records serve.

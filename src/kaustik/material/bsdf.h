@@ -49,6 +49,9 @@ class Bsdf {
   virtual Lobes lobes() const = 0;
   /// Whether light can pass through.
   virtual bool transmits() const { return false; }
+  /// Whether it is the boundary that light does not notice: paths and shadow rays go straight on,
+  /// without an event. Such a bsdf has no lobes.
+  virtual bool is_null() const { return false; }
   /// f, 1/sr, without the cosine.
   virtual Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                         Lobes lobes) const = 0;
@@ -64,8 +67,7 @@ class Bsdf {
   virtual Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const = 0;
 };
 
-/// The null bsdf of open boundaries is none of these: a shape without a bsdf is diffuse 0.5, as in
-/// Mitsuba.
+/// A shape without a bsdf is diffuse 0.5, as in Mitsuba.
 
 /// What create() of a bsdf gets beside its arguments: its nested bsdfs and textures, built already.
 struct BsdfInputs {
@@ -83,7 +85,7 @@ struct BsdfType {
   /// Throws Error(input) where arguments contradict one another.
   std::shared_ptr<const Bsdf> (*create)(const BsdfInputs&);
 };
-/// "diffuse", "phong", "dielectric", "conductor", "roughconductor", "twosided".
+/// "diffuse", "phong", "dielectric", "conductor", "roughconductor", "twosided", "null".
 const std::vector<BsdfType>& bsdf_types();
 
 }  // namespace kaustik

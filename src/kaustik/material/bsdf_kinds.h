@@ -11,6 +11,7 @@ BsdfType dielectric_type();
 BsdfType conductor_type();
 BsdfType roughconductor_type();
 BsdfType twosided_type();
+BsdfType null_type();
 
 TextureType bitmap_type();
 TextureType checkerboard_type();

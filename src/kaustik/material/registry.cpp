@@ -3,9 +3,9 @@
 namespace kaustik {
 
 const std::vector<BsdfType>& bsdf_types() {
-  static const std::vector<BsdfType> types = {diffuse_type(),        phong_type(),
-                                              dielectric_type(),     conductor_type(),
-                                              roughconductor_type(), twosided_type()};
+  static const std::vector<BsdfType> types = {
+      diffuse_type(),        phong_type(),    dielectric_type(), conductor_type(),
+      roughconductor_type(), twosided_type(), null_type()};
   return types;
 }
 

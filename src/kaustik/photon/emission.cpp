@@ -67,8 +67,14 @@ EmissionSampler::~EmissionSampler() = default;
 
 EmittedRay EmissionSampler::sample(int light, const Vec2f& u_position, const Vec2f& u_direction,
                                    float u_target) const {
-  if (aimed_) return lights_[size_t(light)]->sample(u_position, u_direction, u_target);
-  return sample_own(*scene_->lights()[size_t(light)], u_position, u_direction);
+  EmittedRay emitted = aimed_
+                           ? lights_[size_t(light)]->sample(u_position, u_direction, u_target)
+                           : sample_own(*scene_->lights()[size_t(light)], u_position, u_direction);
+  // Infinitely far light has come through an infinite length of what surrounds the scene.
+  const Medium* medium = scene_->light_medium(light);
+  if (medium && scene_->lights()[size_t(light)]->is_infinite())
+    emitted.flux *= medium->transmittance(infinity);
+  return emitted;
 }
 
 float EmissionSampler::pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const {

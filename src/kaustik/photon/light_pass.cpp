@@ -91,6 +91,7 @@ LightCounts MapReport::total() const {
 /// What tracing leaves: photons for both maps (caustic photons may go on as global ones).
 struct LightPass::Deposits {
   PhotonList global, caustic;
+  std::vector<VolumePhoton> volume;
   MapReport report;
 };
 
@@ -103,33 +104,51 @@ class LightPass::Tracer {
         light_(light),
         scale_(1.0f / float(count)),
         storing_(without(Lobes::all, pass.settings_.traced | Lobes::delta)) {
-    (kind == Kind::global ? global : caustic).reserve(photons_per_block);
+    if (kind != Kind::volume) (kind == Kind::global ? global : caustic).reserve(photons_per_block);
   }
 
   /// Photons `begin` to `end`; `sampler_of(i)` gives the random numbers of the i-th.
   template <typename SamplerOf>
   void trace(uint32_t begin, uint32_t end, const SamplerOf& sampler_of) {
-    const LightPathLimits limits{pass_.settings_.maximum_events, pass_.settings_.traced};
-    const LightPathCounts ends = trace_light_paths(
-        pass_.scene_, begin, end, limits, [&](uint32_t photon) { return emit(sampler_of(photon)); },
-        [this](const LightVertex& at) {
-          return kind_ == Kind::global ? meet_global(at) : meet_caustic(at);
-        });
+    // What specular events begin and a medium scatters is the global photons', unless they are made
+    // by re-radiation.
+    const MediumEvents in_media = kind_ != Kind::caustic      ? MediumEvents::follow
+                                  : pass_.settings_.reradiate ? MediumEvents::after_events
+                                                              : MediumEvents::stop;
+    const LightPathLimits limits{pass_.settings_.maximum_events, pass_.settings_.traced, in_media};
+    const auto start = [&](uint32_t photon) { return emit(sampler_of(photon)); };
+    const auto meet = [this](const LightVertex& at) {
+      switch (kind_) {
+        case Kind::global:
+          return meet_global(at);
+        case Kind::caustic:
+          return meet_caustic(at);
+        case Kind::volume:
+          break;
+      }
+      return Lobes::all;
+    };
+    const auto scatter = [this](const LightMediumVertex& at) { store(at); };
+    const LightPathCounts ends =
+        kind_ == Kind::volume
+            ? trace_light_paths(pass_.scene_, begin, end, limits, start, Handlers{meet, scatter})
+            : trace_light_paths(pass_.scene_, begin, end, limits, start, meet);
     rays += ends.rays;
     counts.escaped += ends.escaped;
-    counts.absorbed += ends.absorbed;
+    counts.absorbed += ends.absorbed + ends.absorbed_in_media;
     counts.too_long += ends.too_long;
     counts.stopped += ends.stopped;
   }
 
   PhotonList global, caustic;
+  std::vector<VolumePhoton> volume;
   LightCounts counts;
   uint64_t rays = 0;
 
  private:
   std::optional<LightPath> emit(Sampler sampler) {
     const EmissionSampler& emission =
-        kind_ == Kind::global ? *pass_.global_emission_ : *pass_.caustic_emission_;
+        kind_ == Kind::caustic ? *pass_.caustic_emission_ : *pass_.global_emission_;
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const EmittedRay emitted = emission.sample(light_, u_position, u_direction, sampler.next_1d());
     ++counts.emitted;
@@ -137,7 +156,8 @@ class LightPass::Tracer {
       ++counts.nothing;
       return std::nullopt;
     }
-    return LightPath(emitted.ray, emitted.flux, pass_.settings_.traced, sampler);
+    return LightPath(emitted.ray, emitted.flux, pass_.scene_.light_medium(light_),
+                     pass_.settings_.traced, sampler);
   }
 
   Lobes meet_global(const LightVertex& at) {
@@ -168,6 +188,17 @@ class LightPass::Tracer {
     counts.stored_flux += double(at.state.throughput.max_lane()) * scale_;
   }
 
+  void store(const LightMediumVertex& at) {
+    VolumePhoton photon;
+    photon.position = at.position;
+    photon.flux = at.flux * scale_;
+    photon.direction = PackedDirection(at.wo);
+    photon.medium = &at.medium;
+    volume.push_back(photon);
+    ++counts.stored;
+    counts.stored_flux += double(photon.flux.max_lane());
+  }
+
   const LightPass& pass_;
   Kind kind_;
   int light_;
@@ -186,6 +217,7 @@ LightPass::LightPass(const Scene& scene, const LightPassSettings& settings, uint
   }
   global_shares_ = train(Kind::global, settings_.global_photons, seed);
   caustic_shares_ = train(Kind::caustic, settings_.caustic_photons, seed);
+  volume_shares_ = train(Kind::volume, scene.has_scattering() ? settings_.volume_photons : 0, seed);
 }
 
 std::vector<uint32_t> LightPass::train(Kind kind, uint32_t total, uint64_t seed) const {
@@ -227,7 +259,8 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
     const Block& block = blocks[i];
     auto tracer = std::make_unique<Tracer>(*this, kind, block.light, shares[size_t(block.light)]);
     // Kinds draw from different addresses even where they share a stream (training).
-    const uint64_t element = uint64_t(block.light) * 2 + (kind == Kind::caustic ? 1 : 0);
+    const uint64_t element = uint64_t(block.light) * 2 + (kind == Kind::caustic ? 1 : 0) +
+                             (kind == Kind::volume ? uint64_t(1) << 32 : 0);
     tracer->trace(block.begin, block.end, [&](uint32_t photon) {
       return Sampler::at(seed, index, stream, element, photon);
     });
@@ -239,6 +272,8 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
     if (!results[i]) continue;
     global.push_back(&results[i]->global);
     caustic.push_back(&results[i]->caustic);
+    deposits.volume.insert(deposits.volume.end(), results[i]->volume.begin(),
+                           results[i]->volume.end());
     deposits.report.lights[size_t(blocks[i].light)].add(results[i]->counts);
     deposits.report.rays += results[i]->rays;
   }
@@ -269,14 +304,16 @@ PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop,
                             const ProgressFunction& progress) const {
   const auto start = std::chrono::steady_clock::now();
   uint64_t total = 0;
-  for (const auto& shares : {caustic_shares_, global_shares_, place_shares()})
+  for (const auto& shares : {caustic_shares_, global_shares_, volume_shares_, place_shares()})
     total += std::accumulate(shares.begin(), shares.end(), uint64_t(0));
   WorkCounter counter(total, progress);
-  Deposits caustic, global;
+  Deposits caustic, global, volume;
   trace_kind(Kind::caustic, caustic_shares_, seed, index, Stream::photon_caustic, stop, counter,
              caustic);
   trace_kind(Kind::global, global_shares_, seed, index, Stream::photon_global, stop, counter,
              global);
+  trace_kind(Kind::volume, volume_shares_, seed, index, Stream::photon_volume, stop, counter,
+             volume);
   if (!caustic.global.photons.empty())
     global.global = concatenate({&global.global, &caustic.global});
   caustic.report.target_count = target_count_;
@@ -284,6 +321,8 @@ PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop,
   maps.places = trace_places(seed, index, stop, counter);
   maps.global_report = std::move(global.report);
   maps.caustic_report = std::move(caustic.report);
+  maps.volume_report = std::move(volume.report);
+  maps.volume = std::move(volume.volume);
   maps.trace_seconds = seconds_since(start);
   const auto build_start = std::chrono::steady_clock::now();
   maps.caustic =
@@ -311,6 +350,8 @@ std::vector<std::string> LightPass::warnings(const PhotonMaps& maps) const {
     list.push_back(explain("global", maps.global_report));
   if (settings_.caustic_photons > 0 && maps.caustic.empty() && target_count_ > 0)
     list.push_back(explain("caustic", maps.caustic_report));
+  if (settings_.volume_photons > 0 && scene_.has_scattering() && maps.volume.empty())
+    list.push_back(explain("volume", maps.volume_report));
   return list;
 }
 

@@ -7,6 +7,7 @@
 #include "kaustik/photon/emission.h"
 #include "kaustik/photon/irradiance_map.h"
 #include "kaustik/photon/photon_map.h"
+#include "kaustik/photon/volume_photon_map.h"
 #include "kaustik/transport/light_path.h"
 
 namespace kaustik {
@@ -15,6 +16,7 @@ namespace kaustik {
 struct LightPassSettings {
   uint32_t global_photons = 0;     ///< to emit; 0: no global map
   uint32_t caustic_photons = 0;    ///< to emit; 0: no caustic map
+  uint32_t volume_photons = 0;     ///< to emit for the light in media; 0: none
   int maximum_events = 1 << 20;    ///< scattering events of a light path
   Lobes traced = Lobes::specular;  ///< lobes whose events count as specular (G)
   bool reradiate = false;          ///< caustic photons go on as global ones
@@ -51,12 +53,16 @@ struct MapReport {
 struct PhotonMaps {
   PhotonMap global, caustic;
   std::vector<SurfaceSide> places;  ///< where other global photons landed
-  MapReport global_report, caustic_report;
+  /// Where media scatter light, for every segment of the light paths made for that; not in a map
+  /// yet: their radii are the integrator's.
+  std::vector<VolumePhoton> volume;
+  MapReport global_report, caustic_report, volume_report;
   double trace_seconds = 0, build_seconds = 0;
 };
 
 /// Traces photons from the lights into the maps of a pass: global photons (stored only after a
-/// diffuse event) by power, caustic photons (all events specular) aimed at specular objects. What
+/// diffuse event or one in a medium) by power, caustic photons (all events specular) aimed at
+/// specular objects, volume photons (where media scatter, whatever came before) by power. What
 /// each light emits follows what arrived in a training pass, so that lights elsewhere can't starve
 /// the one that makes the caustic. Immutable.
 class LightPass {
@@ -78,7 +84,7 @@ class LightPass {
  private:
   struct Deposits;
   class Tracer;
-  enum class Kind { global, caustic };
+  enum class Kind { global, caustic, volume };
   void trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint64_t seed, uint32_t index,
                   Stream stream, std::stop_token stop, WorkCounter& counter,
                   Deposits& deposits) const;
@@ -91,7 +97,7 @@ class LightPass {
   LightPassSettings settings_;
   size_t target_count_ = 0;
   std::unique_ptr<EmissionSampler> global_emission_, caustic_emission_;
-  std::vector<uint32_t> global_shares_, caustic_shares_;
+  std::vector<uint32_t> global_shares_, caustic_shares_, volume_shares_;
 };
 
 }  // namespace kaustik

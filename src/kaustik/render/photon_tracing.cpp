@@ -52,6 +52,7 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
   photons.fingerprint = scene_fingerprint(scene);
   photons.seed = seed;
   photons.settings = PhotonMapSettings(arguments).light_pass;
+  photons.settings.volume_photons = 0;  // files have no place for them
   with_threads(threads, [&] {
     const LightPass pass(scene, photons.settings, seed);
     photons.maps = pass.trace(seed, 0, stop, progress);

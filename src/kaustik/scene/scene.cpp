@@ -1,11 +1,48 @@
 #include "kaustik/scene/scene.h"
 
+#include "kaustik/scene/media.h"
+
 namespace kaustik {
 
 Scene::Scene(Parts parts) : parts_(std::move(parts)) {
   light_selector_ = std::make_unique<LightSelector>(parts_.lights);
   for (size_t i = 0; i < parts_.lights.size(); ++i)
     if (parts_.lights[i]->is_infinite()) environment_lights_.push_back(int(i));
+  find_media();
+}
+
+void Scene::find_media() {
+  bool separated = false;
+  const auto see = [this](const std::shared_ptr<const Medium>& medium) {
+    has_media_ |= medium != nullptr;
+    has_scattering_ |= medium && medium->scatters();
+  };
+  see(parts_.camera_medium);
+  for (const Surface& surface : parts_.surfaces) {
+    see(surface.interior);
+    see(surface.exterior);
+    separated |= surface.separates_media();
+    has_media_ |= surface.is_null;
+  }
+  parts_.light_media.resize(parts_.lights.size());
+  for (const auto& medium : parts_.light_media) see(medium);
+  light_media_.assign(parts_.lights.size(), nullptr);
+  if (!has_media_) return;
+  for (size_t i = 0; i < parts_.lights.size(); ++i) {
+    const Light& light = *parts_.lights[i];
+    const Surface* surface = light.shape() >= 0 ? &parts_.surfaces[size_t(light.shape())] : nullptr;
+    if (surface && surface->separates_media())
+      light_media_[i] = surface->exterior.get();
+    else if (parts_.light_media[i])
+      light_media_[i] = parts_.light_media[i].get();
+    else if (light.is_infinite())
+      light_media_[i] = separated ? nullptr : camera_medium();
+    else
+      light_media_[i] =
+          find_medium(*this, light.sample_origin({0.5f, 0.5f}).point, camera_medium());
+  }
+  if (const std::string message = contradicting_media(*this); !message.empty())
+    parts_.warnings.push_back(message);
 }
 
 }  // namespace kaustik

@@ -20,6 +20,18 @@ struct Surface {
   std::string name;                  ///< the shape's id or "type, line n", for messages
   /// The integrator that the shape itself holds, if any: how this surface looks.
   std::shared_ptr<const Object> illumination;
+  std::shared_ptr<const Medium> interior, exterior;  ///< null: vacuum, or see separates_media()
+  bool is_null = false;                              ///< of the bsdf: see Bsdf::is_null()
+
+  /// Whether the surface says what lies on its sides. If not, both are in the medium that a path
+  /// arrives through.
+  bool separates_media() const { return interior || exterior; }
+  /// What a path that arrived through `arrived` goes on through, on the side of the geometric
+  /// normal (`outside`) or on the other.
+  const Medium* medium_toward(bool outside, const Medium* arrived) const {
+    if (!separates_media()) return arrived;
+    return outside ? exterior.get() : interior.get();
+  }
 };
 
 /// Sees every ray that is traced; for benchmarks that repeat them.
@@ -38,10 +50,15 @@ class Scene {
     std::vector<std::unique_ptr<Light>> lights;
     FilmSettings film;
     std::unique_ptr<Camera> camera;
+    std::shared_ptr<const Medium> camera_medium;  ///< null: vacuum
+    /// Parallel to the lights: that they shine into; null: to be found out from the surfaces.
+    std::vector<std::shared_ptr<const Medium>> light_media;
     std::vector<std::string> warnings;
     RayObserver* observer = nullptr;
   };
   explicit Scene(Parts parts);
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
 
   bool intersect(const Ray& ray, Hit& hit) const {
     if (parts_.observer) parts_.observer->on_ray(ray, false);
@@ -66,13 +83,27 @@ class Scene {
   const std::vector<int>& environment_lights() const { return environment_lights_; }
   const Camera& camera() const { return *parts_.camera; }
   const FilmSettings& film() const { return parts_.film; }
+
+  /// Whether there is any medium or null boundary. Without them every segment ends at a surface,
+  /// and light on it keeps its strength.
+  bool has_media() const { return has_media_; }
+  /// Whether any medium scatters light.
+  bool has_scattering() const { return has_scattering_; }
+  /// Around the camera; null: vacuum.
+  const Medium* camera_medium() const { return parts_.camera_medium.get(); }
+  /// That light `light` shines into; null: vacuum. Infinite lights: what reaches the scene.
+  const Medium* light_medium(int light) const { return light_media_[size_t(light)]; }
   /// What build_scene found odd but could live with.
   const std::vector<std::string>& warnings() const { return parts_.warnings; }
 
  private:
+  void find_media();
+
   Parts parts_;
   std::unique_ptr<LightSelector> light_selector_;
   std::vector<int> environment_lights_;
+  bool has_media_ = false, has_scattering_ = false;
+  std::vector<const Medium*> light_media_;  ///< parallel to the lights
 };
 
 struct BuildOptions {

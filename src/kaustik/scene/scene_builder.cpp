@@ -61,8 +61,7 @@ Place file_place(const Arguments& arguments) {
 
 }  // namespace
 
-template <typename Body>
-void SceneBuilder::collecting(const Place& place, const Body& body) {
+void SceneBuilder::collecting(const Place& place, const std::function<void()>& body) {
   try {
     body();
   } catch (const Error& error) {
@@ -135,6 +134,8 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   parts.lights = std::move(lights_);
   parts.film = film_;
   parts.camera = std::move(camera_);
+  parts.camera_medium = std::move(camera_medium_);
+  parts.light_media = std::move(light_media_);
   parts.warnings = std::move(warnings_);
   return parts;
 }
@@ -154,17 +155,20 @@ void SceneBuilder::add_top_level(const Object& object) {
                     fmt::format("keep one; the first is on line {}", sensor_->place.line),
                     object.place);
     sensor_ = &object;
-  } else if (object.family == "bsdf" || object.family == "texture") {
+  } else if (object.family == "bsdf" || object.family == "texture" || object.family == "medium") {
     // Checked where it is used, and here so that a mistake in an unused one is told as well.
     const auto alias =
         std::shared_ptr<Object>(std::shared_ptr<Object>(), const_cast<Object*>(&object));
     if (object.family == "bsdf")
       make_bsdf(alias);
+    else if (object.family == "medium")
+      make_medium(alias);
     else
       make_texture(alias);
   } else if (object.family != "integrator") {
     problems_.add(fmt::format("a {} cannot stand at the top of a scene", object.family),
-                  "it may hold: shape, bsdf, texture, emitter, sensor, integrator", object.place);
+                  "it may hold: shape, bsdf, texture, medium, emitter, sensor, integrator",
+                  object.place);
   }
 }
 
@@ -176,7 +180,7 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
     unknown_type(object, valid);
     return std::nullopt;
   }
-  refuse_children(object, {"bsdf", "emitter", "integrator"});
+  refuse_children(object, {"bsdf", "emitter", "integrator", "medium"});
   BuiltShape built;
   built.object = &object;
   built.surface.name = display_name(object);
@@ -197,6 +201,8 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
     static const Object default_bsdf{"bsdf", "diffuse", "", {}, {}, {}};
     built.surface.bsdf = create_bsdf(default_bsdf);
   }
+  built.surface.is_null = built.surface.bsdf && built.surface.bsdf->is_null();
+  read_media(object, built.surface);
   if (!has_all_required(arguments)) return std::nullopt;
   collecting(file_place(arguments), [&] { built.shape = type->create(arguments); });
   if (!built.shape || !built.surface.bsdf) return std::nullopt;
@@ -211,6 +217,9 @@ void SceneBuilder::add_shape(const Object& object) {
     if (child.object->family != "emitter") continue;
     if (built->surface.light >= 0)
       problems_.add("the shape has a second emitter", "keep one", child.object->place);
+    if (built->surface.is_null)
+      problems_.add("a shape with bsdf 'null' is not there, so it cannot be a light",
+                    "give it another bsdf, such as diffuse", child.object->place);
     built->surface.light = int(pending_lights_.size());
     pending_lights_.push_back({child.object.get(), built->shape, index});
   }
@@ -327,7 +336,7 @@ void SceneBuilder::make_lights() {
       unknown_type(*pending.object, names_of(light_types()));
       continue;
     }
-    refuse_children(*pending.object, {});
+    refuse_children(*pending.object, {"medium"});
     if (type->needs_shape != (pending.shape != nullptr)) {
       problems_.add(
           type->needs_shape
@@ -355,6 +364,7 @@ void SceneBuilder::make_lights() {
     collecting(pending.object->place, [&] {
       lights_.push_back(
           type->create({arguments, to_world, pending.shape, pending.shape_index, bounds_}));
+      light_media_.push_back(medium_of(*pending.object));
     });
   }
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -34,6 +35,12 @@ class SceneBuilder {
   std::shared_ptr<const Bsdf> make_bsdf(const std::shared_ptr<Object>& object);
   std::shared_ptr<const Bsdf> create_bsdf(const Object& object);
   std::shared_ptr<const Texture> make_texture(const std::shared_ptr<Object>& object);
+  std::shared_ptr<const Medium> make_medium(const std::shared_ptr<Object>& object);
+  std::shared_ptr<const PhaseFunction> make_phase_function(const Object& object);
+  /// The one medium among the children of a sensor or an emitter; null if there is none.
+  std::shared_ptr<const Medium> medium_of(const Object& object);
+  /// The surface's interior and exterior.
+  void read_media(const Object& shape, Surface& surface);
   void make_sensor(const Object& object);
   void read_film(const Object& object);
   void read_filter(const Object& object);
@@ -47,8 +54,7 @@ class SceneBuilder {
   void unknown_type(const Object& object, const std::vector<std::string>& valid);
   /// Runs `body` and turns what it throws into problems; those without a place get `place`, those
   /// in another file tell that it was named there.
-  template <typename Body>
-  void collecting(const Place& place, const Body& body);
+  void collecting(const Place& place, const std::function<void()>& body);
 
   Problems problems_;
   std::vector<std::string> warnings_;
@@ -60,7 +66,10 @@ class SceneBuilder {
   std::vector<PendingLight> pending_lights_;
   std::map<const Object*, std::shared_ptr<const Bsdf>> bsdfs_;
   std::map<const Object*, std::shared_ptr<const Texture>> textures_;
+  std::map<const Object*, std::shared_ptr<const Medium>> media_;
   std::vector<std::unique_ptr<Light>> lights_;
+  std::vector<std::shared_ptr<const Medium>> light_media_;
+  std::shared_ptr<const Medium> camera_medium_;
   Bounds3f bounds_;
   FilmSettings film_;
   std::unique_ptr<Camera> camera_;

@@ -42,10 +42,15 @@ View look_around(const Scene& scene) {
     for (int x = 0; x < grid; ++x) {
       const Vec2f raster((float(x) + 0.5f) / grid * float(size.x),
                          (float(y) + 0.5f) / grid * float(size.y));
-      const Ray ray = scene.camera().sample_ray(raster);
+      Ray ray = scene.camera().sample_ray(raster);
       Hit hit;
       ++view.rays;
-      if (!scene.intersect(ray, hit)) continue;
+      bool found = scene.intersect(ray, hit);
+      while (found && scene.surface(hit.shape).is_null) {
+        ray = spawn_ray(scene.tracer().surface_point(ray, hit), ray.direction);
+        found = scene.intersect(ray, hit);
+      }
+      if (!found) continue;
       ++view.hits;
       const SurfacePoint point = scene.tracer().surface_point(ray, hit);
       if (dot(point.ng, ray.direction) > 0 && is_black_from_behind(scene.surface(point.shape)))

@@ -25,7 +25,8 @@ void SceneBuilder::make_sensor(const Object& object) {
     unknown_type(object, {Camera::info().name});
     return;
   }
-  refuse_children(object, {"film", "sampler"});
+  refuse_children(object, {"film", "sampler", "medium"});
+  camera_medium_ = medium_of(object);
   const Object* film = nullptr;
   for (const Child& child : object.children) {
     if (child.object->family == "film") {

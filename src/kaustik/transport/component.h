@@ -6,18 +6,20 @@
 namespace kaustik {
 
 /// The parts of the picture, one owner for every light path (read from the light; G: an event of a
-/// specular lobe, D: of a diffuse lobe; x: the first surface that the camera sees).
+/// specular lobe, D: of a diffuse lobe or in a medium; x: where the camera's path is scattered
+/// first, on a surface except in `volume`).
 enum class Component : uint8_t {
   emission,  ///< L seen by the camera itself
   direct,    ///< L → x, reflected by any lobe but a delta one
   caustic,   ///< L G⁺ → x, reflected by the diffuse lobe
   indirect,  ///< at least one D before x, reflected by the diffuse lobe
-  specular   ///< all that a specular lobe of x reflects or transmits, but direct light on glossy
+  specular,  ///< all that a specular lobe of x reflects or transmits, but direct light on glossy
              ///< lobes
+  volume     ///< all that is scattered at x in a medium
 };
-inline constexpr int component_count = 5;
+inline constexpr int component_count = 6;
 inline constexpr std::array<std::string_view, component_count> component_names = {
-    "emission", "direct", "caustic", "indirect", "specular"};
+    "emission", "direct", "caustic", "indirect", "specular", "volume"};
 
 /// A set of components, as bits.
 class ComponentSet {

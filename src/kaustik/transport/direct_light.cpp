@@ -1,52 +1,47 @@
 #include "kaustik/transport/direct_light.h"
 
 namespace kaustik {
-namespace {
 
-/// What the light selector may assume: only light on the viewer's side counts on opaque surfaces.
-Vec3f selection_normal(const SurfaceVertex& vertex) {
-  if (vertex.bsdf().transmits()) return {0, 0, 0};
-  return vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
+Receiver::Receiver(const SurfaceVertex& vertex) : point(vertex.point()) {
+  if (!vertex.bsdf().transmits()) normal = vertex.on_front() ? point.ng : -point.ng;
 }
 
-}  // namespace
-
-bool sample_direct_light(const Scene& scene, const SurfaceVertex& vertex, Sampler& sampler,
+bool sample_direct_light(const Scene& scene, const Receiver& receiver, Sampler& sampler,
                          DirectLight& result) {
   float u_light = sampler.next_1d();
   const Vec2f u = sampler.next_2d();
   const LightSelector::Choice choice =
-      scene.light_selector().choose(vertex.position(), selection_normal(vertex), u_light);
-  if (choice.light < 0 || !sample_direct_light_of(scene, vertex, choice.light, u, result))
+      scene.light_selector().choose(receiver.point.position, receiver.normal, u_light);
+  if (choice.light < 0 || !sample_direct_light_of(scene, receiver, choice.light, u, result))
     return false;
   result.radiance *= 1 / choice.probability;
   result.pdf_solid_angle *= choice.probability;
   return true;
 }
 
-bool sample_direct_light_of(const Scene& scene, const SurfaceVertex& vertex, int light,
-                            const Vec2f& u, DirectLight& result) {
-  const LightSample sample = scene.lights()[size_t(light)]->sample_toward(
-      {vertex.position(), selection_normal(vertex)}, u);
+bool sample_direct_light_of(const Scene& scene, const Receiver& receiver, int light, const Vec2f& u,
+                            DirectLight& result) {
+  const Vec3f& position = receiver.point.position;
+  const LightSample sample =
+      scene.lights()[size_t(light)]->sample_toward({position, receiver.normal}, u);
   if (!(sample.pdf_solid_angle > 0) || sample.radiance.is_zero()) return false;
   result.light = light;
   result.wi = sample.direction;
   result.radiance = sample.radiance * (1 / sample.pdf_solid_angle);
   result.pdf_solid_angle = sample.only_sampled ? 0 : sample.pdf_solid_angle;
   if (sample.on_surface)
-    result.shadow_ray = spawn_ray_to(vertex.point(), sample.point);
+    result.shadow_ray = spawn_ray_to(receiver.point, sample.point);
   else if (std::isfinite(sample.distance))
-    result.shadow_ray =
-        spawn_ray_to(vertex.point(), vertex.position() + sample.direction * sample.distance);
+    result.shadow_ray = spawn_ray_to(receiver.point, position + sample.direction * sample.distance);
   else
-    result.shadow_ray = spawn_ray(vertex.point(), sample.direction);
+    result.shadow_ray = spawn_ray(receiver.point, sample.direction);
   return true;
 }
 
-void share_light_samples(const Scene& scene, const SurfaceVertex& vertex, int samples,
+void share_light_samples(const Scene& scene, const Receiver& receiver, int samples,
                          std::vector<int>& counts) {
   static thread_local std::vector<float> irradiances;
-  const LightQuery query(vertex.position(), selection_normal(vertex));
+  const LightQuery query(receiver.point.position, receiver.normal);
   irradiances.clear();
   double total = 0;
   for (const auto& light : scene.lights()) {
@@ -63,27 +58,25 @@ namespace {
 
 /// The light's chance with LightChoice::one; else whether it is sampled at all. How many samples it
 /// gets is left out of the weights, here as there: they only have to agree.
-float choice_factor(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
-                    int light) {
-  const Vec3f normal = selection_normal(vertex);
+float choice_factor(const Scene& scene, const Receiver& receiver, LightChoice choice, int light) {
   if (choice == LightChoice::one)
-    return scene.light_selector().probability(vertex.position(), normal, light);
+    return scene.light_selector().probability(receiver.point.position, receiver.normal, light);
   const Light& of = *scene.lights()[size_t(light)];
-  return of.expected_irradiance({vertex.position(), normal}) > 0 ? 1.0f : 0.0f;
+  return of.expected_irradiance({receiver.point.position, receiver.normal}) > 0 ? 1.0f : 0.0f;
 }
 
 }  // namespace
 
-float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
-                       int light, const SurfacePoint& on_light) {
-  return choice_factor(scene, vertex, choice, light) *
-         scene.lights()[size_t(light)]->pdf_toward({vertex.position(), selection_normal(vertex)},
+float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice choice, int light,
+                       const SurfacePoint& on_light) {
+  return choice_factor(scene, receiver, choice, light) *
+         scene.lights()[size_t(light)]->pdf_toward({receiver.point.position, receiver.normal},
                                                    on_light);
 }
 
-float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
-                       int light, const Vec3f& direction) {
-  return choice_factor(scene, vertex, choice, light) *
+float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice choice, int light,
+                       const Vec3f& direction) {
+  return choice_factor(scene, receiver, choice, light) *
          scene.lights()[size_t(light)]->pdf_toward_direction(direction);
 }
 

@@ -7,12 +7,24 @@
 
 namespace kaustik {
 
+/// Where light arrives: on a surface or in a medium.
+struct Receiver {
+  Receiver() = default;
+  /// On a surface only light on the viewer's side counts, unless it transmits.
+  Receiver(const SurfaceVertex& vertex);  // NOLINT: a vertex is one
+  /// In a medium.
+  explicit Receiver(const Vec3f& position) { point.position = position; }
+
+  SurfacePoint point;     ///< without a normal in a medium
+  Vec3f normal{0, 0, 0};  ///< light arrives from its half space; zero: from anywhere
+};
+
 /// Light that arrives at a vertex straight from a light, found by sampling one light.
 struct DirectLight {
   int light = -1;     ///< index in the scene
   Vec3f wi;           ///< unit, toward the light
   Spectrum radiance;  ///< arriving radiance over its density, W/m² per projected sr: multiply
-                      ///< by f·cosine; without visibility
+                      ///< by f·cosine (in a medium: by the phase function); without visibility
   float pdf_solid_angle =
       0;           ///< choice of the light included; 0 where no ray meets the light (no MIS)
   Ray shadow_ray;  ///< occluded: no light
@@ -32,30 +44,30 @@ struct LightSampling {
 };
 
 /// Samples one light; false if nothing can arrive. Two dimension pairs of `sampler`.
-bool sample_direct_light(const Scene& scene, const SurfaceVertex& vertex, Sampler& sampler,
+bool sample_direct_light(const Scene& scene, const Receiver& receiver, Sampler& sampler,
                          DirectLight& result);
 /// Samples light `light`; false if nothing can arrive.
-bool sample_direct_light_of(const Scene& scene, const SurfaceVertex& vertex, int light,
-                            const Vec2f& u, DirectLight& result);
+bool sample_direct_light_of(const Scene& scene, const Receiver& receiver, int light, const Vec2f& u,
+                            DirectLight& result);
 /// How many of `samples` each light gets with LightChoice::all: in proportion to the irradiance
 /// that it may bring, at least one, and none where no light can arrive.
-void share_light_samples(const Scene& scene, const SurfaceVertex& vertex, int samples,
+void share_light_samples(const Scene& scene, const Receiver& receiver, int samples,
                          std::vector<int>& counts);
 
 /// Calls `take(const DirectLight&)` for every sample that may bring light. Their radiances are
 /// already divided by the numbers of samples: what they reflect, summed, is the estimate. At most
 /// two dimension pairs of `sampler`.
 template <typename Take>
-void sample_direct_lights(const Scene& scene, const SurfaceVertex& vertex,
+void sample_direct_lights(const Scene& scene, const Receiver& receiver,
                           const LightSampling& sampling, Sampler& sampler, const Take& take);
 
-/// Density per solid angle with which a sample at `vertex` finds the point `on_light` of an area
+/// Density per solid angle with which a sample at `receiver` finds the point `on_light` of an area
 /// light …
-float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
-                       int light, const SurfacePoint& on_light);
+float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice choice, int light,
+                       const SurfacePoint& on_light);
 /// … or an environment light in `direction`.
-float direct_light_pdf(const Scene& scene, const SurfaceVertex& vertex, LightChoice choice,
-                       int light, const Vec3f& direction);
+float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice choice, int light,
+                       const Vec3f& direction);
 
 /// Power heuristic with exponent 2 for one sample each (Veach 1997).
 inline float mis_weight(float pdf, float other_pdf) {
@@ -75,7 +87,7 @@ LobeChoice choose_lobes(const SurfaceVertex& vertex, float& u);
 float diffuse_probability(const SurfaceVertex& vertex);
 
 template <typename Take>
-void sample_direct_lights(const Scene& scene, const SurfaceVertex& vertex,
+void sample_direct_lights(const Scene& scene, const Receiver& receiver,
                           const LightSampling& sampling, Sampler& sampler, const Take& take) {
   DirectLight light;
   const auto take_share = [&](int count) {
@@ -84,23 +96,24 @@ void sample_direct_lights(const Scene& scene, const SurfaceVertex& vertex,
   };
   if (sampling.choice == LightChoice::one) {
     if (sampling.samples == 1) {
-      if (sample_direct_light(scene, vertex, sampler, light)) take_share(1);
+      if (sample_direct_light(scene, receiver, sampler, light)) take_share(1);
       return;
     }
     for (int i = 0; i < sampling.samples; ++i) {
       Sampler branch = sampler.split(0, uint32_t(i));
-      if (sample_direct_light(scene, vertex, branch, light)) take_share(sampling.samples);
+      if (sample_direct_light(scene, receiver, branch, light)) take_share(sampling.samples);
     }
     return;
   }
   static thread_local std::vector<int> counts;
-  share_light_samples(scene, vertex, sampling.samples, counts);
+  share_light_samples(scene, receiver, sampling.samples, counts);
   for (size_t i = 0; i < counts.size(); ++i) {
     const int count = counts[i];
     const Sampler of_light = sampler.fork(uint32_t(i));
     for (int k = 0; k < count; ++k) {
       Sampler branch = count == 1 ? of_light : of_light.split(0, uint32_t(k));
-      if (sample_direct_light_of(scene, vertex, int(i), branch.next_2d(), light)) take_share(count);
+      if (sample_direct_light_of(scene, receiver, int(i), branch.next_2d(), light))
+        take_share(count);
     }
   }
 }

@@ -3,22 +3,68 @@
 #include <algorithm>
 
 namespace kaustik {
+namespace {
+
+/// Light that total reflection, perfect mirrors or white media trap would never end.
+float largest_survival(const LightPath& path) {
+  return path.path_class.events() < certain_events ? 1.0f : 0.95f;
+}
+
+}  // namespace
 
 bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, LightPath& path) {
-  path.sampler.start_vertex(uint32_t(path.path_class.events()));
   const Vec2f u = path.sampler.next_2d();
   const Vec2f u_choice = path.sampler.next_2d();
   const BsdfSample sample = vertex.sample(u_choice.x, u, follow);
-  // Light that total reflection or perfect mirrors trap would never end.
-  const float limit = path.path_class.events() < certain_events ? 1.0f : 0.95f;
-  const float survival = std::min(limit, sample.weight.max_lane());
+  const float survival = std::min(largest_survival(path), sample.weight.max_lane());
   if (sample.event == Lobes::none || !(u_choice.y < survival)) return false;
   path.state.throughput *= sample.weight * (1 / survival);
   path.state.pdf_forward = sample.event == Lobes::delta ? 0 : sample.pdf_solid_angle;
   path.state.depth += 1;
   path.path_class.add_event(sample.event);
+  path.state.medium = vertex.medium_toward(sample.wi, path.state.medium);
   path.ray = spawn_ray(vertex.point(), sample.wi);
+  path.distance = 0;
   return true;
+}
+
+LightMediumVertex sample_medium_vertex(LightPath& path, float limit) {
+  const Medium& medium = *path.state.medium;
+  const Medium::Flight flight =
+      medium.sample_collision(limit, path.state.throughput, path.sampler.next_2d());
+  LightMediumVertex vertex{{0, 0, 0}, -path.ray.direction, medium, {}, path.path_class, 0};
+  if (!flight.scattered) return vertex;
+  vertex.position = path.ray.origin + path.ray.direction * flight.distance;
+  vertex.flux = path.state.throughput * flight.weight;
+  vertex.distance = path.distance + flight.distance;
+  return vertex;
+}
+
+MediumPassage pass_medium(LightPath& path, float limit, const LightPathLimits& limits) {
+  const Medium& medium = *path.state.medium;
+  const Medium::Flight flight =
+      medium.sample_flight(limit, path.state.throughput, path.sampler.next_2d());
+  if (!flight.scattered) {
+    path.state.throughput *= flight.weight;
+    return MediumPassage::through;
+  }
+  const bool follow =
+      limits.in_media == MediumEvents::follow ||
+      (limits.in_media == MediumEvents::after_events && path.path_class.events() > 0);
+  if (!follow) return MediumPassage::stopped;
+  if (path.path_class.events() >= limits.maximum_events) return MediumPassage::too_long;
+  const Vec2f u = path.sampler.next_2d();
+  const float survival = std::min(largest_survival(path), flight.weight.max_lane());
+  if (!(path.sampler.next_1d() < survival)) return MediumPassage::absorbed;
+  path.state.throughput *= flight.weight * (1 / survival);
+  const Vec3f wo = -path.ray.direction;
+  const Vec3f wi = medium.phase().sample(wo, u);
+  path.state.pdf_forward = medium.phase().eval(wo, wi);
+  path.state.depth += 1;
+  path.path_class.add_medium_event();
+  path.ray = {path.ray.origin + path.ray.direction * flight.distance, wi, infinity};
+  path.distance = 0;
+  return MediumPassage::scattered;
 }
 
 }  // namespace kaustik

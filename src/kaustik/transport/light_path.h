@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "kaustik/base/sampler.h"
@@ -13,16 +14,22 @@ namespace kaustik {
 
 /// A path that is followed from a light, between two surfaces.
 struct LightPath {
-  LightPath(const Ray& emitted, const Spectrum& flux, Lobes traced, const Sampler& its_sampler)
+  /// `medium`: that the light shines into.
+  LightPath(const Ray& emitted, const Spectrum& flux, const Medium* medium, Lobes traced,
+            const Sampler& its_sampler)
       : ray(emitted), path_class(traced), sampler(its_sampler) {
     state.mode = TransportMode::flux;
     state.throughput = flux;
+    state.medium = medium;
   }
 
   Ray ray;          ///< along which it goes on
   PathState state;  ///< throughput: flux that arrives, W, before any attenuation there
   LightPathClass path_class;
   Sampler sampler;
+  uint32_t segments = 0;  ///< traced so far: those across null boundaries count, each has a block
+                          ///< of random numbers
+  float distance = 0;     ///< from the last event to the origin of `ray`, m
 };
 
 /// A light path's meeting with a surface, as handlers see it.
@@ -33,19 +40,39 @@ struct LightVertex {
   float distance;                    ///< from the path's previous vertex, m
 };
 
+/// A point of a segment through a medium, drawn as if light were sure to be scattered there: one
+/// for every segment through a medium that scatters, whether the path goes on from there or not.
+struct LightMediumVertex {
+  Vec3f position;
+  Vec3f wo;  ///< unit, back along the path
+  const Medium& medium;
+  Spectrum flux;                     ///< that the medium scatters within the segment, W
+  const LightPathClass& path_class;  ///< the events before this vertex
+  float distance;                    ///< from the path's previous vertex, m
+};
+
+/// Where light paths may go on after they are scattered in a medium.
+enum class MediumEvents {
+  follow,        ///< everywhere
+  after_events,  ///< where there was an event before
+  stop           ///< nowhere
+};
+
 /// Events after which no light path goes on for certain.
 inline constexpr int certain_events = 16;
 
 struct LightPathLimits {
   int maximum_events = 1 << 20;    ///< scattering events
   Lobes traced = Lobes::specular;  ///< lobes whose events count as specular
+  MediumEvents in_media = MediumEvents::follow;
 };
 
 /// What became of light paths.
 struct LightPathCounts {
   uint64_t rays = 0;
   uint64_t escaped = 0, absorbed = 0, too_long = 0;
-  uint64_t stopped = 0;  ///< by the handler
+  uint64_t absorbed_in_media = 0;
+  uint64_t stopped = 0;  ///< by the handler, or in a medium by LightPathLimits::in_media
 };
 
 /// Scatters `path` at `vertex`, by the lobes `follow`: true if it goes on. Russian roulette
@@ -53,11 +80,29 @@ struct LightPathCounts {
 /// shared by global, caustic and splatted light [Schregle 1998].
 bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, LightPath& path);
 
+/// The point of its segment through its medium, of length `limit`, where `path` is scattered
+/// surely; the flux is zero where nothing scatters.
+LightMediumVertex sample_medium_vertex(LightPath& path, float limit);
+
+/// How a path comes through a segment in a medium.
+enum class MediumPassage { through, scattered, absorbed, stopped, too_long };
+/// Takes `path` along its segment of length `limit` by free flight; where it is scattered it has a
+/// new ray.
+MediumPassage pass_medium(LightPath& path, float limit, const LightPathLimits& limits);
+
+/// Handlers of different vertices as one.
+template <typename... Parts>
+struct Handlers : Parts... {
+  using Parts::operator()...;
+};
+template <typename... Parts>
+Handlers(Parts...) -> Handlers<Parts...>;
+
 /// Follows the light paths `begin` to `end`. `emit(i)` gives the i-th, or nothing. At every surface
 /// `handler(const LightVertex&)` answers with the lobes by which the path may go on (Lobes::none
-/// stops it). Some dozens of paths advance side by side: their rays are traced in packets, and the
-/// memory that they need is fetched early (`make bench` compares with rays one by one). The order
-/// is the same in every run.
+/// stops it). A handler that also takes a LightMediumVertex is shown those. Some dozens of paths
+/// advance side by side: their rays are traced in packets, and the memory that they need is fetched
+/// early (`make bench` compares with rays one by one). The order is the same in every run.
 template <typename Emit, typename Handler>
 LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t end,
                                   const LightPathLimits& limits, const Emit& emit,
@@ -75,9 +120,34 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
       ++count;
       return false;
     };
+    path.sampler.start_vertex(path.segments++);
+    if (path.state.medium) {
+      if constexpr (std::is_invocable_v<const Handler&, const LightMediumVertex&>) {
+        const LightMediumVertex in_medium = sample_medium_vertex(path, hit.t);
+        if (!in_medium.flux.is_zero()) handler(in_medium);
+      }
+      switch (pass_medium(path, hit.t, limits)) {
+        case MediumPassage::through:
+          break;
+        case MediumPassage::scattered:
+          return true;
+        case MediumPassage::absorbed:
+          return ended(counts.absorbed_in_media);
+        case MediumPassage::stopped:
+          return ended(counts.stopped);
+        case MediumPassage::too_long:
+          return ended(counts.too_long);
+      }
+    }
     if (!(hit.t < infinity)) return ended(counts.escaped);
     vertex.meet(scene, path.ray, hit, TransportMode::flux);
-    const Lobes follow = handler(LightVertex{vertex, path.state, path.path_class, hit.t});
+    path.distance += hit.t;
+    if (vertex.is_null()) {
+      path.state.medium = vertex.medium_toward(path.ray.direction, path.state.medium);
+      path.ray = spawn_ray(vertex.point(), path.ray.direction);
+      return true;
+    }
+    const Lobes follow = handler(LightVertex{vertex, path.state, path.path_class, path.distance});
     if (!any(follow)) return ended(counts.stopped);
     if (path.path_class.events() >= limits.maximum_events) return ended(counts.too_long);
     if (!scatter_light_path(vertex, follow, path)) return ended(counts.absorbed);

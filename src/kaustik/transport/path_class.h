@@ -22,9 +22,16 @@ class CameraPathClass {
     ++events_;
   }
   bool all_specular() const { return events_ == 0 || (first_specular_ && rest_specular_); }
+  /// Scattering in a medium.
+  void add_medium_event() {
+    if (events_ == 0) first_in_medium_ = true;
+    rest_specular_ = false;
+    ++events_;
+  }
   /// Of light that is met after the events so far.
   Component component() const {
     if (events_ == 0) return Component::emission;
+    if (first_in_medium_) return Component::volume;
     if (events_ == 1) return first_delta_ ? Component::specular : Component::direct;
     if (first_specular_) return Component::specular;
     return rest_specular_ ? Component::caustic : Component::indirect;
@@ -33,6 +40,7 @@ class CameraPathClass {
   bool may_find(ComponentSet wanted) const {
     if (events_ == 0) return !wanted.empty();
     if (wanted.has(component())) return true;
+    if (first_in_medium_) return false;
     if (first_specular_) return wanted.has(Component::specular);
     return wanted.has(Component::indirect) || (rest_specular_ && wanted.has(Component::caustic));
   }
@@ -42,10 +50,17 @@ class CameraPathClass {
     next.add_event(event);
     return next.component();
   }
+  /// Of light that is scattered in a medium before the next vertex.
+  Component component_in_medium() const {
+    CameraPathClass next = *this;
+    next.add_medium_event();
+    return next.component();
+  }
 
  private:
   Lobes traced_;
   int events_ = 0;
+  bool first_in_medium_ = false;
   bool first_specular_ = false, first_delta_ = false, rest_specular_ = true;
 };
 
@@ -58,7 +73,10 @@ class LightPathClass {
     ++events_;
     if (!any(event & traced_)) ++diffuse_events_;
   }
+  /// Scattering in a medium.
+  void add_medium_event() { ++events_, ++diffuse_events_; }
   int events() const { return events_; }
+  /// Those in media included.
   int diffuse_events() const { return diffuse_events_; }
   /// Whether the path is L G⁺ so far.
   bool is_caustic() const { return events_ > 0 && diffuse_events_ == 0; }

@@ -7,6 +7,7 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
   point_ = scene.tracer().surface_point(ray, hit);
   wo_ = -ray.direction;
   const Surface& surface = scene.surface(point_.shape);
+  surface_ = &surface;
   bsdf_ = surface.bsdf.get();
   lobes_ = bsdf_->lobes();
   light_ = surface.light;

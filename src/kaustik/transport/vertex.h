@@ -21,6 +21,12 @@ class SurfaceVertex {
   const Vec3f& position() const { return point_.position; }
   const Bsdf& bsdf() const { return *bsdf_; }
   Lobes lobes() const { return lobes_; }
+  /// Whether paths go straight on, without an event (Bsdf::is_null).
+  bool is_null() const { return surface_->is_null; }
+  /// What a path goes on through along `direction`, having arrived through `arrived`.
+  const Medium* medium_toward(const Vec3f& direction, const Medium* arrived) const {
+    return surface_->medium_toward(dot(direction, point_.ng) > 0, arrived);
+  }
   const Vec3f& wo() const { return wo_; }
   int light() const { return light_; }
   const BsdfContext& context() const { return context_; }
@@ -53,6 +59,7 @@ class SurfaceVertex {
   float adjoint_factor(const Vec3f& wi, const Vec3f& wi_local) const;
 
   SurfacePoint point_;
+  const Surface* surface_ = nullptr;
   const Bsdf* bsdf_ = nullptr;
   Lobes lobes_ = Lobes::none;  ///< of the bsdf
   int light_ = -1;

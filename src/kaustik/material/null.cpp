@@ -1,0 +1,36 @@
+#include "kaustik/material/bsdf_kinds.h"
+
+namespace kaustik {
+namespace {
+
+/// Not there as far as light is concerned: a boundary of media of the same index.
+class Null final : public Bsdf {
+ public:
+  Lobes lobes() const override { return Lobes::none; }
+  bool transmits() const override { return true; }
+  bool is_null() const override { return true; }
+  Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override { return {}; }
+  float pdf(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override { return 0; }
+  BsdfSample sample(const BsdfContext&, const Vec3f&, float, const Vec2f&, Lobes) const override {
+    return {};
+  }
+  Spectrum albedo(const BsdfContext&, const Vec3f&, Lobes) const override { return {}; }
+};
+
+const TypeInfo& info() {
+  static const TypeInfo info{
+      "bsdf",
+      "null",
+      "Lets light pass as if the surface were not there: the boundary of a medium without "
+      "refraction.",
+      {}};
+  return info;
+}
+
+std::shared_ptr<const Bsdf> create(const BsdfInputs&) { return std::make_shared<Null>(); }
+
+}  // namespace
+
+BsdfType null_type() { return {info(), 0, 0, create}; }
+
+}  // namespace kaustik

@@ -1,0 +1,20 @@
+#pragma once
+#include "kaustik/scene/scene.h"
+
+namespace kaustik {
+
+/// Light left of what sets out through `medium` along the shadow ray `ray`, where the scene has
+/// media: null boundaries let it pass, media take their share, everything else blocks it (glass
+/// too: what it refracts goes elsewhere). Counts rays.
+Spectrum transmittance_through_media(const Scene& scene, Ray ray, const Medium* medium,
+                                     uint64_t& rays);
+
+/// The same for any scene: 1 or 0 where there is no medium.
+inline Spectrum shadow_ray_transmittance(const Scene& scene, const Ray& ray, const Medium* medium,
+                                         uint64_t& rays) {
+  if (scene.has_media()) return transmittance_through_media(scene, ray, medium, rays);
+  ++rays;
+  return scene.occluded(ray) ? Spectrum() : Spectrum(1);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,17 @@
+#pragma once
+#include "kaustik/geometry/ray.h"
+#include "kaustik/medium/medium.h"
+
+namespace kaustik {
+
+/// What is known of the light that media scatter.
+class VolumeLight {
+ public:
+  virtual ~VolumeLight() = default;
+  /// Radiance that `medium` scatters into the segment of `length` (may be infinite) along `ray`
+  /// (unit direction) toward its origin, what is lost on the way there taken off, W/(sr·m²).
+  /// Thread-safe.
+  virtual Spectrum radiance(const Ray& ray, float length, const Medium& medium) const = 0;
+};
+
+}  // namespace kaustik
