@@ -17,6 +17,7 @@ namespace {
 struct PhotonsOptions {
   std::string scene, output;
   std::vector<std::string> definitions, settings;
+  LevelOptions levels;
   uint64_t seed = 0;
   int threads = 0;
 };
@@ -57,9 +58,7 @@ void trace_photons(const PhotonsOptions& options) {
   Description description = load_mitsuba_xml(options.scene, load);
   // Before the settings, so that they speak of the integrator that is used.
   override_integrator(description, "photonmap");
-  for (const std::string& applied : apply_thesis_variables(description, environment()))
-    note(applied);
-  for (const std::string& setting : options.settings) override_property(description, setting);
+  apply_settings(description, options.levels, options.settings);
   const auto scene = build_scene(description);
   for (const std::string& warning : scene->warnings()) warn(warning);
 
@@ -104,6 +103,7 @@ void add_photons(CLI::App& program) {
                    "Change a parameter: integrator.caustic_photons=1000000, ID.radius=2")
       ->type_name("OBJECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
+  add_light_level(*command, o->levels);
   command->add_option("--seed", o->seed, "Seed of all random numbers [0]");
   command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(CLI::Range(0, 4096));
   command->callback([o] { trace_photons(*o); });

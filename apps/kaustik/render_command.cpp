@@ -20,7 +20,7 @@ struct RenderOptions {
   std::vector<std::string> outputs, definitions, settings, tone_settings;
   std::string integrator, time, tone = "histogram";
   std::optional<uint32_t> passes, spp;
-  std::optional<int> light_level, eye_level;
+  LevelOptions levels;
   uint64_t seed = 0;
   int threads = 0;
   std::optional<double> exposure;
@@ -80,20 +80,6 @@ void write_outputs(const Image& image, const RenderOptions& options,
   }
 }
 
-/// Later ones win.
-void apply_settings(Description& description, const RenderOptions& options) {
-  for (const std::string& applied : apply_thesis_variables(description, environment()))
-    note(applied);
-  const auto set_level = [&](const char* option, const char* parameter, std::optional<int> level) {
-    if (!level) return;
-    override_property(description, fmt::format("integrator.{}={}", parameter, *level),
-                      place_in(fmt::format("command line: {} {}", option, *level)));
-  };
-  set_level("-l", "max_light_level", options.light_level);
-  set_level("-e", "max_eye_level", options.eye_level);
-  for (const std::string& setting : options.settings) override_property(description, setting);
-}
-
 void render(RenderOptions options) {
   if (options.outputs.empty())
     options.outputs.push_back(std::filesystem::path(options.scene).stem().string() + ".exr");
@@ -111,7 +97,7 @@ void render(RenderOptions options) {
   load.definitions = parse_definitions(options.definitions);
   Description description = load_mitsuba_xml(options.scene, load);
   if (!options.integrator.empty()) override_integrator(description, options.integrator);
-  apply_settings(description, options);
+  apply_settings(description, options.levels, options.settings);
   const auto scene = build_scene(description);
   std::vector<std::string> warnings = scene->warnings();
   const auto integrator = make_integrator(description, *scene, warnings);
@@ -179,16 +165,8 @@ void add_render(CLI::App& program) {
   command->add_option("--integrator", options->integrator,
                       "Use this method instead of the file's: photonmap, path, lighttracer, "
                       "raytracing, localphong");
-  command
-      ->add_option("-l", options->light_level,
-                   "Longest light path of photons in scattering events (max_light_level)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1 << 20));
-  command
-      ->add_option("-e", options->eye_level,
-                   "Levels of the camera's path at which photonmap gathers (max_eye_level)")
-      ->type_name("N")
-      ->check(CLI::Range(0, 64));
+  add_light_level(*command, options->levels);
+  add_eye_level(*command, options->levels);
   command->add_option("--passes", options->passes, "Number of passes")
       ->check(CLI::Range(1u, 1u << 30));
   command->add_option("--spp", options->spp, "Samples per pixel over all passes")

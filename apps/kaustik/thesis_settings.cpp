@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "console.h"
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/scene/overrides.h"
 
@@ -137,6 +138,36 @@ std::vector<std::string> apply_thesis_variables(Description& description,
         fmt::format("{} of the environment: {} = {}", name, variable->parameter, value));
   }
   return report;
+}
+
+void add_light_level(CLI::App& command, LevelOptions& levels) {
+  command
+      .add_option("-l", levels.light,
+                  "Longest light path of photons in scattering events (max_light_level)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1 << 20));
+}
+
+void add_eye_level(CLI::App& command, LevelOptions& levels) {
+  command
+      .add_option("-e", levels.eye,
+                  "Levels of the camera's path at which photonmap gathers (max_eye_level)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 64));
+}
+
+void apply_settings(Description& description, const LevelOptions& levels,
+                    const std::vector<std::string>& settings) {
+  for (const std::string& applied : apply_thesis_variables(description, environment()))
+    note(applied);
+  const auto set_level = [&](const char* option, const char* parameter, std::optional<int> level) {
+    if (!level) return;
+    override_property(description, fmt::format("integrator.{}={}", parameter, *level),
+                      place_in(fmt::format("command line: {} {}", option, *level)));
+  };
+  set_level("-l", "max_light_level", levels.light);
+  set_level("-e", "max_eye_level", levels.eye);
+  for (const std::string& setting : settings) override_property(description, setting);
 }
 
 void print_thesis_variables() {

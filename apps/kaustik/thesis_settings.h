@@ -1,6 +1,8 @@
 #pragma once
 // Schregle's thesis sets its photon map by variables of the environment (1998, appendix A):
 //   env photonMap.numGlobal=80 kaustik render …
+#include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,18 @@ std::vector<std::string> environment();
 /// photonMap.… and for what is no value; the integrator's table checks numbers and names.
 std::vector<std::string> apply_thesis_variables(Description& description,
                                                 const std::vector<std::string>& variables);
+
+/// The thesis's options.
+struct LevelOptions {
+  std::optional<int> light, eye;
+};
+void add_light_level(CLI::App& command, LevelOptions& levels);  ///< -l
+void add_eye_level(CLI::App& command, LevelOptions& levels);    ///< -e
+
+/// Applies the variables of this program's environment (and tells of them), the options and then
+/// `settings` ("object.parameter=value"): later ones win.
+void apply_settings(Description& description, const LevelOptions& levels,
+                    const std::vector<std::string>& settings);
 
 /// The variables with their meaning, for `kaustik help thesis`.
 void print_thesis_variables();

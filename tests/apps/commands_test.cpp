@@ -151,8 +151,9 @@ TEST_F(Commands, InfoWarnsOfACameraInAWall) {
 TEST_F(Commands, PhotonsTellsWhatBecameOfThem) {
   const RunResult result =
       run_well({"photons", "scene.xml", "-o", "map.kpm", "--set", "integrator.caustic_photons=3000",
-                "--set", "integrator.global_photons=5000", "--seed", "4"});
+                "--set", "integrator.global_photons=5000", "--seed", "4", "-l", "7"});
   const StoredPhotons stored = read_photon_file(path("map.kpm"));
+  EXPECT_EQ(stored.settings.maximum_events, 7);
   EXPECT_EQ(stored.scene, "scene.xml");
   EXPECT_EQ(stored.seed, 4u);
   EXPECT_EQ(stored.settings.caustic_photons, 3000u);

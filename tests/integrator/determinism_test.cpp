@@ -12,12 +12,14 @@ namespace {
 
 using namespace test;
 
-/// Something of everything: area lamp, delta, glossy and diffuse surfaces.
-TestScene small_scene(int size = 40) {
+/// Something of everything: area lamp, delta, glossy and diffuse surfaces. `of_wall` stands inside
+/// the shape of the wall.
+TestScene small_scene(int size = 40, const std::string& of_wall = "") {
   return TestScene(
       camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, size) +
       flat("rectangle", "", phong(0.4, 0.3, 20)) +
-      flat("rectangle", rotate("1, 0, 0", 90) + translate("0, 1, 1"), diffuse("0.5, 0.3, 0.2")) +
+      flat("rectangle", rotate("1, 0, 0", 90) + translate("0, 1, 1"),
+           diffuse("0.5, 0.3, 0.2") + of_wall) +
       flat("rectangle", scale("0.2, 0.2, 1") + rotate("1, 0, 0", 180) + translate("0, 0.1, 1.4"),
            diffuse("0, 0, 0") + area_light("10, 9, 8")) +
       sphere("-0.45, 0.3, 0.401", 0.4, mirror()) + sphere("0.45, -0.05, 0.401", 0.4, glass()));
@@ -51,6 +53,34 @@ TEST(Determinism, AnyNumberOfThreads) {
     const Passes two = render(scene, m.type, m.parameters, {4, 1, 2, 2});
     EXPECT_TRUE(same_bits(one, two)) << m.type;
     EXPECT_GT(one.mean({""}).mean(), 0) << m.type;
+  }
+}
+
+/// What the other tests leave out, small.
+TEST(Determinism, AnyNumberOfThreadsOfOtherMethods) {
+  const TestScene plain = small_scene(16);
+  const TestScene mixed = small_scene(
+      16, "<integrator type=\"localphong\"><float name=\"ambient\" value=\"0.5\"/></integrator>");
+  const std::string counts =
+      set("global_photons", 2000) + set("caustic_photons", 2000) + set("cache_samples", 16);
+  const std::string no_cache = counts + set("irradiance_cache", false);
+  const struct {
+    const char* name;
+    const TestScene& scene;
+    Method method;
+  } rows[] = {
+      {"ray tracing", plain, {"raytracing", ""}},
+      {"a surface's own model", mixed, {"photonmap", counts}},
+      {"shadow photons", plain, {"photonmap", no_cache + set("shadow_photons", 5000)}},
+      {"all lights", plain, {"photonmap", no_cache + set("light_sampling", "all")}},
+      {"levels", plain, {"photonmap", no_cache + set("max_eye_level", 2)}},
+      {"split sphere", plain, {"photonmap", counts + set("cache_metric", "split_sphere")}},
+  };
+  for (const auto& row : rows) {
+    const auto& [type, parameters] = row.method;
+    const Passes one = render(row.scene, type, parameters, {2, 1, 2, 1});
+    EXPECT_TRUE(same_bits(one, render(row.scene, type, parameters, {2, 1, 2, 2}))) << row.name;
+    EXPECT_FALSE(same_bits(one, render(plain, "photonmap", counts, {2, 1, 2, 2}))) << row.name;
   }
 }
 

@@ -148,6 +148,21 @@ uint64_t cache_rays(const TestScene& scene, const std::string& parameters) {
   SplatBuffer splats(scene.scene().film(), ComponentSet());
   return integrator->prepare({1, 0, 1}, splats, {}, {})->report.rays;
 }
+/// Each level adds as many rays as the first, whatever their number; GatherRaysGatherAgain tells
+/// that the mean stays.
+TEST(PhotonMapLevels, GatherRaysDoNotMultiply) {
+  const TestScene scene(furnace(false));
+  const auto rays = [&](int level) {
+    const std::string parameters = set("max_eye_level", level) + set("global_photons", 1000) +
+                                   set("caustic_photons", 0) + set("cache_samples", 16) +
+                                   set("cache_minimum_spacing", 2.0) +
+                                   set("cache_maximum_spacing", 2.0);
+    return double(cache_rays(scene, parameters) -
+                  cache_rays(scene, parameters + set("irradiance_cache", false)));  // the photons'
+  };
+  EXPECT_GT(rays(2), 1.3 * rays(1));
+  EXPECT_LT(rays(6), 8 * rays(1));
+}
 TEST(LevelOfDetail, QualityOfTheIrradianceCache) {
   const std::string room =
       flat("rectangle", scale("1, 1, 1"), diffuse("0.5, 0.5, 0.5")) +

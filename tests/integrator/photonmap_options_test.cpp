@@ -1,5 +1,9 @@
 // What the photon map integrator's parameters change, and what they must not.
 
+#include <cstdio>
+
+#include "kaustik/photon/photon_file.h"
+#include "kaustik/render/photon_tracing.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
 
@@ -65,8 +69,27 @@ TEST_F(Options, Cache) {
   expect_near_means("cache", indirect(""), by_path(), 0.01);
   expect_near_means("cache without gradients", indirect(set("cache_gradients", false)), by_path(),
                     0.01);
-  expect_near_means("cache by least distance", indirect(set("minimum_distance", true)), by_path(),
-                    0.01);
+}
+/// It makes the cache denser, and is told where it does nothing.
+TEST_F(Options, CacheByLeastDistance) {
+  const std::string split = set("cache_metric", "split_sphere");
+  const std::string least = set("minimum_distance", true);
+  const auto report = [&](const std::string& parameters) {
+    SplatBuffer splats(room_.scene().film(), ComponentSet());
+    return room_.integrator("photonmap", photons() + set("cache_samples", 16) + parameters)
+        ->prepare({1, 0, 1}, splats, {}, {})
+        ->report;
+  };
+  EXPECT_GT(report(split + least).rays, report(split).rays + 1000);
+  EXPECT_TRUE(report(split + least).warnings.empty());
+  for (const std::string& without_effect :
+       {std::string(), split + set("irradiance_cache", false)}) {
+    EXPECT_EQ(report(without_effect + least).rays, report(without_effect).rays);
+    const auto warnings = report(without_effect + least).warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("'minimum_distance' has no effect"), std::string::npos);
+  }
+  expect_near_means("cache by least distance", indirect(split + least), by_path(), 0.01);
 }
 TEST_F(Options, Kernels) {
   for (const char* kernel : {"cone", "epanechnikov"})
@@ -168,8 +191,49 @@ TEST(PhotonMapOptions, CountsOfZeroSwitchAPartOff) {
     EXPECT_EQ(mean(set(name, 0), "caustic"), 0) << name;
     EXPECT_GT(mean(set(name, 0), "indirect"), 0) << name;
   }
-  EXPECT_EQ(mean(set("global_neighbors", 0), "indirect"), 0);
-  EXPECT_GT(mean(set("global_neighbors", 0), "caustic"), 0);
+  for (const char* name : {"global_neighbors", "global_photons"})
+    for (const bool cache : {true, false}) {
+      const std::string off = set(name, 0) + set("irradiance_cache", cache);
+      EXPECT_EQ(mean(off, "indirect"), 0) << name;
+      EXPECT_GT(mean(off, "caustic"), 0) << name;
+    }
+}
+/// The same where maps are stored that hold such photons.
+TEST(PhotonMapOptions, CountsOfZeroSwitchStoredPhotonsOff) {
+  const std::string room = round_room(diffuse("0.5, 0.5, 0.5"), balls);
+  const TestScene scene(room);
+  const std::string file = testing::TempDir() + "kaustik_counts_of_zero.kpm";
+  write_photon_file(
+      file, trace_photon_maps(description_of(room + "<integrator type=\"photonmap\">" + photons() +
+                                             "</integrator>"),
+                              scene.scene(), 1, 0)
+                .photons);
+  const auto mean = [&](const char* off, const char* layer) {
+    return render(scene, "photonmap",
+                  set("photon_map", file.c_str()) + set("cache_samples", 16) +
+                      (*off ? set(off, 0) : ""),
+                  {2, 1, 1})
+        .mean({layer})
+        .mean();
+  };
+  EXPECT_GT(mean("", "caustic"), 0);
+  EXPECT_GT(mean("", "indirect"), 0);
+  EXPECT_EQ(mean("caustic_photons", "caustic"), 0);
+  EXPECT_GT(mean("caustic_photons", "indirect"), 0);
+  EXPECT_EQ(mean("global_photons", "indirect"), 0);
+  std::remove(file.c_str());
+}
+
+/// A lamp so strong and so close to the wall that the radiance there is infinite.
+TEST(PhotonMapOptions, DroppedGatherRaysAreTold) {
+  const TestScene scene(camera("0, -0.8, 0", "0, 1, -0.2", 75, 8) +
+                        sphere("0, 0, 0", 1, diffuse("0.5, 0.5, 0.5"), true) +
+                        point_light("0, 0, 0.98", 5e36));
+  SplatBuffer splats(scene.scene().film(), ComponentSet());
+  const auto report =
+      scene.integrator("photonmap", photons())->prepare({1, 0, 1}, splats, {}, {})->report;
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_NE(report.warnings.back().find("not finite"), std::string::npos);
 }
 
 }  // namespace

@@ -145,6 +145,19 @@ TEST(irradiance_cache, error_falls_with_quality) {
   expect_error_falls(CacheMetric::hessian, {2.4f, 1.2f, 0.6f});
 }
 
+/// The second derivative tells what gradients leave out: without them, distances serve.
+TEST(irradiance_cache, without_gradients_distances_tell) {
+  CacheSettings settings = settings_with(0.3f, 400, CacheMetric::hessian);
+  size_t with_gradients, records, by_distance;
+  floor_error(settings, &with_gradients);
+  settings.gradients = false;
+  const double error = floor_error(settings, &records);
+  settings.metric = CacheMetric::split_sphere;
+  EXPECT_EQ(error, floor_error(settings, &by_distance));
+  EXPECT_EQ(records, by_distance);
+  EXPECT_NE(records, with_gradients);
+}
+
 TEST(irradiance_cache, gradients_make_it_better) {
   for (const CacheMetric metric : {CacheMetric::split_sphere, CacheMetric::hessian}) {
     CacheSettings settings = settings_with(0.3f, 2500, metric);

@@ -54,6 +54,35 @@ TEST(ShadowPass, MirrorsThrowShadows) {
   EXPECT_EQ(report.lights.at(0).shadowed, 1000u);
 }
 
+TEST(ShadowPass, LightsWithoutPhotonsAreTold) {
+  const auto warning = [](const std::vector<ObjectPointer>& objects) {
+    ShadowReport report;
+    trace(*make_scene(objects), 100, report);
+    const auto warnings = report.warnings();
+    EXPECT_LE(warnings.size(), 1u);
+    return warnings.empty() ? std::string() : warnings[0];
+  };
+  const auto dim = object("emitter", "point",
+                          {{"position", Vec3d(1, 0, 3)}, {"intensity", Rgb{1e-6, 1e-6, 1e-6}}});
+  EXPECT_EQ(warning({test::light("spot"), floor_at(0, white())}), "");
+  EXPECT_NE(warning({test::light("spot"), floor_at(0, mirror())}).find("the shadow map is empty"),
+            std::string::npos);
+  EXPECT_NE(warning({test::light("spot"), dim, floor_at(0, white())}).find("some lights"),
+            std::string::npos);
+}
+
+/// Through a pile of more surfaces than rays are followed through.
+TEST(ShadowPass, RaysAreFollowedThroughSoManySurfaces) {
+  std::vector<ObjectPointer> objects = {test::light("spot")};
+  for (int i = 0; i < most_surfaces + 4; ++i) objects.push_back(floor_at(-0.001 * i, white()));
+  ShadowReport report;
+  const ShadowMap map = trace(*make_scene(objects), 1, report);
+  EXPECT_EQ(map.size(), uint32_t(most_surfaces));
+  EXPECT_EQ(report.cut, 1u);
+  ASSERT_EQ(report.warnings().size(), 1u);
+  EXPECT_NE(report.warnings()[0].find("given up behind"), std::string::npos);
+}
+
 /// Of point lights every photon can be checked by a shadow ray; its side faces the light.
 TEST(ShadowPass, FlagsAreWhatShadowRaysFind) {
   std::vector<ObjectPointer> objects = {

@@ -88,5 +88,15 @@ TEST(PhotonTracing, WrongParametersAreRefused) {
   EXPECT_THROW(trace_photon_maps(wrong, *build_scene(wrong), 7, 0), Error);
 }
 
+/// Photons don't know the surfaces' own models: maps that these want may be the ones to be made.
+TEST(PhotonTracing, ModelsOfSurfacesDoNotMatter) {
+  const Description description =
+      described(std::string(photonmap) +
+                "<shape type=\"sphere\"><integrator type=\"photonmap\"><string "
+                "name=\"photon_map\" value=\"missing.kpm\"/></integrator></shape>");
+  const auto scene = build_scene(description);
+  EXPECT_GT(trace_photon_maps(description, *scene, 7, 0).photons.maps.global.size(), 1000u);
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -149,6 +149,27 @@ TEST(BuildScene, WhatIsThereTwice) {
   EXPECT_THROW(find_integrator(two), Error);
 }
 
+/// The one of the top level is the scene's; of several, the one that no shape refers to.
+TEST(BuildScene, WhichIntegratorIsTheScenes) {
+  const std::string plain = "<integrator type=\"localphong\" id=\"plain\"/>\n",
+                    main = "<integrator type=\"path\" id=\"main\"/>\n";
+  const auto ball_with = [](const std::string& id) {
+    return "<shape type=\"sphere\"><ref id=\"" + id + "\"/></shape>";
+  };
+  EXPECT_EQ(find_integrator(description_of(plain + camera + ball_with("plain")))->type,
+            "localphong");
+  EXPECT_EQ(find_integrator(description_of(plain + main + camera + ball_with("plain")))->type,
+            "path");
+  try {
+    find_integrator(description_of(plain + main + camera + ball_with("plain") + ball_with("main")));
+    FAIL();
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("no integrator of its own"), std::string::npos) << text;
+    EXPECT_NE(text.find("lines 2, 3"), std::string::npos) << text;
+  }
+}
+
 TEST(BuildScene, WhatStandsInTheWrongPlace) {
   expect_problem(camera + sphere + "\n<film type=\"hdrfilm\"/>", "3:1",
                  "a film cannot stand at the top", "it may hold");

@@ -106,5 +106,29 @@ TEST(Overrides, Integrators) {
   EXPECT_EQ(find_integrator(without)->type, "photonmap");
 }
 
+/// What is said of the scene's integrator leaves a shape alone that refers to it.
+TEST(Overrides, IntegratorsOfShapesStay) {
+  const std::string shared =
+      "<integrator type=\"localphong\" id=\"plain\"><float name=\"ambient\" value=\"0.5\"/>"
+      "</integrator>" +
+      std::string(any_camera) + "<shape type=\"sphere\"><ref id=\"plain\"/></shape>";
+  const auto of_shape = [](const Description& description) {
+    return build_scene(description)->surface(0).illumination;
+  };
+  Description type = description_of(shared);
+  override_integrator(type, "path");
+  EXPECT_EQ(find_integrator(type)->type, "path");
+  EXPECT_EQ(of_shape(type)->type, "localphong");
+  EXPECT_EQ(of_shape(type)->properties.size(), 1u);
+
+  Description property = description_of(shared);
+  override_property(property, "integrator.light_samples=3");
+  EXPECT_EQ(find_integrator(property)->properties.size(), 2u);
+  EXPECT_EQ(of_shape(property)->properties.size(), 1u);
+  override_property(property, "plain.shadows=false");  // by its id: the shape's
+  EXPECT_EQ(find_integrator(property)->properties.size(), 2u);
+  EXPECT_EQ(of_shape(property)->properties.size(), 2u);
+}
+
 }  // namespace
 }  // namespace kaustik

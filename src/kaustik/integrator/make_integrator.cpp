@@ -75,9 +75,14 @@ std::unique_ptr<IlluminationModel> create_model(const Object& object, const Scen
 
 }  // namespace
 
+std::unique_ptr<Integrator> make_integrator_alone(const Object& object, const Scene& scene,
+                                                  std::vector<std::string>& warnings) {
+  return create(object, scene, false, warnings);
+}
+
 std::unique_ptr<Integrator> make_integrator(const Object& object, const Scene& scene,
                                             std::vector<std::string>& warnings) {
-  auto of_scene = create(object, scene, false, warnings);
+  auto of_scene = make_integrator_alone(object, scene, warnings);
   std::vector<SurfaceModels::Model> of_surfaces;
   for (auto& [own, surfaces] : own_models(scene))
     of_surfaces.push_back({create_model(*own, scene, warnings), std::move(surfaces)});

@@ -9,4 +9,8 @@ namespace kaustik {
 std::unique_ptr<Integrator> make_integrator(const Object& object, const Scene& scene,
                                             std::vector<std::string>& warnings);
 
+/// The same without the models of surfaces.
+std::unique_ptr<Integrator> make_integrator_alone(const Object& object, const Scene& scene,
+                                                  std::vector<std::string>& warnings);
+
 }  // namespace kaustik

@@ -186,7 +186,9 @@ bool PhotonLight::importance(const SurfacePoint& at, const Frame& frame, const H
 
 Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, const Medium* medium,
                                         Sampler& sampler, const EyeLevel& at) const {
-  const int samples = settings_.count_at(settings_.diffuse_samples, at.recursion);
+  // A gather ray that gathers again sends one: more of them would multiply from level to level.
+  const int samples =
+      at.gathers > 0 ? 1 : settings_.count_at(settings_.diffuse_samples, at.recursion);
   HemisphereGrid grid{settings_.gather_theta_cells, settings_.gather_phi_cells};
   // With fewer photons than cells the grid would be mostly empty.
   while (grid.count() > settings_.importance_photons &&

@@ -38,6 +38,7 @@ EyeLevel level_of(const CameraWalk& walk) { return {walk.events(), 0}; }
 struct PhotonMapIntegrator::State final : PassState {
   std::shared_ptr<const PhotonMaps> maps;
   std::unique_ptr<ShadowMap> shadows;  ///< null: shadow rays alone
+  ShadowReport shadow_report;
   ShadowSettings shadow_settings;
   std::unique_ptr<PhotonLight> light;
   std::unique_ptr<IrradianceCache> cache;  ///< null: not used
@@ -132,22 +133,34 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
       if (progress) progress(0.5 + 0.5 * share);
     });
   state->report.rays += state->light->rays();
+  if (!stop.stop_requested()) add_warnings(*state);
   return state;
 }
 
 void PhotonMapIntegrator::add_shadow_photons(State& state, const Pass& pass,
                                              std::stop_token stop) const {
   if (settings_.shadow_photons == 0) return;
-  ShadowReport report;
-  state.shadows = std::make_unique<ShadowMap>(
-      trace_shadow_photons(scene(), settings_.shadow_photons, pass.seed, pass.index, stop, report));
-  state.report.rays += report.rays;
+  state.shadows = std::make_unique<ShadowMap>(trace_shadow_photons(
+      scene(), settings_.shadow_photons, pass.seed, pass.index, stop, state.shadow_report));
+  state.report.rays += state.shadow_report.rays;
   state.report.photons += state.shadows->size();
   state.shadow_settings = settings_.shadows;
   const float first = settings_.shadow_radius > 0 ? settings_.shadow_radius
                                                   : state.shadows->tree().typical_radius(
                                                         settings_.shadows.neighbors, 0.75f);
   state.shadow_settings.maximum_radius = pass_radius(first, pass.index);
+}
+
+/// What those of the light pass don't know of.
+void PhotonMapIntegrator::add_warnings(State& state) const {
+  std::vector<std::string>& warnings = state.report.warnings;
+  warnings.insert(warnings.end(), settings_.notes.begin(), settings_.notes.end());
+  if (state.shadows)
+    for (const std::string& warning : state.shadow_report.warnings()) warnings.push_back(warning);
+  if (state.cache && state.cache->rays_dropped() > 0)
+    warnings.emplace_back(
+        "the irradiance cache left out gather rays whose radiance is not finite: the light there "
+        "is too dark; look for lights or reflectances that are far too large");
 }
 
 void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_token stop,

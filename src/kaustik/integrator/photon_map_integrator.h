@@ -30,6 +30,7 @@ class PhotonMapIntegrator final : public IlluminationModel {
                                             const ProgressFunction& progress) const;
   GatherRadii pass_radii(const PhotonMaps& maps, uint32_t index) const;
   void add_shadow_photons(State& state, const Pass& pass, std::stop_token stop) const;
+  void add_warnings(State& state) const;
   void fill_cache(State& state, const Pass& pass, std::stop_token stop,
                   const ProgressFunction& progress) const;
   /// The diffuse surfaces that a camera path through the square of `stride` pixels from `pixel` on

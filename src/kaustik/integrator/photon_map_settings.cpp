@@ -78,7 +78,8 @@ std::vector<Parameter> parameters() {
                         "Caustic photons to find [numCaustic]; 0: no caustics.")
           .range(0, 100000),
       integer_parameter("caustic_photons", 250000,
-                        "Caustic photons to emit in a pass, over all lights [totalCaustic].")
+                        "Caustic photons to emit in a pass, over all lights [totalCaustic]; 0: no "
+                        "caustics.")
           .range(0, 2000000000),
       choice_parameter("caustic_kernel", "cone", {"constant", "cone", "epanechnikov"},
                        "How caustic photons are weighted by their distance."),
@@ -90,7 +91,8 @@ std::vector<Parameter> parameters() {
                         "Global photons to find [numGlobal]; 0: no diffuse indirect light.")
           .range(0, 100000),
       integer_parameter("global_photons", 200000,
-                        "Global photons to emit in a pass, over all lights [totalGlobal].")
+                        "Global photons to emit in a pass, over all lights [totalGlobal]; 0: no "
+                        "diffuse indirect light.")
           .range(0, 2000000000),
       choice_parameter("global_kernel", "constant", {"constant", "cone", "epanechnikov"},
                        "How global photons are weighted by their distance."),
@@ -163,7 +165,7 @@ std::vector<Parameter> parameters() {
           .range(0, 1 << 20),
       integer_parameter("diffuse_samples", 4,
                         "Gather rays per camera sample where the irradiance cache does not serve "
-                        "[numDiffuse].")
+                        "[numDiffuse]; those that gather again send one each.")
           .range(1, 1000000),
       integer_parameter(
           "importance_photons", 50,
@@ -196,7 +198,8 @@ std::vector<Parameter> parameters() {
                        "By how much: 1 − factor × level, or factor to the power of the level.")
           .range(0, 1),
       boolean_parameter("irradiance_cache", true,
-                        "Interpolate diffuse indirect light between points where it was gathered."),
+                        "Interpolate diffuse indirect light between points where it was gathered, "
+                        "as at recursion level 0 whatever level they are seen at."),
       integer_parameter("cache_samples", 128, "Gather rays per cache record.").range(4, 1000000),
       choice_parameter("cache_metric", "hessian", {"split_sphere", "hessian"},
                        "What tells how far a record of the cache serves: the distance of what it "
@@ -205,11 +208,13 @@ std::vector<Parameter> parameters() {
                        "Allowed error of the cache in the first pass: lower is denser. It shrinks "
                        "in later ones as the search radii do, and so do the spacings.")
           .range(1e-3, 10),
-      boolean_parameter("cache_gradients", true, "Interpolate with gradients."),
+      boolean_parameter("cache_gradients", true,
+                        "Interpolate with gradients; without them the metric is split_sphere, for "
+                        "the other one tells only what gradients leave out."),
       boolean_parameter(
           "minimum_distance", false,
           "Records reach by the minimum instead of the harmonic mean distance of what "
-          "they see [minDist]."),
+          "they see [minDist]; needs the cache, with cache_metric = split_sphere."),
       number_parameter("cache_minimum_spacing", 3, "Least reach of a record in the first pass.")
           .range(0, 1e6)
           .in("pixels"),
@@ -289,6 +294,10 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   cache_settings.quality = read.number("cache_quality");
   cache_settings.gradients = read.boolean("cache_gradients");
   cache_settings.minimum_distance = read.boolean("minimum_distance");
+  if (cache_settings.minimum_distance && !(cache && cache_settings.by_distance()))
+    notes.emplace_back(
+        "'minimum_distance' has no effect: it needs irradiance_cache = true and cache_metric = "
+        "split_sphere");
   cache_settings.minimum_spacing = read.number("cache_minimum_spacing");
   cache_settings.maximum_spacing = read.number("cache_maximum_spacing");
   const bool any_gather =
@@ -302,7 +311,9 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   light_pass.aim = read_aim(read.text("aim"));
   light_pass.target_budget = int(read.integer("aim_targets"));
   light_pass.maximum_events = events_from(read.integer("max_light_level"));
-  // A count of zero, to find or in total, switches that type of photon off.
+  // A count of zero, to find or in total, switches that type of photon off, stored ones too.
+  if (read.integer("global_photons") == 0) global.neighbors = 0;
+  if (read.integer("caustic_photons") == 0) caustic.neighbors = 0;
   if (global.neighbors > 0 && any_gather)
     light_pass.global_photons = uint32_t(read.integer("global_photons"));
   if (caustic.neighbors > 0 && any_caustic)

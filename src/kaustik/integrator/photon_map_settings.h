@@ -55,6 +55,7 @@ struct PhotonMapSettings {
   int maximum_eye_level = 1;
   bool count_specular_levels = false;
   uint32_t samples_per_pass = 4;
+  std::vector<std::string> notes;  ///< sentences about what is given without effect
 
   static const TypeInfo& info();
   explicit PhotonMapSettings(const Arguments& arguments);

@@ -85,7 +85,7 @@ Bounds3f bounds_of(const std::vector<CachePoint>& points, const std::vector<uint
 
 struct IrradianceCache::Impl {
   explicit Impl(const CacheSettings& s) : settings(s) {
-    settings.hemisphere.hessian = s.metric == CacheMetric::hessian;
+    settings.hemisphere.hessian = !s.by_distance();
   }
 
   CacheSettings settings;
@@ -168,11 +168,11 @@ ComputedRecord IrradianceCache::Impl::compute(const CachePoint& at, const Radian
   record.estimate =
       sample_hemisphere(source, at.point, at.normal, settings.hemisphere, sampler, at.medium);
   record.gradient_radius = infinity;
-  if (settings.metric == CacheMetric::hessian) {
-    record.validity = hessian_validity(record.estimate, at.normal, pixel_width(at));
-  } else {
+  if (settings.by_distance()) {
     record.validity.radius = split_sphere_radius(record.estimate, settings.minimum_distance);
     if (settings.gradients) record.gradient_radius = gradient_radius(record.estimate);
+  } else {
+    record.validity = hessian_validity(record.estimate, at.normal, pixel_width(at));
   }
   record.clamped_radius = record.validity.radius;
   record.minimum_reach = minimum_reach(at);

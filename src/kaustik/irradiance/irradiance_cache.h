@@ -23,7 +23,7 @@ struct CachePoint {
 /// What tells how far records serve.
 enum class CacheMetric {
   split_sphere,  ///< the distance of what they see
-  hessian        ///< the second derivative of the irradiance
+  hessian        ///< the second derivative of the irradiance; only with gradients
 };
 
 struct CacheSettings {
@@ -35,6 +35,10 @@ struct CacheSettings {
   float maximum_spacing = 40;     ///< … and at most this far
   bool neighbor_clamping = true;  ///< Křivánek et al. 2006
   HemisphereSettings hemisphere;
+
+  /// Whether distances tell how far records serve: also without gradients, since the second
+  /// derivative bounds only the error that gradients leave.
+  bool by_distance() const { return metric == CacheMetric::split_sphere || !gradients; }
 };
 
 /// Cached irradiance with gradients (Ward, Rubinstein and Clear 1988; Ward and Heckbert 1992;

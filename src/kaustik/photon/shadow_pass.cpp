@@ -1,5 +1,9 @@
 #include "kaustik/photon/shadow_pass.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/sampler.h"
 
@@ -14,7 +18,7 @@ struct Block {
   uint32_t begin, end;
   std::vector<Vec3f> positions{};
   std::vector<ShadowPhoton> photons{};
-  uint64_t rays = 0, emitted = 0, lit = 0;
+  uint64_t rays = 0, emitted = 0, lit = 0, cut = 0;
 };
 
 std::vector<Block> blocks_of(const std::vector<uint32_t>& shares) {
@@ -38,20 +42,22 @@ void store(const SurfacePoint& point, const Vec3f& direction, bool shadowed, Blo
 }
 
 /// Through all surfaces until the ray leaves the scene.
-void follow(const Scene& scene, Ray ray, Block& block) {
+void follow(const Scene& scene, Ray ray, const std::stop_token& stop, Block& block) {
   Hit hit;
-  for (bool shadowed = false;; shadowed = true) {
+  for (int surfaces = 0; surfaces < most_surfaces; ++surfaces) {
+    if (stop.stop_requested()) return;
     ++block.rays;
     if (!scene.intersect(ray, hit)) return;
     const SurfacePoint point = scene.tracer().surface_point(ray, hit);
     if (any(scene.surface(point.shape).bsdf->lobes() & (Lobes::diffuse | Lobes::glossy)))
-      store(point, ray.direction, shadowed, block);
+      store(point, ray.direction, surfaces > 0, block);
     ray = spawn_ray(point, ray.direction);
   }
+  ++block.cut;
 }
 
 void trace(const Scene& scene, const EmissionSampler& emission, uint64_t seed, uint32_t pass,
-           Block& block) {
+           const std::stop_token& stop, Block& block) {
   for (uint32_t i = block.begin; i < block.end; ++i) {
     Sampler sampler = Sampler::at(seed, pass, Stream::photon_shadow, uint64_t(block.light), i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
@@ -59,11 +65,29 @@ void trace(const Scene& scene, const EmissionSampler& emission, uint64_t seed, u
         emission.sample(block.light, u_position, u_direction, sampler.next_1d());
     if (emitted.flux.is_zero()) continue;
     ++block.emitted;
-    follow(scene, emitted.ray, block);
+    follow(scene, emitted.ray, stop, block);
   }
 }
 
 }  // namespace
+
+std::vector<std::string> ShadowReport::warnings() const {
+  const auto left_none = [](const ShadowCounts& c) { return c.lit + c.shadowed == 0; };
+  std::vector<std::string> warnings;
+  if (std::all_of(lights.begin(), lights.end(), left_none))
+    warnings.emplace_back(
+        "the shadow map is empty, shadow rays alone serve: no light shines on a surface that is "
+        "more than mirror or clear glass");
+  else if (std::any_of(lights.begin(), lights.end(), left_none))
+    warnings.emplace_back(
+        "some lights have no shadow photons, shadow rays alone serve them: their share of the rays "
+        "is too small, or they shine on nothing but mirrors and clear glass");
+  if (cut > 0)
+    warnings.push_back(fmt::format(
+        "rays for shadow photons were given up behind {} surfaces: what lies farther has too few",
+        most_surfaces));
+  return warnings;
+}
 
 ShadowMap trace_shadow_photons(const Scene& scene, uint32_t count, uint64_t seed, uint32_t pass,
                                std::stop_token stop, ShadowReport& report) {
@@ -75,7 +99,7 @@ ShadowMap trace_shadow_photons(const Scene& scene, uint32_t count, uint64_t seed
   std::vector<Block> blocks = blocks_of(share_photons(count, powers, powers));
   const EmissionSampler emission(scene);
   parallel_blocks(blocks.size(), 1, [&](size_t i, size_t, size_t) {
-    if (!stop.stop_requested()) trace(scene, emission, seed, pass, blocks[i]);
+    if (!stop.stop_requested()) trace(scene, emission, seed, pass, stop, blocks[i]);
   });
   std::vector<Vec3f> positions;
   std::vector<ShadowPhoton> photons;
@@ -85,6 +109,7 @@ ShadowMap trace_shadow_photons(const Scene& scene, uint32_t count, uint64_t seed
     counts.lit += block.lit;
     counts.shadowed += block.photons.size() - block.lit;
     report.rays += block.rays;
+    report.cut += block.cut;
     positions.insert(positions.end(), block.positions.begin(), block.positions.end());
     photons.insert(photons.end(), block.photons.begin(), block.photons.end());
   }

@@ -41,8 +41,9 @@ class SidedTree {
     tree_.nearest(position, size_t(count), sqr(maximum_radius), accept, neighbors);
   }
 
-  /// Distance within which the `neighbors` nearest lie at the share `quantile` of the items, by
-  /// some hundreds of probes; infinite where there are too few to tell.
+  /// Distance within which the `neighbors` nearest of an item on its side lie, itself among them,
+  /// at the share `quantile` of the items, by some hundreds of probes. Where an item has fewer, the
+  /// farthest of those counts; infinite if there are none, or if the distance comes out as zero.
   float typical_radius(int neighbors, float quantile) const {
     constexpr size_t probes = 512;
     if (empty() || neighbors <= 0) return infinity;

@@ -1,8 +1,8 @@
 #include "kaustik/render/photon_tracing.h"
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/integrator/make_integrator.h"
 #include "kaustik/integrator/photon_map_settings.h"
-#include "kaustik/render/session.h"
 
 namespace kaustik {
 namespace {
@@ -41,9 +41,8 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
                                 const ProgressFunction& progress) {
   TracedPhotons traced;
   const auto object = photonmap_of(description);
-  Description alone{std::make_shared<Object>()};
-  alone.scene->children.push_back({"", object});
-  make_integrator(alone, scene, traced.warnings);  // checks the object as a render would
+  // Checks the object as a render would, but not the surfaces' own, which photons don't know.
+  make_integrator_alone(*object, scene, traced.warnings);
   Problems problems;
   const Arguments arguments(PhotonMapSettings::info(), object->properties, object->place, problems);
   problems.throw_if_any();

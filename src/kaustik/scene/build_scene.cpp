@@ -25,6 +25,19 @@ std::set<const Object*> integrators_of_shapes(const Object& scene) {
   return found;
 }
 
+std::vector<std::shared_ptr<Object>> integrators_of_top(const Description& description) {
+  std::vector<std::shared_ptr<Object>> at_top;
+  for (const Child& child : description.scene->children)
+    if (child.object->family == "integrator") at_top.push_back(child.object);
+  return at_top;
+}
+
+std::vector<int> lines_of(const std::vector<std::shared_ptr<Object>>& objects) {
+  std::vector<int> lines;
+  for (const auto& object : objects) lines.push_back(int(object->place.line));
+  return lines;
+}
+
 }  // namespace
 
 std::shared_ptr<const Scene> build_scene(const Description& description,
@@ -39,18 +52,31 @@ std::shared_ptr<const Scene> build_scene(const Description& description,
 }
 
 std::shared_ptr<Object> find_integrator(const Description& description) {
-  std::vector<std::shared_ptr<Object>> at_top;
-  for (const Child& child : description.scene->children)
-    if (child.object->family == "integrator") at_top.push_back(child.object);
-  if (at_top.size() > 1) {
-    const std::set<const Object*> of_shapes = integrators_of_shapes(*description.scene);
-    std::erase_if(at_top, [&](const auto& object) { return of_shapes.contains(object.get()); });
-  }
-  if (at_top.size() > 1)
+  const std::vector<std::shared_ptr<Object>> at_top = integrators_of_top(description);
+  if (at_top.size() <= 1) return at_top.empty() ? nullptr : at_top[0];
+  const std::set<const Object*> of_shapes = integrators_of_shapes(*description.scene);
+  std::vector<std::shared_ptr<Object>> of_scene = at_top;
+  std::erase_if(of_scene, [&](const auto& object) { return of_shapes.contains(object.get()); });
+  if (of_scene.empty())
+    throw Error(ErrorKind::input, "the scene has no integrator of its own: shapes refer to each",
+                fmt::format("give it one that no shape refers to; the others are on the lines {}",
+                            fmt::join(lines_of(at_top), ", ")),
+                at_top.back()->place);
+  if (of_scene.size() > 1)
     throw Error(ErrorKind::input, "the scene has a second integrator",
-                fmt::format("keep one; the first is on line {}", at_top[0]->place.line),
-                at_top[1]->place);
-  return at_top.empty() ? nullptr : at_top[0];
+                fmt::format("keep one; the first is on line {}", of_scene[0]->place.line),
+                of_scene[1]->place);
+  return of_scene[0];
+}
+
+std::shared_ptr<Object> own_integrator(Description& description) {
+  const auto object = find_integrator(description);
+  if (!object || !integrators_of_shapes(*description.scene).contains(object.get())) return object;
+  const auto own = std::make_shared<Object>(*object);
+  own->id.clear();
+  for (Child& child : description.scene->children)
+    if (child.object == object) child.object = own;
+  return own;
 }
 
 }  // namespace kaustik

@@ -20,7 +20,7 @@ void collect(const std::shared_ptr<Object>& object, std::vector<std::shared_ptr<
 }
 
 std::shared_ptr<Object> integrator_of(Description& description) {
-  if (auto object = find_integrator(description)) return object;
+  if (auto object = own_integrator(description)) return object;
   auto object = std::make_shared<Object>();
   object->family = "integrator";
   object->type = "photonmap";

@@ -115,8 +115,11 @@ struct BuildOptions {
 std::shared_ptr<const Scene> build_scene(const Description& description,
                                          const BuildOptions& options = {});
 
-/// The scene's integrator object, null if it has none. Those that shapes refer to are the shapes',
-/// if there is another. Throws Error if there are several.
+/// The scene's integrator object: the one of the top level, null if there is none there. Of several
+/// it is the one that no shape refers to; throws Error if that leaves none, or several.
 std::shared_ptr<Object> find_integrator(const Description& description);
+/// The same to be changed: where shapes refer to it too, they keep theirs, and the scene gets a
+/// copy (without its id).
+std::shared_ptr<Object> own_integrator(Description& description);
 
 }  // namespace kaustik
