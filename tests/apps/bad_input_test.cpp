@@ -272,5 +272,50 @@ TEST_F(BadInput, CommandsAndImages) {
   EXPECT_EQ(files(), (std::vector<std::string>{"cut.pfm", "text.exr"}));
 }
 
+TEST_F(BadInput, Textures) {
+  const auto refuse = [&](const std::string& name, const std::string& bytes,
+                          const std::string& message, const std::string& remedy) {
+    if (!bytes.empty()) write(name, bytes);
+    expect_refused_inside(
+        "<shape type=\"sphere\"><bsdf type=\"diffuse\"><texture name=\"reflectance\" "
+        "type=\"bitmap\"><string name=\"filename\" value=\"" +
+            name + "\"/></texture></bsdf></shape>",
+        "scene.xml:2", message, remedy);
+  };
+  refuse("missing.png", "", "missing.png", "check the name");
+  refuse("text.png", "hello", "no image of a known format", "complete");
+  refuse("short.ppm", "P6\n4 4\n255\nabc", "short.ppm", "complete");
+  refuse("none.ppm", "P6\n0 0\n255\n", "none.ppm", "complete");
+  refuse("wide.ppm", "P6\n100000 100000\n255\n", "wide.ppm", "complete");
+  const auto pfm = [](const char* float_bytes) {
+    return std::string("Pf\n1 1\n-1\n") + std::string(float_bytes, 4);
+  };
+  refuse("nan.pfm", pfm("\x00\x00\xc0\x7f"), "(0, 0) that is negative or not finite", "repair");
+  refuse("negative.pfm", pfm("\x00\x00\x80\xbf"), "(0, 0) that is negative or not finite",
+         "repair");
+}
+
+TEST_F(BadInput, BumpMapsAndMixtures) {
+  const auto refuse = [&](const std::string& bsdf, const std::string& message,
+                          const std::string& remedy) {
+    expect_refused_inside("<shape type=\"sphere\">" + bsdf + "</shape>", "scene.xml:2", message,
+                          remedy);
+  };
+  const std::string diffuse = "<bsdf type=\"diffuse\"/>";
+  refuse("<bsdf type=\"bumpmap\">" + diffuse + "</bsdf>", "'bumpmap' has no texture", "<texture");
+  refuse("<bsdf type=\"bumpmap\"><texture type=\"noise\"/></bsdf>", "holds 0 bsdfs", "1");
+  const std::string bumped =
+      "<bsdf type=\"bumpmap\"><texture type=\"noise\"/>" + diffuse + "</bsdf>";
+  refuse(
+      "<bsdf type=\"normalmap\"><texture name=\"normalmap\" type=\"noise\"/>" + bumped + "</bsdf>",
+      "holds another bump or normal map", "keep one");
+  refuse("<bsdf type=\"blendbsdf\">" + bumped + diffuse + "</bsdf>", "bump or normal map",
+         "around the 'blendbsdf'");
+  refuse("<bsdf type=\"twosided\"><bsdf type=\"mask\">" + diffuse + "</bsdf></bsdf>",
+         "transmits light", "without 'twosided'");
+  refuse("<bsdf type=\"thinphong\"><rgb name=\"diffuse_transmittance\" value=\"0.8\"/></bsdf>",
+         "add up to 1.2", "at most 1");
+}
+
 }  // namespace
 }  // namespace kaustik::test

@@ -72,9 +72,12 @@ TEST(RayTracer, MeshPointsInterpolateTheirVertices) {
     EXPECT_NEAR(p.uv.x, p.position.x, 1e-5f);  // texture coordinates are x and y here
     EXPECT_NEAR(p.uv.y, p.position.y, 1e-5f);
     // Along ∂p/∂u the texture's u, here x, changes by as much; across it v stays.
-    if (length(p.dpdu) > 0 && length(p.dpdu) < 100) {
-      EXPECT_NEAR(p.dpdu.x, 1, 2e-3f);
-      EXPECT_NEAR(p.dpdu.y, 0, 2e-3f);
+    const UvDerivatives d = tracer->uv_derivatives(p);
+    if (length(d.dpdu) > 0 && length(d.dpdu) < 100 && length(d.dpdv) < 100) {
+      EXPECT_NEAR(d.dpdu.x, 1, 2e-3f);
+      EXPECT_NEAR(d.dpdu.y, 0, 2e-3f);
+      EXPECT_NEAR(d.dpdv.x, 0, 2e-3f);
+      EXPECT_NEAR(d.dpdv.y, 1, 2e-3f);
     }
     const auto& t = mesh.triangles[hit.primitive];
     EXPECT_NEAR(dot(p.ng, mesh.positions[t[1]] - mesh.positions[t[0]]), 0, 1e-5f);
@@ -145,7 +148,9 @@ TEST(RayTracer, InstancesAreCopiesInTheirPlace) {
     EXPECT_LT(length(p.position - q.position), 2e-5f);
     EXPECT_GT(dot(p.ng, q.ng), 0.9999f);
     EXPECT_GT(dot(p.ns, q.ns), 0.999f);
-    EXPECT_LT(length(p.dpdu - q.dpdu), 1e-2f * (1 + length(q.dpdu)));
+    const UvDerivatives dp = instanced.uv_derivatives(p), dq = copied.uv_derivatives(q);
+    EXPECT_LT(length(dp.dpdu - dq.dpdu), 1e-2f * (1 + length(dq.dpdu)));
+    EXPECT_LT(length(dp.dpdv - dq.dpdv), 1e-2f * (1 + length(dq.dpdv)));
     EXPECT_NEAR(p.uv.x, q.uv.x, 1e-3f);
     if (a.instance == no_instance) {
       EXPECT_EQ(b.shape, 0u);

@@ -9,7 +9,6 @@ inline SurfacePoint surface_point(const Vec3f& position, const Vec3f& normal) {
   SurfacePoint p{};
   p.position = position;
   p.ng = p.ns = normal;
-  p.dpdu = Vec3f(0, 0, 0);
   return p;
 }
 

@@ -2,26 +2,39 @@
 
 #include <stdexcept>
 
-#include "kaustik/base/color.h"
-
 namespace kaustik::test {
 
 Property property(const std::string& name, Value value) { return {name, std::move(value), {}}; }
 
-std::shared_ptr<const Bsdf> make_bsdf(const std::string& type,
-                                      const std::vector<Property>& properties,
-                                      std::vector<std::shared_ptr<const Bsdf>> nested) {
+std::shared_ptr<const Bsdf> make_bsdf(
+    const std::string& type, const std::vector<Property>& properties,
+    std::vector<std::shared_ptr<const Bsdf>> nested,
+    std::map<std::string, std::shared_ptr<const Texture>> textures) {
   for (const BsdfType& t : bsdf_types()) {
     if (t.info.name != type) continue;
     Problems problems;
     const Arguments arguments(t.info, properties, place_in("scene.xml", 3, 5), problems);
     problems.throw_if_any();
     const auto texture = [&](std::string_view name) {
-      return make_constant_texture(reflectance_spectrum(arguments.color(name)));
+      const auto found = textures.find(std::string(name));
+      return found != textures.end() ? found->second : constant_texture_of(arguments, name);
     };
     return t.create({arguments, std::move(nested), texture});
   }
   throw std::invalid_argument("no bsdf type " + type);
+}
+
+std::shared_ptr<const Texture> make_texture(const std::string& type,
+                                            std::vector<Property> properties) {
+  for (const TextureType& t : texture_types()) {
+    if (t.info.name != type) continue;
+    for (Property& p : properties) p.place = place_in("scene.xml", 9, 4);
+    Problems problems;
+    const Arguments arguments(t.info, properties, place_in("scene.xml", 8, 2), problems);
+    problems.throw_if_any();
+    return t.create(arguments);
+  }
+  throw std::invalid_argument("no texture type " + type);
 }
 
 namespace {
@@ -45,6 +58,20 @@ std::shared_ptr<const Bsdf> phong(const Rgb& diffuse, const Rgb& specular, doubl
                     property("specular_reflectance", specular), property("exponent", exponent)});
 }
 
+std::shared_ptr<const Bsdf> sheet(double diffuse, double glossy, double diffuse_through,
+                                  double glossy_through, double exponent) {
+  return make_bsdf(
+      "thinphong",
+      {property("diffuse_reflectance", diffuse), property("specular_reflectance", glossy),
+       property("diffuse_transmittance", diffuse_through),
+       property("specular_transmittance", glossy_through), property("exponent", exponent)});
+}
+
+/// A checkerboard that is `at_origin` where the tests look.
+std::shared_ptr<const Texture> checks(double at_origin, double beside) {
+  return make_texture("checkerboard", {property("color0", at_origin), property("color1", beside)});
+}
+
 std::vector<BsdfInstance> make_instances() {
   const auto coloured_phong = phong({0.5, 0.1, 0.2}, {0.2, 0.7, 0.3}, 30);
   return {
@@ -66,6 +93,23 @@ std::vector<BsdfInstance> make_instances() {
       {"ggx_anisotropic", anisotropic("ggx")},
       {"twosided_diffuse", make_bsdf("twosided", {}, {make_bsdf("diffuse")})},
       {"twosided_two", make_bsdf("twosided", {}, {coloured_phong, rough("ggx", 0.3)})},
+      {"sheet_all_lobes", sheet(0.2, 0.15, 0.3, 0.25, 20)},
+      {"sheet_paper", sheet(0.5, 0, 0.4, 0, 30)},
+      {"difftrans", make_bsdf("difftrans", {property("transmittance", Rgb{0.9, 0.5, 0.1})})},
+      {"textured_phong", make_bsdf("phong", {}, {},
+                                   {{"diffuse_reflectance", checks(0.6, 0.1)},
+                                    {"specular_reflectance", checks(0.3, 0.9)},
+                                    {"exponent", checks(12, 400)}})},
+      {"textured_ggx",
+       make_bsdf("roughconductor", {property("distribution", "ggx"), property("material", "cu")},
+                 {}, {{"alpha", checks(0.25, 0.02)}, {"specular_reflectance", checks(0.8, 0.1)}})},
+      {"mask_half", make_bsdf("mask", {}, {make_bsdf("twosided", {}, {coloured_phong})})},
+      {"mask_textured", make_bsdf("mask", {}, {rough("ggx", 0.3)}, {{"opacity", checks(0.8, 0)}})},
+      {"blend_phong_ggx",
+       make_bsdf("blendbsdf", {property("weight", 0.3)}, {coloured_phong, rough("ggx", 0.3)})},
+      {"blend_paper_glass",
+       make_bsdf("blendbsdf", {}, {sheet(0.25, 0.3, 0.1, 0.3, 20), make_bsdf("dielectric")},
+                 {{"weight", checks(0.2, 1)}})},
       {"mirror", make_bsdf("conductor")},
       {"gold", make_bsdf("conductor", {property("material", "Au")})},
       {"glass", make_bsdf("dielectric", {property("int_ior", 1.5), property("ext_ior", 1.0)})},

@@ -2,6 +2,7 @@
 // Builds bsdfs as a scene file would, and the table of instances that every property is tested on.
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,13 @@
 namespace kaustik::test {
 
 /// Throws Error as build_scene() would.
-std::shared_ptr<const Bsdf> make_bsdf(const std::string& type,
-                                      const std::vector<Property>& properties = {},
-                                      std::vector<std::shared_ptr<const Bsdf>> nested = {});
+std::shared_ptr<const Bsdf> make_bsdf(
+    const std::string& type, const std::vector<Property>& properties = {},
+    std::vector<std::shared_ptr<const Bsdf>> nested = {},
+    std::map<std::string, std::shared_ptr<const Texture>> textures = {});
+/// Throws Error as build_scene() would, with places in scene.xml.
+std::shared_ptr<const Texture> make_texture(const std::string& type,
+                                            std::vector<Property> properties = {});
 Property property(const std::string& name, Value value);
 
 struct BsdfInstance {

@@ -67,7 +67,7 @@ class EveryBsdf : public testing::TestWithParam<BsdfInstance> {
 
 // ---- what many samples give ----
 
-/// Hits per cell of the grid; the last cell is for what is absorbed.
+/// Hits per cell of the grid; the last cell is for what is absorbed or of a delta lobe.
 using Cells = std::vector<double>;
 
 struct Drawn {
@@ -79,11 +79,17 @@ struct Drawn {
 
 constexpr std::array<Lobes, 3> single_lobes = {Lobes::diffuse, Lobes::glossy, Lobes::delta};
 
-/// Sampling all normals is noisy at grazing angles.
+/// Sampling all normals is noisy at grazing angles; and of many lobes each gets its share only.
 int samples_for(const Bsdf& bsdf) {
-  for (const BsdfInstance& instance : bsdf_instances())
-    if (instance.bsdf.get() == &bsdf && instance.name.ends_with("all_normals"))
-      return 4 * sample_count;
+  const auto is_mixed = [](const std::string& name) {
+    return name == "sheet_all_lobes" || name == "textured_phong" || name == "mask_half" ||
+           name == "blend_paper_glass";
+  };
+  for (const BsdfInstance& instance : bsdf_instances()) {
+    if (instance.bsdf.get() != &bsdf) continue;
+    if (instance.name.ends_with("all_normals")) return 4 * sample_count;
+    if (is_mixed(instance.name)) return 3 * sample_count;
+  }
   return sample_count;
 }
 
@@ -93,7 +99,8 @@ Drawn draw_many(const Bsdf& bsdf, const Case& c) {
   result.cells.resize(grid.size() + 1);
   for (int i = 0; i < samples_for(bsdf); ++i) {
     const BsdfSample s = draw(bsdf, {{}, TransportMode::flux}, c, sampler_of(1, i));
-    result.cells[s.event == Lobes::none ? grid.size() : grid.cell_of(s.wi)] += 1;
+    const bool has_density = s.event == Lobes::diffuse || s.event == Lobes::glossy;
+    result.cells[has_density ? grid.cell_of(s.wi) : grid.size()] += 1;
     for (size_t lane = 0; lane < 3; ++lane) {
       const double weight = s.weight[int(lane)];
       result.all_weights[lane].add(weight);
@@ -143,6 +150,7 @@ TEST_P(EveryBsdf, samples_as_its_density_says) {
     SCOPED_TRACE(c.text);
     Cells observed = drawn(bsdf(), c).cells;
     const Cells expected = expected_cells(bsdf(), c);
+    if (expected.back() > 0.999 * samples_for(bsdf())) continue;  // by delta lobes alone
     if (expected.back() == 0) {
       EXPECT_LE(observed.back(), 1e-3 * samples_for(bsdf()));
       observed.back() = 0;
@@ -174,8 +182,8 @@ TEST_P(EveryBsdf, weight_is_value_times_cosine_over_density) {
       const Spectrum f = bsdf().eval({}, c.wo, s.wi, c.lobes);
       const float pdf = bsdf().pdf({}, c.wo, s.wi, c.lobes);
       if (s.event == Lobes::delta) {
-        ASSERT_TRUE(f.is_zero());
-        ASSERT_EQ(pdf, 0);
+        ASSERT_TRUE(bsdf().eval({}, c.wo, s.wi, Lobes::delta).is_zero());
+        ASSERT_EQ(bsdf().pdf({}, c.wo, s.wi, Lobes::delta), 0);
         continue;
       }
       // Half vectors at grazing angles lose digits; one of two kinds of arithmetic is not enough.
@@ -331,8 +339,10 @@ INSTANTIATE_TEST_SUITE_P(Instances, EveryBsdf, testing::ValuesIn(bsdf_instances(
 TEST(bsdf_types, are_all_in_the_table_of_instances) {
   std::vector<std::string> names;
   for (const BsdfType& type : bsdf_types()) names.push_back(type.info.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"diffuse", "phong", "dielectric", "conductor",
-                                             "roughconductor", "twosided", "null"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"diffuse", "phong", "thinphong", "difftrans", "dielectric",
+                                      "conductor", "roughconductor", "twosided", "mask",
+                                      "blendbsdf", "bumpmap", "normalmap", "null"}));
 }
 
 }  // namespace

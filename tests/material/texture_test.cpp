@@ -7,23 +7,18 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tests/material/bsdf_support.h"
+
 namespace kaustik {
 namespace {
 
-std::shared_ptr<const Texture> make_texture(const std::string& type,
-                                            std::vector<Property> properties) {
-  for (const TextureType& t : texture_types()) {
-    if (t.info.name != type) continue;
-    for (Property& p : properties) p.place = place_in("scene.xml", 9, 4);
-    Problems problems;
-    const Arguments arguments(t.info, properties, place_in("scene.xml", 8, 2), problems);
-    problems.throw_if_any();
-    return t.create(arguments);
-  }
-  throw std::invalid_argument("no texture type " + type);
-}
+using namespace test;
 
-Property property(const std::string& name, Value value) { return {name, std::move(value), {}}; }
+TextureCoordinates point(float u, float v) {
+  TextureCoordinates at;
+  at.uv = {u, v};
+  return at;
+}
 
 /// A PFM picture of grey values, given from the upper row down, that is removed with the object.
 class Picture {
@@ -52,7 +47,7 @@ std::shared_ptr<const Texture> bitmap(const Picture& picture, std::vector<Proper
 }
 
 float value(const std::shared_ptr<const Texture>& texture, float u, float v) {
-  const Spectrum s = texture->eval({{u, v}, 0});
+  const Spectrum s = texture->eval(point(u, v));
   EXPECT_EQ(s[0], s[2]);
   EXPECT_EQ(s[3], 0);
   return s[0];
@@ -61,7 +56,7 @@ float value(const std::shared_ptr<const Texture>& texture, float u, float v) {
 TEST(constant_texture, is_the_same_everywhere) {
   const auto texture = make_constant_texture(Spectrum(0.1f, 0.2f, 0.3f, 0));
   EXPECT_TRUE(texture->is_constant());
-  EXPECT_EQ(texture->eval({{3, -7}, 0}), Spectrum(0.1f, 0.2f, 0.3f, 0));
+  EXPECT_EQ(texture->eval(point(3, -7)), Spectrum(0.1f, 0.2f, 0.3f, 0));
   EXPECT_EQ(texture->mean(), Spectrum(0.1f, 0.2f, 0.3f, 0));
   EXPECT_FLOAT_EQ(texture->maximum(), 0.3f);
 }
@@ -185,9 +180,10 @@ TEST(bitmap, refuses_negative_and_broken_values) {
 }
 
 TEST(texture_types, are_all_there) {
-  ASSERT_EQ(texture_types().size(), 2u);
-  EXPECT_EQ(texture_types()[0].info.name, "bitmap");
-  EXPECT_EQ(texture_types()[1].info.name, "checkerboard");
+  std::vector<std::string> names;
+  for (const TextureType& type : texture_types()) names.push_back(type.info.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"bitmap", "checkerboard", "noise", "marble", "wood",
+                                             "tiles", "waves"}));
 }
 
 }  // namespace

@@ -25,6 +25,12 @@ class Cylinder : public Shape {
   float area() const override { return float(2 * std::numbers::pi * radius_ * length_); }
   std::optional<ShapeHit> intersect(const Ray& ray) const override;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
+  UvDerivatives uv_derivatives(const SurfacePoint& at) const override {
+    const Vec3d n(at.ng * side_);
+    return {Vec3f(z_.cross(n)) *
+                float((x_.cross(y_).dot(z_) < 0 ? -2 : 2) * std::numbers::pi * radius_),
+            Vec3f(z_ * length_)};
+  }
   ShapeSample sample_area(const Vec2f& u) const override {
     const double phi = 2 * std::numbers::pi * double(u.x);
     return {point_at(std::cos(phi), std::sin(phi), double(u.y) * length_), 1.0f / area()};
@@ -84,7 +90,6 @@ SurfacePoint Cylinder::point_at(double x, double y, double z) const {
   const double phi = std::atan2(y, x);
   point.uv = {float((phi < 0 ? phi + 2 * std::numbers::pi : phi) / (2 * std::numbers::pi)),
               float(z / length_)};
-  point.dpdu = Vec3f((y_ * x - x_ * y) * (2 * std::numbers::pi * radius_));
   point.error = position_rounding(point.position, n);
   return point;
 }

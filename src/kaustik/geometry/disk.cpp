@@ -38,6 +38,12 @@ class Disk : public Shape {
     return point_at(hit.u, hit.v);
   }
 
+  UvDerivatives uv_derivatives(const SurfacePoint& at) const override {
+    const double r = double(at.uv.x), phi = 2 * std::numbers::pi * double(at.uv.y);
+    return {Vec3f(s_ * std::cos(phi) + t_ * std::sin(phi)),
+            Vec3f(t_ * std::cos(phi) - s_ * std::sin(phi)) * float(2 * std::numbers::pi * r)};
+  }
+
   ShapeSample sample_area(const Vec2f& u) const override {
     const Vec2f d = square_to_disk(u);
     return {point_at(d.x, d.y), area_ > 0 ? 1.0f / area_ : 0.0f};
@@ -54,7 +60,6 @@ class Disk : public Shape {
     const float r = std::hypot(x, y);
     const float phi = std::atan2(y, x);
     point.uv = {r, (phi < 0 ? phi + 2 * pi : phi) * (0.5f * inv_pi)};
-    point.dpdu = r > 0 ? Vec3f(s_ * double(x / r) + t_ * double(y / r)) : Vec3f(s_);
     point.error = position_rounding(point.position, point.ng);
     return point;
   }

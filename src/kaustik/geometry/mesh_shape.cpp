@@ -42,6 +42,10 @@ SurfacePoint MeshShape::surface_point(const Ray&, const Hit& hit) const {
   return triangle_surface_point(mesh_, hit.primitive, hit.u, hit.v);
 }
 
+UvDerivatives MeshShape::uv_derivatives(const SurfacePoint& at) const {
+  return triangle_uv_derivatives(mesh_, at.primitive);
+}
+
 void MeshShape::build_distribution() const {
   cumulative_area_.reserve(mesh_.triangles.size());
   double sum = 0;

@@ -17,6 +17,7 @@ class MeshShape : public Shape {
   float area() const override { return area_; }
   const TriangleMesh* mesh() const override { return &mesh_; }
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
+  UvDerivatives uv_derivatives(const SurfacePoint& at) const override;
   ShapeSample sample_area(const Vec2f& u) const override;
   TriangleMesh tessellate(int level) const override;
   std::vector<Bounds3f> bounding_boxes(int budget) const override;

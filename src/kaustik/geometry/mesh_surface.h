@@ -85,7 +85,6 @@ inline SurfacePoint triangle_surface_point(const TriangleMesh& mesh, uint32_t tr
   const float b0 = 1.0f - b1 - b2;
   const TriangleNormal normal = triangle_normal(p0, p1, p2);
   const Lanes position = p0 * b0 + p1 * b1 + p2 * b2;
-  const Lanes e1 = p1 - p0, e2 = p2 - p0;
 
   SurfacePoint point;
   point.primitive = triangle;
@@ -100,16 +99,24 @@ inline SurfacePoint triangle_surface_point(const TriangleMesh& mesh, uint32_t tr
   }
   if (mesh.uvs.empty()) {
     point.uv = {b1, b2};
-    point.dpdu = vec3(e1);
     return point;
   }
   const Vec2f &uv0 = mesh.uvs[i0], &uv1 = mesh.uvs[i1], &uv2 = mesh.uvs[i2];
   point.uv = uv0 * b0 + uv1 * b1 + uv2 * b2;
-  const Vec2f d1 = uv1 - uv0, d2 = uv2 - uv0;
-  const float determinant = d1.x * d2.y - d1.y * d2.x;
-  point.dpdu = vec3((e1 * d2.y - e2 * d1.y) * (1.0f / determinant));
-  if (!is_finite(point.dpdu)) point.dpdu = Vec3f(0, 0, 0);  // texture coordinates all on a line
   return point;
+}
+
+/// By the texture coordinates, the same everywhere in a triangle.
+inline UvDerivatives triangle_uv_derivatives(const TriangleMesh& mesh, uint32_t triangle) {
+  const auto [i0, i1, i2] = mesh.triangles[triangle];
+  const Vec3f e1 = mesh.positions[i1] - mesh.positions[i0];
+  const Vec3f e2 = mesh.positions[i2] - mesh.positions[i0];
+  if (mesh.uvs.empty()) return {e1, e2};
+  const Vec2f d1 = mesh.uvs[i1] - mesh.uvs[i0], d2 = mesh.uvs[i2] - mesh.uvs[i0];
+  const float inverse = 1.0f / (d1.x * d2.y - d1.y * d2.x);
+  const UvDerivatives d{(e1 * d2.y - e2 * d1.y) * inverse, (e2 * d1.x - e1 * d2.x) * inverse};
+  // Texture coordinates all on a line have none.
+  return is_finite(d.dpdu) && is_finite(d.dpdv) ? d : UvDerivatives();
 }
 
 }  // namespace kaustik

@@ -30,15 +30,20 @@ struct Hit {
 /// A point on a surface, in world space.
 struct SurfacePoint {
   Vec3f position{0, 0, 0};
-  Vec3f ng{0, 0, 0};    ///< geometric normal, unit, outward by the shape's convention
-  Vec3f ns{0, 0, 0};    ///< shading normal, unit, in the same half space as ng
-  Vec3f dpdu{0, 0, 0};  ///< tangent along u, not normalised; zero if unknown
+  Vec3f ng{0, 0, 0};  ///< geometric normal, unit, outward by the shape's convention
+  Vec3f ns{0, 0, 0};  ///< shading normal, unit, in the same half space as ng
   Vec2f uv{0, 0};
   float error = 0;     ///< bound on the distance, along ng, between `position` and the surface as
                        ///< the ray intersection sees it
   uint32_t shape = 0;  ///< index into the scene's shapes
   uint32_t primitive = 0;
   uint32_t instance = no_instance;
+};
+
+/// How the position on a surface changes with the texture coordinates, m per unit; both zero where
+/// that is unknown.
+struct UvDerivatives {
+  Vec3f dpdu{0, 0, 0}, dpdv{0, 0, 0};
 };
 
 /// `position` moved off its surface to the side of `direction`, just far enough that a ray from

@@ -82,7 +82,6 @@ SurfacePoint placed(const InstanceRecord& instance, const SurfacePoint& local) {
   point.ng = normalize(combine(instance.normal_columns, local.ng));
   point.ns = normalize(combine(instance.normal_columns, local.ns));
   if (dot(point.ng, point.ns) < 0) point.ns = -point.ns;
-  point.dpdu = combine(instance.columns, local.dpdu);
   // Embree brings the ray to the group's space with a matrix that it inverts in floats.
   point.error =
       instance.norm * local.error + 16 * float_rounding * instance.condition *
@@ -467,6 +466,17 @@ SurfacePoint RayTracer::surface_point(const Ray& ray, const Hit& hit) const {
   SurfacePoint point = mesh_point(*record.mesh, hit);
   point.shape = hit.shape;
   return point;
+}
+
+UvDerivatives RayTracer::uv_derivatives(const SurfacePoint& point) const {
+  const Shape& shape = *impl_->records[point.shape].shape;
+  if (point.instance == no_instance) return shape.uv_derivatives(point);
+  const InstanceRecord& instance = impl_->instances[point.instance];
+  SurfacePoint local = point;
+  local.position = instance.group_from_world.point(point.position);
+  local.ng = normalize(instance.group_from_world.normal(point.ng));
+  const UvDerivatives d = shape.uv_derivatives(local);
+  return {combine(instance.columns, d.dpdu), combine(instance.columns, d.dpdv)};
 }
 
 const Shape& RayTracer::shape(uint32_t index) const { return *impl_->records[index].shape; }

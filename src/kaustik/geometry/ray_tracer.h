@@ -44,6 +44,9 @@ class RayTracer {
   /// World-space geometry of a hit.
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
+  /// The same point's derivatives by its texture coordinates.
+  UvDerivatives uv_derivatives(const SurfacePoint& point) const;
+
   const Shape& shape(uint32_t index) const;
   size_t shape_count() const;
   /// What it was made from.

@@ -153,7 +153,6 @@ SurfacePoint SdfShape::surface_point(const Ray& ray, const Hit& hit) const {
   SurfacePoint point;
   point.position = Vec3f(p);
   point.ng = point.ns = Vec3f(world_normal(field_.gradient(transform_point(field_from_world_, p))));
-  point.dpdu = Vec3f(0, 0, 0);
   point.error = float(2 * precision * largest_scale_) +
                 position_rounding(point.position, point.ng) +
                 4 * float_rounding * std::fabs(hit.t) * length(ray.direction);

@@ -48,6 +48,12 @@ class Shape {
   /// Geometry at a hit of this shape, `shape` and `instance` not filled in.
   virtual SurfacePoint surface_point(const Ray& ray, const Hit& hit) const = 0;
 
+  /// At a point of this shape. Not part of the point because few materials ask.
+  virtual UvDerivatives uv_derivatives(const SurfacePoint& at) const {
+    (void)at;
+    return {};
+  }
+
   /// False where the shape cannot be sampled by area (procedural ones): it cannot be a light then.
   virtual bool can_sample() const { return true; }
   /// Uniform by area.

@@ -29,6 +29,7 @@ class Sphere : public Shape {
   float area() const override { return float(4 * std::numbers::pi * radius_ * radius_); }
   std::optional<ShapeHit> intersect(const Ray& ray) const override;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
+  UvDerivatives uv_derivatives(const SurfacePoint& at) const override;
   ShapeSample sample_area(const Vec2f& u) const override;
   ShapeSample sample_toward(const Vec3f& reference, const Vec2f& u,
                             float& pdf_solid_angle) const override;
@@ -82,7 +83,6 @@ SurfacePoint Sphere::point_at(const Vec3d& unit) const {
   const float phi = approximate_atan2(local.y, local.x);
   const float theta = approximate_atan2(std::sqrt(local.x * local.x + local.y * local.y), local.z);
   point.uv = {(phi < 0 ? phi + 2 * pi : phi) * (0.5f * inv_pi), theta * inv_pi};
-  point.dpdu = (axes_[1] * local.x - axes_[0] * local.y) * (2 * pi * float(radius_));
   point.error = position_rounding(point.position, n);
   return point;
 }
@@ -91,6 +91,17 @@ SurfacePoint Sphere::surface_point(const Ray& ray, const Hit& hit) const {
   const Vec3d unit =
       (Vec3d(ray.origin) - center_ + Vec3d(ray.direction) * double(hit.t)).normalized();
   return point_at(unit);
+}
+
+UvDerivatives Sphere::uv_derivatives(const SurfacePoint& at) const {
+  const Vec3f n = at.ng * side_;
+  const Vec3f local(dot(n, axes_[0]), dot(n, axes_[1]), dot(n, axes_[2]));
+  const float r = float(radius_), sin_theta = std::hypot(local.x, local.y);
+  // At the poles any meridian serves.
+  const float cos_phi = sin_theta > 0 ? local.x / sin_theta : 1;
+  const float sin_phi = sin_theta > 0 ? local.y / sin_theta : 0;
+  return {(axes_[1] * local.x - axes_[0] * local.y) * (2 * pi * r),
+          ((axes_[0] * cos_phi + axes_[1] * sin_phi) * local.z - axes_[2] * sin_theta) * (pi * r)};
 }
 
 ShapeSample Sphere::sample_area(const Vec2f& u) const {

@@ -31,7 +31,7 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
       sink_(sink),
       class_(traced),
       ray_(scene.camera().sample_ray(raster)) {
-  state_.spread = scene.camera().pixel_spread();
+  state_.footprint.spread = scene.camera().pixel_spread();
   state_.medium = scene.camera_medium();
 }
 
@@ -69,8 +69,8 @@ CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
       return Arrival::nothing;
     }
     distance_ += hit.t;
-    state_.footprint = distance_ * state_.spread;
-    vertex_.meet(scene_, ray_, hit, TransportMode::radiance);
+    state_.footprint.travel(hit.t);
+    vertex_.meet(scene_, ray_, hit, TransportMode::radiance, state_.footprint);
     if (!vertex_.is_null()) break;
     state_.medium = vertex_.medium_toward(ray_.direction, state_.medium);
     ray_ = spawn_ray(vertex_.point(), ray_.direction);
@@ -100,6 +100,7 @@ CameraWalk::Arrival CameraWalk::fly() {
     if (!flight.scattered) return false;
     in_medium_ = Receiver(ray_.origin + ray_.direction * flight.distance);
     distance_ += flight.distance;
+    state_.footprint.travel(flight.distance);
     return true;
   });
 }
@@ -181,6 +182,7 @@ void CameraWalk::scatter_in_medium(const Vec2f& u) {
   const PhaseFunction& phase = state_.medium->phase();
   const Vec3f wo = -ray_.direction, wi = phase.sample(wo, u);
   state_.pdf_forward = phase.eval(wo, wi);
+  state_.footprint.scatter(Lobes::diffuse, state_.pdf_forward);
   state_.depth += 1;
   class_.add_medium_event();
   previous_ = in_medium_;
@@ -194,6 +196,7 @@ bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec
   // Roulette must not see that this is one of several branches.
   state_.roulette_scale *= sqr(sample.eta) * std::max(1.0f, probability);
   state_.pdf_forward = sample.event == Lobes::delta ? 0 : probability * sample.pdf_solid_angle;
+  state_.footprint.scatter(sample.event, sample.pdf_solid_angle);
   state_.depth += 1;
   class_.add_event(sample.event);
   previous_ = Receiver(vertex_);

@@ -46,8 +46,9 @@ class CameraWalk {
   int events() const { return state_.depth; }
   /// Whether the camera sees the vertex directly or by specular events alone.
   bool all_events_specular() const { return class_.all_specular(); }
-  /// Half the width of a pixel at the vertex, m.
-  float footprint() const { return state_.footprint; }
+  /// Half the width of a pixel at the vertex, m; many samples share a pixel, so that textures are
+  /// filtered by half of it.
+  float footprint() const { return state_.footprint.width; }
   Sampler& sampler() { return sampler_; }
 
   /// Adds light sampled at the vertex and reflected by its lobes. The probabilities are those that

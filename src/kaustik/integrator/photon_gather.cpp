@@ -68,6 +68,7 @@ Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes,
   Spectrum irradiance;
   const Vec3f& ng = vertex.point().ng;
   if ((vertex.lobes() & lobes) != Lobes::diffuse || vertex.bsdf().transmits() ||
+      vertex.has_relief() ||
       !precomputed_.lookup(vertex.position(), vertex.on_front() ? ng : -ng, irradiance))
     return global(vertex, lobes, recursion);
   return vertex.diffuse_value() * irradiance;
@@ -77,7 +78,9 @@ Spectrum PhotonLight::gathered_indirect(const SurfaceVertex& vertex, const Mediu
                                         Lobes lobes, Sampler& sampler, const EyeLevel& at) const {
   if (settings_.approximates(at) || !any(lobes & vertex.lobes() & Lobes::diffuse))
     return gathered_global(vertex, lobes, at.recursion);
-  Spectrum light = vertex.diffuse_value() * gather_irradiance(vertex, medium, sampler, at);
+  Spectrum light = diffuse_radiance(vertex, [&](const Vec3f& normal) {
+    return gather_irradiance(vertex, normal, vertex.medium_toward(normal, medium), sampler, at);
+  });
   if (any(lobes & vertex.lobes() & Lobes::glossy))
     light += global(vertex, Lobes::glossy, at.recursion);
   return light;
@@ -109,6 +112,8 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
   Incoming result;
   Spectrum throughput(1.0f);
   float eta_scale = 1;
+  Footprint footprint;
+  footprint.scatter(Lobes::diffuse, 0.5f * inv_pi);
   Ray ray = spawn_ray(from, direction);
   float distance = 0;
   uint64_t rays = 0;
@@ -122,7 +127,8 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
       throughput *= medium->transmittance(hit.t);
     }
     if (!found) break;
-    const SurfaceVertex vertex(scene_, ray, hit, TransportMode::radiance);
+    footprint.travel(hit.t);
+    const SurfaceVertex vertex(scene_, ray, hit, TransportMode::radiance, footprint);
     distance += hit.t;
     if (vertex.is_null()) {
       medium = vertex.medium_toward(ray.direction, medium);
@@ -145,6 +151,7 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
     if (sample.event == Lobes::none || sample.weight.is_zero()) break;
     throughput *= sample.weight;
     eta_scale *= sqr(sample.eta);
+    footprint.scatter(sample.event, sample.pdf_solid_angle);
     if (events >= gather_roulette_depth) {
       const float survival = std::min(0.95f, throughput.max_lane() * eta_scale);
       if (!(u_choice.y < survival)) break;
@@ -184,8 +191,9 @@ bool PhotonLight::importance(const SurfacePoint& at, const Frame& frame, const H
   return true;
 }
 
-Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, const Medium* medium,
-                                        Sampler& sampler, const EyeLevel& at) const {
+Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, const Vec3f& n,
+                                        const Medium* medium, Sampler& sampler,
+                                        const EyeLevel& at) const {
   // A gather ray that gathers again sends one: more of them would multiply from level to level.
   const int samples =
       at.gathers > 0 ? 1 : settings_.count_at(settings_.diffuse_samples, at.recursion);
@@ -196,7 +204,6 @@ Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, const Mediu
     grid.theta_cells = std::max(1, grid.theta_cells / 2);
     grid.phi_cells = std::max(1, grid.phi_cells / 2);
   }
-  const Vec3f n = vertex.facing_normal();
   const Frame frame(n);
   // Kept for the next call on this thread; gather rays that gather again find none and make one.
   static thread_local std::vector<float> spare_cells;

@@ -48,9 +48,10 @@ class PhotonLight final : public RadianceSource {
 
   /// Diffuse indirect irradiance at `vertex` by gather rays drawn in proportion to the photons'
   /// flux over a grid of the hemisphere (Jensen 1995, Schregle 1998 corrected: density p relative
-  /// to the uniform grid, E ≈ mean of π L/p).
-  Spectrum gather_irradiance(const SurfaceVertex& vertex, const Medium* medium, Sampler& sampler,
-                             const EyeLevel& at) const;
+  /// to the uniform grid, E ≈ mean of π L/p). `normal`: the shading normal on the side that is
+  /// meant; `medium`: on that side.
+  Spectrum gather_irradiance(const SurfaceVertex& vertex, const Vec3f& normal, const Medium* medium,
+                             Sampler& sampler, const EyeLevel& at) const;
 
   /// Light that media scatter, for the camera's rays.
   const VolumeLight& volume() const { return volume_; }
@@ -79,5 +80,20 @@ class PhotonLight final : public RadianceSource {
   VolumePhotonMap coarse_volume_;          ///< … and with fewer photons for gather rays
   mutable std::atomic<uint64_t> rays_{0};  ///< counts only; changes no result
 };
+
+/// Whether indirect light on the far side of the surface counts.
+inline bool gathers_through(const SurfaceVertex& vertex) {
+  return vertex.bsdf().transmits() && !vertex.diffuse_value_through().is_zero();
+}
+
+/// What the diffuse lobe of `vertex` sends to its wo of irradiance(normal), W/m², on its side and,
+/// where the surface lets it through, on the far side.
+template <typename Irradiance>
+Spectrum diffuse_radiance(const SurfaceVertex& vertex, const Irradiance& irradiance) {
+  const Vec3f normal = vertex.facing_normal();
+  Spectrum radiance = vertex.diffuse_value() * irradiance(normal);
+  if (gathers_through(vertex)) radiance += vertex.diffuse_value_through() * irradiance(-normal);
+  return radiance;
+}
 
 }  // namespace kaustik

@@ -23,11 +23,12 @@ float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
   return stored ? 2 * map.typical_radius(neighbors, 0.95f) : map.typical_radius(neighbors, 0.75f);
 }
 
-/// The walk's vertex as the cache sees it.
-CachePoint cache_point_of(const CameraWalk& walk, const PhotonMapSettings& settings) {
-  const SurfaceVertex& vertex = walk.vertex();
-  return {vertex.point(), vertex.facing_normal(), 2 * walk.footprint(),
-          settings.cache_tolerance(walk.events()), walk.medium()};
+/// The walk's vertex as the cache sees it, on the side of `normal`.
+CachePoint cache_point_of(const CameraWalk& walk, const Vec3f& normal,
+                          const PhotonMapSettings& settings) {
+  return {walk.vertex().point(), normal, 2 * walk.footprint(),
+          settings.cache_tolerance(walk.events()),
+          walk.vertex().medium_toward(normal, walk.medium())};
 }
 
 /// Of the walk's vertex: the camera's side gathers nothing on its way.
@@ -205,7 +206,9 @@ void PhotonMapIntegrator::collect_cache_points(const Vec2i& pixel, int stride, c
   while (walk.advance()) {
     const SurfaceVertex& vertex = walk.vertex();
     if (any(vertex.lobes() & Lobes::diffuse) && !settings_.approximates(level_of(walk))) {
-      points.push_back(cache_point_of(walk, settings_));
+      const Vec3f normal = vertex.facing_normal();
+      points.push_back(cache_point_of(walk, normal, settings_));
+      if (gathers_through(vertex)) points.push_back(cache_point_of(walk, -normal, settings_));
       if (points.size() - first >= cache_points_per_path) return;
     }
     if (specular_rays(walk) == 0 || !scatter_specular(walk, 1)) return;
@@ -261,8 +264,9 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
   if (settings_.global.neighbors <= 0 || !walk.wants_photon_light(Component::indirect)) return;
   const bool gathers = any(local & Lobes::diffuse) && !settings_.approximates(level_of(walk));
   if (gathers)
-    walk.add_photon_light(Component::indirect,
-                          vertex.diffuse_value() * diffuse_irradiance(state, walk));
+    walk.add_photon_light(Component::indirect, diffuse_radiance(vertex, [&](const Vec3f& normal) {
+                            return diffuse_irradiance(state, walk, normal);
+                          }));
   // Glossy lobes that are not traced: the approximate solution is all that is left for them.
   const Lobes approximated = gathers ? local & Lobes::glossy : local;
   if (any(approximated))
@@ -270,15 +274,17 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
                           state.light->global(vertex, approximated, walk.events()));
 }
 
-Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk& walk) const {
+Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk& walk,
+                                                 const Vec3f& normal) const {
   Spectrum irradiance;
   if (state.cache) {
-    const CachePoint point = cache_point_of(walk, settings_);
+    const CachePoint point = cache_point_of(walk, normal, settings_);
     if (state.cache->interpolate(point, irradiance)) return irradiance;
     if (state.cache->interpolate(point, irradiance, 2)) return irradiance;
   }
-  return state.light->gather_irradiance(walk.vertex(), walk.medium(), walk.sampler(),
-                                        level_of(walk));
+  const SurfaceVertex& vertex = walk.vertex();
+  return state.light->gather_irradiance(vertex, normal, vertex.medium_toward(normal, walk.medium()),
+                                        walk.sampler(), level_of(walk));
 }
 
 }  // namespace kaustik

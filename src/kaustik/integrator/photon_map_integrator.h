@@ -42,7 +42,7 @@ class PhotonMapIntegrator final : public IlluminationModel {
   int specular_rays(const CameraWalk& walk) const;
   bool scatter_specular(CameraWalk& walk, int rays) const;
   void add_photon_light(const State& state, CameraWalk& walk) const;
-  Spectrum diffuse_irradiance(const State& state, CameraWalk& walk) const;
+  Spectrum diffuse_irradiance(const State& state, CameraWalk& walk, const Vec3f& normal) const;
 
   /// The light pass of a seed, its budgets trained when it is first asked for.
   std::shared_ptr<const LightPass> light_pass(uint64_t seed) const;

@@ -54,4 +54,22 @@ Spectrum AlbedoTable::operator()(const Vec3f& wo) const {
   return mix(along(a.index), along(a.index + 1), a.weight);
 }
 
+AlbedoTables::AlbedoTables(float low, float high, bool isotropic,
+                           const std::function<Spectrum(float, const Vec3f&, const Vec2f&)>& weight)
+    : low_(low), high_(high) {
+  constexpr int count = 9;
+  for (int i = 0; i < (high > low ? count : 1); ++i) {
+    const float parameter = low + (high - low) * float(i) / float(count - 1);
+    tables_.emplace_back(isotropic,
+                         [&](const Vec3f& wo, const Vec2f& u) { return weight(parameter, wo, u); });
+  }
+}
+
+Spectrum AlbedoTables::operator()(float parameter, const Vec3f& wo) const {
+  if (tables_.size() == 1) return tables_.front()(wo);
+  const float share = std::clamp((parameter - low_) / (high_ - low_), 0.0f, 1.0f);
+  const Position p = position(share * float(tables_.size() - 1), int(tables_.size()));
+  return mix(tables_[size_t(p.index)](wo), tables_[size_t(p.index) + 1](wo), p.weight);
+}
+
 }  // namespace kaustik

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string_view>
 #include <vector>
 
+#include "kaustik/material/relief.h"
 #include "kaustik/material/texture.h"
 
 namespace kaustik {
@@ -18,6 +20,26 @@ constexpr bool any(Lobes lobes) { return lobes != Lobes::none; }
 /// What travels along the path: radiance on paths from the camera, flux (importance's adjoint) on
 /// paths from lights. Refraction scales radiance by (n_incident/n_transmitted)² but not flux.
 enum class TransportMode : uint8_t { radiance, flux };
+
+/// What a bsdf asks of the surface at a point, as bits; finding it costs time.
+enum class SurfaceNeeds : uint8_t {
+  none = 0,
+  texture = 1,  ///< BsdfContext::texture with its footprint
+  tangent = 2,  ///< a frame whose x axis lies along u
+  relief = 4    ///< the normal of Bsdf::relief
+};
+constexpr SurfaceNeeds operator|(SurfaceNeeds a, SurfaceNeeds b) {
+  return SurfaceNeeds(uint8_t(a) | uint8_t(b));
+}
+constexpr bool needs(SurfaceNeeds all, SurfaceNeeds one) {
+  return (uint8_t(all) & uint8_t(one)) != 0;
+}
+/// Of a bsdf that looks up these textures.
+inline SurfaceNeeds texture_needs(std::initializer_list<const Texture*> textures) {
+  for (const Texture* texture : textures)
+    if (!texture->is_constant()) return SurfaceNeeds::texture;
+  return SurfaceNeeds::none;
+}
 
 /// What a bsdf needs to know of the point beside directions.
 struct BsdfContext {
@@ -55,6 +77,14 @@ class Bsdf {
   /// f, 1/sr, without the cosine.
   virtual Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                         Lobes lobes) const = 0;
+  /// What it asks of the surface beside directions.
+  virtual SurfaceNeeds needs() const { return SurfaceNeeds::none; }
+  /// What bends the normal of the side that is seen (`front`: the one that the geometric normal
+  /// points to); null: nothing.
+  virtual const Relief* relief(bool front) const {
+    (void)front;
+    return nullptr;
+  }
   /// Density per solid angle with which sample() finds wi.
   virtual float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                     Lobes lobes) const = 0;
@@ -74,8 +104,8 @@ struct BsdfInputs {
   const Arguments& arguments;
   /// In the order of the file.
   std::vector<std::shared_ptr<const Bsdf>> nested;
-  /// The texture for a `textured()` color parameter: the nested one if there is one, else a
-  /// constant one from the argument.
+  /// The texture for a `textured()` color or number parameter: the nested one if there is one,
+  /// else a constant one from the argument; null if there is neither.
   std::function<std::shared_ptr<const Texture>(std::string_view)> texture;
 };
 
@@ -85,7 +115,12 @@ struct BsdfType {
   /// Throws Error(input) where arguments contradict one another.
   std::shared_ptr<const Bsdf> (*create)(const BsdfInputs&);
 };
-/// "diffuse", "phong", "dielectric", "conductor", "roughconductor", "twosided", "null".
+/// What a `textured()` parameter gives where no texture stands instead; null where it has no value.
+std::shared_ptr<const Texture> constant_texture_of(const Arguments& arguments,
+                                                   std::string_view name);
+
+/// "diffuse", "phong", "thinphong", "difftrans", "dielectric", "conductor", "roughconductor",
+/// "twosided", "mask", "blendbsdf", "bumpmap", "normalmap", "null".
 const std::vector<BsdfType>& bsdf_types();
 
 }  // namespace kaustik

@@ -12,8 +12,19 @@ BsdfType conductor_type();
 BsdfType roughconductor_type();
 BsdfType twosided_type();
 BsdfType null_type();
+BsdfType thinphong_type();
+BsdfType difftrans_type();
+BsdfType mask_type();
+BsdfType blendbsdf_type();
+BsdfType bumpmap_type();
+BsdfType normalmap_type();
 
 TextureType bitmap_type();
 TextureType checkerboard_type();
+TextureType noise_type();
+TextureType marble_type();
+TextureType wood_type();
+TextureType tiles_type();
+TextureType waves_type();
 
 }  // namespace kaustik

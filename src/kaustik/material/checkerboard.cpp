@@ -12,14 +12,36 @@ class Checkerboard final : public Texture {
       : color0_(color0), color1_(color1), to_uv_(to_uv) {}
 
   Spectrum eval(const TextureCoordinates& at) const override {
-    const Vec2f uv = to_uv_(at.uv);
-    const bool right = uv.x - std::floor(uv.x) > 0.5f, upper = uv.y - std::floor(uv.y) > 0.5f;
-    return right == upper ? color0_ : color1_;
+    const Vec2f uv = to_uv_(at.uv), width = to_uv_.width(at.uv_width);
+    const float sign = square_wave(uv.x, width.x) * square_wave(uv.y, width.y);
+    return color0_ * (0.5f + 0.5f * sign) + color1_ * (0.5f - 0.5f * sign);
   }
   float maximum() const override { return std::max(color0_.max_lane(), color1_.max_lane()); }
   Spectrum mean() const override { return (color0_ + color1_) * 0.5f; }
+  /// Of steps a hundredth of a square wide: as a relief the squares are plateaus.
+  HeightGradient height_gradient(const TextureCoordinates& at) const override {
+    HeightGradient gradient;
+    for (int axis = 0; axis < 2; ++axis) {
+      TextureCoordinates a = at, b = at;
+      a.uv_width[axis] = b.uv_width[axis] = std::max(at.uv_width[axis], 0.005f);
+      const float step = 0.5f * b.uv_width[axis];
+      a.uv[axis] -= step;
+      b.uv[axis] += step;
+      gradient.uv[axis] = (scalar(b) - scalar(a)) / (2 * step);
+    }
+    return gradient;
+  }
 
  private:
+  /// 1 in the first half of every unit, −1 in the second; its mean over `width`.
+  static float square_wave(float x, float width) {
+    const float rest = x - std::floor(x);
+    if (!(width > 1e-6f)) return rest > 0.5f ? -1.0f : 1.0f;
+    return (triangle_wave(x + 0.5f * width) - triangle_wave(x - 0.5f * width)) / width;
+  }
+  /// Its integral.
+  static float triangle_wave(float x) { return 0.5f - std::fabs(x - std::floor(x) - 0.5f); }
+
   Spectrum color0_, color1_;
   UvTransform to_uv_;
 };

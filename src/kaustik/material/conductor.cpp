@@ -11,6 +11,7 @@ class Conductor final : public Bsdf {
       : ior_(ior), reflectance_(std::move(reflectance)) {}
 
   Lobes lobes() const override { return Lobes::delta; }
+  SurfaceNeeds needs() const override { return texture_needs({reflectance_.get()}); }
 
   Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override {
     return Spectrum();

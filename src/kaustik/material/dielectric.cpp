@@ -15,6 +15,9 @@ class Dielectric final : public Bsdf {
 
   Lobes lobes() const override { return Lobes::delta; }
   bool transmits() const override { return true; }
+  SurfaceNeeds needs() const override {
+    return texture_needs({reflectance_.get(), transmittance_.get()});
+  }
 
   Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override {
     return Spectrum();

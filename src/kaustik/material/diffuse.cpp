@@ -11,6 +11,7 @@ class Diffuse final : public Bsdf {
       : reflectance_(std::move(reflectance)) {}
 
   Lobes lobes() const override { return Lobes::diffuse; }
+  SurfaceNeeds needs() const override { return texture_needs({reflectance_.get()}); }
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                 Lobes lobes) const override {

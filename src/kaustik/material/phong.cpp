@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <array>
+
 #include "kaustik/base/warp.h"
 #include "kaustik/material/albedo_table.h"
 #include "kaustik/material/bsdf_kinds.h"
@@ -7,122 +9,198 @@
 namespace kaustik {
 namespace {
 
+using TexturePointer = std::shared_ptr<const Texture>;
+
+/// Shares of the light that is reflected and transmitted, and by which lobe.
+struct PhongTextures {
+  TexturePointer diffuse_reflectance, glossy_reflectance;
+  TexturePointer diffuse_transmittance, glossy_transmittance;
+  TexturePointer exponent;
+
+  std::array<const Texture*, 4> reflecting_and_transmitting() const {
+    return {diffuse_reflectance.get(), glossy_reflectance.get(), diffuse_transmittance.get(),
+            glossy_transmittance.get()};
+  }
+};
+
+constexpr float largest_exponent = 1e5f;
+
+/// cosⁿα from the distance to the lobe's middle, which keeps its precision at high exponents.
+float cos_power(const Vec3f& middle, const Vec3f& wi, float exponent) {
+  const float half_distance_sq = 0.5f * length_sq(wi - middle);
+  if (half_distance_sq >= 1) return 0;
+  return std::exp(exponent * std::log1p(-half_distance_sq));
+}
+
+/// About `middle` with density (n + 1)/(2π) cosⁿα; may lie beyond the horizon.
+Vec3f sample_lobe(const Vec3f& middle, float exponent, const Vec2f& u) {
+  const float log_cos = std::log(1 - u.x) / (exponent + 1);
+  const float cos_alpha = std::exp(log_cos), sin_alpha = safe_sqrt(-std::expm1(2 * log_cos));
+  const float phi = 2 * pi * u.y;
+  return Frame(middle).to_world({sin_alpha * std::cos(phi), sin_alpha * std::sin(phi), cos_alpha});
+}
+
 /// The modified Phong model of Lafortune and Willems, "Using the Modified Phong Reflectance Model
 /// for Physically Based Rendering" (1994): f = k_d/π + k_s (n + 2)/(2π) cosⁿα with α the angle to
-/// the mirror direction. Reciprocal, loses light only at the horizon; black from behind.
+/// the mirror direction. A thin sheet has the corresponding BTDF, the same with factors of its own
+/// and α the angle to −wo, the direction in which light goes on through a sheet; both its sides
+/// are alike. Reciprocal, loses light only at the horizon. What is no sheet is black from behind.
 class Phong final : public Bsdf {
  public:
-  /// `scale` goes into both reflectances.
-  Phong(std::shared_ptr<const Texture> diffuse, std::shared_ptr<const Texture> specular,
-        float exponent, float scale)
-      : diffuse_(std::move(diffuse)),
-        specular_(std::move(specular)),
-        exponent_(exponent),
+  /// `scale` goes into all factors.
+  Phong(PhongTextures textures, float scale, bool is_sheet)
+      : textures_(std::move(textures)),
         scale_(scale),
-        lobe_albedo_(true, [this](const Vec3f& wo, const Vec2f& u) {
-          const Vec3f wi = sample_lobe(wo, u);
-          return Spectrum(wi.z > 0 ? wi.z * (exponent_ + 2) / (exponent_ + 1) : 0.0f);
-        }) {}
+        is_sheet_(is_sheet),
+        lobe_albedo_(textures_.exponent->is_constant() ? log_exponent(BsdfContext()) : 0,
+                     textures_.exponent->is_constant() ? log_exponent(BsdfContext())
+                                                       : log_of(textures_.exponent->maximum()),
+                     true, [](float log_n, const Vec3f& wo, const Vec2f& u) {
+                       const float n = std::exp2(log_n) - 1;
+                       const Vec3f wi = sample_lobe(mirrored(wo), n, u);
+                       return Spectrum(wi.z > 0 ? wi.z * (n + 2) / (n + 1) : 0.0f);
+                     }) {
+    // A lobe of pure white noughts is none: a matt sheet needs no light samples for gloss.
+    for (int i = 0; i < 4; ++i) {
+      const Texture& t = *textures_.reflecting_and_transmitting()[size_t(i)];
+      if (t.maximum() > 0) lobes_ = lobes_ | (i % 2 ? Lobes::glossy : Lobes::diffuse);
+    }
+    if (!is_sheet) lobes_ = Lobes::diffuse | Lobes::glossy;
+  }
 
-  Lobes lobes() const override { return Lobes::diffuse | Lobes::glossy; }
+  Lobes lobes() const override { return lobes_; }
+  bool transmits() const override { return is_sheet_; }
+  SurfaceNeeds needs() const override {
+    const auto t = textures_.reflecting_and_transmitting();
+    return texture_needs({t[0], t[1], t[2], t[3], textures_.exponent.get()});
+  }
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                 Lobes lobes) const override {
-    if (wo.z <= 0 || wi.z <= 0) return Spectrum();
-    const Parts f = parts_of(factors(context, lobes), cos_power(wo, wi));
+    if (!is_possible(wo, wi)) return Spectrum();
+    const Factors k = factors(context, lobes);
+    const Parts f = parts_of(k, wo, wi);
     return f.diffuse + f.glossy;
   }
 
   float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
             Lobes lobes) const override {
-    if (wo.z <= 0 || wi.z <= 0) return 0;
-    return pdf_of(factors(context, lobes), wi.z, cos_power(wo, wi));
+    return is_possible(wo, wi) ? pdf_of(factors(context, lobes), wo, wi) : 0.0f;
   }
 
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
                     Lobes lobes) const override {
     BsdfSample sample;
     const Factors k = factors(context, lobes);
-    if (wo.z <= 0 || !(k.diffuse_chance + k.glossy_chance > 0)) return sample;
-    const bool by_diffuse = u_lobe < k.diffuse_chance;
-    const Vec3f wi = by_diffuse ? square_to_cosine_hemisphere(u) : sample_lobe(wo, u);
-    if (wi.z <= 0) return sample;
-    const float power = cos_power(wo, wi);
-    const float pdf = pdf_of(k, wi.z, power);
+    if (wo.z == 0 || (!is_sheet_ && wo.z < 0)) return sample;
+    int proposal = -1;
+    for (int i = 0; i < 4; ++i) {
+      if (!(k.chance[size_t(i)] > 0)) continue;
+      proposal = i;
+      if (u_lobe < k.chance[size_t(i)]) break;
+      u_lobe -= k.chance[size_t(i)];
+    }
+    if (proposal < 0) return sample;
+    const Vec3f wi = propose(proposal, wo, k.exponent, u);
+    const bool transmission = wi.z * wo.z < 0;
+    if (wi.z == 0 || transmission != (proposal >= 2)) return sample;
+    const float pdf = pdf_of(k, wo, wi);
     if (!(pdf > 0)) return sample;
     // What is left of u_lobe is uniform again and tells the event by the shares in f.
-    const float rest =
-        by_diffuse ? u_lobe / k.diffuse_chance : (u_lobe - k.diffuse_chance) / k.glossy_chance;
-    const Parts f = parts_of(k, power);
+    const float rest = std::min(u_lobe / k.chance[size_t(proposal)], one_minus_epsilon);
+    const Parts f = parts_of(k, wo, wi);
     const float diffuse_share = f.diffuse.sum() / (f.diffuse.sum() + f.glossy.sum());
     const bool is_diffuse = rest < diffuse_share;
     sample.wi = wi;
     sample.pdf_solid_angle = pdf;
     sample.event = is_diffuse ? Lobes::diffuse : Lobes::glossy;
-    sample.weight = is_diffuse ? f.diffuse * (wi.z / (pdf * diffuse_share))
-                               : f.glossy * (wi.z / (pdf * (1 - diffuse_share)));
+    sample.transmission = transmission;
+    const float cosine = std::fabs(wi.z);
+    sample.weight = is_diffuse ? f.diffuse * (cosine / (pdf * diffuse_share))
+                               : f.glossy * (cosine / (pdf * (1 - diffuse_share)));
     return sample;
   }
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
-    if (wo.z <= 0) return Spectrum();
+    if (wo.z == 0 || (!is_sheet_ && wo.z < 0)) return Spectrum();
     const Factors k = factors(context, lobes);
-    return k.diffuse + k.glossy * lobe_albedo_(wo);
+    const Spectrum lobe = lobe_albedo_(log_of(k.exponent), {wo.x, wo.y, std::fabs(wo.z)});
+    return k.factor[0] + k.factor[2] + (k.factor[1] + k.factor[3]) * lobe;
   }
 
  private:
-  /// k_d and k_s of the lobes asked for, and the chances with which these are sampled.
+  /// The factors of the lobes asked for, in the order of PhongTextures, and the chances with which
+  /// these are sampled.
   struct Factors {
-    Spectrum diffuse, glossy;
-    float diffuse_chance = 0, glossy_chance = 0;
+    std::array<Spectrum, 4> factor;
+    std::array<float, 4> chance{};
+    float exponent = 0;
   };
   struct Parts {
     Spectrum diffuse, glossy;
   };
 
+  static Vec3f mirrored(const Vec3f& w) { return {-w.x, -w.y, w.z}; }
+  static float log_of(float exponent) { return std::log2(1 + exponent); }
+  float log_exponent(const BsdfContext& context) const { return log_of(exponent_at(context)); }
+  float exponent_at(const BsdfContext& context) const {
+    return std::clamp(textures_.exponent->scalar(context.texture), 0.0f, largest_exponent);
+  }
+
+  bool is_possible(const Vec3f& wo, const Vec3f& wi) const {
+    return is_sheet_ ? wo.z * wi.z != 0 : wo.z > 0 && wi.z > 0;
+  }
+
   Factors factors(const BsdfContext& context, Lobes lobes) const {
     Factors k;
-    if (any(lobes & Lobes::diffuse)) k.diffuse = diffuse_->eval(context.texture) * scale_;
-    if (any(lobes & Lobes::glossy)) k.glossy = specular_->eval(context.texture) * scale_;
-    const float diffuse = k.diffuse.sum(), glossy = k.glossy.sum();
-    if (!(diffuse + glossy > 0)) return k;
-    k.diffuse_chance = diffuse / (diffuse + glossy);
-    k.glossy_chance = glossy / (diffuse + glossy);
+    k.exponent = exponent_at(context);
+    float total = 0;
+    const auto textures = textures_.reflecting_and_transmitting();
+    for (size_t i = 0; i < 4; ++i) {
+      if (!any(lobes & (i % 2 ? Lobes::glossy : Lobes::diffuse))) continue;
+      k.factor[i] = textures[i]->eval(context.texture) * scale_;
+      total += k.chance[i] = k.factor[i].sum();
+    }
+    if (total > 0)
+      for (float& chance : k.chance) chance /= total;
     return k;
   }
 
-  /// cosⁿα from the distance to the mirror direction, which keeps its precision at high exponents.
-  float cos_power(const Vec3f& wo, const Vec3f& wi) const {
-    const float half_distance_sq = 0.5f * length_sq(wi - Vec3f(-wo.x, -wo.y, wo.z));
-    if (half_distance_sq >= 1) return 0;
-    return std::exp(exponent_ * std::log1p(-half_distance_sq));
+  static Vec3f propose(int proposal, const Vec3f& wo, float exponent, const Vec2f& u) {
+    if (proposal == 1) return sample_lobe(mirrored(wo), exponent, u);
+    if (proposal == 3) return sample_lobe(-wo, exponent, u);
+    const Vec3f wi = square_to_cosine_hemisphere(u);
+    return (wo.z > 0) == (proposal == 0) ? wi : Vec3f(wi.x, wi.y, -wi.z);
   }
 
-  Parts parts_of(const Factors& k, float power) const {
-    return {k.diffuse * inv_pi, k.glossy * ((exponent_ + 2) * 0.5f * inv_pi * power)};
+  Parts parts_of(const Factors& k, const Vec3f& wo, const Vec3f& wi) const {
+    const bool through = wo.z * wi.z < 0;
+    const float power = cos_power(through ? -wo : mirrored(wo), wi, k.exponent);
+    return {k.factor[through ? 2 : 0] * inv_pi,
+            k.factor[through ? 3 : 1] * ((k.exponent + 2) * 0.5f * inv_pi * power)};
   }
 
-  float pdf_of(const Factors& k, float cos_i, float power) const {
-    return k.diffuse_chance * cos_i * inv_pi +
-           k.glossy_chance * (exponent_ + 1) * 0.5f * inv_pi * power;
+  float pdf_of(const Factors& k, const Vec3f& wo, const Vec3f& wi) const {
+    const bool through = wo.z * wi.z < 0;
+    const float power = cos_power(through ? -wo : mirrored(wo), wi, k.exponent);
+    return k.chance[through ? 2 : 0] * std::fabs(wi.z) * inv_pi +
+           k.chance[through ? 3 : 1] * (k.exponent + 1) * 0.5f * inv_pi * power;
   }
 
-  /// About the mirror direction with density (n + 1)/(2π) cosⁿα; may lie below the horizon.
-  Vec3f sample_lobe(const Vec3f& wo, const Vec2f& u) const {
-    const float log_cos = std::log(1 - u.x) / (exponent_ + 1);
-    const float cos_alpha = std::exp(log_cos), sin_alpha = safe_sqrt(-std::expm1(2 * log_cos));
-    const float phi = 2 * pi * u.y;
-    return Frame(Vec3f(-wo.x, -wo.y, wo.z))
-        .to_world({sin_alpha * std::cos(phi), sin_alpha * std::sin(phi), cos_alpha});
-  }
-
-  std::shared_ptr<const Texture> diffuse_, specular_;
-  float exponent_;
+  PhongTextures textures_;
   float scale_;
-  AlbedoTable lobe_albedo_;
+  bool is_sheet_;
+  Lobes lobes_ = Lobes::none;
+  AlbedoTables lobe_albedo_;
 };
 
-const TypeInfo& info() {
+Parameter exponent_parameter() {
+  return number_parameter("exponent", 30, "Sharpness of the highlight.")
+      .range(0, double(largest_exponent))
+      .textured();
+}
+
+const TypeInfo& phong_info() {
   static const TypeInfo info{
       "bsdf",
       "phong",
@@ -133,33 +211,97 @@ const TypeInfo& info() {
        color_parameter("specular_reflectance", 0.2, "Share of the light in the highlight.")
            .range(0, 1)
            .textured(),
-       number_parameter("exponent", 30, "Sharpness of the highlight.").range(0, 1e5)}};
+       exponent_parameter()}};
   return info;
 }
 
-std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
-  const Arguments& arguments = inputs.arguments;
-  auto diffuse = inputs.texture("diffuse_reflectance");
-  auto specular = inputs.texture("specular_reflectance");
-  float scale = 1;
-  if (diffuse->is_constant() && specular->is_constant()) {
-    const float sum = (diffuse->mean() + specular->mean()).max_lane();
-    if (sum > 1 + 1e-5f)
-      throw Error(ErrorKind::input,
-                  fmt::format("'diffuse_reflectance' and 'specular_reflectance' add up to {:.4g}, "
-                              "more light than arrives",
-                              sum),
-                  "make their sum at most 1 in every channel",
-                  arguments.place_of("diffuse_reflectance"));
-  } else {
-    scale = 1 / std::max(1.0f, diffuse->maximum() + specular->maximum());
+const TypeInfo& thinphong_info() {
+  static const TypeInfo info{
+      "bsdf",
+      "thinphong",
+      "Thin sheet such as paper, cloth or frosted glass, alike on both sides: reflects and "
+      "transmits by the modified Phong model.",
+      {color_parameter("diffuse_reflectance", 0.4, "Share that is thrown back evenly.")
+           .range(0, 1)
+           .textured(),
+       color_parameter("specular_reflectance", 0, "Share thrown back about the mirror direction.")
+           .range(0, 1)
+           .textured(),
+       color_parameter("diffuse_transmittance", 0.4, "Share that goes through and spreads evenly.")
+           .range(0, 1)
+           .textured(),
+       color_parameter("specular_transmittance", 0,
+                       "Share that goes through about the direction straight on.")
+           .range(0, 1)
+           .textured(),
+       exponent_parameter()}};
+  return info;
+}
+
+const TypeInfo& difftrans_info() {
+  static const TypeInfo info{
+      "bsdf",
+      "difftrans",
+      "Thin sheet that spreads evenly behind it what comes from before it, and reflects nothing.",
+      {color_parameter("transmittance", 0.5, "Share that goes through.").range(0, 1).textured()}};
+  return info;
+}
+
+/// Throws where constant factors add up to over 1; the scale that keeps textured ones below.
+float energy_scale(const PhongTextures& textures, const Arguments& arguments) {
+  Spectrum sum;
+  float maximum = 0;
+  bool constant = true;
+  for (const Texture* texture : textures.reflecting_and_transmitting()) {
+    sum += texture->mean();
+    maximum += texture->maximum();
+    constant = constant && texture->is_constant();
   }
-  return std::make_shared<Phong>(std::move(diffuse), std::move(specular),
-                                 float(arguments.number("exponent")), scale);
+  if (!constant) return 1 / std::max(1.0f, maximum);
+  if (sum.max_lane() > 1 + 1e-5f) {
+    std::vector<std::string> names;
+    for (const Parameter& parameter : arguments.info().parameters)
+      if (parameter.kind == ParameterKind::color) names.push_back("'" + parameter.name + "'");
+    throw Error(ErrorKind::input,
+                fmt::format("{} add up to {:.4g}, more light than arrives",
+                            fmt::join(names, " and "), sum.max_lane()),
+                "make their sum at most 1 in every channel",
+                arguments.place_of(arguments.info().parameters.front().name));
+  }
+  return 1;
+}
+
+std::shared_ptr<const Bsdf> make(PhongTextures textures, const Arguments& arguments,
+                                 bool is_sheet) {
+  const float scale = energy_scale(textures, arguments);
+  return std::make_shared<Phong>(std::move(textures), scale, is_sheet);
+}
+
+TexturePointer black() { return make_constant_texture(Spectrum()); }
+
+std::shared_ptr<const Bsdf> create_phong(const BsdfInputs& inputs) {
+  return make({inputs.texture("diffuse_reflectance"), inputs.texture("specular_reflectance"),
+               black(), black(), inputs.texture("exponent")},
+              inputs.arguments, false);
+}
+
+std::shared_ptr<const Bsdf> create_thinphong(const BsdfInputs& inputs) {
+  return make({inputs.texture("diffuse_reflectance"), inputs.texture("specular_reflectance"),
+               inputs.texture("diffuse_transmittance"), inputs.texture("specular_transmittance"),
+               inputs.texture("exponent")},
+              inputs.arguments, true);
+}
+
+std::shared_ptr<const Bsdf> create_difftrans(const BsdfInputs& inputs) {
+  return make({black(), black(), inputs.texture("transmittance"), black(),
+               make_constant_texture(Spectrum(1.0f))},
+              inputs.arguments, true);
 }
 
 }  // namespace
 
-BsdfType phong_type() { return {info(), 0, 0, create}; }
+BsdfType phong_type() { return {phong_info(), 0, 0, create_phong}; }
+BsdfType thinphong_type() { return {thinphong_info(), 0, 0, create_thinphong}; }
+BsdfType difftrans_type() { return {difftrans_info(), 0, 0, create_difftrans}; }
 
 }  // namespace kaustik

@@ -6,43 +6,99 @@
 namespace kaustik {
 namespace {
 
+constexpr double least_alpha = 1e-3, largest_alpha = 10;
+
+/// Facets whose roughness varies over the surface. What a texture says beyond the range of the
+/// parameter is taken to its ends: black paint then means as smooth as can be.
+class RoughFacets {
+ public:
+  using Kind = MicrofacetDistribution::Kind;
+  using TexturePointer = std::shared_ptr<const Texture>;
+
+  RoughFacets(Kind kind, TexturePointer alpha_u, TexturePointer alpha_v, bool sample_visible)
+      : kind_(kind),
+        alpha_u_(std::move(alpha_u)),
+        alpha_v_(std::move(alpha_v)),
+        sample_visible_(sample_visible) {}
+
+  bool is_isotropic() const { return alpha_u_ == alpha_v_; }
+  SurfaceNeeds needs() const { return texture_needs({alpha_u_.get(), alpha_v_.get()}); }
+  MicrofacetDistribution at(const TextureCoordinates& where) const {
+    return {kind_, in_range(alpha_u_->scalar(where)), in_range(alpha_v_->scalar(where)),
+            sample_visible_};
+  }
+  /// Of the roughness along u, which the albedo is tabulated by.
+  float log_alpha(const TextureCoordinates& where) const {
+    return std::log2(in_range(alpha_u_->scalar(where)));
+  }
+  float least_log_alpha() const {
+    return alpha_u_->is_constant() ? log_alpha({}) : std::log2(float(least_alpha));
+  }
+  float largest_log_alpha() const {
+    return alpha_u_->is_constant() ? log_alpha({}) : std::log2(in_range(alpha_u_->maximum()));
+  }
+  /// With a given roughness along u and, where it differs, the mean one along v.
+  MicrofacetDistribution of_log_alpha(float log_alpha) const {
+    const float alpha = std::exp2(log_alpha);
+    const float across = is_isotropic() ? alpha : in_range(luminance_of(alpha_v_->mean()));
+    return {kind_, alpha, across, sample_visible_};
+  }
+
+ private:
+  static float in_range(float alpha) {
+    return std::clamp(alpha, float(least_alpha), float(largest_alpha));
+  }
+
+  Kind kind_;
+  TexturePointer alpha_u_, alpha_v_;
+  bool sample_visible_;
+};
+
 /// Rough metal after Torrance and Sparrow with Walter et al.'s distributions; black from behind.
 class RoughConductor final : public Bsdf {
  public:
-  RoughConductor(const MicrofacetDistribution& facets, const ComplexIor& ior,
+  RoughConductor(RoughFacets facets, const ComplexIor& ior,
                  std::shared_ptr<const Texture> reflectance)
-      : facets_(facets),
+      : facets_(std::move(facets)),
         ior_(ior),
         reflectance_(std::move(reflectance)),
-        albedo_(facets.is_isotropic(),
-                [this](const Vec3f& wo, const Vec2f& u) { return sample_lobe(wo, u).weight; }) {}
+        albedo_(facets_.least_log_alpha(), facets_.largest_log_alpha(), facets_.is_isotropic(),
+                [this](float log_alpha, const Vec3f& wo, const Vec2f& u) {
+                  return sample_lobe(facets_.of_log_alpha(log_alpha), wo, u).weight;
+                }) {}
 
   Lobes lobes() const override { return Lobes::glossy; }
+  SurfaceNeeds needs() const override {
+    const SurfaceNeeds textures = facets_.needs() | texture_needs({reflectance_.get()});
+    return facets_.is_isotropic() ? textures : textures | SurfaceNeeds::tangent;
+  }
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                 Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0 || wi.z <= 0) return Spectrum();
     const Vec3f m = normalize(wo + wi);
-    const float geometry = facets_.density(m) * facets_.masking(wo) * facets_.masking(wi);
+    const MicrofacetDistribution facets = facets_.at(context.texture);
+    const float geometry = facets.density(m) * facets.masking(wo) * facets.masking(wi);
     return reflectance_->eval(context.texture) * fresnel(wo, m) * (geometry / (4 * wo.z * wi.z));
   }
 
-  float pdf(const BsdfContext&, const Vec3f& wo, const Vec3f& wi, Lobes lobes) const override {
+  float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
+            Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0 || wi.z <= 0) return 0;
-    return pdf_of_reflection(wo, normalize(wo + wi));
+    return pdf_of_reflection(facets_.at(context.texture), wo, normalize(wo + wi));
   }
 
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float, const Vec2f& u,
                     Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0) return {};
-    BsdfSample sample = sample_lobe(wo, u);
+    BsdfSample sample = sample_lobe(facets_.at(context.texture), wo, u);
     sample.weight *= reflectance_->eval(context.texture);
     return sample;
   }
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0) return Spectrum();
-    return reflectance_->eval(context.texture) * albedo_(wo);
+    return reflectance_->eval(context.texture) * albedo_(facets_.log_alpha(context.texture), wo);
   }
 
  private:
@@ -50,33 +106,38 @@ class RoughConductor final : public Bsdf {
     return fresnel_conductor(std::clamp(dot(wo, m), 0.0f, 1.0f), ior_);
   }
 
-  float pdf_of_reflection(const Vec3f& wo, const Vec3f& m) const {
+  static float pdf_of_reflection(const MicrofacetDistribution& facets, const Vec3f& wo,
+                                 const Vec3f& m) {
     const float cos_facet = dot(wo, m);
-    return cos_facet > 0 ? facets_.pdf(wo, m) / (4 * cos_facet) : 0.0f;
+    return cos_facet > 0 ? facets.pdf(wo, m) / (4 * cos_facet) : 0.0f;
   }
 
   /// Without the texture. Light that a facet sends below the horizon is lost.
-  BsdfSample sample_lobe(const Vec3f& wo, const Vec2f& u) const {
+  BsdfSample sample_lobe(const MicrofacetDistribution& facets, const Vec3f& wo,
+                         const Vec2f& u) const {
     BsdfSample sample;
-    const Vec3f m = facets_.sample(wo, u);
+    const Vec3f m = facets.sample(wo, u);
     sample.wi = reflect(wo, m);
-    sample.pdf_solid_angle = pdf_of_reflection(wo, m);
+    sample.pdf_solid_angle = pdf_of_reflection(facets, wo, m);
     if (sample.wi.z <= 0 || !(sample.pdf_solid_angle > 0)) return {};
     // f·cosθ_i/pdf; D cancels.
     const float cos_facet = dot(wo, m);
-    const float hidden = facets_.masking(wo) * facets_.masking(sample.wi) * facets_.density(m);
-    sample.weight = fresnel(wo, m) * (hidden * cos_facet / (wo.z * facets_.pdf(wo, m)));
+    const float hidden = facets.masking(wo) * facets.masking(sample.wi) * facets.density(m);
+    sample.weight = fresnel(wo, m) * (hidden * cos_facet / (wo.z * facets.pdf(wo, m)));
     sample.event = Lobes::glossy;
     return sample;
   }
 
-  MicrofacetDistribution facets_;
+  RoughFacets facets_;
   ComplexIor ior_;
   std::shared_ptr<const Texture> reflectance_;
-  AlbedoTable albedo_;
+  AlbedoTables albedo_;
 };
 
-constexpr double least_alpha = 1e-3, largest_alpha = 10;
+/// The row of a roughness; `name` is alpha, alpha_u or alpha_v.
+Parameter alpha_parameter(const std::string& name, const std::string& sentence) {
+  return number_parameter(name, 0.1, sentence).range(least_alpha, largest_alpha).textured();
+}
 
 TypeInfo make_info() {
   TypeInfo info{
@@ -85,12 +146,9 @@ TypeInfo make_info() {
       "Rough metal; black seen from behind, see 'twosided'.",
       {choice_parameter("distribution", "beckmann", {"beckmann", "ggx"},
                         "Distribution of the normals of the microscopic facets."),
-       number_parameter("alpha", 0.1, "Roughness; about the root mean square slope of the facets.")
-           .range(least_alpha, largest_alpha),
-       optional(number_parameter("alpha_u", 0.1, "Roughness along the tangent, instead of alpha."))
-           .range(least_alpha, largest_alpha),
-       optional(number_parameter("alpha_v", 0.1, "Roughness across the tangent, instead of alpha."))
-           .range(least_alpha, largest_alpha),
+       alpha_parameter("alpha", "Roughness; about the root mean square slope of the facets."),
+       optional(alpha_parameter("alpha_u", "Roughness along the tangent, instead of alpha.")),
+       optional(alpha_parameter("alpha_v", "Roughness across the tangent, instead of alpha.")),
        boolean_parameter("sample_visible", true,
                          "Sample only facets that can be seen: less noise, same result.")}};
   for (Parameter& parameter : conductor_parameters())
@@ -103,33 +161,30 @@ const TypeInfo& info() {
   return info;
 }
 
-struct Roughness {
-  float x, y;
-};
-Roughness roughness(const Arguments& arguments) {
-  const bool has_u = arguments.given("alpha_u"), has_v = arguments.given("alpha_v");
-  if (!has_u && !has_v) {
-    const float alpha = float(arguments.number("alpha"));
-    return {alpha, alpha};
+RoughFacets facets_of(const BsdfInputs& inputs) {
+  const Arguments& arguments = inputs.arguments;
+  const auto kind = arguments.text("distribution") == "ggx" ? RoughFacets::Kind::ggx
+                                                            : RoughFacets::Kind::beckmann;
+  const bool visible = arguments.boolean("sample_visible");
+  auto u = inputs.texture("alpha_u"), v = inputs.texture("alpha_v");
+  if (!u && !v) {
+    auto alpha = inputs.texture("alpha");
+    return {kind, alpha, alpha, visible};
   }
   if (arguments.given("alpha"))
     throw Error(ErrorKind::input, "'alpha' is given together with 'alpha_u' or 'alpha_v'",
                 "keep alpha or both of the others", arguments.place_of("alpha"));
-  if (!has_u || !has_v)
-    throw Error(
-        ErrorKind::input,
-        has_u ? "'alpha_u' is given without 'alpha_v'" : "'alpha_v' is given without 'alpha_u'",
-        "give both, or alpha alone", arguments.place_of(has_u ? "alpha_u" : "alpha_v"));
-  return {float(arguments.number("alpha_u")), float(arguments.number("alpha_v"))};
+  if (!u || !v)
+    throw Error(ErrorKind::input,
+                u ? "'alpha_u' is given without 'alpha_v'" : "'alpha_v' is given without 'alpha_u'",
+                "give both, or alpha alone", arguments.place_of(u ? "alpha_u" : "alpha_v"));
+  // Isotropic facets are told by one texture for both.
+  if (u->is_constant() && v->is_constant() && u->mean() == v->mean()) v = u;
+  return {kind, std::move(u), std::move(v), visible};
 }
 
 std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
-  using Kind = MicrofacetDistribution::Kind;
-  const Arguments& arguments = inputs.arguments;
-  const Kind kind = arguments.text("distribution") == "ggx" ? Kind::ggx : Kind::beckmann;
-  const Roughness alpha = roughness(arguments);
-  const MicrofacetDistribution facets(kind, alpha.x, alpha.y, arguments.boolean("sample_visible"));
-  return std::make_shared<RoughConductor>(facets, conductor_ior(arguments),
+  return std::make_shared<RoughConductor>(facets_of(inputs), conductor_ior(inputs.arguments),
                                           inputs.texture("specular_reflectance"));
 }
 

@@ -7,13 +7,25 @@
 
 namespace kaustik {
 
-/// Where a texture is looked up.
+/// Where a texture is looked up: a point with the footprint of the ray that asks, a disk as large
+/// as the ellipse that the ray's cone cuts out of the surface (its long axis is not followed).
 struct TextureCoordinates {
-  Vec2f uv;
-  float footprint = 0;  ///< width of the ray's footprint in uv; 0: a point
+  Vec2f uv{0, 0};
+  Vec2f uv_width{0, 0};     ///< extent of the footprint along u and v, in uv; 0: a point
+  Vec3f position{0, 0, 0};  ///< m, in the space where the shape was described: the world, or that
+                            ///< of its shape group
+  Vec3f normal{0, 0, 0};    ///< geometric, in the same space
+  float width = 0;          ///< of the footprint, m, in the same space; 0: a point
 };
 
-/// A value that varies over a surface. Immutable.
+/// How a height changes from place to place, m per unit of uv and m per m.
+struct HeightGradient {
+  Vec2f uv{0, 0};
+  Vec3f position{0, 0, 0};
+};
+
+/// A value that varies over a surface, or in space. Immutable. All answers are means over the
+/// footprint, or near to that.
 class Texture {
  public:
   virtual ~Texture() = default;
@@ -22,18 +34,32 @@ class Texture {
   virtual float maximum() const = 0;
   /// Whether eval() gives the same everywhere.
   virtual bool is_constant() const { return false; }
-  /// Mean over the uv square, for importance and previews.
+  /// Mean over the uv square, for importance and previews; of textures in space an estimate, good
+  /// to about a hundredth of the span of their colours, of the mean over a large volume.
   virtual Spectrum mean() const = 0;
+
+  /// The value as one number, for parameters that are no colours: the luminance, as in Mitsuba.
+  float scalar(const TextureCoordinates& at) const;
+  /// Gradient of the height, m, of the relief that goes with the texture; for textures that know of
+  /// none the height is scalar().
+  virtual HeightGradient height_gradient(const TextureCoordinates& at) const = 0;
 };
+
+/// Weighted by the eye's sensitivity, such that white of 1 gives 1.
+float luminance_of(const Spectrum& color);
 
 /// A texture of one value.
 std::shared_ptr<const Texture> make_constant_texture(const Spectrum& value);
+
+/// Mean of eval() over `count` points in a cube with sides of `extent` m about the origin, which is
+/// also the uv square that many times.
+Spectrum sampled_mean(const Texture& texture, float extent, int count = 4096);
 
 struct TextureType {
   const TypeInfo& info;
   std::shared_ptr<const Texture> (*create)(const Arguments&);
 };
-/// "bitmap", "checkerboard".
+/// "bitmap", "checkerboard", "noise", "marble", "wood", "tiles", "waves".
 const std::vector<TextureType>& texture_types();
 
 }  // namespace kaustik

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "kaustik/material/bsdf_kinds.h"
 
 namespace kaustik {
@@ -5,13 +7,32 @@ namespace {
 
 Vec3f mirrored(const Vec3f& w) { return {w.x, w.y, -w.z}; }
 
+/// The relief of the back, as high above it as it would be above the front.
+class BackRelief final : public Relief {
+ public:
+  explicit BackRelief(const Relief& front) : front_(front) {}
+  Vec3f normal(const ReliefPoint& at) const override {
+    return reflect(front_.normal(at), at.normal);
+  }
+
+ private:
+  const Relief& front_;
+};
+
 /// A bsdf on each side; on the back in a frame whose z axis is turned round.
 class Twosided final : public Bsdf {
  public:
   Twosided(std::shared_ptr<const Bsdf> front, std::shared_ptr<const Bsdf> back)
-      : front_(std::move(front)), back_(std::move(back)) {}
+      : front_(std::move(front)), back_(std::move(back)) {
+    if (const Relief* relief = back_->relief(true)) back_relief_.emplace(*relief);
+  }
 
   Lobes lobes() const override { return front_->lobes() | back_->lobes(); }
+  SurfaceNeeds needs() const override { return front_->needs() | back_->needs(); }
+  const Relief* relief(bool front) const override {
+    if (front) return front_->relief(true);
+    return back_relief_ ? &*back_relief_ : nullptr;
+  }
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                 Lobes lobes) const override {
@@ -40,6 +61,7 @@ class Twosided final : public Bsdf {
 
  private:
   std::shared_ptr<const Bsdf> front_, back_;
+  std::optional<BackRelief> back_relief_;
 };
 
 const TypeInfo& info() {

@@ -12,7 +12,7 @@ namespace {
 SurfacePoint free_point(const Vec3f& position) {
   SurfacePoint point;
   point.position = position;
-  point.ng = point.ns = point.dpdu = Vec3f(0, 0, 0);
+  point.ng = point.ns = Vec3f(0, 0, 0);
   point.uv = Vec2f(0, 0);
   return point;
 }

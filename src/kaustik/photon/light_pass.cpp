@@ -27,9 +27,11 @@ struct PhotonList {
     const float cos_geometric = dot(vertex.wo(), ng);
     const float cos_shading = dot(vertex.wo(), vertex.normal());
     if (!(std::fabs(cos_geometric) > 0)) return;
-    // Density on the surface counts flux by the geometric cosine, shading by the other.
-    const Spectrum flux =
-        at.state.throughput * (scale * std::fabs(cos_shading) / std::fabs(cos_geometric));
+    // Density on the surface counts flux by the geometric cosine, shading by the other. Normals of
+    // a relief change within the disk of an estimate, so that has to use its own.
+    const float factor =
+        vertex.has_relief() ? 1.0f : std::fabs(cos_shading) / std::fabs(cos_geometric);
+    const Spectrum flux = at.state.throughput * (scale * factor);
     Photon photon;
     for (int lane = 0; lane < Spectrum::lane_count; ++lane) photon.flux[size_t(lane)] = flux[lane];
     photon.distance = at.distance;

@@ -96,7 +96,8 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   const Lobes asked = lobes & vertex.lobes();
   const Vec3f side = vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
   if (!any(asked)) return {};
-  if (asked == Lobes::diffuse && !vertex.bsdf().transmits()) {
+  const bool is_opaque_matt = asked == Lobes::diffuse && !vertex.bsdf().transmits();
+  if (is_opaque_matt && !vertex.has_relief()) {
     DensityEstimate estimate = irradiance(vertex.position(), side, settings);
     estimate.value *= vertex.diffuse_value();
     return estimate;
@@ -112,12 +113,15 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   estimate.radius = std::sqrt(disk.radius_sq);
   if (disk.count == 0 || !std::isfinite(disk.radius_sq) || !(disk.radius_sq > 0)) return estimate;
   const KernelWeight weight(settings, disk.radius_sq);
+  const Spectrum diffuse = is_opaque_matt ? vertex.diffuse_value() : Spectrum();
   for (size_t i = 0; i < disk.count; ++i) {
     const uint32_t index = neighbors.index(i);
     const Photon& photon = tree().data(index);
     const Vec3f wi = photon.incident_direction(tree().key(index), vertex.position());
-    estimate.value +=
-        vertex.eval(wi, asked) * photon.flux_spectrum() * weight(neighbors.distance_sq(i));
+    const Spectrum f = is_opaque_matt ? diffuse : vertex.eval(wi, asked);
+    const float share = weight(neighbors.distance_sq(i)) *
+                        (vertex.has_relief() ? vertex.irradiance_factor(wi) : 1.0f);
+    estimate.value += f * photon.flux_spectrum() * share;
   }
   return estimate;
 }

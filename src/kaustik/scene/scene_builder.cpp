@@ -54,6 +54,21 @@ bool has_all_required(const Arguments& arguments) {
                      [&](const Parameter& p) { return !p.required || arguments.has(p.name); });
 }
 
+/// The parameter that a texture `name` stands for; null if there is none. Where a texture is all
+/// that can be given, it may have any name, as in Mitsuba's bump maps.
+const Parameter* texture_parameter(const TypeInfo& info, const std::string& name) {
+  const Parameter* only = nullptr;
+  int count = 0;
+  for (const Parameter& row : info.parameters) {
+    if (!row.accepts_texture) continue;
+    if (row.name == name) return &row;
+    only = &row;
+    ++count;
+  }
+  const bool is_free = count == 1 && std::holds_alternative<std::monostate>(only->default_value);
+  return is_free ? only : nullptr;
+}
+
 /// Where an object names its file; without one its own place.
 Place file_place(const Arguments& arguments) {
   return arguments.info().find("filename") ? arguments.place_of("filename") : arguments.place();
@@ -288,8 +303,8 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
       nested.push_back(make_bsdf(child.object));
       if (!nested.back()) return nullptr;
     } else if (child.object->family == "texture") {
-      const Parameter* parameter = type->info.find(child.name);
-      if (!parameter || !parameter->accepts_texture) {
+      const Parameter* parameter = texture_parameter(type->info, child.name);
+      if (!parameter) {
         std::vector<std::string> valid;
         for (const Parameter& row : type->info.parameters)
           if (row.accepts_texture) valid.push_back(row.name);
@@ -297,8 +312,12 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
                       suggest(child.name, valid), child.object->place);
         continue;
       }
-      textures[child.name] = make_texture(child.object);
-      if (!textures[child.name]) return nullptr;
+      auto& texture = textures[parameter->name];
+      if (texture)
+        problems_.add(fmt::format("bsdf '{}' has a second texture '{}'", object.type, child.name),
+                      "keep one", child.object->place);
+      texture = make_texture(child.object);
+      if (!texture) return nullptr;
     }
   }
   if (int(nested.size()) < type->minimum_nested || int(nested.size()) > type->maximum_nested) {
@@ -311,7 +330,7 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
   const auto texture = [&](std::string_view name) -> std::shared_ptr<const Texture> {
     const auto found = textures.find(name);
     if (found != textures.end()) return found->second;
-    return make_constant_texture(reflectance_spectrum(arguments.color(name)));
+    return constant_texture_of(arguments, name);
   };
   std::shared_ptr<const Bsdf> bsdf;
   collecting(object.place, [&] { bsdf = type->create({arguments, nested, texture}); });

@@ -20,6 +20,7 @@ bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, LightPath& pa
   if (sample.event == Lobes::none || !(u_choice.y < survival)) return false;
   path.state.throughput *= sample.weight * (1 / survival);
   path.state.pdf_forward = sample.event == Lobes::delta ? 0 : sample.pdf_solid_angle;
+  path.state.footprint.scatter(sample.event, sample.pdf_solid_angle);
   path.state.depth += 1;
   path.path_class.add_event(sample.event);
   path.state.medium = vertex.medium_toward(sample.wi, path.state.medium);
@@ -60,6 +61,8 @@ MediumPassage pass_medium(LightPath& path, float limit, const LightPathLimits& l
   const Vec3f wo = -path.ray.direction;
   const Vec3f wi = medium.phase().sample(wo, u);
   path.state.pdf_forward = medium.phase().eval(wo, wi);
+  path.state.footprint.travel(flight.distance);
+  path.state.footprint.scatter(Lobes::diffuse, path.state.pdf_forward);
   path.state.depth += 1;
   path.path_class.add_medium_event();
   path.ray = {path.ray.origin + path.ray.direction * flight.distance, wi, infinity};

@@ -140,7 +140,8 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
       }
     }
     if (!(hit.t < infinity)) return ended(counts.escaped);
-    vertex.meet(scene, path.ray, hit, TransportMode::flux);
+    path.state.footprint.travel(hit.t);
+    vertex.meet(scene, path.ray, hit, TransportMode::flux, path.state.footprint);
     path.distance += hit.t;
     if (vertex.is_null()) {
       path.state.medium = vertex.medium_toward(path.ray.direction, path.state.medium);

@@ -2,6 +2,7 @@
 #include "kaustik/base/spectrum.h"
 #include "kaustik/material/bsdf.h"
 #include "kaustik/medium/medium.h"
+#include "kaustik/transport/footprint.h"
 
 namespace kaustik {
 
@@ -10,8 +11,7 @@ struct PathState {
   Spectrum throughput{1.0f};  ///< radiance factor, or flux in W on light paths
   TransportMode mode = TransportMode::radiance;
   const Medium* medium = nullptr;  ///< that the next segment runs through; null: vacuum
-  float footprint = 0;             ///< width of the path's beam at the last vertex, m
-  float spread = 0;                ///< growth of the footprint per metre
+  Footprint footprint;
   bool single_wavelength = false;  ///< dispersed: only the first lane is valid (spectral mode)
   float pdf_forward = 0;     ///< density per solid angle of the last direction as sampled; 0: delta
   float pdf_reverse = 0;     ///< density of the same segment sampled from its other end; 0: unknown

@@ -1,9 +1,11 @@
 #include "kaustik/transport/vertex.h"
 
+#include "kaustik/transport/visible_normal.h"
+
 namespace kaustik {
 
 void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
-                         float footprint) {
+                         const Footprint& footprint) {
   point_ = scene.tracer().surface_point(ray, hit);
   wo_ = -ray.direction;
   const Surface& surface = scene.surface(point_.shape);
@@ -12,7 +14,6 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
   lobes_ = bsdf_->lobes();
   light_ = surface.light;
   context_.texture.uv = point_.uv;
-  context_.texture.footprint = footprint;
   context_.mode = mode;
   frame_ = Frame(point_.ns);
   wo_local_ = frame_.to_local(wo_);
@@ -22,7 +23,66 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
     frame_ = Frame(point_.ng);
     wo_local_ = frame_.to_local(wo_);
   }
+  has_relief_ = false;
+  if (const SurfaceNeeds asked = bsdf_->needs(); asked != SurfaceNeeds::none) {
+    const UvDerivatives derivatives = scene.tracer().uv_derivatives(point_);
+    locate_texture(scene, footprint, derivatives);
+    if (needs(asked, SurfaceNeeds::relief)) bend_normal(scene, footprint, derivatives);
+    if (needs(asked, SurfaceNeeds::tangent)) turn_to_tangent(derivatives.dpdu);
+  }
   side_sign_ = dot(frame_.z, point_.ng) < 0 ? -1.0f : 1.0f;
+}
+
+void SurfaceVertex::locate_texture(const Scene& scene, const Footprint& footprint,
+                                   const UvDerivatives& derivatives) {
+  TextureCoordinates& at = context_.texture;
+  at.position = point_.position;
+  at.normal = point_.ng;
+  // The ellipse that the beam cuts out of the surface, as a disk of the same area.
+  at.width = footprint.width / std::sqrt(std::max(abs_dot(wo_, point_.ng), 0.01f));
+  // At the poles of a sphere u goes all round in no way at all.
+  constexpr float largest_width = 16;
+  const auto in_uv = [&](const Vec3f& derivative) {
+    const float metres = length(derivative);
+    return metres > 0 ? std::min(at.width / metres, largest_width) : 0.0f;
+  };
+  at.uv_width = {in_uv(derivatives.dpdu), in_uv(derivatives.dpdv)};
+  if (point_.instance == no_instance) return;
+  const Transform shape_from_world =
+      scene.tracer().geometry().instances[point_.instance].world_from_group.inverse();
+  at.position = shape_from_world.point(at.position);
+  at.normal = normalize(shape_from_world.normal(at.normal));
+  at.width *= float(std::cbrt(std::fabs(shape_from_world.determinant3())));
+}
+
+void SurfaceVertex::bend_normal(const Scene& scene, const Footprint& footprint,
+                                const UvDerivatives& derivatives) {
+  const Relief* relief = bsdf_->relief(on_front());
+  if (!relief) return;
+  ReliefPoint at{context_.texture, point_.ns, derivatives.dpdu, derivatives.dpdv};
+  if (footprint.scattered) {
+    at.texture.width = 0;
+    at.texture.uv_width = {0, 0};
+  }
+  if (point_.instance != no_instance)
+    at.world_from_shape = &scene.tracer().geometry().instances[point_.instance].world_from_group;
+  has_relief_ = true;
+  frame_ = Frame(visible_normal(relief->normal(at), point_.ng, wo_, any(lobes_ & Lobes::specular)));
+  wo_local_ = frame_.to_local(wo_);
+}
+
+void SurfaceVertex::turn_to_tangent(const Vec3f& dpdu) {
+  const Vec3f along_u = dpdu - frame_.z * dot(frame_.z, dpdu);
+  const float along_u_length = length(along_u);
+  if (!(along_u_length > 0)) return;
+  frame_.x = along_u * (1 / along_u_length);
+  frame_.y = cross(frame_.z, frame_.x);
+  wo_local_ = frame_.to_local(wo_);
+}
+
+float SurfaceVertex::irradiance_factor(const Vec3f& wi) const {
+  const float cosine = dot(wi, frame_.z), geometric = dot(wi, point_.ng);
+  return cosine * geometric * side_sign_ > 0 ? cosine / geometric * side_sign_ : 0.0f;
 }
 
 float SurfaceVertex::adjoint_factor(const Vec3f& wi, const Vec3f& wi_local) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include "kaustik/scene/scene.h"
+#include "kaustik/transport/footprint.h"
 
 namespace kaustik {
 
@@ -8,14 +9,14 @@ namespace kaustik {
 class SurfaceVertex {
  public:
   SurfaceVertex() = default;
-  /// `mode` tells what the path carries; `footprint` is its width at the point, m.
+  /// `mode` tells what the path carries.
   SurfaceVertex(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
-                float footprint = 0) {
+                const Footprint& footprint = {}) {
     meet(scene, ray, hit, mode, footprint);
   }
   /// Makes this the vertex of another hit.
   void meet(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
-            float footprint = 0);
+            const Footprint& footprint = {});
 
   const SurfacePoint& point() const { return point_; }
   const Vec3f& position() const { return point_.position; }
@@ -41,8 +42,15 @@ class SurfaceVertex {
   Spectrum eval_cosine(const Vec3f& wi, Lobes lobes) const;
   /// f alone.
   Spectrum eval(const Vec3f& wi, Lobes lobes) const;
-  /// f of the diffuse lobe, which is the same for all directions on wo's side.
+  /// f of the diffuse lobe, which is the same for all directions on wo's side …
   Spectrum diffuse_value() const { return eval(facing_normal(), Lobes::diffuse); }
+  /// … and for all on the other side.
+  Spectrum diffuse_value_through() const { return eval(-facing_normal(), Lobes::diffuse); }
+  /// Whether a bump or normal map bends the normal.
+  bool has_relief() const { return has_relief_; }
+  /// What turns irradiance from wi, measured by the geometric normal as photons do, into that by
+  /// the shading normal; zero where the two disagree on the side of wi.
+  float irradiance_factor(const Vec3f& wi) const;
   /// The shading normal on wo's side.
   Vec3f facing_normal() const { return wo_local_.z < 0 ? -frame_.z : frame_.z; }
   float pdf(const Vec3f& wi, Lobes lobes) const;
@@ -57,6 +65,11 @@ class SurfaceVertex {
     return dot(wi, point_.ng) * wi_local.z * side_sign_ > 0;
   }
   float adjoint_factor(const Vec3f& wi, const Vec3f& wi_local) const;
+  void locate_texture(const Scene& scene, const Footprint& footprint,
+                      const UvDerivatives& derivatives);
+  void bend_normal(const Scene& scene, const Footprint& footprint,
+                   const UvDerivatives& derivatives);
+  void turn_to_tangent(const Vec3f& dpdu);
 
   SurfacePoint point_;
   const Surface* surface_ = nullptr;
@@ -67,6 +80,7 @@ class SurfaceVertex {
   Frame frame_;
   Vec3f wo_, wo_local_;
   float side_sign_ = 1;
+  bool has_relief_ = false;
 };
 
 }  // namespace kaustik

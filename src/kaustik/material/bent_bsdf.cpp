@@ -1,0 +1,60 @@
+#include "kaustik/material/bent_bsdf.h"
+
+namespace kaustik {
+namespace {
+
+class BentBsdf final : public Bsdf {
+ public:
+  BentBsdf(std::shared_ptr<const Bsdf> nested, std::unique_ptr<const Relief> relief)
+      : nested_(std::move(nested)), relief_(std::move(relief)) {}
+
+  Lobes lobes() const override { return nested_->lobes(); }
+  bool transmits() const override { return nested_->transmits(); }
+  bool is_null() const override { return nested_->is_null(); }
+  SurfaceNeeds needs() const override {
+    return nested_->needs() | SurfaceNeeds::texture | SurfaceNeeds::relief;
+  }
+  const Relief* relief(bool) const override { return relief_.get(); }
+
+  Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
+                Lobes lobes) const override {
+    return nested_->eval(context, wo, wi, lobes);
+  }
+  float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
+            Lobes lobes) const override {
+    return nested_->pdf(context, wo, wi, lobes);
+  }
+  BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
+                    Lobes lobes) const override {
+    return nested_->sample(context, wo, u_lobe, u, lobes);
+  }
+  Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
+    return nested_->albedo(context, wo, lobes);
+  }
+
+ private:
+  std::shared_ptr<const Bsdf> nested_;
+  std::unique_ptr<const Relief> relief_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Bsdf> make_bent_bsdf(const BsdfInputs& inputs,
+                                           std::unique_ptr<const Relief> relief) {
+  const std::shared_ptr<const Bsdf>& nested = inputs.nested.front();
+  if (nested->relief(true) || nested->relief(false))
+    throw Error(ErrorKind::input,
+                "bsdf '" + inputs.arguments.info().name + "' holds another bump or normal map",
+                "keep one of the two", inputs.arguments.place());
+  return std::make_shared<BentBsdf>(nested, std::move(relief));
+}
+
+std::shared_ptr<const Texture> relief_texture(const BsdfInputs& inputs, const std::string& name) {
+  auto texture = inputs.texture(name);
+  if (!texture)
+    throw Error(ErrorKind::input, "bsdf '" + inputs.arguments.info().name + "' has no texture",
+                "put <texture name=\"" + name + "\" type=…> into it", inputs.arguments.place());
+  return texture;
+}
+
+}  // namespace kaustik

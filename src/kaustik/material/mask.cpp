@@ -1,0 +1,88 @@
+#include "kaustik/material/bsdf_kinds.h"
+
+namespace kaustik {
+namespace {
+
+/// A surface with holes: light meets the nested bsdf by the chance `opacity` and goes straight on
+/// otherwise, a delta event.
+class Mask final : public Bsdf {
+ public:
+  Mask(std::shared_ptr<const Bsdf> nested, std::shared_ptr<const Texture> opacity)
+      : nested_(std::move(nested)), opacity_(std::move(opacity)) {}
+
+  Lobes lobes() const override { return nested_->lobes() | Lobes::delta; }
+  bool transmits() const override { return true; }
+  SurfaceNeeds needs() const override { return nested_->needs() | texture_needs({opacity_.get()}); }
+  const Relief* relief(bool front) const override { return nested_->relief(front); }
+
+  Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
+                Lobes lobes) const override {
+    return nested_->eval(context, wo, wi, lobes) * opacity(context);
+  }
+
+  float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
+            Lobes lobes) const override {
+    return nested_->pdf(context, wo, wi, lobes) * nested_chance(context, lobes);
+  }
+
+  BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
+                    Lobes lobes) const override {
+    const float chance = nested_chance(context, lobes), share = opacity(context);
+    BsdfSample sample;
+    if (u_lobe < chance) {
+      sample = nested_->sample(context, wo, u_lobe / chance, u, lobes);
+      sample.weight *= share / chance;
+      sample.pdf_solid_angle *= chance;
+      return sample;
+    }
+    if (!any(lobes & Lobes::delta) || !(share < 1)) return sample;
+    sample.wi = -wo;
+    sample.weight = Spectrum(1, 1, 1, 0) * ((1 - share) / (1 - chance));
+    sample.pdf_solid_angle = 1 - chance;
+    sample.event = Lobes::delta;
+    sample.transmission = true;
+    return sample;
+  }
+
+  Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
+    const float share = opacity(context);
+    Spectrum sum = nested_->albedo(context, wo, lobes) * share;
+    if (any(lobes & Lobes::delta)) sum += Spectrum(1, 1, 1, 0) * (1 - share);
+    return sum;
+  }
+
+ private:
+  /// What a texture says beyond 1 is 1.
+  float opacity(const BsdfContext& context) const {
+    return std::clamp(opacity_->scalar(context.texture), 0.0f, 1.0f);
+  }
+  /// With which sample() asks the nested bsdf: the opacity, but certain where holes don't count.
+  float nested_chance(const BsdfContext& context, Lobes lobes) const {
+    if (!any(lobes & nested_->lobes())) return 0;
+    return any(lobes & Lobes::delta) ? opacity(context) : 1.0f;
+  }
+
+  std::shared_ptr<const Bsdf> nested_;
+  std::shared_ptr<const Texture> opacity_;
+};
+
+const TypeInfo& info() {
+  static const TypeInfo info{
+      "bsdf",
+      "mask",
+      "Puts holes into the nested bsdf; light that passes them counts as through clear glass.",
+      {number_parameter("opacity", 0.5, "Share of the surface that is there.")
+           .range(0, 1)
+           .textured()}};
+  return info;
+}
+
+std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+  return std::make_shared<Mask>(inputs.nested.front(), inputs.texture("opacity"));
+}
+
+}  // namespace
+
+BsdfType mask_type() { return {info(), 1, 1, create}; }
+
+}  // namespace kaustik

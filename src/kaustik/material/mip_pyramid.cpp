@@ -1,0 +1,105 @@
+#include "kaustik/material/mip_pyramid.h"
+
+namespace kaustik {
+namespace {
+
+/// Texel index inside [0, count) for any integer.
+int wrapped_index(int i, int count, Wrap wrap) {
+  if (wrap == Wrap::clamp) return std::clamp(i, 0, count - 1);
+  const int period = wrap == Wrap::mirror ? 2 * count : count;
+  int rest = i % period;
+  if (rest < 0) rest += period;
+  return rest < count ? rest : period - 1 - rest;
+}
+
+/// Texels of a row of `from` that make texel `i` of a row of `to`, by the lengths that they share.
+template <typename Visit>
+void visit_parts(int i, int to, int from, const Visit& visit) {
+  const double ratio = double(from) / double(to);
+  const double begin = i * ratio, end = (i + 1) * ratio;
+  for (int j = int(begin); j < from && double(j) < end; ++j) {
+    const double part = std::min(end, j + 1.0) - std::max(begin, double(j));
+    if (part > 0) visit(j, float(part / ratio));
+  }
+}
+
+}  // namespace
+
+MipPyramid::MipPyramid(int width, int height, std::vector<Spectrum> texels, Wrap wrap)
+    : wrap_(wrap) {
+  levels_.push_back({width, height, std::move(texels)});
+  while (levels_.back().width > 1 || levels_.back().height > 1) {
+    const Level& fine = levels_.back();
+    Level coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
+    std::vector<Spectrum> narrow(size_t(coarse.width) * size_t(fine.height));
+    for (int y = 0; y < fine.height; ++y)
+      for (int x = 0; x < coarse.width; ++x)
+        visit_parts(x, coarse.width, fine.width, [&](int from, float share) {
+          narrow[size_t(y) * size_t(coarse.width) + size_t(x)] +=
+              fine.texels[size_t(y) * size_t(fine.width) + size_t(from)] * share;
+        });
+    coarse.texels.resize(size_t(coarse.width) * size_t(coarse.height));
+    for (int y = 0; y < coarse.height; ++y)
+      visit_parts(y, coarse.height, fine.height, [&](int from, float share) {
+        for (int x = 0; x < coarse.width; ++x)
+          coarse.texels[size_t(y) * size_t(coarse.width) + size_t(x)] +=
+              narrow[size_t(from) * size_t(coarse.width) + size_t(x)] * share;
+      });
+    levels_.push_back(std::move(coarse));
+  }
+}
+
+Vec2f MipPyramid::wrapped(const Vec2f& uv) const {
+  // Far away the coordinates have lost the fraction anyway; this keeps them in the range of int.
+  const auto in_period = [&](float x) {
+    return wrap_ == Wrap::clamp ? std::clamp(x, -1.0f, 2.0f) : x - 2 * std::floor(0.5f * x);
+  };
+  return {in_period(uv.x), in_period(uv.y)};
+}
+
+const Spectrum& MipPyramid::texel(const Level& level, int x, int y) const {
+  return level.texels[size_t(wrapped_index(y, level.height, wrap_)) * size_t(level.width) +
+                      size_t(wrapped_index(x, level.width, wrap_))];
+}
+
+const Spectrum& MipPyramid::nearest(const Vec2f& uv) const {
+  const Vec2f p = wrapped(uv);
+  const Level& level = levels_.front();
+  return texel(level, int(std::floor(p.x * float(level.width))),
+               int(std::floor(p.y * float(level.height))));
+}
+
+Spectrum MipPyramid::bilinear(const Level& level, const Vec2f& uv) const {
+  const Vec2f p = wrapped(uv);
+  const float x = p.x * float(level.width) - 0.5f, y = p.y * float(level.height) - 0.5f;
+  const float left = std::floor(x), upper = std::floor(y);
+  const float fx = x - left, fy = y - upper;
+  const int ix = int(left), iy = int(upper);
+  const Spectrum a = texel(level, ix, iy) * (1 - fx) + texel(level, ix + 1, iy) * fx;
+  const Spectrum b = texel(level, ix, iy + 1) * (1 - fx) + texel(level, ix + 1, iy + 1) * fx;
+  return a * (1 - fy) + b * fy;
+}
+
+float MipPyramid::level_of(const Vec2f& uv_width) const {
+  const float texels = std::max(uv_width.x * float(levels_.front().width),
+                                uv_width.y * float(levels_.front().height));
+  if (!(texels > 1)) return 0;
+  return std::min(std::log2(texels), float(levels_.size() - 1));
+}
+
+Spectrum MipPyramid::filtered(const Vec2f& uv, const Vec2f& uv_width) const {
+  const float level = level_of(uv_width);
+  const auto lower = size_t(level);
+  const Spectrum fine = bilinear(levels_[lower], uv);
+  const float rest = level - float(lower);
+  if (rest == 0) return fine;
+  return fine * (1 - rest) + bilinear(levels_[lower + 1], uv) * rest;
+}
+
+Vec2f MipPyramid::texel_size(const Vec2f& uv_width) const {
+  const float texels = std::exp2(level_of(uv_width));
+  return {std::min(1.0f, texels / float(levels_.front().width)),
+          std::min(1.0f, texels / float(levels_.front().height))};
+}
+
+}  // namespace kaustik

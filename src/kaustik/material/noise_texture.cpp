@@ -1,0 +1,69 @@
+#include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/noise.h"
+#include "kaustik/material/procedural_parameters.h"
+#include "kaustik/material/space_transform.h"
+
+namespace kaustik {
+namespace {
+
+/// Clouds between two colours; as a relief, rough ground.
+class NoiseTexture final : public Texture {
+ public:
+  explicit NoiseTexture(const Arguments& arguments)
+      : color0_(color_argument(arguments, "color0")),
+        color1_(color_argument(arguments, "color1")),
+        frequency_(float(1 / arguments.number("scale"))),
+        amplitude_(float(arguments.number("amplitude"))),
+        noise_{int(arguments.integer("octaves")), float(arguments.number("roughness")),
+               uint32_t(arguments.integer("seed"))},
+        space_(arguments.transform("to_world")),
+        mean_(sampled_mean(*this, float(32 * arguments.number("scale")))) {}
+
+  Spectrum eval(const TextureCoordinates& at) const override {
+    return mixed(color0_, color1_, 0.5f + 0.8f * noise(at).value);
+  }
+  float maximum() const override { return std::max(color0_.max_lane(), color1_.max_lane()); }
+  Spectrum mean() const override { return mean_; }
+  HeightGradient height_gradient(const TextureCoordinates& at) const override {
+    return {{0, 0}, space_.gradient(noise(at).gradient * (amplitude_ * frequency_))};
+  }
+
+ private:
+  NoiseValue noise(const TextureCoordinates& at) const {
+    return noise_(space_.point(at) * frequency_, space_.width(at) * frequency_);
+  }
+
+  Spectrum color0_, color1_;
+  float frequency_, amplitude_;
+  FractalNoise noise_;
+  SpaceTransform space_;
+  Spectrum mean_;
+};
+
+const TypeInfo& info() {
+  static const TypeInfo info{
+      "texture",
+      "noise",
+      "Clouds between two colours, in space; as a bump map rough ground.",
+      {color_parameter("color0", 0, "Where the noise is low.").range(0, 1),
+       color_parameter("color1", 1, "Where it is high.").range(0, 1),
+       number_parameter("scale", 0.1, "Size of the largest clouds.").range(1e-6, 1e6).in("m"),
+       integer_parameter("octaves", 6, "Levels of detail, each twice as fine.").range(1, 16),
+       number_parameter("roughness", 0.5, "Strength of a level over that of the one before.")
+           .range(0, 1),
+       number_parameter("amplitude", 0.002, "Height of the relief, in bump maps.")
+           .range(0, 1e6)
+           .in("m"),
+       seed_parameter(), texture_to_world_parameter()}};
+  return info;
+}
+
+std::shared_ptr<const Texture> create(const Arguments& arguments) {
+  return std::make_shared<NoiseTexture>(arguments);
+}
+
+}  // namespace
+
+TextureType noise_type() { return {info(), create}; }
+
+}  // namespace kaustik

@@ -1,0 +1,52 @@
+#include "kaustik/material/bent_bsdf.h"
+#include "kaustik/material/bsdf_kinds.h"
+
+namespace kaustik {
+namespace {
+
+/// Normals given by a picture: red, green and blue stand for −1 to 1 along u, across u and along
+/// the normal.
+class NormalRelief final : public Relief {
+ public:
+  explicit NormalRelief(std::shared_ptr<const Texture> texture) : texture_(std::move(texture)) {}
+
+  Vec3f normal(const ReliefPoint& at) const override {
+    const Spectrum c = texture_->eval(at.texture);
+    const Vec3f along_u = at.dpdu - at.normal * dot(at.normal, at.dpdu);
+    const float length_u = length(along_u);
+    if (!(length_u > 0)) return at.normal;
+    const Vec3f x = along_u * (1 / length_u), y = cross(at.normal, x);
+    const Vec3f n =
+        x * (2 * c[0] - 1) + y * (2 * c[1] - 1) + at.normal * std::max(2 * c[2] - 1, 0.0f);
+    const float n_length = length(n);
+    // Normals that cancel over the footprint leave the surface's own.
+    return n_length > 1e-4f ? n * (1 / n_length) : at.normal;
+  }
+
+ private:
+  std::shared_ptr<const Texture> texture_;
+};
+
+const TypeInfo& info() {
+  static const TypeInfo info{
+      "bsdf",
+      "normalmap",
+      "Bends the normals of the nested bsdf to those of a picture.",
+      {optional(color_parameter("normalmap", 0.5,
+                                "Normals; a bitmap for this has to be read with raw = true."))
+           .textured(),
+       ignored_parameter("flip_invalid_normals", ParameterKind::boolean),
+       ignored_parameter("use_shadowing_function", ParameterKind::boolean)}};
+  return info;
+}
+
+std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+  return make_bent_bsdf(inputs,
+                        std::make_unique<NormalRelief>(relief_texture(inputs, "normalmap")));
+}
+
+}  // namespace
+
+BsdfType normalmap_type() { return {info(), 1, 1, create}; }
+
+}  // namespace kaustik

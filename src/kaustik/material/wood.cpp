@@ -1,0 +1,172 @@
+#include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/noise.h"
+#include "kaustik/material/procedural_parameters.h"
+#include "kaustik/material/space_transform.h"
+
+namespace kaustik {
+namespace {
+
+float smooth_step(float from, float to, float x) {
+  const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+/// Wood whose grain runs along x: year rings about the axis of the trunk, fibres and pores along
+/// it; on request sawn into planks, each from another place of a trunk.
+class Wood final : public Texture {
+ public:
+  explicit Wood(const Arguments& arguments)
+      : early_(color_argument(arguments, "color0")),
+        late_(color_argument(arguments, "color1")),
+        ring_(float(arguments.number("ring_width"))),
+        grain_(float(arguments.number("grain"))),
+        depth_(float(arguments.number("depth"))),
+        plank_width_(float(arguments.number("plank_width"))),
+        plank_length_(float(arguments.number("plank_length"))),
+        seed_(uint32_t(arguments.integer("seed"))),
+        space_(arguments.transform("to_world")),
+        mean_(sampled_mean(*this, 64 * std::max(ring_, plank_width_))) {}
+
+  Spectrum eval(const TextureCoordinates& at) const override {
+    const Piece piece = piece_at(space_.point(at), space_.width(at));
+    return mixed(early_, late_, shade(piece, space_.width(at))) * piece.brightness;
+  }
+  float maximum() const override { return std::max(early_.max_lane(), late_.max_lane()); }
+  Spectrum mean() const override { return mean_; }
+  HeightGradient height_gradient(const TextureCoordinates& at) const override;
+
+ private:
+  /// A point in the trunk that it was sawn from.
+  struct Piece {
+    Vec3f p;                  ///< m
+    float brightness = 1;     ///< of the plank; dark in the gap beside it
+    float to_gap = infinity;  ///< distance to the plank's edge, m
+  };
+  Piece piece_at(const Vec3f& p, float width) const;
+  /// 0 early wood, 1 late wood.
+  float shade(const Piece& piece, float width) const;
+  float fibres(const Vec3f& p, float width) const;
+  float height(const Vec3f& p, float width) const;
+
+  static constexpr float gap_ = 0.0012f;  ///< between planks, m
+
+  Spectrum early_, late_;
+  float ring_, grain_, depth_, plank_width_, plank_length_;
+  uint32_t seed_;
+  SpaceTransform space_;
+  Spectrum mean_;
+};
+
+Wood::Piece Wood::piece_at(const Vec3f& p, float width) const {
+  Piece piece{p};
+  int row = 0, column = 0;
+  if (plank_width_ > 0) {
+    const float y = std::clamp(p.y / plank_width_, -1e6f, 1e6f);
+    row = int(std::floor(y));
+    const float shift = cell_random(row, 0, 1, seed_);
+    const float x = std::clamp(p.x / plank_length_ + shift, -1e6f, 1e6f);
+    column = int(std::floor(x));
+    const float fy = y - float(row), fx = x - float(column);
+    piece.to_gap =
+        std::min(std::min(fy, 1 - fy) * plank_width_, std::min(fx, 1 - fx) * plank_length_);
+    const float visible = std::max(0.0f, 1 - width / plank_width_);
+    const float tone = 0.5f + visible * (cell_random(row, column, 2, seed_) - 0.5f);
+    // A gap that is narrower than the footprint darkens its share.
+    const float covered =
+        std::clamp((0.5f * (gap_ + width) - piece.to_gap) / std::max(width, 1e-6f), 0.0f, 1.0f) *
+        std::min(1.0f, gap_ / std::max(width, gap_));
+    piece.brightness = (1 - 0.3f * tone) * (1 - 0.75f * covered);
+  }
+  // The heart of the trunk lies beside the board, so that flat and standing rings both occur.
+  const float across = cell_random(row, column, 3, seed_) - 0.5f;
+  const float below = 3 + 14 * cell_random(row, column, 4, seed_);
+  piece.p.x += 40 * cell_random(row, column, 5, seed_);
+  piece.p.y +=
+      (24 * across - (plank_width_ > 0 ? (float(row) + 0.5f) * plank_width_ / ring_ : 0)) * ring_;
+  piece.p.z += below * ring_;
+  return piece;
+}
+
+float Wood::fibres(const Vec3f& p, float width) const {
+  // Fibres are thin and long; what counts for fading is their width.
+  const float f = 5.0f / ring_;
+  const Vec3f stretched(p.x * f * 0.02f, p.y * f, p.z * f);
+  const FractalNoise noise{3, 0.7f, seed_ + 101};
+  return noise(stretched, width * f).value;
+}
+
+float Wood::shade(const Piece& piece, float width) const {
+  const Vec3f& p = piece.p;
+  const float inverse = 1 / ring_;
+  // Trunks are neither round nor straight.
+  const Vec3f slow(p.x * inverse * 0.012f, p.y * inverse * 0.09f, p.z * inverse * 0.09f);
+  const float bent = FractalNoise{3, 0.5f, seed_ + 7}(slow, 0.09f * width * inverse).value;
+  const float radius = std::hypot(p.y, p.z) * inverse + 4.5f * bent;
+  const float year = std::floor(radius), within = radius - year;
+  // Late wood gets denser through the year and ends sharply; years differ.
+  const float strength =
+      0.55f + 0.45f * cell_random(int(std::clamp(year, -1e6f, 1e6f)), 0, 9, seed_);
+  const float blur = width * inverse;
+  const float ring = smooth_step(0.1f, 0.95f, within) *
+                     (1 - smooth_step(0.94f - 0.3f * std::min(blur, 1.0f), 1.0f, within)) *
+                     strength;
+  const float visible = noise_visibility(blur);
+  const float mean_ring = 0.32f;
+  const float fine = fibres(p, width);
+  const float f = 9.0f / ring_;
+  const float pores = std::max(
+      0.0f, gradient_noise({p.x * f * 0.035f, p.y * f, p.z * f}, seed_ + 131).value - 0.3f);
+  return 0.08f + 0.75f * (mean_ring + visible * (ring - mean_ring)) +
+         grain_ * (0.9f * fine + 1.2f * noise_visibility(width * f) * pores);
+}
+
+float Wood::height(const Vec3f& p, float width) const {
+  const Piece piece = piece_at(p, width);
+  const float edge = plank_width_ > 0 ? smooth_step(0, 0.0025f, piece.to_gap) : 1.0f;
+  return depth_ * fibres(piece.p, width) + 0.0008f * edge;
+}
+
+HeightGradient Wood::height_gradient(const TextureCoordinates& at) const {
+  const Vec3f p = space_.point(at);
+  const float width = space_.width(at);
+  const float step = std::max(0.5f * width, 0.02f * ring_);
+  Vec3f gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3f a = p, b = p;
+    a[axis] -= step;
+    b[axis] += step;
+    gradient[axis] = (height(b, width) - height(a, width)) / (b[axis] - a[axis]);
+  }
+  return {{0, 0}, space_.gradient(gradient)};
+}
+
+const TypeInfo& info() {
+  static const TypeInfo info{
+      "texture",
+      "wood",
+      "Wood with its grain along x, in space, in one piece or as planks in the xy plane; as a bump "
+      "map its fibres and the gaps.",
+      {texture_color("color0", {0.48, 0.28, 0.14}, "Colour of early wood."),
+       texture_color("color1", {0.20, 0.09, 0.035}, "Colour of late wood."),
+       number_parameter("ring_width", 0.006, "Distance between year rings.")
+           .range(1e-6, 1e6)
+           .in("m"),
+       number_parameter("grain", 0.35, "Strength of fibres and pores.").range(0, 1),
+       number_parameter("depth", 0.00005, "Height of the fibres, in bump maps.")
+           .range(0, 1e6)
+           .in("m"),
+       number_parameter("plank_width", 0, "0: one piece.").range(0, 1e6).in("m"),
+       number_parameter("plank_length", 1.4, "Along x.").range(1e-6, 1e6).in("m"), seed_parameter(),
+       texture_to_world_parameter()}};
+  return info;
+}
+
+std::shared_ptr<const Texture> create(const Arguments& arguments) {
+  return std::make_shared<Wood>(arguments);
+}
+
+}  // namespace
+
+TextureType wood_type() { return {info(), create}; }
+
+}  // namespace kaustik
