@@ -6,14 +6,26 @@ namespace kaustik::scenes {
 
 Xml plain(const Vec3d& color) { return rgb({}, color); }
 
-// Until there are textures for them, stone and wood have their mean colors.
-
-Xml marble(const Vec3d& ground, const Vec3d& veins, double, int) {
-  return plain(ground * 0.75 + veins * 0.25);
+Xml marble(const Vec3d& ground, const Vec3d& veins, double distance, int seed) {
+  Xml texture = object("texture", "marble");
+  texture.add(rgb("color0", ground));
+  texture.add(rgb("color1", veins));
+  texture.add(number("scale", distance));
+  texture.add(integer("seed", seed));
+  return texture;
 }
 
-Xml masonry(const Vec3d& stone, const Vec3d&, const Vec2d&, double, double, double variation) {
-  return plain(stone * (1 - 0.5 * variation));
+Xml masonry(const Vec3d& stone, const Vec3d& joints, const Vec2d& size, double joint, double offset,
+            double variation) {
+  Xml texture = object("texture", "tiles");
+  texture.add(rgb("color", stone));
+  texture.add(rgb("joint_color", joints));
+  texture.add(number("tile_width", size.x - joint));
+  texture.add(number("tile_height", size.y - joint));
+  texture.add(number("joint", joint));
+  texture.add(number("offset", offset));
+  texture.add(number("variation", variation));
+  return texture;
 }
 
 void Materials::matt(const std::string& id, Xml color) {
@@ -32,8 +44,17 @@ void Materials::boards(const std::string& id, const BoardWood& wood, double glos
                        double exponent) {
   for (int i = 0; i < wood.along_x + wood.along_y; ++i) {
     const double tone = 0.88 + 0.12 * (i % 4);
-    const Vec3d mean = wood.early * 0.6 + wood.late * 0.4;
-    glossy(fmt::format("{}_{}", id, i), plain(mean * (0.85 * tone)), gloss, exponent);
+    Xml texture = object("texture", "wood");
+    texture.add(rgb("color0", wood.early * tone));
+    texture.add(rgb("color1", wood.late * tone));
+    texture.add(number("plank_width", wood.board_width));
+    texture.add(number("plank_length", 1000));  // the boards end where the mesh says
+    texture.add(integer("seed", i));
+    std::vector<Xml> steps;
+    if (i >= wood.along_x) steps.push_back(rotate({0, 0, 1}, 90));
+    steps.push_back(translate(wood.edge));
+    texture.add(transform(std::move(steps)));
+    glossy(fmt::format("{}_{}", id, i), std::move(texture), gloss, exponent);
   }
 }
 
@@ -42,8 +63,10 @@ void Materials::metal(const std::string& id, const std::string& material, double
       id, object("bsdf", "roughconductor", {text("material", material), number("alpha", alpha)}));
 }
 
-void Materials::cloth(const std::string& id, const Vec3d& reflectance, const Vec3d&) {
-  matt(id, reflectance);
+void Materials::cloth(const std::string& id, const Vec3d& reflectance, const Vec3d& transmittance) {
+  scene_.add(object(
+      "bsdf", "thinphong",
+      {rgb("diffuse_reflectance", reflectance), rgb("diffuse_transmittance", transmittance)}, id));
 }
 
 }  // namespace kaustik::scenes
