@@ -18,7 +18,7 @@ const std::vector<ProfileStage>& profile_stages() {
        {"9PhotonMap8radiance", "9PhotonMap10irradiance", "9PhotonMap4find", "13IrradianceMap"}},
       {"shadow rays", {"occluded"}},
       {"other rays", {"intersect", "rtcIntersect"}},
-      {"cache look-ups", {"IrradianceCache11interpolate"}},
+      {"irradiance cache", {"15IrradianceCache", "RecordOctree"}},
       {"light sampling", {"sample_direct_light", "sample_toward"}},
   };
   return stages;

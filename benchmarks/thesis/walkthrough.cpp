@@ -15,8 +15,8 @@ constexpr const char* scene_name = "cornell_spheres";
 /// Fewer photons than usual, or the dots would cover everything.
 constexpr const char* few_global = "integrator.global_photons=20000";
 constexpr const char* few_caustic = "integrator.caustic_photons=20000";
-/// Stops; white at a radiance of a sixteenth of the lamp's.
-constexpr float exposure = 0;
+/// Stops.
+constexpr float exposure = 0.7f;
 
 Vec3f color_of(const Spectrum& flux) {
   const float largest = std::max(flux.max_lane(), 1e-30f);
