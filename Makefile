@@ -7,7 +7,7 @@ program = $(BUILD)/kaustik
 scene = scenes/cornell_box/cornell_box.xml
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test bench install package docs format clean
+.PHONY: all setup configure build render test thesis bench install package docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -28,6 +28,10 @@ render: configure
 
 test: build
 	ctest --preset release
+
+# The thesis's experiments, into docs/thesis: hours; EXPERIMENTS="figure cone" makes only those, anew.
+thesis: build
+	$(BUILD)/benchmarks/thesis/thesis $(EXPERIMENTS)
 
 bench: build
 	@scripts/install_packages.sh bench

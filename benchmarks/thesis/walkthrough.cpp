@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "hemisphere_drawing.h"
+#include "kaustik/integrator/photon_gather.h"
 #include "kaustik/photon/light_pass.h"
 #include "kaustik/render/photon_tracing.h"
 #include "photon_picture.h"
@@ -87,6 +88,33 @@ std::string importance_grid(const SceneRun& run, const PhotonMap& map, const Vec
   return draw_hemisphere(grid, importance, directions);
 }
 
+/// The places where the irradiance cache gathers, as the picture's pixels ask for it.
+Image picture_of_records(const SceneRun& run, const Image& first_hits, const PhotonMaps& maps) {
+  Problems problems;
+  const Arguments arguments(PhotonMapSettings::info(), {}, {}, problems);
+  const PhotonMapSettings settings(arguments);
+  const PhotonLight light(run.scene(), settings, maps, GatherRadii{}, nullptr, {});
+  IrradianceCache cache(settings.cache_settings);
+  uint32_t round = 0;
+  for (const int stride : {8, 4, 2, 1}) {
+    std::vector<CachePoint> points;
+    for (int y = 0; y < size; y += stride)
+      for (int x = 0; x < size; x += stride) {
+        const auto vertex = vertex_behind(run.scene(), {float(x) + 0.5f, float(y) + 0.5f});
+        if (!vertex || !any(vertex->lobes() & Lobes::diffuse)) continue;
+        CachePoint point{vertex->point(), vertex->facing_normal()};
+        point.pixel_width = 2 * run.scene().camera().pixel_spread() *
+                            length(vertex->position() - run.scene().camera().position());
+        points.push_back(point);
+      }
+    cache.fill_round(points, light, Sampler::at(1, 0, Stream::cache, 0, 0), round++, {});
+  }
+  PhotonPicture picture(run.scene(), first_hits);
+  for (const CacheRecord& record : cache.records())
+    picture.add(record.position, color_of(record.irradiance));
+  return picture.image();
+}
+
 struct Section {
   const char* text;
   std::vector<std::string> pictures;
@@ -158,6 +186,11 @@ std::string walkthrough(const Workplace& place) {
        "light "
        "is forgotten.",
        {"![importance grid](pictures/walkthrough_grid.svg)"}},
+      {"The irradiance cache gathers only where it must: densely where indirect light changes "
+       "fast, in corners and near things, and sparsely\nwhere it is even. Between its records "
+       "(dots) "
+       "it interpolates.",
+       {show(picture_of_records(run, whole, all), "cache_records", "records of the cache")}},
       {"## The parts of the picture\n\nEvery path of light has one owner. *Direct* light by shadow "
        "rays:",
        {show(whole, "component_direct", "direct light", "direct")}},

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/irradiance/cache_record.h"
 #include "kaustik/irradiance/hemisphere.h"
 
 namespace kaustik {
@@ -69,6 +70,8 @@ class IrradianceCache {
   bool interpolate(const CachePoint& at, Spectrum& irradiance, float relax = 1) const;
 
   size_t record_count() const;
+  /// For pictures of the cache.
+  const std::vector<CacheRecord>& records() const;
   size_t size_in_bytes() const;
   uint64_t rays_traced() const;
   /// Rays whose radiance was not finite and was left out.

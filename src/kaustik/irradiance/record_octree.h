@@ -34,6 +34,7 @@ class RecordOctree {
   bool interpolate(const Vec3f& position, const Vec3f& normal, float relax,
                    Spectrum& irradiance) const;
   size_t size_in_bytes() const;
+  const std::vector<CacheRecord>& records() const { return records_; }
 
  private:
   using Lanes = float __attribute__((vector_size(16)));
