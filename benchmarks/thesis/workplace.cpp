@@ -1,10 +1,13 @@
 #include "workplace.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "kaustik/base/file.h"
 #include "kaustik/image/image_io.h"
+#include "kaustik/image/tone_mapping.h"
 
 namespace kaustik::thesis {
 
@@ -21,8 +24,7 @@ std::string Workplace::show(const Image& image, const std::string& name, const s
   const std::filesystem::path file = std::filesystem::path("pictures") / (name + ".png");
   std::filesystem::create_directories((docs / file).parent_path());
   WriteOptions options;
-  options.tone_mapping.op = ToneOperator::linear;
-  options.tone_mapping.exposure = exposure;
+  options.tone = make_tone_operator("linear", {fmt::format("exposure={}", exposure)});
   options.layer = layer;
   write_image(image, (docs / file).string(), options);
   return "![" + alt + "](" + file.string() + ")";
