@@ -12,6 +12,7 @@ void add_tonemap(CLI::App& program);
 void add_info(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_photons(CLI::App& program);
+void add_merge(CLI::App& program);
 void add_help(CLI::App& program);
 
 /// Splits "name=value" of -D; throws Error(input).

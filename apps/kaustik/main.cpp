@@ -45,6 +45,7 @@ int run(int argc, char** argv) {
   kaustik::app::add_info(program);
   kaustik::app::add_compare(program);
   kaustik::app::add_photons(program);
+  kaustik::app::add_merge(program);
   kaustik::app::add_help(program);
   if (argc > 1) check_command(argv[1], program);
   try {

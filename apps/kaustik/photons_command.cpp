@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 #include <filesystem>
 
@@ -18,9 +19,26 @@ struct PhotonsOptions {
   std::string scene, output;
   std::vector<std::string> definitions, settings;
   LevelOptions levels;
+  std::string part;
   uint64_t seed = 0;
   int threads = 0;
 };
+
+/// "2/4": part 2 of 4.
+PhotonPart parse_part(const std::string& text) {
+  if (text.empty()) return {};
+  uint32_t number = 0, count = 0;
+  const char* const end = text.data() + text.size();
+  const auto [slash, code] = std::from_chars(text.data(), end, number);
+  if (code == std::errc{} && slash != end && *slash == '/') {
+    const auto [last, second_code] = std::from_chars(slash + 1, end, count);
+    if (second_code == std::errc{} && last == end && number >= 1 && number <= count &&
+        count <= 65536)
+      return {number - 1, count};
+  }
+  throw Error(ErrorKind::input, fmt::format("cannot read the part '{}'", text),
+              "write the number of the part and how many there are: --part 2/4");
+}
 
 std::string light_name(const Scene& scene, size_t light) {
   const int shape = scene.lights()[light]->shape();
@@ -52,6 +70,7 @@ void print_map(const char* name, const Scene& scene, const PhotonMap& map,
 }
 
 void trace_photons(const PhotonsOptions& options) {
+  const PhotonPart part = parse_part(options.part);
   check_output_path(options.output);
   LoadOptions load;
   load.definitions = parse_definitions(options.definitions);
@@ -71,7 +90,8 @@ void trace_photons(const PhotonsOptions& options) {
       [&](double share) {
         line.show(share,
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-      });
+      },
+      part);
   line.finish();
   StoredPhotons& stored = traced.photons;
   stored.scene = std::filesystem::path(options.scene).lexically_normal().string();
@@ -104,6 +124,10 @@ void add_photons(CLI::App& program) {
       ->type_name("OBJECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
   add_light_level(*command, o->levels);
+  command
+      ->add_option("--part", o->part,
+                   "Trace only part I of N, to be put together with kaustik merge [all]")
+      ->type_name("I/N");
   command->add_option("--seed", o->seed, "Seed of all random numbers [0]");
   command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(CLI::Range(0, 4096));
   command->callback([o] { trace_photons(*o); });

@@ -23,6 +23,7 @@ const std::vector<Experiment>& experiments() {
       {"caustic", "Caustics: photons found and photons emitted", caustic_counts},
       {"cone", "The cone filter's constant", cone_constant},
       {"coupling", "Global photons found and emitted", global_coupling},
+      {"parts", "Photons traced in parts and merged", photon_parts},
       {"maze", "The maze with a coarse and a fine irradiance cache", maze_cache_quality},
   };
   return list;
@@ -83,9 +84,9 @@ int run_all(int argc, char** argv) {
   for (const std::string& name : names)
     if (std::none_of(experiments().begin(), experiments().end(),
                      [&](const Experiment& e) { return e.name == name; }))
-      throw Error(
-          ErrorKind::input, "there is no experiment '" + name + "'",
-          "one of: walkthrough, table, figure, stages, cache, caustic, cone, coupling, maze");
+      throw Error(ErrorKind::input, "there is no experiment '" + name + "'",
+                  "one of: walkthrough, table, figure, stages, cache, caustic, cone, coupling, "
+                  "parts, maze");
   for (const Experiment& experiment : experiments()) {
     const bool named = std::find(names.begin(), names.end(), experiment.name) != names.end();
     if (named || (names.empty() && !std::filesystem::exists(fragment_path(place, experiment))))

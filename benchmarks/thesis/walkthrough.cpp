@@ -40,7 +40,7 @@ Image picture_of_direct(const SceneRun& run, const Image& first_hits, uint32_t c
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const EmittedRay ray = emission.sample(0, u_position, u_direction, sampler.next_1d());
     if (ray.flux.is_zero()) return std::nullopt;
-    return LightPath(ray.ray, ray.flux, Lobes::specular, sampler);
+    return LightPath(ray.ray, ray.flux, nullptr, Lobes::specular, sampler);
   };
   trace_light_paths(run.scene(), 0, count, {}, emit, [&](const LightVertex& at) {
     picture.add(at.vertex.position(), color_of(at.state.throughput));
@@ -93,7 +93,7 @@ Image picture_of_records(const SceneRun& run, const Image& first_hits, const Pho
   Problems problems;
   const Arguments arguments(PhotonMapSettings::info(), {}, {}, problems);
   const PhotonMapSettings settings(arguments);
-  const PhotonLight light(run.scene(), settings, maps, GatherRadii{}, nullptr, {});
+  const PhotonLight light(run.scene(), settings, maps, GatherRadii{}, nullptr, {}, 0);
   IrradianceCache cache(settings.cache_settings);
   uint32_t round = 0;
   for (const int stride : {8, 4, 2, 1}) {

@@ -44,6 +44,7 @@ std::string irradiance_cache(const Workplace&);
 std::string caustic_counts(const Workplace&);
 std::string cone_constant(const Workplace&);
 std::string global_coupling(const Workplace&);
+std::string photon_parts(const Workplace&);
 std::string maze_cache_quality(const Workplace&);
 
 }  // namespace kaustik::thesis

@@ -60,6 +60,10 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
   };
   if (stored.fingerprint != scene_fingerprint(scene))
     refuse("holds photons of another scene (" + stored.scene + ")");
+  if (!stored.settings.part.is_whole())
+    throw Error(ErrorKind::input, settings_.photon_file + " holds only a part of the photons",
+                "put all parts together with: kaustik merge PART.kpm ... -o MAP.kpm",
+                settings_.photon_file_place);
   if (stored.settings.traced != settings_.light_pass.traced)
     refuse("was traced with another specular_sampling");
   if ((settings_.light_pass.caustic_photons > 0 && stored.settings.caustic_photons == 0) ||

@@ -255,6 +255,12 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
     for (uint32_t begin = 0; begin < shares[light]; begin += uint32_t(photons_per_block))
       blocks.push_back(
           {int(light), begin, std::min(shares[light], begin + uint32_t(photons_per_block))});
+  if (stream != Stream::training) {
+    const size_t total = blocks.size();
+    blocks.resize(total * (settings_.part.index + 1) / settings_.part.count);
+    const size_t before = total * settings_.part.index / settings_.part.count;
+    blocks.erase(blocks.begin(), blocks.begin() + std::ptrdiff_t(before));
+  }
   std::vector<std::unique_ptr<Tracer>> results(blocks.size());
   parallel_blocks(blocks.size(), 1, [&](size_t i, size_t, size_t) {
     if (stop.stop_requested()) return;

@@ -12,6 +12,13 @@
 
 namespace kaustik {
 
+/// A share of the photons of a pass, for several machines: part `index` of `count`. Each part holds
+/// photons of its own; all together are those of the whole pass.
+struct PhotonPart {
+  uint32_t index = 0, count = 1;
+  bool is_whole() const { return count == 1; }
+};
+
 /// What a light pass is asked for.
 struct LightPassSettings {
   uint32_t global_photons = 0;     ///< to emit; 0: no global map
@@ -25,6 +32,7 @@ struct LightPassSettings {
   /// 0: none.
   uint32_t place_stride = 0;
   int target_budget = default_target_budget;  ///< boxes that these are divided into for aiming
+  PhotonPart part;  ///< that is traced; the flux is that of the whole, so a part alone is dark
 };
 
 /// What became of the photons of one light.

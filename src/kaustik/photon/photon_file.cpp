@@ -3,6 +3,7 @@
 //   scene and fingerprint (each: u64 length, bytes), seed (u64),
 //   settings: global_photons, caustic_photons (u32), maximum_events (i32), traced, reradiate, aim
 //   (u8 each), target_budget (i32),
+//   part index and count (u32 each),
 //   twice (global, caustic): report: rays, target_count, number of lights (u64), per light the
 //   seven counts (six u64, one f64); number of photons n (u64), n × position (3 × f32),
 //   n × Photon (28 bytes),
@@ -22,7 +23,7 @@ namespace {
 // A byte over 127 and both kinds of line ends show damage by transfers as text.
 constexpr std::array<uint8_t, 8> magic = {0x89, 'K', 'P', 'M', '\r', '\n', 0x1a, '\n'};
 constexpr uint32_t byte_order_mark = 0x01020304, swapped_byte_order_mark = 0x04030201;
-constexpr uint32_t version = 2;  // to be raised whenever the layout changes, Photon's included
+constexpr uint32_t version = 3;  // to be raised whenever the layout changes, Photon's included
 constexpr size_t checksum_size = sizeof(uint64_t);
 constexpr size_t bytes_per_photon = sizeof(Vec3f) + sizeof(Photon);
 constexpr size_t bytes_per_light = 7 * sizeof(uint64_t);
@@ -64,6 +65,8 @@ class Writer {
     put(uint8_t(s.reradiate));
     put(uint8_t(s.aim));
     put(int32_t(s.target_budget));
+    put(s.part.index);
+    put(s.part.count);
   }
   void put_map(const PhotonMap& map, const MapReport& report) {
     put(report.rays);
@@ -185,6 +188,9 @@ class Reader {
     if (aim > uint8_t(Aim::projection_map)) damaged("a setting in it is not valid");
     s.aim = Aim(aim);
     s.target_budget = get<int32_t>();
+    s.part.index = get<uint32_t>();
+    s.part.count = get<uint32_t>();
+    if (s.part.index >= s.part.count) damaged("a setting in it is not valid");
     return s;
   }
 

@@ -3,6 +3,7 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/make_integrator.h"
 #include "kaustik/integrator/photon_map_settings.h"
+#include "kaustik/photon/photon_parts.h"
 
 namespace kaustik {
 namespace {
@@ -37,8 +38,8 @@ void explain_empty_maps(const StoredPhotons& photons, std::vector<std::string>& 
 }  // namespace
 
 TracedPhotons trace_photon_maps(const Description& description, const Scene& scene, uint64_t seed,
-                                int threads, std::stop_token stop,
-                                const ProgressFunction& progress) {
+                                int threads, std::stop_token stop, const ProgressFunction& progress,
+                                PhotonPart part) {
   TracedPhotons traced;
   const auto object = photonmap_of(description);
   // Checks the object as a render would, but not the surfaces' own, which photons don't know.
@@ -51,10 +52,12 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
   photons.fingerprint = scene_fingerprint(scene);
   photons.seed = seed;
   photons.settings = PhotonMapSettings(arguments).light_pass;
+  photons.settings.part = part;
   photons.settings.volume_photons = 0;  // files have no place for them
   with_threads(threads, [&] {
     const LightPass pass(scene, photons.settings, seed);
     photons.maps = pass.trace(seed, 0, stop, progress);
+    sort_photons(photons.maps);
     for (const std::string& warning : pass.warnings(photons.maps))
       traced.warnings.push_back(warning);
   });

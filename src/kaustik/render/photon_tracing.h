@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kaustik/photon/photon_file.h"
+#include "kaustik/photon/photon_parts.h"
 #include "kaustik/scene/description.h"
 
 namespace kaustik {
@@ -15,10 +15,10 @@ struct TracedPhotons {
 };
 
 /// Traces the maps that the description's photonmap integrator asks for (without one: its default
-/// parameters) in pass 0 of `seed`, on `threads` threads (0: all). Throws Error(input) for wrong
-/// parameters, Error(system) if stopped: half a map is of no use.
+/// parameters) in pass 0 of `seed`, on `threads` threads (0: all), or a part of them. Throws
+/// Error(input) for wrong parameters, Error(system) if stopped: half a map is of no use.
 TracedPhotons trace_photon_maps(const Description& description, const Scene& scene, uint64_t seed,
                                 int threads, std::stop_token stop = {},
-                                const ProgressFunction& progress = {});
+                                const ProgressFunction& progress = {}, PhotonPart part = {});
 
 }  // namespace kaustik
