@@ -12,6 +12,11 @@ SceneFolder::SceneFolder(std::string name, std::string title)
                 .said("Made by make_scenes (scenes/generator); not to be edited. " +
                       std::move(title))) {}
 
+void SceneFolder::share_files_of(const std::string& other_scene) {
+  shares_files_ = true;
+  add(Xml("path", {{"value", "../" + other_scene}}));
+}
+
 void SceneFolder::add_view(const View& view, int spp) {
   const bool square = view.width == view.height;
   if (square) {
@@ -46,7 +51,7 @@ void SceneFolder::write_mesh(const std::string& name, const Mesh& mesh, const Pl
   for (const auto& [known, unused] : layouts_)
     if (known == name) throw std::logic_error("mesh '" + name + "' is written twice");
   layouts_.emplace_back(name, layout);
-  files_.push_back({"meshes/" + name + ".ply", ply_bytes(mesh, layout)});
+  if (!shares_files_) files_.push_back({"meshes/" + name + ".ply", ply_bytes(mesh, layout)});
   triangles_ += mesh.triangles.size();
 }
 

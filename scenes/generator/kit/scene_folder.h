@@ -25,6 +25,10 @@ class SceneFolder {
 
   const std::string& name() const { return name_; }
 
+  /// Its meshes and pictures are those of another scene, beside it: none are written here. To be
+  /// called before any is added.
+  void share_files_of(const std::string& other_scene);
+
   /// Film and camera. The picture's size can be changed with -D size=… (square pictures) or
   /// -D width=… -D height=…, the samples with -D spp=….
   void add_view(const View& view, int spp = 64);
@@ -54,6 +58,7 @@ class SceneFolder {
   std::vector<SceneFile> files_;
   std::vector<std::pair<std::string, PlyLayout>> layouts_;  ///< by mesh
   size_t triangles_ = 0;
+  bool shares_files_ = false;
   bool has_bsdfs_ = false;
 };
 

@@ -10,6 +10,9 @@ std::span<const SceneMaker> scene_makers() {
       {"gallery_1", "A gallery of pictures lit through lampshades.", make_gallery_1},
       {"gallery_2", "A long gallery with two rows of lampshades.", make_gallery_2},
       {"maze", "A random maze at dusk with lamps in its ways.", make_maze},
+      {"pool_above", "An indoor swimming pool.", make_pool_above},
+      {"pool_below", "The pool from under its water.", make_pool_below},
+      {"atrium", "A domed hall with a chandelier above a fountain.", make_atrium},
   };
   return makers;
 }

@@ -25,5 +25,8 @@ SceneFolder make_museum(const SceneOptions& options);
 SceneFolder make_gallery_1(const SceneOptions& options);
 SceneFolder make_gallery_2(const SceneOptions& options);
 SceneFolder make_maze(const SceneOptions& options);
+SceneFolder make_pool_above(const SceneOptions& options);
+SceneFolder make_pool_below(const SceneOptions& options);
+SceneFolder make_atrium(const SceneOptions& options);
 
 }  // namespace kaustik::scenes
