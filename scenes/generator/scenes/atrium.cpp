@@ -35,10 +35,10 @@ void add_materials(SceneFolder& scene) {
   m.matt("earth", {0.06, 0.045, 0.035});
   m.matt("leaf", {0.07, 0.19, 0.05});
   m.matt("carpet", {0.42, 0.05, 0.05});
-  m.marble("marble_pale", {0.78, 0.75, 0.69}, {0.35, 0.32, 0.30}, 0.06, 400);
-  m.marble("marble_dark", {0.20, 0.09, 0.07}, {0.55, 0.45, 0.38}, 0.06, 400);
-  m.marble("marble_green", {0.06, 0.14, 0.10}, {0.40, 0.46, 0.40}, 0.06, 400);
-  m.marble("statue_stone", {0.82, 0.80, 0.76}, {0.55, 0.54, 0.52}, 0.04, 60);
+  m.glossy("marble_pale", marble({0.80, 0.77, 0.71}, {0.35, 0.32, 0.30}, 0.5, 1), 0.06, 400);
+  m.glossy("marble_dark", marble({0.20, 0.085, 0.065}, {0.62, 0.50, 0.42}, 0.35, 2), 0.06, 400);
+  m.glossy("marble_green", marble({0.05, 0.13, 0.09}, {0.42, 0.50, 0.42}, 0.3, 3), 0.06, 400);
+  m.glossy("statue_stone", marble({0.84, 0.82, 0.78}, {0.60, 0.58, 0.56}, 0.3, 4), 0.04, 60);
   m.metal("gold", "Au", 0.18);
   m.metal("brass", "CuZn", 0.10);
   m.metal("bronze", "Cu", 0.2);

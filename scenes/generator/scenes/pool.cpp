@@ -56,7 +56,7 @@ void add_materials(SceneFolder& scene) {
   m.matt("clay", {0.52, 0.27, 0.17});
   m.matt("earth", {0.06, 0.045, 0.035});
   m.matt("leaf", {0.08, 0.20, 0.05});
-  m.wood("teak", {0.36, 0.21, 0.11}, 1, 0.04, 60);
+  m.glossy("teak", {0.36, 0.21, 0.11}, 0.04, 60);
   m.metal("steel", "Cr", 0.06);
 }
 
@@ -220,7 +220,7 @@ void add_furniture(SceneFolder& scene, uint64_t seed) {
     leaves.append(moved(plant.stems, at));
     leaves.append(moved(plant.leaves, at));
   }
-  scene.add_mesh("benches", wood, "teak_0", {}, "Benches and plants along the wall.");
+  scene.add_mesh("benches", wood, "teak", {}, "Benches and plants along the wall.");
   scene.add_mesh("bench_legs", steel, "steel");
   scene.add_mesh("towel", cloth, "towel");
   scene.add_mesh("pots", pots, "clay");
