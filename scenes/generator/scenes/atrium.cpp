@@ -17,8 +17,8 @@ constexpr double apothem = 6, drum_height = 6.6, wall = 0.5;
 const double side = 2 * apothem * std::tan(pi_d / 8);
 constexpr double dome_radius = 5.7, dome_rise = 5.2;
 constexpr double corridor_width = 2.6, corridor_length = 9, springing = 2.5;
-constexpr int north = 0, north_west = 1, west = 2, south_west = 3, south = 4, south_east = 5,
-              east = 6, north_east = 7;
+// Walls are counted from the north, against the clock seen from above.
+constexpr int north = 0, north_west = 1, west = 2, east = 6, north_east = 7;
 
 /// From the frame of a wall, x along it from its middle, y outward from its face, to the world.
 Mesh on_wall(const Mesh& mesh, int wall_index) {
