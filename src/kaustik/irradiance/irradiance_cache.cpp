@@ -258,9 +258,7 @@ bool IrradianceCache::interpolate(const CachePoint& at, Spectrum& irradiance, fl
 }
 
 size_t IrradianceCache::record_count() const { return impl_->records.size(); }
-const std::vector<CacheRecord>& IrradianceCache::records() const {
-  return impl_->octree.records();
-}
+const std::vector<CacheRecord>& IrradianceCache::records() const { return impl_->octree.records(); }
 size_t IrradianceCache::size_in_bytes() const {
   return impl_->records.capacity() * sizeof(ComputedRecord) + impl_->octree.size_in_bytes();
 }
