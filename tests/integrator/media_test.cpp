@@ -67,12 +67,15 @@ TEST_P(WhiteFurnace, IsOneEverywhere) {
                 passes.mean({""}, {}, channel), 1);
 }
 
+// Slow builds take too few samples to tell.
+#ifndef KAUSTIK_SLOW_BUILD
 /// What is absorbed is missing: the twin that must fail.
 TEST_P(WhiteFurnace, FailsWhereALittleIsAbsorbed) {
   const Passes passes = render(TestScene(text("0.97, 0.97, 0.97")), "path", "", {96});
   const Comparison c(passes.mean({""}), 1);
   EXPECT_LT(c.p_value_of_equality(), check_level());
 }
+#endif
 
 INSTANTIATE_TEST_SUITE_P(Anisotropy, WhiteFurnace, testing::Values(0.0, 0.7, -0.4));
 
@@ -126,6 +129,8 @@ TEST_P(EveryLampInABall, LightTracer) { check("lighttracer", set("max_depth", 2)
 
 INSTANTIATE_TEST_SUITE_P(Anisotropy, EveryLampInABall, testing::Values(0.0, 0.6));
 
+// Slow builds take too few samples to tell.
+#ifndef KAUSTIK_SLOW_BUILD
 /// The twin: haze that scatters 3 % less.
 TEST(LampInABallTwin, LessScatteringIsToldApart) {
   const TestScene scene(lamp_in_ball_scene(0, "0.776, 0.776, 0.776"));
@@ -134,6 +139,7 @@ TEST(LampInABallTwin, LessScatteringIsToldApart) {
                      lamp_in_ball(ball_sigma[1], ball_albedo, 0, ball_eye, ball_fov));
   EXPECT_LT(c.p_value_of_equality(), check_level());
 }
+#endif
 
 // ---------------------------------------------------------------- all components
 
@@ -152,6 +158,8 @@ TEST(HazyBall, PathAndLightTracerAgree) {
           0.005);
 }
 
+// Slow builds take too few samples to tell.
+#ifndef KAUSTIK_SLOW_BUILD
 /// The twin: a ball that scatters 3 % less is told apart.
 TEST(HazyBall, LightTracerIsToldFromALessScatteringBall) {
   const Passes path = render(TestScene(hazy_ball("0.873, 0.776, 0.679")), "path", "", {400});
@@ -159,6 +167,7 @@ TEST(HazyBall, LightTracerIsToldFromALessScatteringBall) {
   const Comparison c(light.mean({"volume"}), path.mean({"volume"}));
   EXPECT_LT(c.p_value_of_equality(), check_level());
 }
+#endif
 
 TEST(HazyRoom, ComponentsSumToThePicture) {
   const TestScene scene(hazy_room());

@@ -133,6 +133,8 @@ TEST_F(Penumbra, Approximate) {
                     {passes.mean({"direct"}, penumbra), expected_mean(penumbra)}, 0.01);
 }
 
+// Slow builds take too few samples to tell.
+#ifndef KAUSTIK_SLOW_BUILD
 /// The more photons, the smaller the disk over which shadows are smeared. Few neighbours, so that
 /// all of them may be lit, or shadowed, by chance: that is where the accurate solution errs.
 TEST_F(Penumbra, ErrorFallsWithThePhotons) {
@@ -151,6 +153,7 @@ TEST_F(Penumbra, ErrorFallsWithThePhotons) {
     EXPECT_LT(accurate[i], approximate[i]);
   }
 }
+#endif
 
 /// Gather rays take the approximate solution; and one light for each sample asks the photons too.
 TEST(ShadowPhotons, IndirectLightByGatherRays) {

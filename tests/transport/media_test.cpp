@@ -119,11 +119,7 @@ Balance balance_of(const Scene& scene, uint32_t count, double lost_share = 0) {
   return balance;
 }
 
-#ifdef KAUSTIK_SLOW_BUILD
-constexpr uint32_t path_count = 1 << 13;
-#else
 constexpr uint32_t path_count = 1 << 16;
-#endif
 
 /// Emitted = arrived + absorbed, for every lane, with means of independent blocks; a twin that
 /// loses 5 % of what is absorbed fails.

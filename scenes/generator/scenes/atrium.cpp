@@ -294,8 +294,10 @@ Mesh stream(const Vec3d& from, const Vec3d& speed, double until, double radius, 
   Mesh water = tube(radius, path, 10, options);
   for (int i = 0; i < 4; ++i) {
     const double t = t_end * random.between(0.35, 0.97);
-    const Vec3d off(random.between(-0.05, 0.05), random.between(-0.05, 0.05),
-                    random.between(-0.04, 0.04));
+    // In this order, whatever the compiler's for arguments is.
+    const double off_z = random.between(-0.04, 0.04), off_y = random.between(-0.05, 0.05),
+                 off_x = random.between(-0.05, 0.05);
+    const Vec3d off(off_x, off_y, off_z);
     const Vec3d at = thrown(from, speed, t) + off;
     if (at.z > until + 0.02) water.append(ball(at, radius * random.between(0.35, 0.7), 10));
   }

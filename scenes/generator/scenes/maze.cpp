@@ -115,8 +115,10 @@ void add_lamps(SceneFolder& scene, const Maze& maze, uint64_t seed) {
       const int x = std::min(maze.size() - 1, i + int(random.index(spacing)));
       const int y = std::min(maze.size() - 1, j + int(random.index(spacing)));
       const double off = 0.5 * cell - 0.5 * thickness - 0.22;
-      const Vec3d at(start + (x + 0.5) * cell + (random.next() < 0.5 ? -off : off),
-                     start + (y + 0.5) * cell + (random.next() < 0.5 ? -off : off), 0);
+      // One after the other: the order in which arguments are evaluated is the compiler's.
+      const double off_y = random.next() < 0.5 ? -off : off;
+      const double off_x = random.next() < 0.5 ? -off : off;
+      const Vec3d at(start + (x + 0.5) * cell + off_x, start + (y + 0.5) * cell + off_y, 0);
       bodies.append(moved(bollard(), at));
       bulbs.push_back(at + Vec3d(0, 0, 0.571));
     }
