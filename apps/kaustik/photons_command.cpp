@@ -33,7 +33,7 @@ PhotonPart parse_part(const std::string& text) {
   if (code == std::errc{} && slash != end && *slash == '/') {
     const auto [last, second_code] = std::from_chars(slash + 1, end, count);
     if (second_code == std::errc{} && last == end && number >= 1 && number <= count &&
-        count <= 65536)
+        count <= PhotonPart::maximum_count)
       return {number - 1, count};
   }
   throw Error(ErrorKind::input, fmt::format("cannot read the part '{}'", text),

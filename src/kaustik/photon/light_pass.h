@@ -15,6 +15,7 @@ namespace kaustik {
 /// A share of the photons of a pass, for several machines: part `index` of `count`. Each part holds
 /// photons of its own; all together are those of the whole pass.
 struct PhotonPart {
+  static constexpr uint32_t maximum_count = 65536;
   uint32_t index = 0, count = 1;
   bool is_whole() const { return count == 1; }
 };

@@ -190,7 +190,8 @@ class Reader {
     s.target_budget = get<int32_t>();
     s.part.index = get<uint32_t>();
     s.part.count = get<uint32_t>();
-    if (s.part.index >= s.part.count) damaged("a setting in it is not valid");
+    if (s.part.index >= s.part.count || s.part.count > PhotonPart::maximum_count)
+      damaged("a setting in it is not valid");
     return s;
   }
 
