@@ -127,6 +127,7 @@ std::vector<View> views() {
           {"sphere far", ball, {1, -3, 3}},
           {"sphere inside", ball, {1.1f, 2, 2.8f}},
           {"rectangle", make_shape("rectangle"), {0.5f, 2, 1}},
+          {"rectangle near", make_shape("rectangle"), {0.8f, 0.5f, 0.3f}},
           {"disk", make_shape("disk"), {0.5f, 2, 1}},
           {"cube", make_shape("cube"), {0.5f, 2, 1.5f}},
           {"cylinder", cylinder, {2, 1, 0.5f}}};

@@ -72,6 +72,38 @@ TEST(SampleToward, AreaLightsFollowTheirDensity) {
   }
 }
 
+/// From so near that samples by area would be worth from nothing to very much: closed forms of
+/// irradiance below the middle of a disk (π L sin²) and of a square (Lambert's polygon formula).
+TEST(SampleToward, NearLightsGiveTheirClosedForm) {
+  struct Case {
+    std::string name;
+    std::shared_ptr<const Shape> shape;
+    double irradiance;
+  };
+  const double h = 0.1;
+  const double side = std::sqrt(1 + h * h);
+  const Vec3f middle = reference + Vec3f(0, 0, float(h));
+  for (const Case& test :
+       {Case{"disk", make_disk(middle, {0, 0, -1}, 1), 2 * std::numbers::pi / (1 + h * h)},
+        Case{"square", make_quad(middle - Vec3f(1, 1, 0), {0, 2, 0}, {2, 0, 0}),
+             2 * 4 / side * std::atan(1 / side)}}) {
+    SCOPED_TRACE(test.name);
+    const auto light = area_light(test.shape);
+    Random random(19);
+    RunningStatistics irradiance;
+    for (int i = 0; i < 100'000 / sample_share; ++i) {
+      const LightSample s = light->sample_toward(reference, random.next_2d());
+      irradiance.add(s.pdf_solid_angle > 0 ? s.radiance[0] * s.direction.z / s.pdf_solid_angle : 0);
+      if (s.pdf_solid_angle > 0) {
+        ASSERT_FLOAT_EQ(s.pdf_solid_angle, light->pdf_toward(reference, s.point));
+      }
+    }
+    EXPECT_GT(z_test_p_value(irradiance, test.irradiance), failure_level);
+    EXPECT_LT(std::sqrt(irradiance.variance()), 0.9 * test.irradiance);  // by area: several times
+    expect_twin_fails(z_test_p_value(irradiance, 1.02 * test.irradiance));
+  }
+}
+
 TEST(SampleToward, ReportsTheDensityThatItAnswersLater) {
   for (const ShapeCase& test : shapes_around()) {
     SCOPED_TRACE(test.name);

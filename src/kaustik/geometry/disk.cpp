@@ -3,6 +3,7 @@
 #include "kaustik/base/warp.h"
 #include "kaustik/geometry/shape_creators.h"
 #include "kaustik/geometry/shape_support.h"
+#include "kaustik/geometry/spherical_rectangle.h"
 
 namespace kaustik {
 namespace {
@@ -16,6 +17,7 @@ class Disk : public Shape {
     dual_s_ = t.cross(m) / m.length2();
     dual_t_ = m.cross(s) / m.length2();
     area_ = float(std::numbers::pi * m.length());
+    bounding_square_ = SphericalRectangle::make(center, s, t);
   }
 
   Bounds3f bounds() const override {
@@ -49,10 +51,31 @@ class Disk : public Shape {
     return {point_at(d.x, d.y), area_ > 0 ? 1.0f / area_ : 0.0f};
   }
 
+  /// From nearby a direction to the square about the disk, whose corners are no light.
+  ShapeSample sample_toward(const Vec3f& reference, const Vec2f& u,
+                            float& pdf_solid_angle) const override {
+    const auto square = seen_near(reference);
+    if (!square) return Shape::sample_toward(reference, u, pdf_solid_angle);
+    const Vec2f at = square->sample(u);
+    const bool inside = at.x * at.x + at.y * at.y <= 1;
+    pdf_solid_angle = inside ? square->pdf() : 0.0f;
+    return sample_of(point_at(at.x, at.y), reference, pdf_solid_angle);
+  }
+  float pdf_toward(const Vec3f& reference, const SurfacePoint& point) const override {
+    const auto square = seen_near(reference);
+    return square ? square->pdf() : Shape::pdf_toward(reference, point);
+  }
+
   TriangleMesh tessellate(int level) const override;
   std::vector<Bounds3f> bounding_boxes(int budget) const override;
 
  private:
+  std::optional<SphericalRectangle::View> seen_near(const Vec3f& reference) const {
+    // A fifth of the samples is lost in the corners: it has to be near for that to pay.
+    constexpr double ratio = 1.2;
+    return bounding_square_ ? bounding_square_->seen_near(reference, ratio) : std::nullopt;
+  }
+
   SurfacePoint point_at(float x, float y) const {
     SurfacePoint point;
     point.position = Vec3f(center_ + s_ * double(x) + t_ * double(y));
@@ -67,6 +90,7 @@ class Disk : public Shape {
   Vec3d center_, s_, t_, normal_;
   Vec3d dual_s_, dual_t_;  ///< take a point of the plane back to x and y
   float area_ = 0;
+  std::optional<SphericalRectangle> bounding_square_;  ///< none for sheared disks
 };
 
 TriangleMesh Disk::tessellate(int level) const {

@@ -2,6 +2,7 @@
 
 #include "kaustik/base/warp.h"
 #include "kaustik/geometry/mesh_surface.h"
+#include "kaustik/geometry/shape_support.h"
 
 namespace kaustik {
 namespace {
@@ -24,6 +25,21 @@ void wind_by_normals(TriangleMesh& mesh) {
   }
 }
 
+/// See MeshShape::rectangle_.
+std::optional<SphericalRectangle> rectangle_of(const TriangleMesh& mesh) {
+  if (mesh.positions.size() != 4 || mesh.triangles.size() != 2) return std::nullopt;
+  const auto is_half = [&](size_t triangle, uint32_t third) {
+    const auto& corner = mesh.triangles[triangle];
+    return corner[0] == 0 && (corner[1] == 2 || corner[2] == 2) &&
+           (corner[1] == third || corner[2] == third);
+  };
+  if (!is_half(0, 1) || !is_half(1, 3)) return std::nullopt;
+  const Vec3d p0(mesh.positions[0]), p1(mesh.positions[1]), p2(mesh.positions[2]),
+      p3(mesh.positions[3]);
+  if ((p0 + p2 - p1 - p3).length() > 1e-6 * (p2 - p0).length()) return std::nullopt;
+  return SphericalRectangle::make((p0 + p2) * 0.5, (p1 - p0) * 0.5, (p3 - p0) * 0.5);
+}
+
 }  // namespace
 
 MeshShape::MeshShape(TriangleMesh mesh) : mesh_(std::move(mesh)) {
@@ -36,6 +52,7 @@ MeshShape::MeshShape(TriangleMesh mesh) : mesh_(std::move(mesh)) {
     for (const uint32_t vertex : corner) bounds_.extendBy(mesh_.positions[vertex]);
   }
   area_ = float(area);
+  rectangle_ = rectangle_of(mesh_);
 }
 
 SurfacePoint MeshShape::surface_point(const Ray&, const Hit& hit) const {
@@ -66,6 +83,30 @@ ShapeSample MeshShape::sample_area(const Vec2f& u) const {
   ShapeSample sample{triangle_surface_point(mesh_, triangle, b.x, b.y), 1.0f / area_};
   if (sample.point.ng == Vec3f(0, 0, 0)) sample.pdf_area = 0;
   return sample;
+}
+
+ShapeSample MeshShape::sample_toward(const Vec3f& reference, const Vec2f& u,
+                                     float& pdf_solid_angle) const {
+  const auto view = rectangle_ ? rectangle_->seen_near(reference) : std::nullopt;
+  if (!view) return Shape::sample_toward(reference, u, pdf_solid_angle);
+  pdf_solid_angle = view->pdf();
+  return sample_of(rectangle_point(view->sample(u)), reference, pdf_solid_angle);
+}
+
+float MeshShape::pdf_toward(const Vec3f& reference, const SurfacePoint& point) const {
+  const auto view = rectangle_ ? rectangle_->seen_near(reference) : std::nullopt;
+  return view ? view->pdf() : Shape::pdf_toward(reference, point);
+}
+
+SurfacePoint MeshShape::rectangle_point(const Vec2f& at) const {
+  const float s = std::clamp(0.5f + 0.5f * at.x, 0.0f, 1.0f);
+  const float t = std::clamp(0.5f + 0.5f * at.y, 0.0f, 1.0f);
+  // p0 + s (p1 − p0) + t (p3 − p0), by the triangle on whose side of the diagonal it lies.
+  const uint32_t triangle = s >= t ? 0 : 1;
+  const float of_diagonal = std::min(s, t), of_other = std::fabs(s - t);
+  const bool diagonal_first = mesh_.triangles[triangle][1] == 2;
+  return triangle_surface_point(mesh_, triangle, diagonal_first ? of_diagonal : of_other,
+                                diagonal_first ? of_other : of_diagonal);
 }
 
 TriangleMesh MeshShape::tessellate(int) const { return mesh_; }

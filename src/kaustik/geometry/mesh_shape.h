@@ -2,6 +2,7 @@
 #include <mutex>
 
 #include "kaustik/geometry/shape.h"
+#include "kaustik/geometry/spherical_rectangle.h"
 
 namespace kaustik {
 
@@ -19,15 +20,24 @@ class MeshShape : public Shape {
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
   UvDerivatives uv_derivatives(const SurfacePoint& at) const override;
   ShapeSample sample_area(const Vec2f& u) const override;
+  /// A rectangle by its solid angle, where that is better.
+  ShapeSample sample_toward(const Vec3f& reference, const Vec2f& u,
+                            float& pdf_solid_angle) const override;
+  float pdf_toward(const Vec3f& reference, const SurfacePoint& point) const override;
   TriangleMesh tessellate(int level) const override;
   std::vector<Bounds3f> bounding_boxes(int budget) const override;
 
  private:
   void build_distribution() const;
+  /// The point of a rectangle at x, y in [−1, 1]².
+  SurfacePoint rectangle_point(const Vec2f& at) const;
 
   TriangleMesh mesh_;
   Bounds3f bounds_;
   float area_ = 0;
+  /// Of meshes that are one: two triangles that share the diagonal from the first vertex to the
+  /// third, as the shape `rectangle` has them.
+  std::optional<SphericalRectangle> rectangle_;
   mutable std::once_flag distribution_once_;
   mutable std::vector<double> cumulative_area_;  ///< up to and with each triangle, m²; only for
                                                  ///< meshes that are sampled

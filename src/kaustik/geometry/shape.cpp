@@ -28,6 +28,11 @@ float solid_angle_density(const Vec3f& reference, const SurfacePoint& point, flo
   return density < double(std::numeric_limits<float>::max()) ? float(density) : 0.0f;
 }
 
+ShapeSample sample_of(const SurfacePoint& point, const Vec3f& reference, float pdf_solid_angle) {
+  const float per_area = solid_angle_density(reference, point, 1);
+  return {point, per_area > 0 ? pdf_solid_angle / per_area : 0.0f};
+}
+
 Bounds3f rounded_outward(const Vec3d& low, const Vec3d& high) {
   Bounds3f bounds;
   for (int i = 0; i < 3; ++i) {

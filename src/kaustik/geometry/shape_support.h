@@ -9,6 +9,9 @@ namespace kaustik {
 /// is seen edge-on.
 float solid_angle_density(const Vec3f& reference, const SurfacePoint& point, float pdf_area);
 
+/// A sample by solid angle, with the density per area that it stands for.
+ShapeSample sample_of(const SurfacePoint& point, const Vec3f& reference, float pdf_solid_angle);
+
 /// The box from `low` to `high`, grown by a few roundings of its coordinates.
 Bounds3f rounded_outward(const Vec3d& low, const Vec3d& high);
 /// The part that two boxes share; for boxes that are known to overlap.
