@@ -76,7 +76,7 @@ const Population populations[] = {{1, 0}, {2, 0},  {16, 0},   {17, 0}, {1000, 0}
 double contribution(const Light& light, const Query& q, const Vec2f& u) {
   const LightSample s = light.sample_toward(q.reference, u);
   if (!(s.pdf_solid_angle > 0)) return 0;
-  const double cosine = length_sq(q.normal) > 0 ? abs_dot(q.normal, s.direction) : 1.0;
+  const double cosine = length_sq(q.normal) > 0 ? std::max(dot(q.normal, s.direction), 0.0f) : 1.0;
   return double(s.radiance.sum()) * cosine / s.pdf_solid_angle;
 }
 
@@ -140,6 +140,13 @@ ChoiceTest test_choices(const Lights& lights, const LightSelector& selector, con
           chi_square_p_value(observed, wrong)};
 }
 
+int lights_with_a_chance(const LightSelector& selector, const Lights& lights, const Query& q) {
+  int count = 0;
+  for (int light = 0; light < int(lights.size()); ++light)
+    count += selector.probability(q.reference, q.normal, light) > 0;
+  return count;
+}
+
 TEST(LightSelector, ChoosesByItsProbabilities) {
   for (const auto& [local, infinite] : populations) {
     if (local + infinite < 2) continue;
@@ -148,8 +155,9 @@ TEST(LightSelector, ChoosesByItsProbabilities) {
     const LightSelector selector(lights);
     Random random(13);
     for (int i = 0; i < 2; ++i) {
-      const ChoiceTest test =
-          test_choices(lights, selector, random_query(random), 1'000'000 / sample_share);
+      Query q = random_query(random);
+      while (lights_with_a_chance(selector, lights, q) < 2) q = random_query(random);
+      const ChoiceTest test = test_choices(lights, selector, q, 1'000'000 / sample_share);
       EXPECT_GT(test.lights, failure_level);
       EXPECT_GT(test.leftover, failure_level);
       expect_twin_fails(test.planted_error);
@@ -182,15 +190,15 @@ TEST(LightSelector, EveryLightThatReachesThePointHasAChance) {
 TEST(LightSelector, TheEstimateAgreesWithTheSumOverAllLights) {
   const Lights lights = random_lights(200, 2, 31);
   const LightSelector selector(lights);
-  const Query q{{4, 5, 6}, {0, 0, 1}};
+  const Query q{{4, 5, 6}, {0, 0, -1}};
   Random random(33);
   RunningStatistics all, chosen;
-  for (int i = 0; i < 20'000 / sample_share; ++i) {
+  for (int i = 0; i < 40'000 / sample_share; ++i) {
     double sum = 0;
     for (const auto& light : lights) sum += contribution(*light, q, random.next_2d());
     all.add(sum);
   }
-  for (int i = 0; i < 2'000'000 / sample_share; ++i) {
+  for (int i = 0; i < 3'000'000 / sample_share; ++i) {
     float u = random.next();
     const auto choice = selector.choose(q.reference, q.normal, u);
     chosen.add(contribution(*lights[size_t(choice.light)], q, {u, random.next()}) /
@@ -248,7 +256,8 @@ TEST(LightSelector, WithoutPowerThereIsNoChoice) {
     const auto choice = selector.choose({0, 0, 0}, {0, 0, 1}, u);
     EXPECT_EQ(choice.light, -1);
     EXPECT_EQ(choice.probability, 0);
-    for (int i = 0; i < count; ++i) EXPECT_EQ(selector.probability({}, {}, i), 0);
+    for (int i = 0; i < count; ++i)
+      EXPECT_EQ(selector.probability(Vec3f(0, 0, 0), Vec3f(0, 0, 0), i), 0);
   }
 }
 
@@ -257,9 +266,9 @@ TEST(LightSelector, AFewLightsAreChosenByWhatTheyGive) {
   for (const double strength : {1.0, 0.0, 3.0})
     lights.push_back(make_light("point", {{"intensity", Value(Rgb{0, 0, strength}), {}}}));
   const LightSelector selector(lights);
-  EXPECT_FLOAT_EQ(selector.probability({9, 9, 9}, {}, 0), 0.25f);
-  EXPECT_EQ(selector.probability({9, 9, 9}, {}, 1), 0);
-  EXPECT_FLOAT_EQ(selector.probability({9, 9, 9}, {}, 2), 0.75f);
+  EXPECT_FLOAT_EQ(selector.probability({9, 9, 9}, Vec3f(0, 0, 0), 0), 0.25f);
+  EXPECT_EQ(selector.probability({9, 9, 9}, Vec3f(0, 0, 0), 1), 0);
+  EXPECT_FLOAT_EQ(selector.probability({9, 9, 9}, Vec3f(0, 0, 0), 2), 0.75f);
 }
 
 TEST(LightSelector, NearLampsComeBeforeFarOnes) {
@@ -267,9 +276,9 @@ TEST(LightSelector, NearLampsComeBeforeFarOnes) {
   for (const double x : {0.0, 10.0})
     lights.push_back(make_light("point", {{"position", Value(Vec3d(x, 0, 0)), {}}}));
   const LightSelector selector(lights);
-  EXPECT_GT(selector.probability({1, 0, 0}, {}, 0), 0.95f);
-  EXPECT_GT(selector.probability({1, 0, 0}, {}, 1), 0.02f);
-  EXPECT_FLOAT_EQ(selector.probability({5, 0, 0}, {}, 0), 0.5f);
+  EXPECT_GT(selector.probability({1, 0, 0}, Vec3f(0, 0, 0), 0), 0.95f);
+  EXPECT_GT(selector.probability({1, 0, 0}, Vec3f(0, 0, 0), 1), 0.02f);
+  EXPECT_FLOAT_EQ(selector.probability({5, 0, 0}, Vec3f(0, 0, 0), 0), 0.5f);
 }
 
 /// In a room with a window the sky's light mostly meets walls, which nobody knows here.
@@ -294,6 +303,101 @@ TEST(LightSelector, OneLightCostsNoChoice) {
   EXPECT_EQ(choice.light, 1);
   EXPECT_EQ(choice.probability, 1);
   EXPECT_EQ(u, 0.25f);
+}
+
+/// A wall at x = 5 parts the lights with a place, and the points, into two rooms.
+bool is_seen(const Light& light, const Vec3f& from) {
+  return light.is_infinite() || (center(light.bounds().position).x < 5) == (from.x < 5);
+}
+
+/// What probes find in the two rooms.
+LightVisibility two_rooms(const Lights& lights) {
+  Random random(51);
+  std::vector<LightVisibility::Probe> probes;
+  std::vector<float> expected, found;
+  for (int i = 0; i < 40'000; ++i) {
+    const Vec3f direction = normalize(random.next_3d() - Vec3f(0.5f));
+    probes.push_back({random.next_3d() * 14.0f - Vec3f(2), direction});
+    for (const auto& light : lights) {
+      expected.push_back(light->expected_irradiance({probes.back().position, direction}));
+      found.push_back(is_seen(*light, probes.back().position) ? expected.back() : 0.0f);
+    }
+  }
+  return {probes, lights.size(), expected, found};
+}
+
+TEST(LightSelector, LearnedChoicesAreReportedExactly) {
+  for (const auto& [local, infinite] : {Population{2, 0}, {3, 2}, {30, 3}}) {
+    SCOPED_TRACE(local);
+    const Lights lights = random_lights(local, infinite, 5);
+    LightSelector selector(lights);
+    selector.learn(two_rooms(lights));
+    Random random(55);
+    for (int i = 0; i < 100; ++i) {
+      const Query q = random_query(random);
+      double sum = 0;
+      for (int light = 0; light < int(lights.size()); ++light) {
+        const float probability = selector.probability(q.reference, q.normal, light);
+        sum += probability;
+        if (contribution(*lights[size_t(light)], q, {0.5f, 0.5f}) > 0) {
+          ASSERT_GT(probability, 0);
+        }
+      }
+      ASSERT_NEAR(sum, 1, 1e-5);
+      for (int k = 0; k < 20; ++k) {
+        float u = random.next();
+        const auto choice = selector.choose(q.reference, q.normal, u);
+        ASSERT_EQ(choice.probability, selector.probability(q.reference, q.normal, choice.light));
+        ASSERT_TRUE(u >= 0 && u < 1);
+      }
+    }
+    const ChoiceTest test =
+        test_choices(lights, selector, random_query(random), 1'000'000 / sample_share);
+    EXPECT_GT(test.lights, failure_level);
+    EXPECT_GT(test.leftover, failure_level);
+    expect_twin_fails(test.planted_error);
+  }
+}
+
+TEST(LightSelector, LearnsWhichLightsAreSeen) {
+  Random places(53);
+  Lights lights;
+  for (int i = 0; i < 30; ++i)
+    lights.push_back(
+        make_light("point", {{"position", Value(Vec3d(places.next_3d() * 10.0f)), {}}}));
+  LightSelector learned(lights);
+  ASSERT_TRUE(learned.can_learn());
+  learned.learn(two_rooms(lights));
+  const LightSelector ignorant(lights);
+  const auto variance_of = [&](const LightSelector& selector) {
+    Random random(57);
+    double total = 0;
+    int queries = 0;
+    for (int i = 0; i < 2000 / sample_share; ++i) {
+      const Query q = random_query(random);
+      double sum = 0, second_moment = 0;
+      for (int light = 0; light < int(lights.size()); ++light) {
+        if (!is_seen(*lights[size_t(light)], q.reference)) continue;
+        const double c = contribution(*lights[size_t(light)], q, {0.5f, 0.5f});
+        if (c > 0)
+          second_moment += c * c / double(selector.probability(q.reference, q.normal, light));
+        sum += c;
+      }
+      if (sum > 0) total += second_moment / (sum * sum) - 1, ++queries;
+    }
+    return total / queries;
+  };
+  const double by_learned = variance_of(learned), by_ignorant = variance_of(ignorant);
+  std::printf("  relative variance: ignorant %.3f, learned %.3f\n", by_ignorant, by_learned);
+  EXPECT_LT(by_learned, 0.5 * by_ignorant);
+}
+
+TEST(LightSelector, LearnsNothingOfTooManyOrTooFew) {
+  for (const int count : {1, 65}) {
+    Lights shining;
+    for (int i = 0; i < count; ++i) shining.push_back(make_light("point", {}));
+    EXPECT_FALSE(LightSelector(shining).can_learn()) << count;
+  }
 }
 
 TEST(LightSelector, LightsAtOnePlaceAreAllFound) {

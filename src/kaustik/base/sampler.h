@@ -16,7 +16,8 @@ enum class Stream : uint32_t {
   cache,
   training,
   photon_shadow,
-  photon_volume
+  photon_volume,
+  light_probe
 };
 
 /// 64-bit mix of two values (the finaliser of splitmix64); the base of every address.

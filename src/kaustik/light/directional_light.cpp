@@ -21,7 +21,7 @@ class DirectionalLight final : public Light {
   bool is_infinite() const override { return true; }
 
   float expected_irradiance(const LightQuery& query) const override {
-    return irradiance_.sum() * receiver_cosine(query, direction_);
+    return irradiance_.sum() * receiver_cosine(query, -direction_);
   }
 
   LightSample sample_toward(const LightQuery&, const Vec2f&) const override {

@@ -54,9 +54,10 @@ float EmissionBall::irradiance(const Vec3f& reference, const Vec3f& normal) cons
 
   float cos_receiver = 1;
   if (normal.x != 0 || normal.y != 0 || normal.z != 0) {
-    const float cos_i = std::min(abs_dot(normal, direction), 1.0f);
-    cos_receiver = std::max(cos_of_difference(cos_i, safe_sqrt(1.0f - sqr(cos_i)), cos_u, sin_u),
-                            minimum_receiver_cosine);
+    const float cos_i = std::clamp(-dot(normal, direction), -1.0f, 1.0f);
+    cos_receiver = cos_of_difference(cos_i, safe_sqrt(1.0f - sqr(cos_i)), cos_u, sin_u);
+    if (cos_receiver < -cosine_slack) return 0;  // wholly behind the surface
+    cos_receiver = std::max(cos_receiver, minimum_receiver_cosine);
   }
   return base * std::max(cos_emission, cosine_slack) * cos_receiver;
 }

@@ -3,8 +3,8 @@
 
 namespace kaustik {
 
-/// A surface's normal alone never excludes a light: a shading normal may face what the geometric
-/// one does not.
+/// No light that is partly before a surface is excluded: a shading normal may face what the
+/// geometric one hardly does.
 inline constexpr float minimum_receiver_cosine = 0.02f;
 
 /// Emission held in bounds: from somewhere within a sphere, brightest about an axis. What light may

@@ -32,10 +32,10 @@ float IrradianceHarmonics::irradiance(const Vec3f& normal) const {
   constexpr double degree_0 = std::numbers::pi, degree_1 = 2 * std::numbers::pi / 3,
                    degree_2 = std::numbers::pi / 4;
   const std::array<double, 9> y = harmonics(normal);
-  double even = degree_0 * coefficients_[0] * y[0], odd = 0;
-  for (size_t i = 1; i < 4; ++i) odd += degree_1 * coefficients_[i] * y[i];
-  for (size_t i = 4; i < 9; ++i) even += degree_2 * coefficients_[i] * y[i];
-  return float(std::max(even + std::fabs(odd), 0.05 * 0.25 * total));
+  double irradiance = degree_0 * coefficients_[0] * y[0];
+  for (size_t i = 1; i < 4; ++i) irradiance += degree_1 * coefficients_[i] * y[i];
+  for (size_t i = 4; i < 9; ++i) irradiance += degree_2 * coefficients_[i] * y[i];
+  return float(std::max(irradiance, 0.05 * 0.25 * total));
 }
 
 }  // namespace kaustik

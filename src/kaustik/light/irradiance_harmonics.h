@@ -13,8 +13,8 @@ class IrradianceHarmonics {
   /// Adds radiance from a direction, weighted by solid angle.
   void add(const Vec3f& direction, double radiance_times_solid_angle);
 
-  /// On the side of a surface that gets more, whatever the sign of its normal; at least a twentieth
-  /// of the mean over all orientations. For a zero normal the integral over all directions.
+  /// On the side of a surface that its normal points to; at least a twentieth of the mean over all
+  /// orientations. For a zero normal the integral over all directions.
   float irradiance(const Vec3f& normal) const;
 
  private:

@@ -4,13 +4,15 @@
 
 #include "kaustik/base/spectrum.h"
 #include "kaustik/geometry/shape.h"
+#include "kaustik/light/light_visibility.h"
 
 namespace kaustik {
 
 /// A point that asks a light for light.
 struct LightQuery {
   Vec3f reference{0, 0, 0};
-  Vec3f normal{0, 0, 0};  ///< of the surface there; its sign does not matter; zero: none
+  /// Of the surface there, on the side that receives; zero: none, or light from both sides counts.
+  Vec3f normal{0, 0, 0};
   /// Recursion level of the path that asks: the deeper, the more coarsely lights may be sampled.
   int level = 0;
 
@@ -76,8 +78,8 @@ class Light {
   /// Index into the scene's shapes if it is an area light, else −1.
   virtual int shape() const { return -1; }
 
-  /// Estimate of the irradiance that the light gives the queried point without shadows, on either
-  /// side of the surface (facing the light where there is no normal); W/m², sum of the lanes. What
+  /// Estimate of the irradiance that the light gives the queried point without shadows, on the
+  /// normal's side (facing the light where there is no normal); W/m², sum of the lanes. What
   /// samples are shared out by: zero only where no light can arrive, and rather too high than too
   /// low. This is the thesis's brightness times projection.
   virtual float expected_irradiance(const LightQuery& query) const = 0;
@@ -138,20 +140,27 @@ const std::vector<LightType>& light_types();
 
 /// Chooses one of many lights for a reference point: up to 16 by the irradiance that they may give,
 /// more by a light tree (Conty Estevez and Kulla 2018). Infinite lights and the others are groups,
-/// of which neither gets less than a fifth. Every light that can reach the point has a chance above
-/// zero; lights without power have none. Immutable.
+/// of which neither gets less than a fifth. Once it has learned which lights are seen from where,
+/// up to 64 of any kind are chosen by the irradiance that they may give and its share that arrived
+/// at probes nearby. Every light that can reach the point has a chance above zero; lights without
+/// power have none. Immutable once it has learned.
 class LightSelector {
  public:
   /// `lights` must outlive this.
   explicit LightSelector(const std::vector<std::unique_ptr<Light>>& lights);
   ~LightSelector();
 
+  static constexpr size_t maximum_learned = 64;
+  /// Whether there are some lights to choose from, and few enough for learn().
+  bool can_learn() const;
+  /// `visibility` knows all lights, by their indices. Before anything is chosen.
+  void learn(LightVisibility visibility);
+
   struct Choice {
     int light = -1;  ///< −1: no light has power
     float probability = 0;
   };
-  /// `normal` may be zero (no surface); its sign does not matter, for light may pass through the
-  /// surface. `u` in [0, 1) is replaced by a fresh uniform number.
+  /// `normal` as of a LightQuery. `u` in [0, 1) is replaced by a fresh uniform number.
   Choice choose(const Vec3f& reference, const Vec3f& normal, float& u) const;
   /// Exactly what choose() reports for this light.
   float probability(const Vec3f& reference, const Vec3f& normal, int light) const;

@@ -67,7 +67,8 @@ SurfacePoint free_point(const Vec3f& position) {
 
 float receiver_cosine(const LightQuery& query, const Vec3f& direction) {
   if (query.normal == Vec3f(0, 0, 0)) return 1;
-  return std::clamp(abs_dot(query.normal, direction), minimum_receiver_cosine, 1.0f);
+  const float cosine = dot(query.normal, direction);
+  return cosine < -1e-4f ? 0.0f : std::clamp(cosine, minimum_receiver_cosine, 1.0f);
 }
 
 EmissionDisk::EmissionDisk(const Bounds3f& scene_bounds) {

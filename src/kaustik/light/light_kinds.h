@@ -40,8 +40,9 @@ SurfacePoint free_point(const Vec3f& position);
 /// density zero); nothing where both coincide.
 LightSample toward_point(const SurfacePoint& point, const Vec3f& reference);
 
-/// |cosine| of light along `direction` on the queried surface; without one it faces the light.
-/// Never quite zero: a shading normal may face what the geometric one does not.
+/// Cosine of light along `direction` on the queried surface, zero from behind; without a surface it
+/// faces the light. Otherwise never quite zero: a shading normal may face what the geometric one
+/// hardly does.
 float receiver_cosine(const LightQuery& query, const Vec3f& direction);
 
 /// The disk that rays of infinite lights start from: across their direction, just outside of the

@@ -6,17 +6,20 @@ namespace {
 
 /// Up to this many lights of a group are chosen by what each of them may give.
 constexpr size_t maximum_few = 16;
+static_assert(maximum_few <= LightSelector::maximum_learned);
 /// Neither infinite lights nor the others get less than this: what lies between the point and the
 /// sky (a room's walls) is not known.
 constexpr double minimum_group_share = 0.2;
 /// A light that may give anything is chosen at least this often, relative to the best one.
 constexpr float minimum_share_of_best = 1.0f / 32;
+/// The same where it is known which lights are seen.
+constexpr float minimum_learned_share = 1.0f / 256;
 
 /// Some lights, each chosen in proportion to the irradiance that it may give.
 class FewLights {
  public:
   struct Weights {
-    std::array<float, maximum_few> of{};
+    std::array<float, LightSelector::maximum_learned> of;  ///< only as many as there are lights
     float sum = 0;  ///< of the irradiances, before the least ones are raised
     float total = 0;
   };
@@ -25,17 +28,20 @@ class FewLights {
   size_t size() const { return lights_.size(); }
   bool empty() const { return lights_.empty(); }
 
-  Weights weights(const LightQuery& query) const {
+  /// `shares`: of what is expected of each light of the scene; null: all of it.
+  Weights weights(const LightQuery& query, const float* shares = nullptr) const {
+    const float least = shares ? minimum_learned_share : minimum_share_of_best;
     Weights w;
     float best = 0;
     for (size_t i = 0; i < lights_.size(); ++i) {
       w.of[i] = std::max(0.0f, lights_[i].light->expected_irradiance(query));
+      if (shares) w.of[i] *= shares[lights_[i].index];
       w.sum += w.of[i];
       best = std::max(best, w.of[i]);
     }
     for (size_t i = 0; i < lights_.size(); ++i) {
       // Where none gives anything it does not matter which is chosen.
-      if (w.of[i] > 0) w.of[i] = std::max(w.of[i], best * minimum_share_of_best);
+      if (w.of[i] > 0) w.of[i] = std::max(w.of[i], best * least);
       if (!(best > 0)) w.of[i] = 1;
       w.total += w.of[i];
     }
@@ -84,7 +90,14 @@ struct Group {
 struct LightSelector::Impl {
   Group infinite, local;
   std::vector<bool> is_infinite;
-  int only_light = -1;  ///< the one that has power, if there is one alone
+  int only_light = -1;         ///< the one that has power, if there is one alone
+  FewLights learned;           ///< all that have power, if they are few enough to learn about
+  LightVisibility visibility;  ///< empty: not learned
+
+  /// What is known of the lights' shares; null: nothing.
+  const float* shares(const Vec3f& reference, const Vec3f& normal) const {
+    return visibility.empty() ? nullptr : visibility.shares(reference, normal);
+  }
 
   void add_infinite(const std::vector<std::unique_ptr<Light>>& lights);
   void add_local(const std::vector<std::unique_ptr<Light>>& lights);
@@ -157,16 +170,26 @@ LightSelector::LightSelector(const std::vector<std::unique_ptr<Light>>& lights)
   for (size_t i = 0; i < lights.size(); ++i) {
     if (!(importance_of(lights[i]->power()) > 0)) continue;
     impl_->only_light = ++shining == 1 ? int(i) : -1;
+    if (size_t(shining) <= maximum_learned) impl_->learned.add(int(i), *lights[i]);
   }
+  if (size_t(shining) > maximum_learned) impl_->learned = {};
 }
 
 LightSelector::~LightSelector() = default;
+
+bool LightSelector::can_learn() const { return impl_->learned.size() > 1; }
+
+void LightSelector::learn(LightVisibility visibility) {
+  if (can_learn()) impl_->visibility = std::move(visibility);
+}
 
 LightSelector::Choice LightSelector::choose(const Vec3f& reference, const Vec3f& normal,
                                             float& u) const {
   if (impl_->only_light >= 0) return {impl_->only_light, 1.0f};
   const Group &infinite = impl_->infinite, &local = impl_->local;
   if (infinite.empty() && local.empty()) return {};
+  if (const float* shares = impl_->shares(reference, normal))
+    return impl_->learned.choose(impl_->learned.weights({reference, normal}, shares), u);
   const GroupWeights w = weigh(infinite, local, {reference, normal});
   const float share = w.infinite_share;
   Choice choice;
@@ -189,6 +212,8 @@ float LightSelector::probability(const Vec3f& reference, const Vec3f& normal, in
   if (impl_->only_light >= 0) return light == impl_->only_light ? 1.0f : 0.0f;
   const Group &infinite = impl_->infinite, &local = impl_->local;
   if (infinite.empty() && local.empty()) return 0;
+  if (const float* shares = impl_->shares(reference, normal))
+    return impl_->learned.probability(impl_->learned.weights({reference, normal}, shares), light);
   const GroupWeights w = weigh(infinite, local, {reference, normal});
   if (impl_->is_infinite[size_t(light)])
     return w.infinite_share * (infinite.few.empty() ? infinite.by_power.probability(light)

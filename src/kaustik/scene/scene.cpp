@@ -1,5 +1,6 @@
 #include "kaustik/scene/scene.h"
 
+#include "kaustik/scene/light_probes.h"
 #include "kaustik/scene/media.h"
 
 namespace kaustik {
@@ -9,6 +10,7 @@ Scene::Scene(Parts parts) : parts_(std::move(parts)) {
   for (size_t i = 0; i < parts_.lights.size(); ++i)
     if (parts_.lights[i]->is_infinite()) environment_lights_.push_back(int(i));
   find_media();
+  if (parts_.camera) light_selector_->learn(probe_lights(*this));
 }
 
 void Scene::find_media() {
