@@ -97,11 +97,17 @@ struct LightPass::Deposits {
   MapReport report;
 };
 
+/// LightPathLimits::largest_weight in the first pass; it grows with the passes, so that the light
+/// which it cuts off comes back in the mean. A single photon of a thousand times the others' flux
+/// would be a spot in the picture, and a bright haze about every gather ray that finds it.
+constexpr float largest_first_weight = 10;
+
 /// Traces one block of photons of one light.
 class LightPass::Tracer {
  public:
-  Tracer(const LightPass& pass, Kind kind, int light, uint32_t count)
+  Tracer(const LightPass& pass, Kind kind, int light, uint32_t count, uint32_t index)
       : pass_(pass),
+        largest_weight_(largest_first_weight * std::cbrt(float(index) + 1)),
         kind_(kind),
         light_(light),
         scale_(1.0f / float(count)),
@@ -117,7 +123,8 @@ class LightPass::Tracer {
     const MediumEvents in_media = kind_ != Kind::caustic      ? MediumEvents::follow
                                   : pass_.settings_.reradiate ? MediumEvents::after_events
                                                               : MediumEvents::stop;
-    const LightPathLimits limits{pass_.settings_.maximum_events, pass_.settings_.traced, in_media};
+    const LightPathLimits limits{pass_.settings_.maximum_events, pass_.settings_.traced, in_media,
+                                 largest_weight_};
     const auto start = [&](uint32_t photon) { return emit(sampler_of(photon)); };
     const auto meet = [this](const LightVertex& at) {
       switch (kind_) {
@@ -202,6 +209,7 @@ class LightPass::Tracer {
   }
 
   const LightPass& pass_;
+  float largest_weight_;
   Kind kind_;
   int light_;
   float scale_;
@@ -265,7 +273,8 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
   parallel_blocks(blocks.size(), 1, [&](size_t i, size_t, size_t) {
     if (stop.stop_requested()) return;
     const Block& block = blocks[i];
-    auto tracer = std::make_unique<Tracer>(*this, kind, block.light, shares[size_t(block.light)]);
+    auto tracer =
+        std::make_unique<Tracer>(*this, kind, block.light, shares[size_t(block.light)], index);
     // Kinds draw from different addresses even where they share a stream (training).
     const uint64_t element = uint64_t(block.light) * 2 + (kind == Kind::caustic ? 1 : 0) +
                              (kind == Kind::volume ? uint64_t(1) << 32 : 0);

@@ -12,10 +12,21 @@ namespace kaustik {
 struct Footprint {
   float width = 0;         ///< across the ray at the last vertex, m
   float spread = 0;        ///< growth of the width per metre
+  float sharp_width = 0;   ///< the width without diffuse and glossy events, m …
+  float sharp_spread = 0;  ///< … and its growth
   bool scattered = false;  ///< a diffuse or glossy event lies behind: normals are no longer
                            ///< filtered, since flat water would focus light elsewhere
 
-  void travel(float distance) { width += spread * distance; }
+  /// Of a beam that leaves the camera with this spread.
+  static Footprint of_camera(float spread) {
+    Footprint footprint;
+    footprint.spread = footprint.sharp_spread = spread;
+    return footprint;
+  }
+  void travel(float distance) {
+    width += spread * distance;
+    sharp_width += sharp_spread * distance;
+  }
   /// The path goes on by an event that was sampled with this density. Of a diffuse or glossy lobe
   /// the beam stands for a 64th: a cone whose solid angle is that of 1/64 of the chance.
   void scatter(Lobes event, float pdf_solid_angle) {

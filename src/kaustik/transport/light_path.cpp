@@ -5,20 +5,27 @@
 namespace kaustik {
 namespace {
 
-/// Light that total reflection, perfect mirrors or white media trap would never end.
-float largest_survival(const LightPath& path) {
-  return path.path_class.events() < certain_events ? 1.0f : 0.95f;
+/// By the share that is left of what was emitted, not by the event's weight alone: that would make
+/// flux grow without end where weights alternate about one, as those of bent normals do (Veach
+/// 1997, eq. 5.19) when water reflects light totally time and again. Light that total reflection,
+/// perfect mirrors or white media trap would never end, hence the bound.
+float survival_of(const LightPath& path, const Spectrum& event_weight) {
+  const float bound = path.path_class.events() < certain_events ? 1.0f : 0.95f;
+  return std::min(bound, (path.weight * event_weight).max_lane());
 }
 
 }  // namespace
 
-bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, LightPath& path) {
+bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, float largest_weight,
+                        LightPath& path) {
   const Vec2f u = path.sampler.next_2d();
   const Vec2f u_choice = path.sampler.next_2d();
   const BsdfSample sample = vertex.sample(u_choice.x, u, follow);
-  const float survival = std::min(largest_survival(path), sample.weight.max_lane());
+  const float survival = survival_of(path, sample.weight);
   if (sample.event == Lobes::none || !(u_choice.y < survival)) return false;
-  path.state.throughput *= sample.weight * (1 / survival);
+  path.attenuate(sample.weight * (1 / survival));
+  if (const float weight = path.weight.max_lane(); weight > largest_weight)
+    path.attenuate(Spectrum(largest_weight / weight));
   path.state.pdf_forward = sample.event == Lobes::delta ? 0 : sample.pdf_solid_angle;
   path.state.footprint.scatter(sample.event, sample.pdf_solid_angle);
   path.state.depth += 1;
@@ -46,7 +53,7 @@ MediumPassage pass_medium(LightPath& path, float limit, const LightPathLimits& l
   const Medium::Flight flight =
       medium.sample_flight(limit, path.state.throughput, path.sampler.next_2d());
   if (!flight.scattered) {
-    path.state.throughput *= flight.weight;
+    path.attenuate(flight.weight);
     return MediumPassage::through;
   }
   const bool follow =
@@ -55,9 +62,9 @@ MediumPassage pass_medium(LightPath& path, float limit, const LightPathLimits& l
   if (!follow) return MediumPassage::stopped;
   if (path.path_class.events() >= limits.maximum_events) return MediumPassage::too_long;
   const Vec2f u = path.sampler.next_2d();
-  const float survival = std::min(largest_survival(path), flight.weight.max_lane());
+  const float survival = survival_of(path, flight.weight);
   if (!(path.sampler.next_1d() < survival)) return MediumPassage::absorbed;
-  path.state.throughput *= flight.weight * (1 / survival);
+  path.attenuate(flight.weight * (1 / survival));
   const Vec3f wo = -path.ray.direction;
   const Vec3f wi = medium.phase().sample(wo, u);
   path.state.pdf_forward = medium.phase().eval(wo, wi);

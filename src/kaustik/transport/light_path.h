@@ -23,10 +23,16 @@ struct LightPath {
     state.medium = medium;
   }
 
+  void attenuate(const Spectrum& factor) {
+    state.throughput *= factor;
+    weight *= factor;
+  }
+
   Ray ray;          ///< along which it goes on
   PathState state;  ///< throughput: flux that arrives, W, before any attenuation there
   LightPathClass path_class;
   Sampler sampler;
+  Spectrum weight{1.0f};  ///< the throughput's share of what was emitted; roulette keeps it about 1
   uint32_t segments = 0;  ///< traced so far: those across null boundaries count, each has a block
                           ///< of random numbers
   float distance = 0;     ///< from the last event to the origin of `ray`, m
@@ -65,6 +71,9 @@ struct LightPathLimits {
   int maximum_events = 1 << 20;    ///< scattering events
   Lobes traced = Lobes::specular;  ///< lobes whose events count as specular
   MediumEvents in_media = MediumEvents::follow;
+  /// Where bent normals are met at grazing incidence, flux grows without bound, rarely (the factor
+  /// of SurfaceVertex::eval_cosine): what is beyond this share of the emitted flux is cut off.
+  float largest_weight = infinity;
 };
 
 /// What became of light paths.
@@ -76,9 +85,10 @@ struct LightPathCounts {
 };
 
 /// Scatters `path` at `vertex`, by the lobes `follow`: true if it goes on. Russian roulette
-/// survives with the largest lane of the event's weight, so the flux of the survivors stays even;
+/// survives with the largest lane of the path's weight, so the flux of the survivors stays even;
 /// shared by global, caustic and splatted light [Schregle 1998].
-bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, LightPath& path);
+bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, float largest_weight,
+                        LightPath& path);
 
 /// The point of its segment through its medium, of length `limit`, where `path` is scattered
 /// surely; the flux is zero where nothing scatters.
@@ -151,7 +161,7 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
     const Lobes follow = handler(LightVertex{vertex, path.state, path.path_class, path.distance});
     if (!any(follow)) return ended(counts.stopped);
     if (path.path_class.events() >= limits.maximum_events) return ended(counts.too_long);
-    if (!scatter_light_path(vertex, follow, path)) return ended(counts.absorbed);
+    if (!scatter_light_path(vertex, follow, limits.largest_weight, path)) return ended(counts.absorbed);
     return true;
   };
   while (begin < end) {

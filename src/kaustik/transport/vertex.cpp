@@ -82,7 +82,8 @@ void SurfaceVertex::turn_to_tangent(const Vec3f& dpdu) {
 
 float SurfaceVertex::irradiance_factor(const Vec3f& wi) const {
   const float cosine = dot(wi, frame_.z), geometric = dot(wi, point_.ng);
-  return cosine * geometric * side_sign_ > 0 ? cosine / geometric * side_sign_ : 0.0f;
+  if (!(cosine * geometric * side_sign_ > 0)) return 0;
+  return std::min(cosine / geometric * side_sign_, largest_irradiance_factor);
 }
 
 float SurfaceVertex::adjoint_factor(const Vec3f& wi, const Vec3f& wi_local) const {

@@ -4,6 +4,9 @@
 
 namespace kaustik {
 
+/// See SurfaceVertex::irradiance_factor.
+inline constexpr float largest_irradiance_factor = 10;
+
 /// A path's meeting with a surface: geometry, material, and the direction it came from. All
 /// directions point away from the surface, in world space.
 class SurfaceVertex {
@@ -49,7 +52,9 @@ class SurfaceVertex {
   /// Whether a bump or normal map bends the normal.
   bool has_relief() const { return has_relief_; }
   /// What turns irradiance from wi, measured by the geometric normal as photons do, into that by
-  /// the shading normal; zero where the two disagree on the side of wi.
+  /// the shading normal; zero where the two disagree on the side of wi. At most
+  /// `largest_irradiance_factor`: it grows without bound at grazing incidence, where a single photon
+  /// would outshine all others. Of even light a normal bent by β loses less than sin²β / 10 by that.
   float irradiance_factor(const Vec3f& wi) const;
   /// The shading normal on wo's side.
   Vec3f facing_normal() const { return wo_local_.z < 0 ? -frame_.z : frame_.z; }
