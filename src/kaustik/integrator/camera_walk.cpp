@@ -31,7 +31,7 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
       sink_(sink),
       class_(traced),
       ray_(scene.camera().sample_ray(raster)) {
-  state_.footprint.spread = scene.camera().pixel_spread();
+  state_.footprint = Footprint::of_camera(scene.camera().pixel_spread());
   state_.medium = scene.camera_medium();
 }
 

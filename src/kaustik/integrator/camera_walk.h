@@ -48,7 +48,7 @@ class CameraWalk {
   bool all_events_specular() const { return class_.all_specular(); }
   /// Half the width of a pixel at the vertex, m; many samples share a pixel, so that textures are
   /// filtered by half of it.
-  float footprint() const { return state_.footprint.width; }
+  const Footprint& footprint() const { return state_.footprint; }
   Sampler& sampler() { return sampler_; }
 
   /// Adds light sampled at the vertex and reflected by its lobes. The probabilities are those that
