@@ -31,8 +31,7 @@ CachePoint cache_point_of(const CameraWalk& walk, const Vec3f& normal,
                           const PhotonMapSettings& settings) {
   const Footprint& footprint = walk.footprint();
   const float width = std::min(footprint.width, widest_blur * footprint.sharp_width);
-  return {walk.vertex().point(), normal, 2 * width,
-          settings.cache_tolerance(walk.events()),
+  return {walk.vertex().point(), normal, 2 * width, settings.cache_tolerance(walk.events()),
           walk.vertex().medium_toward(normal, walk.medium())};
 }
 
