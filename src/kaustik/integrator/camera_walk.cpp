@@ -98,7 +98,7 @@ CameraWalk::Arrival CameraWalk::fly() {
         state_.medium->sample_flight(length, state_.throughput, sampler_.next_2d());
     state_.throughput *= flight.weight;
     if (!flight.scattered) return false;
-    in_medium_ = Receiver(ray_.origin + ray_.direction * flight.distance);
+    in_medium_ = Receiver(ray_.origin + ray_.direction * flight.distance, state_.depth);
     distance_ += flight.distance;
     state_.footprint.travel(flight.distance);
     return true;
@@ -160,7 +160,7 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
     add_reflected(Lobes::diffuse, by_diffuse * factor);
     add_reflected(Lobes::glossy, by_glossy * factor);
   };
-  sample_direct_lights(scene_, vertex_, sampling, sampler_, take);
+  sample_direct_lights(scene_, Receiver(vertex_, state_.depth), sampling, sampler_, take);
 }
 
 void CameraWalk::add_medium_light() {
@@ -197,9 +197,9 @@ bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec
   state_.roulette_scale *= sqr(sample.eta) * std::max(1.0f, probability);
   state_.pdf_forward = sample.event == Lobes::delta ? 0 : probability * sample.pdf_solid_angle;
   state_.footprint.scatter(sample.event, sample.pdf_solid_angle);
+  previous_ = Receiver(vertex_, state_.depth);
   state_.depth += 1;
   class_.add_event(sample.event);
-  previous_ = Receiver(vertex_);
   state_.medium = vertex_.medium_toward(sample.wi, state_.medium);
   ray_ = spawn_ray(vertex_.point(), sample.wi);
   return true;

@@ -102,7 +102,8 @@ Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, const 
                  seen.by_ray;
     sum += reflected * visible;
   };
-  sample_direct_lights(scene_, vertex, {settings_.light_choice, 1}, sampler, take);
+  sample_direct_lights(scene_, Receiver(vertex, recursion), {settings_.light_choice, 1}, sampler,
+                       take);
   return sum;
 }
 

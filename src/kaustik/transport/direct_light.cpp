@@ -2,7 +2,8 @@
 
 namespace kaustik {
 
-Receiver::Receiver(const SurfaceVertex& vertex) : point(vertex.point()) {
+Receiver::Receiver(const SurfaceVertex& vertex, int recursion_level)
+    : point(vertex.point()), level(recursion_level) {
   if (!vertex.bsdf().transmits()) normal = vertex.on_front() ? point.ng : -point.ng;
 }
 
@@ -22,8 +23,7 @@ bool sample_direct_light(const Scene& scene, const Receiver& receiver, Sampler& 
 bool sample_direct_light_of(const Scene& scene, const Receiver& receiver, int light, const Vec2f& u,
                             DirectLight& result) {
   const Vec3f& position = receiver.point.position;
-  const LightSample sample =
-      scene.lights()[size_t(light)]->sample_toward({position, receiver.normal}, u);
+  const LightSample sample = scene.lights()[size_t(light)]->sample_toward(receiver.query(), u);
   if (!(sample.pdf_solid_angle > 0) || sample.radiance.is_zero()) return false;
   result.light = light;
   result.wi = sample.direction;
@@ -41,7 +41,7 @@ bool sample_direct_light_of(const Scene& scene, const Receiver& receiver, int li
 void share_light_samples(const Scene& scene, const Receiver& receiver, int samples,
                          std::vector<int>& counts) {
   static thread_local std::vector<float> irradiances;
-  const LightQuery query(receiver.point.position, receiver.normal);
+  const LightQuery query = receiver.query();
   irradiances.clear();
   double total = 0;
   for (const auto& light : scene.lights()) {
@@ -62,7 +62,7 @@ float choice_factor(const Scene& scene, const Receiver& receiver, LightChoice ch
   if (choice == LightChoice::one)
     return scene.light_selector().probability(receiver.point.position, receiver.normal, light);
   const Light& of = *scene.lights()[size_t(light)];
-  return of.expected_irradiance({receiver.point.position, receiver.normal}) > 0 ? 1.0f : 0.0f;
+  return of.expected_irradiance(receiver.query()) > 0 ? 1.0f : 0.0f;
 }
 
 }  // namespace
@@ -70,8 +70,7 @@ float choice_factor(const Scene& scene, const Receiver& receiver, LightChoice ch
 float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice choice, int light,
                        const SurfacePoint& on_light) {
   return choice_factor(scene, receiver, choice, light) *
-         scene.lights()[size_t(light)]->pdf_toward({receiver.point.position, receiver.normal},
-                                                   on_light);
+         scene.lights()[size_t(light)]->pdf_toward(receiver.query(), on_light);
 }
 
 float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice choice, int light,

@@ -11,12 +11,18 @@ namespace kaustik {
 struct Receiver {
   Receiver() = default;
   /// On a surface only light on the viewer's side counts, unless it transmits.
-  Receiver(const SurfaceVertex& vertex);  // NOLINT: a vertex is one
+  Receiver(const SurfaceVertex& vertex, int recursion_level = 0);  // NOLINT: a vertex is one
   /// In a medium.
-  explicit Receiver(const Vec3f& position) { point.position = position; }
+  explicit Receiver(const Vec3f& position, int recursion_level = 0) : level(recursion_level) {
+    point.position = position;
+  }
+
+  /// What lights are asked with, by sampling and by densities alike.
+  LightQuery query() const { return {point.position, normal, level}; }
 
   SurfacePoint point;     ///< without a normal in a medium
   Vec3f normal{0, 0, 0};  ///< light arrives from its half space; zero: from anywhere
+  int level = 0;          ///< see LightQuery::level; 0: what the camera itself sees
 };
 
 /// Light that arrives at a vertex straight from a light, found by sampling one light.
