@@ -1,7 +1,9 @@
-// Light sampled at a receiver: the recursion level that lights are asked with.
+// Light sampled at a receiver: the recursion level that lights are asked with, and the numbers of
+// shadow rays.
 
 #include "kaustik/transport/direct_light.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "kaustik/base/sampler.h"
@@ -98,6 +100,126 @@ TEST(RecursionLevel, DensitiesFollowIt) {
     }
     EXPECT_GT(largest_difference, 0.1) << level;
   }
+}
+
+constexpr double intensity = 5, height = 2, ball_radius = 0.5;
+
+/// A floor, a lamp 2 m above its origin, and a screen halfway up whose edge is the line x = 0: the
+/// shadow's edge at the origin is the middle of its penumbra.
+std::shared_ptr<const Scene> floor_half_in_shadow(const std::string& lamp) {
+  return scene_of(
+      "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"9\"/></transform>"
+      "</shape><shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"2\"/>"
+      "<translate x=\"-2\" z=\"1\"/></transform></shape>" +
+      lamp);
+}
+std::string ball(int shadow_samples) {
+  return fmt::format(
+      R"(<emitter type="distributed"><point name="position" value="0, 0, {}"/>
+      <float name="radius" value="{}"/><float name="intensity" value="{}"/>
+      <integer name="shadow_samples" value="{}"/></emitter>)",
+      height, ball_radius, intensity, shadow_samples);
+}
+/// The same as a surface.
+std::string sphere(int shadow_samples) {
+  return fmt::format(
+      R"(<shape type="sphere"><point name="center" value="0, 0, {}"/>
+      <float name="radius" value="{}"/><emitter type="area">
+      <rgb name="radiance" value="{}"/><integer name="shadow_samples" value="{}"/></emitter></shape>)",
+      height, ball_radius, intensity / (std::numbers::pi * ball_radius * ball_radius),
+      shadow_samples);
+}
+
+struct Measured {
+  RunningStatistics irradiance, rays;
+};
+/// What arrives on the floor at `x`.
+Measured measure(const Scene& scene, float x, int level = 0, uint32_t count = 20'000,
+                 LightChoice choice = LightChoice::one) {
+  const Receiver receiver(vertex_at(scene, {x, 0, 0}), level);
+  Measured result;
+  for (uint32_t i = 0; i < count; ++i) {
+    Sampler sampler(hash_mix(31, i), 0);
+    uint64_t rays = 0;
+    const auto irradiance = sample_direct_lights<double>(
+        scene, receiver, {choice, 1}, sampler, [&](const DirectLight& light, ShadowAnswer& answer) {
+          const Spectrum seen = trace_shadow_ray(scene, light, nullptr, rays, answer);
+          return double((light.radiance * seen)[0]) * std::max(0.0, double(light.wi.z));
+        });
+    result.irradiance.add(irradiance);
+    result.rays.add(double(rays));
+  }
+  return result;
+}
+/// Of the whole lamp (a ball gives what a point in its middle would give).
+double unshadowed(double x) { return intensity * height / std::pow(x * x + height * height, 1.5); }
+
+void expect_mean(const RunningStatistics& values, double expected) {
+  EXPECT_LT(values.standard_error(), 0.003 * expected);
+  EXPECT_GT(z_test_p_value(values, expected), 1e-3) << values.mean() << " " << expected;
+  EXPECT_LT(z_test_p_value(values, 1.02 * expected), 1e-3);
+}
+
+/// A quarter of the rays where they agree. In the middle of the penumbra each of the eight groups
+/// of four is traced in full with the chance that seven rays do not agree.
+TEST(ShadowSamples, AreSpentInThePenumbra) {
+  for (const auto& lamp : {ball(32), sphere(32)}) {
+    const auto scene = floor_half_in_shadow(lamp);
+    const Measured lit = measure(*scene, 1.5f), dark = measure(*scene, -1.5f),
+                   middle = measure(*scene, 0);
+    expect_mean(lit.irradiance, unshadowed(1.5));
+    EXPECT_EQ(lit.rays.mean(), 8);
+    EXPECT_EQ(dark.irradiance.mean(), 0);
+    EXPECT_EQ(dark.rays.mean(), 8);
+    expect_mean(middle.irradiance, 0.5 * unshadowed(0));
+    const double all_agree = 2 / 128.0;
+    EXPECT_GT(z_test_p_value(middle.rays, 8 * (all_agree + (1 - all_agree) * 4)), 1e-3)
+        << middle.rays.mean();
+  }
+}
+
+/// The number of rays depends on what they find, the mean does not: at all places of the penumbra
+/// it is that of single rays.
+TEST(ShadowSamples, KeepTheMean) {
+  const auto one = floor_half_in_shadow(ball(1)), many = floor_half_in_shadow(ball(32)),
+             few = floor_half_in_shadow(ball(6));
+  for (const float x : {-0.25f, 0.1f, 0.3f}) {
+    const Measured by_one = measure(*one, x, 0, 400'000);
+    EXPECT_EQ(by_one.rays.mean(), 1);
+    for (const auto& scene : {many, few}) {
+      const Measured adaptive = measure(*scene, x, 0, scene == many ? 40'000 : 80'000);
+      const double error =
+          std::hypot(adaptive.irradiance.standard_error(), by_one.irradiance.standard_error());
+      EXPECT_GT(z_test_p_value(adaptive.irradiance.mean(), error, by_one.irradiance.mean()), 1e-3)
+          << x << ": " << adaptive.irradiance.mean() << " " << by_one.irradiance.mean();
+      EXPECT_LT(z_test_p_value(1.03 * adaptive.irradiance.mean(), error, by_one.irradiance.mean()),
+                1e-3)
+          << x;
+    }
+  }
+}
+
+/// In the middle of the penumbra there is nearly the noise of all the rays.
+TEST(ShadowSamples, BringLessNoise) {
+  const auto variance = [](int shadow_samples) {
+    return measure(*floor_half_in_shadow(ball(shadow_samples)), 0).irradiance.variance();
+  };
+  const double one = variance(1), first = variance(8), adaptive = variance(32);
+  std::printf("  variance over that of one ray: of up to eight %.3f, of up to 32 %.3f\n", first / one,
+              adaptive / one);
+  EXPECT_LT(first, 0.25 * one);
+  EXPECT_LT(adaptive, 0.06 * one);
+}
+
+/// Half as many at each level, down to one; with several lights each has its own number.
+TEST(ShadowSamples, FallWithTheLevel) {
+  const auto scene = floor_half_in_shadow(ball(16));
+  const std::pair<int, double> lit[] = {{1, 4}, {2, 4}, {3, 2}, {4, 1}, {9, 1}};
+  for (const auto& [level, rays] : lit)
+    EXPECT_EQ(measure(*scene, 1.5f, level, 100).rays.mean(), rays) << level;
+  const auto two = floor_half_in_shadow(
+      ball(16) + "<emitter type=\"point\"><point name=\"position\" value=\"0, 0, 3\"/></emitter>");
+  EXPECT_EQ(measure(*two, 1.5f, 0, 100, LightChoice::all).rays.mean(), 5);
 }
 
 }  // namespace

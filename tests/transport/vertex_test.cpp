@@ -302,14 +302,13 @@ TEST(DirectLight, IrradianceByEveryLight) {
     int taken = 0, of_disk = 0;
     for (uint32_t i = 0; i < 20000; ++i) {
       Sampler sampler(hash_mix(12, i), 0);
-      double sum = 0;
-      sample_direct_lights(
-          *scene, vertex, {LightChoice::all, samples}, sampler, [&](const DirectLight& light) {
-            sum += double(light.radiance[0]) * double(light.light == 1 ? 1.0f : light.wi.z);
+      irradiance.add(sample_direct_lights<double>(
+          *scene, vertex, {LightChoice::all, samples}, sampler,
+          [&](const DirectLight& light, ShadowAnswer&) {
             ++taken;
             of_disk += light.light == 0;
-          });
-      irradiance.add(sum);
+            return double(light.radiance[0]) * double(light.light == 1 ? 1.0f : light.wi.z);
+          }));
     }
     std::vector<int> counts;
     share_light_samples(*scene, vertex, samples, counts);

@@ -22,6 +22,22 @@ Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes 
          mis_weight(light.pdf_solid_angle, lobe_probability * vertex.pdf(light.wi, lobes));
 }
 
+/// What the classes of lobes of a vertex send back of direct light.
+struct ReflectedLight {
+  Spectrum by_diffuse, by_glossy;
+
+  ReflectedLight& operator+=(const ReflectedLight& other) {
+    by_diffuse += other.by_diffuse;
+    by_glossy += other.by_glossy;
+    return *this;
+  }
+  ReflectedLight& operator*=(float factor) {
+    by_diffuse *= factor;
+    by_glossy *= factor;
+    return *this;
+  }
+};
+
 }  // namespace
 
 CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler, SampleSink& sink,
@@ -137,13 +153,13 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
   if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
   // What nobody wants costs no shadow ray; its random numbers are drawn, so that the others stay.
   const auto wanted = [&](Lobes lobe) { return sink_.wants(class_.component_after(lobe)); };
-  const auto take = [&](const DirectLight& light) {
-    Spectrum by_diffuse, by_glossy;
+  const auto reflect = [&](const DirectLight& light, ShadowAnswer& answer) {
+    ReflectedLight result;
     if (wanted(Lobes::diffuse))
-      by_diffuse = reflected(vertex_, light, Lobes::diffuse, diffuse_probability);
+      result.by_diffuse = reflected(vertex_, light, Lobes::diffuse, diffuse_probability);
     if (wanted(Lobes::glossy))
-      by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability);
-    if (by_diffuse.is_zero() && by_glossy.is_zero()) return;
+      result.by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability);
+    if (result.by_diffuse.is_zero() && result.by_glossy.is_zero()) return result;
     LightSight seen;
     if (!rules.shadows)
       seen = {1, 0};
@@ -151,31 +167,33 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
       seen = rules.sight->of(light.light);
     Spectrum factor(seen.known);
     if (seen.by_ray > 0)
-      factor += shadow_ray_transmittance(scene_, light.shadow_ray,
-                                         vertex_.medium_toward(light.wi, state_.medium), rays_) *
+      factor += trace_shadow_ray(scene_, light, vertex_.medium_toward(light.wi, state_.medium),
+                                 rays_, answer) *
                 seen.by_ray;
-    if (factor.is_zero()) return;
     if (rules.classical_attenuation)
       factor *= scene_.lights()[size_t(light.light)]->classical_attenuation(vertex_.position());
-    add_reflected(Lobes::diffuse, by_diffuse * factor);
-    add_reflected(Lobes::glossy, by_glossy * factor);
+    return ReflectedLight{result.by_diffuse * factor, result.by_glossy * factor};
   };
-  sample_direct_lights(scene_, Receiver(vertex_, state_.depth), sampling, sampler_, take);
+  const auto light = sample_direct_lights<ReflectedLight>(scene_, Receiver(vertex_, state_.depth),
+                                                          sampling, sampler_, reflect);
+  add_reflected(Lobes::diffuse, light.by_diffuse);
+  add_reflected(Lobes::glossy, light.by_glossy);
 }
 
 void CameraWalk::add_medium_light() {
   const Component component = class_.component_in_medium();
-  const auto take = [&](const DirectLight& light) {
-    if (!sink_.wants(component)) return;
+  const auto scatter = [&](const DirectLight& light, ShadowAnswer& answer) {
+    if (!sink_.wants(component)) return Spectrum();
     const float phase = state_.medium->phase().eval(-ray_.direction, light.wi);
     const float weight =
         light.pdf_solid_angle == 0 ? 1.0f : mis_weight(light.pdf_solid_angle, phase);
-    const Spectrum visible =
-        shadow_ray_transmittance(scene_, light.shadow_ray, state_.medium, rays_);
-    sink_.add(component, state_.throughput * light.radiance * visible * (phase * weight));
+    const Spectrum visible = trace_shadow_ray(scene_, light, state_.medium, rays_, answer);
+    return light.radiance * visible * (phase * weight);
   };
   light_choice_ = LightChoice::one;
-  sample_direct_lights(scene_, in_medium_, {light_choice_, 1}, sampler_, take);
+  sink_.add(component,
+            state_.throughput * sample_direct_lights<Spectrum>(
+                                    scene_, in_medium_, {light_choice_, 1}, sampler_, scatter));
 }
 
 void CameraWalk::scatter_in_medium(const Vec2f& u) {

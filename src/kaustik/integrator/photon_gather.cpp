@@ -89,22 +89,20 @@ Spectrum PhotonLight::gathered_indirect(const SurfaceVertex& vertex, const Mediu
 Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, const Medium* medium,
                                              Lobes lobes, int recursion, Sampler& sampler,
                                              uint64_t& rays) const {
-  Spectrum sum;
   ShadowSight sight(shadows_, shadow_settings_, vertex, recursion);
-  const auto take = [&](const DirectLight& light) {
+  const auto reflect = [&](const DirectLight& light, ShadowAnswer& answer) {
     const Spectrum reflected = vertex.eval_cosine(light.wi, lobes) * light.radiance;
-    if (reflected.is_zero()) return;
+    if (reflected.is_zero()) return reflected;
     const LightSight seen = sight.of(light.light);
     Spectrum visible(seen.known);
     if (seen.by_ray > 0)
-      visible += shadow_ray_transmittance(scene_, light.shadow_ray,
-                                          vertex.medium_toward(light.wi, medium), rays) *
-                 seen.by_ray;
-    sum += reflected * visible;
+      visible +=
+          trace_shadow_ray(scene_, light, vertex.medium_toward(light.wi, medium), rays, answer) *
+          seen.by_ray;
+    return reflected * visible;
   };
-  sample_direct_lights(scene_, Receiver(vertex, recursion), {settings_.light_choice, 1}, sampler,
-                       take);
-  return sum;
+  return sample_direct_lights<Spectrum>(scene_, Receiver(vertex, recursion),
+                                        {settings_.light_choice, 1}, sampler, reflect);
 }
 
 RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const SurfacePoint& from,

@@ -13,12 +13,13 @@ namespace {
 class AreaLight final : public Light {
  public:
   AreaLight(const Spectrum& radiance, std::shared_ptr<const Shape> light_shape, int shape_index,
-            bool two_sided)
+            bool two_sided, int shadow_samples)
       : radiance_(radiance),
         shape_(std::move(light_shape)),
         shape_index_(shape_index),
         area_(shape_->area()),
         two_sided_(two_sided),
+        shadow_samples_(shadow_samples),
         is_dark_(radiance.is_zero()) {
     const DirectionCone normals = two_sided ? DirectionCone() : cone_of_normals(*shape_);
     bounds_.position = shape_->bounds();
@@ -37,6 +38,7 @@ class AreaLight final : public Light {
   LightBounds bounds() const override { return bounds_; }
   bool is_delta() const override { return false; }
   int shape() const override { return shape_index_; }
+  int shadow_samples() const override { return shadow_samples_; }
 
   float expected_irradiance(const LightQuery& query) const override {
     return is_dark_ ? 0.0f : ball_.irradiance(query.reference, query.normal);
@@ -123,6 +125,7 @@ class AreaLight final : public Light {
   int shape_index_;
   float area_;
   bool two_sided_;
+  int shadow_samples_;
   LightBounds bounds_;
   bool is_dark_;
   EmissionBall ball_;
@@ -139,7 +142,8 @@ std::unique_ptr<Light> create_area(const LightInputs& inputs) {
                 "use another shape for the light", place);
   return with_finite_power(
       std::make_unique<AreaLight>(emission_argument(inputs, "radiance"), inputs.shape,
-                                  inputs.shape_index, inputs.arguments.boolean("two_sided")),
+                                  inputs.shape_index, inputs.arguments.boolean("two_sided"),
+                                  int(inputs.arguments.integer("shadow_samples"))),
       inputs);
 }
 
@@ -152,7 +156,7 @@ LightType area_light_type() {
       "Diffuse light from the surface of the shape that it stands in, on the side of the normal.",
       {color_parameter("radiance", 1, "Emitted radiance.").in("W/(sr·m²)"),
        boolean_parameter("two_sided", false, "The back shines as the front does."),
-       ignored_sampling_weight()}};
+       shadow_samples_parameter(), ignored_sampling_weight()}};
   return {info, true, create_area};
 }
 

@@ -22,6 +22,7 @@ struct DistributedSettings {
   Vec3f axis{0, 0, 1};
   std::optional<SpotCone> cone;
   ClassicalAttenuation attenuation;
+  int shadow_samples = 1;
 };
 
 /// Shines outward from a sphere that nothing meets: rays pass through it and it throws no shadow.
@@ -55,6 +56,8 @@ class DistributedLight final : public Light {
   float classical_attenuation(const Vec3f& reference) const override {
     return settings_.attenuation.factor(length(settings_.position - reference));
   }
+
+  int shadow_samples() const override { return settings_.shadow_samples; }
 
   /// Nothing arrives inside of the sphere.
   LightSample sample_toward(const LightQuery& query, const Vec2f& u) const override {
@@ -153,6 +156,7 @@ std::unique_ptr<Light> create_distributed(const LightInputs& inputs) {
   settings.intensity =
       intensity_argument(inputs, settings.cone ? settings.cone->solid_angle() : 4.0f * pi);
   settings.attenuation = ClassicalAttenuation(arguments);
+  settings.shadow_samples = int(arguments.integer("shadow_samples"));
   return with_finite_power(std::make_unique<DistributedLight>(settings), inputs);
 }
 
@@ -168,6 +172,7 @@ std::vector<Parameter> with_shared_rows(std::vector<Parameter> rows) {
           color_parameter("power", 1, "All the light it gives; instead of `intensity`.").in("W")),
       transform_parameter("to_world", "World from the light, whose centre is the origin."),
       attenuation_parameter(),
+      shadow_samples_parameter(),
       ignored_sampling_weight()};
   rows.insert(rows.end(), shared.begin(), shared.end());
   return rows;

@@ -88,6 +88,10 @@ class Light {
   /// Photons, and everything else that is physical, ignore it.
   virtual float classical_attenuation(const Vec3f& reference) const;
 
+  /// Most shadow rays for one sample of the light at recursion level 0: where some arrive and some
+  /// don't, up to so many are worth their time. 1: one always does.
+  virtual int shadow_samples() const { return 1; }
+
   virtual LightSample sample_toward(const LightQuery& query, const Vec2f& u) const = 0;
   /// Density of sample_toward, for a point on the light (area lights) …
   virtual float pdf_toward(const LightQuery& query, const SurfacePoint& point) const;

@@ -41,6 +41,16 @@ std::unique_ptr<Light> with_finite_power(std::unique_ptr<Light> light, const Lig
   return light;
 }
 
+Parameter shadow_samples_parameter() {
+  return integer_parameter(
+             "shadow_samples", 1,
+             "Most shadow rays for a sample of this light: a quarter of them first (at least four, "
+             "at "
+             "most 16), the others where these disagree (penumbra); half as many at each deeper "
+             "recursion level.")
+      .range(1, 4096);
+}
+
 Parameter ignored_sampling_weight() {
   return ignored_parameter("sampling_weight", ParameterKind::number);
 }

@@ -31,6 +31,8 @@ const Transform& emitter_transform(const LightInputs& inputs);
 void reject_beside_to_world(const LightInputs& inputs, std::string_view name);
 /// The finished light; throws where its power overflows.
 std::unique_ptr<Light> with_finite_power(std::unique_ptr<Light> light, const LightInputs& inputs);
+/// What Light::shadow_samples is read from.
+Parameter shadow_samples_parameter();
 /// What Mitsuba's emitters accept and Kaustik has no use for.
 Parameter ignored_sampling_weight();
 

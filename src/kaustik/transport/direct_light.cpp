@@ -7,28 +7,28 @@ Receiver::Receiver(const SurfaceVertex& vertex, int recursion_level)
   if (!vertex.bsdf().transmits()) normal = vertex.on_front() ? point.ng : -point.ng;
 }
 
-bool sample_direct_light(const Scene& scene, const Receiver& receiver, Sampler& sampler,
-                         DirectLight& result) {
-  float u_light = sampler.next_1d();
-  const Vec2f u = sampler.next_2d();
-  const LightSelector::Choice choice =
-      scene.light_selector().choose(receiver.point.position, receiver.normal, u_light);
-  if (choice.light < 0 || !sample_direct_light_of(scene, receiver, choice.light, u, result))
-    return false;
-  result.radiance *= 1 / choice.probability;
-  result.pdf_solid_angle *= choice.probability;
-  return true;
+LightSelector::Choice choose_light(const Scene& scene, const Receiver& receiver, Sampler& sampler) {
+  float u = sampler.next_1d();
+  return scene.light_selector().choose(receiver.point.position, receiver.normal, u);
 }
 
-bool sample_direct_light_of(const Scene& scene, const Receiver& receiver, int light, const Vec2f& u,
-                            DirectLight& result) {
+bool sample_direct_light(const Scene& scene, const Receiver& receiver, Sampler& sampler,
+                         DirectLight& result) {
+  const LightSelector::Choice choice = choose_light(scene, receiver, sampler);
+  const Vec2f u = sampler.next_2d();
+  return choice.light >= 0 && sample_chosen_light(scene, receiver, choice, u, result);
+}
+
+bool sample_chosen_light(const Scene& scene, const Receiver& receiver,
+                         const LightSelector::Choice& choice, const Vec2f& u, DirectLight& result) {
   const Vec3f& position = receiver.point.position;
-  const LightSample sample = scene.lights()[size_t(light)]->sample_toward(receiver.query(), u);
+  const LightSample sample =
+      scene.lights()[size_t(choice.light)]->sample_toward(receiver.query(), u);
   if (!(sample.pdf_solid_angle > 0) || sample.radiance.is_zero()) return false;
-  result.light = light;
+  result.light = choice.light;
   result.wi = sample.direction;
-  result.radiance = sample.radiance * (1 / sample.pdf_solid_angle);
-  result.pdf_solid_angle = sample.only_sampled ? 0 : sample.pdf_solid_angle;
+  result.radiance = sample.radiance * (1 / sample.pdf_solid_angle) * (1 / choice.probability);
+  result.pdf_solid_angle = sample.only_sampled ? 0 : sample.pdf_solid_angle * choice.probability;
   if (sample.on_surface)
     result.shadow_ray = spawn_ray_to(receiver.point, sample.point);
   else if (std::isfinite(sample.distance))

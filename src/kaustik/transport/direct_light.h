@@ -1,9 +1,12 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
 #include "kaustik/base/sampler.h"
 #include "kaustik/transport/vertex.h"
+#include "kaustik/transport/visibility.h"
 
 namespace kaustik {
 
@@ -49,23 +52,44 @@ struct LightSampling {
   int samples = 1;
 };
 
-/// Samples one light; false if nothing can arrive. Two dimension pairs of `sampler`.
+/// What became of a sample.
+enum class ShadowAnswer {
+  none,  ///< no shadow ray was traced
+  dark,  ///< something is in its way
+  lit    ///< light arrives, or a part of it
+};
+
+/// One light for a sample, by LightSelector. One dimension pair of `sampler`.
+LightSelector::Choice choose_light(const Scene& scene, const Receiver& receiver, Sampler& sampler);
+/// Samples a light that was chosen; false if nothing can arrive.
+bool sample_chosen_light(const Scene& scene, const Receiver& receiver,
+                         const LightSelector::Choice& choice, const Vec2f& u, DirectLight& result);
+/// Both. Two dimension pairs of `sampler`.
 bool sample_direct_light(const Scene& scene, const Receiver& receiver, Sampler& sampler,
                          DirectLight& result);
-/// Samples light `light`; false if nothing can arrive.
-bool sample_direct_light_of(const Scene& scene, const Receiver& receiver, int light, const Vec2f& u,
-                            DirectLight& result);
 /// How many of `samples` each light gets with LightChoice::all: in proportion to the irradiance
 /// that it may bring, at least one, and none where no light can arrive.
 void share_light_samples(const Scene& scene, const Receiver& receiver, int samples,
                          std::vector<int>& counts);
 
-/// Calls `take(const DirectLight&)` for every sample that may bring light. Their radiances are
-/// already divided by the numbers of samples: what they reflect, summed, is the estimate. At most
-/// two dimension pairs of `sampler`.
-template <typename Take>
-void sample_direct_lights(const Scene& scene, const Receiver& receiver,
-                          const LightSampling& sampling, Sampler& sampler, const Take& take);
+/// What is left of light on the way from a light: shadow_ray_transmittance(), and its answer.
+inline Spectrum trace_shadow_ray(const Scene& scene, const DirectLight& light, const Medium* medium,
+                                 uint64_t& rays, ShadowAnswer& answer) {
+  const Spectrum left = shadow_ray_transmittance(scene, light.shadow_ray, medium, rays);
+  answer = left.is_zero() ? ShadowAnswer::dark : ShadowAnswer::lit;
+  return left;
+}
+
+/// The estimate of what the lights bring: the mean over the samples of what
+/// `reflect(const DirectLight&, ShadowAnswer&)` makes of each that may bring light, summed over the
+/// lights. It returns a Value: something that is zero at first, can be added (+=) and multiplied by
+/// a float (*=). At most two dimension pairs of `sampler`.
+///
+/// A sample of a light with several Light::shadow_samples is a few of them with a shadow ray each,
+/// and all of them where these disagree, see sample_with_shadow_rays().
+template <typename Value, typename Reflect>
+Value sample_direct_lights(const Scene& scene, const Receiver& receiver,
+                           const LightSampling& sampling, Sampler& sampler, const Reflect& reflect);
 
 /// Density per solid angle with which a sample at `receiver` finds the point `on_light` of an area
 /// light …
@@ -92,36 +116,93 @@ LobeChoice choose_lobes(const SurfaceVertex& vertex, float& u);
 /// The probability with which choose_lobes picks the diffuse class.
 float diffuse_probability(const SurfaceVertex& vertex);
 
-template <typename Take>
-void sample_direct_lights(const Scene& scene, const Receiver& receiver,
-                          const LightSampling& sampling, Sampler& sampler, const Take& take) {
-  DirectLight light;
-  const auto take_share = [&](int count) {
-    light.radiance *= 1.0f / float(count);
-    take(std::as_const(light));
+/// Most shadow rays for a sample of a light: Light::shadow_samples, half as many at each deeper
+/// recursion level.
+inline int most_shadow_rays(const Scene& scene, const Receiver& receiver, int light) {
+  return std::max(1,
+                  scene.lights()[size_t(light)]->shadow_samples() >> std::min(receiver.level, 30));
+}
+
+/// One sample of a light, with as many shadow rays as its shadow asks for; see
+/// sample_direct_lights().
+///
+/// Some groups begin with a ray each. A group is traced in full if the first rays of the
+/// *others* disagree, and its mean is then that of all its rays. So no ray has a say in how many
+/// there are in its own group: the mean of each group is unbiased, and so is that of all groups.
+/// (Were the groups' own rays asked too, those that happen to disagree would weigh less.) Groups
+/// draw independent numbers; within a group they stratify one another. One dimension pair of
+/// `sampler`.
+template <typename Value, typename Reflect>
+Value sample_with_shadow_rays(const Scene& scene, const Receiver& receiver,
+                              const LightSelector::Choice& choice, Sampler& sampler,
+                              const Reflect& reflect) {
+  const auto sample = [&](Sampler& numbers, ShadowAnswer& answer) {
+    DirectLight light;
+    return sample_chosen_light(scene, receiver, choice, numbers.next_2d(), light)
+               ? reflect(std::as_const(light), answer)
+               : Value();
+  };
+  constexpr size_t most_groups = 16;
+  std::array<ShadowAnswer, most_groups> first{};
+  std::array<Value, most_groups> values{};
+  const auto most = size_t(most_shadow_rays(scene, receiver, choice.light));
+  const size_t groups = std::min(most, std::clamp<size_t>(most / 4, 4, most_groups));
+  if (groups == 1) return sample(sampler, first[0]);
+  const Sampler parent = sampler;
+  int lit = 0, dark = 0;
+  for (size_t g = 0; g < groups; ++g) {
+    Sampler fork = parent.fork(uint32_t(g));
+    values[g] = sample(g == 0 ? sampler : fork, first[g]);
+    lit += first[g] == ShadowAnswer::lit ? 1 : 0;
+    dark += first[g] == ShadowAnswer::dark ? 1 : 0;
+  }
+  Value sum{};
+  for (size_t g = 0; g < groups; ++g) {
+    const bool others_disagree = lit > (first[g] == ShadowAnswer::lit ? 1 : 0) &&
+                                 dark > (first[g] == ShadowAnswer::dark ? 1 : 0);
+    // The groups share all rays as evenly as may be.
+    const size_t rays = others_disagree ? (most + groups - 1 - g) / groups : 1;
+    for (size_t i = 1; i < rays; ++i) {
+      Sampler branch = parent.split(uint32_t(most_groups + g), uint32_t(i));
+      ShadowAnswer not_asked{};
+      values[g] += sample(branch, not_asked);
+    }
+    values[g] *= 1.0f / float(rays * groups);
+    sum += values[g];
+  }
+  return sum;
+}
+
+template <typename Value, typename Reflect>
+Value sample_direct_lights(const Scene& scene, const Receiver& receiver,
+                           const LightSampling& sampling, Sampler& sampler,
+                           const Reflect& reflect) {
+  Value sum{};
+  const auto add = [&](const LightSelector::Choice& choice, Sampler& numbers, int count) {
+    if (choice.light < 0) return;
+    Value value = sample_with_shadow_rays<Value>(scene, receiver, choice, numbers, reflect);
+    value *= 1.0f / float(count);
+    sum += value;
   };
   if (sampling.choice == LightChoice::one) {
-    if (sampling.samples == 1) {
-      if (sample_direct_light(scene, receiver, sampler, light)) take_share(1);
-      return;
-    }
     for (int i = 0; i < sampling.samples; ++i) {
       Sampler branch = sampler.split(0, uint32_t(i));
-      if (sample_direct_light(scene, receiver, branch, light)) take_share(sampling.samples);
+      Sampler& numbers = sampling.samples == 1 ? sampler : branch;
+      const LightSelector::Choice choice = choose_light(scene, receiver, numbers);
+      add(choice, numbers, sampling.samples);
     }
-    return;
+    return sum;
   }
   static thread_local std::vector<int> counts;
   share_light_samples(scene, receiver, sampling.samples, counts);
   for (size_t i = 0; i < counts.size(); ++i) {
-    const int count = counts[i];
     const Sampler of_light = sampler.fork(uint32_t(i));
-    for (int k = 0; k < count; ++k) {
-      Sampler branch = count == 1 ? of_light : of_light.split(0, uint32_t(k));
-      if (sample_direct_light_of(scene, receiver, int(i), branch.next_2d(), light))
-        take_share(count);
+    for (int k = 0; k < counts[i]; ++k) {
+      Sampler branch = counts[i] == 1 ? of_light : of_light.split(0, uint32_t(k));
+      add({int(i), 1.0f}, branch, counts[i]);
     }
   }
+  return sum;
 }
 
 }  // namespace kaustik
