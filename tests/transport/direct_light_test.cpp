@@ -205,8 +205,8 @@ TEST(ShadowSamples, BringLessNoise) {
     return measure(*floor_half_in_shadow(ball(shadow_samples)), 0).irradiance.variance();
   };
   const double one = variance(1), first = variance(8), adaptive = variance(32);
-  std::printf("  variance over that of one ray: of up to eight %.3f, of up to 32 %.3f\n", first / one,
-              adaptive / one);
+  std::printf("  variance over that of one ray: of up to eight %.3f, of up to 32 %.3f\n",
+              first / one, adaptive / one);
   EXPECT_LT(first, 0.25 * one);
   EXPECT_LT(adaptive, 0.06 * one);
 }
