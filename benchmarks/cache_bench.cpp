@@ -45,7 +45,7 @@ bool surface_at(const Subject& subject, const Vec2f& raster, CachePoint& point) 
   Sampler sampler(0, 0);
   CameraWalk walk(*subject.scene, raster, sampler, nowhere, subject.settings->traced());
   if (!walk.advance() || !any(walk.vertex().lobes() & Lobes::diffuse)) return false;
-  point = {walk.vertex().point(), walk.vertex().facing_normal(), 2 * walk.footprint().width, 1};
+  point = {walk.vertex().point(), walk.vertex().facing_normal(), 2 * walk.footprint().width, 0, 1};
   return true;
 }
 

@@ -27,7 +27,7 @@ constexpr int resolution = 100;
 const Vec3f up(0, 0, 1);
 
 CachePoint cache_point(const Vec3f& position, const Vec3f& normal, float pixel_width = 0) {
-  return {surface_point(position, normal), normal, pixel_width, 1};
+  return {surface_point(position, normal), normal, pixel_width, 0, 1};
 }
 
 /// A square grid of points on the plane z = 0 over [0, 1]².

@@ -14,9 +14,6 @@ constexpr int roulette_depth = 4;
 constexpr int cache_strides[] = {8, 4, 2, 1};
 /// Surfaces of one camera path that ask for records.
 constexpr size_t cache_points_per_path = 4;
-/// What blurred beams see is spaced like that of sharp ones this many times as wide, not wider: a
-/// record near a lamp would count for all that lies about it.
-constexpr float widest_blur = 4;
 
 /// The radius that `neighbors` photons take at three quarters of the photons. What is sparser is
 /// better estimated from fewer photons than from far ones: where the dim surroundings of a focus
@@ -30,8 +27,12 @@ float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
 CachePoint cache_point_of(const CameraWalk& walk, const Vec3f& normal,
                           const PhotonMapSettings& settings) {
   const Footprint& footprint = walk.footprint();
-  const float width = std::min(footprint.width, widest_blur * footprint.sharp_width);
-  return {walk.vertex().point(), normal, 2 * width, settings.cache_tolerance(walk.events()),
+  const float pixel = 2 * std::min(footprint.width, footprint.sharp_width);
+  return {walk.vertex().point(),
+          normal,
+          pixel,
+          2 * footprint.width,
+          settings.cache_tolerance(walk.events()),
           walk.vertex().medium_toward(normal, walk.medium())};
 }
 

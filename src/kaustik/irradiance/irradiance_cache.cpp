@@ -94,17 +94,21 @@ struct IrradianceCache::Impl {
   uint64_t rays = 0, dropped = 0;
   float extent = 0;  ///< m, diagonal of the points of the first round that had any
 
-  float minimum_reach(const CachePoint& p) const {
-    return std::max(settings.minimum_spacing * p.pixel_width, 1e-6f * extent);
+  /// `distance`: harmonic mean of what a record there sees, m.
+  float minimum_reach(const CachePoint& p, float distance) const {
+    const float blurred = std::min(settings.minimum_spacing * p.blur_width, distance);
+    return std::max({settings.minimum_spacing * p.pixel_width, blurred, 1e-6f * extent});
   }
-  float maximum_reach(const CachePoint& p) const {
-    const float wanted =
-        p.pixel_width > 0 ? settings.maximum_spacing * p.pixel_width : settings.quality * extent;
-    return std::max(wanted, minimum_reach(p));
+  float maximum_reach(const CachePoint& p, float distance) const {
+    const float blurred = std::min(settings.maximum_spacing * p.blur_width, distance);
+    const float wanted = p.pixel_width > 0
+                             ? std::max(settings.maximum_spacing * p.pixel_width, blurred)
+                             : settings.quality * extent;
+    return std::max(wanted, minimum_reach(p, distance));
   }
 
-  float pixel_width(const CachePoint& p) const {
-    return p.pixel_width > 0 ? p.pixel_width : extent / unknown_pixels;
+  float beam_width(const CachePoint& p) const {
+    return p.pixel_width > 0 ? std::max(p.pixel_width, p.blur_width) : extent / unknown_pixels;
   }
 
   std::vector<uint32_t> finite_points(const std::vector<CachePoint>& points) const;
@@ -154,7 +158,7 @@ std::vector<uint32_t> IrradianceCache::Impl::pick(const std::vector<CachePoint>&
   std::vector<uint32_t> result;
   for (const uint32_t i : candidates) {
     const CachePoint& p = points[i];
-    const float apart = std::max(spacing * maximum_reach(p), minimum_reach(p));
+    const float apart = std::max(spacing * maximum_reach(p, infinity), minimum_reach(p, 0));
     if (subset.pick(p.point.position, p.normal, apart)) result.push_back(i);
   }
   return result;
@@ -172,11 +176,11 @@ ComputedRecord IrradianceCache::Impl::compute(const CachePoint& at, const Radian
     record.validity.radius = split_sphere_radius(record.estimate, settings.minimum_distance);
     if (settings.gradients) record.gradient_radius = gradient_radius(record.estimate);
   } else {
-    record.validity = hessian_validity(record.estimate, at.normal, pixel_width(at));
+    record.validity = hessian_validity(record.estimate, at.normal, beam_width(at));
   }
   record.clamped_radius = record.validity.radius;
-  record.minimum_reach = minimum_reach(at);
-  record.maximum_reach = maximum_reach(at);
+  record.minimum_reach = minimum_reach(at, record.estimate.harmonic_distance);
+  record.maximum_reach = maximum_reach(at, record.estimate.harmonic_distance);
   return record;
 }
 

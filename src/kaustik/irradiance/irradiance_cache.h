@@ -15,6 +15,10 @@ struct CachePoint {
   SurfacePoint point;
   Vec3f normal;           ///< unit shading normal on the side that receives the light
   float pixel_width = 0;  ///< size of a pixel's footprint there, m; 0: unknown
+  /// Width of the beam that a diffuse or glossy event on the way has spread, m; below the pixel's:
+  /// none has. Spacings go by it, but no record reaches farther for it than the harmonic mean
+  /// distance of what it sees: one near a lamp would count for all that lies about it.
+  float blur_width = 0;
   /// How much larger an error than at other points is allowed when the cache is filled; from 1 to
   /// RecordOctree::overlap.
   float tolerance = 1;
