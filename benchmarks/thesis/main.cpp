@@ -35,13 +35,6 @@ std::filesystem::path fragment_path(const Workplace& place, const Experiment& ex
   return place.work / "fragments" / (std::string(experiment.name) + ".md");
 }
 
-std::string read_text(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 void run(const Workplace& place, const Experiment& experiment) {
   say(fmt::format("{}: {}", experiment.name, experiment.title));
   std::string text;
@@ -79,6 +72,9 @@ int run_all(int argc, char** argv) {
   app.add_option("--work", place.work, "Folder of references and results")->capture_default_str();
   app.add_option("--effort", place.effort, "Factor on samples, below 1 to try things out")
       ->check(CLI::Range(0.001, 100.0));
+  app.add_option("--scenes", place.scenes,
+                 "Scenes that table measures anew, others keep what was measured before [all]")
+      ->delimiter(',');
   app.add_option("--threads", place.threads, "Threads [2]")->check(CLI::Range(1, 4096));
   CLI11_PARSE(app, argc, argv);
   for (const std::string& name : names)

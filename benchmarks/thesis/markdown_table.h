@@ -13,11 +13,15 @@ class MarkdownTable {
     for (size_t i = 0; i < width_; ++i) rule += i == 0 ? "---|" : "---:|";
     text_ += rule + "\n";
   }
-  void add(const std::vector<std::string>& cells) {
-    text_ += "|";
-    for (size_t i = 0; i < width_; ++i) text_ += " " + (i < cells.size() ? cells[i] : "") + " |";
-    text_ += "\n";
+  void add(const std::vector<std::string>& cells) { add_row(row(cells)); }
+  /// A row by itself, to be kept for later …
+  std::string row(const std::vector<std::string>& cells) const {
+    std::string text = "|";
+    for (size_t i = 0; i < width_; ++i) text += " " + (i < cells.size() ? cells[i] : "") + " |";
+    return text + "\n";
   }
+  /// … and added then.
+  void add_row(const std::string& row) { text_ += row; }
   const std::string& text() const { return text_; }
 
  private:

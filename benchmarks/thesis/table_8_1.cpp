@@ -21,10 +21,21 @@ struct ThesisScene {
   std::vector<std::string> settings;
 };
 
-/// Global photons to find as in the thesis, and caustic ones but for the ring; one recursion level.
+const std::string one_level = "integrator.max_eye_level=1";
+
+/// Photons to find as in the thesis; one recursion level. What the thesis does not tell: few
+/// samples in a pass, about as many global photons as were stored in 1998, and a coarse cache.
 std::vector<std::string> settings_of(const ThesisScene& scene) {
-  std::vector<std::string> all{"integrator.max_eye_level=1", "integrator.global_neighbors=50",
-                               "integrator.caustic_neighbors=50"};
+  std::vector<std::string> all{one_level,
+                               "integrator.global_neighbors=50",
+                               "integrator.caustic_neighbors=50",
+                               "integrator.global_photons=40000",
+                               "integrator.caustic_photons=100000",
+                               "integrator.samples_per_pass=2",
+                               "integrator.cache_samples=64",
+                               "integrator.cache_quality=0.5",
+                               "integrator.cache_minimum_spacing=12",
+                               "integrator.cache_maximum_spacing=60"};
   all.insert(all.end(), scene.settings.begin(), scene.settings.end());
   return all;
 }
@@ -86,11 +97,14 @@ Row measure(const Workplace& place, const ThesisScene& scene) {
   const SceneRun run(scene.name, {"photonmap", settings_of(scene), scene.width, scene.height});
   const double limit = scene.minutes_1998 * 60 / scene.speedup;
   const Image truth = reference(place, std::string("table_") + scene.name, [&] {
+    const SceneRun fine(
+        scene.name,
+        {"photonmap", {one_level, "integrator.samples_per_pass=4"}, scene.width, scene.height});
     SessionSettings settings;
     settings.seed = 999;
     settings.threads = place.threads;
     settings.seconds = std::max(60.0, 12 * limit) * place.effort;
-    return run.render(settings).image;
+    return fine.render(settings).image;
   });
   SessionSettings settings;
   settings.seed = 1;
@@ -116,16 +130,25 @@ std::string table_8_1(const Workplace& place) {
                        "caustic", "1998, min", "ours, s", "times faster", "asked for",
                        "relative MSE", "rays per pixel", "shadow rays per pixel"});
   for (const ThesisScene& scene : thesis_scenes()) {
+    const std::filesystem::path row_file =
+        place.work / "fragments" / (std::string("table_") + scene.name + ".row");
+    if (!place.wants(scene.name)) {
+      table.add_row(read_text(row_file));
+      continue;
+    }
     say(fmt::format("table: {}", scene.title));
     const Row row = measure(place, scene);
     const double speedup = scene.minutes_1998 * 60 / row.seconds;
-    table.add({scene.title, fmt::format("{}×{}", scene.width, scene.height), scene.global_1998,
-               scene.caustic_1998, fmt::format("{} × {}", row.global_photons, row.passes),
-               fmt::format("{} × {}", row.caustic_photons, row.passes),
-               fmt::format("{:.0f}", scene.minutes_1998), fmt::format("{:.2f}", row.seconds),
-               fmt::format("{:.0f}", speedup), fmt::format("{:.0f}", scene.speedup),
-               fmt::format("{:.4f}", row.error), fmt::format("{:.0f}", row.rays),
-               fmt::format("{:.0f}", row.shadow_rays)});
+    const std::string text =
+        table.row({scene.title, fmt::format("{}×{}", scene.width, scene.height), scene.global_1998,
+                   scene.caustic_1998, fmt::format("{} × {}", row.global_photons, row.passes),
+                   fmt::format("{} × {}", row.caustic_photons, row.passes),
+                   fmt::format("{:.0f}", scene.minutes_1998), fmt::format("{:.2f}", row.seconds),
+                   fmt::format("{:.0f}", speedup), fmt::format("{:.0f}", scene.speedup),
+                   fmt::format("{:.4f}", row.error), fmt::format("{:.0f}", row.rays),
+                   fmt::format("{:.0f}", row.shadow_rays)});
+    place.write_text(row_file, text);
+    table.add_row(text);
     bench::report(
         fmt::format("thesis_{}", scene.name), speedup, "times faster than in 1998",
         fmt::format("{:.0f} min; relative MSE {:.4f} in {:.2f} s (asked for: {:.0f} "
@@ -133,9 +156,13 @@ std::string table_8_1(const Workplace& place) {
                     scene.minutes_1998, row.error, row.seconds, scene.speedup, row.mean_ratio.y));
   }
   return "Maximum level 1, 50 neighbours (200 caustic ones for the ring), the thesis's resolution; "
-         "the time is what the scene\nwas given, light pass and cache included, on two threads. "
-         "Photons stored per pass × passes. The reference is the converged\nsolution of the same "
-         "recursion level by another seed and twelve times the time.\n\n" +
+         "the time is what the scene\ntook, light pass and cache included, on two threads, one "
+         "pass "
+         "at least. Photons stored per pass × passes. The reference is the\nsolution of the same "
+         "recursion level by another seed, with the finer defaults (200 000 photons, 10 "
+         "neighbours, "
+         "a fine cache),\nin twelve times the time asked for, a minute at least: its own noise is "
+         "part of the relative MSE.\n\n" +
          table.text();
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "kaustik/base/file.h"
 #include "kaustik/image/image_io.h"
@@ -12,6 +14,17 @@
 namespace kaustik::thesis {
 
 int Workplace::scaled(int count) const { return std::max(1, int(std::lround(count * effort))); }
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+bool Workplace::wants(const std::string& scene) const {
+  return scenes.empty() || std::find(scenes.begin(), scenes.end(), scene) != scenes.end();
+}
 
 void Workplace::write_text(const std::filesystem::path& path, const std::string& text) const {
   std::filesystem::create_directories(path.parent_path());

@@ -15,9 +15,13 @@ struct Workplace {
   /// is for trying them out.
   double effort = 1;
   int threads = 2;
+  /// Of the experiments over many scenes: only these, by the names of their folders; empty: all.
+  /// What was measured of the others before is kept.
+  std::vector<std::string> scenes;
 
   /// At least 1.
   int scaled(int count) const;
+  bool wants(const std::string& scene) const;
   /// Writes a text beside its place and renames it.
   void write_text(const std::filesystem::path& path, const std::string& text) const;
   /// Writes a picture into `docs`/pictures by a linear tone curve and returns the Markdown that
@@ -25,6 +29,9 @@ struct Workplace {
   std::string show(const Image& image, const std::string& name, const std::string& alt,
                    float exposure, const std::string& layer = {}) const;
 };
+
+/// The whole file; "" if there is none.
+std::string read_text(const std::filesystem::path& path);
 
 /// One experiment; `run` returns its part of the page, in Markdown without the heading.
 struct Experiment {
