@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of docs/tone_mapping.md (two minutes on two cores).
+# Makes the pictures of docs/tone_mapping.md (three minutes on two cores).
 # Usage: make_tone_pictures.sh [PROGRAM]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -29,3 +29,7 @@ show aces --operator aces --exposure 2.5
 show falsecolor --operator falsecolor
 show falsecolor_log --operator falsecolor --set scale=log --set contours=lines
 show falsecolor_bands --operator falsecolor --set contours=bands --set maximum=50
+"$program" render scenes/museum/museum.xml -q -D size=320 --set film.quantity=irradiance \
+  --passes 6 --spp 24 -o "$work/museum.exr"
+"$program" tonemap -q "$work/museum.exr" -o "$out/illuminance.png" --operator falsecolor \
+  --set scale=log

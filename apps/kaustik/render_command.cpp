@@ -52,6 +52,9 @@ void set_metadata(Image& image, const RenderOptions& options, const Scene& scene
   image.set_metadata("samples_per_pixel", int64_t(report.passes) * report.samples_per_pass);
   image.set_metadata("horizontal_fov", double(scene.camera().horizontal_fov()));
   image.set_metadata("vertical_fov", double(scene.camera().vertical_fov()));
+  image.set_metadata(
+      "quantity",
+      std::string(scene.film().quantity == Quantity::irradiance ? "irradiance" : "radiance"));
   if (report.incomplete_pass) image.set_metadata("incomplete", std::string("cancelled in pass 1"));
   if (!options.reproducible) image.set_metadata("render_seconds", report.seconds);
 }

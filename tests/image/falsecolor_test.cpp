@@ -180,6 +180,25 @@ TEST(FalseColor, legend_stands_beside_the_picture) {
   EXPECT_GT(tone_map(luminance_ramp(3, 2, 1), *tone).height(), 50);
 }
 
+TEST(FalseColor, irradiance_is_labelled_in_lux) {
+  Image image = luminance_ramp(100, 300, 1000);
+  const auto shown = [&](const std::vector<std::string>& settings) {
+    const Image picture = tone_map(image, *make_tone_operator("falsecolor", settings));
+    std::vector<float> values;
+    for (int c = 0; c < 3; ++c)
+      for (const float value : picture.channel(c)) values.push_back(value);
+    return values;
+  };
+  const auto nits = shown({"quantity=luminance"}), lux = shown({"quantity=illuminance"});
+  EXPECT_NE(nits, lux);
+  EXPECT_EQ(shown({}), nits);
+  image.set_metadata("quantity", std::string("irradiance"));
+  EXPECT_EQ(shown({}), lux);
+  EXPECT_EQ(shown({"quantity=luminance"}), nits);
+  image.set_metadata("quantity", std::string("radiance"));
+  EXPECT_EQ(shown({}), nits);
+}
+
 TEST(FalseColor, bands_have_as_many_colours_as_the_scale_has_steps) {
   const Image image = luminance_ramp(1000, 1, 1000);
   const Image shown = tone_map(

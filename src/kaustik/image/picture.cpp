@@ -70,6 +70,8 @@ BadPixels count_bad_pixels(const RgbView& rgb) {
 Picture::Picture(const Image& image, const std::string& layer, const FieldOfView& view)
     : width(image.width()), height(image.height()) {
   check(view);
+  if (const MetadataValue* quantity = image.find_metadata("quantity"))
+    is_irradiance = *quantity == MetadataValue("irradiance");
   const RgbView rgb = rgb_view(image, layer);
   half_width = half_tangent(view.horizontal);
   half_height =

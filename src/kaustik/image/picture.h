@@ -36,6 +36,8 @@ struct Picture {
   size_t pixel_count() const { return pixels.size(); }
 
   int width, height;
+  /// The metadata "quantity" is "irradiance": the pixels are in W/m².
+  bool is_irradiance = false;
   std::vector<Vec3f> pixels;  ///< linear Rec. 709, radiance in W/(sr·m²), finite; row by row
   /// Half the picture's extent on a plane at distance 1 before the eye.
   float half_width, half_height;

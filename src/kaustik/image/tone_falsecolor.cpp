@@ -29,8 +29,7 @@ enum class Contours { none, lines, bands };
 class FalseColor : public ToneOperator {
  public:
   explicit FalseColor(const Arguments& arguments)
-      : unit_(arguments.text("quantity") == "illuminance" ? "lx" : "cd/m²"),
-        has_legend_(arguments.boolean("legend")) {
+      : quantity_(arguments.text("quantity")), has_legend_(arguments.boolean("legend")) {
     scale_.is_logarithmic = arguments.text("scale") == "log";
     if (arguments.has("minimum")) scale_.minimum = arguments.number("minimum");
     if (arguments.has("maximum")) scale_.maximum = arguments.number("maximum");
@@ -78,7 +77,7 @@ class FalseColor : public ToneOperator {
   std::vector<std::string> labels(const ColorScale& scale,
                                   const std::vector<double>& values) const {
     std::vector<std::string> result;
-    for (const double tick : scale.ticks) result.push_back(fmt::format("{:.4g}", tick));
+    for (const double tick : scale.ticks) result.push_back(fmt::format("{:.6g}", tick));
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     // The outermost colours also stand for what lies beyond them.
     if (*high > scale.maximum * (1 + 1e-6)) result.back() = "≥" + result.back();
@@ -90,10 +89,12 @@ class FalseColor : public ToneOperator {
     const std::vector<double> values = luminances(picture);
     const ColorScale scale = make_scale(values, scale_);
     const std::vector<std::string> texts = labels(scale, values);
+    const bool in_lux = quantity_ == "auto" ? picture.is_irradiance : quantity_ == "illuminance";
+    const std::string unit = in_lux ? "lx" : "cd/m²";
     const Vec3f paper(0.015f), ink(0.85f);
     // All measures hang on the height of a digit.
     const float digit = std::clamp(float(shown.height()) / 34, 9.0f, 60.0f);
-    float widest = text_width(unit_);
+    float widest = text_width(unit);
     for (const std::string& text : texts) widest = std::max(widest, text_width(text));
     const int margin = int(digit), bar = int(1.5f * digit), tick = int(digit / 2);
     const int height = std::max(shown.height(), int(digit * (4 + 1.8f * float(texts.size()))));
@@ -105,7 +106,7 @@ class FalseColor : public ToneOperator {
       for (int y = 0; y < shown.height(); ++y)
         for (int x = 0; x < shown.width(); ++x) result.at(x, y, c) = shown.at(x, y, c);
 
-    draw_text(result, unit_, float(left), 2 * digit, digit, ink);
+    draw_text(result, unit, float(left), 2 * digit, digit, ink);
     const int top = int(3.5f * digit), bottom = height - margin - int(digit / 2);
     for (int y = top; y < bottom; ++y) {
       const double t = (double(bottom - y) - 0.5) / double(bottom - top);
@@ -125,16 +126,17 @@ class FalseColor : public ToneOperator {
                                 : scale.minimum + t * (scale.maximum - scale.minimum);
   }
 
-  std::string unit_;
+  std::string quantity_;
   ScaleSettings scale_;
   Contours contours_ = Contours::none;
   bool has_legend_;
 };
 
 std::vector<Parameter> parameters() {
-  return {choice_parameter("quantity", "luminance", {"luminance", "illuminance"},
+  return {choice_parameter("quantity", "auto", {"auto", "luminance", "illuminance"},
                            "What the layer holds: radiance, shown in cd/m², or irradiance, in lx; "
-                           "both are 179 lm/W times the photopic part."),
+                           "auto: as the picture's metadata 'quantity' says, else radiance. Both "
+                           "are 179 lm/W times the photopic part."),
           choice_parameter("scale", "linear", {"linear", "log"}, "How values become colours."),
           optional(number_parameter("minimum", 0, "Where the scale starts; else a round number."))
               .in("cd/m² or lx"),

@@ -49,6 +49,11 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
       ray_(scene.camera().sample_ray(raster)) {
   state_.footprint = Footprint::of_camera(scene.camera().pixel_spread());
   state_.medium = scene.camera_medium();
+  if (seeks_irradiance()) {
+    state_.throughput = Spectrum(pi);
+    // Roulette is to find paths as likely as those of radiance.
+    state_.roulette_scale = inv_pi;
+  }
 }
 
 CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
@@ -69,19 +74,20 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
 /// the path is scattered, or until a surface that is more than a boundary of media.
 template <typename PassMedium>
 CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
+  const bool only_arrives = seeks_irradiance();
   for (;;) {
     sampler_.start_vertex(segments_++);
     Hit hit;
     ++rays_;
     const bool found = scene_.intersect(ray_, hit);
-    if (state_.medium && pass_medium(hit.t)) {
+    if (state_.medium && !only_arrives && pass_medium(hit.t)) {
       if (found && state_.depth == 0)
         sink_.set_first_hit(describe_first_hit(
             SurfaceVertex(scene_, ray_, hit, TransportMode::radiance), distance_ + hit.t));
       return Arrival::medium;
     }
     if (!found) {
-      add_background();
+      if (!only_arrives) add_background();
       return Arrival::nothing;
     }
     distance_ += hit.t;
@@ -92,7 +98,10 @@ CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
     ray_ = spawn_ray(vertex_.point(), ray_.direction);
   }
   if (state_.depth == 0) sink_.set_first_hit(describe_first_hit(vertex_, distance_));
-  if (vertex_.light() >= 0) add_emission();
+  if (only_arrives)
+    vertex_.paint_white();
+  else if (vertex_.light() >= 0)
+    add_emission();
   return Arrival::surface;
 }
 

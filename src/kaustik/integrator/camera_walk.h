@@ -22,7 +22,9 @@ struct LightRules {
 /// integrators differ in what they do at a vertex and in where they go on.
 class CameraWalk {
  public:
-  /// `traced`: lobes whose events count as specular. Starts with the ray through `raster`.
+  /// `traced`: lobes whose events count as specular. Starts with the ray through `raster`. Where
+  /// the film asks for irradiance, the first surface is painted white (SurfaceVertex::paint_white)
+  /// and what it sends is counted π times; nothing before it counts.
   CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler, SampleSink& sink,
              Lobes traced = Lobes::specular);
   ~CameraWalk() { sink_.count_rays(rays_); }
@@ -85,6 +87,10 @@ class CameraWalk {
   }
   template <typename Where>
   float emission_weight(int light, const Where& where) const;
+  /// Whether the walk is still on its way to the surface whose irradiance is asked for.
+  bool seeks_irradiance() const {
+    return state_.depth == 0 && scene_.film().quantity == Quantity::irradiance;
+  }
   void add_background();
   void add_emission();
   template <typename PassMedium>

@@ -89,13 +89,16 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
   const LightPathLimits limits{std::max(0, maximum_events_ - 1), Lobes::specular,
                                job.aimed ? MediumEvents::stop : MediumEvents::follow};
   const EmissionSampler& emission = job.aimed ? *aimed_emission_ : emission_;
+  const bool wants_irradiance = scene_.film().quantity == Quantity::irradiance;
   const auto splat = [&](const SurfacePoint& point, const Medium* medium, Component component,
                          const Spectrum& intensity, const CameraConnection& connection) {
     const Spectrum value =
         intensity * (connection.importance / (sqr(connection.distance) * float(job.count)));
     if (value.is_zero()) return;
-    const Spectrum visible = shadow_ray_transmittance(
-        scene_, spawn_ray_to(point, scene_.camera().position()), medium, counts.rays);
+    const Ray sight = spawn_ray_to(point, scene_.camera().position());
+    const Spectrum visible = wants_irradiance
+                                 ? Spectrum(is_unobstructed(scene_, sight, counts.rays) ? pi : 0.0f)
+                                 : shadow_ray_transmittance(scene_, sight, medium, counts.rays);
     if (visible.is_zero()) return;
     ++counts.splats;
     splats.add(connection.raster, component, value * visible);
@@ -106,7 +109,7 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const EmittedRay emitted =
         emission.sample(job.light, u_position, u_direction, sampler.next_1d());
-    if (emitted.on_surface && job.wanted.has(Component::emission)) {
+    if (emitted.on_surface && job.wanted.has(Component::emission) && !wants_irradiance) {
       const CameraConnection connection = scene_.camera().connect(emitted.origin.position);
       const float cosine = dot(connection.direction, emitted.origin.ng);
       if (connection.importance > 0 && cosine > 0 && emitted.pdf_position > 0)
@@ -120,9 +123,14 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
                      sampler);
   };
   const auto see = [&](const LightVertex& at) {
-    const SurfaceVertex& vertex = at.vertex;
     // Only specular events lead from the lamp to a caustic.
-    const Lobes follow = job.aimed ? vertex.lobes() & Lobes::specular : Lobes::all;
+    const Lobes follow = job.aimed ? at.vertex.lobes() & Lobes::specular : Lobes::all;
+    SurfaceVertex painted;
+    if (wants_irradiance) {
+      painted = at.vertex;
+      painted.paint_white();
+    }
+    const SurfaceVertex& vertex = wants_irradiance ? painted : at.vertex;
     const Lobes seen = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
     if (!any(seen)) return follow;
     const CameraConnection connection = scene_.camera().connect(vertex.position());
@@ -135,7 +143,7 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
     return follow;
   };
   const auto see_in_medium = [&](const LightMediumVertex& at) {
-    if (!job.wanted.has(Component::volume)) return;
+    if (!job.wanted.has(Component::volume) || wants_irradiance) return;
     const CameraConnection connection = scene_.camera().connect(at.position);
     if (!(connection.importance > 0)) return;
     SurfacePoint point;

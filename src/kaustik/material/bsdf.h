@@ -99,6 +99,9 @@ class Bsdf {
 
 /// A shape without a bsdf is diffuse 0.5, as in Mitsuba.
 
+/// Ideally matt on its outer side and white: f = 1/π.
+const Bsdf& white_diffuse();
+
 /// What create() of a bsdf gets beside its arguments: its nested bsdfs and textures, built already.
 struct BsdfInputs {
   const Arguments& arguments;

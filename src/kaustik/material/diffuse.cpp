@@ -62,6 +62,11 @@ std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
 
 }  // namespace
 
+const Bsdf& white_diffuse() {
+  static const Diffuse white(make_constant_texture(Spectrum(1.0f)));
+  return white;
+}
+
 BsdfType diffuse_type() { return {info(), 0, 0, create}; }
 
 }  // namespace kaustik

@@ -111,7 +111,8 @@ class LightPass::Tracer {
         kind_(kind),
         light_(light),
         scale_(1.0f / float(count)),
-        storing_(without(Lobes::all, pass.settings_.traced | Lobes::delta)) {
+        storing_(without(Lobes::all, pass.settings_.traced | Lobes::delta)),
+        stores_everywhere_(pass.scene_.film().quantity == Quantity::irradiance) {
     if (kind != Kind::volume) (kind == Kind::global ? global : caustic).reserve(photons_per_block);
   }
 
@@ -191,7 +192,7 @@ class LightPass::Tracer {
   }
 
   void store(const LightVertex& at, PhotonList& list) {
-    if (!any(at.vertex.lobes() & storing_)) return;
+    if (!stores_everywhere_ && !any(at.vertex.lobes() & storing_)) return;
     list.add(at, scale_);
     ++counts.stored;
     counts.stored_flux += double(at.state.throughput.max_lane()) * scale_;
@@ -214,6 +215,7 @@ class LightPass::Tracer {
   int light_;
   float scale_;
   Lobes storing_;
+  bool stores_everywhere_;  ///< irradiance is asked for on mirrors and glass too
 };
 
 LightPass::LightPass(const Scene& scene, const LightPassSettings& settings, uint64_t seed)

@@ -287,10 +287,12 @@ std::string scene_fingerprint(const Scene& scene) {
       triangles += mesh->triangles.size();
   Spectrum power;
   for (const auto& light : scene.lights()) power += light->power();
+  // Maps for irradiance have photons on mirrors and glass too.
   return fmt::format(
-      "{} shapes, {} triangles, bounds {}, {} lights of {:.5g} {:.5g} {:.5g} W, digest {:016x}",
+      "{} shapes, {} triangles, bounds {}, {} lights of {:.5g} {:.5g} {:.5g} W, digest {:016x}{}",
       scene.surface_count(), triangles, text_of(scene.tracer().bounds()), scene.lights().size(),
-      power[0], power[1], power[2], digest_of(scene));
+      power[0], power[1], power[2], digest_of(scene),
+      scene.film().quantity == Quantity::irradiance ? ", for irradiance" : "");
 }
 
 void write_photon_file(const std::string& path, const StoredPhotons& photons) {

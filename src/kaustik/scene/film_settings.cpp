@@ -74,7 +74,7 @@ const TypeInfo& film_info() {
   static const TypeInfo info{
       "film",
       "hdrfilm",
-      "The picture: its size, crop window and pixel filter.",
+      "The picture: its size, crop window and pixel filter, and what it holds.",
       {integer_parameter("width", 768, "Width of the picture.").range(1, 1 << 20).in("pixels"),
        integer_parameter("height", 576, "Height of the picture.").range(1, 1 << 20).in("pixels"),
        integer_parameter("crop_offset_x", 0, "Left edge of the crop window.")
@@ -90,6 +90,9 @@ const TypeInfo& film_info() {
            integer_parameter("crop_height", 1, "Height of the crop window; the rest if absent.")
                .range(1, 1 << 20)
                .in("pixels")),
+       choice_parameter("quantity", "radiance", {"radiance", "irradiance"},
+                        "Radiance in W/(sr m²), or irradiance in W/m² on the side that is seen of "
+                        "the first surface behind each pixel, whatever that is made of."),
        ignored_parameter("file_format", ParameterKind::text),
        ignored_parameter("pixel_format", ParameterKind::text),
        ignored_parameter("component_format", ParameterKind::text),

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -38,6 +39,12 @@ class PixelFilter {
   std::shared_ptr<const Table> table_;
 };
 
+/// What the picture holds.
+enum class Quantity : uint8_t {
+  radiance,   ///< that arrives at the camera, W/(sr·m²)
+  irradiance  ///< W/m², on the side that is seen of the first surface behind each pixel
+};
+
 /// Size of the picture and what is recorded.
 struct FilmSettings {
   Vec2i size{768, 576};  ///< of the whole picture
@@ -46,6 +53,7 @@ struct FilmSettings {
   PixelFilter filter;
   int sample_count = 0;  ///< the scene file's samples per pixel; 0: not given
   Place place = {};      ///< in the scene file
+  Quantity quantity = Quantity::radiance;
 };
 
 /// Tables of "hdrfilm", the filters and the samplers.

@@ -71,7 +71,8 @@ void describe_view(const Scene& scene, SceneReport& report) {
       fmt::format("camera     at {:.4g}, {:.4g}, {:.4g}; field of view {:.4g}° × {:.4g}°", p.x, p.y,
                   p.z, camera.horizontal_fov(), camera.vertical_fov()));
   report.lines.push_back(
-      fmt::format("picture    {} × {} pixels", scene.film().crop_size.x, scene.film().crop_size.y));
+      fmt::format("picture    {} × {} pixels{}", scene.film().crop_size.x, scene.film().crop_size.y,
+                  scene.film().quantity == Quantity::irradiance ? " of irradiance" : ""));
   if (view.hits == 0) report.warnings.push_back("the camera sees nothing: check its to_world");
   const float extent = length(scene.tracer().bounds().max - scene.tracer().bounds().min);
   if (view.hits < view.rays) return;

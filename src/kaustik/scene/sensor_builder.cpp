@@ -52,6 +52,7 @@ void SceneBuilder::read_film(const Object& object) {
   }
   const Arguments arguments = arguments_of(film_info(), object);
   film_.place = object.place;
+  if (arguments.text("quantity") == "irradiance") film_.quantity = Quantity::irradiance;
   film_.size = {int(arguments.integer("width")), int(arguments.integer("height"))};
   film_.crop_offset = {int(arguments.integer("crop_offset_x")),
                        int(arguments.integer("crop_offset_y"))};

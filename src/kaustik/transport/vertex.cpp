@@ -3,6 +3,15 @@
 #include "kaustik/transport/visible_normal.h"
 
 namespace kaustik {
+namespace {
+
+/// The shading normal; seen from a side that it denies (silhouettes of smooth meshes) the geometric
+/// normal takes its place, or the point would be black.
+const Vec3f& normal_toward(const Vec3f& wo, const SurfacePoint& point) {
+  return dot(wo, point.ng) * dot(wo, point.ns) <= 0 ? point.ng : point.ns;
+}
+
+}  // namespace
 
 void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
                          const Footprint& footprint) {
@@ -15,14 +24,7 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
   light_ = surface.light;
   context_.texture.uv = point_.uv;
   context_.mode = mode;
-  frame_ = Frame(point_.ns);
-  wo_local_ = frame_.to_local(wo_);
-  // Seen from a side that the shading normal denies (silhouettes of smooth meshes): the geometric
-  // normal takes its place, or the point would be black.
-  if (dot(wo_, point_.ng) * wo_local_.z <= 0) {
-    frame_ = Frame(point_.ng);
-    wo_local_ = frame_.to_local(wo_);
-  }
+  turn_to(normal_toward(wo_, point_));
   has_relief_ = false;
   if (const SurfaceNeeds asked = bsdf_->needs(); asked != SurfaceNeeds::none) {
     const UvDerivatives derivatives = scene.tracer().uv_derivatives(point_);
@@ -31,6 +33,19 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
     if (needs(asked, SurfaceNeeds::tangent)) turn_to_tangent(derivatives.dpdu);
   }
   side_sign_ = dot(frame_.z, point_.ng) < 0 ? -1.0f : 1.0f;
+}
+
+void SurfaceVertex::paint_white() {
+  bsdf_ = &white_diffuse();
+  lobes_ = bsdf_->lobes();
+  const Vec3f normal = normal_toward(wo_, point_);
+  turn_to(dot(wo_, normal) < 0 ? -normal : normal);
+  side_sign_ = dot(frame_.z, point_.ng) < 0 ? -1.0f : 1.0f;
+}
+
+void SurfaceVertex::turn_to(const Vec3f& normal) {
+  frame_ = Frame(normal);
+  wo_local_ = frame_.to_local(wo_);
 }
 
 void SurfaceVertex::locate_texture(const Scene& scene, const Footprint& footprint,

@@ -21,6 +21,10 @@ class SurfaceVertex {
   void meet(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
             const Footprint& footprint = {});
 
+  /// Lays ideally white paint on the side that is seen, whatever lies below: irradiance E there is
+  /// radiance E/π by the diffuse lobe. It is smooth: bump and normal maps don't bend its normal.
+  void paint_white();
+
   const SurfacePoint& point() const { return point_; }
   const Vec3f& position() const { return point_.position; }
   const Bsdf& bsdf() const { return *bsdf_; }
@@ -49,7 +53,8 @@ class SurfaceVertex {
   Spectrum diffuse_value() const { return eval(facing_normal(), Lobes::diffuse); }
   /// … and for all on the other side.
   Spectrum diffuse_value_through() const { return eval(-facing_normal(), Lobes::diffuse); }
-  /// Whether a bump or normal map bends the normal.
+  /// Whether a bump or normal map bends the normal (paint or not): photons on such surfaces hold
+  /// flux by the geometric normal.
   bool has_relief() const { return has_relief_; }
   /// What turns irradiance from wi, measured by the geometric normal as photons do, into that by
   /// the shading normal; zero where the two disagree on the side of wi. At most
@@ -69,6 +74,7 @@ class SurfaceVertex {
   bool sides_agree(const Vec3f& wi, const Vec3f& wi_local) const {
     return dot(wi, point_.ng) * wi_local.z * side_sign_ > 0;
   }
+  void turn_to(const Vec3f& normal);
   float adjoint_factor(const Vec3f& wi, const Vec3f& wi_local) const;
   void locate_texture(const Scene& scene, const Footprint& footprint,
                       const UvDerivatives& derivatives);

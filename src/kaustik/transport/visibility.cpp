@@ -1,19 +1,22 @@
 #include "kaustik/transport/visibility.h"
 
 namespace kaustik {
+namespace {
 
-Spectrum transmittance_through_media(const Scene& scene, Ray ray, const Medium* medium,
-                                     uint64_t& rays) {
-  Spectrum left(1);
+/// Follows a shadow ray through null boundaries, `pass(medium, length)` being told of every segment
+/// in a medium: false ends it. False if anything else blocks it.
+template <typename Pass>
+bool follow_shadow_ray(const Scene& scene, Ray ray, const Medium* medium, uint64_t& rays,
+                       const Pass& pass) {
   for (;;) {
     Hit hit;
     ++rays;
     const bool found = scene.intersect(ray, hit);
-    if (found && !scene.surface(hit.shape).is_null) return {};
+    if (found && !scene.surface(hit.shape).is_null) return false;
     // The direction of a shadow ray counts in its own length.
     const float parameter = found ? hit.t : ray.t_max;
-    if (medium) left *= medium->transmittance(parameter * length(ray.direction));
-    if (!found || left.is_zero()) return left;
+    if (medium && !pass(*medium, parameter * length(ray.direction))) return false;
+    if (!found) return true;
     const SurfacePoint point = scene.tracer().surface_point(ray, hit);
     const Surface& surface = scene.surface(point.shape);
     medium = surface.medium_toward(dot(ray.direction, point.ng) > 0, medium);
@@ -21,12 +24,32 @@ Spectrum transmittance_through_media(const Scene& scene, Ray ray, const Medium* 
     if (std::isfinite(ray.t_max)) {
       const Vec3f to_end = ray.origin + ray.direction * ray.t_max - origin;
       // The end may lie just behind the boundary, within its offset.
-      if (!(dot(to_end, ray.direction) > 0)) return left;
+      if (!(dot(to_end, ray.direction) > 0)) return true;
       ray = {origin, to_end, 1.0f};
     } else {
       ray.origin = origin;
     }
   }
+}
+
+}  // namespace
+
+Spectrum transmittance_through_media(const Scene& scene, Ray ray, const Medium* medium,
+                                     uint64_t& rays) {
+  Spectrum left(1);
+  const bool arrives =
+      follow_shadow_ray(scene, ray, medium, rays, [&](const Medium& in, float length) {
+        left *= in.transmittance(length);
+        return !left.is_zero();
+      });
+  return arrives ? left : Spectrum();
+}
+
+bool is_unobstructed(const Scene& scene, const Ray& ray, uint64_t& rays) {
+  if (scene.has_media())
+    return follow_shadow_ray(scene, ray, nullptr, rays, [](const Medium&, float) { return true; });
+  ++rays;
+  return !scene.occluded(ray);
 }
 
 }  // namespace kaustik

@@ -17,4 +17,8 @@ inline Spectrum shadow_ray_transmittance(const Scene& scene, const Ray& ray, con
   return scene.occluded(ray) ? Spectrum() : Spectrum(1);
 }
 
+/// Whether nothing but null boundaries stands in the way of a shadow ray; media hide nothing.
+/// Counts rays.
+bool is_unobstructed(const Scene& scene, const Ray& ray, uint64_t& rays);
+
 }  // namespace kaustik
