@@ -80,6 +80,21 @@ TEST(Media, OfLampsAreFoundOut) {
   EXPECT_EQ(scene->light_medium(3), inside);
 }
 
+/// What neither absorbs nor scatters costs nothing, and is not what lies around it.
+TEST(Media, WithoutExtinctionAreVacuum) {
+  const std::string clear =
+      R"(<medium name="interior" type="homogeneous"><rgb name="sigma_t" value="0, 0, 0"/></medium>)";
+  const auto clear_scene = scene_of(camera + "<shape type=\"sphere\">" + away + clear + "</shape>");
+  EXPECT_FALSE(clear_scene->has_media());
+  const auto scene =
+      scene_of("<sensor type=\"perspective\">" + std::string("<medium type=\"homogeneous\"/>") +
+               "</sensor><shape type=\"sphere\">" + away + "<bsdf type=\"dielectric\"/>" + clear +
+               "</shape>");
+  EXPECT_TRUE(scene->has_media());
+  EXPECT_TRUE(scene->surface(0).separates_media());
+  EXPECT_EQ(scene->surface(0).medium_toward(false, scene->camera_medium()), nullptr);
+}
+
 /// In a medium without an end everything lies in it.
 TEST(Media, WithoutABoundaryAreEverywhere) {
   const auto scene =

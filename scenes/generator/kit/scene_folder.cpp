@@ -36,6 +36,7 @@ void SceneFolder::add_view(const View& view, int spp) {
   Xml sensor = object("sensor", "perspective");
   sensor.add(number("fov", view.fov));
   sensor.add(transform({look_at(view.origin, view.target)}));
+  if (!view.medium.empty()) sensor.add(ref(view.medium));
   sensor.add(std::move(film));
   sensor.add(object("sampler", "independent", {side("sample_count", "spp")}));
   add(std::move(sensor).said("The camera."));

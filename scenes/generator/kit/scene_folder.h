@@ -16,6 +16,7 @@ struct View {
   Vec3d origin, target;
   double fov = 50;  ///< degrees across the width
   int width = 800, height = 800;
+  std::string medium = {};  ///< id of the one that the camera is in; empty: none
 };
 
 class SceneFolder {

@@ -311,7 +311,18 @@ void add_water(SceneFolder& scene, uint64_t seed, const std::string& variant) {
   scene.write_mesh("water_waves", sheet(170, 72, surface(true)));
   Xml shape = object("shape", "ply", {text("filename", "meshes/water_$water.ply")});
   shape.add(ref("water_$water"));
+  shape.add(named_ref("interior", "haze"));
   scene.add(std::move(shape));
+}
+
+/// What floats in the water; -D haze=0.05 makes it seen.
+void add_haze(SceneFolder& scene) {
+  scene.add(
+      setting("haze", "0").said("Scattering by what floats in the water, 1/m; 0: clear water."));
+  scene.add(object("medium", "homogeneous",
+                   {Xml("spectrum", {{"name", "sigma_s"}, {"value", "$haze"}}),
+                    object("phase", "hg", {number("g", 0.5)})},
+                   "haze"));
 }
 
 void build(SceneFolder& scene, const SceneOptions& options, const std::string& water) {
@@ -332,6 +343,7 @@ SceneFolder make_pool_above(const SceneOptions& options) {
                     "basin under the water. After figure 8.8 of R. Schregle, \"Rendering with "
                     "Photon Maps\" (1998). Lengths in metres, z is up.");
   scene.add(object("integrator", "photonmap"));
+  add_haze(scene);
   scene.add_view({.origin = {-8.6, -3.4, 1.85}, .target = {0.6, 0.75, 0.1}, .fov = 70});
   build(scene, options, "bumped");
   return scene;
@@ -345,7 +357,9 @@ SceneFolder make_pool_below(const SceneOptions& options) {
                     "(1998). Lengths in metres, z is up.");
   scene.share_files_of("pool_above");
   scene.add(object("integrator", "photonmap"));
-  scene.add_view({.origin = {-4.9, -1.6, -0.85}, .target = {2.2, 0.75, -0.92}, .fov = 78});
+  add_haze(scene);
+  scene.add_view(
+      {.origin = {-4.9, -1.6, -0.85}, .target = {2.2, 0.75, -0.92}, .fov = 78, .medium = "haze"});
   build(scene, options, "waves");
   return scene;
 }

@@ -53,6 +53,8 @@ std::shared_ptr<const Medium> SceneBuilder::make_medium(const std::shared_ptr<Ob
   }
   const Arguments arguments = arguments_of(type->info, *object);
   if (phase) collecting(object->place, [&] { medium = type->create({arguments, phase}); });
+  // What neither absorbs nor scatters is vacuum, and costs as little.
+  if (medium && medium->extinction().is_zero()) medium = nullptr;
   return medium;
 }
 
@@ -78,6 +80,7 @@ void SceneBuilder::read_media(const Object& shape, Surface& surface) {
                     child.object->place);
       continue;
     }
+    surface.names_media = true;
     (child.name == "interior" ? surface.interior : surface.exterior) = make_medium(child.object);
   }
 }

@@ -21,11 +21,12 @@ struct Surface {
   /// The integrator that the shape itself holds, if any: how this surface looks.
   std::shared_ptr<const Object> illumination;
   std::shared_ptr<const Medium> interior, exterior;  ///< null: vacuum, or see separates_media()
+  bool names_media = false;                          ///< also by those that are empty
   bool is_null = false;                              ///< of the bsdf: see Bsdf::is_null()
 
   /// Whether the surface says what lies on its sides. If not, both are in the medium that a path
   /// arrives through.
-  bool separates_media() const { return interior || exterior; }
+  bool separates_media() const { return names_media; }
   /// What a path that arrived through `arrived` goes on through, on the side of the geometric
   /// normal (`outside`) or on the other.
   const Medium* medium_toward(bool outside, const Medium* arrived) const {
