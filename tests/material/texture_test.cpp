@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "kaustik/image/image_io.h"
 #include "tests/material/bsdf_support.h"
 
 namespace kaustik {
@@ -120,6 +121,35 @@ TEST(bitmap, wraps) {
     EXPECT_EQ(value(mirror, u[i], 0.5f), mirrored[i]) << u[i];
     EXPECT_EQ(value(clamp, u[i], 0.5f), clamped[i]) << u[i];
   }
+}
+
+/// Grey with alpha is grey; alpha alone is no colour.
+TEST(bitmap, channels_of_the_file) {
+  const std::string path = testing::TempDir() + "kaustik_texture_test.exr";
+  const auto written = [&](const std::vector<std::string>& channels) {
+    Image image(2, 2, channels);
+    for (int c = 0; c < image.channel_count(); ++c)
+      for (float& value : image.channel(c)) value = c == 0 ? 0.25f : 0.75f;
+    write_image(image, path);
+    return make_texture("bitmap", {property("filename", path)});
+  };
+  for (const std::vector<std::string>& channels :
+       {std::vector<std::string>{"Y", "A"}, {"Y"}, {"mask"}}) {
+    const Spectrum value = written(channels)->eval(point(0.5f, 0.5f));
+    for (int lane = 0; lane < 3; ++lane) EXPECT_EQ(value[lane], 0.25f) << channels[0];
+  }
+  for (const std::vector<std::string>& channels :
+       {std::vector<std::string>{"A"}, {"left", "right"}}) {
+    try {
+      written(channels);
+      ADD_FAILURE() << channels[0];
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("its channels are " + channels[0]),
+                std::string::npos)
+          << error.what();
+    }
+  }
+  std::remove(path.c_str());
 }
 
 TEST(bitmap, survives_any_coordinate) {

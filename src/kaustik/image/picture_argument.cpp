@@ -1,5 +1,7 @@
 #include "kaustik/image/picture_argument.h"
 
+#include <fmt/format.h>
+
 namespace kaustik {
 namespace {
 
@@ -15,8 +17,21 @@ Image read_at(const Arguments& arguments, const ReadOptions& options) {
   }
 }
 
+/// Its colours or its grey. Alpha is no colour, and which of other channels is meant nobody knows.
+RgbView colours_of(const Image& image, const Arguments& arguments) {
+  try {
+    return rgb_view(image);
+  } catch (const Error&) {
+    throw Error(ErrorKind::input,
+                fmt::format("picture '{}' has no colours: its channels are {}",
+                            arguments.text("filename"), fmt::join(image.channel_names(), ", ")),
+                "save it with the channels R, G and B, or with one that is called Y",
+                arguments.place_of("filename"));
+  }
+}
+
 void check_pixels(const Image& image, const Arguments& arguments) {
-  const RgbView pixels = rgb_view(image);
+  const RgbView pixels = colours_of(image, arguments);
   for (size_t i = 0; i < image.pixel_count(); ++i) {
     const Vec3f c = pixels[i];
     if (is_finite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0) continue;
