@@ -11,14 +11,15 @@ namespace kaustik::testing {
 Bounds3f test_bounds() { return {{-1, 0, 1}, {3, 4, 5}}; }
 
 std::unique_ptr<Light> make_light(const std::string& type, const std::vector<Property>& properties,
-                                  std::shared_ptr<const Shape> shape,
-                                  const Bounds3f& scene_bounds) {
+                                  std::shared_ptr<const Shape> shape, const Bounds3f& scene_bounds,
+                                  std::shared_ptr<const EmissionPattern> pattern) {
   for (const LightType& candidate : light_types()) {
     if (candidate.info.name != type) continue;
     Problems problems;
     const Arguments arguments(candidate.info, properties, {}, problems);
     problems.throw_if_any();
-    return candidate.create({arguments, Transform(), std::move(shape), 7, scene_bounds});
+    return candidate.create(
+        {arguments, Transform(), std::move(shape), 7, scene_bounds, std::move(pattern)});
   }
   throw std::logic_error("no such light");
 }

@@ -53,7 +53,8 @@ Bounds3f test_bounds();
 /// A light by its type's name. Throws what create() throws, and Problems of the arguments.
 std::unique_ptr<Light> make_light(const std::string& type, const std::vector<Property>& properties,
                                   std::shared_ptr<const Shape> shape = nullptr,
-                                  const Bounds3f& scene_bounds = test_bounds());
+                                  const Bounds3f& scene_bounds = test_bounds(),
+                                  std::shared_ptr<const EmissionPattern> pattern = nullptr);
 
 /// An environment of a picture with one float per pixel and channel, row by row.
 std::unique_ptr<Light> make_envmap(int width, int height, const std::vector<Rgb>& pixels,

@@ -8,19 +8,23 @@
 namespace kaustik {
 namespace {
 
-/// Emits the same radiance from every point of a shape in every direction on the side of its
-/// geometric normal, or on both.
+/// Emits from every point of a shape in every direction on the side of its geometric normal, or on
+/// both: the same radiance everywhere, or that of a pattern. Points are chosen by geometry alone.
 class AreaLight final : public Light {
  public:
-  AreaLight(const Spectrum& radiance, std::shared_ptr<const Shape> light_shape, int shape_index,
-            bool two_sided, int shadow_samples)
-      : radiance_(radiance),
+  /// `pattern` may be null, else `radiance` is its mean; both are multiplied by `scale`.
+  AreaLight(const Spectrum& radiance, std::shared_ptr<const EmissionPattern> pattern, float scale,
+            std::shared_ptr<const Shape> light_shape, int shape_index, bool two_sided,
+            int shadow_samples)
+      : radiance_(radiance * scale),
+        pattern_(std::move(pattern)),
+        scale_(scale),
         shape_(std::move(light_shape)),
         shape_index_(shape_index),
         area_(shape_->area()),
         two_sided_(two_sided),
         shadow_samples_(shadow_samples),
-        is_dark_(radiance.is_zero()) {
+        is_dark_(radiance_.is_zero()) {
     const DirectionCone normals = two_sided ? DirectionCone() : cone_of_normals(*shape_);
     bounds_.position = shape_->bounds();
     bounds_.axis = normals.axis;
@@ -31,12 +35,13 @@ class AreaLight final : public Light {
     ball_ = EmissionBall(bounds_, importance_of(AreaLight::power()) * (two_sided ? 2 : 1));
     const TriangleMesh* mesh = shape_->mesh();
     if (mesh && mesh->triangles.size() >= MeshFaces::least_triangles)
-      faces_ = std::make_unique<MeshFaces>(*shape_, two_sided);
+      faces_ = std::make_unique<MeshFaces>(*shape_, two_sided, pattern_.get());
   }
 
   Spectrum power() const override { return radiance_ * (pi * emitting_area()); }
   LightBounds bounds() const override { return bounds_; }
   bool is_delta() const override { return false; }
+  bool is_two_sided() const override { return two_sided_; }
   int shape() const override { return shape_index_; }
   int shadow_samples() const override { return shadow_samples_; }
 
@@ -59,7 +64,7 @@ class AreaLight final : public Light {
     result.point = placed(s.point);
     result.on_surface = true;
     if (two_sided_ || dot(s.point.ng, result.direction) < 0) {
-      result.radiance = radiance_;
+      result.radiance = radiance_at(result.point);
       result.pdf_solid_angle = pdf_solid_angle;
     }
     return result;
@@ -71,7 +76,7 @@ class AreaLight final : public Light {
   }
 
   Spectrum emitted(const SurfacePoint& point, const Vec3f& direction) const override {
-    return two_sided_ || dot(point.ng, direction) > 0 ? radiance_ : Spectrum();
+    return two_sided_ || dot(point.ng, direction) > 0 ? radiance_at(point) : Spectrum();
   }
 
   EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction) const override {
@@ -81,7 +86,8 @@ class AreaLight final : public Light {
     result.direction = Frame(result.point.ng).to_world(local);
     result.pdf_direction = cosine_hemisphere_pdf(local.z);
     // Radiance × cosine over (cosine/π) × density of the position.
-    if (result.pdf_direction > 0) result.flux = radiance_ * (pi / result.pdf_position);
+    if (result.pdf_direction > 0)
+      result.flux = radiance_at(result.point) * (pi / result.pdf_position);
     return result;
   }
 
@@ -113,6 +119,9 @@ class AreaLight final : public Light {
   }
 
  private:
+  Spectrum radiance_at(const SurfacePoint& point) const {
+    return pattern_ ? pattern_->radiance(point) * scale_ : radiance_;
+  }
   float emitting_area() const { return two_sided_ ? 2.0f * area_ : area_; }
   /// A point of the shape as a point of the scene.
   SurfacePoint placed(SurfacePoint point) const {
@@ -120,7 +129,9 @@ class AreaLight final : public Light {
     return point;
   }
 
-  Spectrum radiance_;
+  Spectrum radiance_;  ///< in the mean
+  std::shared_ptr<const EmissionPattern> pattern_;
+  float scale_;
   std::shared_ptr<const Shape> shape_;
   int shape_index_;
   float area_;
@@ -140,10 +151,13 @@ std::unique_ptr<Light> create_area(const LightInputs& inputs) {
   if (!inputs.shape->can_sample())
     throw Error(ErrorKind::input, "this shape cannot be a light: no points can be sampled on it",
                 "use another shape for the light", place);
+  const Arguments& arguments = inputs.arguments;
+  const Spectrum radiance = inputs.pattern ? mean_radiance(*inputs.pattern, *inputs.shape)
+                                           : emission_argument(inputs, "radiance");
   return with_finite_power(
-      std::make_unique<AreaLight>(emission_argument(inputs, "radiance"), inputs.shape,
-                                  inputs.shape_index, inputs.arguments.boolean("two_sided"),
-                                  int(inputs.arguments.integer("shadow_samples"))),
+      std::make_unique<AreaLight>(radiance, inputs.pattern, float(arguments.number("scale")),
+                                  inputs.shape, inputs.shape_index, arguments.boolean("two_sided"),
+                                  int(arguments.integer("shadow_samples"))),
       inputs);
 }
 
@@ -154,7 +168,10 @@ LightType area_light_type() {
       "emitter",
       "area",
       "Diffuse light from the surface of the shape that it stands in, on the side of the normal.",
-      {color_parameter("radiance", 1, "Emitted radiance.").in("W/(sr·m²)"),
+      {color_parameter("radiance", 1, "Emitted radiance; with a texture it varies over the shape.")
+           .in("W/(sr·m²)")
+           .textured(),
+       number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
        boolean_parameter("two_sided", false, "The back shines as the front does."),
        shadow_samples_parameter(), ignored_sampling_weight()}};
   return {info, true, create_area};

@@ -4,6 +4,7 @@
 
 #include "kaustik/base/spectrum.h"
 #include "kaustik/geometry/shape.h"
+#include "kaustik/light/emission_pattern.h"
 #include "kaustik/light/light_visibility.h"
 
 namespace kaustik {
@@ -75,6 +76,8 @@ class Light {
   /// Lights nothing: background() is only for rays that leave the scene straight from the camera or
   /// after delta events.
   virtual bool is_only_seen() const { return false; }
+  /// Of area lights: both sides of the surface shine.
+  virtual bool is_two_sided() const { return false; }
   /// Index into the scene's shapes if it is an area light, else −1.
   virtual int shape() const { return -1; }
 
@@ -131,6 +134,8 @@ struct LightInputs {
   std::shared_ptr<const Shape> shape;  ///< of area lights, else null
   int shape_index = -1;
   Bounds3f scene_bounds;  ///< of everything that can be hit
+  /// Stands for a color argument that takes a texture; null: the argument counts.
+  std::shared_ptr<const EmissionPattern> pattern = nullptr;
 };
 
 struct LightType {

@@ -1,20 +1,23 @@
 #pragma once
 #include "kaustik/geometry/shape.h"
+#include "kaustik/light/emission_pattern.h"
 #include "kaustik/light/light_tree.h"
 
 namespace kaustik {
 
 /// Chooses the triangles of a shining mesh by what each may give to a point: its area by its
 /// cosines over its squared distance, by a tree over them (see LightTree), then a point on the
-/// triangle uniformly by area. Triangles that turn their back to the point are left out.
+/// triangle uniformly by area. Triangles that turn their back to the point are left out. What a
+/// pattern makes of a triangle's radiance counts as well, in the mean.
 ///
 /// At deeper recursion levels (LightQuery::level) the tree is asked less: from level 1 on, only its
 /// upper nodes are told apart by the point, and below them triangles are chosen by area alone, as
 /// if the mesh had been tessellated more coarsely.
 class MeshFaces {
  public:
-  /// `shape` has a mesh, and must outlive this. `two_sided`: both faces shine.
-  MeshFaces(const Shape& shape, bool two_sided);
+  /// `shape` has a mesh, and must outlive this. `two_sided`: both faces shine. `pattern` may be
+  /// null: all shine alike.
+  MeshFaces(const Shape& shape, bool two_sided, const EmissionPattern* pattern);
 
   /// `pdf_solid_angle` is zero if nothing was found.
   ShapeSample sample_toward(const LightQuery& query, const Vec2f& u, float& pdf_solid_angle) const;

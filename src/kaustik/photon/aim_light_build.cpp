@@ -34,12 +34,6 @@ bool can_reach(const LightBounds& light, const AimSphere& sphere) {
   return cos_nearest >= light.cos_angle - 1e-4f;
 }
 
-/// Whether an area light shines from its back as well: then no side of a ball is all of it.
-bool shines_behind(const Light& light) {
-  const SurfacePoint point = light.sample_origin({0.75f, 0.5f}).point;
-  return !light.emitted(point, -point.ng).is_zero();
-}
-
 }  // namespace
 
 AimedLight::AimedLight(const Light& light, const Shape* shape, const AimInputs& inputs)
@@ -52,7 +46,8 @@ AimedLight::AimedLight(const Light& light, const Shape* shape, const AimInputs& 
     kind_ = Kind::infinite;
   } else {
     kind_ = Kind::place;
-    if (shape && !shines_behind(light)) ball_ = find_ball(*shape);
+    // Of a light with two sides no side of a ball is all of it.
+    if (shape && !light.is_two_sided()) ball_ = find_ball(*shape);
     if (ball_.radius > 0) kind_ = Kind::ball;
     set_own_limit();
   }
@@ -77,6 +72,9 @@ void AimedLight::set_own_limit() {
     own_solid_angle_ = 2.0f * pi * (1.0f - cos_angle);
     own_limit_ = cos_angle > 0 ? std::max(1.0f - sqr(cos_angle), 1e-6f) : 1.0f;
   }
+  // Probes may miss all that a pattern has of light: the mean is known.
+  const float origins = light_->emission_pdf_position(light_->sample_origin({0.5f, 0.5f}).point);
+  peak_ = light_->power().max_lane() * origins / (on_surface_ ? pi : 4 * pi);
   for (uint32_t k = 0; k < 16; ++k) {
     Sampler sampler(probe_scramble, k);
     const Vec2f u = sampler.next_2d();

@@ -13,7 +13,8 @@ constexpr size_t maximum_faces = 64;
 
 FacingOrigins::FacingOrigins(const Light& light, const Shape* shape)
     : light_(&light), shape_(shape) {
-  if (!shape) return;
+  // Of two sides one faces any direction: none is better than another.
+  if (!shape || light.is_two_sided()) return;
   ball_ = find_ball(*shape);
   const TriangleMesh* mesh = shape->mesh();
   if (!mesh || mesh->triangles.size() > maximum_faces) return;

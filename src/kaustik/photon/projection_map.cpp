@@ -61,9 +61,12 @@ ProjectionMap::ProjectionMap(const Light& light, const Shape* shape, const Proje
     return 1.0;
   });
   const LightBounds bounds = light.bounds();
-  dark_ = !(peak > 0) || !cells_.set_weights([&](const DirectionCells::Cell& cell) {
+  // Where the probes find nothing at all the light may still have a pattern that they miss.
+  const double floor = peak > 0 ? 0.05 * peak : 1.0;
+  const bool shines = light.power().max_lane() > 0;
+  dark_ = !shines || !cells_.set_weights([&](const DirectionCells::Cell& cell) {
     if (is_dark(bounds, cell)) return 0.0;
-    return std::max(intensity(cell.center), 0.05 * peak) * double(cell.solid_angle);
+    return std::max(intensity(cell.center), floor) * double(cell.solid_angle);
   });
   own_ = !dark_ && own_serves_as_well(
                        light, [this](const auto& origin, const auto& d) { return pdf(origin, d); },

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kaustik/base/color.h"
+#include "kaustik/scene/texture_emission.h"
 
 namespace kaustik {
 namespace {
@@ -52,6 +53,13 @@ std::string display_name(const Object& object) {
 bool has_all_required(const Arguments& arguments) {
   return std::all_of(arguments.info().parameters.begin(), arguments.info().parameters.end(),
                      [&](const Parameter& p) { return !p.required || arguments.has(p.name); });
+}
+
+std::vector<std::string> texture_parameters(const TypeInfo& info) {
+  std::vector<std::string> names;
+  for (const Parameter& row : info.parameters)
+    if (row.accepts_texture) names.push_back(row.name);
+  return names;
 }
 
 /// The parameter that a texture `name` stands for; null if there is none. Where a texture is all
@@ -283,6 +291,29 @@ std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<
   return textures_[object.get()] = texture;
 }
 
+std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& object,
+                                                                const TypeInfo& info) {
+  Textures textures;
+  for (const Child& child : object.children) {
+    if (child.object->family != "texture") continue;
+    const Parameter* parameter = texture_parameter(info, child.name);
+    if (!parameter) {
+      problems_.add(
+          fmt::format("{} '{}' takes no texture '{}'", object.family, object.type, child.name),
+          suggest(child.name, texture_parameters(info)), child.object->place);
+      continue;
+    }
+    auto& texture = textures[parameter->name];
+    if (texture)
+      problems_.add(
+          fmt::format("{} '{}' has a second texture '{}'", object.family, object.type, child.name),
+          "keep one", child.object->place);
+    texture = make_texture(child.object);
+    if (!texture) return std::nullopt;
+  }
+  return textures;
+}
+
 std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object>& object) {
   const auto known = bsdfs_.find(object.get());
   if (known != bsdfs_.end()) return known->second;
@@ -297,29 +328,13 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
   }
   refuse_children(object, {"bsdf", "texture"});
   std::vector<std::shared_ptr<const Bsdf>> nested;
-  std::map<std::string, std::shared_ptr<const Texture>, std::less<>> textures;
   for (const Child& child : object.children) {
-    if (child.object->family == "bsdf") {
-      nested.push_back(make_bsdf(child.object));
-      if (!nested.back()) return nullptr;
-    } else if (child.object->family == "texture") {
-      const Parameter* parameter = texture_parameter(type->info, child.name);
-      if (!parameter) {
-        std::vector<std::string> valid;
-        for (const Parameter& row : type->info.parameters)
-          if (row.accepts_texture) valid.push_back(row.name);
-        problems_.add(fmt::format("bsdf '{}' takes no texture '{}'", object.type, child.name),
-                      suggest(child.name, valid), child.object->place);
-        continue;
-      }
-      auto& texture = textures[parameter->name];
-      if (texture)
-        problems_.add(fmt::format("bsdf '{}' has a second texture '{}'", object.type, child.name),
-                      "keep one", child.object->place);
-      texture = make_texture(child.object);
-      if (!texture) return nullptr;
-    }
+    if (child.object->family != "bsdf") continue;
+    nested.push_back(make_bsdf(child.object));
+    if (!nested.back()) return nullptr;
   }
+  const std::optional<Textures> textures = textures_of(object, type->info);
+  if (!textures) return nullptr;
   if (int(nested.size()) < type->minimum_nested || int(nested.size()) > type->maximum_nested) {
     problems_.add(fmt::format("bsdf '{}' holds {} bsdfs", object.type, nested.size()),
                   fmt::format("give it {} to {}", type->minimum_nested, type->maximum_nested),
@@ -328,8 +343,8 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
   }
   const Arguments arguments = arguments_of(type->info, object);
   const auto texture = [&](std::string_view name) -> std::shared_ptr<const Texture> {
-    const auto found = textures.find(name);
-    if (found != textures.end()) return found->second;
+    const auto found = textures->find(name);
+    if (found != textures->end()) return found->second;
     return constant_texture_of(arguments, name);
   };
   std::shared_ptr<const Bsdf> bsdf;
@@ -348,6 +363,19 @@ Geometry SceneBuilder::make_geometry() {
   return geometry;
 }
 
+std::shared_ptr<const EmissionPattern> SceneBuilder::emission_pattern_of(
+    const Object& emitter, const Arguments& arguments) {
+  if (texture_parameters(arguments.info()).empty()) return nullptr;  // refused already
+  const std::optional<Textures> textures = textures_of(emitter, arguments.info());
+  if (!textures || textures->empty()) return nullptr;
+  const auto& [name, texture] = *textures->begin();
+  if (arguments.given(name))
+    problems_.add(
+        fmt::format("emitter '{}' has '{}' both as a value and as a texture", emitter.type, name),
+        "keep one", arguments.place_of(name));
+  return std::make_shared<TextureEmission>(texture);
+}
+
 void SceneBuilder::make_lights() {
   for (const PendingLight& pending : pending_lights_) {
     const LightType* type = find_row(light_types(), pending.object->type);
@@ -355,7 +383,9 @@ void SceneBuilder::make_lights() {
       unknown_type(*pending.object, names_of(light_types()));
       continue;
     }
-    refuse_children(*pending.object, {"medium"});
+    std::vector<std::string> families = {"medium"};
+    if (!texture_parameters(type->info).empty()) families.emplace_back("texture");
+    refuse_children(*pending.object, families);
     if (type->needs_shape != (pending.shape != nullptr)) {
       problems_.add(
           type->needs_shape
@@ -380,9 +410,11 @@ void SceneBuilder::make_lights() {
     static const Transform identity;
     const Transform& to_world =
         type->info.find("to_world") ? arguments.transform("to_world") : identity;
+    const std::shared_ptr<const EmissionPattern> pattern =
+        emission_pattern_of(*pending.object, arguments);
     collecting(pending.object->place, [&] {
-      lights_.push_back(
-          type->create({arguments, to_world, pending.shape, pending.shape_index, bounds_}));
+      lights_.push_back(type->create(
+          {arguments, to_world, pending.shape, pending.shape_index, bounds_, pattern}));
       light_media_.push_back(medium_of(*pending.object));
     });
   }

@@ -35,6 +35,9 @@ class SceneBuilder {
   std::shared_ptr<const Bsdf> make_bsdf(const std::shared_ptr<Object>& object);
   std::shared_ptr<const Bsdf> create_bsdf(const Object& object);
   std::shared_ptr<const Texture> make_texture(const std::shared_ptr<Object>& object);
+  using Textures = std::map<std::string, std::shared_ptr<const Texture>, std::less<>>;
+  /// The textures in an object, by the parameters that they stand for; none if one is wrong.
+  std::optional<Textures> textures_of(const Object& object, const TypeInfo& info);
   std::shared_ptr<const Medium> make_medium(const std::shared_ptr<Object>& object);
   std::shared_ptr<const PhaseFunction> make_phase_function(const Object& object);
   /// The one medium among the children of a sensor or an emitter; null if there is none.
@@ -46,6 +49,9 @@ class SceneBuilder {
   void read_filter(const Object& object);
   void read_sampler(const Object& object);
   void make_lights();
+  /// Of the texture in an emitter, of which no type takes more than one; null: it has none.
+  std::shared_ptr<const EmissionPattern> emission_pattern_of(const Object& emitter,
+                                                             const Arguments& arguments);
   Geometry make_geometry();
 
   /// Arguments of an object, with warnings for what is accepted without effect.
