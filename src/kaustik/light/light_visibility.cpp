@@ -7,8 +7,8 @@ namespace kaustik {
 namespace {
 
 constexpr size_t largest_leaf = 32;
-/// What the probes of a leaf find is mixed with as much as this many probes that find nothing but
-/// the least share, so that light through a gap which no probe met keeps a chance.
+/// What the probes of a leaf find is mixed with as much as half a probe that finds a fifth of what
+/// it expects, so that light through a gap which no probe met keeps a chance.
 constexpr float prior_probes = 0.5f;
 constexpr float prior_share = 0.2f;
 /// A sample may find more than the estimate expects, by any factor at the edge of a lamp: beyond
@@ -91,8 +91,11 @@ void LightVisibility::add_leaf(const Learning& from, Node& node, const uint32_t*
       ++asked;
     }
     const double prior = asked > 0 ? expected / asked * double(prior_probes) : 1.0;
-    shares_.push_back(
-        std::min(1.0f, float((found + double(prior_share) * prior) / (expected + prior))));
+    const double share = (found + double(prior_share) * prior) / (expected + prior);
+    // Of what is there in a part of the region only, the chance that brings the least variance goes
+    // by the root of the second moment, not by the mean: else there are bright dots where the edge
+    // of a shadow falls into a region that is mostly dark.
+    shares_.push_back(std::min(1.0f, float(std::sqrt(share))));
   }
 }
 

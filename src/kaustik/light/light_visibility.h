@@ -7,7 +7,7 @@
 
 namespace kaustik {
 
-/// What share of the irradiance that lights are expected to give really arrives, region by region:
+/// How much of the irradiance that lights are expected to give really arrives, region by region:
 /// most lights of a building are behind some wall. Learned from probes on what paths meet, for
 /// choosing among lights; it changes no mean.
 class LightVisibility {
@@ -25,8 +25,8 @@ class LightVisibility {
                   const std::vector<float>& expected, const std::vector<float>& found);
 
   bool empty() const { return nodes_.empty(); }
-  /// By light, in (0, 1]; null where no probe is known that faces a like way. `normal`: as of a
-  /// LightQuery.
+  /// The root of the share that arrives, by which a light is best chosen: by light, in (0, 1]; null
+  /// where no probe is known that faces a like way. `normal`: as of a LightQuery.
   const float* shares(const Vec3f& reference, const Vec3f& normal) const;
 
  private:

@@ -161,7 +161,8 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
     const Lobes follow = handler(LightVertex{vertex, path.state, path.path_class, path.distance});
     if (!any(follow)) return ended(counts.stopped);
     if (path.path_class.events() >= limits.maximum_events) return ended(counts.too_long);
-    if (!scatter_light_path(vertex, follow, limits.largest_weight, path)) return ended(counts.absorbed);
+    if (!scatter_light_path(vertex, follow, limits.largest_weight, path))
+      return ended(counts.absorbed);
     return true;
   };
   while (begin < end) {

@@ -58,8 +58,9 @@ class SurfaceVertex {
   bool has_relief() const { return has_relief_; }
   /// What turns irradiance from wi, measured by the geometric normal as photons do, into that by
   /// the shading normal; zero where the two disagree on the side of wi. At most
-  /// `largest_irradiance_factor`: it grows without bound at grazing incidence, where a single photon
-  /// would outshine all others. Of even light a normal bent by β loses less than sin²β / 10 by that.
+  /// `largest_irradiance_factor`: it grows without bound at grazing incidence, where a single
+  /// photon would outshine all others. Of even light a normal bent by β loses less than sin²β / 10
+  /// by that.
   float irradiance_factor(const Vec3f& wi) const;
   /// The shading normal on wo's side.
   Vec3f facing_normal() const { return wo_local_.z < 0 ? -frame_.z : frame_.z; }
