@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/report.h"
+#include "kaustik/base/error.h"
 #include "kaustik/image/metrics.h"
 #include "kaustik/render/photon_tracing.h"
 #include "markdown_table.h"
@@ -122,13 +123,22 @@ Row measure(const Workplace& place, const ThesisScene& scene) {
   row.mean_ratio = quality.mean_ratio;
   count_photons(run, place.threads, row);
   count_rays(scene, row.passes, place.threads, row);
-  place.show(result.image, scene.name, scene.title, 0);
   return row;
+}
+
+void refuse_unknown_scenes(const Workplace& place) {
+  std::vector<std::string> known;
+  for (const ThesisScene& scene : thesis_scenes()) known.emplace_back(scene.name);
+  for (const std::string& name : place.scenes)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw Error(ErrorKind::input, "the table has no scene '" + name + "'",
+                  fmt::format("some of: {}", fmt::join(known, ", ")));
 }
 
 }  // namespace
 
 std::string table_8_1(const Workplace& place) {
+  refuse_unknown_scenes(place);
   MarkdownTable table({"scene", "pixels", "photons 1998: global", "caustic", "ours: global",
                        "caustic", "1998, min", "ours, s", "times faster", "asked for",
                        "relative MSE", "rays per pixel", "shadow rays per pixel"});
@@ -143,7 +153,8 @@ std::string table_8_1(const Workplace& place) {
     const Row row = measure(place, scene);
     const double speedup = scene.minutes_1998 * 60 / row.seconds;
     const std::string text =
-        table.row({scene.title, fmt::format("{}×{}", scene.width, scene.height), scene.global_1998,
+        table.row({fmt::format("[{}](../../scenes/{})", scene.title, scene.name),
+                   fmt::format("{}×{}", scene.width, scene.height), scene.global_1998,
                    scene.caustic_1998, fmt::format("{} × {}", row.global_photons, row.passes),
                    fmt::format("{} × {}", row.caustic_photons, row.passes),
                    fmt::format("{:.0f}", scene.minutes_1998), fmt::format("{:.2f}", row.seconds),

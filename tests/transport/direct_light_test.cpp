@@ -8,17 +8,13 @@
 
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/statistics.h"
-#include "kaustik/loader/mitsuba_xml.h"
 #include "tests/support/strip_mesh.h"
+#include "tests/transport/scene_of.h"
 
 namespace kaustik {
 namespace {
 
-std::shared_ptr<const Scene> scene_of(const std::string& objects) {
-  return build_scene(parse_mitsuba_xml(
-      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" + objects + "</scene>", "test.xml",
-      ""));
-}
+using test::scene_of;
 
 /// The floor at the origin, seen from above.
 SurfaceVertex vertex_at(const Scene& scene, const Vec3f& position) {

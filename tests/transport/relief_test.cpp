@@ -5,19 +5,15 @@
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/warp.h"
 #include "kaustik/base/wave_field.h"
-#include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/transport/light_path.h"
 #include "kaustik/transport/vertex.h"
 #include "kaustik/transport/visible_normal.h"
+#include "tests/transport/scene_of.h"
 
 namespace kaustik {
 namespace {
 
-std::shared_ptr<const Scene> scene_of(const std::string& objects) {
-  return build_scene(parse_mitsuba_xml(
-      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" + objects + "</scene>", "test.xml",
-      ""));
-}
+using test::scene_of;
 
 SurfaceVertex seen(const Scene& scene, const Vec3f& at, const Vec3f& from,
                    const Footprint& footprint = {}, TransportMode mode = TransportMode::radiance) {

@@ -11,17 +11,13 @@
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/statistics.h"
 #include "kaustik/base/warp.h"
-#include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/transport/direct_light.h"
+#include "tests/transport/scene_of.h"
 
 namespace kaustik {
 namespace {
 
-std::shared_ptr<const Scene> scene_of(const std::string& objects) {
-  return build_scene(parse_mitsuba_xml(
-      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" + objects + "</scene>", "test.xml",
-      ""));
-}
+using test::scene_of;
 
 /// The vertex that a ray from `from` (a unit direction from the origin) meets at the origin.
 SurfaceVertex vertex_seen_from(const Scene& scene, const Vec3f& from, TransportMode mode) {

@@ -48,8 +48,8 @@ class CameraWalk {
   int events() const { return state_.depth; }
   /// Whether the camera sees the vertex directly or by specular events alone.
   bool all_events_specular() const { return class_.all_specular(); }
-  /// Half the width of a pixel at the vertex, m; many samples share a pixel, so that textures are
-  /// filtered by half of it.
+  /// The beam that the walk stands for; its width at the vertex begins as half a pixel's: many
+  /// samples share a pixel, so that textures are filtered by half of it.
   const Footprint& footprint() const { return state_.footprint; }
   Sampler& sampler() { return sampler_; }
 
