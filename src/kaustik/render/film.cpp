@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
+#include "kaustik/base/parallel.h"
 #include "kaustik/base/statistics.h"
 #include "kaustik/image/photometry.h"
 
@@ -9,6 +12,17 @@ namespace kaustik {
 namespace {
 
 constexpr size_t first_hit_lanes = 7;
+constexpr size_t pixels_per_block = 4096;
+
+/// Sum over the pixels, in parallel, of what `sum_of(begin, end)` returns for a block of them.
+template <typename Value, typename SumOf>
+Value sum_over_blocks(size_t pixels, const SumOf& sum_of) {
+  std::vector<Value> sums((pixels + pixels_per_block - 1) / pixels_per_block);
+  parallel_blocks(pixels, pixels_per_block, [&](size_t begin, size_t end, size_t block) {
+    sums[block] = sum_of(begin, end);
+  });
+  return std::accumulate(sums.begin(), sums.end(), Value(0));
+}
 
 /// The sums, the pass and the image that is written.
 constexpr int64_t film_bytes_per_pixel =
@@ -41,31 +55,35 @@ Film::Film(const FilmSettings& settings, ComponentSet components)
 }
 
 void Film::add_pass(const std::vector<PassPixel>& pixels, uint32_t pass_index) {
-  double luminance_sum = 0;
-  for (size_t i = 0; i < pixels.size(); ++i) {
-    const PassPixel& pixel = pixels[i];
-    double total[lanes_] = {};
-    Fixed* sum = sums(i);
-    for (int c = 0; c < component_count; ++c)
-      for (int lane = 0; lane < lanes_; ++lane) {
-        const double value = pixel.radiance[size_t(c)][lane];
-        sum[c * lanes_ + lane] += fixed_from(value);
-        total[lane] += value;
-      }
-    for (int lane = 0; lane < lanes_; ++lane)
-      squares_[i * lanes_ + size_t(lane)] += fixed_from(total[lane] * total[lane]);
-    luminance_sum += photopic(Vec3f(float(total[0]), float(total[1]), float(total[2])));
-    const FirstHit& hit = pixel.first_hit;
-    const double first[first_hit_lanes] = {hit.albedo[0], hit.albedo[1], hit.albedo[2],
-                                           hit.normal.x,  hit.normal.y,  hit.normal.z,
-                                           hit.depth};
-    for (size_t k = 0; k < first_hit_lanes; ++k)
-      first_hits_[i * first_hit_lanes + k] += fixed_from(first[k]);
-  }
+  const auto luminance_sum = sum_over_blocks<Fixed>(pixels.size(), [&](size_t begin, size_t end) {
+    Fixed sum = 0;
+    for (size_t i = begin; i < end; ++i) sum += fixed_from(add_pixel(i, pixels[i]));
+    return sum;
+  });
   const uint32_t replicate = pass_index % replicate_count;
-  replicate_sums_[replicate] += fixed_from(luminance_sum / double(pixels.size()));
+  replicate_sums_[replicate] +=
+      fixed_from(double_from(luminance_sum) / double(std::max<size_t>(1, pixels.size())));
   ++replicate_passes_[replicate];
   ++pass_count_;
+}
+
+double Film::add_pixel(size_t i, const PassPixel& pixel) {
+  double total[lanes_] = {};
+  Fixed* sum = sums(i);
+  for (int c = 0; c < component_count; ++c)
+    for (int lane = 0; lane < lanes_; ++lane) {
+      const double value = pixel.radiance[size_t(c)][lane];
+      sum[c * lanes_ + lane] += fixed_from(value);
+      total[lane] += value;
+    }
+  for (int lane = 0; lane < lanes_; ++lane)
+    squares_[i * lanes_ + size_t(lane)] += fixed_from(total[lane] * total[lane]);
+  const FirstHit& hit = pixel.first_hit;
+  const double first[first_hit_lanes] = {hit.albedo[0], hit.albedo[1], hit.albedo[2], hit.normal.x,
+                                         hit.normal.y,  hit.normal.z,  hit.depth};
+  for (size_t k = 0; k < first_hit_lanes; ++k)
+    first_hits_[i * first_hit_lanes + k] += fixed_from(first[k]);
+  return photopic(Vec3f(float(total[0]), float(total[1]), float(total[2])));
 }
 
 Spectrum Film::mean(size_t pixel) const {
@@ -100,9 +118,10 @@ Image Film::image() const {
     names.emplace_back(name);
   Image image(size_.x, size_.y, names);
   if (pass_count_ == 0) return image;
-  for (int y = 0; y < size_.y; ++y)
+  parallel_blocks(size_t(size_.y), 1, [&](size_t row, size_t, size_t) {
+    const auto y = int(row);
     for (int x = 0; x < size_.x; ++x) {
-      const size_t pixel = size_t(y) * size_t(size_.x) + size_t(x);
+      const size_t pixel = row * size_t(size_.x) + size_t(x);
       const Spectrum total = mean(pixel);
       int channel = 0;
       for (int lane = 0; lane < lanes_; ++lane) image.at(x, y, channel++) = total[lane];
@@ -117,6 +136,7 @@ Image Film::image() const {
       for (int lane = 0; lane < lanes_; ++lane)
         image.at(x, y, channel++) = float(std::sqrt(variance_of_mean(pixel, lane)));
     }
+  });
   return image;
 }
 
@@ -131,13 +151,16 @@ double Film::mean_error() const {
 
 double Film::relative_noise() const {
   if (pass_count_ < 2) return std::numeric_limits<double>::infinity();
-  double sum = 0;
   const size_t pixels = size_t(size_.x) * size_t(size_.y);
-  for (size_t i = 0; i < pixels; ++i) {
-    const Spectrum m = mean(i);
-    for (int lane = 0; lane < lanes_; ++lane)
-      sum += variance_of_mean(i, lane) / (sqr(m[lane]) + 0.01);
-  }
+  const auto sum = sum_over_blocks<double>(pixels, [&](size_t begin, size_t end) {
+    double block = 0;
+    for (size_t i = begin; i < end; ++i) {
+      const Spectrum m = mean(i);
+      for (int lane = 0; lane < lanes_; ++lane)
+        block += variance_of_mean(i, lane) / (sqr(m[lane]) + 0.01);
+    }
+    return block;
+  });
   return std::sqrt(sum / (double(pixels) * lanes_));
 }
 

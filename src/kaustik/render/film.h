@@ -42,6 +42,8 @@ class Film {
   const Fixed* sums(size_t pixel) const {
     return sums_.data() + pixel * (component_count * lanes_);
   }
+  /// Adds a pixel of a pass and returns its luminance.
+  double add_pixel(size_t i, const PassPixel& pixel);
   Spectrum mean(size_t pixel) const;
   double variance_of_mean(size_t pixel, int lane) const;
 

@@ -218,7 +218,9 @@ bool Session::render_pass(uint32_t index, std::stop_token stop, Monitor& monitor
   const Pass pass{settings_.seed, index, samples_per_pass_};
   const bool first = film_.pass_count() == 0;
   if (integrator_.splats()) splats_.clear();
-  std::fill(pixels_.begin(), pixels_.end(), PassPixel{});
+  parallel_blocks(pixels_.size(), 4096, [&](size_t begin, size_t end, size_t) {
+    std::fill(pixels_.data() + begin, pixels_.data() + end, PassPixel{});
+  });
   monitor.tell(Progress::Stage::light, false);
   const auto state =
       integrator_.prepare(pass, splats_, stop, [&](double share) { monitor.light_pass_at(share); });
