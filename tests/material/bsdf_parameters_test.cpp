@@ -117,7 +117,7 @@ TEST(bsdf_parameters, phong_scales_textures_that_reflect_too_much) {
     };
     const auto bsdf = type.create({arguments, {}, texture});
     BsdfContext right;
-    right.texture.uv = {1, 0};
+    right.move_to({.uv = {1, 0}});
     EXPECT_NEAR(bsdf->albedo(right, {0, 0, 1}, Lobes::diffuse)[0], 1 / 1.5f, 1e-6f);
     const BsdfContext left;
     EXPECT_EQ(bsdf->albedo(left, {0, 0, 1}, Lobes::diffuse)[0], 0);

@@ -59,7 +59,7 @@ TEST(Overrides, AValueTakesTheTexturesPlace) {
   const auto scene = build_scene(description);
   for (const float u : {0.1f, 0.6f}) {
     BsdfContext context;
-    context.texture.uv = {u, 0.1f};
+    context.move_to({.uv = {u, 0.1f}});
     EXPECT_FLOAT_EQ(scene->surface(1).bsdf->albedo(context, {0, 0, 1}, Lobes::all)[2], 0.3f);
   }
 }

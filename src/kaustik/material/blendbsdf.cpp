@@ -74,7 +74,7 @@ class BlendBsdf final : public Bsdf {
 
   /// What a texture says beyond 1 is 1.
   float weight(const BsdfContext& context) const {
-    return std::clamp(weight_->scalar(context.texture), 0.0f, 1.0f);
+    return std::clamp(context.scalar_of(*weight_), 0.0f, 1.0f);
   }
   /// With which sample() asks the second bsdf: the weight, unless one has none of the lobes.
   float second_chance(const BsdfContext& context, Lobes lobes) const {

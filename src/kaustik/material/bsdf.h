@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -24,7 +25,7 @@ enum class TransportMode : uint8_t { radiance, flux };
 /// What a bsdf asks of the surface at a point, as bits; finding it costs time.
 enum class SurfaceNeeds : uint8_t {
   none = 0,
-  texture = 1,  ///< BsdfContext::texture with its footprint
+  texture = 1,  ///< BsdfContext::texture() with its footprint
   tangent = 2,  ///< a frame whose x axis lies along u
   relief = 4    ///< the normal of Bsdf::relief
 };
@@ -41,10 +42,40 @@ inline SurfaceNeeds texture_needs(std::initializer_list<const Texture*> textures
   return SurfaceNeeds::none;
 }
 
-/// What a bsdf needs to know of the point beside directions.
-struct BsdfContext {
-  TextureCoordinates texture;
+/// What a bsdf needs to know of the point beside directions. Remembers what textures gave there,
+/// since one point is asked for its albedo, for directions and for values; so it belongs to one
+/// thread.
+class BsdfContext {
+ public:
+  BsdfContext() = default;
+  BsdfContext(const TextureCoordinates& texture, TransportMode transport_mode)
+      : mode(transport_mode), texture_(texture) {}
+
+  const TextureCoordinates& texture() const { return texture_; }
+  void move_to(const TextureCoordinates& texture) {
+    texture_ = texture;
+    known_ = 0;
+  }
+  /// What the texture gives there, as a color and as one number.
+  Spectrum value_of(const Texture& texture) const {
+    for (size_t i = 0; i < known_; ++i)
+      if (textures_[i] == &texture) return values_[i];
+    const Spectrum value = texture.eval(texture_);
+    if (known_ < values_.size()) {
+      textures_[known_] = &texture;
+      values_[known_++] = value;
+    }
+    return value;
+  }
+  float scalar_of(const Texture& texture) const { return luminance_of(value_of(texture)); }
+
   TransportMode mode = TransportMode::radiance;
+
+ private:
+  TextureCoordinates texture_;
+  mutable size_t known_ = 0;
+  mutable std::array<const Texture*, 6> textures_{};
+  mutable std::array<Spectrum, 6> values_{};
 };
 
 /// A direction that a bsdf has chosen. The event is drawn by the shares of the lobes in f at wi,
@@ -96,8 +127,6 @@ class Bsdf {
   /// over 1; an energy, so the transport mode makes no difference.
   virtual Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const = 0;
 };
-
-/// A shape without a bsdf is diffuse 0.5, as in Mitsuba.
 
 /// Ideally matt on its outer side and white: f = 1/π.
 const Bsdf& white_diffuse();

@@ -31,7 +31,7 @@ class Conductor final : public Bsdf {
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (!any(lobes & Lobes::delta) || wo.z <= 0) return Spectrum();
-    return reflectance_->eval(context.texture) * fresnel_conductor(wo.z, ior_);
+    return context.value_of(*reflectance_) * fresnel_conductor(wo.z, ior_);
   }
 
  private:

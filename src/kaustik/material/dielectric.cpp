@@ -33,13 +33,13 @@ class Dielectric final : public Bsdf {
     if (u_lobe < fresnel.reflectance) {
       sample.wi = {-wo.x, -wo.y, wo.z};
       sample.pdf_solid_angle = fresnel.reflectance;
-      sample.weight = reflectance_->eval(context.texture);
+      sample.weight = context.value_of(*reflectance_);
       return sample;
     }
     const float inv_eta = 1 / fresnel.eta;
     sample.wi = {-wo.x * inv_eta, -wo.y * inv_eta, std::copysign(fresnel.cos_transmitted, -wo.z)};
     sample.pdf_solid_angle = 1 - fresnel.reflectance;
-    sample.weight = transmittance_->eval(context.texture);
+    sample.weight = context.value_of(*transmittance_);
     if (context.mode == TransportMode::radiance) sample.weight *= inv_eta * inv_eta;
     sample.transmission = true;
     sample.eta = fresnel.eta;
@@ -49,8 +49,8 @@ class Dielectric final : public Bsdf {
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (!any(lobes & Lobes::delta) || wo.z == 0) return Spectrum();
     const float reflected = fresnel_dielectric(wo.z, interior_over_exterior_).reflectance;
-    return reflectance_->eval(context.texture) * reflected +
-           transmittance_->eval(context.texture) * (1 - reflected);
+    return context.value_of(*reflectance_) * reflected +
+           context.value_of(*transmittance_) * (1 - reflected);
   }
 
  private:

@@ -16,7 +16,7 @@ class Diffuse final : public Bsdf {
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                 Lobes lobes) const override {
     if (!any(lobes & Lobes::diffuse) || wo.z <= 0 || wi.z <= 0) return Spectrum();
-    return reflectance_->eval(context.texture) * inv_pi;
+    return context.value_of(*reflectance_) * inv_pi;
   }
 
   float pdf(const BsdfContext&, const Vec3f& wo, const Vec3f& wi, Lobes lobes) const override {
@@ -31,14 +31,14 @@ class Diffuse final : public Bsdf {
     sample.wi = square_to_cosine_hemisphere(u);
     sample.pdf_solid_angle = cosine_hemisphere_pdf(sample.wi.z);
     if (sample.pdf_solid_angle <= 0) return sample;
-    sample.weight = reflectance_->eval(context.texture);
+    sample.weight = context.value_of(*reflectance_);
     sample.event = Lobes::diffuse;
     return sample;
   }
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (!any(lobes & Lobes::diffuse) || wo.z <= 0) return Spectrum();
-    return reflectance_->eval(context.texture);
+    return context.value_of(*reflectance_);
   }
 
  private:

@@ -54,7 +54,7 @@ class Mask final : public Bsdf {
  private:
   /// What a texture says beyond 1 is 1.
   float opacity(const BsdfContext& context) const {
-    return std::clamp(opacity_->scalar(context.texture), 0.0f, 1.0f);
+    return std::clamp(context.scalar_of(*opacity_), 0.0f, 1.0f);
   }
   /// With which sample() asks the nested bsdf: the opacity, but certain where holes don't count.
   float nested_chance(const BsdfContext& context, Lobes lobes) const {

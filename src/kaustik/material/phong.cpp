@@ -144,7 +144,7 @@ class Phong final : public Bsdf {
   static float log_of(float exponent) { return std::log2(1 + exponent); }
   float log_exponent(const BsdfContext& context) const { return log_of(exponent_at(context)); }
   float exponent_at(const BsdfContext& context) const {
-    return std::clamp(textures_.exponent->scalar(context.texture), 0.0f, largest_exponent);
+    return std::clamp(context.scalar_of(*textures_.exponent), 0.0f, largest_exponent);
   }
 
   bool is_possible(const Vec3f& wo, const Vec3f& wi) const {
@@ -158,7 +158,7 @@ class Phong final : public Bsdf {
     const auto textures = textures_.reflecting_and_transmitting();
     for (size_t i = 0; i < 4; ++i) {
       if (!any(lobes & (i % 2 ? Lobes::glossy : Lobes::diffuse))) continue;
-      k.factor[i] = textures[i]->eval(context.texture) * scale_;
+      k.factor[i] = context.value_of(*textures[i]) * scale_;
       total += k.chance[i] = k.factor[i].sum();
     }
     if (total > 0)

@@ -23,13 +23,13 @@ class RoughFacets {
 
   bool is_isotropic() const { return alpha_u_ == alpha_v_; }
   SurfaceNeeds needs() const { return texture_needs({alpha_u_.get(), alpha_v_.get()}); }
-  MicrofacetDistribution at(const TextureCoordinates& where) const {
-    return {kind_, in_range(alpha_u_->scalar(where)), in_range(alpha_v_->scalar(where)),
+  MicrofacetDistribution at(const BsdfContext& context) const {
+    return {kind_, in_range(context.scalar_of(*alpha_u_)), in_range(context.scalar_of(*alpha_v_)),
             sample_visible_};
   }
   /// Of the roughness along u, which the albedo is tabulated by.
-  float log_alpha(const TextureCoordinates& where) const {
-    return std::log2(in_range(alpha_u_->scalar(where)));
+  float log_alpha(const BsdfContext& context) const {
+    return std::log2(in_range(context.scalar_of(*alpha_u_)));
   }
   float least_log_alpha() const {
     return alpha_u_->is_constant() ? log_alpha({}) : std::log2(float(least_alpha));
@@ -77,28 +77,28 @@ class RoughConductor final : public Bsdf {
                 Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0 || wi.z <= 0) return Spectrum();
     const Vec3f m = normalize(wo + wi);
-    const MicrofacetDistribution facets = facets_.at(context.texture);
+    const MicrofacetDistribution facets = facets_.at(context);
     const float geometry = facets.density(m) * facets.masking(wo) * facets.masking(wi);
-    return reflectance_->eval(context.texture) * fresnel(wo, m) * (geometry / (4 * wo.z * wi.z));
+    return context.value_of(*reflectance_) * fresnel(wo, m) * (geometry / (4 * wo.z * wi.z));
   }
 
   float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
             Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0 || wi.z <= 0) return 0;
-    return pdf_of_reflection(facets_.at(context.texture), wo, normalize(wo + wi));
+    return pdf_of_reflection(facets_.at(context), wo, normalize(wo + wi));
   }
 
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float, const Vec2f& u,
                     Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0) return {};
-    BsdfSample sample = sample_lobe(facets_.at(context.texture), wo, u);
-    sample.weight *= reflectance_->eval(context.texture);
+    BsdfSample sample = sample_lobe(facets_.at(context), wo, u);
+    sample.weight *= context.value_of(*reflectance_);
     return sample;
   }
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0) return Spectrum();
-    return reflectance_->eval(context.texture) * albedo_(facets_.log_alpha(context.texture), wo);
+    return context.value_of(*reflectance_) * albedo_(facets_.log_alpha(context), wo);
   }
 
  private:

@@ -243,7 +243,7 @@ std::string text_of(const Vec3f& v) { return fmt::format("{:.4g} {:.4g} {:.4g};"
 /// How a surface scatters: its albedo, and where it sends a few directions from either side.
 std::string text_of(const Bsdf& bsdf) {
   BsdfContext context;
-  context.texture.uv = {0.5f, 0.5f};
+  context.move_to({.uv = {0.5f, 0.5f}});
   std::string text;
   for (const float side : {1.0f, -1.0f}) {
     const Vec3f wo = normalize(Vec3f(0.3f, 0.2f, side));

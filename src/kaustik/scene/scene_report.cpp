@@ -12,7 +12,7 @@ float largest_albedo(const Bsdf& bsdf) {
     for (const float cosine : {1.0f, 0.5f, 0.1f})
       for (const float side : {1.0f, -1.0f}) {
         BsdfContext context;
-        context.texture.uv = {u, u};
+        context.move_to({.uv = {u, u}});
         const Vec3f wo(safe_sqrt(1 - cosine * cosine), 0, cosine * side);
         largest = std::max(largest, bsdf.albedo(context, wo, Lobes::all).max_lane());
       }
@@ -30,7 +30,7 @@ struct View {
 /// Whether a surface neither reflects nor lets through what comes to its back.
 bool is_black_from_behind(const Surface& surface) {
   BsdfContext context;
-  context.texture.uv = {0.5f, 0.5f};
+  context.move_to({.uv = {0.5f, 0.5f}});
   return surface.bsdf->albedo(context, normalize({0.3f, 0.2f, -1.0f}), Lobes::all).is_zero();
 }
 

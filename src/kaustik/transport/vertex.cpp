@@ -22,11 +22,15 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
   bsdf_ = surface.bsdf.get();
   lobes_ = bsdf_->lobes();
   light_ = surface.light;
-  context_.texture.uv = point_.uv;
   context_.mode = mode;
   turn_to(normal_toward(wo_, point_));
   has_relief_ = false;
-  if (const SurfaceNeeds asked = bsdf_->needs(); asked != SurfaceNeeds::none) {
+  const SurfaceNeeds asked = bsdf_->needs();
+  if (asked == SurfaceNeeds::none) {
+    TextureCoordinates at;
+    at.uv = point_.uv;
+    context_.move_to(at);
+  } else {
     const UvDerivatives derivatives = scene.tracer().uv_derivatives(point_);
     locate_texture(scene, footprint, derivatives);
     if (needs(asked, SurfaceNeeds::relief)) bend_normal(scene, footprint, derivatives);
@@ -50,7 +54,8 @@ void SurfaceVertex::turn_to(const Vec3f& normal) {
 
 void SurfaceVertex::locate_texture(const Scene& scene, const Footprint& footprint,
                                    const UvDerivatives& derivatives) {
-  TextureCoordinates& at = context_.texture;
+  TextureCoordinates at;
+  at.uv = point_.uv;
   at.position = point_.position;
   at.normal = point_.ng;
   // The ellipse that the beam cuts out of the surface, as a disk of the same area.
@@ -62,19 +67,21 @@ void SurfaceVertex::locate_texture(const Scene& scene, const Footprint& footprin
     return metres > 0 ? std::min(at.width / metres, largest_width) : 0.0f;
   };
   at.uv_width = {in_uv(derivatives.dpdu), in_uv(derivatives.dpdv)};
-  if (point_.instance == no_instance) return;
-  const Transform shape_from_world =
-      scene.tracer().geometry().instances[point_.instance].world_from_group.inverse();
-  at.position = shape_from_world.point(at.position);
-  at.normal = normalize(shape_from_world.normal(at.normal));
-  at.width *= float(std::cbrt(std::fabs(shape_from_world.determinant3())));
+  if (point_.instance != no_instance) {
+    const Transform shape_from_world =
+        scene.tracer().geometry().instances[point_.instance].world_from_group.inverse();
+    at.position = shape_from_world.point(at.position);
+    at.normal = normalize(shape_from_world.normal(at.normal));
+    at.width *= float(std::cbrt(std::fabs(shape_from_world.determinant3())));
+  }
+  context_.move_to(at);
 }
 
 void SurfaceVertex::bend_normal(const Scene& scene, const Footprint& footprint,
                                 const UvDerivatives& derivatives) {
   const Relief* relief = bsdf_->relief(on_front());
   if (!relief) return;
-  ReliefPoint at{context_.texture, point_.ns, derivatives.dpdu, derivatives.dpdv};
+  ReliefPoint at{context_.texture(), point_.ns, derivatives.dpdu, derivatives.dpdv};
   if (footprint.scattered) {
     at.texture.width = 0;
     at.texture.uv_width = {0, 0};
