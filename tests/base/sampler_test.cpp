@@ -165,6 +165,22 @@ TEST(sampler, forks_are_stratified_over_the_indices_of_the_parent) {
   EXPECT_NE(first, second);
 }
 
+TEST(sampler, several_samples_of_each_index_are_stratified_together) {
+  std::vector<Vec2f> points, of_three;
+  for (uint32_t i = 0; i < 64; ++i) {
+    Sampler parent(5, i);
+    parent.next_2d();
+    for (uint32_t k = 0; k < 4; ++k) points.push_back(parent.one_of(4, k).next_2d());
+    for (uint32_t k = 0; k < 3; ++k) of_three.push_back(parent.one_of(3, k).next_2d());
+    parent.next_2d();
+    EXPECT_NE(parent.one_of(4, 0).next_2d(), points[4 * size_t(i)]);
+  }
+  EXPECT_TRUE(is_net(points));
+  of_three.resize(128);
+  EXPECT_TRUE(is_net(of_three));
+  EXPECT_NE(points[0], of_three[0]);
+}
+
 TEST(sampler, branches_of_different_parents_are_independent) {
   std::vector<Vec2f> points;
   for (uint32_t i = 0; i < uint32_t(count); ++i)

@@ -67,6 +67,13 @@ class Sampler {
     return {hash_mix(hash_mix(scramble_, pair_), uint64_t(key) | 0x100000000ull), index_};
   }
 
+  /// The i-th of `count` samples at this point, where every index of the parent takes as many: all
+  /// of them stratify one another, over consecutive indices too.
+  Sampler one_of(uint32_t count, uint32_t i) const {
+    return {hash_mix(hash_mix(scramble_, pair_), uint64_t(count) | 0x200000000ull),
+            index_ * count + i};
+  }
+
   static constexpr uint32_t pairs_per_vertex = 8;
   static constexpr uint32_t stratified_pairs = 4 * pairs_per_vertex;
 

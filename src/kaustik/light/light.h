@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "kaustik/base/spectrum.h"
@@ -170,7 +171,14 @@ class LightSelector {
     float probability = 0;
   };
   /// `normal` as of a LightQuery. `u` in [0, 1) is replaced by a fresh uniform number.
-  Choice choose(const Vec3f& reference, const Vec3f& normal, float& u) const;
+  Choice choose(const Vec3f& reference, const Vec3f& normal, float& u) const {
+    Choice choice;
+    choose(reference, normal, {&u, 1}, &choice);
+    return choice;
+  }
+  /// The same for every number in `u`, into as many `choices`; the lights are weighed once.
+  void choose(const Vec3f& reference, const Vec3f& normal, std::span<float> u,
+              Choice* choices) const;
   /// Exactly what choose() reports for this light.
   float probability(const Vec3f& reference, const Vec3f& normal, int light) const;
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "kaustik/light/light_tree.h"
 #include "kaustik/light/power_distribution.h"
 
@@ -130,6 +132,25 @@ GroupWeights weigh(const Group& infinite, const Group& local, const LightQuery& 
   return w;
 }
 
+LightSelector::Choice choose_by_group(const Group& infinite, const Group& local,
+                                      const GroupWeights& w, const Vec3f& reference,
+                                      const Vec3f& normal, float& u) {
+  const float share = w.infinite_share;
+  LightSelector::Choice choice;
+  if (u < share) {
+    u = rescaled(u, 0.0f, share);
+    choice =
+        infinite.few.empty() ? infinite.by_power.choose(u) : infinite.few.choose(w.infinite, u);
+    choice.probability *= share;
+  } else {
+    u = rescaled(u, share, 1.0f - share);
+    choice =
+        local.few.empty() ? local.tree.choose(reference, normal, u) : local.few.choose(w.local, u);
+    choice.probability *= 1.0f - share;
+  }
+  return choice;
+}
+
 }  // namespace
 
 void LightSelector::Impl::add_infinite(const std::vector<std::unique_ptr<Light>>& lights) {
@@ -183,28 +204,22 @@ void LightSelector::learn(LightVisibility visibility) {
   if (can_learn()) impl_->visibility = std::move(visibility);
 }
 
-LightSelector::Choice LightSelector::choose(const Vec3f& reference, const Vec3f& normal,
-                                            float& u) const {
-  if (impl_->only_light >= 0) return {impl_->only_light, 1.0f};
+void LightSelector::choose(const Vec3f& reference, const Vec3f& normal, std::span<float> u,
+                           Choice* choices) const {
   const Group &infinite = impl_->infinite, &local = impl_->local;
-  if (infinite.empty() && local.empty()) return {};
-  if (const float* shares = impl_->shares(reference, normal))
-    return impl_->learned.choose(impl_->learned.weights({reference, normal}, shares), u);
-  const GroupWeights w = weigh(infinite, local, {reference, normal});
-  const float share = w.infinite_share;
-  Choice choice;
-  if (u < share) {
-    u = rescaled(u, 0.0f, share);
-    choice =
-        infinite.few.empty() ? infinite.by_power.choose(u) : infinite.few.choose(w.infinite, u);
-    choice.probability *= share;
-  } else {
-    u = rescaled(u, share, 1.0f - share);
-    choice =
-        local.few.empty() ? local.tree.choose(reference, normal, u) : local.few.choose(w.local, u);
-    choice.probability *= 1.0f - share;
+  if (impl_->only_light >= 0 || (infinite.empty() && local.empty())) {
+    const bool one = impl_->only_light >= 0;
+    std::fill_n(choices, u.size(), one ? Choice{impl_->only_light, 1.0f} : Choice());
+    return;
   }
-  return choice;
+  if (const float* shares = impl_->shares(reference, normal)) {
+    const FewLights::Weights w = impl_->learned.weights({reference, normal}, shares);
+    for (size_t i = 0; i < u.size(); ++i) choices[i] = impl_->learned.choose(w, u[i]);
+    return;
+  }
+  const GroupWeights w = weigh(infinite, local, {reference, normal});
+  for (size_t i = 0; i < u.size(); ++i)
+    choices[i] = choose_by_group(infinite, local, w, reference, normal, u[i]);
 }
 
 float LightSelector::probability(const Vec3f& reference, const Vec3f& normal, int light) const {

@@ -185,11 +185,27 @@ Value sample_direct_lights(const Scene& scene, const Receiver& receiver,
     sum += value;
   };
   if (sampling.choice == LightChoice::one) {
-    for (int i = 0; i < sampling.samples; ++i) {
-      Sampler branch = sampler.split(0, uint32_t(i));
-      Sampler& numbers = sampling.samples == 1 ? sampler : branch;
-      const LightSelector::Choice choice = choose_light(scene, receiver, numbers);
-      add(choice, numbers, sampling.samples);
+    if (sampling.samples == 1) {
+      const LightSelector::Choice choice = choose_light(scene, receiver, sampler);
+      add(choice, sampler, 1);
+      return sum;
+    }
+    constexpr int most_at_once = 16;
+    for (int begin = 0; begin < sampling.samples; begin += most_at_once) {
+      const int count = std::min(most_at_once, sampling.samples - begin);
+      std::array<float, most_at_once> u;
+      std::array<LightSelector::Choice, most_at_once> choices;
+      const auto branch = [&](int i) {
+        return sampler.one_of(uint32_t(sampling.samples), uint32_t(begin + i));
+      };
+      for (int i = 0; i < count; ++i) u[size_t(i)] = branch(i).next_1d();
+      scene.light_selector().choose(receiver.point.position, receiver.normal,
+                                    {u.data(), size_t(count)}, choices.data());
+      for (int i = 0; i < count; ++i) {
+        Sampler numbers = branch(i);
+        numbers.next_1d();  // the choice's
+        add(choices[size_t(i)], numbers, sampling.samples);
+      }
     }
     return sum;
   }
