@@ -246,6 +246,41 @@ TEST(irradiance_cache, spacing_is_kept) {
   EXPECT_NEAR(measured_reach(settings, infinity, 0.25f), 5, 0.02f);
 }
 
+TEST(irradiance_cache, grooves_do_not_darken_what_lies_beside_them) {
+  // A floor under even light, with a groove far thinner than the least spacing, from which little
+  // of the light is seen.
+  class GroovedFloor : public RadianceSource {
+   public:
+    static bool in_groove(float x) { return std::fabs(x - 0.5f) < 0.001f; }
+    Incoming incoming(const SurfacePoint& from, const Vec3f& direction, Sampler&) const override {
+      if (in_groove(from.position.x) && direction.z < 0.9f) return {Spectrum(), 0.001f};
+      return {Spectrum(1.0f), 1 / direction.z};
+    }
+  };
+  for (const CacheMetric metric : {CacheMetric::split_sphere, CacheMetric::hessian}) {
+    IrradianceCache cache(settings_with(0.25f, 64, metric));
+    const std::vector<CachePoint> floor = floor_points(resolution, 1.0f / resolution);
+    fill(cache, floor, GroovedFloor(), 0);
+    std::vector<CachePoint> groove;
+    for (int i = 0; i < resolution; ++i)
+      groove.push_back(
+          cache_point({0.5f, (float(i) + 0.5f) / resolution, 0}, up, 1.0f / resolution));
+    // The normal of one side of the groove, as far from the floor's as records may be shared.
+    for (CachePoint& p : groove) p.normal = p.point.ns = p.point.ng = normalize({0.35f, 0, 1});
+    EXPECT_GT(fill(cache, groove, GroovedFloor(), 1), 10u);
+    fill(cache, floor, GroovedFloor(), 2);  // the groove has clamped its neighbours' reach
+    for (const CachePoint& p : floor) {
+      Spectrum irradiance;
+      ASSERT_TRUE(cache.interpolate(p, irradiance));
+      EXPECT_NEAR(irradiance[0], pi, 0.04f * pi) << p.point.position.x;
+    }
+    for (const CachePoint& p : groove) {
+      Spectrum irradiance;
+      ASSERT_TRUE(cache.interpolate(p, irradiance));
+    }
+  }
+}
+
 TEST(irradiance_cache, has_no_seams) {
   const RectangleSource source;
   IrradianceCache cache(settings_with(0.3f, 100));

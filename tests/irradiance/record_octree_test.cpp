@@ -42,6 +42,7 @@ double sqr_of(double x) { return x * x; }
 struct BruteForce {
   double best = infinity;  // ε²
   double weight = 0, lane0 = 0;
+  double least = infinity, greatest = -infinity;  // of the lane
 
   BruteForce(const std::vector<CacheRecord>& records, const Vec3f& p, const Vec3f& n,
              double limit) {
@@ -58,7 +59,10 @@ struct BruteForce {
       if (error_sq >= limit * limit) continue;
       const double w = std::pow(1 - error_sq / (limit * limit), 2);
       weight += w;
-      lane0 += w * double(r.extrapolate(d, n)[0]);
+      const auto value = double(r.extrapolate(d, n)[0]);
+      lane0 += w * value;
+      least = std::min(least, value);
+      greatest = std::max(greatest, value);
     }
   }
 };
@@ -77,7 +81,12 @@ void compare_with_brute_force(const std::vector<CacheRecord>& records, float sca
       if (expected.weight > 1e-8) {
         ASSERT_TRUE(hit);
         ++hits;
-        EXPECT_NEAR(e[0], std::max(0.0, expected.lane0 / expected.weight), 2e-4);
+        if (relax == 1) {
+          EXPECT_NEAR(e[0], std::max(0.0, expected.lane0 / expected.weight), 2e-4);
+        } else {  // of the widened records not all have to take part
+          EXPECT_GE(e[0], std::max(0.0, expected.least) - 2e-4);
+          EXPECT_LE(e[0], std::max(0.0, expected.greatest) + 2e-4);
+        }
         EXPECT_GE(e[2], 0);
       } else if (expected.weight == 0) {
         EXPECT_FALSE(hit);

@@ -12,6 +12,9 @@ struct CacheRecord {
   /// … and in which direction less: a tangent vector of length √(1/r² − 1/reach²), 1/m, where r is
   /// the reach in its direction; zero: it serves equally far all around.
   Vec3f squeeze{0, 0, 0};
+  /// Share of its weight that it has among other records, in (0, 1]: one that knows only a groove
+  /// but has to serve as far as the least spacing must not darken what lies beside it.
+  float confidence = 1;
   Spectrum irradiance;  ///< W/m²
   /// By axis x, y, z: what is added per metre that the point moves …
   Spectrum per_metre[3];

@@ -19,6 +19,9 @@ constexpr float minimum_step_spacing = 1.0f / 65536;
 /// Where the width of pixels isn't known, the points are taken to be so many of them across.
 constexpr float unknown_pixels = 500;
 
+/// Of records whose reach had to be raised; not zero, for at some points there are no others.
+constexpr float least_confidence = 1e-6f;
+
 /// A record as it was computed. How far it reaches also depends on its neighbours.
 struct ComputedRecord {
   Vec3f position;
@@ -36,6 +39,7 @@ void set_reach(const ComputedRecord& computed, float quality, CacheRecord& recor
     return std::clamp(reach, computed.minimum_reach, computed.maximum_reach);
   };
   const float minor = within(quality * radius);
+  record.confidence = std::clamp(sqr(quality * radius / minor), least_confidence, 1.0f);
   record.reach = within(quality * radius * computed.validity.aspect);
   record.squeeze = computed.validity.axis * safe_sqrt(1 / sqr(minor) - record.inverse_reach_sq());
 }

@@ -1,5 +1,8 @@
 #include "kaustik/irradiance/record_octree.h"
 
+#include <array>
+#include <bit>
+#include <span>
 #include <utility>
 
 namespace kaustik {
@@ -39,57 +42,86 @@ Vec3f child_offset(int child, float size) {
 /// Splits cells until few records are left in each.
 class RecordOctree::Builder {
  public:
-  explicit Builder(RecordOctree& tree) : tree_(tree), slack_(1e-5f * tree.size_) {}
-
-  void build(uint32_t node, const Vec3f& lower, float size, int depth,
-             const std::vector<uint32_t>& list) {
-    for (const uint32_t record : list)
-      tree_.nodes_[node].maximum_reach =
-          std::max(tree_.nodes_[node].maximum_reach, tree_.records_[record].reach);
-    if (list.size() > wanted_leaf_size && depth < maximum_depth) {
-      std::vector<uint32_t> parts[8];
-      const float half = 0.5f * size;
-      size_t copies = 0;
-      for (int child = 0; child < 8; ++child) {
-        parts[child] = overlapping(list, lower + child_offset(child, half), half);
-        copies += parts[child].size();
-      }
-      if (float(copies) <= maximum_copies * float(list.size())) {
-        const auto first = uint32_t(tree_.nodes_.size());
-        tree_.nodes_.resize(first + 8);
-        tree_.nodes_[node].first = first;
-        tree_.nodes_[node].inner = true;
-        for (int child = 0; child < 8; ++child)
-          build(first + uint32_t(child), lower + child_offset(child, half), half, depth + 1,
-                parts[child]);
-        return;
-      }
+  explicit Builder(RecordOctree& tree) : tree_(tree) {
+    const float slack = 1e-5f * tree.size_;  // covers the rounding of a query's way to its leaf
+    regions_.reserve(tree.records_.size());
+    for (const CacheRecord& record : tree.records_) {
+      regions_.push_back({record.position, sqr(record.reach * overlap + slack),
+                          half_extent(record) * overlap + Vec3f(slack), record.reach});
+      lists_.push_back(uint32_t(lists_.size()));
     }
-    make_leaf(tree_.nodes_[node], list);
   }
+
+  void build() { build(0, tree_.lower_, tree_.size_, 0, 0); }
 
  private:
-  std::vector<uint32_t> overlapping(const std::vector<uint32_t>& list, const Vec3f& lower,
-                                    float size) const {
-    std::vector<uint32_t> result;
-    for (const uint32_t index : list) {
-      const CacheRecord& record = tree_.records_[index];
-      const float reach = record.reach * overlap + slack_;
-      if (distance_sq_to_box(record.position, lower, size) <= reach * reach &&
-          box_overlaps(record, lower, size))
-        result.push_back(index);
+  /// Where a record takes part: in a ball and in a box.
+  struct Region {
+    Vec3f center;
+    float radius_sq;
+    Vec3f half_extent;
+    float reach;
+  };
+
+  /// The node's records are those of lists_ from `begin` on, and left there.
+  void build(uint32_t number, const Vec3f& lower, float size, int depth, size_t begin) {
+    const size_t end = lists_.size(), count = end - begin;
+    float maximum_reach = 0;
+    for (size_t i = begin; i < end; ++i)
+      maximum_reach = std::max(maximum_reach, regions_[lists_[i]].reach);
+    tree_.nodes_[number].maximum_reach = maximum_reach;
+    const float half = 0.5f * size;
+    if (count <= wanted_leaf_size || depth >= maximum_depth || !split(lower, half, begin)) {
+      make_leaf(tree_.nodes_[number], {lists_.data() + begin, count});
+      return;
     }
-    return result;
+    const auto first = uint32_t(tree_.nodes_.size());
+    tree_.nodes_.resize(first + 8);
+    tree_.nodes_[number].first = first;
+    tree_.nodes_[number].inner = true;
+    const size_t first_mask = masks_.size() - count;
+    for (uint32_t child = 0; child < 8; ++child) {
+      for (size_t i = 0; i < count; ++i)
+        if ((masks_[first_mask + i] >> child) & 1) lists_.push_back(lists_[begin + i]);
+      build(first + child, lower + child_offset(int(child), half), half, depth + 1, end);
+      lists_.resize(end);
+    }
+    masks_.resize(first_mask);
   }
 
-  bool box_overlaps(const CacheRecord& record, const Vec3f& lower, float size) const {
-    const Vec3f half = half_extent(record) * overlap + Vec3f(slack_);
-    const Vec3f low = lower - record.position, high = low + Vec3f(size);
-    return low.x <= half.x && low.y <= half.y && low.z <= half.z && high.x >= -half.x &&
-           high.y >= -half.y && high.z >= -half.z;
+  /// Puts onto masks_ which children each of the node's records reaches; false, and nothing is put
+  /// there, if splitting would copy too many.
+  bool split(const Vec3f& lower, float half, size_t begin) {
+    const size_t first_mask = masks_.size();
+    size_t copies = 0;
+    for (size_t i = begin; i < lists_.size(); ++i) {
+      masks_.push_back(children_reached(regions_[lists_[i]], lower, half));
+      copies += size_t(std::popcount(masks_.back()));
+    }
+    if (float(copies) <= maximum_copies * float(lists_.size() - begin)) return true;
+    masks_.resize(first_mask);
+    return false;
   }
 
-  void make_leaf(Node& node, const std::vector<uint32_t>& list) {
+  /// One bit per child, of edge `half`.
+  static uint8_t children_reached(const Region& region, const Vec3f& lower, float half) {
+    float outside_sq[3][2];  // of the ball's centre, by axis and side
+    for (int axis = 0; axis < 3; ++axis)
+      for (int side = 0; side < 2; ++side) {
+        const float low = lower[axis] + float(side) * half - region.center[axis];
+        const float outside = std::max({low, -(low + half), 0.0f});
+        outside_sq[axis][side] = outside <= region.half_extent[axis] ? sqr(outside) : infinity;
+      }
+    unsigned mask = 0;
+    for (unsigned child = 0; child < 8; ++child) {
+      const float distance_sq =
+          outside_sq[0][child & 1] + outside_sq[1][(child >> 1) & 1] + outside_sq[2][child >> 2];
+      if (distance_sq <= region.radius_sq) mask |= 1u << child;
+    }
+    return uint8_t(mask);
+  }
+
+  void make_leaf(Node& node, std::span<const uint32_t> list) {
     node.first = uint32_t(tree_.blocks_.size());
     node.blocks = uint32_t((list.size() + 3) / 4);
     for (size_t begin = 0; begin < list.size(); begin += 4) {
@@ -110,25 +142,25 @@ class RecordOctree::Builder {
   }
 
   RecordOctree& tree_;
-  float slack_;  ///< covers the rounding of a query's way to its leaf
+  std::vector<Region> regions_;
+  std::vector<uint32_t> lists_;  ///< a stack: the records of the node and of those above it
+  std::vector<uint8_t> masks_;   ///< a stack, of the nodes above
 };
 
 RecordOctree::RecordOctree(std::vector<CacheRecord> records, float normal_tolerance)
     : records_(std::move(records)), inverse_normal_tolerance_sq_(1 / sqr(normal_tolerance)) {
   if (records_.empty()) return;
   Bounds3f bounds;
-  std::vector<uint32_t> all;
   for (const CacheRecord& record : records_) {
     const Vec3f reach(record.reach * overlap);
     bounds.extendBy(record.position - reach);
     bounds.extendBy(record.position + reach);
-    all.push_back(uint32_t(all.size()));
   }
   lower_ = bounds.min;
   size_ = max_abs(bounds.max - bounds.min) * 1.001f + 1e-6f * max_abs(bounds.max);
   cells_per_metre_ = float(1 << maximum_depth) / size_;
   nodes_.resize(1);
-  Builder(*this).build(0, lower_, size_, 0, all);
+  Builder(*this).build();
 }
 
 inline RecordOctree::Lanes RecordOctree::error_sq(const Block& b, const Point& at) const {
@@ -183,10 +215,14 @@ bool RecordOctree::serves(const Vec3f& position, const Vec3f& normal, float tole
   return false;
 }
 
-inline void RecordOctree::accumulate(const Block& block, const Point& at, Mean& mean) const {
-  const Lanes weights = weight(error_sq(block, at), sqr(overlap));
-  for (int lane = 0; lane < 4; ++lane)
-    if (weights[lane] > 0) mean.add(records_[block.record[lane]], at, weights[lane]);
+inline void RecordOctree::accumulate(const Node& leaf, const Point& at, float relax,
+                                     Mean& mean) const {
+  for (uint32_t i = 0; i < leaf.blocks; ++i) {
+    const Block& block = blocks_[leaf.first + i];
+    const Lanes weights = weight(error_sq(block, at), sqr(overlap * relax));
+    for (int lane = 0; lane < 4; ++lane)
+      if (weights[lane] > 0) mean.add(records_[block.record[lane]], at, weights[lane]);
+  }
 }
 
 /// A record whose widened reach holds the point overlaps, unwidened, the ball of radius
@@ -197,18 +233,19 @@ void RecordOctree::accumulate_relaxed(const Point& at, float relax, Mean& mean) 
     Vec3f lower;
     float size;
   };
-  std::vector<Visit> open;
-  std::vector<std::pair<uint32_t, float>> found;  // record and weight
-  if (!nodes_.empty()) open.push_back({0, lower_, size_});
-  while (!open.empty()) {
-    const Visit visit = open.back();
-    open.pop_back();
+  std::array<Visit, 7 * maximum_depth + 1> open;
+  size_t open_count = 0;
+  thread_local std::vector<std::pair<uint32_t, float>> found;  // record and weight
+  found.clear();
+  if (!nodes_.empty()) open[open_count++] = {0, lower_, size_};
+  while (open_count > 0) {
+    const Visit visit = open[--open_count];
     const Node& node = nodes_[visit.node];
     const float radius = (relax - 1) * overlap * node.maximum_reach + 1e-5f * size_;
     if (!(distance_sq_to_box(at.position, visit.lower, visit.size) <= sqr(radius))) continue;
     const float half = 0.5f * visit.size;
     for (uint32_t child = 0; node.inner && child < 8; ++child)
-      open.push_back({node.first + child, visit.lower + child_offset(int(child), half), half});
+      open[open_count++] = {node.first + child, visit.lower + child_offset(int(child), half), half};
     for (uint32_t i = 0; i < node.blocks; ++i) {
       const Block& block = blocks_[node.first + i];
       const Lanes weights = weight(error_sq(block, at), sqr(overlap * relax));
@@ -225,11 +262,9 @@ bool RecordOctree::interpolate(const Vec3f& position, const Vec3f& normal, float
                                Spectrum& irradiance) const {
   const Point at{position, normal};
   Mean mean;
-  if (relax > 1) {
-    accumulate_relaxed(at, relax, mean);
-  } else if (const Node* leaf = leaf_at(position)) {
-    for (uint32_t i = 0; i < leaf->blocks; ++i) accumulate(blocks_[leaf->first + i], at, mean);
-  }
+  // What is listed where the point lies is enough most times; records further away take a search.
+  if (const Node* leaf = leaf_at(position)) accumulate(*leaf, at, relax, mean);
+  if (relax > 1 && !(mean.weight > 0)) accumulate_relaxed(at, relax, mean);
   if (!(mean.weight > 0)) return false;
   const Spectrum::Register lanes = (mean.weighted / mean.weight).lanes();
   irradiance = Spectrum(lanes > 0 ? lanes : Spectrum::Register{});

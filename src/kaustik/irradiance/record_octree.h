@@ -30,7 +30,7 @@ class RecordOctree {
   bool serves(const Vec3f& position, const Vec3f& normal, float tolerance = 1) const;
   /// Weighted mean of the records' extrapolations, in which negative lanes become zero (further
   /// than its gradients hold a record knows no better). False where there are none. All reaches
-  /// are multiplied by `relax` ≥ 1; more than 1 is slower.
+  /// are multiplied by `relax` ≥ 1; of records that serve so only those nearby may take part.
   bool interpolate(const Vec3f& position, const Vec3f& normal, float relax,
                    Spectrum& irradiance) const;
   size_t size_in_bytes() const;
@@ -60,6 +60,7 @@ class RecordOctree {
     Spectrum weighted;
     float weight = 0;
     void add(const CacheRecord& record, const Point& at, float w) {
+      w *= record.confidence;
       weighted += record.extrapolate(at.position - record.position, at.normal) * w;
       weight += w;
     }
@@ -69,7 +70,7 @@ class RecordOctree {
   Lanes error_sq(const Block& block, const Point& at) const;
   static Lanes weight(Lanes error_sq, float limit_sq);
   const Node* leaf_at(const Vec3f& position) const;
-  void accumulate(const Block& block, const Point& at, Mean& mean) const;
+  void accumulate(const Node& leaf, const Point& at, float relax, Mean& mean) const;
   void accumulate_relaxed(const Point& at, float relax, Mean& mean) const;
 
   std::vector<CacheRecord> records_;
