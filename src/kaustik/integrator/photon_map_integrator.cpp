@@ -10,8 +10,12 @@ namespace {
 
 /// Events before roulette on specular paths.
 constexpr int roulette_depth = 4;
-/// Distances between the pixels whose surfaces fill the cache, round by round.
+/// Distances between the pixels whose surfaces fill the cache, round by round: down to a third of
+/// the least spacing of records, closer ones would find next to nothing that is not served.
 constexpr int cache_strides[] = {8, 4, 2, 1};
+bool is_last_stride(int stride, float minimum_spacing) {
+  return stride == 1 || float(3 * stride) <= minimum_spacing;
+}
 /// Surfaces of one camera path that ask for records.
 constexpr size_t cache_points_per_path = 4;
 
@@ -198,6 +202,7 @@ void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_t
     if (stop.stop_requested()) return;
     state.cache->fill_round(points, *state.light, sampler, round++, stop);
     progress(double(round) / double(std::size(cache_strides)));
+    if (is_last_stride(stride, cache_settings.minimum_spacing)) return;
   }
 }
 
