@@ -86,32 +86,42 @@ std::vector<EnvironmentCase> environments() {
   return cases;
 }
 
+/// Of what receives the light: anything, and surfaces.
+const Vec3f receiving_normals[] = {{0, 0, 0}, {0, 0, 1}, normalize({0.5f, -0.7f, -0.2f})};
+
 TEST(Environment, DirectionsFollowTheirDensity) {
-  for (const EnvironmentCase& test : environments()) {
-    SCOPED_TRACE(test.name);
-    Random random(23);
-    const auto sample = [&] {
-      return test.light->sample_toward(Vec3f(0, 0, 0), random.next_2d()).direction;
-    };
-    const auto pdf = [&](const Vec3f& d) { return double(test.light->pdf_toward_direction(d)); };
-    const int count = 500'000 / sample_share;
-    EXPECT_GT(direction_p_value({}, count, sample, pdf), failure_level);
-    expect_twin_fails(direction_p_value({}, count, sample, with_planted_error({}, pdf)));
-  }
+  for (const EnvironmentCase& test : environments())
+    for (const Vec3f& normal : receiving_normals) {
+      SCOPED_TRACE(test.name);
+      Random random(23);
+      const LightQuery query(Vec3f(0, 0, 0), normal);
+      const auto sample = [&] {
+        return test.light->sample_toward(query, random.next_2d()).direction;
+      };
+      const auto pdf = [&](const Vec3f& d) {
+        return double(test.light->pdf_toward_direction(query, d));
+      };
+      const int count = 500'000 / sample_share;
+      EXPECT_GT(direction_p_value({}, count, sample, pdf), failure_level);
+      expect_twin_fails(direction_p_value({}, count, sample, with_planted_error({}, pdf)));
+    }
 }
 
 TEST(Environment, ReportsTheDensityThatItAnswersLater) {
-  for (const EnvironmentCase& test : environments()) {
-    SCOPED_TRACE(test.name);
-    Random random(5);
-    for (int i = 0; i < 2000; ++i) {
-      const LightSample s = test.light->sample_toward(Vec3f(1, 2, 3), random.next_2d());
-      ASSERT_NEAR(length(s.direction), 1, 1e-5);
-      ASSERT_FLOAT_EQ(s.pdf_solid_angle, test.light->pdf_toward_direction(s.direction));
-      ASSERT_EQ(s.radiance, test.light->background(s.direction));
-      ASSERT_EQ(s.distance, infinity);
+  for (const EnvironmentCase& test : environments())
+    for (const Vec3f& normal : receiving_normals) {
+      SCOPED_TRACE(test.name);
+      Random random(5);
+      const LightQuery query(Vec3f(1, 2, 3), normal);
+      for (int i = 0; i < 2000; ++i) {
+        const LightSample s = test.light->sample_toward(query, random.next_2d());
+        ASSERT_NEAR(length(s.direction), 1, 1e-5);
+        ASSERT_NEAR(s.pdf_solid_angle, test.light->pdf_toward_direction(query, s.direction),
+                    1e-5f * s.pdf_solid_angle);
+        ASSERT_EQ(s.radiance, test.light->background(s.direction));
+        ASSERT_EQ(s.distance, infinity);
+      }
     }
-  }
 }
 
 /// Where there is light, it may be sampled.
@@ -122,7 +132,9 @@ TEST(Environment, NoLightIsOutOfReach) {
     for (int i = 0; i < 20'000; ++i) {
       const Vec3f d = square_to_sphere(random.next_2d());
       if (test.light->background(d).is_zero()) continue;
-      ASSERT_GT(test.light->pdf_toward_direction(d), 0);
+      for (const Vec3f& normal : receiving_normals)
+        if (dot(normal, d) >= 0)
+          ASSERT_GT(test.light->pdf_toward_direction({Vec3f(0, 0, 0), normal}, d), 0);
       ASSERT_GT(test.light->emission_pdf_direction({}, -d), 0);
     }
   }

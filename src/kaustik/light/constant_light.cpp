@@ -1,8 +1,13 @@
 #include "kaustik/base/warp.h"
 #include "kaustik/light/environment_light.h"
+#include "kaustik/light/power_distribution.h"
 
 namespace kaustik {
 namespace {
+
+/// Of the directions from which a surface receives light, this share is drawn evenly over the
+/// hemisphere and the rest by the cosine: bump maps bend normals toward the horizon.
+constexpr float even_share = 0.1f;
 
 /// The same radiance from every direction around the scene.
 class ConstantLight final : public EnvironmentLight {
@@ -15,8 +20,25 @@ class ConstantLight final : public EnvironmentLight {
 
  private:
   Spectrum fluence() const override { return radiance_ * (4.0f * pi); }
-  Vec3f sample_direction(const Vec2f& u, Purpose) const override { return square_to_sphere(u); }
-  float direction_pdf(const Vec3f&, Purpose) const override { return sphere_pdf; }
+  Vec3f sample_direction(const Vec2f& u, Purpose purpose) const override {
+    if (!has_normal(purpose)) return square_to_sphere(u);
+    const Frame frame(purpose.receiver->normal);
+    if (u.x < even_share) {
+      const float z = u.x / even_share, r = safe_sqrt(1 - z * z), phi = 2 * pi * u.y;
+      return frame.to_world({r * std::cos(phi), r * std::sin(phi), z});
+    }
+    return frame.to_world(
+        square_to_cosine_hemisphere({rescaled(u.x, even_share, 1 - even_share), u.y}));
+  }
+  float direction_pdf(const Vec3f& direction, Purpose purpose) const override {
+    if (!has_normal(purpose)) return sphere_pdf;
+    const float cosine = dot(purpose.receiver->normal, direction);
+    if (cosine < 0) return 0;
+    return even_share * 2 * sphere_pdf + (1 - even_share) * cosine_hemisphere_pdf(cosine);
+  }
+  static bool has_normal(Purpose purpose) {
+    return purpose.receiver && length_sq(purpose.receiver->normal) > 0;
+  }
 
   Spectrum radiance_;
 };

@@ -8,17 +8,18 @@ LightBounds EnvironmentLight::bounds() const {
   return b;
 }
 
-LightSample EnvironmentLight::sample_toward(const LightQuery&, const Vec2f& u) const {
+LightSample EnvironmentLight::sample_toward(const LightQuery& query, const Vec2f& u) const {
   LightSample result;
-  result.direction = sample_direction(u, Purpose::seeing);
+  result.direction = sample_direction(u, {&query});
   if (!(length_sq(result.direction) > 0)) return result;
   result.radiance = background(result.direction);
-  result.pdf_solid_angle = direction_pdf(result.direction, Purpose::seeing);
+  result.pdf_solid_angle = direction_pdf(result.direction, {&query});
   return result;
 }
 
-float EnvironmentLight::pdf_toward_direction(const Vec3f& direction) const {
-  return direction_pdf(direction, Purpose::seeing);
+float EnvironmentLight::pdf_toward_direction(const LightQuery& query,
+                                             const Vec3f& direction) const {
+  return direction_pdf(direction, {&query});
 }
 
 EmissionSample EnvironmentLight::sample_emission(const Vec2f& u_position,
@@ -38,7 +39,7 @@ float EnvironmentLight::emission_pdf_position(const SurfacePoint&) const {
 }
 
 float EnvironmentLight::emission_pdf_direction(const SurfacePoint&, const Vec3f& direction) const {
-  return direction_pdf(-direction, Purpose::emitting);
+  return direction_pdf(-direction, {});
 }
 
 Spectrum EnvironmentLight::emitted_from(const SurfacePoint&, const Vec3f& direction) const {
@@ -46,8 +47,8 @@ Spectrum EnvironmentLight::emitted_from(const SurfacePoint&, const Vec3f& direct
 }
 
 Vec3f EnvironmentLight::sample_travel_direction(const Vec2f& u, float& pdf) const {
-  const Vec3f direction = sample_direction(u, Purpose::emitting);
-  pdf = length_sq(direction) > 0 ? direction_pdf(direction, Purpose::emitting) : 0.0f;
+  const Vec3f direction = sample_direction(u, {});
+  pdf = length_sq(direction) > 0 ? direction_pdf(direction, {}) : 0.0f;
   return pdf > 0 ? -direction : Vec3f(0, 0, 1);
 }
 

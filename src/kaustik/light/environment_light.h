@@ -13,7 +13,7 @@ class EnvironmentLight : public Light {
   Spectrum power() const final { return fluence() * disk_.area(); }
 
   LightSample sample_toward(const LightQuery& query, const Vec2f& u) const final;
-  float pdf_toward_direction(const Vec3f& direction) const final;
+  float pdf_toward_direction(const LightQuery& query, const Vec3f& direction) const final;
 
   EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction) const final;
   float emission_pdf_position(const SurfacePoint& point) const final;
@@ -22,8 +22,10 @@ class EnvironmentLight : public Light {
   Vec3f sample_travel_direction(const Vec2f& u, float& pdf) const final;
 
  protected:
-  /// For seeing a point directions may be drawn otherwise than for emission.
-  enum class Purpose { seeing, emitting };
+  /// What directions are drawn for: the light that a point receives, or emission.
+  struct Purpose {
+    const LightQuery* receiver = nullptr;  ///< null: emission
+  };
 
   explicit EnvironmentLight(const EmissionDisk& disk) : disk_(disk) {}
   /// Radiance integrated over all directions, W/m².

@@ -6,7 +6,7 @@ namespace kaustik {
 
 float Light::classical_attenuation(const Vec3f&) const { return 1; }
 float Light::pdf_toward(const LightQuery&, const SurfacePoint&) const { return 0; }
-float Light::pdf_toward_direction(const Vec3f&) const { return 0; }
+float Light::pdf_toward_direction(const LightQuery&, const Vec3f&) const { return 0; }
 Spectrum Light::emitted(const SurfacePoint&, const Vec3f&) const { return {}; }
 Spectrum Light::background(const Vec3f&) const { return {}; }
 EmissionSample Light::sample_origin(const Vec2f&) const { return {}; }

@@ -100,7 +100,7 @@ class Light {
   /// Density of sample_toward, for a point on the light (area lights) …
   virtual float pdf_toward(const LightQuery& query, const SurfacePoint& point) const;
   /// … or for a direction from the reference (environment lights).
-  virtual float pdf_toward_direction(const Vec3f& direction) const;
+  virtual float pdf_toward_direction(const LightQuery& query, const Vec3f& direction) const;
 
   /// Radiance from a point of the light's surface along `direction` (away from it). Area lights.
   virtual Spectrum emitted(const SurfacePoint& point, const Vec3f& direction) const;

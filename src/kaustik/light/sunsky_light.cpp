@@ -164,7 +164,7 @@ class SunSkyLight final : public EnvironmentLight {
 
   Spectrum fluence() const override { return sky_fluence_ + sun_.fluence(); }
   float sun_share(Purpose purpose) const {
-    return purpose == Purpose::seeing ? sun_share_when_seeing_ : sun_share_when_emitting_;
+    return purpose.receiver ? sun_share_when_seeing_ : sun_share_when_emitting_;
   }
   Vec3f sample_direction(const Vec2f& u, Purpose purpose) const override {
     const float share = sun_share(purpose);

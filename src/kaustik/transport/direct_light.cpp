@@ -76,7 +76,7 @@ float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice
 float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice choice, int light,
                        const Vec3f& direction) {
   return choice_factor(scene, receiver, choice, light) *
-         scene.lights()[size_t(light)]->pdf_toward_direction(direction);
+         scene.lights()[size_t(light)]->pdf_toward_direction(receiver.query(), direction);
 }
 
 float diffuse_probability(const SurfaceVertex& vertex) {
