@@ -132,9 +132,10 @@ TEST(Environment, NoLightIsOutOfReach) {
     for (int i = 0; i < 20'000; ++i) {
       const Vec3f d = square_to_sphere(random.next_2d());
       if (test.light->background(d).is_zero()) continue;
-      for (const Vec3f& normal : receiving_normals)
-        if (dot(normal, d) >= 0)
-          ASSERT_GT(test.light->pdf_toward_direction({Vec3f(0, 0, 0), normal}, d), 0);
+      for (const Vec3f& normal : receiving_normals) {
+        if (dot(normal, d) < 0) continue;
+        ASSERT_GT(test.light->pdf_toward_direction({Vec3f(0, 0, 0), normal}, d), 0);
+      }
       ASSERT_GT(test.light->emission_pdf_direction({}, -d), 0);
     }
   }
