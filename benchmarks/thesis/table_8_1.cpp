@@ -86,10 +86,7 @@ void count_rays(const ThesisScene& scene, uint32_t passes, int threads, Row& row
   RayCounter counter;
   const SceneRun run(scene.name, {"photonmap", settings_of(scene), scene.width, scene.height},
                      &counter);
-  SessionSettings settings;
-  settings.passes = 1;
-  settings.threads = threads;
-  run.render(settings);
+  run.render(in_passes(run.integrator().default_samples_per_pass(), 1, 1, threads));
   const double pixels = double(scene.width) * scene.height;
   row.shadow_rays = double(counter.shadow_rays) * passes / pixels;
   row.rays = double(counter.closest_rays + counter.shadow_rays) * passes / pixels;
