@@ -62,10 +62,10 @@ std::string figure_8_1(const Workplace& place) {
   std::string text = fmt::format(
       "Diffuse indirect light of the Cornell box, {0}×{0} pixels with one camera ray each, no "
       "irradiance cache, one recursion level.\nThe thesis compares with 1024 stratified samples, "
-      "we "
-      "with path tracing. Its axis of the error is not ours (its\nunit is unknown); shape and "
-      "order "
-      "are.\n\n",
+      "we with path tracing, and its unit of the error is unknown. Without\na floor, cells that no "
+      "photon came from are never sampled: what that costs is the bias, which no number of\nrays "
+      "removes. The grid has no more cells than photons are found, so it is coarser with fewer.\n"
+      "\n",
       size);
   MarkdownTable table(
       {"sampling grid", "found, emitted", "10 rays", "30", "50", "100", "of which bias, 100"});
