@@ -126,7 +126,9 @@ TEST(SampleToward, TheEnvironmentIsUniform) {
   DirectionGrid grid;
   Random random(5);
   const auto sample = [&] { return light->sample_toward(reference, random.next_2d()).direction; };
-  const auto pdf = [&](const Vec3f& d) { return double(light->pdf_toward_direction(reference, d)); };
+  const auto pdf = [&](const Vec3f& d) {
+    return double(light->pdf_toward_direction(reference, d));
+  };
   const int count = 1'000'000 / sample_share;
   EXPECT_GT(direction_p_value(grid, count, sample, pdf), failure_level);
   expect_twin_fails(direction_p_value(grid, count, sample, with_planted_error(grid, pdf)));
