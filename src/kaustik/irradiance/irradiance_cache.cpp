@@ -39,8 +39,8 @@ void set_reach(const ComputedRecord& computed, float quality, CacheRecord& recor
     return std::clamp(reach, computed.minimum_reach, computed.maximum_reach);
   };
   const float minor = within(quality * radius);
-  // In proportion, not by the square: that left so few records to average that they showed as
-  // stains on walls, for a bias of a hundredth instead of five in the maze's first pass.
+  // In proportion, not by the square: that has less bias, but leaves so few records to average that
+  // they show as stains on walls.
   record.confidence = std::clamp(quality * radius / minor, least_confidence, 1.0f);
   record.reach = within(quality * radius * computed.validity.aspect);
   record.squeeze = computed.validity.axis * safe_sqrt(1 / sqr(minor) - record.inverse_reach_sq());
