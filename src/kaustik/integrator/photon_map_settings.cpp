@@ -1,5 +1,7 @@
 #include "kaustik/integrator/photon_map_settings.h"
 
+#include <fmt/format.h>
+
 #include "kaustik/integrator/integrator.h"
 
 namespace kaustik {
@@ -300,6 +302,12 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
         "split_sphere");
   cache_settings.minimum_spacing = read.number("cache_minimum_spacing");
   cache_settings.maximum_spacing = read.number("cache_maximum_spacing");
+  if (cache_settings.minimum_spacing > cache_settings.maximum_spacing)
+    throw Error(ErrorKind::input,
+                fmt::format("'cache_minimum_spacing' is {}, above 'cache_maximum_spacing', {}",
+                            cache_settings.minimum_spacing, cache_settings.maximum_spacing),
+                "give a least reach of at most the greatest one",
+                arguments.place_of("cache_minimum_spacing"));
   const bool any_gather =
       components.has(Component::indirect) || components.has(Component::specular);
   volume_neighbors = int(read.integer("volume_neighbors"));
