@@ -180,6 +180,21 @@ TEST(PhotonMapOptions, ThesisPreset) {
   EXPECT_GT(with_caustics.mean({"caustic"}).mean(), 0);
 }
 
+TEST(PhotonMapOptions, TheLeastSpacingIsAtMostTheGreatest) {
+  const TestScene scene(round_room(diffuse("0.5, 0.5, 0.5")));
+  const auto spacings = [](double least, double greatest) {
+    return set("cache_minimum_spacing", least) + set("cache_maximum_spacing", greatest);
+  };
+  try {
+    render(scene, "photonmap", spacings(5, 4), {1, 1, 1});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input);
+    EXPECT_NE(std::string(error.what()).find("'cache_minimum_spacing' is 5"), std::string::npos);
+  }
+  EXPECT_NO_THROW(render(scene, "photonmap", spacings(4, 4), {1, 1, 1}));
+}
+
 TEST(PhotonMapOptions, CountsOfZeroSwitchAPartOff) {
   const TestScene scene(round_room(diffuse("0.5, 0.5, 0.5"), balls));
   const auto mean = [&](const std::string& parameter, const char* layer) {
