@@ -292,6 +292,11 @@ void compare_metrics(const std::string& name, const std::filesystem::path& direc
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && argv[1][0] == '-') {
+    fmt::print("cache_bench [FOLDER [SCENE …]]: the metrics of the irradiance cache compared;\n"
+               "curves and pictures into FOLDER\n");
+    return std::string(argv[1]) == "--help" ? 0 : 2;
+  }
   try {
     const std::filesystem::path directory = argc > 1 ? argv[1] : "";
     std::ofstream curves;
