@@ -69,8 +69,8 @@ class IrradianceCache {
                     const Sampler& sampler, uint32_t round, std::stop_token stop);
 
   /// Irradiance W/m² interpolated from the records, no lane negative; false where none serves.
-  /// `relax` ≥ 1 widens every record's reach by that factor, for the few points that no round saw:
-  /// beyond 1 it costs many times as much. Thread-safe.
+  /// `relax` ≥ 1 widens every record's reach by that factor, for the few points that no round saw
+  /// (of records that serve only so, those listed nearby). Thread-safe.
   bool interpolate(const CachePoint& at, Spectrum& irradiance, float relax = 1) const;
 
   size_t record_count() const;

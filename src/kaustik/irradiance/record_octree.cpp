@@ -15,15 +15,6 @@ constexpr float maximum_copies = 4;
 constexpr float height_factor_front = 3;
 constexpr float height_factor_behind = 10;
 
-float distance_sq_to_box(const Vec3f& p, const Vec3f& lower, float size) {
-  float sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float outside = std::max({lower[axis] - p[axis], p[axis] - (lower[axis] + size), 0.0f});
-    sum += sqr(outside);
-  }
-  return sum;
-}
-
 /// Half the size of the box around the ellipsoid d²/reach² + (d·squeeze)² ≤ 1.
 Vec3f half_extent(const CacheRecord& record) {
   const float ratio = record.inverse_reach_sq() / record.inverse_minor_sq();
@@ -47,7 +38,7 @@ class RecordOctree::Builder {
     regions_.reserve(tree.records_.size());
     for (const CacheRecord& record : tree.records_) {
       regions_.push_back({record.position, sqr(record.reach * overlap + slack),
-                          half_extent(record) * overlap + Vec3f(slack), record.reach});
+                          half_extent(record) * overlap + Vec3f(slack)});
       lists_.push_back(uint32_t(lists_.size()));
     }
   }
@@ -60,16 +51,11 @@ class RecordOctree::Builder {
     Vec3f center;
     float radius_sq;
     Vec3f half_extent;
-    float reach;
   };
 
   /// The node's records are those of lists_ from `begin` on, and left there.
   void build(uint32_t number, const Vec3f& lower, float size, int depth, size_t begin) {
     const size_t end = lists_.size(), count = end - begin;
-    float maximum_reach = 0;
-    for (size_t i = begin; i < end; ++i)
-      maximum_reach = std::max(maximum_reach, regions_[lists_[i]].reach);
-    tree_.nodes_[number].maximum_reach = maximum_reach;
     const float half = 0.5f * size;
     if (count <= wanted_leaf_size || depth >= maximum_depth || !split(lower, half, begin)) {
       make_leaf(tree_.nodes_[number], {lists_.data() + begin, count});
@@ -225,46 +211,11 @@ inline void RecordOctree::accumulate(const Node& leaf, const Point& at, float re
   }
 }
 
-/// A record whose widened reach holds the point overlaps, unwidened, the ball of radius
-/// (relax − 1) · overlap · reach about the point: it is listed in some leaf that meets this ball.
-void RecordOctree::accumulate_relaxed(const Point& at, float relax, Mean& mean) const {
-  struct Visit {
-    uint32_t node;
-    Vec3f lower;
-    float size;
-  };
-  std::array<Visit, 7 * maximum_depth + 1> open;
-  size_t open_count = 0;
-  thread_local std::vector<std::pair<uint32_t, float>> found;  // record and weight
-  found.clear();
-  if (!nodes_.empty()) open[open_count++] = {0, lower_, size_};
-  while (open_count > 0) {
-    const Visit visit = open[--open_count];
-    const Node& node = nodes_[visit.node];
-    const float radius = (relax - 1) * overlap * node.maximum_reach + 1e-5f * size_;
-    if (!(distance_sq_to_box(at.position, visit.lower, visit.size) <= sqr(radius))) continue;
-    const float half = 0.5f * visit.size;
-    for (uint32_t child = 0; node.inner && child < 8; ++child)
-      open[open_count++] = {node.first + child, visit.lower + child_offset(int(child), half), half};
-    for (uint32_t i = 0; i < node.blocks; ++i) {
-      const Block& block = blocks_[node.first + i];
-      const Lanes weights = weight(error_sq(block, at), sqr(overlap * relax));
-      for (int lane = 0; lane < 4; ++lane)
-        if (weights[lane] > 0) found.push_back({block.record[lane], weights[lane]});
-    }
-  }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  for (const auto& [record, weight] : found) mean.add(records_[record], at, weight);
-}
-
 bool RecordOctree::interpolate(const Vec3f& position, const Vec3f& normal, float relax,
                                Spectrum& irradiance) const {
   const Point at{position, normal};
   Mean mean;
-  // What is listed where the point lies is enough most times; records further away take a search.
   if (const Node* leaf = leaf_at(position)) accumulate(*leaf, at, relax, mean);
-  if (relax > 1 && !(mean.weight > 0)) accumulate_relaxed(at, relax, mean);
   if (!(mean.weight > 0)) return false;
   const Spectrum::Register lanes = (mean.weighted / mean.weight).lanes();
   irradiance = Spectrum(lanes > 0 ? lanes : Spectrum::Register{});

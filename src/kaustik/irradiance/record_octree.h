@@ -30,7 +30,8 @@ class RecordOctree {
   bool serves(const Vec3f& position, const Vec3f& normal, float tolerance = 1) const;
   /// Weighted mean of the records' extrapolations, in which negative lanes become zero (further
   /// than its gradients hold a record knows no better). False where there are none. All reaches
-  /// are multiplied by `relax` ≥ 1; of records that serve so only those nearby may take part.
+  /// are multiplied by `relax` ≥ 1; of records that serve only so those take part that the point's
+  /// leaf lists anyway: a search for all of them costs a thousand times as much, and mostly in vain.
   bool interpolate(const Vec3f& position, const Vec3f& normal, float relax,
                    Spectrum& irradiance) const;
   size_t size_in_bytes() const;
@@ -51,7 +52,6 @@ class RecordOctree {
     uint32_t first = 0;   ///< first of eight children, or first block
     uint32_t blocks = 0;  ///< of a leaf
     bool inner = false;
-    float maximum_reach = 0;  ///< of the records listed in and below the node
   };
   struct Point {
     Vec3f position, normal;
@@ -71,7 +71,6 @@ class RecordOctree {
   static Lanes weight(Lanes error_sq, float limit_sq);
   const Node* leaf_at(const Vec3f& position) const;
   void accumulate(const Node& leaf, const Point& at, float relax, Mean& mean) const;
-  void accumulate_relaxed(const Point& at, float relax, Mean& mean) const;
 
   std::vector<CacheRecord> records_;
   std::vector<Node> nodes_;
