@@ -11,6 +11,7 @@ void add_render(CLI::App& program);
 void add_tonemap(CLI::App& program);
 void add_info(CLI::App& program);
 void add_compare(CLI::App& program);
+void add_denoise(CLI::App& program);
 void add_photons(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_help(CLI::App& program);

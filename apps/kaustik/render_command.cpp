@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "kaustik/image/denoise.h"
 #include "kaustik/image/image_io.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/scene/overrides.h"
@@ -24,7 +25,7 @@ struct RenderOptions {
   uint64_t seed = 0;
   int threads = 0;
   std::optional<double> exposure;
-  bool full_float = false, reproducible = false, quiet = false;
+  bool denoise = false, full_float = false, reproducible = false, quiet = false;
 };
 
 /// "60", "60s", "5m", "1h" in seconds.
@@ -121,6 +122,7 @@ void render(RenderOptions options) {
   if (report.cancelled) warn("cancelled: writing what is finished");
   const auto object = find_integrator(description);
   Image image = session.film().image();
+  if (options.denoise) image = denoise(image);
   set_metadata(image, options, *scene, object ? object->type : "photonmap", report);
   write_outputs(image, options, tone);
 }
@@ -184,6 +186,8 @@ void add_render(CLI::App& program) {
                   fmt::join(tone_operator_names(), ", ")));
   command->add_option("--exposure", options->exposure, "The same as --set tonemap.exposure=…");
   command->add_flag("--float", options->full_float, "EXR with 32-bit instead of 16-bit floats");
+  command->add_flag("--denoise", options->denoise,
+                    "Smooth the picture's noise (the EXR's layers keep it): kaustik denoise");
   command->add_flag("--reproducible", options->reproducible,
                     "Write no times, so that equal renders are equal files");
   command->add_flag("-q,--quiet", options->quiet, "No progress");

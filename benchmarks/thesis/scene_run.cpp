@@ -7,6 +7,18 @@
 #include "kaustik/scene/overrides.h"
 
 namespace kaustik::thesis {
+namespace {
+
+void use_box_filter(Object& object) {
+  std::erase_if(object.children,
+                [](const Child& child) { return child.object->family == "rfilter"; });
+  if (object.family == "film")
+    object.children.push_back(
+        {"", std::make_shared<Object>(Object{"rfilter", "box", "", {}, {}, object.place})});
+  for (const Child& child : object.children) use_box_filter(*child.object);
+}
+
+}  // namespace
 
 SceneRun::SceneRun(const std::string& name, const Changes& changes, RayObserver* observer)
     : description_(bench::load_shipped(name)) {
@@ -16,6 +28,7 @@ SceneRun::SceneRun(const std::string& name, const Changes& changes, RayObserver*
   if (changes.height > 0)
     override_property(description_, fmt::format("film.height={}", changes.height));
   for (const std::string& setting : changes.settings) override_property(description_, setting);
+  if (changes.box_filter) use_box_filter(*description_.scene);
   BuildOptions options;
   options.observer = observer;
   scene_ = build_scene(description_, options);

@@ -24,6 +24,7 @@ struct Changes {
   std::string integrator;             ///< empty: the file's
   std::vector<std::string> settings;  ///< "object.parameter=value"
   int width = 0, height = 0;          ///< 0: the file's
+  bool box_filter = false;            ///< pixels are means over their squares
 };
 
 /// A shipped scene with an integrator, ready to be rendered.

@@ -71,6 +71,31 @@ TEST(Film, OrderOfThePassesMakesNoDifference) {
   }
 }
 
+TEST(Film, NoiseOfBothKindsOfLightOverTheSamples) {
+  // Two passes with two samples each; scattered light 1, 3, 5, 3 in all lanes, mirrored 2, 2, 0, 0.
+  const auto pass_of = [](float scattered, float scattered_squares, float mirrored,
+                          float mirrored_squares) {
+    PassPixel pixel;
+    pixel.radiance[size_t(Component::direct)] = Spectrum(0.25f * scattered);
+    pixel.radiance[size_t(Component::indirect)] = Spectrum(0.75f * scattered);
+    pixel.radiance[size_t(Component::specular)] = Spectrum(mirrored);
+    pixel.radiance[size_t(Component::emission)] = Spectrum(100);
+    pixel.squares = {scattered_squares, mirrored_squares};
+    return std::vector<PassPixel>(width * height, pixel);
+  };
+  Film film(film_settings(), ComponentSet::all());
+  film.add_pass(pass_of(2, (1 + 9) / 2.0f, 2, (4 + 4) / 2.0f), 0, 2);
+  film.add_pass(pass_of(4, (25 + 9) / 2.0f, 0, 0), 1, 2);
+  const Image image = film.image();
+  // Means 3 and 1, sums of squared deviations 8 and 4, over n (n − 1) = 12.
+  EXPECT_NEAR(value_at(image, 1, 1, "noise.scattered"), std::sqrt(8.0 / 12), 1e-5);
+  EXPECT_NEAR(value_at(image, 1, 1, "noise.mirrored"), std::sqrt(4.0 / 12), 1e-5);
+  // One sample tells nothing of its noise.
+  Film single(film_settings(), ComponentSet::all());
+  single.add_pass(pass_of(2, 4, 2, 4), 0, 1);
+  EXPECT_EQ(value_at(single.image(), 1, 1, "noise.scattered"), 0);
+}
+
 TEST(Film, MeansAndErrorsOfThePasses) {
   const auto passes = made_up_passes(7);
   const Film film = filmed(passes, counting(passes.size()));

@@ -450,5 +450,42 @@ TEST(MakeIntegrator, ChoosesAndChecks) {
   EXPECT_NE(warnings[0].find("hide_emitters"), std::string::npos);
 }
 
+/// What denoisers go by is of the surface behind clear glass, seen through it or in a mirror.
+TEST(Session, AlbedoAndNormalAreOfTheFirstRoughSurface) {
+  const std::string floor =
+      "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"9\"/></transform>"
+      "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.3, 0.6, 0.2\"/></bsdf></shape>"
+      "<emitter type=\"constant\"/>";
+  const std::string pane =
+      "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"9\"/>"
+      "<rotate x=\"1\" angle=\"69.44\"/><translate y=\"-2\" z=\"1.25\"/></transform>"
+      "<bsdf type=\"dielectric\"/></shape>";
+  for (const char* type : {"photonmap", "path"}) {
+    const auto bare = scene_with(film_of(8, 8), floor),
+               glazed = scene_with(film_of(8, 8), floor + pane);
+    const auto picture = [&](const Scene& scene) {
+      const auto integrator = integrator_for(scene, type);
+      SessionSettings settings;
+      settings.passes = 1;
+      settings.samples_per_pixel = 64;
+      Session session(scene, *integrator, settings);
+      session.run();
+      return session.film().image();
+    };
+    const Image behind = picture(*glazed), direct = picture(*bare);
+    const auto at = [](const Image& image, const char* name) {
+      return image.at(4, 4, image.find_channel(name));
+    };
+    EXPECT_NEAR(at(direct, "albedo.G"), 0.6f, 0.01f) << type;
+    EXPECT_NEAR(at(direct, "N.Z"), 1, 0.01f) << type;
+    // 24 of 25 samples go through the pane, the others meet nothing but it: the mean lies that far
+    // from the floor's albedo toward 1, and from its normal toward the pane's.
+    EXPECT_NEAR(at(behind, "albedo.R"), 0.3f + 0.7f / 25, 0.06f) << type;
+    EXPECT_NEAR(at(behind, "albedo.G"), 0.6f + 0.4f / 25, 0.04f) << type;
+    EXPECT_NEAR(at(behind, "N.Z"), 1 - 0.65f / 25, 0.06f) << type;
+    EXPECT_LT(at(behind, "depth.Z"), 0.6f * at(direct, "depth.Z")) << type;
+  }
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -3,14 +3,6 @@
 namespace kaustik {
 namespace {
 
-FirstHit describe_first_hit(const SurfaceVertex& vertex, float distance) {
-  FirstHit first;
-  first.albedo = vertex.albedo(Lobes::all);
-  first.normal = vertex.facing_normal();
-  first.depth = distance;
-  return first;
-}
-
 /// Light sampled at `vertex` and reflected by `lobes`, weighted against sampling those lobes.
 Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes lobes,
                    float lobe_probability) {
@@ -68,7 +60,16 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
       in_medium_(other.in_medium_),
       previous_(other.previous_),
       distance_(other.distance_),
+      only_delta_(other.only_delta_),
       segments_(other.segments_) {}
+
+void CameraWalk::describe_what_is_seen(const SurfaceVertex& vertex, float distance) {
+  FirstHit seen;
+  seen.albedo = vertex.albedo(Lobes::all);
+  seen.normal = vertex.facing_normal();
+  seen.depth = state_.depth == 0 ? distance : sink_.first_hit().depth;
+  sink_.set_first_hit(seen);
+}
 
 /// Goes on until `pass_medium(length)`, asked about every segment through a medium, answers that
 /// the path is scattered, or until a surface that is more than a boundary of media.
@@ -81,9 +82,9 @@ CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
     ++rays_;
     const bool found = scene_.intersect(ray_, hit);
     if (state_.medium && !only_arrives && pass_medium(hit.t)) {
-      if (found && state_.depth == 0)
-        sink_.set_first_hit(describe_first_hit(
-            SurfaceVertex(scene_, ray_, hit, TransportMode::radiance), distance_ + hit.t));
+      if (found && only_delta_)
+        describe_what_is_seen(SurfaceVertex(scene_, ray_, hit, TransportMode::radiance),
+                              distance_ + hit.t);
       return Arrival::medium;
     }
     if (!found) {
@@ -97,7 +98,7 @@ CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
     state_.medium = vertex_.medium_toward(ray_.direction, state_.medium);
     ray_ = spawn_ray(vertex_.point(), ray_.direction);
   }
-  if (state_.depth == 0) sink_.set_first_hit(describe_first_hit(vertex_, distance_));
+  if (only_delta_) describe_what_is_seen(vertex_, distance_);
   if (only_arrives)
     vertex_.paint_white();
   else if (vertex_.light() >= 0)
@@ -211,6 +212,7 @@ void CameraWalk::scatter_in_medium(const Vec2f& u) {
   state_.pdf_forward = phase.eval(wo, wi);
   state_.footprint.scatter(Lobes::diffuse, state_.pdf_forward);
   state_.depth += 1;
+  only_delta_ = false;
   class_.add_medium_event();
   previous_ = in_medium_;
   ray_ = {in_medium_.point.position, wi, infinity};
@@ -226,6 +228,7 @@ bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec
   state_.footprint.scatter(sample.event, sample.pdf_solid_angle);
   previous_ = Receiver(vertex_, state_.depth);
   state_.depth += 1;
+  only_delta_ = only_delta_ && !any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy));
   class_.add_event(sample.event);
   state_.medium = vertex_.medium_toward(sample.wi, state_.medium);
   ray_ = spawn_ray(vertex_.point(), sample.wi);

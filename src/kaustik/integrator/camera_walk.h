@@ -93,6 +93,7 @@ class CameraWalk {
   }
   void add_background();
   void add_emission();
+  void describe_what_is_seen(const SurfaceVertex& vertex, float distance);
   template <typename PassMedium>
   Arrival travel(const PassMedium& pass_medium);
 
@@ -107,6 +108,7 @@ class CameraWalk {
   Receiver in_medium_;  ///< the point where fly() came to in a medium
   Receiver previous_;   ///< where the last event was
   float distance_ = 0;
+  bool only_delta_ = true;  ///< every surface so far has delta lobes alone
   uint32_t segments_ = 0;  ///< traced so far: those across null boundaries count, each has a block
                            ///< of random numbers
   uint64_t rays_ = 0;

@@ -22,11 +22,13 @@ struct Pass {
   uint32_t samples_per_pixel = 1;  ///< of this pass and every other
 };
 
-/// What is known of the first surface behind a pixel, for denoisers and compositing.
+/// What is known of the surface that a pixel shows, for denoisers and compositing.
 struct FirstHit {
+  // Of the first surface that is more than a mirror or clear glass; of the last of those if none is
+  // behind them.
   Spectrum albedo;
-  Vec3f normal{0, 0, 0};
-  float depth = 0;  ///< distance, m; 0: nothing hit
+  Vec3f normal{0, 0, 0};  ///< unit (of a pixel: the mean), facing the viewer
+  float depth = 0;        ///< distance of the first surface of all, m; 0: nothing hit
 };
 
 /// Where one camera sample's results go.

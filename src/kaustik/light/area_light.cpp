@@ -48,6 +48,7 @@ class AreaLight final : public Light {
   float expected_irradiance(const LightQuery& query) const override {
     return is_dark_ ? 0.0f : ball_.irradiance(query.reference, query.normal);
   }
+  const EmissionBall* emission_ball() const override { return is_dark_ ? nullptr : &ball_; }
 
   LightSample sample_toward(const LightQuery& query, const Vec2f& u) const override {
     const Vec3f& reference = query.reference;

@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "kaustik/light/emission_cone.h"
 
 namespace kaustik {
@@ -27,6 +29,19 @@ struct EmissionBall {
   /// Intensity times the cosines over the squared distance, each at its highest over the sphere;
   /// within the sphere the mean. Zero only where no light can arrive. `normal`: as of a LightQuery.
   float irradiance(const Vec3f& reference, const Vec3f& normal) const;
+};
+
+/// Many balls, laid out for SIMD.
+class EmissionBalls {
+ public:
+  void add(const EmissionBall& ball);
+  size_t size() const { return intensity_.size(); }
+  /// What EmissionBall::irradiance() tells of each, in their order.
+  void irradiance(const Vec3f& reference, const Vec3f& normal, float* result) const;
+
+ private:
+  using Column = std::vector<float>;
+  Column center_[3], radius_, axis_[3], cos_spread_, sin_spread_, cos_falloff_, intensity_;
 };
 
 }  // namespace kaustik

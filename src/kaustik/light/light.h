@@ -10,6 +10,8 @@
 
 namespace kaustik {
 
+struct EmissionBall;
+
 /// A point that asks a light for light.
 struct LightQuery {
   Vec3f reference{0, 0, 0};
@@ -87,6 +89,8 @@ class Light {
   /// samples are shared out by: zero only where no light can arrive, and rather too high than too
   /// low. This is the thesis's brightness times projection.
   virtual float expected_irradiance(const LightQuery& query) const = 0;
+  /// Where expected_irradiance() is that of a ball, the ball: many are asked at once. Else null.
+  virtual const EmissionBall* emission_ball() const { return nullptr; }
   /// For classical ray tracing alone: factor on light that arrives at `reference`, which replaces
   /// the inverse square of the distance by the emitter's `attenuation`. 1 where none is given.
   /// Photons, and everything else that is physical, ignore it.

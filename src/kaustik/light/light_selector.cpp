@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "kaustik/light/emission_ball.h"
 #include "kaustik/light/light_tree.h"
 #include "kaustik/light/power_distribution.h"
 
@@ -26,7 +27,13 @@ class FewLights {
     float total = 0;
   };
 
-  void add(int index, const Light& light) { lights_.push_back({index, &light}); }
+  void add(int index, const Light& light) {
+    // Those that are balls come first.
+    const EmissionBall* ball = light.emission_ball();
+    const auto place = ball ? std::ptrdiff_t(balls_.size()) : std::ptrdiff_t(lights_.size());
+    lights_.insert(lights_.begin() + place, {index, &light});
+    if (ball) balls_.add(*ball);
+  }
   size_t size() const { return lights_.size(); }
   bool empty() const { return lights_.empty(); }
 
@@ -35,8 +42,11 @@ class FewLights {
     const float least = shares ? minimum_learned_share : minimum_share_of_best;
     Weights w;
     float best = 0;
+    balls_.irradiance(query.reference, query.normal, w.of.data());
+    for (size_t i = balls_.size(); i < lights_.size(); ++i)
+      w.of[i] = lights_[i].light->expected_irradiance(query);
     for (size_t i = 0; i < lights_.size(); ++i) {
-      w.of[i] = std::max(0.0f, lights_[i].light->expected_irradiance(query));
+      w.of[i] = std::max(0.0f, w.of[i]);
       if (shares) w.of[i] *= shares[lights_[i].index];
       w.sum += w.of[i];
       best = std::max(best, w.of[i]);
@@ -74,6 +84,7 @@ class FewLights {
     const Light* light;
   };
   std::vector<Member> lights_;
+  EmissionBalls balls_;  ///< of the first lights
 };
 
 /// Lights of one kind, infinite or with a place: few of them by what they may give, many by their

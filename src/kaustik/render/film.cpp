@@ -26,8 +26,8 @@ Value sum_over_blocks(size_t pixels, const SumOf& sum_of) {
 
 /// The sums, the pass and the image that is written.
 constexpr int64_t film_bytes_per_pixel =
-    sizeof(Fixed) * (3 * component_count + 3 + first_hit_lanes) + sizeof(PassPixel) +
-    sizeof(float) * (3 * (component_count + 2) + first_hit_lanes);
+    sizeof(Fixed) * (3 * component_count + 3 + first_hit_lanes + noise_kinds) + sizeof(PassPixel) +
+    sizeof(float) * (3 * (component_count + 2) + first_hit_lanes + noise_kinds);
 
 void check_size(const FilmSettings& settings) {
   const Vec2i size = settings.crop_size;
@@ -43,7 +43,17 @@ void check_size(const FilmSettings& settings) {
   }
 }
 
+Vec3f rgb_of(const Spectrum& radiance) { return {radiance[0], radiance[1], radiance[2]}; }
+
 }  // namespace
+
+std::array<float, noise_kinds> by_noise_kind(
+    const std::array<Spectrum, component_count>& radiance) {
+  const auto part = [&](Component c) { return radiance[size_t(c)]; };
+  return {photopic(rgb_of(part(Component::direct) + part(Component::caustic) +
+                          part(Component::indirect))),
+          photopic(rgb_of(part(Component::specular)))};
+}
 
 Film::Film(const FilmSettings& settings, ComponentSet components)
     : size_(settings.crop_size), components_(components) {
@@ -52,9 +62,10 @@ Film::Film(const FilmSettings& settings, ComponentSet components)
   sums_.resize(pixels * component_count * lanes_);
   squares_.resize(pixels * lanes_);
   first_hits_.resize(pixels * first_hit_lanes);
+  sample_squares_.resize(pixels * noise_kinds);
 }
 
-void Film::add_pass(const std::vector<PassPixel>& pixels, uint32_t pass_index) {
+void Film::add_pass(const std::vector<PassPixel>& pixels, uint32_t pass_index, uint32_t samples) {
   const auto luminance_sum = sum_over_blocks<Fixed>(pixels.size(), [&](size_t begin, size_t end) {
     Fixed sum = 0;
     for (size_t i = begin; i < end; ++i) sum += fixed_from(add_pixel(i, pixels[i]));
@@ -65,6 +76,7 @@ void Film::add_pass(const std::vector<PassPixel>& pixels, uint32_t pass_index) {
       fixed_from(double_from(luminance_sum) / double(std::max<size_t>(1, pixels.size())));
   ++replicate_passes_[replicate];
   ++pass_count_;
+  sample_count_ += samples;
 }
 
 double Film::add_pixel(size_t i, const PassPixel& pixel) {
@@ -83,6 +95,8 @@ double Film::add_pixel(size_t i, const PassPixel& pixel) {
                                          hit.normal.y,  hit.normal.z,  hit.depth};
   for (size_t k = 0; k < first_hit_lanes; ++k)
     first_hits_[i * first_hit_lanes + k] += fixed_from(first[k]);
+  for (size_t k = 0; k < noise_kinds; ++k)
+    sample_squares_[i * noise_kinds + k] += fixed_from(double(pixel.squares[k]));
   return photopic(Vec3f(float(total[0]), float(total[1]), float(total[2])));
 }
 
@@ -107,6 +121,22 @@ double Film::variance_of_mean(size_t pixel, int lane) const {
   return std::max(0.0, square - m * m) / (n - 1);
 }
 
+std::array<double, noise_kinds> Film::noise(size_t pixel) const {
+  std::array<double, noise_kinds> result{};
+  if (sample_count_ < 2) return result;
+  const double passes = pass_count_, samples = double(sample_count_);
+  std::array<Spectrum, component_count> means;
+  for (int c = 0; c < component_count; ++c)
+    for (int lane = 0; lane < lanes_; ++lane)
+      means[size_t(c)].set(lane, float(double_from(sums(pixel)[c * lanes_ + lane]) / passes));
+  const std::array<float, noise_kinds> mean = by_noise_kind(means);
+  for (size_t k = 0; k < noise_kinds; ++k) {
+    const double square = double_from(sample_squares_[pixel * noise_kinds + k]) / passes;
+    result[k] = std::sqrt(std::max(0.0, square - double(sqr(mean[k]))) / (samples - 1));
+  }
+  return result;
+}
+
 Image Film::image() const {
   std::vector<std::string> names = {"R", "G", "B"};
   for (int c = 0; c < component_count; ++c)
@@ -114,7 +144,7 @@ Image Film::image() const {
       if (components_.has(Component(c)))
         names.push_back(fmt::format("{}.{}", component_names[size_t(c)], lane));
   for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "depth.Z",
-                           "error.R", "error.G", "error.B"})
+                           "error.R", "error.G", "error.B", "noise.scattered", "noise.mirrored"})
     names.emplace_back(name);
   Image image(size_.x, size_.y, names);
   if (pass_count_ == 0) return image;
@@ -135,6 +165,7 @@ Image Film::image() const {
             float(double_from(first_hits_[pixel * first_hit_lanes + k]) / pass_count_);
       for (int lane = 0; lane < lanes_; ++lane)
         image.at(x, y, channel++) = float(std::sqrt(variance_of_mean(pixel, lane)));
+      for (const double deviation : noise(pixel)) image.at(x, y, channel++) = float(deviation);
     }
   });
   return image;

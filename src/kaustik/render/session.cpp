@@ -31,13 +31,16 @@ constexpr uint32_t samples_per_block = 256;
 /// Returns how many components were not finite and left out.
 int add_sample(const SampleSink& sink, PassPixel& sum) {
   int dropped = 0;
+  std::array<Spectrum, component_count> finite{};
   for (int c = 0; c < component_count; ++c) {
     const Spectrum& radiance = sink.radiance(Component(c));
     if (radiance.is_finite())
-      sum.radiance[size_t(c)] += radiance;
+      sum.radiance[size_t(c)] += finite[size_t(c)] = radiance;
     else
       ++dropped;
   }
+  const std::array<float, noise_kinds> values = by_noise_kind(finite);
+  for (size_t k = 0; k < noise_kinds; ++k) sum.squares[k] += sqr(values[k]);
   const FirstHit& hit = sink.first_hit();
   if (!hit.albedo.is_finite() || !is_finite(hit.normal) || !std::isfinite(hit.depth))
     return dropped + 1;
@@ -52,6 +55,7 @@ void add_scaled(const PassPixel& pixel, float scale, PassPixel& sum) {
   sum.first_hit.albedo += pixel.first_hit.albedo * scale;
   sum.first_hit.normal += pixel.first_hit.normal * scale;
   sum.first_hit.depth += pixel.first_hit.depth * scale;
+  for (size_t k = 0; k < noise_kinds; ++k) sum.squares[k] += pixel.squares[k] * scale;
 }
 
 /// Resident memory of the program, 0 where the system does not tell.
@@ -237,7 +241,7 @@ bool Session::render_pass(uint32_t index, std::stop_token stop, Monitor& monitor
   const bool complete = !stop.stop_requested();
   if (!complete && !first) return false;
   if (integrator_.splats()) add_splats();
-  film_.add_pass(pixels_, index);
+  film_.add_pass(pixels_, index, samples_per_pass_);
   report_.incomplete_pass = !complete;
   return complete;
 }

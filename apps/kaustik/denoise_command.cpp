@@ -1,0 +1,29 @@
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "kaustik/base/error.h"
+#include "kaustik/image/denoise.h"
+#include "kaustik/image/image_io.h"
+
+namespace kaustik::app {
+
+void add_denoise(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "denoise", "Smooth the noise of a rendered EXR, by what its layers know of the surfaces.");
+  command->footer(
+      "Edges of what is seen stay; details of the light that are fainter than its noise are lost,\n"
+      "so the result is for looking at, not for measuring.");
+  struct Options {
+    std::string input, output;
+  };
+  auto o = std::make_shared<Options>();
+  command->add_option("image", o->input, "EXR that kaustik rendered, with all its layers")
+      ->required();
+  command->add_option("-o,--output", o->output, "EXR or another image to write")->required();
+  command->callback([o] {
+    check_writable(o->output);
+    write_image(denoise(read_image(o->input)), o->output);
+  });
+}
+
+}  // namespace kaustik::app
