@@ -15,14 +15,21 @@ void add_denoise(CLI::App& program) {
       "so the result is for looking at, not for measuring.");
   struct Options {
     std::string input, output;
+    bool full_float = false;
   };
   auto o = std::make_shared<Options>();
   command->add_option("image", o->input, "EXR that kaustik rendered, with all its layers")
       ->required();
-  command->add_option("-o,--output", o->output, "EXR or another image to write")->required();
+  command
+      ->add_option("-o,--output", o->output,
+                   "EXR, HDR, PFM or LogLuv tif to write; for displays: kaustik tonemap")
+      ->required();
+  command->add_flag("--float", o->full_float, "EXR with 32-bit instead of 16-bit floats");
   command->callback([o] {
     check_writable(o->output);
-    write_image(denoise(read_image(o->input)), o->output);
+    WriteOptions write;
+    write.exr_half = !o->full_float;
+    write_image(denoise(read_image(o->input)), o->output, write);
   });
 }
 

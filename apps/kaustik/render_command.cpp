@@ -122,7 +122,10 @@ void render(RenderOptions options) {
   if (report.cancelled) warn("cancelled: writing what is finished");
   const auto object = find_integrator(description);
   Image image = session.film().image();
-  if (options.denoise) image = denoise(image);
+  if (options.denoise && can_denoise(image))
+    image = denoise(image);
+  else if (options.denoise)
+    warn("none of the picture's components has noise to smooth: --denoise did nothing");
   set_metadata(image, options, *scene, object ? object->type : "photonmap", report);
   write_outputs(image, options, tone);
 }

@@ -266,6 +266,8 @@ TEST_F(BadInput, CommandsAndImages) {
   refused({"tonemap", "cut.pfm", "-o", "new.png"}, "cut.pfm");
   refused({"tonemap", "cut.pfm", "-o", "new.xyz"}, "new.xyz");
   refused({"compare", "none.exr", "text.exr"}, "none.exr");
+  refused({"denoise", "none.exr", "-o", "new.exr"}, "none.exr");
+  refused({"denoise", "cut.pfm", "-o", "new.exr"}, "cut.pfm");
   refused({"info", "none.xml"}, "none.xml");
   refused({"photons", "none.xml", "-o", "new.kpm"}, "none.xml");
   refused({"photons", "none.xml"}, "--output");

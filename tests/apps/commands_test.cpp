@@ -52,7 +52,7 @@ TEST_F(Commands, HelpShowsDefaultsRangesAndUnits) {
   EXPECT_TRUE(contains(text, "caustic_neighbors (integer, default 60, 0 … 100000)")) << text;
   EXPECT_TRUE(contains(text, "One of: constant, cone, epanechnikov")) << text;
   EXPECT_TRUE(contains(run_well({"help", "rfilter"}).out, "type=\"tent\""));
-  for (const std::string command : {"render", "photons", "compare", "tonemap", "info"})
+  for (const std::string command : {"render", "photons", "compare", "denoise", "tonemap", "info"})
     EXPECT_TRUE(contains(run_well({command, "--help"}).out, command));
   EXPECT_FALSE(run_well({"--version"}).out.empty());
 }
@@ -78,6 +78,35 @@ TEST_F(Commands, CompareOfDifferentImages) {
   const RunResult sizes = run({"compare", "c.exr", "a.exr"});
   EXPECT_EQ(sizes.exit_code, 2) << sizes.err;
   EXPECT_TRUE(contains(sizes.err, "remedy: ")) << sizes.err;
+}
+
+TEST_F(Commands, DenoiseMakesThePictureThatRenderMakes) {
+  run_well({"render", "scene.xml", "-q", "--passes", "1", "--spp", "4", "--float", "-o", "a.exr"});
+  run_well({"denoise", "a.exr", "--float", "-o", "b.exr"});
+  run_well({"render", "scene.xml", "-q", "--passes", "1", "--spp", "4", "--float", "--denoise",
+            "-o", "c.exr"});
+  EXPECT_TRUE(same_pixels("b.exr", "c.exr"));
+  EXPECT_FALSE(same_pixels("a.exr", "b.exr"));
+  EXPECT_NE(read_image(path("c.exr")).find_metadata("denoised"), nullptr);
+  EXPECT_EQ(read_image(path("a.exr")).find_metadata("denoised"), nullptr);
+  run_well({"render", "scene.xml", "-q", "-o", "truth.exr", "--passes", "64", "--spp", "256",
+            "--seed", "2"});
+  const auto error = [&](const char* image) {
+    return compare_images(read_image(path(image)), read_image(path("truth.exr"))).relative_mse;
+  };
+  EXPECT_LT(error("b.exr"), error("a.exr"));
+}
+
+TEST_F(Commands, WhatCannotBeDenoised) {
+  run_well({"render", "scene.xml", "-q", "--spp", "2", "-o", "a.pfm"});
+  const RunResult flat = run({"denoise", "a.pfm", "-o", "b.exr"});
+  EXPECT_EQ(flat.exit_code, 2) << flat.err;
+  EXPECT_TRUE(contains(flat.err, "lacks the layers") && contains(flat.err, "remedy: ")) << flat.err;
+  // A picture is not lost for it.
+  const RunResult lamps = run_well({"render", "scene.xml", "-q", "--spp", "2", "--denoise", "-o",
+                                    "c.exr", "--set", "integrator.components=emission"});
+  EXPECT_TRUE(contains(lamps.err, "--denoise did nothing")) << lamps.err;
+  EXPECT_EQ(read_image(path("c.exr")).width(), 24);
 }
 
 TEST_F(Commands, TonemapMakesThePictureThatRenderMakes) {

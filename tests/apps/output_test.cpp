@@ -46,6 +46,7 @@ TEST_F(Output, OtherCommandsLookBeforeTheyReadToo) {
   run_well({"render", "scene.xml", "-q", "-o", "a.exr"});
   expect_refused({"tonemap", "a.exr", "-o", "none/out.png"}, "folder 'none'", "mkdir");
   expect_refused({"compare", "a.exr", "a.exr", "-o", "none/out.png"}, "folder 'none'", "mkdir");
+  expect_refused({"denoise", "a.exr", "-o", "none/out.exr"}, "folder 'none'", "mkdir");
 }
 
 TEST_F(Output, AFullDiskHarmsNothing) {
@@ -59,6 +60,7 @@ TEST_F(Output, AFullDiskHarmsNothing) {
         {"render", "scene.xml", "-q", "-o", "old.hdr"},
         {"photons", "scene.xml", "-o", "old.kpm"},
         {"tonemap", "made.exr", "-o", "old.png"},
+        {"denoise", "made.exr", "-o", "old.exr"},
         {"compare", "made.exr", "made.exr", "-o", "old.exr"}}) {
     const std::string& output = arguments.back();
     SCOPED_TRACE(arguments[0] + " " + output);
