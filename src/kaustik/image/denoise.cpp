@@ -24,7 +24,7 @@ constexpr int noise_reach = 2;
 constexpr float brightness_tolerance = 4;
 /// the squared difference of the unit normals,
 constexpr float normal_tolerance_sq = 0.05f;
-/// the albedo,
+/// the photopic albedo,
 constexpr float albedo_tolerance = 0.15f;
 /// the distance from the plane, in steps of the depth from pixel to pixel.
 constexpr float plane_tolerance = 1.5f;
@@ -44,20 +44,19 @@ inline float falloff(float x) {
 struct Surfaces {
   int width, height;
   std::array<Plane, 3> normal, albedo;
+  Plane lightness;  ///< photopic value of the albedo
   Plane depth;
   Plane inverse_step;  ///< 1 over plane_tolerance steps of the depth from pixel to pixel
 };
 
 /// The same from some pixel on.
 struct SurfaceRow {
-  SurfaceRow(const Surfaces& s, std::ptrdiff_t first) : depth(s.depth.data() + first) {
-    for (size_t k = 0; k < 3; ++k) {
-      normal[k] = s.normal[k].data() + first;
-      albedo[k] = s.albedo[k].data() + first;
-    }
-  }
+  SurfaceRow(const Surfaces& s, std::ptrdiff_t first)
+      : normal{s.normal[0].data() + first, s.normal[1].data() + first, s.normal[2].data() + first},
+        lightness(s.lightness.data() + first),
+        depth(s.depth.data() + first) {}
   const float* normal[3];
-  const float* albedo[3];
+  const float* lightness;
   const float* depth;
 };
 
@@ -86,14 +85,13 @@ Plane brightness_of(const Signal& s) {
 /// How unlike the surfaces of pixels x of both rows are.
 inline float unlikeness(const SurfaceRow& p, const SurfaceRow& q, const float* inverse_step,
                         float inverse_distance, int x) {
-  float normals = 0, albedos = 0;
+  float normals = 0;
   for (int k = 0; k < 3; ++k) {
-    const float dn = p.normal[k][x] - q.normal[k][x], da = p.albedo[k][x] - q.albedo[k][x];
-    normals += dn * dn;
-    albedos += da * da;
+    const float difference = p.normal[k][x] - q.normal[k][x];
+    normals += difference * difference;
   }
   return normals * (1 / normal_tolerance_sq) +
-         albedos * (1 / (albedo_tolerance * albedo_tolerance)) +
+         std::fabs(p.lightness[x] - q.lightness[x]) * (1 / albedo_tolerance) +
          std::fabs(p.depth[x] - q.depth[x]) * inverse_step[x] * inverse_distance;
 }
 
@@ -228,11 +226,15 @@ Plane plane_of(const Image& image, const std::string& name) {
 }
 
 Surfaces surfaces_of(const Image& image) {
-  Surfaces s{image.width(), image.height(), {}, {}, plane_of(image, "depth.Z"), {}};
+  Surfaces s{image.width(), image.height(), {}, {}, {}, plane_of(image, "depth.Z"), {}};
   for (size_t k = 0; k < 3; ++k) {
     s.normal[k] = plane_of(image, std::string("N.") + "XYZ"[k]);
     s.albedo[k] = plane_of(image, std::string("albedo.") + "RGB"[k]);
   }
+  s.lightness.resize(s.depth.size());
+  for_pixels(s.depth.size(), [&](size_t i) {
+    s.lightness[i] = photopic({s.albedo[0][i], s.albedo[1][i], s.albedo[2][i]});
+  });
   const auto depth = [&](int x, int y) { return s.depth[size_t(y) * size_t(s.width) + size_t(x)]; };
   const auto step_to = [&](int x, int y, int dx, int dy) {
     const bool inside = x + dx >= 0 && y + dy >= 0 && x + dx < s.width && y + dy < s.height;
