@@ -136,6 +136,39 @@ TEST(Noise, HasMeanZeroAndNoPeriod) {
   EXPECT_LT(std::fabs(products.mean()), 0.05 * values.variance());
 }
 
+TEST(Noise, IsTheSameAloneAndInThrees) {
+  RunningStatistics products[3];
+  std::mt19937 random(11);
+  const auto uniform = [&] { return float(random() >> 8) * 0x1p-24f; };
+  for (uint32_t i = 0; i < 100000; ++i) {
+    const Vec3f p = Vec3f(uniform() - 0.5f, uniform() - 0.5f, uniform() - 0.5f) * 200;
+    const float value = gradient_noise(p, i).value;
+    EXPECT_EQ(gradient_noise_value(p, i), value);
+    const Vec3f three = noise_vector(p, i);
+    EXPECT_EQ(three.x, value);
+    for (int axis = 0; axis < 3; ++axis)
+      products[axis].add(double(three[axis] * three[(axis + 1) % 3]));
+  }
+  for (const RunningStatistics& product : products) EXPECT_GT(z_test_p_value(product, 0), 1e-4);
+}
+
+TEST(Noise, HasTheGradientOfItsValue) {
+  std::mt19937 random(5);
+  const auto uniform = [&] { return float(random() >> 8) * 0x1p-24f; };
+  constexpr float step = 1.0f / 256;
+  for (uint32_t i = 0; i < 10000; ++i) {
+    const Vec3f p = Vec3f(uniform() - 0.5f, uniform() - 0.5f, uniform() - 0.5f) * 8;
+    const Vec3f gradient = gradient_noise(p, i).gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3f a = p, b = p;
+      a[axis] -= step;
+      b[axis] += step;
+      const float difference = gradient_noise_value(b, i) - gradient_noise_value(a, i);
+      EXPECT_NEAR(difference / (b[axis] - a[axis]), gradient[axis], 1e-3f);
+    }
+  }
+}
+
 TEST(WaveField, HasTheHeightThatWasAskedFor) {
   WaveSettings settings;
   settings.amplitude = 0.02f;

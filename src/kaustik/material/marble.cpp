@@ -31,32 +31,30 @@ class Marble final : public Texture {
  private:
   /// The same point, pushed about by noise.
   Vec3f warped(const Vec3f& p, float width, float strength, uint32_t seed) const {
-    const FractalNoise noise{4, 0.55f, seed};
-    const Vec3f push(noise(p, width).value, noise(p + Vec3f(31.4f, 0, 7.7f), width).value,
-                     noise(p + Vec3f(0, 47.1f, 19.3f), width).value);
-    return p + push * strength;
+    return p + FractalNoise{4, 0.55f, seed}.vector(p, width) * strength;
   }
   /// 1 in the middle of a vein of relative width `thickness`; as the footprint grows the vein gets
   /// wider and paler, so that its mean stays: in the end as wide as the noise has values, whose
   /// density at 0 is about 1.6.
-  static float vein(const NoiseValue& noise, float thickness, float width) {
+  static float vein(float noise, float thickness, float width) {
     constexpr float slope = 1.5f, widest = 0.31f;
     const float blurred = std::min(std::hypot(thickness, 0.5f * slope * width), widest);
-    const float value = noise.value * noise_visibility(width);
+    const float value = noise * noise_visibility(width);
     return thickness / blurred * std::exp(-std::fabs(value) / blurred);
   }
   float darkness(const Vec3f& p, float width) const {
     const float clouds =
-        0.5f + 0.9f * FractalNoise{5, 0.55f, seed_ + 11}(p * 0.7f, 0.7f * width).value;
+        0.5f + 0.9f * FractalNoise{5, 0.55f, seed_ + 11}.value(p * 0.7f, 0.7f * width);
     const Vec3f bent = warped(p * 0.8f, 0.8f * width, 1.1f, seed_ + 23);
     // Veins come in groups: where a slow noise is low there are none.
     const float groups = std::clamp(
-        0.5f + 1.8f * noise_visibility(0.45f * width) * gradient_noise(p * 0.45f, seed_ + 37).value,
+        0.5f + 1.8f * noise_visibility(0.45f * width) * gradient_noise_value(p * 0.45f, seed_ + 37),
         0.0f, 1.0f);
-    const float main = vein(gradient_noise(bent * 0.9f, seed_ + 41), 0.035f, width);
+    const float main = vein(gradient_noise_value(bent * 0.9f, seed_ + 41), 0.035f, width);
     const Vec3f fine_bent = warped(p * 2.3f, 2.3f * width, 0.9f, seed_ + 53);
-    const float fine = vein(gradient_noise(fine_bent * 1.1f, seed_ + 61), 0.03f, 2.5f * width);
-    const float crystals = FractalNoise{3, 0.7f, seed_ + 71}(p * 60.0f, 60 * width).value;
+    const float fine =
+        vein(gradient_noise_value(fine_bent * 1.1f, seed_ + 61), 0.03f, 2.5f * width);
+    const float crystals = FractalNoise{3, 0.7f, seed_ + 71}.value(p * 60.0f, 60 * width);
     return 0.16f * std::clamp(clouds, 0.0f, 1.0f) + 0.75f * main * (0.25f + 0.75f * groups) +
            0.35f * fine * groups + 0.05f * crystals;
   }

@@ -19,6 +19,11 @@ struct NoiseValue {
 /// Gradient noise: mean 0, within about ±1, features of size 1, twice differentiable (Perlin,
 /// "Improving Noise", SIGGRAPH 2002; gradients by a hash, without period).
 NoiseValue gradient_noise(const Vec3f& p, uint32_t seed);
+/// Its value alone, faster.
+float gradient_noise_value(const Vec3f& p, uint32_t seed);
+/// Three such values that have nothing to do with each other, x being gradient_noise's, faster than
+/// one by one.
+Vec3f noise_vector(const Vec3f& p, uint32_t seed);
 
 /// How much is left of noise with features of size 1 in a mean over a footprint: near to 1 for
 /// widths below a half, to 0 for widths over 2.
@@ -32,6 +37,14 @@ struct FractalNoise {
   uint32_t seed = 0;
 
   NoiseValue operator()(const Vec3f& p, float width) const;
+  /// Without the gradient, faster.
+  float value(const Vec3f& p, float width) const;
+  /// Of three noises, each on its own.
+  Vec3f vector(const Vec3f& p, float width) const;
+
+ private:
+  template <class Value, class Noise>
+  Value octave_sum(Value sum, const Vec3f& p, float width, const Noise& noise) const;
 };
 
 /// A uniform number in [0, 1) for a cell of a grid.

@@ -92,7 +92,7 @@ float Wood::fibres(const Vec3f& p, float width) const {
   const float f = 5.0f / ring_;
   const Vec3f stretched(p.x * f * 0.02f, p.y * f, p.z * f);
   const FractalNoise noise{3, 0.7f, seed_ + 101};
-  return noise(stretched, width * f).value;
+  return noise.value(stretched, width * f);
 }
 
 float Wood::shade(const Piece& piece, float width) const {
@@ -100,7 +100,7 @@ float Wood::shade(const Piece& piece, float width) const {
   const float inverse = 1 / ring_;
   // Trunks are neither round nor straight.
   const Vec3f slow(p.x * inverse * 0.012f, p.y * inverse * 0.09f, p.z * inverse * 0.09f);
-  const float bent = FractalNoise{3, 0.5f, seed_ + 7}(slow, 0.09f * width * inverse).value;
+  const float bent = FractalNoise{3, 0.5f, seed_ + 7}.value(slow, 0.09f * width * inverse);
   const float radius = std::hypot(p.y, p.z) * inverse + 4.5f * bent;
   const float year = std::floor(radius), within = radius - year;
   // Late wood gets denser through the year and ends sharply; years differ.
@@ -115,7 +115,7 @@ float Wood::shade(const Piece& piece, float width) const {
   const float fine = fibres(p, width);
   const float f = 9.0f / ring_;
   const float pores = std::max(
-      0.0f, gradient_noise({p.x * f * 0.035f, p.y * f, p.z * f}, seed_ + 131).value - 0.3f);
+      0.0f, gradient_noise_value({p.x * f * 0.035f, p.y * f, p.z * f}, seed_ + 131) - 0.3f);
   return 0.08f + 0.75f * (mean_ring + visible * (ring - mean_ring)) +
          grain_ * (0.9f * fine + 1.2f * noise_visibility(width * f) * pores);
 }
