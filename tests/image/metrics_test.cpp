@@ -1,6 +1,7 @@
 #include "kaustik/image/metrics.h"
 
 #include <limits>
+#include <random>
 
 #include "tests/image/support.h"
 
@@ -70,6 +71,24 @@ TEST(Metrics, a_planted_error_of_two_percent_shows) {
   EXPECT_NEAR(result.mean_ratio.z, 1, 1e-12);
   EXPECT_GT(result.relative_mse, 0);
   EXPECT_LT(result.relative_mse, 0.02 * 0.02 / 3);
+}
+
+// A reference of independent noise of known strength: its comparison with the truth is what it says
+// of itself.
+TEST(Metrics, a_reference_tells_its_own_error) {
+  const Image truth = testing::test_picture(100, 100, 1);
+  Image reference(100, 100, {"R", "G", "B", "error.R", "error.G", "error.B"});
+  std::mt19937 random(3);
+  std::normal_distribution<float> normal;
+  for (int c = 0; c < 3; ++c)
+    for (size_t i = 0; i < reference.pixel_count(); ++i) {
+      const float value = truth.channel(c)[i], deviation = 0.002f * float(c + 1);
+      reference.channel(c)[i] = value + deviation * normal(random);
+      reference.channel(c + 3)[i] = deviation;
+    }
+  const double own = own_relative_mse(reference);
+  EXPECT_NEAR(own / compare_images(truth, reference).relative_mse, 1, 0.05);
+  expect_input_error([&] { own_relative_mse(truth); }, "error");
 }
 
 TEST(Metrics, non_finite_pixels_are_counted_and_left_out) {

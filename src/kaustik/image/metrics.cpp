@@ -20,7 +20,12 @@ void check_same_size(const Image& image, const Image& reference) {
                 "compare images of the same size");
 }
 
-double relative_error_sq(double x, double r) { return (x - r) * (x - r) / (r * r + 0.01); }
+/// Mean over the channels of (x − r)²/(r² + 0.01).
+double mean_relative_error_sq(const Vec3d& x, const Vec3d& r) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) sum += sqr(x[c] - r[c]) / (sqr(r[c]) + 0.01);
+  return sum / 3;
+}
 
 double mean_of(const std::vector<double>& values, size_t count) {
   double sum = 0;
@@ -59,9 +64,7 @@ ImageComparison compare_images(const Image& image, const Image& reference,
     sum += a;
     reference_sum += b;
     squares += (a - b).length2();
-    pixel_errors.push_back(
-        (relative_error_sq(a.x, b.x) + relative_error_sq(a.y, b.y) + relative_error_sq(a.z, b.z)) /
-        3);
+    pixel_errors.push_back(mean_relative_error_sq(a, b));
   }
   result.pixel_count = pixel_errors.size();
   if (result.pixel_count == 0)
@@ -75,6 +78,16 @@ ImageComparison compare_images(const Image& image, const Image& reference,
   result.relative_mse = mean_of(pixel_errors, pixel_errors.size());
   result.relative_mse_trimmed = trimmed_mean(std::move(pixel_errors));
   return result;
+}
+
+double own_relative_mse(const Image& reference) {
+  const RgbView r = rgb_view(reference), error = rgb_view(reference, "error");
+  std::vector<double> pixel_errors;
+  pixel_errors.reserve(reference.pixel_count());
+  for (size_t i = 0; i < reference.pixel_count(); ++i)
+    if (is_finite(r[i]) && is_finite(error[i]))
+      pixel_errors.push_back(mean_relative_error_sq(Vec3d(r[i]) + Vec3d(error[i]), Vec3d(r[i])));
+  return trimmed_mean(std::move(pixel_errors));
 }
 
 Image difference_image(const Image& image, const Image& reference, float full_scale,

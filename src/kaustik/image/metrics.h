@@ -28,6 +28,11 @@ double trimmed_mean(std::vector<double> values);
 ImageComparison compare_images(const Image& image, const Image& reference,
                                const std::string& layer = {});
 
+/// What a reference that was rendered adds to relative_mse_trimmed by its own noise, on average:
+/// trimmed mean of ε²/(r² + 0.01), where ε is the standard error in the layer "error" of rendered
+/// EXRs. Throws Error(input) if `reference` has no such layer.
+double own_relative_mse(const Image& reference);
+
 /// A picture (display-linear "R", "G", "B" in [0, 1]) of (x − r)/(|r| + 0.1), taken of the photopic
 /// values: white where both agree, red where the image is brighter, blue where it is darker, fully
 /// so at ±`full_scale`; green where a value is not finite. Throws as compare_images() does.
