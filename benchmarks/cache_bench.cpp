@@ -293,8 +293,9 @@ void compare_metrics(const std::string& name, const std::filesystem::path& direc
 
 int main(int argc, char** argv) {
   if (argc > 1 && argv[1][0] == '-') {
-    fmt::print("cache_bench [FOLDER [SCENE …]]: the metrics of the irradiance cache compared;\n"
-               "curves and pictures into FOLDER\n");
+    fmt::print(
+        "cache_bench [FOLDER [SCENE …]]: the metrics of the irradiance cache compared;\n"
+        "curves and pictures into FOLDER\n");
     return std::string(argv[1]) == "--help" ? 0 : 2;
   }
   try {

@@ -60,6 +60,19 @@ void set_metadata(Image& image, const RenderOptions& options, const Scene& scene
   if (!options.reproducible) image.set_metadata("render_seconds", report.seconds);
 }
 
+/// The picture is worth more than its smoothing: where that fails the picture stays.
+void smooth_noise(Image& image) {
+  if (!can_denoise(image)) {
+    warn("the picture has no component with noise, or no surfaces: --denoise did nothing");
+    return;
+  }
+  try {
+    image = denoise(image);
+  } catch (const std::bad_alloc&) {
+    warn("not enough memory to denoise: the picture is written as it was rendered");
+  }
+}
+
 /// "tonemap.key=0.3" is for the tone mapping operator, everything else for the scene.
 void sort_settings(RenderOptions& options) {
   const std::string prefix = "tonemap.";
@@ -122,11 +135,8 @@ void render(RenderOptions options) {
   if (report.cancelled) warn("cancelled: writing what is finished");
   const auto object = find_integrator(description);
   Image image = session.film().image();
-  if (options.denoise && can_denoise(image))
-    image = denoise(image);
-  else if (options.denoise)
-    warn("none of the picture's components has noise to smooth: --denoise did nothing");
   set_metadata(image, options, *scene, object ? object->type : "photonmap", report);
+  if (options.denoise) with_threads(settings.threads, [&] { smooth_noise(image); });
   write_outputs(image, options, tone);
 }
 

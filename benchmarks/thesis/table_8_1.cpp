@@ -30,16 +30,19 @@ struct ThesisScene {
   std::vector<std::string> settings;
 };
 
+bool has_caustics(const ThesisScene& scene) { return std::string(scene.caustic_1998) != "–"; }
+
 /// What is rendered: one recursion level, and caustics where the thesis has them.
 std::vector<std::string> light_of(const ThesisScene& scene) {
   std::vector<std::string> settings{"integrator.max_eye_level=1"};
-  if (std::string(scene.caustic_1998) == "–") settings.emplace_back("integrator.caustic_photons=0");
+  if (!has_caustics(scene)) settings.emplace_back("integrator.caustic_photons=0");
   return settings;
 }
 
 /// Photons to find as in the thesis; one recursion level. What the thesis does not tell: a coarse
-/// cache, and samples with one shadow ray each, in few passes, since samples of one pass stratify
-/// one another; but each pass has photons and records of its own, whose errors average out.
+/// cache, and samples with one shadow ray each (two in the maze), in few passes, since samples of
+/// one pass stratify one another; but each pass has photons and records of its own, whose errors
+/// average out.
 std::vector<std::string> settings_of(const ThesisScene& scene) {
   std::vector<std::string> all{"integrator.global_neighbors=50",
                                "integrator.caustic_neighbors=50",
@@ -155,8 +158,10 @@ Row measure(const Workplace& place, const ThesisScene& scene) {
     Image denoised;
     const double denoising_seconds = bench::seconds_of(
         [&] { with_threads(place.threads, [&] { denoised = denoise(result.image); }); });
-    row.seconds = std::min(row.seconds, result.report.seconds);
-    row.denoising_seconds = std::min(row.denoising_seconds, denoising_seconds);
+    if (result.report.seconds + denoising_seconds < row.seconds + row.denoising_seconds) {
+      row.seconds = result.report.seconds;
+      row.denoising_seconds = denoising_seconds;
+    }
     row.error = quality.relative_mse_trimmed - row.reference_error;
     row.denoised_error = compare_images(denoised, truth).relative_mse_trimmed - row.reference_error;
     row.mean_ratio = quality.mean_ratio;
@@ -164,6 +169,26 @@ Row measure(const Workplace& place, const ThesisScene& scene) {
   count_photons(run, place.threads, row);
   count_rays(scene, place.threads, row);
   return row;
+}
+
+/// Our row in the scene's README, below that of 1998.
+void write_into_readme(const Workplace& place, const ThesisScene& scene, const Row& row) {
+  const std::filesystem::path path = place.docs / "../../scenes" / scene.name / "README.md";
+  const std::string text = read_text(path);
+  const std::string label = "| [Kaustik](../../docs/thesis/results.md) |";
+  const size_t begin = text.find(label);
+  if (begin == std::string::npos) return;
+  const auto per_pass = [&](size_t count) {
+    return scene.passes == 1 ? fmt::format("{}", count)
+                             : fmt::format("{} × {}", count, scene.passes);
+  };
+  std::string cells =
+      fmt::format(" {} × {} | {} |", scene.width, scene.height, per_pass(row.global_photons));
+  if (has_caustics(scene)) cells += fmt::format(" {} |", per_pass(row.caustic_photons));
+  cells += fmt::format(" {:.1f} s (relative MSE {:.4f}) |", row.seconds + row.denoising_seconds,
+                       row.denoised_error);
+  place.write_text(path,
+                   text.substr(0, begin) + label + cells + text.substr(text.find('\n', begin)));
 }
 
 void refuse_unknown_scenes(const Workplace& place) {
@@ -206,6 +231,7 @@ std::string table_8_1(const Workplace& place) {
          fmt::format("{:.0f}", speedup), fmt::format("{:.0f}", scene.speedup),
          fmt::format("{:.0f}", row.rays), fmt::format("{:.0f}", row.shadow_rays)});
     place.write_text(row_file, text);
+    write_into_readme(place, scene, row);
     table.add_row(text);
     bench::report(
         fmt::format("thesis_{}", scene.name), speedup, "times faster than in 1998",
@@ -215,14 +241,14 @@ std::string table_8_1(const Workplace& place) {
                     scene.speedup, row.mean_ratio.y));
   }
   return "Maximum level 1, 50 neighbours (200 caustic ones for the ring), the thesis's resolution; "
-         "pixels are means over their squares.\nThe time is what the scene took, light pass and "
-         "cache included, on two threads, one pass at least; then `kaustik denoise`, and with it\n"
-         "how many times faster than in 1998. Photons stored and samples: per pass × passes; no "
-         "caustic photons where the thesis has none. The\nreference is the solution of the same "
-         "recursion level by another seed, with the finer defaults (200 000 photons, 10 "
-         "neighbours,\n"
-         "a fine cache), in forty times the time asked for, a minute at least and ten at most, "
-         "never denoised: its own noise is part of the\nrelative MSE.\n\n" +
+         "pixels are means over their squares.\nThe time is what the picture took, light pass and "
+         "cache included, on two threads, and what it took with `kaustik denoise`; of three\nruns "
+         "the fastest, of the atrium one. Photons stored and samples: per pass × passes; no "
+         "caustic photons where the thesis has none.\nThe reference is the solution of the same "
+         "recursion level by another seed, with the finer defaults (200 000 photons, 10\n"
+         "neighbours, a fine cache), in forty times the time asked for, a minute at least and five "
+         "at most, never denoised. It is not converged:\nwhat its own standard error adds to a "
+         "comparison (*reference's own*) has been taken from both relative MSE.\n\n" +
          table.text();
 }
 

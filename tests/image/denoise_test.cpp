@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "kaustik/base/parallel.h"
 #include "tests/image/support.h"
 
 namespace kaustik {
@@ -23,31 +24,38 @@ struct Pixel {
   float emitted = 0;
 };
 
-/// A rendered picture whose scattered light has Gaussian noise of the given relative deviation.
+/// A rendered picture whose scattered light, and what surfaces mirror, has Gaussian noise of the
+/// given relative deviation.
 Image rendered(float noise, const std::function<Pixel(int x, int y)>& scene,
-               bool knows_noise = true, uint32_t seed = 1) {
+               bool knows_noise = true) {
   Image image(size, size,
               {"R", "G", "B", "direct.R", "direct.G", "direct.B", "specular.R", "specular.G",
                "specular.B", "emission.R", "emission.G", "emission.B", "albedo.R", "albedo.G",
                "albedo.B", "N.X", "N.Y", "N.Z", "depth.Z"});
-  const int noise_channel = knows_noise ? image.add_channel("noise.scattered") : -1;
-  std::mt19937 generator(seed);
+  const int noise_channel = image.channel_count();
+  if (knows_noise)
+    for (const char* name : {"noise.scattered", "noise.mirrored"}) image.add_channel(name);
+  std::mt19937 generator(1);
   std::normal_distribution<float> normal;
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       const Pixel p = scene(x, y);
       const float clean = p.albedo * p.irradiance;
       const float scattered = clean * (1 + noise * normal(generator));
+      const float mirrored = p.mirrored * (1 + noise * normal(generator));
       for (int k = 0; k < 3; ++k) {
-        image.at(x, y, k) = scattered + p.mirrored + p.emitted;
+        image.at(x, y, k) = scattered + mirrored + p.emitted;
         image.at(x, y, 3 + k) = scattered;
-        image.at(x, y, 6 + k) = p.mirrored;
+        image.at(x, y, 6 + k) = mirrored;
         image.at(x, y, 9 + k) = p.emitted;
         image.at(x, y, 12 + k) = p.albedo;
         image.at(x, y, 15 + k) = p.normal[k];
       }
       image.at(x, y, 18) = p.depth;
-      if (knows_noise) image.at(x, y, noise_channel) = clean * noise;
+      if (knows_noise) {
+        image.at(x, y, noise_channel) = clean * noise;
+        image.at(x, y, noise_channel + 1) = p.mirrored * noise;
+      }
     }
   return image;
 }
@@ -55,7 +63,7 @@ Image rendered(float noise, const std::function<Pixel(int x, int y)>& scene,
 struct Moments {
   double mean = 0, deviation = 0;
 };
-/// Of red / (albedo × irradiance) over a rectangle.
+/// Of red, over the columns from x0 to x1.
 Moments moments(const Image& image, int x0, int x1) {
   double sum = 0, squares = 0, n = 0;
   for (int y = 0; y < size; ++y)
@@ -79,23 +87,80 @@ TEST(Denoise, noise_on_a_wall_falls_to_a_tenth_and_the_mean_stays) {
   }
 }
 
-TEST(Denoise, without_noise_nothing_changes) {
-  const Image image = rendered(0, [](int x, int y) {
+TEST(Denoise, what_surfaces_mirror_is_smoothed_apart_and_not_divided) {
+  // A texture beneath a reflection, then one in it: albedo tells of the former alone.
+  const auto scene = [](int x, int y) {
     Pixel p;
     p.albedo = (x / 8 + y / 8) % 2 ? 0.1f : 0.8f;
-    p.irradiance = 1 + 0.5f * std::sin(float(x) * 0.3f);
-    p.emitted = x > 80 ? 5.0f : 0.0f;
+    p.mirrored = 2;
+    return p;
+  };
+  const Image noisy = rendered(0.1f, scene), clean = denoise(noisy);
+  double before = 0, after = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const double truth = double(scene(x, y).albedo) + 2;
+      before += std::pow(double(noisy.at(x, y, 0)) - truth, 2) / (size * size);
+      after += std::pow(double(clean.at(x, y, 0)) - truth, 2) / (size * size);
+    }
+  EXPECT_NEAR(before, 0.2 * 0.2 + 0.1 * 0.1 * 0.325, 0.003);
+  EXPECT_LT(after, 0.04 * before);
+}
+
+TEST(Denoise, irradiance_has_no_albedo_in_it) {
+  // A picture of irradiance over a texture: the same everywhere, and so it stays.
+  Image image = rendered(0.2f, [](int x, int y) {
+    Pixel p;
+    p.albedo = (x / 8 + y / 8) % 2 ? 0.45f : 0.55f;
+    p.irradiance = 1 / p.albedo;
     return p;
   });
-  // One with deviations known to be (nearly) nothing: brightness alone tells all pixels apart.
-  Image quiet = image;
-  const int noise = quiet.find_channel("noise.scattered");
-  std::fill(quiet.channel(noise).begin(), quiet.channel(noise).end(), 1e-6f);
-  const Image result = denoise(quiet);
+  const auto texture_left = [&] {
+    const Image clean = denoise(image);
+    double difference = 0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x)
+        difference += ((x / 8 + y / 8) % 2 ? 1 : -1) * double(clean.at(x, y, 0)) / (size * size);
+    return std::fabs(difference);
+  };
+  EXPECT_GT(texture_left(), 0.02);  // divided by the albedo, as radiance is
+  image.set_metadata("quantity", std::string("irradiance"));
+  EXPECT_LT(texture_left(), 0.01);
+}
+
+TEST(Denoise, what_has_no_noise_stays) {
+  // The noise of the left half lets nothing of the right one change, told apart by brightness.
+  const auto scene = [](int x, int y) {
+    Pixel p;
+    p.irradiance = x < size / 2 ? 100.0f : 1 + 0.5f * std::sin(float(x + y) * 0.3f);
+    p.emitted = x > 80 ? 5.0f : 0.0f;
+    return p;
+  };
+  Image image = rendered(0, scene);
+  const int noise = image.find_channel("noise.scattered");
   for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x)
+    for (int x = 0; x < size; ++x) image.at(x, y, noise) = x < size / 2 ? 5.0f : 0.0f;
+  const Image result = denoise(image);
+  for (int y = 0; y < size; ++y)
+    for (int x = size / 2 + 3; x < size; ++x)
       ASSERT_NEAR(result.at(x, y, 0), image.at(x, y, 0), 1e-4f * image.at(x, y, 0))
           << x << " " << y;
+}
+
+TEST(Denoise, any_number_of_threads_gives_the_same_bits) {
+  const Image noisy = rendered(0.2f, [](int x, int y) {
+    Pixel p;
+    p.irradiance = 1 + 0.5f * std::sin(float(x * y));
+    p.mirrored = 0.3f;
+    return p;
+  });
+  const auto by = [&](int threads) {
+    Image result;
+    with_threads(threads, [&] { result = denoise(noisy); });
+    return result;
+  };
+  const Image one = by(1), three = by(3);
+  for (int c = 0; c < 3; ++c) EXPECT_TRUE(std::ranges::equal(one.channel(c), three.channel(c)));
 }
 
 TEST(Denoise, textures_and_lamps_stay_sharp) {
@@ -181,11 +246,33 @@ TEST(Denoise, one_pixel_and_one_row) {
   }
 }
 
+TEST(Denoise, odd_values_make_no_others) {
+  for (const auto& [name, value] :
+       {std::pair("depth.Z", -1.0f), std::pair("depth.Z", 1e38f),
+        std::pair("noise.scattered", 3e38f), std::pair("noise.mirrored", -3e38f),
+        std::pair("albedo.R", -1e30f)}) {
+    Image image = rendered(0.2f, [](int, int) {
+      Pixel p;
+      p.mirrored = 1;
+      return p;
+    });
+    const auto values = image.channel(image.find_channel(name));
+    std::fill(values.begin(), values.end(), value);
+    const Image clean = denoise(image);
+    for (const float red : clean.channel(0)) ASSERT_TRUE(std::isfinite(red)) << name << value;
+  }
+}
+
 TEST(Denoise, pictures_without_layers_are_refused) {
   EXPECT_FALSE(can_denoise(testing::test_picture(8, 8, 3)));
   expect_input_error([] { denoise(testing::test_picture(8, 8, 3)); }, "lacks the layers");
-  const Image whole = rendered(0, [](int, int) { return Pixel(); });
-  EXPECT_TRUE(can_denoise(whole));
+  Image image = rendered(0.2f, [](int, int) { return Pixel(); });
+  EXPECT_TRUE(can_denoise(image));
+  expect_input_error([&] { denoise(denoise(image)); }, "denoised before");
+  // Of photons alone nothing is known of the surfaces.
+  const auto depth = image.channel(image.find_channel("depth.Z"));
+  std::fill(depth.begin(), depth.end(), 0.0f);
+  EXPECT_FALSE(can_denoise(image));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/vectorize.h"
 #include "kaustik/image/photometry.h"
 
 namespace kaustik {
@@ -12,7 +13,7 @@ namespace {
 
 using Plane = std::vector<float>;
 
-/// Averages over 5 × 5 pixels, each twice as sparse as the one before: 31 pixels to either side.
+/// Averages over 5 × 5 pixels, each twice as sparse as the one before: 62 pixels to either side.
 constexpr int rounds = 5;
 /// Of the B₃ spline.
 constexpr float kernel[5] = {1.0f / 16, 1.0f / 4, 3.0f / 8, 1.0f / 4, 1.0f / 16};
@@ -28,6 +29,9 @@ constexpr float normal_tolerance_sq = 0.05f;
 constexpr float albedo_tolerance = 0.15f;
 /// the distance from the plane, in steps of the depth from pixel to pixel.
 constexpr float plane_tolerance = 1.5f;
+
+/// What noise is at most, that its square be finite.
+constexpr float greatest_noise = 1e15f;
 
 /// What light is divided by where a surface hardly reflects.
 constexpr float least_albedo = 0.02f;
@@ -71,11 +75,11 @@ void for_pixels(size_t count, const Body& body) {
 /// A part of the light.
 struct Signal {
   std::array<Plane, 3> rgb;
-  Plane variance;  ///< of the photopic value's noise
+  Plane variance;  ///< of the photopic value's noise; empty: not known
 };
 
 Plane brightness_of(const Signal& s) {
-  Plane result(s.variance.size());
+  Plane result(s.rgb[0].size());
   for_pixels(result.size(), [&](size_t i) {
     result[i] = photopic({s.rgb[0][i], s.rgb[1][i], s.rgb[2][i]});
   });
@@ -133,14 +137,15 @@ Plane mean_of_like(const Surfaces& s, const Plane& values) {
       for_neighbors(s, y, noise_reach, 1, [&](const Neighbor& n) {
         const SurfaceRow q(s, n.row);
         const float* from = values.data() + n.row;
-#pragma GCC ivdep
+        KAUSTIK_INDEPENDENT_TURNS
         for (int x = n.begin; x < n.end; ++x) {
           const float w = falloff(unlikeness(p, q, inverse_step, n.inverse_distance, x));
           weights[x] += w;
           sums[x] += w * from[x];
         }
       });
-      for (size_t x = 0; x < width; ++x) result[y * width + x] = sums[x] / weights[x];
+      for (size_t x = 0; x < width; ++x)
+        if (weights[x] > 0) result[y * width + x] = sums[x] / weights[x];
     }
   });
   return result;
@@ -183,7 +188,7 @@ Signal averaged(const Surfaces& s, const Signal& signal, int step) {
         const float *r = signal.rgb[0].data() + n.row, *g = signal.rgb[1].data() + n.row;
         const float* b = signal.rgb[2].data() + n.row;
         const float share = kernel[n.dx + 2] * kernel[n.dy + 2];
-#pragma GCC ivdep
+        KAUSTIK_INDEPENDENT_TURNS
         for (int x = n.begin; x < n.end; ++x) {
           const float w = share * falloff(unlikeness(p, q, inverse_step, n.inverse_distance, x) +
                                           std::fabs(here[x] - there[x]) * inverse_noise[x]);
@@ -195,6 +200,7 @@ Signal averaged(const Surfaces& s, const Signal& signal, int step) {
         }
       });
       for (size_t x = 0; x < width; ++x) {
+        if (!(weights[x] > 0)) continue;  // values near the end of float's range
         const float inverse = 1 / weights[x];
         for (size_t k = 0; k < 3; ++k) result.rgb[k][row + x] = rows[2 + k][x] * inverse;
         result.variance[row + x] = variances[x] * (inverse * inverse);
@@ -209,8 +215,8 @@ bool is_zero(const Plane& plane) {
 }
 
 void smooth(const Surfaces& s, Signal& signal) {
-  signal.variance = is_zero(signal.variance) ? variance_around(s, brightness_of(signal))
-                                             : mean_of_like(s, signal.variance);
+  signal.variance = signal.variance.empty() ? variance_around(s, brightness_of(signal))
+                                            : mean_of_like(s, signal.variance);
   for (int round = 0; round < rounds; ++round) signal = averaged(s, signal, 1 << round);
 }
 
@@ -247,7 +253,7 @@ Surfaces surfaces_of(const Image& image) {
         // The lesser of both sides: beyond an outline is another surface.
         const float across = std::min(step_to(x, y, -1, 0), step_to(x, y, 1, 0));
         const float down = std::min(step_to(x, y, 0, -1), step_to(x, y, 0, 1));
-        float step = 1e-3f * depth(x, y) + 1e-12f;  // rounding, and curved surfaces
+        float step = 1e-3f * std::fabs(depth(x, y)) + 1e-12f;  // rounding, and curved surfaces
         for (const float side : {across, down})
           if (std::isfinite(side)) step = std::max(step, side);
         s.inverse_step[size_t(y) * size_t(s.width) + size_t(x)] = 1 / (plane_tolerance * step);
@@ -259,8 +265,8 @@ Surfaces surfaces_of(const Image& image) {
 /// The sum of some layers, with the noise that the image knows.
 Signal signal_of(const Image& image, std::initializer_list<const char*> layers, const char* noise) {
   Signal signal;
-  signal.variance = plane_of(image, noise);
-  for (float& value : signal.variance) value *= value;
+  if (image.find_channel(noise) >= 0) signal.variance = plane_of(image, noise);
+  for (float& value : signal.variance) value = sqr(std::min(std::fabs(value), greatest_noise));
   for (size_t k = 0; k < 3; ++k) {
     signal.rgb[k].resize(image.pixel_count());
     for (const char* layer : layers) {
@@ -275,7 +281,7 @@ Signal signal_of(const Image& image, std::initializer_list<const char*> layers, 
 /// hundredth, as far as it is known.
 bool is_noisy(const Signal& signal, const Image& image) {
   if (is_zero(signal.rgb[0]) && is_zero(signal.rgb[1]) && is_zero(signal.rgb[2])) return false;
-  if (is_zero(signal.variance)) return true;
+  if (signal.variance.empty()) return true;
   const RgbView picture = rgb_view(image);
   double sum = 0;
   for (size_t i = 0; i < signal.variance.size(); ++i) {
@@ -296,10 +302,11 @@ void add(const Signal& signal, float factor, Image& image) {
 /// Divides light by the albedo, or multiplies it.
 void change_by_albedo(const Surfaces& s, bool divide, Signal& signal) {
   const auto albedo = [&](size_t k, size_t i) { return std::max(least_albedo, s.albedo[k][i]); };
-  for_pixels(signal.variance.size(), [&](size_t i) {
+  for_pixels(s.lightness.size(), [&](size_t i) {
     for (size_t k = 0; k < 3; ++k)
       signal.rgb[k][i] = divide ? signal.rgb[k][i] / albedo(k, i) : signal.rgb[k][i] * albedo(k, i);
-    if (divide) signal.variance[i] /= sqr(photopic({albedo(0, i), albedo(1, i), albedo(2, i)}));
+    if (divide && !signal.variance.empty())
+      signal.variance[i] /= sqr(photopic({albedo(0, i), albedo(1, i), albedo(2, i)}));
   });
 }
 
@@ -308,22 +315,30 @@ void change_by_albedo(const Surfaces& s, bool divide, Signal& signal) {
 bool can_denoise(const Image& image) {
   const auto has = [&](const char* name) { return image.find_channel(name) >= 0; };
   return std::ranges::all_of(std::array{"R", "G", "B", "albedo.R", "N.X", "depth.Z"}, has) &&
-         std::ranges::any_of(std::array{"direct.R", "caustic.R", "indirect.R", "specular.R"}, has);
+         std::ranges::any_of(std::array{"direct.R", "caustic.R", "indirect.R", "specular.R"},
+                             has) &&
+         !is_zero(plane_of(image, "depth.Z"));
 }
 
 Image denoise(const Image& image) {
   if (!can_denoise(image))
     throw Error(ErrorKind::input, "the image lacks the layers that tell noise from detail",
-                "denoise an EXR that kaustik rendered: light by components, albedo, N and depth");
+                "denoise an EXR that kaustik rendered from a camera (not by lighttracer): light by "
+                "components, albedo, N and depth");
+  if (image.find_metadata("denoised"))
+    throw Error(ErrorKind::input, "the image has been denoised before",
+                "denoise the one that was rendered");
+  const MetadataValue* quantity = image.find_metadata("quantity");
+  const bool has_albedo = !quantity || *quantity != MetadataValue("irradiance");
   const Surfaces surfaces = surfaces_of(image);
   Image result = image;
   result.set_metadata("denoised", "true");
   Signal scattered = signal_of(image, {"direct", "caustic", "indirect"}, "noise.scattered");
   if (is_noisy(scattered, image)) {
     add(scattered, -1, result);
-    change_by_albedo(surfaces, true, scattered);
+    if (has_albedo) change_by_albedo(surfaces, true, scattered);
     smooth(surfaces, scattered);
-    change_by_albedo(surfaces, false, scattered);
+    if (has_albedo) change_by_albedo(surfaces, false, scattered);
     add(scattered, 1, result);
   }
   Signal mirrored = signal_of(image, {"specular"}, "noise.mirrored");

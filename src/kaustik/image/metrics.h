@@ -30,7 +30,8 @@ ImageComparison compare_images(const Image& image, const Image& reference,
 
 /// What a reference that was rendered adds to relative_mse_trimmed by its own noise, on average:
 /// trimmed mean of ε²/(r² + 0.01), where ε is the standard error in the layer "error" of rendered
-/// EXRs. Throws Error(input) if `reference` has no such layer.
+/// EXRs. Within some hundredths: it trims by what is expected, not by what is. Throws Error(input)
+/// if `reference` has no such layer.
 double own_relative_mse(const Image& reference);
 
 /// A picture (display-linear "R", "G", "B" in [0, 1]) of (x − r)/(|r| + 0.1), taken of the photopic

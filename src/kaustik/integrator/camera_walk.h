@@ -109,8 +109,8 @@ class CameraWalk {
   Receiver previous_;   ///< where the last event was
   float distance_ = 0;
   bool only_delta_ = true;  ///< every surface so far has delta lobes alone
-  uint32_t segments_ = 0;  ///< traced so far: those across null boundaries count, each has a block
-                           ///< of random numbers
+  uint32_t segments_ = 0;   ///< traced so far: those across null boundaries count, each has a block
+                            ///< of random numbers
   uint64_t rays_ = 0;
 };
 

@@ -25,7 +25,7 @@ struct Pass {
 /// What is known of the surface that a pixel shows, for denoisers and compositing.
 struct FirstHit {
   // Of the first surface that is more than a mirror or clear glass; of the last of those if none is
-  // behind them.
+  // behind them. Where rays branch, of the branch that was followed last.
   Spectrum albedo;
   Vec3f normal{0, 0, 0};  ///< unit (of a pixel: the mean), facing the viewer
   float depth = 0;        ///< distance of the first surface of all, m; 0: nothing hit

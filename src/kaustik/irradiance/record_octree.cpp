@@ -1,6 +1,5 @@
 #include "kaustik/irradiance/record_octree.h"
 
-#include <array>
 #include <bit>
 #include <span>
 #include <utility>

@@ -31,7 +31,7 @@ class RecordOctree {
   /// Weighted mean of the records' extrapolations, in which negative lanes become zero (further
   /// than its gradients hold a record knows no better). False where there are none. All reaches
   /// are multiplied by `relax` ≥ 1; of records that serve only so those take part that the point's
-  /// leaf lists anyway: a search for all of them costs a thousand times as much, and mostly in vain.
+  /// leaf lists anyway: to search the whole tree for the others costs more than it finds.
   bool interpolate(const Vec3f& position, const Vec3f& normal, float relax,
                    Spectrum& irradiance) const;
   size_t size_in_bytes() const;

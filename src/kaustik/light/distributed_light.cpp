@@ -53,7 +53,9 @@ class DistributedLight final : public Light {
   float expected_irradiance(const LightQuery& query) const override {
     return radiance_.is_zero() ? 0.0f : ball_.irradiance(query.reference, query.normal);
   }
-  const EmissionBall* emission_ball() const override { return radiance_.is_zero() ? nullptr : &ball_; }
+  const EmissionBall* emission_ball() const override {
+    return radiance_.is_zero() ? nullptr : &ball_;
+  }
   float classical_attenuation(const Vec3f& reference) const override {
     return settings_.attenuation.factor(length(settings_.position - reference));
   }

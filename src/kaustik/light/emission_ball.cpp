@@ -1,5 +1,7 @@
 #include "kaustik/light/emission_ball.h"
 
+#include "kaustik/base/vectorize.h"
+
 namespace kaustik {
 namespace {
 
@@ -95,7 +97,7 @@ void EmissionBalls::irradiance(const Vec3f& reference, const Vec3f& normal, floa
   const float *sin_spread = sin_spread_.data(), *cos_falloff = cos_falloff_.data();
   const float* intensity = intensity_.data();
   const size_t count = size();
-#pragma GCC ivdep
+  KAUSTIK_INDEPENDENT_TURNS
   for (size_t i = 0; i < count; ++i)
     result[i] =
         irradiance_of_ball(reference, normal, cx[i], cy[i], cz[i], radius[i], ax[i], ay[i], az[i],

@@ -123,7 +123,6 @@ double Film::variance_of_mean(size_t pixel, int lane) const {
 
 std::array<double, noise_kinds> Film::noise(size_t pixel) const {
   std::array<double, noise_kinds> result{};
-  if (sample_count_ < 2) return result;
   const double passes = pass_count_, samples = double(sample_count_);
   std::array<Spectrum, component_count> means;
   for (int c = 0; c < component_count; ++c)
@@ -144,8 +143,10 @@ Image Film::image() const {
       if (components_.has(Component(c)))
         names.push_back(fmt::format("{}.{}", component_names[size_t(c)], lane));
   for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "depth.Z",
-                           "error.R", "error.G", "error.B", "noise.scattered", "noise.mirrored"})
+                           "error.R", "error.G", "error.B"})
     names.emplace_back(name);
+  const bool knows_noise = sample_count_ >= 2;
+  if (knows_noise) names.insert(names.end(), {"noise.scattered", "noise.mirrored"});
   Image image(size_.x, size_.y, names);
   if (pass_count_ == 0) return image;
   parallel_blocks(size_t(size_.y), 1, [&](size_t row, size_t, size_t) {
@@ -165,7 +166,8 @@ Image Film::image() const {
             float(double_from(first_hits_[pixel * first_hit_lanes + k]) / pass_count_);
       for (int lane = 0; lane < lanes_; ++lane)
         image.at(x, y, channel++) = float(std::sqrt(variance_of_mean(pixel, lane)));
-      for (const double deviation : noise(pixel)) image.at(x, y, channel++) = float(deviation);
+      if (knows_noise)
+        for (const double deviation : noise(pixel)) image.at(x, y, channel++) = float(deviation);
     }
   });
   return image;

@@ -39,7 +39,7 @@ class Film {
   /// The mean of the passes: "R" "G" "B", a layer per component, "albedo", "N", "depth", "error"
   /// (standard error of the mean per channel, over passes), and "noise.scattered" and
   /// "noise.mirrored" (of the photopic value, over all samples, as if they were independent: what
-  /// denoising goes by, known from a single pass). All zero without a pass.
+  /// denoising goes by; only from two samples per pixel on). All zero without a pass.
   Image image() const;
   /// Half the width of the 95 % confidence interval of the picture's mean luminance, relative to
   /// it: Student's t over the means of the replicates; infinite with fewer than two replicates.
