@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "kaustik/base/parallel.h"
 #include "kaustik/image/denoise.h"
 #include "kaustik/image/image_io.h"
 #include "kaustik/loader/mitsuba_xml.h"

@@ -132,7 +132,7 @@ TEST(Denoise, what_has_no_noise_stays) {
   // The noise of the left half lets nothing of the right one change, told apart by brightness.
   const auto scene = [](int x, int y) {
     Pixel p;
-    p.irradiance = x < size / 2 ? 100.0f : 1 + 0.5f * std::sin(float(x + y) * 0.3f);
+    p.irradiance = x < size / 2 ? 100.0f : 1 + 0.5f * std::sin(float(x) * 0.3f + float(y) * 0.77f);
     p.emitted = x > 80 ? 5.0f : 0.0f;
     return p;
   };
