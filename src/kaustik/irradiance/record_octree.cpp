@@ -8,9 +8,9 @@ namespace kaustik {
 namespace {
 
 constexpr int maximum_depth = 16;
-constexpr size_t wanted_leaf_size = 8;
+constexpr size_t wanted_leaf_size = 16;
 /// Splitting stops where it would copy records more than this many times.
-constexpr float maximum_copies = 6;
+constexpr float maximum_copies = 4;
 constexpr float height_factor_front = 3;
 constexpr float height_factor_behind = 10;
 
