@@ -6,6 +6,21 @@
 #include "kaustik/image/image_io.h"
 
 namespace kaustik::app {
+namespace {
+
+/// What is wrong with an image is told with its name.
+Image denoised(const std::string& path) {
+  const Image image = read_image(path);
+  try {
+    return denoise(image);
+  } catch (const Error& error) {
+    const Problem& problem = error.problems().front();
+    throw Error(error.kind(), fmt::format("cannot denoise '{}': {}", path, problem.message),
+                problem.remedy);
+  }
+}
+
+}  // namespace
 
 void add_denoise(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
@@ -29,7 +44,7 @@ void add_denoise(CLI::App& program) {
     check_writable(o->output);
     WriteOptions write;
     write.exr_half = !o->full_float;
-    write_image(denoise(read_image(o->input)), o->output, write);
+    write_image(denoised(o->input), o->output, write);
   });
 }
 

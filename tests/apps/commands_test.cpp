@@ -102,6 +102,13 @@ TEST_F(Commands, WhatCannotBeDenoised) {
   const RunResult flat = run({"denoise", "a.pfm", "-o", "b.exr"});
   EXPECT_EQ(flat.exit_code, 2) << flat.err;
   EXPECT_TRUE(contains(flat.err, "lacks the layers") && contains(flat.err, "remedy: ")) << flat.err;
+  EXPECT_TRUE(contains(flat.err, "a.pfm")) << flat.err;
+  run_well({"render", "scene.xml", "-q", "--spp", "2", "--denoise", "-o", "smooth.exr"});
+  const RunResult twice = run({"denoise", "smooth.exr", "-o", "b.exr"});
+  EXPECT_EQ(twice.exit_code, 2) << twice.err;
+  EXPECT_TRUE(contains(twice.err, "smooth.exr") && contains(twice.err, "denoised before"))
+      << twice.err;
+  EXPECT_FALSE(std::filesystem::exists(path("b.exr")));
   // A picture is not lost for it.
   const RunResult lamps = run_well({"render", "scene.xml", "-q", "--spp", "2", "--denoise", "-o",
                                     "c.exr", "--set", "integrator.components=emission"});
