@@ -103,6 +103,7 @@ BEGIN {
   own("spdlog", "^spdlog/", "apps", not_in_word "spdlog::")
   own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")
   own("nanoflann", "^nanoflann", "", not_in_word "nanoflann::")
+  own("nlohmann-json", "^nlohmann/", "", not_in_word "nlohmann::")
   system_headers = "^(sys/[a-z]+|unistd|fcntl|signal|sched|stdlib|malloc|immintrin)\\.h$"
 }
 

@@ -77,6 +77,19 @@ TEST(ExactSum, CancelsCompletely) {
   EXPECT_TRUE(sum == 0);
 }
 
+TEST(ExactSum, StaysAtTheEndOfItsRange) {
+  Fixed up = 0, down = 0;
+  for (int i = 0; i < 3; ++i) {
+    add_to(up, fixed_from(6e18));
+    add_to(down, fixed_from(-6e18));
+  }
+  EXPECT_EQ(double_from(up), fixed_maximum);
+  EXPECT_EQ(double_from(down), -fixed_maximum);
+  Fixed small = fixed_from(1.5);
+  add_to(small, fixed_from(-4));
+  EXPECT_EQ(double_from(small), -2.5);
+}
+
 TEST(AtomicFixed, AddsLikeFixed) {
   AtomicFixed atomic;
   for (const double value : numbers(10000)) atomic.add(fixed_from(value));

@@ -16,6 +16,9 @@ std::string few_neighbors(int photons) {
          set("global_neighbors", 12) + set("caustic_neighbors", 12);
 }
 
+/// Of what merges here there is little else.
+std::string many_light_paths() { return set("light_paths", 1.0); }
+
 const std::vector<std::string> reflected = {"direct", "caustic", "indirect"};
 
 // ---------------------------------------------------------------- furnace
@@ -43,6 +46,9 @@ class Furnace : public testing::Test {
 
 TEST_F(Furnace, Path) { check("path", render(scene_, "path", "", {64})); }
 TEST_F(Furnace, LightTracer) { check("lighttracer", render(scene_, "lighttracer", "", {350})); }
+TEST_F(Furnace, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {64})); }
+TEST_F(Furnace, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {120})); }
+TEST_F(Furnace, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {100})); }
 TEST_F(Furnace, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(20'000), {16}));
 }
@@ -71,6 +77,9 @@ TEST_F(DiffuseSphere, Path) { check("path", render(scene_, "path", "", {100})); 
 TEST_F(DiffuseSphere, LightTracer) {
   check("lighttracer", render(scene_, "lighttracer", "", {350}));
 }
+TEST_F(DiffuseSphere, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {64})); }
+TEST_F(DiffuseSphere, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {200})); }
+TEST_F(DiffuseSphere, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {200})); }
 TEST_F(DiffuseSphere, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(20'000), {16}));
 }
@@ -114,6 +123,9 @@ TEST_F(ParallelPlates, Path) { check("path", render(scene_, "path", "", {64})); 
 TEST_F(ParallelPlates, LightTracer) {
   check("lighttracer", render(scene_, "lighttracer", "", {350}));
 }
+TEST_F(ParallelPlates, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {64})); }
+TEST_F(ParallelPlates, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {64})); }
+TEST_F(ParallelPlates, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {64})); }
 /// Few neighbours of many photons, because their disks leave the plates at the mirrors.
 TEST_F(ParallelPlates, PhotonMap) {
   check("photonmap", render(scene_, "photonmap",
@@ -162,6 +174,9 @@ TEST_F(DiskOverPlane, Path) { check("path", render(scene_, "path", "", {64})); }
 TEST_F(DiskOverPlane, LightTracer) {
   check("lighttracer", render(scene_, "lighttracer", "", {700}));
 }
+TEST_F(DiskOverPlane, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {64})); }
+TEST_F(DiskOverPlane, Vcm) { check("vcm", render(scene_, "vcm", "", {64})); }
+TEST_F(DiskOverPlane, Ppm) { check("ppm", render(scene_, "ppm", "", {64})); }
 TEST_F(DiskOverPlane, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(2000), {64}));
 }

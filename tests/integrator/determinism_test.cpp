@@ -33,6 +33,8 @@ std::vector<Method> methods(int photons = 5000) {
       set("global_photons", photons) + set("caustic_photons", photons) + set("cache_samples", 32);
   return {{"path", ""},
           {"lighttracer", ""},
+          {"vcm", ""},
+          {"ppm", ""},
           {"photonmap", counts},
           {"photonmap", counts + set("irradiance_cache", false) + set("reradiate", true)}};
 }

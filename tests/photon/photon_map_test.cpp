@@ -238,6 +238,36 @@ TEST(PhotonSides, VisitNearestRejectsThemToo) {
   EXPECT_EQ(visited, 10);
 }
 
+/// All within a radius are those that the search for the nearest finds there.
+TEST(PhotonSides, WithinFindsWhatNearestFinds) {
+  std::mt19937_64 random(5);
+  std::normal_distribution<float> number;
+  std::vector<Vec3f> positions;
+  std::vector<Photon> photons;
+  const auto direction = [&] {
+    return normalize(Vec3f(number(random), number(random), number(random)));
+  };
+  for (int i = 0; i < 3000; ++i) {
+    positions.push_back({number(random), number(random), number(random)});
+    photons.push_back(photon_of(1, direction()));
+    photons.back().on_front = i % 3 == 0;
+  }
+  const SidedTree<Photon> tree(positions, photons);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3f at(number(random), number(random), number(random)), normal = direction();
+    const bool both_sides = i % 2 == 0;
+    SidedTree<Photon>::Neighbors nearest;
+    tree.nearest(at, normal, both_sides, 3000, 0.8f, nearest);
+    std::vector<uint32_t> expected, found;
+    for (size_t k = 0; k < nearest.size(); ++k) expected.push_back(nearest.index(k));
+    tree.within(at, normal, both_sides, 0.8f * 0.8f,
+                [&](uint32_t index, float) { found.push_back(index); });
+    std::sort(expected.begin(), expected.end());
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+  }
+}
+
 // ---------------------------------------------------------------- radiance
 
 /// The point on a floor of the given material, seen obliquely.

@@ -29,6 +29,13 @@ inline double double_from(Fixed value) {
   return double(int64_t(value >> 64)) + double(uint64_t(value)) * 0x1p-64;
 }
 
+/// Adds to a sum, which stays at the end of its range rather than leaving it: as long as all that
+/// is added has one sign, the order still makes no difference there.
+inline void add_to(Fixed& sum, Fixed value) {
+  if (__builtin_add_overflow(sum, value, &sum))
+    sum = value < 0 ? -fixed_from(fixed_maximum) : fixed_from(fixed_maximum);
+}
+
 /// A Fixed that many threads add to. The two halves are added apart with a carry: the total is
 /// exact once all additions have been made.
 class AtomicFixed {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <limits>
 #include <new>
 #include <optional>
 #include <system_error>
@@ -176,6 +177,10 @@ std::vector<uint8_t> read_bytes(const std::string& path, int fd, size_t size) {
 }  // namespace
 
 std::vector<uint8_t> read_file(const std::string& path) {
+  return read_file_start(path, std::numeric_limits<size_t>::max());
+}
+
+std::vector<uint8_t> read_file_start(const std::string& path, size_t most) {
   // Without O_NONBLOCK a named pipe would be waited for.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status;
@@ -186,7 +191,7 @@ std::vector<uint8_t> read_file(const std::string& path) {
     throw_input(fmt::format("cannot read '{}': it is not a regular file", path),
                 "give the name of a file");
   try {
-    return read_bytes(path, file.get(), size_t(status.st_size));
+    return read_bytes(path, file.get(), std::min(most, size_t(status.st_size)));
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::system, fmt::format("cannot read '{}': not enough memory", path),
                 "the file is larger than this machine can hold");

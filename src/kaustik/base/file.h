@@ -8,6 +8,8 @@ namespace kaustik {
 
 /// Contents of a file as a whole. Throws Error(input) if it is missing, a folder or not readable.
 std::vector<uint8_t> read_file(const std::string& path);
+/// The same of its first bytes, at most so many.
+std::vector<uint8_t> read_file_start(const std::string& path, size_t most);
 
 /// Puts `bytes` at `path` as a whole or not at all: written to a temporary file in the same folder,
 /// flushed to the disk, renamed over the target. Whatever goes wrong, a file that was there before

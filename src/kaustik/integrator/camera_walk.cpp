@@ -3,12 +3,14 @@
 namespace kaustik {
 namespace {
 
-/// Light sampled at `vertex` and reflected by `lobes`, weighted against sampling those lobes.
+/// Light sampled at `vertex` and reflected by `lobes`, weighted against sampling those lobes,
+/// if there are no other weights.
 Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes lobes,
-                   float lobe_probability) {
+                   float lobe_probability, const LightWeights* weights) {
   if (!any(vertex.lobes() & lobes)) return {};
   const Spectrum f = vertex.eval_cosine(light.wi, lobes);
   if (f.is_zero()) return {};
+  if (weights) return f * light.radiance * weights->sampled(vertex, light);
   if (light.pdf_solid_angle == 0 || lobe_probability == 0) return f * light.radiance;
   return f * light.radiance *
          mis_weight(light.pdf_solid_angle, lobe_probability * vertex.pdf(light.wi, lobes));
@@ -54,6 +56,7 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
       sink_(other.sink_),
       state_(other.state_),
       class_(other.class_),
+      weights_(other.weights_),
       light_choice_(other.light_choice_),
       ray_(other.ray_),
       vertex_(other.vertex_),
@@ -144,16 +147,18 @@ void CameraWalk::add_emission() {
   const Light& light = *scene_.lights()[size_t(vertex_.light())];
   const Spectrum emitted = light.emitted(vertex_.point(), vertex_.wo());
   if (emitted.is_zero()) return;
-  sink_.add(class_.component(),
-            state_.throughput * emitted * emission_weight(vertex_.light(), vertex_.point()));
+  const float weight = weights_ ? weights_->met(vertex_.light(), vertex_)
+                                : emission_weight(vertex_.light(), vertex_.point());
+  sink_.add(class_.component(), state_.throughput * emitted * weight);
 }
 
 void CameraWalk::add_background() {
   for (const int index : scene_.environment_lights()) {
     const Light& light = *scene_.lights()[size_t(index)];
     if (light.is_delta() || (light.is_only_seen() && state_.pdf_forward > 0)) continue;
-    sink_.add(class_.component(), state_.throughput * light.background(ray_.direction) *
-                                      emission_weight(index, ray_.direction));
+    const float weight =
+        weights_ ? weights_->met(index, ray_) : emission_weight(index, ray_.direction);
+    sink_.add(class_.component(), state_.throughput * light.background(ray_.direction) * weight);
   }
 }
 
@@ -166,9 +171,9 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
   const auto reflect = [&](const DirectLight& light, ShadowAnswer& answer) {
     ReflectedLight result;
     if (wanted(Lobes::diffuse))
-      result.by_diffuse = reflected(vertex_, light, Lobes::diffuse, diffuse_probability);
+      result.by_diffuse = reflected(vertex_, light, Lobes::diffuse, diffuse_probability, weights_);
     if (wanted(Lobes::glossy))
-      result.by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability);
+      result.by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability, weights_);
     if (result.by_diffuse.is_zero() && result.by_glossy.is_zero()) return result;
     LightSight seen;
     if (!rules.shadows)
@@ -184,7 +189,9 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
       factor *= scene_.lights()[size_t(light.light)]->classical_attenuation(vertex_.position());
     return ReflectedLight{result.by_diffuse * factor, result.by_glossy * factor};
   };
-  const auto light = sample_direct_lights<ReflectedLight>(scene_, Receiver(vertex_, state_.depth),
+  // Light paths don't know how many events lie before the vertex, only that there are some.
+  const int level = weights_ ? std::min(state_.depth, 1) : state_.depth;
+  const auto light = sample_direct_lights<ReflectedLight>(scene_, Receiver(vertex_, level),
                                                           sampling, sampler_, reflect);
   add_reflected(Lobes::diffuse, light.by_diffuse);
   add_reflected(Lobes::glossy, light.by_glossy);

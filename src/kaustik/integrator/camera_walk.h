@@ -17,6 +17,18 @@ struct LightRules {
   ShadowSight* sight = nullptr;        ///< where it knows whether light arrives, no ray is traced
 };
 
+/// How much light counts where it is found in one of several ways; see PathWeights.
+class LightWeights {
+ public:
+  virtual ~LightWeights() = default;
+  /// Of light sampled at `vertex`.
+  virtual float sampled(const SurfaceVertex& vertex, const DirectLight& light) const = 0;
+  /// Of light that the path meets, on the surface of `vertex` …
+  virtual float met(int light, const SurfaceVertex& vertex) const = 0;
+  /// … or beyond the scene.
+  virtual float met(int light, const Ray& ray) const = 0;
+};
+
 /// A path that is followed from the camera, vertex by vertex. Knows the component of everything
 /// that it finds and weighs light found by scattering against light found by sampling lights; the
 /// integrators differ in what they do at a vertex and in where they go on.
@@ -64,6 +76,29 @@ class CameraWalk {
   }
   bool wants_photon_light(Component component) const { return sink_.wants(seen(component)); }
 
+  /// Weighs light by `weights`, which must outlive the walk, in place of path tracing's.
+  void weigh_by(const LightWeights& weights) { weights_ = &weights; }
+  /// Density per solid angle with which the last event was sampled; 0: delta, or none yet.
+  float last_pdf() const { return state_.pdf_forward; }
+  /// Along which the next advance() goes.
+  const Ray& ray() const { return ray_; }
+  /// The component of light that arrives at the vertex, after specular events only or others, and
+  /// leaves it by `event`.
+  Component component_of(Lobes event, bool after_specular_events) const {
+    CameraPathClass path = class_;
+    path.add_event(event);
+    path.add_event(after_specular_events ? Lobes::glossy : Lobes::diffuse);
+    return path.component();
+  }
+  /// Adds radiance that the vertex sends back.
+  void add(Component component, const Spectrum& radiance) {
+    sink_.add(component, state_.throughput * radiance);
+  }
+  /// An estimate of the bias of what add() was given.
+  void add_bias(const Spectrum& radiance) { sink_.add_bias(state_.throughput * radiance); }
+  bool wants(Component component) const { return sink_.wants(component); }
+  uint64_t& rays() { return rays_; }
+
   /// Whether anything that is wanted may be found further on.
   bool may_find_more() const { return class_.may_find(sink_.wanted()); }
 
@@ -77,6 +112,13 @@ class CameraWalk {
   bool scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u);
   /// Russian roulette on the throughput; false if the path ends.
   bool survive(float u);
+  /// The same with a chance that does not come from the throughput.
+  bool survive_with(float chance, float u) {
+    if (!(u < chance)) return false;
+    state_.throughput *= 1 / chance;
+    state_.roulette_scale *= chance;
+    return true;
+  }
 
  private:
   Component seen(Component component) const {
@@ -102,6 +144,7 @@ class CameraWalk {
   SampleSink& sink_;
   PathState state_;
   CameraPathClass class_;
+  const LightWeights* weights_ = nullptr;        ///< null: those of path tracing
   LightChoice light_choice_ = LightChoice::one;  ///< of the last add_direct_light()
   Ray ray_;
   SurfaceVertex vertex_;

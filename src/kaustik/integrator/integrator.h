@@ -38,10 +38,14 @@ class SampleSink {
   void add(Component component, const Spectrum& radiance) {
     if (wanted_.has(component)) radiance_[size_t(component)] += radiance;
   }
+  /// An estimate of the bias (expectation minus truth) of what the sample has added, of wanted
+  /// components; may be as noisy as that and of either sign. Only if estimates_bias().
+  void add_bias(const Spectrum& bias) { bias_ += bias; }
   void set_first_hit(const FirstHit& hit) { first_hit_ = hit; }
   void count_rays(uint64_t rays) { rays_ += rays; }
 
   const Spectrum& radiance(Component component) const { return radiance_[size_t(component)]; }
+  const Spectrum& bias() const { return bias_; }
   const FirstHit& first_hit() const { return first_hit_; }
   uint64_t rays() const { return rays_; }
   bool wants(Component component) const { return wanted_.has(component); }
@@ -50,6 +54,7 @@ class SampleSink {
  private:
   ComponentSet wanted_;
   std::array<Spectrum, component_count> radiance_{};
+  Spectrum bias_;
   FirstHit first_hit_;
   uint64_t rays_ = 0;
 };
@@ -88,6 +93,8 @@ class Integrator {
   virtual uint32_t default_samples_per_pass() const { return 4; }
   /// The components that its results hold.
   virtual ComponentSet components() const { return ComponentSet::all(); }
+  /// Whether sample() estimates its bias: SampleSink::add_bias().
+  virtual bool estimates_bias() const { return false; }
 };
 
 struct IntegratorType {
@@ -96,7 +103,7 @@ struct IntegratorType {
   /// `scene` must outlive the integrator.
   std::unique_ptr<Integrator> (*create)(const Arguments&, const Scene& scene);
 };
-/// "path", "lighttracer", "photonmap", "localphong", "raytracing".
+/// "path", "lighttracer", "photonmap", "vcm", "bdpt", "ppm", "localphong", "raytracing".
 const std::vector<IntegratorType>& integrator_types();
 
 /// The row `components`, which every integrator has, and its reading; throws Error for an unknown

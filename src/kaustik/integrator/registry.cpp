@@ -6,6 +6,7 @@
 #include "kaustik/integrator/path.h"
 #include "kaustik/integrator/photon_map_integrator.h"
 #include "kaustik/integrator/ray_tracing.h"
+#include "kaustik/integrator/vcm.h"
 
 namespace kaustik {
 namespace {
@@ -29,6 +30,9 @@ const std::vector<IntegratorType>& integrator_types() {
       row<PathIntegrator>(PathIntegrator::info()),
       row<LightTracer>(LightTracer::info()),
       row<PhotonMapIntegrator>(PhotonMapSettings::info()),
+      row<VcmIntegrator>(vcm_info()),
+      row<VcmIntegrator>(bdpt_info()),
+      row<VcmIntegrator>(ppm_info()),
       row<LocalPhong>(LocalPhong::info()),
       row<RayTracing>(RayTracing::info()),
   };

@@ -80,6 +80,14 @@ class DistributedLight final : public Light {
     return result;
   }
 
+  float pdf_toward(const LightQuery& query, const SurfacePoint& point) const override {
+    SurfacePoint on_sphere = point;
+    on_sphere.ng = normal_at(point);
+    if (!(dot(on_sphere.ng, query.reference - point.position) > 0)) return 0;
+    return sphere_->pdf_toward(query.reference, on_sphere);
+  }
+  Vec3f emitting_normal(const SurfacePoint& point) const override { return normal_at(point); }
+
   EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction) const override {
     EmissionSample result = sample_origin(u_position);
     const Frame normal(normal_at(result.point));

@@ -106,6 +106,9 @@ class Light {
   /// … or for a direction from the reference (environment lights).
   virtual float pdf_toward_direction(const LightQuery& query, const Vec3f& direction) const;
 
+  /// Of the surface that the density of a point on the light is over. Lights with a place.
+  virtual Vec3f emitting_normal(const SurfacePoint& point) const { return point.ng; }
+
   /// Radiance from a point of the light's surface along `direction` (away from it). Area lights.
   virtual Spectrum emitted(const SurfacePoint& point, const Vec3f& direction) const;
   /// Radiance of rays that leave the scene along `direction`. Environment lights.

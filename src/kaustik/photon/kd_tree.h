@@ -110,6 +110,9 @@ class KdTree {
   const Data& data(uint32_t index) const { return data_[index]; }
   /// May be changed as long as no search runs.
   Data& data(uint32_t index) { return data_[index]; }
+  /// Where vector code looks at many items at once. All of them are there after assign() or
+  /// optimise().
+  const KdBuckets& buckets() const requires has_buckets { return buckets_; }
   /// All data by index, removed items included (there are none after optimise()).
   std::span<const Data> data() const { return data_; }
   bool removed(uint32_t index) const;

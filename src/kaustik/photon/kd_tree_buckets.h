@@ -59,6 +59,12 @@ class KdBuckets {
     void* context;
   };
 
+  /// Gets numbers of buckets, a block at a time.
+  struct BucketSink {
+    void (*take)(void* context, const uint32_t* numbers, size_t count);
+    void* context;
+  };
+
   /// Builds the tree in parallel; the result does not depend on the number of threads. All
   /// coordinates are below max_coordinate. Returns the order of the points: point i of the tree is
   /// positions[order[i]].
@@ -81,6 +87,12 @@ class KdBuckets {
   void nearest(const Vec3f& query, const Filter& filter, KdNeighbors<float>& neighbors) const;
   /// All points with distance_sq < radius_sq.
   void within(const Vec3f& query, float radius_sq, const Sink& sink) const;
+  /// The buckets that may have points with distance_sq < radius_sq: all points that do are in them,
+  /// bucket i holding the points from i · bucket_size on.
+  void overlapping(const Vec3f& query, float radius_sq, const BucketSink& sink) const;
+  /// Places of a bucket that hold no point are at infinity.
+  const Bucket& bucket(uint32_t number) const { return buckets_[number]; }
+  size_t bucket_count() const { return buckets_.size(); }
   /// All points in the closed box; distances are 0.
   void inside(const Vec3f& lower, const Vec3f& upper, const Sink& sink) const;
 

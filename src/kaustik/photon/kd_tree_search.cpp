@@ -330,46 +330,70 @@ class ClosedBox {
   Vec3f lower_, upper_;
 };
 
-/// Hands all points of a region to the sink.
-template <typename Region>
-HWY_INLINE void collect(const KdBuckets::View& view, const Region& region,
-                        const KdBuckets::Sink& sink) {
+/// Calls visit(number) for all buckets whose box overlaps the region.
+template <typename Region, typename Visit>
+HWY_INLINE void visit_buckets(const KdBuckets::View& view, const Region& region,
+                              const Visit& visit) {
   const BoxTag box;
-  const PointTag point;
   const hn::RebindToUnsigned<BoxTag> box_ids;
-  const hn::RebindToUnsigned<PointTag> point_ids;
-  float unused[KdBuckets::fan_out];
-  constexpr size_t block = 256;
-  float distances_sq[block + kd_candidate_padding];
-  uint32_t indices[block + kd_candidate_padding];
-  uint32_t stack[stack_size];
-  size_t count = 0, top = 0;
+  float unused[KdBuckets::fan_out + kd_candidate_padding];
+  uint32_t stack[stack_size + kd_candidate_padding];
+  size_t top = 0;
   stack[top++] = uint32_t(view.level_count) << level_shift;
   while (top > 0) {
     const uint32_t entry = stack[--top];
     const uint32_t number = entry & ((1u << level_shift) - 1);
     const uint32_t level = entry >> level_shift;
-    if (level > 0) {
-      const uint32_t first_child = number * KdBuckets::fan_out | (level - 1) << level_shift;
-      const KdBuckets::Node& node = view.levels[level - 1][number];
-      for (size_t i = 0; i < KdBuckets::fan_out; i += hn::Lanes(box)) {
-        const auto overlaps = region.overlaps(box, node, i);
-        const auto ids = hn::Iota(box_ids, first_child + uint32_t(i));
-        top += store_packed(box, overlaps, hn::Zero(box), ids, unused, stack + top);
-      }
+    if (level == 0) {
+      visit(number);
       continue;
     }
+    const uint32_t first_child = number * KdBuckets::fan_out | (level - 1) << level_shift;
+    const KdBuckets::Node& node = view.levels[level - 1][number];
+    for (size_t i = 0; i < KdBuckets::fan_out; i += hn::Lanes(box)) {
+      const auto overlaps = region.overlaps(box, node, i);
+      const auto ids = hn::Iota(box_ids, first_child + uint32_t(i));
+      top += store_packed(box, overlaps, hn::Zero(box), ids, unused, stack + top);
+    }
+  }
+}
+
+/// Hands all points of a region to the sink.
+template <typename Region>
+HWY_INLINE void collect(const KdBuckets::View& view, const Region& region,
+                        const KdBuckets::Sink& sink) {
+  const PointTag point;
+  const hn::RebindToUnsigned<PointTag> point_ids;
+  constexpr size_t block = 256;
+  float distances_sq[block + kd_candidate_padding];
+  uint32_t indices[block + kd_candidate_padding];
+  size_t count = 0;
+  visit_buckets(view, region, [&](uint32_t number) HWY_ATTR {
     for (uint32_t i = 0; i < KdBuckets::bucket_size; i += uint32_t(hn::Lanes(point))) {
       auto distance = hn::Undefined(point);
       const auto contained = region.contains(point, view.buckets[number], i, distance);
       const auto ids = hn::Iota(point_ids, number * KdBuckets::bucket_size + i);
       count += store_packed(point, contained, distance, ids, distances_sq + count, indices + count);
     }
-    if (count < block) continue;
+    if (count < block) return;
     sink.take(sink.context, indices, distances_sq, count);
     count = 0;
-  }
+  });
   if (count > 0) sink.take(sink.context, indices, distances_sq, count);
+}
+
+void Overlapping(const KdBuckets::View& view, const Vec3f& query, float radius_sq,
+                 const KdBuckets::BucketSink& sink) {
+  constexpr size_t block = 64;
+  uint32_t numbers[block];
+  size_t count = 0;
+  visit_buckets(view, Ball(query, radius_sq), [&](uint32_t number) HWY_ATTR {
+    numbers[count++] = number;
+    if (count < block) return;
+    sink.take(sink.context, numbers, count);
+    count = 0;
+  });
+  if (count > 0) sink.take(sink.context, numbers, count);
 }
 
 void Within(const KdBuckets::View& view, const Vec3f& query, float radius_sq,
@@ -392,6 +416,7 @@ namespace {
 HWY_EXPORT(SelectNearest);
 HWY_EXPORT(Nearest);
 HWY_EXPORT(Within);
+HWY_EXPORT(Overlapping);
 HWY_EXPORT(Inside);
 }  // namespace
 
@@ -426,6 +451,11 @@ void KdBuckets::nearest(const Vec3f& query, const Filter& filter,
 void KdBuckets::within(const Vec3f& query, float radius_sq, const Sink& sink) const {
   if (size_ == 0) return;
   HWY_DYNAMIC_DISPATCH(Within)(view(), query, radius_sq, sink);
+}
+
+void KdBuckets::overlapping(const Vec3f& query, float radius_sq, const BucketSink& sink) const {
+  if (size_ == 0) return;
+  HWY_DYNAMIC_DISPATCH(Overlapping)(view(), query, radius_sq, sink);
 }
 
 void KdBuckets::inside(const Vec3f& lower, const Vec3f& upper, const Sink& sink) const {

@@ -26,4 +26,7 @@ void write_photon_file(const std::string& path, const StoredPhotons& photons);
 /// damaged (a checksum covers every byte). Allocates no more than in proportion to the file's size.
 StoredPhotons read_photon_file(const std::string& path);
 
+/// Whether the file starts as photon maps do. Throws Error(input) if it cannot be read.
+bool is_photon_file(const std::string& path);
+
 }  // namespace kaustik

@@ -26,6 +26,14 @@ class PhotonSides {
   /// Bit i of the result: bit i of `mask` is set and photon `first` + i counts; `first` + i must
   /// stay within one run of sixteen.
   uint32_t accept(const Query& query, uint32_t first, uint32_t mask) const;
+  /// The same for a single photon.
+  bool accepts(const Query& query, uint32_t index) const {
+    const Block& block = blocks_[index / block_size];
+    const uint32_t lane = index % block_size;
+    const int dot = block.x[lane] * query.x + block.y[lane] * query.y + block.z[lane] * query.z;
+    if (!query.both_sides) return dot > 0;
+    return (block.front >> lane & 1) != 0 ? dot > 0 : dot < 0;
+  }
 
  private:
   static constexpr uint32_t block_size = 16;

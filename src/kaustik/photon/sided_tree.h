@@ -41,6 +41,16 @@ class SidedTree {
     tree_.nearest(position, size_t(count), sqr(maximum_radius), accept, neighbors);
   }
 
+  /// Calls visit(index, distance_sq) for all that nearest() would find within the radius.
+  template <typename Visit>
+  void within(const Vec3f& position, const Vec3f& normal, bool both_sides, float radius_sq,
+              const Visit& visit) const {
+    const PhotonSides::Query query = PhotonSides::query(normal, both_sides);
+    tree_.within(position, radius_sq, [&](uint32_t index, float distance_sq) {
+      if (sides_.accepts(query, index)) visit(index, distance_sq);
+    });
+  }
+
   /// Distance within which the `neighbors` nearest of an item on its side lie, itself among them,
   /// at the share `quantile` of the items, by some hundreds of probes. Where an item has fewer, the
   /// farthest of those counts; infinite if there are none, or if the distance comes out as zero.

@@ -33,6 +33,7 @@ class ComponentSet {
   constexpr void add(Component c) { bits_ |= 1u << unsigned(c); }
   constexpr bool has(Component c) const { return bits_ >> unsigned(c) & 1u; }
   constexpr bool empty() const { return bits_ == 0; }
+  friend constexpr bool operator==(ComponentSet, ComponentSet) = default;
 
  private:
   unsigned bits_ = 0;

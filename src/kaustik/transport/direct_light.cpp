@@ -29,6 +29,9 @@ bool sample_chosen_light(const Scene& scene, const Receiver& receiver,
   result.wi = sample.direction;
   result.radiance = sample.radiance * (1 / sample.pdf_solid_angle) * (1 / choice.probability);
   result.pdf_solid_angle = sample.only_sampled ? 0 : sample.pdf_solid_angle * choice.probability;
+  result.pdf_sampled = sample.pdf_solid_angle * choice.probability;
+  result.on_light = sample.point;
+  result.distance = sample.distance;
   if (sample.on_surface)
     result.shadow_ray = spawn_ray_to(receiver.point, sample.point);
   else if (std::isfinite(sample.distance))

@@ -35,8 +35,12 @@ struct DirectLight {
   Spectrum radiance;  ///< arriving radiance over its density, W/m² per projected sr: multiply
                       ///< by f·cosine (in a medium: by the phase function); without visibility
   float pdf_solid_angle =
-      0;           ///< choice of the light included; 0 where no ray meets the light (no MIS)
-  Ray shadow_ray;  ///< occluded: no light
+      0;                  ///< choice of the light included; 0 where no ray meets the light (no MIS)
+  float pdf_sampled = 0;  ///< the same of any light; of a single point or direction the chance
+  Ray shadow_ray;         ///< occluded: no light
+  SurfacePoint on_light;  ///< where it leaves the light; its normal is zero, or it has none, at
+                          ///< lights that are a point or infinitely far away
+  float distance = 0;     ///< to it, m; infinite for infinite lights
 };
 
 /// Which lights a vertex samples.

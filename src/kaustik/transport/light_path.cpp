@@ -16,7 +16,7 @@ float survival_of(const LightPath& path, const Spectrum& event_weight) {
 
 }  // namespace
 
-bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, float largest_weight,
+bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPathLimits& limits,
                         LightPath& path) {
   const Vec2f u = path.sampler.next_2d();
   const Vec2f u_choice = path.sampler.next_2d();
@@ -24,9 +24,12 @@ bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, float largest
   const float survival = survival_of(path, sample.weight);
   if (sample.event == Lobes::none || !(u_choice.y < survival)) return false;
   path.attenuate(sample.weight * (1 / survival));
-  if (const float weight = path.weight.max_lane(); weight > largest_weight)
-    path.attenuate(Spectrum(largest_weight / weight));
+  if (const float weight = path.weight.max_lane(); weight > limits.largest_weight)
+    path.attenuate(Spectrum(limits.largest_weight / weight));
   path.state.pdf_forward = sample.event == Lobes::delta ? 0 : sample.pdf_solid_angle;
+  if (limits.needs_reverse_pdf)
+    path.state.pdf_reverse =
+        sample.event == Lobes::delta ? 0 : vertex.pdf_reverse(sample.wi, follow);
   path.state.footprint.scatter(sample.event, sample.pdf_solid_angle);
   path.state.depth += 1;
   path.path_class.add_event(sample.event);
@@ -67,7 +70,7 @@ MediumPassage pass_medium(LightPath& path, float limit, const LightPathLimits& l
   path.attenuate(flight.weight * (1 / survival));
   const Vec3f wo = -path.ray.direction;
   const Vec3f wi = medium.phase().sample(wo, u);
-  path.state.pdf_forward = medium.phase().eval(wo, wi);
+  path.state.pdf_forward = path.state.pdf_reverse = medium.phase().eval(wo, wi);
   path.state.footprint.travel(flight.distance);
   path.state.footprint.scatter(Lobes::diffuse, path.state.pdf_forward);
   path.state.depth += 1;

@@ -28,8 +28,9 @@ struct LightPath {
     weight *= factor;
   }
 
-  Ray ray;          ///< along which it goes on
-  PathState state;  ///< throughput: flux that arrives, W, before any attenuation there
+  Ray ray;             ///< along which it goes on
+  uint32_t index = 0;  ///< its number, as trace_light_paths() was asked for it
+  PathState state;     ///< throughput: flux that arrives, W, before any attenuation there
   LightPathClass path_class;
   Sampler sampler;
   Spectrum weight{1.0f};  ///< the throughput's share of what was emitted; roulette keeps it about 1
@@ -44,6 +45,9 @@ struct LightVertex {
   const PathState& state;
   const LightPathClass& path_class;  ///< the events before this vertex
   float distance;                    ///< from the path's previous vertex, m
+  uint32_t path;                     ///< number of the path
+  const Ray& ray;                    ///< that met the surface …
+  const Hit& hit;                    ///< … and where
 };
 
 /// A point of a segment through a medium, drawn as if light were sure to be scattered there: one
@@ -74,6 +78,7 @@ struct LightPathLimits {
   /// Where bent normals are met at grazing incidence, flux grows without bound, rarely (the factor
   /// of SurfaceVertex::eval_cosine): what is beyond this share of the emitted flux is cut off.
   float largest_weight = infinity;
+  bool needs_reverse_pdf = false;  ///< PathState::pdf_reverse is to be found out
 };
 
 /// What became of light paths.
@@ -87,7 +92,7 @@ struct LightPathCounts {
 /// Scatters `path` at `vertex`, by the lobes `follow`: true if it goes on. Russian roulette
 /// survives with the largest lane of the path's weight, so the flux of the survivors stays even;
 /// shared by global, caustic and splatted light [Schregle 1998].
-bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, float largest_weight,
+bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPathLimits& limits,
                         LightPath& path);
 
 /// The point of its segment through its medium, of length `limit`, where `path` is scattered
@@ -158,17 +163,20 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
       path.ray = spawn_ray(vertex.point(), path.ray.direction);
       return true;
     }
-    const Lobes follow = handler(LightVertex{vertex, path.state, path.path_class, path.distance});
+    const Lobes follow = handler(
+        LightVertex{vertex, path.state, path.path_class, path.distance, path.index, path.ray, hit});
     if (!any(follow)) return ended(counts.stopped);
     if (path.path_class.events() >= limits.maximum_events) return ended(counts.too_long);
-    if (!scatter_light_path(vertex, follow, limits.largest_weight, path))
-      return ended(counts.absorbed);
+    if (!scatter_light_path(vertex, follow, limits, path)) return ended(counts.absorbed);
     return true;
   };
   while (begin < end) {
     const uint32_t group_end = begin + std::min(group, end - begin);
     for (; begin < group_end; ++begin)
-      if (const std::optional<LightPath> path = emit(begin)) paths.push_back(*path);
+      if (const std::optional<LightPath> path = emit(begin)) {
+        paths.push_back(*path);
+        paths.back().index = begin;
+      }
     while (!paths.empty()) {
       const size_t count = paths.size();
       for (size_t i = 0; i < count; ++i) rays[i] = paths[i].ray;

@@ -1,0 +1,112 @@
+#include "kaustik/base/binary_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kaustik/base/checksum.h"
+#include "kaustik/base/error.h"
+#include "kaustik/base/file.h"
+
+namespace kaustik {
+namespace {
+
+constexpr uint32_t byte_order_mark = 0x01020304, swapped_byte_order_mark = 0x04030201;
+constexpr size_t checksum_size = sizeof(uint64_t);
+
+bool starts_with(std::span<const uint8_t> bytes, const std::array<uint8_t, 8>& magic) {
+  return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+}
+
+}  // namespace
+
+BinaryWriter::BinaryWriter(const BinaryFileKind& kind) {
+  put(kind.magic);
+  put(byte_order_mark);
+  put(kind.version);
+}
+
+void BinaryWriter::put_bytes(const void* data, size_t size) {
+  const auto* bytes = static_cast<const uint8_t*>(data);
+  bytes_.insert(bytes_.end(), bytes, bytes + size);
+}
+
+void BinaryWriter::put_text(const std::string& text) {
+  put(uint64_t(text.size()));
+  put_bytes(text.data(), text.size());
+}
+
+void BinaryWriter::write_to(const std::string& path) {
+  put(checksum(bytes_));
+  write_file_atomically(path, bytes_);
+}
+
+BinaryReader::BinaryReader(const BinaryFileKind& kind, const std::string& path)
+    : kind_(kind), path_(path), bytes_(read_file(path)), rest_(bytes_) {
+  check_frame();
+}
+
+void BinaryReader::fail(const std::string& what, const std::string& remedy) const {
+  throw Error(ErrorKind::input, what, remedy, place_in(path_));
+}
+
+void BinaryReader::damaged(const std::string& why) const {
+  fail(fmt::format("the {} is damaged: {}", kind_.name, why), kind_.if_unusable);
+}
+
+void BinaryReader::check_frame() {
+  if (!starts_with(bytes_, kind_.magic))
+    fail(fmt::format("this is not a {}", kind_.name), kind_.if_foreign);
+  rest_ = rest_.subspan(kind_.magic.size());
+  const auto order = get<uint32_t>();
+  if (order == swapped_byte_order_mark)
+    fail(fmt::format("the {} was written on a machine of the other byte order", kind_.name),
+         "write it again on this kind of machine");
+  if (order != byte_order_mark) damaged("its header is not valid");
+  const auto version = get<uint32_t>();
+  if (version != kind_.version)
+    fail(fmt::format("the {} has version {}, this program reads version {}", kind_.name, version,
+                     kind_.version),
+         kind_.if_unusable);
+  if (rest_.size() < checksum_size) damaged("it is truncated");
+  const size_t content = bytes_.size() - checksum_size;
+  uint64_t stored;
+  std::memcpy(&stored, bytes_.data() + content, checksum_size);
+  if (stored != checksum(std::span(bytes_).first(content)))
+    damaged("its checksum does not match, it is truncated or bytes have changed");
+  rest_ = rest_.first(rest_.size() - checksum_size);
+}
+
+std::span<const uint8_t> BinaryReader::get_bytes(uint64_t count) {
+  need(count, 1);
+  const auto bytes = rest_.first(count);
+  rest_ = rest_.subspan(count);
+  return bytes;
+}
+
+std::string BinaryReader::get_text() {
+  const auto bytes = get_bytes(get<uint64_t>());
+  return {bytes.begin(), bytes.end()};
+}
+
+bool BinaryReader::get_flag() {
+  const auto value = get<uint8_t>();
+  if (value > 1) damaged("a setting in it is not valid");
+  return value == 1;
+}
+
+uint64_t BinaryReader::get_count(size_t item_size) {
+  const auto count = get<uint64_t>();
+  need(count, item_size);
+  return count;
+}
+
+void BinaryReader::expect_end() const {
+  if (!rest_.empty()) damaged("something follows its end");
+}
+
+bool is_of_kind(const BinaryFileKind& kind, const std::string& path) {
+  return starts_with(read_file_start(path, kind.magic.size()), kind.magic);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,97 @@
+#pragma once
+// Files of numbers in the byte order of the machine that wrote them, in a common frame: magic
+// (8 bytes), byte order mark (u32), version (u32), content, checksum of all that precedes (u64).
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace kaustik {
+
+/// A kind of file and what people are told of it.
+struct BinaryFileKind {
+  /// The first byte is over 127 and both kinds of line ends follow: that shows damage by transfers
+  /// as text.
+  std::array<uint8_t, 8> magic;
+  uint32_t version;         ///< to be raised whenever the layout changes
+  const char* name;         ///< "photon map", for messages
+  const char* if_foreign;   ///< what to do about a file of another kind
+  const char* if_unusable;  ///< what to do about a damaged one, or one of another version
+};
+
+/// Collects the content of a file in memory.
+class BinaryWriter {
+ public:
+  explicit BinaryWriter(const BinaryFileKind& kind);
+  template <typename T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put_bytes(&value, sizeof(T));
+  }
+  void put_bytes(const void* data, size_t size);
+  void put_text(const std::string& text);
+  void reserve(size_t more) { bytes_.reserve(bytes_.size() + more + sizeof(uint64_t)); }
+  /// Adds the checksum and writes atomically; throws as write_file_atomically() does.
+  void write_to(const std::string& path);
+
+ private:
+  std::vector<uint8_t> bytes_;
+};
+
+/// Reads such a file; whatever is wrong with it is an Error(input) with the file as its place.
+/// Nothing is allocated but in proportion to the bytes that are there.
+class BinaryReader {
+ public:
+  /// Throws if the file is missing, of another kind, version or byte order, truncated or damaged.
+  BinaryReader(const BinaryFileKind& kind, const std::string& path);
+  template <typename T>
+  T get() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    need(1, sizeof(T));
+    T value;
+    std::memcpy(&value, rest_.data(), sizeof(T));
+    rest_ = rest_.subspan(sizeof(T));
+    return value;
+  }
+  template <typename T>
+  std::vector<T> get_array(uint64_t count) {
+    need(count, sizeof(T));
+    std::vector<T> values(count);
+    if (count > 0) std::memcpy(static_cast<void*>(values.data()), rest_.data(), count * sizeof(T));
+    rest_ = rest_.subspan(count * sizeof(T));
+    return values;
+  }
+  std::span<const uint8_t> get_bytes(uint64_t count);
+  std::string get_text();
+  bool get_flag();
+  /// A number of items of at least so many bytes each, which the rest of the file can hold.
+  uint64_t get_count(size_t item_size);
+  /// Throws unless everything has been read.
+  void expect_end() const;
+
+  /// Throws unless so many items of this size follow.
+  void need(uint64_t count, size_t item_size) const {
+    if (count > rest_.size() / item_size) damaged("a count in it is larger than the file");
+  }
+  /// "the photon map is damaged: " and why.
+  [[noreturn]] void damaged(const std::string& why) const;
+  const std::string& path() const { return path_; }
+
+ private:
+  [[noreturn]] void fail(const std::string& what, const std::string& remedy) const;
+  void check_frame();
+
+  const BinaryFileKind& kind_;
+  std::string path_;
+  std::vector<uint8_t> bytes_;
+  std::span<const uint8_t> rest_;
+};
+
+/// Whether the file starts as one of this kind does. Throws Error(input) if it cannot be read.
+bool is_of_kind(const BinaryFileKind& kind, const std::string& path);
+
+}  // namespace kaustik

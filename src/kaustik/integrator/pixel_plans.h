@@ -1,0 +1,65 @@
+#pragma once
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "kaustik/integrator/pixel_probes.h"
+#include "kaustik/photon/light_vertices.h"
+
+namespace kaustik {
+
+/// Where paths go on seldom they are worth less than they cost; more seldom than this, never.
+inline constexpr float least_survival = 0.02f;
+
+/// What is decided for the first vertex of a pixel's camera paths whose event is not delta.
+struct PixelPlan {
+  float merge_area = 0;  ///< of the disk of merging, m²
+  float survival = 1;    ///< chance of going on from there
+};
+
+/// The plans of the first pass: a table over blocks of pixels, and one radius for all vertices but
+/// the first. The pixel's radius is that which some light vertices of a pilot pass take, within
+/// bounds from the pixel's footprint: smaller ones would blur less than the pixel does anyway,
+/// larger ones show. Where merging finds light from m directions that count, a path that goes on
+/// finds the same light once: it does so with the chance 1/(1 + m).
+class PixelPlans {
+ public:
+  PixelPlans() = default;
+  /// So many vertices of a pass set a radius, as a pilot pass tells, which may have fewer paths.
+  /// `given` > 0 is taken for all, m. `paths`: light paths of a pass.
+  PixelPlans(const Scene& scene, const LightVertices& pilot, uint32_t paths, int neighbors,
+             float given);
+
+  /// One per block of pixels, row by row.
+  const std::vector<PixelProbe>& probes() const { return *probes_; }
+  const Vec2i& blocks() const { return blocks_; }
+  /// The same with other plans, one for each probe.
+  PixelPlans with(std::vector<PixelPlan> plans) const;
+
+  /// With disks of `shrinkage` times the area of those of the first pass.
+  PixelPlan at(const Vec2f& raster, float shrinkage) const {
+    const int x = std::clamp(int(raster.x) / block_size, 0, blocks_.x - 1);
+    const int y = std::clamp(int(raster.y) / block_size, 0, blocks_.y - 1);
+    PixelPlan plan = plans_[size_t(y) * size_t(blocks_.x) + size_t(x)];
+    plan.merge_area *= shrinkage;
+    return plan;
+  }
+  /// Area of the disk at all other vertices, m².
+  float other_area() const { return other_area_; }
+  /// Mean distance of what the camera sees first, m.
+  float mean_distance() const { return mean_distance_; }
+
+ private:
+  /// Blocks whose probe found nothing get what is known of others nearby: a pixel may show more
+  /// than its probe.
+  void fill_gaps();
+
+  static constexpr int block_size = 4;
+  std::shared_ptr<const std::vector<PixelProbe>> probes_;
+  Vec2i blocks_{1, 1};
+  std::vector<PixelPlan> plans_{PixelPlan()};
+  float other_area_ = 0;
+  float mean_distance_ = 0;
+};
+
+}  // namespace kaustik

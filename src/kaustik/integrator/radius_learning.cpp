@@ -1,0 +1,160 @@
+#include "kaustik/integrator/radius_learning.h"
+
+#include <algorithm>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/base/sampler.h"
+#include "kaustik/integrator/merge_disk.h"
+
+namespace kaustik {
+namespace {
+
+/// Of the random numbers' addresses.
+constexpr uint64_t coverage_element = uint64_t(2) << 40;
+/// Points that tell how much of a disk is covered.
+constexpr int coverage_points = 32;
+/// Disks disagree where the squared differences of their lights are so many times their variance.
+constexpr double tolerated = 2.5;
+/// The light of a disk, and its variance, are known from this many directions on.
+constexpr double least_directions = 12;
+/// What merges at a vertex costs time: more than so many per pass are not worth theirs.
+constexpr double most_directions = 400;
+
+double level_radius(const PixelProbe& probe, int level) {
+  return double(probe.pixel_width) * std::exp2(0.5 * level);
+}
+
+double square(double x) { return x * x; }
+
+constexpr auto levels = size_t(RadiusLearning::level_count);
+
+RadiusLearning::Disagreement disagreement_of(const RadiusLearning::Sums& sums,
+                                             const std::array<float, levels>& coverage) {
+  RadiusLearning::Disagreement result;
+  // Where next to nothing has arrived, a single vertex more would do.
+  const double of_one =
+      sums.light[levels - 1] > 0 ? sums.squares[levels - 1] / sums.light[levels - 1] : 0.0;
+  std::array<double, levels> area{};
+  for (size_t i = 0; i < levels; ++i)
+    area[i] = std::exp2(double(i)) * std::max(0.05, double(coverage[i]));
+  for (size_t i = 1; i < levels; ++i)
+    for (size_t j = 0; j < i; ++j) {
+      if (square(sums.light[j]) < least_directions * sums.squares[j]) continue;
+      const double difference = sums.light[i] / area[i] - sums.light[j] / area[j];
+      // Both hold what lies in the smaller one.
+      const double variance =
+          std::max(sums.squares[j], of_one * of_one) * square(1 / area[j] - 1 / area[i]) +
+          (sums.squares[i] - sums.squares[j]) * square(1 / area[i]);
+      result.of[i][j] = variance > 0 ? square(difference) / variance : 0.0;
+    }
+  return result;
+}
+
+}  // namespace
+
+RadiusLearning::RadiusLearning(const Scene& scene, const PixelPlans& first)
+    : coverage_(first.probes().size()) {
+  parallel_blocks(coverage_.size(), 16, [&](size_t begin, size_t end, size_t) {
+    uint64_t rays = 0;
+    for (size_t p = begin; p < end; ++p) {
+      const PixelProbe& probe = first.probes()[p];
+      if (!probe.found) continue;
+      for (int level = 0; level < level_count; ++level) {
+        const auto radius = float(level_radius(probe, level));
+        MergeDisk disk(scene, probe.vertex, radius);
+        disk.look_from_below(rays);
+        int covered = 0;
+        for (int i = 0; i < coverage_points; ++i) {
+          Sampler sampler =
+              Sampler::at(0, uint32_t(level), Stream::training, coverage_element + p, uint32_t(i));
+          const Vec2f u = sampler.next_2d();
+          if (disk.is_covered(radius * std::sqrt(u.x), 2 * pi * u.y, rays)) ++covered;
+        }
+        coverage_[p][size_t(level)] = float(covered) / coverage_points;
+      }
+    }
+  });
+}
+
+std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const Scene& scene,
+                                                          const PixelPlans& first,
+                                                          const LightVertices& light) const {
+  std::vector<Sums> result(coverage_.size());
+  if (light.tree.empty()) return result;
+  parallel_blocks(result.size(), 16, [&](size_t begin, size_t end, size_t) {
+    for (size_t p = begin; p < end; ++p) {
+      const PixelProbe& probe = first.probes()[p];
+      if (!probe.found || !(probe.pixel_width > 0)) continue;
+      const double least_sq = sqr(level_radius(probe, 0));
+      const auto widest = float(level_radius(probe, level_count - 1));
+      const MergeDisk disk(scene, probe.vertex, widest);
+      Sums& sums = result[p];
+      light.tree.within(
+          probe.vertex.position(), disk.side(), false, sqr(widest), [&](uint32_t index, float) {
+            const LightVertexData& photon = light.tree.tree().data(index);
+            const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
+            if (!disk.counts(offset, photon.side)) return;
+            const double reach_sq = double(disk.least_radius_sq(offset));
+            size_t level = 0;
+            for (double limit = least_sq; reach_sq > limit; limit *= 2) ++level;
+            if (level >= levels) return;
+            const double value = double(
+                (probe.vertex.eval(photon.direction.unpack(), Lobes::all) * photon.flux_spectrum())
+                    .sum());
+            sums.light[level] += value;
+            sums.squares[level] += value * value;
+          });
+      for (size_t level = 1; level < size_t(level_count); ++level) {
+        sums.light[level] += sums.light[level - 1];
+        sums.squares[level] += sums.squares[level - 1];
+      }
+    }
+  });
+  return result;
+}
+
+/// The widest disk that agrees with all smaller ones, by the mean over the probes around: a single
+/// one's noise would choose among its levels by chance.
+int RadiusLearning::widest_level(const std::vector<Disagreement>& disagreements,
+                                 const PixelPlans& first, size_t probe) const {
+  const Vec2i size = first.blocks();
+  const Vec2i at(int(probe % size_t(size.x)), int(probe / size_t(size.x)));
+  Disagreement sum;
+  int count = 0;
+  for (int y = std::max(0, at.y - 1); y <= std::min(size.y - 1, at.y + 1); ++y)
+    for (int x = std::max(0, at.x - 1); x <= std::min(size.x - 1, at.x + 1); ++x) {
+      const size_t i = size_t(y) * size_t(size.x) + size_t(x);
+      if (!first.probes()[i].found) continue;
+      ++count;
+      for (size_t level = 1; level < levels; ++level)
+        for (size_t smaller = 0; smaller < level; ++smaller)
+          sum.of[level][smaller] += disagreements[i].of[level][smaller];
+    }
+  for (size_t level = 1; level < levels; ++level)
+    for (size_t smaller = 0; smaller < level; ++smaller)
+      if (sum.of[level][smaller] > tolerated * count) return int(level) - 1;
+  return int(levels) - 1;
+}
+
+PixelPlans RadiusLearning::plans(const PixelPlans& first, const std::vector<Sums>& sums,
+                                 uint32_t passes, float shrinkage) const {
+  std::vector<PixelPlan> result(sums.size());
+  std::vector<Disagreement> disagreements(sums.size());
+  for (size_t p = 0; p < sums.size(); ++p)
+    disagreements[p] = disagreement_of(sums[p], coverage_[p]);
+  for (size_t p = 0; p < sums.size(); ++p) {
+    const PixelProbe& probe = first.probes()[p];
+    if (!probe.found) continue;
+    const auto directions_at = [&](int level) {
+      const double light = sums[p].light[size_t(level)], squares = sums[p].squares[size_t(level)];
+      return squares > 0 ? light * light / squares / passes : 0.0;
+    };
+    int level = widest_level(disagreements, first, p);
+    while (level > 0 && directions_at(level) > most_directions) --level;
+    result[p].merge_area = float(pi * sqr(level_radius(probe, level))) / shrinkage;
+    result[p].survival = std::max(least_survival, float(1 / (1 + directions_at(level))));
+  }
+  return first.with(std::move(result));
+}
+
+}  // namespace kaustik

@@ -1,0 +1,51 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "kaustik/integrator/pixel_plans.h"
+
+namespace kaustik {
+
+/// How far merging may reach without showing, learned from the light paths of finished passes: at
+/// one probe per block of pixels the light within disks of growing radius is summed up, and the
+/// widest disk is taken whose light agrees with that of every smaller one, up to their noise
+/// (Lepski's choice of bandwidth, 1991). The noise falls with the number of passes, so the radii
+/// follow.
+class RadiusLearning {
+ public:
+  static constexpr int level_count = 10;  ///< radii from one pixel on, each √2 times the one before
+  /// Sums over light vertices within each disk of a probe, over passes.
+  struct Sums {
+    std::array<double, level_count> light{}, squares{};
+    void add(const Sums& other) {
+      for (size_t i = 0; i < size_t(level_count); ++i)
+        light[i] += other.light[i], squares[i] += other.squares[i];
+    }
+  };
+
+  /// How much the disks of a probe disagree: for each pair of levels the squared difference of
+  /// their lights over its variance, about 1 where there is nothing but noise.
+  struct Disagreement {
+    std::array<std::array<double, level_count>, level_count> of{};  ///< [level][smaller level]
+  };
+
+  RadiusLearning() = default;
+  /// Learns at the probes of `first`, the plans of the first pass.
+  RadiusLearning(const Scene& scene, const PixelPlans& first);
+
+  /// What the light vertices of one pass add, per probe.
+  std::vector<Sums> sums_of(const Scene& scene, const PixelPlans& first,
+                            const LightVertices& light) const;
+  /// The plans for what `passes` passes have summed up. Radii are those of the first pass, as in
+  /// PixelPlans: shrinking is up to the caller, `shrinkage` of the areas is taken off beforehand.
+  PixelPlans plans(const PixelPlans& first, const std::vector<Sums>& sums, uint32_t passes,
+                   float shrinkage) const;
+
+ private:
+  int widest_level(const std::vector<Disagreement>& disagreements, const PixelPlans& first,
+                   size_t probe) const;
+
+  std::vector<std::array<float, level_count>> coverage_;  ///< shares of the disks of each probe
+};
+
+}  // namespace kaustik

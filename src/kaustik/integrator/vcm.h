@@ -1,0 +1,62 @@
+#pragma once
+#include <mutex>
+
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/pixel_plans.h"
+#include "kaustik/integrator/vcm_settings.h"
+#include "kaustik/photon/light_path_emission.h"
+#include "kaustik/photon/light_vertices.h"
+
+namespace kaustik {
+
+/// Vertex connection and merging (Georgiev et al. 2012; Hachisuka et al. 2012): paths from the
+/// camera and paths from the lights, combined by all techniques that are switched on. Its presets
+/// `bdpt` and `ppm` differ in these alone.
+class VcmIntegrator final : public Integrator {
+ public:
+  VcmIntegrator(const Arguments& arguments, const Scene& scene);
+  ~VcmIntegrator() override;
+
+  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token stop,
+                                     const ProgressFunction& progress) const override;
+  void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
+              SampleSink& sink) const override;
+  bool splats() const override { return settings_.techniques.splats; }
+  uint32_t default_samples_per_pass() const override { return settings_.samples_per_pass; }
+  ComponentSet components() const override { return settings_.components; }
+  bool estimates_bias() const override { return settings_.techniques.merging; }
+
+ private:
+  struct State;
+  /// What is learned from a pilot pass.
+  struct Plans {
+    uint32_t samples_per_pixel = 0;
+    PixelPlans pixels;
+    /// Vertices that may be connected, per light path: what the weights go by.
+    float connectible_per_path = 1;
+  };
+  /// What finished passes of a seed have taught: plans change at passes 1, 2, 4, 8 …, from the sums
+  /// of all passes before.
+  struct Learning;
+  uint32_t light_path_count(uint32_t samples_per_pixel) const;
+  bool learns() const { return settings_.techniques.merging && !(settings_.radius > 0); }
+  std::shared_ptr<const Plans> plans_for(const Pass& pass, std::stop_token stop) const;
+  void learn_from(const LightVertices& light, const Pass& pass) const;
+  LightVertices trace(const Plans& plans, const PathWeights& weights, const Pass& pass,
+                      SplatBuffer& splats, std::stop_token stop, const ProgressFunction& progress,
+                      PassReport& report) const;
+  PathWeights weights_for(const Plans& plans, const Pass& pass) const;
+  std::shared_ptr<const Plans> make_plans(uint32_t samples_per_pixel) const;
+  /// Those for passes of so many samples, made when they are first asked for.
+  std::shared_ptr<const Plans> plans(uint32_t samples_per_pixel) const;
+
+  const Scene& scene_;
+  VcmSettings settings_;
+  LightPathEmission emission_;
+  mutable std::mutex plans_mutex_;
+  mutable std::shared_ptr<const Plans> plans_;
+  mutable std::mutex learning_mutex_;
+  mutable std::unique_ptr<Learning> learning_;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,357 @@
+#include "kaustik/integrator/vcm_camera_path.h"
+
+#include <algorithm>
+
+#include "kaustik/integrator/merge_disk.h"
+
+namespace kaustik {
+namespace {
+
+/// Walks have no vertices in common, and branches don't occur here, so each thread has one list.
+std::vector<PathVertex>& empty_list() {
+  static thread_local std::vector<PathVertex> list;
+  list.clear();
+  return list;
+}
+
+/// The disk of merging is hardly ever covered by less than one over this.
+constexpr int most_coverage_tries = 32;
+
+/// Of the sampler's forks for that, and for the bias of merging.
+constexpr uint32_t coverage_key = 1, bias_key = 2;
+
+/// Chance with which that is estimated: it takes rays.
+constexpr float bias_chance = 0.25f;
+
+/// A point of `light` as emission sees it: its normal is on the side that shines to `direction`.
+SurfacePoint shining(const Light& light, SurfacePoint point, const Vec3f& direction) {
+  if (light.is_two_sided() && dot(point.ng, direction) < 0) {
+    point.ng = -point.ng;
+    point.ns = -point.ns;
+  }
+  return point;
+}
+
+}  // namespace
+
+VcmCameraPath::VcmCameraPath(const VcmCameraInputs& inputs, CameraWalk& walk, const PixelPlan& plan)
+    : in_(inputs), walk_(walk), plan_(plan), vertices_(empty_list()) {
+  walk.weigh_by(*this);
+}
+
+PathVertex VcmCameraPath::next_vertex(const Vec3f& position, const Vec3f& ng) const {
+  PathVertex next;
+  if (vertices_.empty()) {
+    const CameraConnection connection = in_.scene.camera().connect(position);
+    next.pdf_camera = connection.importance * in_.camera_samples *
+                      abs_dot(connection.direction, ng) / sqr(connection.distance);
+    return next;
+  }
+  const PathVertex& before = vertices_.back();
+  const float pdf = before.delta ? 1.0f : walk_.last_pdf();
+  if (ng == Vec3f(0, 0, 0)) {
+    next.pdf_camera = pdf;
+  } else {
+    const Vec3f& direction = walk_.ray().direction;
+    const float distance_sq = length_sq(position - last_.position);
+    next.pdf_camera = pdf * abs_dot(direction, ng) / distance_sq;
+    next.to_previous = abs_dot(direction, last_.ng) / distance_sq;
+  }
+  next.spread = in_.weights.spread_after(before.spread, next.pdf_camera, before.delta);
+  return next;
+}
+
+void VcmCameraPath::arrive() {
+  const SurfacePoint& point = walk_.vertex().point();
+  vertices_.push_back(next_vertex(point.position, point.ng));
+  last_ = point;
+}
+
+void VcmCameraPath::leave() {
+  PathVertex& vertex = vertices_.back();
+  vertex.delta = walk_.last_pdf() == 0;
+  if (!vertex.delta && all_delta_) {
+    all_delta_ = false;
+    first_ = vertices_.size();
+  }
+  previous_ = Receiver(walk_.vertex(), 1);
+  if (vertices_.size() < 2 || !in_.weights.settings().techniques.needs_light_paths()) return;
+  vertices_[vertices_.size() - 2].pdf_light =
+      (vertex.delta ? 1.0f : walk_.vertex().pdf_reverse(walk_.ray().direction, Lobes::all)) *
+      vertex.to_previous;
+}
+
+bool VcmCameraPath::path_tracing_alone(size_t length) const {
+  return length <= 2 || !in_.weights.settings().techniques.needs_light_paths();
+}
+
+PathHalves VcmCameraPath::halves() const {
+  PathHalves result;
+  result.camera = vertices_;
+  result.first_merge_area = plan_.merge_area;
+  result.first_survival = plan_.survival;
+  return result;
+}
+
+float VcmCameraPath::pdf_light_before(const Vec3f& wi) const {
+  if (vertices_.size() < 2) return 0;
+  return walk_.vertex().pdf_reverse(wi, Lobes::all) * vertices_.back().to_previous;
+}
+
+float VcmCameraPath::sampled(const SurfaceVertex& vertex, const DirectLight& light) const {
+  const Techniques& techniques = in_.weights.settings().techniques;
+  if (!techniques.next_event) return 0;
+  const bool is_alone = path_tracing_alone(vertices_.size() + 1);
+  if (is_alone) {
+    if (light.pdf_solid_angle == 0 || !techniques.unidirectional) return 1;
+    return mis_weight(light.pdf_solid_angle,
+                      vertex.pdf(light.wi, Lobes::all) * (all_delta_ ? plan_.survival : 1.0f));
+  }
+  const Light& of = *in_.scene.lights()[size_t(light.light)];
+  const SurfacePoint origin = shining(of, light.on_light, -light.wi);
+  const EmissionDensity emission =
+      in_.emission.pdf(light.light, of.is_infinite() ? vertex.point() : origin, -light.wi);
+  const float cosine = abs_dot(light.wi, vertex.point().ng);
+  const float distance_sq = of.is_infinite() ? 1.0f : sqr(light.distance);
+  const float light_cosine =
+      of.is_infinite() || of.is_delta() ? 1.0f : abs_dot(light.wi, of.emitting_normal(origin));
+  const float to_area = of.is_delta() ? 1.0f : light_cosine / distance_sq;
+  PathVertex on_light;
+  on_light.pdf_light = emission.endpoint > 0 ? emission.endpoint : 1.0f;
+  PathHalves path = halves();
+  path.light = {&on_light, 1};
+  path.pdf_light_last = emission.rest * cosine / distance_sq;
+  path.pdf_light_before_last = pdf_light_before(light.wi);
+  path.pdf_camera_last =
+      light.pdf_solid_angle == 0 ? 0.0f : vertex.pdf(light.wi, Lobes::all) * to_area;
+  path.pdf_next_event = light.pdf_sampled * to_area;
+  return in_.weights.next_event(path);
+}
+
+float VcmCameraPath::met(int light, const SurfaceVertex& vertex) const {
+  const Techniques& techniques = in_.weights.settings().techniques;
+  if (!techniques.unidirectional) return vertices_.empty() ? 1.0f : 0.0f;
+  if (vertices_.empty()) return 1;
+  const SurfacePoint& point = vertex.point();
+  const bool after_delta = vertices_.back().delta;
+  const float next_event =
+      after_delta || !techniques.next_event
+          ? 0.0f
+          : direct_light_pdf(in_.scene, weighed_receiver(), LightChoice::one, light, point);
+  if (path_tracing_alone(vertices_.size() + 1))
+    return next_event > 0 ? mis_weight(walk_.last_pdf() * survival_before(), next_event) : 1.0f;
+  const Vec3f direction = -vertex.wo();
+  const float distance_sq = length_sq(point.position - last_.position);
+  const SurfacePoint origin = shining(*in_.scene.lights()[size_t(light)], point, vertex.wo());
+  const EmissionDensity emission = in_.emission.pdf(light, origin, vertex.wo());
+  const PathVertex on_light = next_vertex(point.position, point.ng);
+  return met_weight(on_light, emission, abs_dot(direction, last_.ng) / distance_sq,
+                    next_event * abs_dot(direction, point.ng) / distance_sq);
+}
+
+float VcmCameraPath::met(int light, const Ray& ray) const {
+  const Techniques& techniques = in_.weights.settings().techniques;
+  if (!techniques.unidirectional) return vertices_.empty() ? 1.0f : 0.0f;
+  if (vertices_.empty()) return 1;
+  const float next_event =
+      vertices_.back().delta || !techniques.next_event
+          ? 0.0f
+          : direct_light_pdf(in_.scene, weighed_receiver(), LightChoice::one, light, ray.direction);
+  if (path_tracing_alone(vertices_.size() + 1))
+    return next_event > 0 ? mis_weight(walk_.last_pdf() * survival_before(), next_event) : 1.0f;
+  const EmissionDensity emission = in_.emission.pdf(light, last_, -ray.direction);
+  return met_weight(next_vertex({0, 0, 0}, {0, 0, 0}), emission, abs_dot(ray.direction, last_.ng),
+                    next_event);
+}
+
+float VcmCameraPath::met_weight(const PathVertex& on_light, const EmissionDensity& emission,
+                                float to_last, float next_event) const {
+  vertices_.push_back(on_light);
+  PathHalves path = halves();
+  path.pdf_light_last = emission.endpoint > 0 ? emission.endpoint : 1.0f;
+  path.pdf_light_before_last = emission.rest * to_last;
+  path.pdf_next_event = next_event;
+  const float weight = in_.weights.unidirectional(path);
+  vertices_.pop_back();
+  return weight;
+}
+
+void VcmCameraPath::connect(int count, int maximum_events) {
+  const std::vector<ConnectibleVertex>& all = in_.light.connectible;
+  const SurfaceVertex& vertex = walk_.vertex();
+  if (all.empty() || !any(vertex.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
+  for (int i = 0; i < count; ++i) {
+    // One number alone has too few bits for millions of vertices.
+    const Vec2f u = walk_.sampler().one_of(uint32_t(count), uint32_t(i)).next_2d();
+    const double which = (double(u.x) + double(u.y) * 0x1p-24) * double(all.size());
+    connect_to(all[std::min(size_t(which), all.size() - 1)], maximum_events);
+  }
+}
+
+void VcmCameraPath::connect_to(const ConnectibleVertex& to, int maximum_events) {
+  // Events: those of the walk, at both vertices, and between the light and `to`.
+  if (walk_.events() + 1 + int(to.data.before) > maximum_events) return;
+  const SurfaceVertex& vertex = walk_.vertex();
+  const SurfaceVertex other(in_.scene, to.ray, to.hit, TransportMode::flux);
+  const Vec3f between = other.position() - vertex.position();
+  const float distance_sq = length_sq(between);
+  if (!(distance_sq > 0)) return;
+  const Vec3f direction = between * (1 / std::sqrt(distance_sq));
+  const PathVertex& other_data = in_.light.at(to.data);
+  PathHalves path = halves();
+  path.light = {in_.light.vertices.data() + to.data.path, size_t(to.data.before) + 1};
+  path.pdf_light_last =
+      other.pdf(-direction, Lobes::all) * abs_dot(direction, vertex.point().ng) / distance_sq;
+  path.pdf_light_before_last = pdf_light_before(direction);
+  path.pdf_camera_last =
+      vertex.pdf(direction, Lobes::all) * abs_dot(direction, other.point().ng) / distance_sq;
+  path.pdf_camera_before_last = other.pdf_reverse(-direction, Lobes::all) * other_data.to_previous;
+  path.pdf_next_event = to.data.pdf_next_event;
+  const float weight = in_.weights.connection(path);
+  if (!(weight > 0)) return;
+  const Spectrum arriving = to.data.flux_spectrum() * (weight * in_.connection_scale / distance_sq);
+  Spectrum visible;
+  bool traced = false;
+  for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
+    if (!any(vertex.lobes() & lobe)) continue;
+    const Spectrum reflected = vertex.eval_cosine(direction, lobe);
+    if (reflected.is_zero()) continue;
+    for (const Lobes other_lobe : {Lobes::diffuse, Lobes::glossy}) {
+      if (!any(other.lobes() & other_lobe)) continue;
+      const Component component =
+          walk_.component_of(lobe, other_lobe == Lobes::glossy && to.data.specular);
+      if (!walk_.wants(component)) continue;
+      const Spectrum value = reflected * arriving * other.eval_cosine(-direction, other_lobe);
+      if (value.is_zero()) continue;
+      if (!traced) {
+        traced = true;
+        visible =
+            shadow_ray_transmittance(in_.scene, spawn_ray_to(vertex.point(), other.point()),
+                                     vertex.medium_toward(direction, walk_.medium()), walk_.rays());
+        if (visible.is_zero()) return;
+      }
+      walk_.add(component, value * visible);
+    }
+  }
+}
+
+float VcmCameraPath::inverse_coverage(MergeDisk disk, float radius, uint32_t key) const {
+  // Numbers of their own: how many there are is not known beforehand.
+  Sampler numbers = walk_.sampler().fork(key);
+  for (int tries = 1; tries < most_coverage_tries; ++tries) {
+    // A point of the disk, with the density of the kernel.
+    const Vec2f u = numbers.next_2d();
+    if (disk.is_covered(radius * std::sqrt(1 - std::sqrt(1 - u.x)), 2 * pi * u.y, walk_.rays()))
+      return float(tries);
+    if (tries == 1 && disk.look_from_below(walk_.rays())) tries = 0;
+  }
+  return float(most_coverage_tries);
+}
+
+void VcmCameraPath::merge(int maximum_events) {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const Lobes lobes = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
+  if (!any(lobes) || in_.light.tree.empty() || !in_.weights.merges_at(vertices_)) return;
+  const float radius = std::sqrt(all_delta_ ? plan_.merge_area * inv_pi : in_.merge_radius_sq);
+  const MergeDisk disk(in_.scene, vertex, radius);
+  const bool is_matt =
+      all_delta_ && lobes == Lobes::diffuse && !vertex.bsdf().transmits() && !vertex.has_relief();
+  const MergedLight light = is_matt ? merged_matt(disk, radius, maximum_events)
+                                    : merged(disk, lobes, radius, maximum_events);
+  Spectrum total;
+  for (const Spectrum& sum : light.of) total += sum;
+  if (total.is_zero()) return;
+  // The kernel's height over the number of light paths.
+  const float scale = 2 * inv_pi / (sqr(radius) * float(in_.light.path_count));
+  const float coverage = inverse_coverage(disk, radius, coverage_key);
+  for (int c = 0; c < component_count; ++c)
+    if (!light.of[size_t(c)].is_zero())
+      walk_.add(Component(c), light.of[size_t(c)] * (scale * coverage));
+  add_bias_of_merging(total * coverage, light.narrow, scale, radius);
+}
+
+/// The bias grows by the area, so it is twice what half of the area takes off.
+void VcmCameraPath::add_bias_of_merging(const Spectrum& wide, const Spectrum& narrow, float scale,
+                                        float radius) {
+  Sampler numbers = walk_.sampler().fork(bias_key);
+  if (!(numbers.next_1d() < bias_chance)) return;
+  const float narrow_radius = radius * std::sqrt(0.5f);
+  const float narrow_coverage = inverse_coverage(
+      MergeDisk(in_.scene, walk_.vertex(), narrow_radius), narrow_radius, bias_key + 1);
+  const Spectrum difference = wide - narrow * (2 * narrow_coverage);
+  walk_.add_bias(difference * (2 * scale / bias_chance));
+}
+
+VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk, float radius,
+                                                      int maximum_events) const {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const MattLight light =
+      in_.matt.merge({vertex.position(), disk.side(), radius, disk.flatness(), disk.least_cosine(),
+                      maximum_events - walk_.events(),
+                      in_.weights.matt_vertex(vertices_, plan_.merge_area, plan_.survival)});
+  const Spectrum reflected = vertex.diffuse_value();
+  MergedLight result;
+  const auto add = [&](Component component, const MattLight::Sum& sum) {
+    if (!walk_.wants(component)) return;
+    result.of[size_t(component)] += sum.wide * reflected;
+    result.narrow += sum.narrow * reflected;
+  };
+  add(walk_.component_of(Lobes::diffuse, true), light.after_specular);
+  add(walk_.component_of(Lobes::diffuse, false), light.other);
+  return result;
+}
+
+VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, Lobes lobes, float radius,
+                                                 int maximum_events) const {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const float radius_sq = sqr(radius);
+  const bool both_sides = vertex.bsdf().transmits();
+  const Vec3f& ng = vertex.point().ng;
+  const Vec3f side = both_sides || vertex.on_front() ? ng : -ng;
+  PathHalves path = halves();
+  const auto& tree = in_.light.tree.tree();
+  MergedLight result;
+  in_.light.tree.within(
+      vertex.position(), side, both_sides, radius_sq, [&](uint32_t index, float distance_sq) {
+        const LightVertexData& photon = tree.data(index);
+        if (!disk.counts(tree.key(index) - vertex.position(), photon.side)) return;
+        if (walk_.events() + int(photon.before) > maximum_events) return;
+        const Vec3f wi = photon.direction.unpack();
+        const float pdf_forward = vertex.pdf(wi, Lobes::all);
+        const PathVertex* before = in_.light.vertices.data() + photon.path;
+        const PathVertex& merged = before[photon.before];
+        path.light = {before, photon.before};
+        path.pdf_light_last = merged.pdf_light;
+        path.pdf_light_before_last = pdf_light_before(wi);
+        path.pdf_camera_last = pdf_forward * merged.to_previous;
+        path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
+        path.pdf_next_event = photon.pdf_next_event;
+        const float weight = in_.weights.merge(path);
+        if (!(weight > 0)) return;
+        const Spectrum arriving =
+            photon.flux_spectrum() *
+            (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
+        const float kernel = 1 - distance_sq / radius_sq;
+        const float narrow_kernel = std::max(0.0f, 1 - 2 * distance_sq / radius_sq);
+        for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
+          if (!any(lobes & lobe)) continue;
+          const Component component = walk_.component_of(lobe, photon.specular);
+          if (!walk_.wants(component)) continue;
+          const Spectrum reflected = arriving * vertex.eval(wi, lobe);
+          result.of[size_t(component)] += reflected * kernel;
+          result.narrow += reflected * narrow_kernel;
+        }
+      });
+  return result;
+}
+
+float VcmCameraPath::survival_before() const {
+  return first_ == vertices_.size() ? plan_.survival : 1.0f;
+}
+
+bool VcmCameraPath::survives_first(float u) {
+  if (first_ != vertices_.size()) return true;
+  return plan_.survival >= 1 || walk_.survive_with(plan_.survival, u);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,97 @@
+#pragma once
+#include <vector>
+
+#include "kaustik/integrator/camera_walk.h"
+#include "kaustik/integrator/pixel_plans.h"
+#include "kaustik/photon/light_path_emission.h"
+#include "kaustik/photon/light_vertices.h"
+#include "kaustik/photon/matt_merging.h"
+#include "kaustik/transport/path_weights.h"
+
+namespace kaustik {
+
+class MergeDisk;
+
+/// What camera paths of a pass share.
+struct VcmCameraInputs {
+  const Scene& scene;
+  const LightPathEmission& emission;
+  const PathWeights& weights;
+  const LightVertices& light;
+  const MattMerging& matt;
+  float camera_samples;    ///< per pixel
+  float connection_scale;  ///< of a connected vertex: vertices over paths and connections
+  float merge_radius_sq;   ///< at vertices that the camera does not see
+};
+
+/// A camera walk's vertices as multiple importance sampling sees them, and what light paths bring
+/// to them.
+class VcmCameraPath final : public LightWeights {
+ public:
+  /// `walk` must not have gone anywhere; `plan` is that of its pixel.
+  VcmCameraPath(const VcmCameraInputs& inputs, CameraWalk& walk, const PixelPlan& plan);
+
+  /// The walk has come to a vertex.
+  void arrive();
+  /// The walk has chosen where to go on.
+  void leave();
+  /// Adds light of paths that are connected to the vertex, `count` of them.
+  void connect(int count, int maximum_events);
+  /// Adds light of paths whose vertices are near.
+  void merge(int maximum_events);
+  /// Roulette at the first vertex whose event is not delta: false if the path ends. To be asked
+  /// after leave().
+  bool survives_first(float u);
+
+  float sampled(const SurfaceVertex& vertex, const DirectLight& light) const override;
+  float met(int light, const SurfaceVertex& vertex) const override;
+  float met(int light, const Ray& ray) const override;
+
+ private:
+  /// What merges with the vertex, before it is divided by the area of the disk and the number of
+  /// light paths.
+  struct MergedLight {
+    std::array<Spectrum, component_count> of{};  ///< by component
+    Spectrum narrow;  ///< of all that is wanted, within half the area: MattLight::narrow
+  };
+  MergedLight merged_matt(const MergeDisk& disk, float radius, int maximum_events) const;
+  MergedLight merged(const MergeDisk& disk, Lobes lobes, float radius, int maximum_events) const;
+  /// Of what follows the last vertex, at `position` with geometric normal `ng`; zero: infinitely
+  /// far along the walk's ray.
+  PathVertex next_vertex(const Vec3f& position, const Vec3f& ng) const;
+  /// An estimate of one over the share of the kernel's disk, unbiased but for shares of a few
+  /// percent, that the surface of the vertex takes up: where it ends within the disk, its light
+  /// would else be too dark.
+  float inverse_coverage(MergeDisk disk, float radius, uint32_t key) const;
+  /// `wide` and `narrow`: sums as in MergedLight, the first over the share that is covered.
+  void add_bias_of_merging(const Spectrum& wide, const Spectrum& narrow, float scale, float radius);
+  void connect_to(const ConnectibleVertex& to, int maximum_events);
+  PathHalves halves() const;
+  /// Of the last vertex from the camera's side, whose light comes from `wi`.
+  float pdf_light_before(const Vec3f& wi) const;
+  /// Whether light is only sampled and met by chance on paths of this many segments.
+  bool path_tracing_alone(size_t length) const;
+  /// The last vertex as it asked for light.
+  Receiver weighed_receiver() const {
+    Receiver receiver = previous_;
+    receiver.level = vertices_.size() > 1 ? 1 : 0;
+    return receiver;
+  }
+  /// Chance of the roulette at the last vertex, if it is that of survives_first().
+  float survival_before() const;
+  /// Weight of meeting the light at `on_light`; `to_last` turns a density per solid angle there
+  /// into that of the last vertex.
+  float met_weight(const PathVertex& on_light, const EmissionDensity& emission, float to_last,
+                   float next_event) const;
+
+  const VcmCameraInputs& in_;
+  CameraWalk& walk_;
+  PixelPlan plan_;
+  std::vector<PathVertex>& vertices_;
+  SurfacePoint last_;      ///< of the walk's last vertex
+  Receiver previous_;      ///< the last vertex
+  bool all_delta_ = true;  ///< events so far
+  size_t first_ = 0;       ///< number of the first vertex whose event is not delta; 0: none yet
+};
+
+}  // namespace kaustik

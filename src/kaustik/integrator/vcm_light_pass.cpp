@@ -1,0 +1,298 @@
+#include "kaustik/integrator/vcm_light_pass.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/transport/direct_light.h"
+#include "kaustik/transport/light_path.h"
+
+namespace kaustik {
+namespace {
+
+constexpr size_t paths_per_block = 1024;
+
+/// A light path under way: its vertices so far.
+struct PathUnderWay {
+  std::vector<PathVertex> vertices;
+  LightPathStart start;
+  Vec3f normal;  ///< geometric, of the last vertex; zero at a point without a surface
+  float pdf_next_event = 0;
+  bool kept = false;  ///< some vertex may be merged or connected
+};
+
+/// What a block of light paths leaves.
+struct Block {
+  std::vector<PathVertex> vertices;
+  std::vector<Vec3f> positions;
+  std::vector<LightVertexData> data;  ///< `path` counts within the block
+  std::vector<ConnectibleVertex> connectible;
+  uint64_t rays = 0, splats = 0;
+};
+
+/// Density with which direct light is sampled at `vertex` from the point where a light path begins,
+/// `distance` away; measure as PathHalves::pdf_next_event.
+float next_event_density(const Scene& scene, const SurfaceVertex& vertex, int light,
+                         const SurfacePoint& on_light, const Vec3f& to_light, float distance) {
+  const Receiver receiver(vertex, 1);
+  const Light& of = *scene.lights()[size_t(light)];
+  if (of.is_delta())
+    return scene.light_selector().probability(receiver.point.position, receiver.normal, light);
+  if (of.is_infinite()) return direct_light_pdf(scene, receiver, LightChoice::one, light, to_light);
+  return direct_light_pdf(scene, receiver, LightChoice::one, light, on_light) *
+         abs_dot(to_light, of.emitting_normal(on_light)) / sqr(distance);
+}
+
+/// Traces the paths of one block.
+class Tracer {
+ public:
+  Tracer(const VcmLightInputs& in, const Pass& pass, Stream stream, SplatBuffer& splats)
+      : in_(in), pass_(pass), stream_(stream), splats_(splats) {}
+
+  Block trace(uint32_t begin, uint32_t end) {
+    begin_ = begin;
+    paths_.resize(end - begin);
+    LightPathLimits limits;
+    limits.maximum_events = std::max(0, in_.maximum_events - 1);
+    limits.needs_reverse_pdf = true;
+    const auto emit = [this](uint32_t i) { return start(i); };
+    const auto meet = [this](const LightVertex& at) {
+      add_vertex(at);
+      return Lobes::all;
+    };
+    block_.rays += trace_light_paths(in_.scene, begin, end, limits, emit, meet).rays;
+    gather();
+    return std::move(block_);
+  }
+
+ private:
+  /// What is kept of a vertex until its path has come to its end.
+  struct Kept {
+    uint32_t path;
+    Vec3f position;
+    LightVertexData data;
+  };
+
+  std::optional<LightPath> start(uint32_t i) {
+    PathUnderWay& path = paths_[i - begin_];
+    path.vertices.clear();
+    path.kept = false;
+    Sampler sampler = Sampler::at(pass_.seed, pass_.index, stream_, 0, i);
+    path.start = in_.emission.sample(sampler);
+    const LightPathStart& start = path.start;
+    if (start.light < 0 || start.emitted.flux.is_zero() || in_.maximum_events < 1)
+      return std::nullopt;
+    PathVertex on_light;
+    on_light.pdf_light = start.density.endpoint;
+    path.vertices.push_back(on_light);
+    path.normal = start.emitted.on_surface ? start.emitted.origin.ng : Vec3f(0, 0, 0);
+    return LightPath(start.emitted.ray, start.emitted.flux, in_.scene.light_medium(start.light),
+                     Lobes::specular, sampler);
+  }
+
+  const Light& light_of(const PathUnderWay& path) const {
+    return *in_.scene.lights()[size_t(path.start.light)];
+  }
+
+  void add_vertex(const LightVertex& at) {
+    PathUnderWay& path = paths_[at.path - begin_];
+    std::vector<PathVertex>& vertices = path.vertices;
+    const SurfaceVertex& vertex = at.vertex;
+    const Vec3f& wo = vertex.wo();
+    const float cosine = abs_dot(wo, vertex.point().ng);
+    const float distance_sq = sqr(at.distance);
+    PathVertex next;
+    if (vertices.size() == 1) {
+      const Light& light = light_of(path);
+      if (light.is_infinite()) {
+        next.pdf_light = path.start.density.rest * cosine;
+        next.to_previous = light.is_delta() ? 0.0f : 1.0f;
+      } else {
+        next.pdf_light = path.start.density.rest * cosine / distance_sq;
+        // Lights that are no surface are never met.
+        next.to_previous = light.shape() < 0 ? 0.0f : abs_dot(wo, path.normal) / distance_sq;
+      }
+      path.pdf_next_event = next_event_density(in_.scene, vertex, path.start.light,
+                                               path.start.emitted.origin, wo, at.distance);
+    } else {
+      const bool after_delta = at.state.pdf_forward == 0;
+      vertices.back().delta = after_delta;
+      vertices[vertices.size() - 2].pdf_camera =
+          (after_delta ? 1.0f : at.state.pdf_reverse) * vertices.back().to_previous;
+      next.pdf_light = (after_delta ? 1.0f : at.state.pdf_forward) * cosine / distance_sq;
+      next.to_previous = abs_dot(wo, path.normal) / distance_sq;
+    }
+    next.spread =
+        in_.weights.spread_after(vertices.back().spread, next.pdf_light, vertices.back().delta);
+    vertices.push_back(next);
+    path.normal = vertex.point().ng;
+    const bool has_events = vertices.size() >= 3;
+    if (has_events && in_.weights.settings().techniques.splats) splat(at, path);
+    keep(at, path, has_events);
+  }
+
+  /// Light from the lamp itself is not merged: sampling it is better, and has no bias.
+  void keep(const LightVertex& at, PathUnderWay& path, bool may_merge) {
+    const Techniques& techniques = in_.weights.settings().techniques;
+    const SurfaceVertex& vertex = at.vertex;
+    const bool wants_irradiance = in_.scene.film().quantity == Quantity::irradiance;
+    const bool scatters = any(vertex.lobes() & (Lobes::diffuse | Lobes::glossy));
+    if (!scatters && !(wants_irradiance && techniques.merging)) return;
+    const Vec3f& ng = vertex.point().ng;
+    const float cos_geometric = dot(vertex.wo(), ng);
+    if (cos_geometric == 0 || path.vertices.size() > 0xffff) return;
+    LightVertexData data;
+    data.direction = PackedDirection(vertex.wo());
+    data.on_front = cos_geometric > 0;
+    data.side = CoarseNormal(cos_geometric > 0 ? ng : -ng);
+    data.specular = at.path_class.diffuse_events() == 0;
+    data.before = uint16_t(path.vertices.size() - 1);
+    data.pdf_next_event = path.pdf_next_event;
+    const auto set_flux = [&](float factor) {
+      for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+        data.flux[size_t(lane)] = at.state.throughput[lane] * factor;
+    };
+    if (techniques.connections && scatters) {
+      path.kept = true;
+      set_flux(1);
+      block_.connectible.push_back({at.ray, at.hit, data, at.state.medium});
+      connectible_paths_.push_back(at.path - begin_);
+    }
+    if (techniques.merging && may_merge) {
+      path.kept = true;
+      // As for photons: the density on the surface counts flux by the geometric cosine.
+      set_flux(vertex.has_relief()
+                   ? 1.0f
+                   : abs_dot(vertex.wo(), vertex.normal()) / std::fabs(cos_geometric));
+      kept_.push_back({at.path - begin_, vertex.position(), data});
+    }
+  }
+
+  void splat(const LightVertex& at, const PathUnderWay& path) {
+    SurfaceVertex painted;
+    const bool wants_irradiance = in_.scene.film().quantity == Quantity::irradiance;
+    if (wants_irradiance) {
+      painted = at.vertex;
+      painted.paint_white();
+    }
+    const SurfaceVertex& vertex = wants_irradiance ? painted : at.vertex;
+    const Lobes seen = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
+    if (!any(seen)) return;
+    const CameraConnection connection = in_.scene.camera().connect(vertex.position());
+    if (!(connection.importance > 0)) return;
+    const float cosine = abs_dot(connection.direction, vertex.point().ng);
+    PathHalves halves;
+    halves.light = path.vertices;
+    halves.pdf_camera_last =
+        connection.importance * in_.camera_samples * cosine / sqr(connection.distance);
+    halves.pdf_camera_before_last =
+        vertex.pdf_reverse(connection.direction, Lobes::all) * path.vertices.back().to_previous;
+    halves.pdf_next_event = path.pdf_next_event;
+    const PixelPlan plan = in_.plans.at(connection.raster, in_.shrinkage);
+    halves.first_merge_area = plan.merge_area;
+    halves.first_survival = plan.survival;
+    const float weight = in_.weights.splat(halves);
+    if (!(weight > 0)) return;
+    const float scale =
+        weight * connection.importance / (sqr(connection.distance) * float(in_.light_paths));
+    Spectrum visible;
+    bool traced = false;
+    for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
+      const Component component = at.path_class.component_seen_by(lobe);
+      if (!any(seen & lobe) || !in_.components.has(component)) continue;
+      const Spectrum value =
+          at.state.throughput * vertex.eval_cosine(connection.direction, lobe) * scale;
+      if (value.is_zero()) continue;
+      if (!traced) {
+        traced = true;
+        const Ray sight = spawn_ray_to(vertex.point(), in_.scene.camera().position());
+        visible =
+            wants_irradiance
+                ? Spectrum(is_unobstructed(in_.scene, sight, block_.rays) ? pi : 0.0f)
+                : shadow_ray_transmittance(
+                      in_.scene, sight, vertex.medium_toward(connection.direction, at.state.medium),
+                      block_.rays);
+        if (visible.is_zero()) return;
+        ++block_.splats;
+      }
+      splats_.add(connection.raster, component, value * visible);
+    }
+  }
+
+  /// Puts the vertices path by path.
+  void gather() {
+    std::vector<uint32_t> begins(paths_.size());
+    for (size_t i = 0; i < paths_.size(); ++i) {
+      if (!paths_[i].kept) continue;
+      begins[i] = uint32_t(block_.vertices.size());
+      block_.vertices.insert(block_.vertices.end(), paths_[i].vertices.begin(),
+                             paths_[i].vertices.end());
+    }
+    for (Kept& kept : kept_) {
+      kept.data.path = begins[kept.path];
+      block_.positions.push_back(kept.position);
+      block_.data.push_back(kept.data);
+    }
+    for (size_t i = 0; i < connectible_paths_.size(); ++i)
+      block_.connectible[i].data.path = begins[connectible_paths_[i]];
+  }
+
+  const VcmLightInputs& in_;
+  const Pass& pass_;
+  Stream stream_;
+  SplatBuffer& splats_;
+  uint32_t begin_ = 0;
+  std::vector<PathUnderWay> paths_;
+  std::vector<Kept> kept_;
+  std::vector<uint32_t> connectible_paths_;
+  Block block_;
+};
+
+}  // namespace
+
+LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pass, Stream stream,
+                                   SplatBuffer& splats, std::stop_token stop,
+                                   const ProgressFunction& progress, PassReport& report) {
+  const size_t count = (inputs.light_paths + paths_per_block - 1) / paths_per_block;
+  std::vector<Block> blocks(count);
+  WorkCounter counter(inputs.light_paths, progress);
+  parallel_blocks(inputs.light_paths, paths_per_block, [&](size_t begin, size_t end, size_t i) {
+    if (stop.stop_requested()) return;
+    blocks[i] = Tracer(inputs, pass, stream, splats).trace(uint32_t(begin), uint32_t(end));
+    counter.add(end - begin);
+  });
+  LightVertices result;
+  result.path_count = inputs.light_paths;
+  std::vector<size_t> vertex_begin(count + 1), data_begin(count + 1), connectible_begin(count + 1);
+  for (size_t i = 0; i < count; ++i) {
+    vertex_begin[i + 1] = vertex_begin[i] + blocks[i].vertices.size();
+    data_begin[i + 1] = data_begin[i] + blocks[i].data.size();
+    connectible_begin[i + 1] = connectible_begin[i] + blocks[i].connectible.size();
+    report.rays += blocks[i].rays;
+    report.photons += blocks[i].splats;
+  }
+  result.vertices.resize(vertex_begin[count]);
+  result.connectible.resize(connectible_begin[count]);
+  std::vector<Vec3f> positions(data_begin[count]);
+  std::vector<LightVertexData> data(data_begin[count]);
+  parallel_blocks(count, 8, [&](size_t first, size_t last, size_t) {
+    for (size_t i = first; i < last; ++i) {
+      Block& block = blocks[i];
+      for (LightVertexData& d : block.data) d.path += uint32_t(vertex_begin[i]);
+      for (ConnectibleVertex& c : block.connectible) c.data.path += uint32_t(vertex_begin[i]);
+      const auto copy = [](const auto& from, auto& to, size_t at) {
+        std::copy(from.begin(), from.end(), to.begin() + std::ptrdiff_t(at));
+      };
+      copy(block.vertices, result.vertices, vertex_begin[i]);
+      copy(block.positions, positions, data_begin[i]);
+      copy(block.data, data, data_begin[i]);
+      copy(block.connectible, result.connectible, connectible_begin[i]);
+      block = {};
+    }
+  });
+  report.photons += data.empty() ? result.connectible.size() : data.size();
+  if (!data.empty()) result.tree = {std::move(positions), std::move(data)};
+  return result;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,29 @@
+#pragma once
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/pixel_plans.h"
+#include "kaustik/photon/light_path_emission.h"
+#include "kaustik/photon/light_vertices.h"
+#include "kaustik/transport/vertex.h"
+
+namespace kaustik {
+
+/// What a light pass of connection and merging is made of.
+struct VcmLightInputs {
+  const Scene& scene;
+  const LightPathEmission& emission;
+  const PathWeights& weights;
+  ComponentSet components;
+  int maximum_events;
+  uint32_t light_paths;
+  float camera_samples;  ///< per pixel
+  const PixelPlans& plans;
+  float shrinkage;  ///< of the disks of merging since the first pass
+};
+
+/// Traces the light paths of a pass, keeps their vertices, and splats them where that is one of the
+/// techniques. The same for any number of threads.
+LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pass, Stream stream,
+                                   SplatBuffer& splats, std::stop_token stop,
+                                   const ProgressFunction& progress, PassReport& report);
+
+}  // namespace kaustik

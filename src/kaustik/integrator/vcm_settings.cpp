@@ -1,0 +1,96 @@
+#include "kaustik/integrator/vcm_settings.h"
+
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/path_parameters.h"
+
+namespace kaustik {
+namespace {
+
+Parameter technique_parameter(const char* name, bool on, const char* what) {
+  return boolean_parameter(name, on, what);
+}
+
+/// The table of a preset.
+std::vector<Parameter> parameters(const Techniques& preset) {
+  std::vector<Parameter> rows = {
+      components_parameter(),
+      max_depth_parameter(),
+      rr_depth_parameter(),
+      aim_parameter(),
+      technique_parameter("unidirectional", preset.unidirectional,
+                          "Light that the camera's paths meet by chance counts."),
+      technique_parameter("next_event", preset.next_event,
+                          "Every vertex of the camera's paths samples a light."),
+      technique_parameter("splats", preset.splats,
+                          "Vertices of light paths are connected to the camera."),
+      technique_parameter("connections", preset.connections,
+                          "Vertices of the camera's paths are connected to vertices of light "
+                          "paths."),
+      technique_parameter("merging", preset.merging,
+                          "Vertices of light paths near a vertex of the camera's path count as if "
+                          "they were there (photon mapping)."),
+      number_parameter("light_paths", 0.25, "Light paths per camera sample.").range(0.001, 1000),
+      integer_parameter("connection_samples", 1,
+                        "Vertices of light paths that each vertex of the camera's paths is "
+                        "connected to.")
+          .range(1, 1024),
+      integer_parameter("merge_neighbors", 30,
+                        "Vertices of light paths that the first radius of merging is made for.")
+          .range(1, 1 << 20),
+      number_parameter("radius", 0,
+                       "Radius of merging in the first pass; it shrinks from pass to pass. 0: from "
+                       "the size of the pixels and the density of the light paths.")
+          .range(0, 1e30)
+          .in("m"),
+      boolean_parameter("correlation", true,
+                        "Weights of merging take into account that what is merged shares the "
+                        "camera's path."),
+      integer_parameter("samples_per_pass", 4, "Samples per pixel and pass.").range(1, 1 << 20),
+      ignored_parameter("hide_emitters", ParameterKind::boolean)};
+  return rows;
+}
+
+}  // namespace
+
+const TypeInfo& vcm_info() {
+  static const TypeInfo info{
+      "integrator", "vcm",
+      "Vertex connection and merging: paths from the camera and from the lights, combined in every "
+      "way; each way can be switched off.",
+      parameters({true, true, true, true, true})};
+  return info;
+}
+
+const TypeInfo& bdpt_info() {
+  static const TypeInfo info{"integrator", "bdpt",
+                             "Bidirectional path tracing: vcm without merging, unbiased.",
+                             parameters({true, true, true, true, false})};
+  return info;
+}
+
+const TypeInfo& ppm_info() {
+  static const TypeInfo info{
+      "integrator", "ppm",
+      "Progressive photon mapping: vcm with merging at the camera's vertices, light sampling and "
+      "lights met by chance.",
+      parameters({true, true, false, false, true})};
+  return info;
+}
+
+VcmSettings::VcmSettings(const Arguments& arguments)
+    : components(read_components(arguments)),
+      maximum_events(read_maximum_events(arguments)),
+      roulette_depth(int(arguments.integer("rr_depth"))),
+      aim(read_aim(arguments.text("aim"))),
+      light_paths(float(arguments.number("light_paths"))),
+      connections(int(arguments.integer("connection_samples"))),
+      merge_neighbors(int(arguments.integer("merge_neighbors"))),
+      radius(float(arguments.number("radius"))),
+      correlation(arguments.boolean("correlation")),
+      samples_per_pass(uint32_t(arguments.integer("samples_per_pass"))) {
+  techniques = {arguments.boolean("unidirectional"), arguments.boolean("next_event"),
+                arguments.boolean("splats"), arguments.boolean("connections"),
+                arguments.boolean("merging")};
+}
+
+}  // namespace kaustik

@@ -1,0 +1,32 @@
+#pragma once
+#include "kaustik/photon/emission.h"
+#include "kaustik/transport/component.h"
+#include "kaustik/transport/path_weights.h"
+
+namespace kaustik {
+
+/// All parameters of the integrators that combine paths from the camera with paths from the lights.
+struct VcmSettings {
+  ComponentSet components = ComponentSet::all();
+  Techniques techniques;
+  int maximum_events = 1 << 20;
+  int roulette_depth = 5;
+  Aim aim = default_aim;
+  float light_paths = 0.25f;  ///< per camera sample
+  int connections = 1;        ///< per vertex of the camera's path
+  int merge_neighbors = 30;   ///< light vertices that the first radius is made for
+  float radius = 0;           ///< of merging in pass 0, m; 0: from the pixels and the light paths
+  bool correlation = true;    ///< see PathWeights
+  uint32_t samples_per_pass = 4;
+
+  explicit VcmSettings(const Arguments& arguments);
+};
+
+/// "vcm": all techniques, each of which can be switched off.
+const TypeInfo& vcm_info();
+/// "bdpt": all but merging.
+const TypeInfo& bdpt_info();
+/// "ppm": merging alone, for what light paths bring; direct light as ever.
+const TypeInfo& ppm_info();
+
+}  // namespace kaustik

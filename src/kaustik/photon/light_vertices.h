@@ -1,0 +1,50 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "kaustik/geometry/ray.h"
+#include "kaustik/medium/medium.h"
+#include "kaustik/photon/sided_tree.h"
+#include "kaustik/transport/path_weights.h"
+
+namespace kaustik {
+
+/// What a vertex of a light path tells, wherever the path is completed.
+struct LightVertexData {
+  std::array<float, Spectrum::lane_count> flux{};  ///< W that arrives, were this the only path
+  PackedDirection direction;                       ///< toward the vertex before
+  CoarseNormal side;         ///< geometric normal on the side on which it arrived
+  uint8_t on_front = 1;      ///< whether that side is the side of the surface's own normal
+  bool specular = true;      ///< all events before it were specular
+  uint16_t before = 0;       ///< vertices before it, the light's point included
+  uint32_t path = 0;         ///< where the path's vertices begin
+  float pdf_next_event = 0;  ///< see PathHalves
+
+  Spectrum flux_spectrum() const { return {flux[0], flux[1], flux[2], flux[3]}; }
+};
+
+/// A vertex that can be met again, to be connected.
+struct ConnectibleVertex {
+  Ray ray;  ///< that met the surface
+  Hit hit;
+  LightVertexData data;
+  const Medium* medium = nullptr;  ///< that it arrived through
+};
+
+/// The vertices of the light paths of a pass. Immutable once built.
+struct LightVertices {
+  std::vector<PathVertex> vertices;  ///< path by path, from the light's point on
+  SidedTree<LightVertexData> tree;   ///< those that may be merged
+  std::vector<ConnectibleVertex> connectible;
+  uint32_t path_count = 0;
+
+  /// The vertices before `data`'s, from the light's point on.
+  std::span<const PathVertex> before(const LightVertexData& data) const {
+    return {vertices.data() + data.path, data.before};
+  }
+  const PathVertex& at(const LightVertexData& data) const {
+    return vertices[size_t(data.path) + data.before];
+  }
+};
+
+}  // namespace kaustik

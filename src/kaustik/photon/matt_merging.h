@@ -1,0 +1,57 @@
+#pragma once
+#include <vector>
+
+#include "kaustik/photon/kd_tree_buckets.h"
+#include "kaustik/photon/light_vertices.h"
+
+namespace kaustik {
+
+/// A disk at a matt vertex that the camera sees, and what its surface tells of the weights.
+struct MattDisk {
+  Vec3f center;
+  Vec3f normal;  ///< geometric, unit, on the side that is seen
+  float radius = 0;
+  float flatness = 0;        ///< what lies farther from its plane does not count, m
+  float least_cosine = 0;    ///< nor what lies on a surface that is turned away more than this
+  int most_before = 0xffff;  ///< nor what has more vertices before it
+  PathWeights::MattVertex weights;
+};
+
+/// What merges there, W, apart for light that came by specular events only and for the rest.
+struct MattLight {
+  struct Sum {
+    Spectrum wide;    ///< Σ flux · weight · (1 − distance²/radius²)
+    Spectrum narrow;  ///< within half the area: Σ flux · weight · (1 − 2 distance²/radius²)
+  };
+  Sum after_specular, other;
+};
+
+/// Merging at matt vertices, where light counts alike from everywhere: many light vertices at once
+/// by vector instructions, for some nanoseconds each. Holds what this takes of each vertex, in the
+/// order of the tree. Immutable once built.
+class MattMerging {
+ public:
+  MattMerging() = default;
+  /// `light` must outlive this.
+  MattMerging(const LightVertices& light, const PathWeights& weights);
+
+  MattLight merge(const MattDisk& disk) const;
+
+  /// Of 16 vertices, those of one bucket of the tree.
+  struct alignas(64) Block {
+    static constexpr size_t size = KdBuckets::bucket_size;
+    float flux[Spectrum::lane_count][size];
+    float connection[size], beyond[size];  ///< PathWeights::MattMerge
+    int8_t side[3][size];                  ///< LightVertexData::side
+    uint16_t before[size];                 ///< LightVertexData::before
+    uint16_t most_before = 0;              ///< of all
+    uint16_t after_specular = 0;           ///< bit i: that of vertex i
+    bool same_side = false;                ///< all sides are alike
+  };
+
+ private:
+  const KdBuckets* buckets_ = nullptr;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace kaustik

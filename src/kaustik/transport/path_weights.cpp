@@ -1,0 +1,196 @@
+#include "kaustik/transport/path_weights.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "kaustik/base/vec.h"
+
+namespace kaustik {
+
+/// Both halves as one path x₁ … xₙ, and the densities of all techniques relative to that of
+/// connecting the halves where they meet. With Q_i the product of the camera's densities up to x_i
+/// and of the lights' beyond it, x_i is
+///   connected to x_i+1 with density Q_i · connections,
+///   merged with Q_i · p_light(x_i) · n A_i c_i,
+/// and the whole path is splatted with Q_0 · n, sampled with Q_n-1 · p_next / p_light(x_n), met
+/// with Q_n. `ratio` is Q_i / Q_t.
+class PathWeights::View {
+ public:
+  enum class Meeting { between, at_last };  ///< x_t and x_t+1, or at x_t
+  View(const Settings& settings, const PathHalves& path, Meeting meeting)
+      : settings_(settings),
+        path_(path),
+        meeting_(meeting),
+        t_(path.camera.size()),
+        n_(path.camera.size() + path.light.size()) {
+    while (first_ < t_ && path_.camera[first_ - 1].delta) ++first_;
+  }
+
+  size_t t() const { return t_; }
+  size_t n() const { return n_; }
+
+  float pdf_light(size_t i) const {
+    if (i == t_) return path_.pdf_light_last;
+    if (i + 1 == t_) return path_.pdf_light_before_last;
+    return vertex(i).pdf_light;
+  }
+  /// Density of x_i on its own …
+  float pdf_camera(size_t i) const {
+    if (i == t_ + 1) return path_.pdf_camera_last;
+    if (i == t_ + 2) return path_.pdf_camera_before_last;
+    return vertex(i).pdf_camera;
+  }
+  /// … and with the chance that the path comes there.
+  float reach(size_t i) const {
+    return i == first_ + 1 ? pdf_camera(i) * path_.first_survival : pdf_camera(i);
+  }
+  /// At vertices where the halves meet what is not delta counts, whatever event the light path went
+  /// on by.
+  bool is_delta(size_t i) const {
+    const bool meets = i == t_ || (i == t_ + 1 && meeting_ == Meeting::between);
+    return !meets && i >= 1 && i <= n_ && vertex(i).delta;
+  }
+  /// Up to x_i, i ≤ t, and from x_i on, i > t.
+  float camera_spread(size_t i) const { return i >= 1 ? path_.camera[i - 1].spread : 1.0f; }
+  float light_spread(size_t i) const { return i <= n_ ? path_.light[n_ - i].spread : 1.0f; }
+
+  float connection(float ratio, size_t i) const {
+    if (!settings_.techniques.connections || i < 1 || i + 2 > n_ || is_delta(i) || is_delta(i + 1))
+      return 0;
+    return ratio * settings_.connections;
+  }
+  float splat(float ratio) const {
+    if (!settings_.techniques.splats || n_ < 3 || is_delta(1)) return 0;
+    return ratio * settings_.light_paths;
+  }
+  float next_event(float ratio) const {
+    if (!settings_.techniques.next_event || n_ < 2 || is_delta(n_ - 1)) return 0;
+    return ratio * path_.pdf_next_event / pdf_light(n_);
+  }
+  float unidirectional(float ratio) const {
+    return settings_.techniques.unidirectional ? ratio : 0.0f;
+  }
+  /// The spreads are those up to x_i and from x_i+1 on.
+  float merge(float ratio, size_t i, float camera_spread, float light_spread) const {
+    if (!settings_.techniques.merging || i < 1 || i + 2 > n_ || is_delta(i)) return 0;
+    const float density = ratio * pdf_light(i) * settings_.light_paths;
+    if (i == first_) return density * path_.first_merge_area;
+    if (camera_spread < settings_.least_spread) return 0;
+    const float either = camera_spread + light_spread - camera_spread * light_spread;
+    const float independent = settings_.correlation && either > 0 ? camera_spread / either : 1.0f;
+    return density * settings_.merge_area * independent;
+  }
+
+ private:
+  const PathVertex& vertex(size_t i) const {
+    return i <= t_ ? path_.camera[i - 1] : path_.light[n_ - i];
+  }
+
+  const Settings& settings_;
+  const PathHalves& path_;
+  Meeting meeting_;
+  size_t t_, n_;
+  size_t first_ = 1;  ///< the first vertex whose event is not delta
+};
+
+float PathWeights::squares_at(const View& path, size_t i, float scale, float camera_spread,
+                              float light_spread) const {
+  const size_t n = path.n();
+  if (i == 0) return sqr(path.splat(scale));
+  float sum = 0;
+  if (i + 2 <= n)
+    sum += sqr(path.connection(scale, i)) + sqr(path.merge(scale, i, camera_spread, light_spread));
+  if (i + 1 == n) sum += sqr(path.next_event(scale));
+  if (i == n) sum += sqr(path.unidirectional(scale));
+  return sum;
+}
+
+float PathWeights::squares_beyond(const View& path, float scale) const {
+  const size_t t = path.t(), n = path.n();
+  float sum = 0, ratio = scale, camera_spread = path.camera_spread(t);
+  for (size_t i = t + 1; i <= n; ++i) {
+    ratio *= path.reach(i) / path.pdf_light(i);
+    if (!(ratio > 0)) break;
+    if (i >= 2)
+      camera_spread = spread_after(camera_spread, path.pdf_camera(i), path.is_delta(i - 1));
+    sum += squares_at(path, i, ratio, camera_spread, path.light_spread(i + 1));
+  }
+  return sum;
+}
+
+float PathWeights::squares_before(const View& path, float scale) const {
+  const size_t n = path.n();
+  float sum = 0, ratio = scale, light_spread = path.light_spread(path.t() + 1);
+  for (size_t i = path.t(); i-- > 0;) {
+    ratio *= path.pdf_light(i + 1) / path.reach(i + 1);
+    if (!(ratio > 0)) break;
+    if (i + 1 < n)
+      light_spread = spread_after(light_spread, path.pdf_light(i + 1), path.is_delta(i + 2));
+    sum += squares_at(path, i, ratio, path.camera_spread(i), light_spread);
+  }
+  return sum;
+}
+
+float PathWeights::weight(const View& path, float own_density) const {
+  if (!(own_density > 0)) return 0;
+  // Relative to one's own, so that squares stay within bounds.
+  const float scale = 1 / own_density;
+  const size_t t = path.t();
+  const float sum = squares_at(path, t, scale, path.camera_spread(t), path.light_spread(t + 1)) +
+                    squares_beyond(path, scale) + squares_before(path, scale);
+  return sum > 0 ? 1 / sum : 0.0f;
+}
+
+PathWeights::MattMerge PathWeights::matt_merge(const PathHalves& path) const {
+  const View view(settings_, path, View::Meeting::at_last);
+  const float density = view.pdf_light(view.t()) * settings_.light_paths;
+  if (!(density > 0)) return {1e30f, 1e30f};
+  return {sqr(view.connection(1 / density, view.t())), squares_beyond(view, 1 / density)};
+}
+
+PathWeights::MattVertex PathWeights::matt_vertex(std::span<const PathVertex> camera,
+                                                 float merge_area, float survival) const {
+  MattVertex result;
+  // Splats find what the camera sees directly, by a density that is that of merging but for this:
+  if (settings_.techniques.splats && camera.size() == 1)
+    result.base += sqr(1 / (camera[0].pdf_camera * merge_area));
+  constexpr float most = 1e30f;  // infinite factors of what is zero would make no sense
+  result.on_connection = std::min(most, sqr(1 / merge_area));
+  result.on_beyond = std::min(most, sqr(survival / merge_area));
+  return result;
+}
+
+bool PathWeights::merges_at(std::span<const PathVertex> camera) const {
+  if (!settings_.techniques.merging) return false;
+  size_t first = 1;
+  while (first < camera.size() && camera[first - 1].delta) ++first;
+  return first == camera.size() || camera.back().spread >= settings_.least_spread;
+}
+
+float PathWeights::unidirectional(const PathHalves& path) const {
+  const View view(settings_, path, View::Meeting::between);
+  return weight(view, view.unidirectional(1));
+}
+
+float PathWeights::next_event(const PathHalves& path) const {
+  const View view(settings_, path, View::Meeting::between);
+  return weight(view, view.next_event(1));
+}
+
+float PathWeights::splat(const PathHalves& path) const {
+  const View view(settings_, path, View::Meeting::between);
+  return weight(view, view.splat(1));
+}
+
+float PathWeights::connection(const PathHalves& path) const {
+  const View view(settings_, path, View::Meeting::between);
+  return weight(view, view.connection(1, view.t()));
+}
+
+float PathWeights::merge(const PathHalves& path) const {
+  const View view(settings_, path, View::Meeting::at_last);
+  const size_t t = view.t();
+  return weight(view, view.merge(1, t, view.camera_spread(t), view.light_spread(t + 1)));
+}
+
+}  // namespace kaustik

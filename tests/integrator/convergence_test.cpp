@@ -1,0 +1,93 @@
+// How fast errors fall from pass to pass.
+
+#include "kaustik/image/image.h"
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+/// Mean over pixels of the squared error in green.
+double squared_error(const Image& image, const Image& truth) {
+  const int green = image.find_channel("G"), of_truth = truth.find_channel("G");
+  double sum = 0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const double e = double(image.at(x, y, green)) - double(truth.at(x, y, of_truth));
+      sum += e * e;
+    }
+  return sum / (double(image.width()) * image.height());
+}
+
+Image picture(const Scene& scene, const Integrator& integrator, uint64_t seed, uint32_t passes,
+              uint32_t samples_per_pass) {
+  SessionSettings settings;
+  settings.seed = seed;
+  settings.passes = passes;
+  settings.samples_per_pass = samples_per_pass;
+  Session session(scene, integrator, settings);
+  session.run();
+  return session.film().image();
+}
+
+/// Mean squared error over seeds after 1, 2, 4 … passes of one sample, up to `last`.
+std::vector<double> errors_over_passes(const Scene& scene, const Integrator& integrator,
+                                       const Image& truth, uint32_t last, int seeds) {
+  std::vector<double> errors;
+  for (uint32_t passes = 1; passes <= last; passes *= 2) errors.push_back(0);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    SessionSettings settings;
+    settings.seed = uint64_t(seed);
+    settings.passes = last;
+    settings.samples_per_pass = 1;
+    Session session(scene, integrator, settings);
+    size_t next = 0;
+    session.run({}, {}, [&] {
+      if (session.film().pass_count() != 1u << next) return;
+      errors[next++] += squared_error(session.film().image(), truth) / seeds;
+    });
+  }
+  return errors;
+}
+
+/// Of log error over log passes, which double from one to the next.
+double slope(const std::vector<double>& errors) {
+  const double n = double(errors.size());
+  double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
+  for (size_t i = 0; i < errors.size(); ++i) {
+    const double x = double(i), y = std::log2(errors[i]);
+    std::printf("    %.4g", errors[i]);
+    sum_x += x, sum_y += y, sum_xx += x * x, sum_xy += x * y;
+  }
+  return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
+}
+
+void expect_slope(const char* what, const std::vector<double>& errors, double expected,
+                  double tolerance) {
+  const double found = slope(errors);
+  std::printf("  %s: slope %.3f\n", what, found);
+  if (!slow_build) {
+    EXPECT_NEAR(found, expected, tolerance) << what;
+  }
+}
+
+/// Up to 16 passes are replicates of their own: independent samples.
+TEST(Convergence, UnbiasedTechniques) {
+  constexpr int seeds = slow_build ? 2 : 40;
+  const TestScene scene(camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 16) +
+                        flat("rectangle", "", diffuse("0.5, 0.5, 0.5")) +
+                        sphere("-0.3, 0.3, 0.4", 0.4, diffuse("0.6, 0.6, 0.6")) +
+                        flat("rectangle",
+                             scale("0.5, 0.5, 1") + rotate("1, 0, 0", 180) + translate("0, 0, 1.9"),
+                             diffuse("0, 0, 0") + area_light("5")));
+  const auto path = scene.integrator("path");
+  const Image truth = picture(scene.scene(), *path, 99, 16, slow_build ? 16 : 256);
+  for (const char* type : {"path", "bdpt"})
+    expect_slope(type, errors_over_passes(scene.scene(), *scene.integrator(type), truth, 16, seeds),
+                 -1, 0.05);
+}
+
+}  // namespace
+}  // namespace kaustik

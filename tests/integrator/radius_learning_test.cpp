@@ -1,0 +1,104 @@
+// Learned radii: wide where light is even, narrow at the edge of a shadow, and narrower the more is
+// known.
+
+#include "kaustik/integrator/radius_learning.h"
+
+#include <random>
+
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+/// A floor of 2 m seen from above, every pixel 1/32 m wide.
+TestScene floor_scene() {
+  return TestScene(camera("0, 0, 10", "0, 0, 0", 11.42, 64, "0, 1, 0") +
+                   flat("rectangle", scale("3, 3, 1"), diffuse("0.5, 0.5, 0.5")) +
+                   point_light("0, 0, 5", 1));
+}
+
+/// Light from above on the floor, of density `density(x, y)` relative to the largest.
+template <typename Density>
+LightVertices light_of(const Density& density, size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> place(-1.5f, 1.5f), unit(0, 1);
+  std::vector<Vec3f> positions;
+  std::vector<LightVertexData> data;
+  while (positions.size() < count) {
+    const Vec3f at(place(random), place(random), 0);
+    if (unit(random) > density(at.x, at.y)) continue;
+    LightVertexData vertex;
+    vertex.flux = {1, 1, 1, 0};
+    vertex.direction = PackedDirection({0, 0, 1});
+    vertex.side = CoarseNormal({0, 0, 1});
+    positions.push_back(at);
+    data.push_back(vertex);
+  }
+  LightVertices light;
+  light.tree = {std::move(positions), std::move(data)};
+  light.path_count = uint32_t(count);
+  return light;
+}
+
+/// Plans after `passes` of this light.
+template <typename Density>
+PixelPlans learned(const Scene& scene, const Density& density, size_t count, uint32_t passes) {
+  const PixelPlans first(scene, light_of(density, count, 99), uint32_t(count), 20, 0);
+  const RadiusLearning learning(scene, first);
+  std::vector<RadiusLearning::Sums> sums(first.probes().size());
+  for (uint32_t pass = 0; pass < passes; ++pass) {
+    const auto added = learning.sums_of(scene, first, light_of(density, count, pass));
+    for (size_t i = 0; i < sums.size(); ++i) sums[i].add(added[i]);
+  }
+  return learning.plans(first, sums, passes, 1);
+}
+
+double mean_radius(const PixelPlans& plans, int x0, int x1) {
+  double sum = 0;
+  int count = 0;
+  for (int y = 8; y < 56; y += 4)
+    for (int x = x0; x < x1; x += 4, ++count)
+      sum += std::sqrt(double(plans.at({float(x) + 2, float(y) + 2}, 1).merge_area) /
+                       std::numbers::pi);
+  return sum / count;
+}
+
+TEST(RadiusLearning, WideInEvenLightAndNarrowAtAnEdge) {
+  const TestScene scene = floor_scene();
+  constexpr double pixel = 2.0 / 64, widest = pixel * 5.65;
+  const auto even = [](float, float) { return 1.0f; };
+  const auto edge = [](float x, float) { return x > 0 ? 1.0f : 0.1f; };
+  // Some levels are lost by chance, since disks are compared at 1.5 standard errors.
+  EXPECT_GT(mean_radius(learned(scene.scene(), even, 3000, 4), 8, 56), 0.5 * widest);
+  const PixelPlans few = learned(scene.scene(), edge, 1500, 1);
+  const PixelPlans many = learned(scene.scene(), edge, 3000, 64);
+  const double at_edge = mean_radius(many, 28, 36), beside = mean_radius(many, 8, 20);
+  EXPECT_LT(at_edge, 0.6 * beside);
+  EXPECT_LT(at_edge, mean_radius(few, 28, 36));
+}
+
+/// Beyond its end a surface has no light, which is no reason for small disks: what is there is
+/// divided by what is covered.
+TEST(RadiusLearning, EndsOfSurfacesAreNoEdgesOfLight) {
+  const TestScene scene(camera("0, 0, 10", "0, 0, 0", 11.42, 64, "0, 1, 0") +
+                        flat("rectangle", scale("0.5, 3, 1"), diffuse("0.5, 0.5, 0.5")) +
+                        point_light("0, 0, 5", 1));
+  const auto even = [](float x, float) { return std::fabs(x) < 0.5f ? 1.0f : 0.0f; };
+  const PixelPlans plans = learned(scene.scene(), even, 3000, 4);
+  // The end lies at pixels 16 and 48.
+  EXPECT_GT(mean_radius(plans, 44, 48), 0.6 * mean_radius(plans, 28, 36));
+}
+
+TEST(RadiusLearning, PathsGoOnWhereNothingMerges) {
+  const TestScene scene = floor_scene();
+  const auto half = [](float x, float) { return x > 0 ? 1.0f : 0.0f; };
+  const PixelPlans plans = learned(scene.scene(), half, 20'000, 4);
+  EXPECT_EQ(plans.at({10, 30}, 1).survival, 1);
+  EXPECT_LT(plans.at({54, 30}, 1).survival, 0.2);
+}
+
+}  // namespace
+}  // namespace kaustik

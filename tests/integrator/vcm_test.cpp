@@ -1,0 +1,151 @@
+// Connection and merging: every choice of techniques makes the same picture.
+
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+std::string wall(const std::string& transform, const std::string& bsdf) {
+  return flat("rectangle", transform, bsdf);
+}
+
+/// A closed room 2 m wide with a glossy floor, a mirror, a glass and a rough metal ball.
+std::string room(const std::string& lights, int size = 16) {
+  const std::string white = diffuse("0.5, 0.5, 0.5");
+  return camera("0.1, -0.9, 0.9", "0, 1, 0.5", 65, size) +
+         wall(rotate("1, 0, 0", 180) + translate("0, 0, 2"), white) +
+         wall(rotate("0, 1, 0", 90) + translate("-1, 0, 1"), diffuse("0.6, 0.1, 0.1")) +
+         wall(rotate("0, 1, 0", -90) + translate("1, 0, 1"), diffuse("0.1, 0.5, 0.1")) +
+         wall(rotate("1, 0, 0", 90) + translate("0, 1, 1"), white) +
+         wall(rotate("1, 0, 0", -90) + translate("0, -1, 1"), white) +
+         wall("", phong(0.4, 0.3, 8)) + sphere("-0.5, 0.4, 0.351", 0.35, mirror()) +
+         sphere("0.5, 0.1, 0.301", 0.3, glass()) + sphere("0, 0.6, 0.251", 0.25, ggx(0.3)) + lights;
+}
+std::string large_lamp(bool two_sided = false) {
+  return flat("rectangle",
+              scale("0.85, 0.85, 1") + rotate("1, 0, 0", 180) + translate("0, 0.1, 1.9"),
+              diffuse("0, 0, 0") +
+                  fmt::format(R"(<emitter type="area"><rgb name="radiance" value="10, 9, 8"/>
+                              <boolean name="two_sided" value="{}"/></emitter>)",
+                              two_sided));
+}
+
+struct Choice {
+  const char* name;
+  bool unidirectional, next_event, splats, connections;
+};
+std::string techniques(const Choice& c) {
+  return set("unidirectional", c.unidirectional) + set("next_event", c.next_event) +
+         set("splats", c.splats) + set("connections", c.connections);
+}
+
+/// Every set of unbiased techniques that finds all light finds that of `path`, in all components.
+TEST(Vcm, AnyUnbiasedTechniques) {
+  const TestScene scene(room(large_lamp()));
+  const Passes path = render(scene, "path", "", {400, 7});
+  const Choice choices[] = {{"met", true, false, false, false},
+                            {"sampled", true, true, false, false},
+                            {"sampled and splatted", true, true, true, false},
+                            {"connected", true, true, false, true},
+                            {"all", true, true, true, true}};
+  for (const Choice& c : choices) {
+    const Passes found = render(scene, "bdpt", techniques(c), {c.next_event ? 100.0 : 450.0, 8});
+    for (const char* layer : {"", "direct", "indirect", "specular"})
+      expect_equal_means(fmt::format("{} {}", c.name, layer), found.mean({layer}),
+                         path.mean({layer}));
+  }
+}
+
+/// Splats need no light that is met: what the camera sees by the floor's diffuse lobe is found
+/// without.
+TEST(Vcm, WithoutMeetingLights) {
+  const TestScene scene(room(large_lamp()));
+  const Passes path = render(scene, "path", "", {400, 7});
+  const Passes found = render(scene, "bdpt", techniques({"", false, true, true, true}), {130, 8});
+  for (const char* layer : {"direct", "indirect"})
+    expect_equal_means(fmt::format("lights not met, {}", layer), found.mean({layer}),
+                       path.mean({layer}));
+}
+
+/// All kinds of lights, which differ in their densities.
+TEST(Vcm, AnyLight) {
+  const std::string floor =
+      wall("", diffuse("0.5, 0.4, 0.3")) +
+      wall(rotate("1, 0, 0", 90) + translate("0, 1, 1"), diffuse("0.5, 0.5, 0.5")) +
+      sphere("-0.45, 0.3, 0.401", 0.4, phong(0.4, 0.3, 8)) +
+      camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 16);
+  const struct {
+    const char* name;
+    std::string light;
+  } rows[] = {{"point", point_light("0.3, -0.2, 1.2", 2)},
+              {"directional", directional_light("0.2, 0.3, -1", 2)},
+              {"constant", constant_light(1)},
+              {"two-sided lamp", flat("rectangle", scale("0.3, 0.3, 1") + translate("0, 0.4, 0.9"),
+                                      diffuse("0, 0, 0") +
+                                          R"(<emitter type="area"><rgb name="radiance" value="3"/>
+                                          <boolean name="two_sided" value="true"/></emitter>)")},
+              {"distributed",
+               R"(<emitter type="distributed"><point name="position" value="0.4, 0, 0.9"/>
+               <float name="radius" value="0.1"/><rgb name="intensity" value="1"/></emitter>)"},
+              {"ball", sphere("0.4, 0, 0.7", 0.15, diffuse("0, 0, 0") + area_light("5"))},
+              {"two lamps", point_light("0.3, -0.2, 1.2", 2) +
+                                sphere("0.4, 0, 0.7", 0.15, diffuse("0, 0, 0") + area_light("5"))}};
+  for (const auto& row : rows) {
+    const TestScene scene(floor + row.light);
+    const Passes path = render(scene, "path", "", {300, 7});
+    for (const char* type : {"bdpt", "vcm"}) {
+      const Passes found = render(scene, type, set("radius", 0.01), {200, 8});
+      expect_equal_means(fmt::format("{} {}", row.name, type), found.mean({""}), path.mean({""}));
+      if (type == std::string("bdpt"))
+        expect_equal_means(fmt::format("{} {} indirect", row.name, type), found.mean({"indirect"}),
+                           path.mean({"indirect"}));
+    }
+  }
+}
+
+/// Merging is biased by its radius alone.
+TEST(Vcm, Merging) {
+  const TestScene scene(room(large_lamp()));
+  const Passes path = render(scene, "path", "", {600, 7});
+  for (const char* type : {"vcm", "ppm"}) {
+    const Passes found =
+        render(scene, type, set("radius", 0.03) + set("light_paths", 4.0), {280, 8});
+    for (const char* layer : {"direct", "indirect"})
+      expect_near_means(fmt::format("{} {}", type, layer), found.mean({layer}), path.mean({layer}),
+                        0.01);
+  }
+}
+
+/// Where a small lamp shines through glass only light paths know it.
+TEST(Vcm, CausticOfASmallLamp) {
+  const TestScene scene(camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 16) +
+                        wall("", diffuse("0.5, 0.5, 0.5")) + sphere("0, 0.1, 0.5", 0.3, glass()) +
+                        sphere("0, 0.3, 1.6", 0.02, diffuse("0, 0, 0") + area_light("500")));
+  const Passes light = render(scene, "lighttracer", set("components", "caustic"), {600, 7});
+  for (const char* type : {"bdpt", "vcm"})
+    expect_near_means(
+        fmt::format("caustic by {}", type),
+        render(scene, type, set("components", "caustic") + set("light_paths", 1.0), {200, 8})
+            .mean({"caustic"}),
+        light.mean({"caustic"}), 0.01);
+}
+
+/// max_depth cuts all techniques at the same length.
+TEST(Vcm, LongestPath) {
+  const TestScene scene(room(large_lamp()));
+  for (const int depth : {2, 3, 4}) {
+    const Passes path = render(scene, "path", set("max_depth", depth), {200, 7});
+    for (const char* type : {"bdpt", "vcm"})
+      expect_near_means(
+          fmt::format("{} with at most {} segments", type, depth),
+          render(scene, type, set("max_depth", depth) + set("light_paths", 2.0), {60, 8})
+              .mean({""}),
+          path.mean({""}), 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace kaustik

@@ -1,0 +1,130 @@
+// Merging by vector instructions finds what a loop over all light vertices finds.
+
+#include "kaustik/photon/matt_merging.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace kaustik {
+namespace {
+
+PathWeights all_techniques() {
+  PathWeights::Settings settings;
+  settings.techniques = {true, true, true, true, true};
+  settings.light_paths = 1000;
+  settings.connections = 0.5f;
+  settings.merge_area = 1e-3f;
+  settings.accepted_area = 1e-2f;
+  return PathWeights(settings);
+}
+
+/// Paths of a light, a diffuse event and a vertex that merges, on two floors that lie close and a
+/// wall.
+LightVertices light_vertices(uint32_t count) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> unit(0, 1);
+  LightVertices light;
+  light.path_count = count;
+  std::vector<Vec3f> positions;
+  std::vector<LightVertexData> data;
+  for (uint32_t i = 0; i < count; ++i) {
+    LightVertexData d;
+    const int where = int(random() % 3);
+    const Vec3f normal = where < 2 ? Vec3f(0, 0, where == 0 ? 1.0f : -1.0f) : Vec3f(1, 0, 0);
+    const float a = unit(random), b = unit(random);
+    positions.push_back(where < 2 ? Vec3f(a, b, where == 0 ? 0.0f : -0.02f)
+                                  : Vec3f(0.5f, a, b * 0.2f));
+    d.side = CoarseNormal(normal);
+    d.direction = PackedDirection(normalize(normal + Vec3f(0.3f, 0.5f, 0.2f)));
+    for (int lane = 0; lane < 3; ++lane) d.flux[size_t(lane)] = unit(random);
+    d.specular = unit(random) < 0.3f;
+    d.before = uint16_t(2 + random() % 3);
+    d.path = uint32_t(light.vertices.size());
+    d.pdf_next_event = unit(random);
+    for (int k = 0; k <= d.before; ++k) {
+      PathVertex vertex;
+      vertex.pdf_camera = 0.1f + unit(random);
+      vertex.pdf_light = 0.1f + unit(random);
+      vertex.to_previous = 0.1f + unit(random);
+      vertex.spread = unit(random);
+      vertex.delta = k > 0 && k < d.before && d.specular;
+      light.vertices.push_back(vertex);
+    }
+    data.push_back(d);
+  }
+  light.tree = {std::move(positions), std::move(data)};
+  return light;
+}
+
+/// What counts at a disk, vertex by vertex, by the whole weights.
+MattLight by_definition(const LightVertices& light, const PathWeights& weights,
+                        const MattDisk& disk, const PathVertex& seen, float area, float survival) {
+  MattLight result;
+  const auto& tree = light.tree.tree();
+  for (uint32_t i = 0; i < tree.size(); ++i) {
+    const LightVertexData& data = tree.data(i);
+    const Vec3f offset = tree.key(i) - disk.center;
+    const float share = length_sq(offset) / sqr(disk.radius);
+    if (!(share < 1) || std::fabs(dot(offset, disk.normal)) > disk.flatness ||
+        data.side.dot(disk.normal) <= disk.least_cosine * 127 || data.before > disk.most_before)
+      continue;
+    const std::span<const PathVertex> before = light.before(data);
+    PathHalves path;
+    path.camera = {&seen, 1};
+    path.light = before;
+    path.pdf_light_last = light.at(data).pdf_light;
+    path.pdf_camera_last =
+        dot(disk.normal, data.direction.unpack()) * inv_pi * light.at(data).to_previous;
+    path.pdf_camera_before_last = before[before.size() - 2].pdf_camera;
+    path.pdf_next_event = data.pdf_next_event;
+    path.first_merge_area = area;
+    path.first_survival = survival;
+    const Spectrum flux = data.flux_spectrum() * weights.merge(path);
+    MattLight::Sum& sum = data.specular ? result.after_specular : result.other;
+    sum.wide += flux * (1 - share);
+    sum.narrow += flux * std::max(0.0f, 1 - 2 * share);
+  }
+  return result;
+}
+
+void expect_same(const Spectrum& found, const Spectrum& expected) {
+  for (int lane = 0; lane < 3; ++lane)
+    EXPECT_NEAR(found[lane], expected[lane], 1e-3f * expected[lane] + 1e-6f);
+}
+
+TEST(MattMerging, FindsWhatALoopFinds) {
+  const PathWeights weights = all_techniques();
+  const LightVertices light = light_vertices(3001);
+  const MattMerging merging(light, weights);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> unit(0, 1);
+  double found = 0;
+  for (int i = 0; i < 300; ++i) {
+    MattDisk disk;
+    disk.normal = i % 3 == 0 ? Vec3f(1, 0, 0) : Vec3f(0, 0, i % 3 == 1 ? 1.0f : -1.0f);
+    disk.center = i % 3 == 0 ? Vec3f(0.5f, unit(random), 0.2f * unit(random))
+                             : Vec3f(unit(random), unit(random), i % 3 == 1 ? 0.0f : -0.02f);
+    disk.radius = 0.02f + 0.2f * unit(random);
+    disk.flatness = 0.3f * disk.radius;
+    disk.least_cosine = 0.5f;
+    if (i % 2 == 0) disk.most_before = 3;
+    PathVertex seen;
+    seen.pdf_camera = 1 + 50 * unit(random);
+    const float area = pi * sqr(disk.radius), survival = 0.1f + 0.9f * unit(random);
+    disk.weights = weights.matt_vertex({&seen, 1}, area, survival);
+    const MattLight light_there = merging.merge(disk);
+    const MattLight expected = by_definition(light, weights, disk, seen, area, survival);
+    expect_same(light_there.after_specular.wide, expected.after_specular.wide);
+    expect_same(light_there.after_specular.narrow, expected.after_specular.narrow);
+    expect_same(light_there.other.wide, expected.other.wide);
+    expect_same(light_there.other.narrow, expected.other.narrow);
+    found += double(expected.other.wide.sum());
+  }
+  EXPECT_GT(found, 100);
+}
+
+TEST(MattMerging, OfNothing) { EXPECT_TRUE(MattMerging().merge(MattDisk()).other.wide.is_zero()); }
+
+}  // namespace
+}  // namespace kaustik

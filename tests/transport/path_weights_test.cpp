@@ -1,0 +1,189 @@
+// The weights of all ways of finding one path sum to 1.
+
+#include "kaustik/transport/path_weights.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace kaustik {
+namespace {
+
+/// A whole path x₁ … xₙ with what every technique would find out about it.
+struct WholePath {
+  std::vector<PathVertex> vertices;  ///< x₁ … xₙ
+  float pdf_next_event = 0, first_merge_area = 0, first_survival = 1;
+};
+
+/// Densities over some magnitudes; the light's point has no event.
+WholePath random_path(std::mt19937& random, size_t length, double delta_share) {
+  std::uniform_real_distribution<float> exponent(-2, 2), unit(0, 1);
+  const auto density = [&] { return std::pow(10.0f, exponent(random)); };
+  WholePath path;
+  path.vertices.resize(length);
+  for (PathVertex& vertex : path.vertices) {
+    vertex.pdf_camera = density();
+    vertex.pdf_light = density();
+    vertex.delta = double(unit(random)) < delta_share;
+  }
+  path.vertices.back().delta = false;
+  path.pdf_next_event = density();
+  path.first_merge_area = 1e-4f * density();
+  path.first_survival = 0.05f + 0.95f * unit(random);
+  return path;
+}
+
+/// The halves with t vertices on the camera's side, as each side finds them: a vertex knows only
+/// what the path up to it can know.
+struct Halves {
+  Halves(const WholePath& path, size_t t, const PathWeights& weights) {
+    const std::vector<PathVertex>& all = path.vertices;
+    const size_t n = all.size();
+    for (size_t i = 1; i <= t; ++i) {
+      camera.push_back(all[i - 1]);
+      const bool after_delta = i >= 2 && all[i - 2].delta;
+      camera.back().spread =
+          i == 1 ? 1
+                 : weights.spread_after(camera[i - 2].spread, all[i - 1].pdf_camera, after_delta);
+      if (i + 1 >= t) camera.back().pdf_light = -1;  // not known yet
+    }
+    for (size_t i = n; i > t; --i) {
+      light.push_back(all[i - 1]);
+      const bool after_delta = i < n && all[i].delta;
+      light.back().spread =
+          i == n ? 1
+                 : weights.spread_after(light[n - i - 1].spread, all[i - 1].pdf_light, after_delta);
+      if (i <= t + 2) light.back().pdf_camera = -1;
+    }
+    halves.camera = camera;
+    halves.light = light;
+    if (t >= 1) halves.pdf_light_last = all[t - 1].pdf_light;
+    if (t >= 2) halves.pdf_light_before_last = all[t - 2].pdf_light;
+    if (t < n) halves.pdf_camera_last = all[t].pdf_camera;
+    if (t + 1 < n) halves.pdf_camera_before_last = all[t + 1].pdf_camera;
+    halves.pdf_next_event = path.pdf_next_event;
+    halves.first_merge_area = path.first_merge_area;
+    halves.first_survival = path.first_survival;
+  }
+  std::vector<PathVertex> camera, light;
+  PathHalves halves;
+};
+
+/// Sum over the techniques that can find the path.
+double sum_of_weights(const WholePath& path, const PathWeights& weights, int& techniques) {
+  const Techniques& on = weights.settings().techniques;
+  const size_t n = path.vertices.size();
+  const auto is_delta = [&](size_t i) { return path.vertices[i - 1].delta; };
+  double sum = 0;
+  techniques = 0;
+  const auto add = [&](float weight) {
+    sum += double(weight);
+    if (weight > 0) ++techniques;
+  };
+  if (on.unidirectional) add(weights.unidirectional(Halves(path, n, weights).halves));
+  if (on.next_event && n >= 2 && !is_delta(n - 1))
+    add(weights.next_event(Halves(path, n - 1, weights).halves));
+  if (on.splats && n >= 3 && !is_delta(1)) add(weights.splat(Halves(path, 0, weights).halves));
+  for (size_t t = 1; t + 2 <= n; ++t) {
+    const Halves halves(path, t, weights);
+    if (on.connections && !is_delta(t) && !is_delta(t + 1)) add(weights.connection(halves.halves));
+    if (on.merging && !is_delta(t)) add(weights.merge(halves.halves));
+  }
+  return sum;
+}
+
+PathWeights::Settings settings_of(unsigned mask, std::mt19937& random) {
+  std::uniform_real_distribution<float> unit(0, 1);
+  PathWeights::Settings settings;
+  settings.techniques = {(mask & 1) != 0, (mask & 2) != 0, (mask & 4) != 0, (mask & 8) != 0,
+                         (mask & 16) != 0};
+  settings.light_paths = 1 + 1e5f * unit(random);
+  settings.connections = 0.1f + unit(random);
+  settings.merge_area = 1e-3f * unit(random);
+  settings.accepted_area = 0.1f * unit(random);
+  settings.correlation = unit(random) < 0.8f;
+  settings.least_spread = unit(random) < 0.5f ? 0.0f : 0.1f;
+  return settings;
+}
+
+TEST(PathWeights, SumToOne) {
+  std::mt19937 random(1);
+  int paths = 0, found_in_several_ways = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const unsigned mask = 1 + random() % 31;
+    const PathWeights weights(settings_of(mask, random));
+    const WholePath path = random_path(random, 1 + random() % 7, i % 3 == 0 ? 0.0 : 0.3);
+    int techniques = 0;
+    const double sum = sum_of_weights(path, weights, techniques);
+    if (techniques == 0) continue;
+    ++paths;
+    if (techniques > 1) ++found_in_several_ways;
+    ASSERT_NEAR(sum, 1, 1e-4) << "mask " << mask << ", " << path.vertices.size() << " vertices";
+  }
+  EXPECT_GT(paths, 15'000);
+  EXPECT_GT(found_in_several_ways, 10'000);
+}
+
+/// A technique that takes another radius for granted than the others weighs otherwise.
+TEST(PathWeights, NoticeAnotherRadius) {
+  std::mt19937 random(2);
+  double largest = 0;
+  for (int i = 0; i < 200; ++i) {
+    PathWeights::Settings settings = settings_of(31, random);
+    const PathWeights weights(settings);
+    const WholePath path = random_path(random, 4, 0);
+    Halves halves(path, 1, weights);
+    const double right = double(weights.merge(halves.halves));
+    halves.halves.first_merge_area *= 1.5f;
+    largest = std::max(largest, std::fabs(double(weights.merge(halves.halves)) - right));
+  }
+  EXPECT_GT(largest, 0.05);
+}
+
+/// What is stored with a light path's vertex and what the camera's vertex tells make up the weight
+/// of merging at a first vertex.
+TEST(PathWeights, OfMattSurfaces) {
+  std::mt19937 random(3);
+  int compared = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const PathWeights weights(settings_of(16 + random() % 16, random));
+    WholePath path = random_path(random, 3 + random() % 5, 0.3);
+    const size_t n = path.vertices.size(), t = 1 + random() % (n - 2);
+    // The camera's path comes to x_t by delta events alone.
+    for (size_t k = 1; k <= t; ++k) path.vertices[k - 1].delta = k < t;
+    const Halves halves(path, t, weights);
+    const float expected = weights.merge(halves.halves);
+    if (!(expected > 1e-6f)) continue;
+    ++compared;
+    static constexpr PathVertex any{};
+    PathHalves stored = halves.halves;
+    stored.camera = {&any, 1};
+    stored.first_merge_area = -1;
+    stored.first_survival = 1;
+    const PathWeights::MattMerge merge = weights.matt_merge(stored);
+    const PathWeights::MattVertex vertex =
+        weights.matt_vertex(halves.camera, path.first_merge_area, path.first_survival);
+    const float weight = 1 / (vertex.base + merge.connection * vertex.on_connection +
+                              merge.beyond * vertex.on_beyond);
+    ASSERT_NEAR(weight / expected, 1, 1e-4) << n << " vertices, merged at " << t;
+  }
+  EXPECT_GT(compared, 3000);
+}
+
+/// With light sampled and met alone it is the power heuristic of path tracing.
+TEST(PathWeights, OfPathTracing) {
+  const PathWeights weights(PathWeights::Settings{{true, true, false, false, false}});
+  WholePath path;
+  path.vertices.resize(2);
+  path.vertices[0].pdf_camera = 3;
+  path.vertices[1].pdf_camera = 2;
+  path.vertices[1].pdf_light = 0.7f;
+  path.pdf_next_event = 5;
+  EXPECT_NEAR(weights.unidirectional(Halves(path, 2, weights).halves), 4.0 / 29, 1e-6);
+  EXPECT_NEAR(weights.next_event(Halves(path, 1, weights).halves), 25.0 / 29, 1e-6);
+}
+
+}  // namespace
+}  // namespace kaustik
