@@ -13,11 +13,17 @@ void add_info(CLI::App& program);
 void add_compare(CLI::App& program);
 void add_denoise(CLI::App& program);
 void add_photons(CLI::App& program);
+void add_resume(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_help(CLI::App& program);
 
 /// Splits "name=value" of -D; throws Error(input).
 std::vector<std::pair<std::string, std::string>> parse_definitions(
     const std::vector<std::string>& texts);
+
+/// "60", "60s", "5m", "1h" in seconds; throws Error(input).
+double parse_duration(const std::string& text);
+/// "2%" as 0.02; throws Error(input).
+double parse_error_bound(const std::string& text);
 
 }  // namespace kaustik::app

@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
       "cornell.png\n"
       "Every parameter of every object: kaustik help");
   kaustik::app::add_render(program);
+  kaustik::app::add_resume(program);
   kaustik::app::add_tonemap(program);
   kaustik::app::add_info(program);
   kaustik::app::add_compare(program);

@@ -2,34 +2,104 @@
 
 #include "commands.h"
 #include "kaustik/base/file.h"
+#include "kaustik/render/checkpoint.h"
 #include "kaustik/render/photon_tracing.h"
+#include "picture_output.h"
 
 namespace kaustik::app {
 namespace {
 
 struct MergeOptions {
-  std::vector<std::string> inputs;
-  std::string output;
+  std::vector<std::string> inputs, outputs;
 };
 
-void merge(const MergeOptions& options) {
-  check_output_path(options.output);
+void merge_photons(const MergeOptions& options) {
+  if (options.outputs.size() > 1)
+    throw Error(ErrorKind::input, "photon maps are written to one file",
+                "give one output: -o MAP.kpm");
+  const std::string& output = options.outputs.front();
+  check_output_path(output);
   std::vector<StoredPhotons> parts;
   for (const std::string& input : options.inputs) parts.push_back(read_photon_file(input));
   const StoredPhotons whole = merged_photons(parts);
-  write_photon_file(options.output, whole);
-  fmt::print(stderr, "wrote {}: {} global and {} caustic photons\n", options.output,
+  write_photon_file(output, whole);
+  fmt::print(stderr, "wrote {}: {} global and {} caustic photons\n", output,
              whole.maps.global.size(), whole.maps.caustic.size());
+}
+
+bool names_checkpoint(const std::string& output) { return output.ends_with(".kpt"); }
+
+/// The outputs that are images.
+std::vector<std::string> images_of(const MergeOptions& options) {
+  std::vector<std::string> images;
+  for (const std::string& output : options.outputs)
+    if (!names_checkpoint(output)) images.push_back(output);
+  return images;
+}
+
+/// One file after the other, so that two films are in memory at most.
+Checkpoint merged_checkpoints(const std::vector<std::string>& paths) {
+  Checkpoint whole = read_checkpoint(paths.front());
+  check_program(whole, paths.front(), KAUSTIK_VERSION);
+  for (size_t i = 1; i < paths.size(); ++i) {
+    const Checkpoint part = read_checkpoint(paths[i]);
+    check_program(part, paths[i], KAUSTIK_VERSION);
+    merge_checkpoint(whole, paths.front(), part, paths[i]);
+  }
+  return whole;
+}
+
+void merge_passes(const MergeOptions& options) {
+  OutputPlan images;
+  images.files = images_of(options);
+  check_outputs(images);
+  for (const std::string& output : options.outputs)
+    if (names_checkpoint(output)) check_output_path(output);
+  Checkpoint whole = merged_checkpoints(options.inputs);
+  // A merged checkpoint keeps the first part's list of images, for resume.
+  for (const std::string& output : options.outputs) {
+    if (!names_checkpoint(output)) continue;
+    write_checkpoint(output, whole.record, whole.film);
+    fmt::print(stderr, "wrote {}: passes {}\n", output, whole.film.passes().text());
+  }
+  whole.record.outputs.files = images.files;
+  write_pictures(whole.film, whole.record, {});
+  print_errors(whole.film);
+}
+
+void merge(const MergeOptions& options) {
+  const std::string& first = options.inputs.front();
+  if (is_checkpoint(first)) return merge_passes(options);
+  if (is_photon_file(first)) return merge_photons(options);
+  throw Error(ErrorKind::input, "this is neither a checkpoint nor a photon map",
+              "give files that were written by: kaustik render --checkpoint FILE.kpt, or kaustik "
+              "photons --part I/N",
+              place_in(first));
 }
 
 }  // namespace
 
 void add_merge(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "merge", "Put together the parts of photon maps (kaustik photons --part) to a whole.");
+      "merge",
+      "Put together what was computed in parts: passes of a picture (kaustik render --first-pass "
+      "--checkpoint), or photon maps (kaustik photons --part).");
+  command->footer(
+      "The result has the same bits as if it had been computed at once, whatever the order of the "
+      "parts.");
   auto o = std::make_shared<MergeOptions>();
-  command->add_option("parts", o->inputs, "Photon maps, all parts of one pass")->required();
-  command->add_option("-o,--output", o->output, "Photon map to write, .kpm")->required();
+  command
+      ->add_option("parts", o->inputs,
+                   "Checkpoints (.kpt) of different passes, or photon maps (.kpm), all parts of "
+                   "one pass")
+      ->required();
+  command
+      ->add_option("-o,--output", o->outputs,
+                   "Image or checkpoint (.kpt) to write, may be repeated; of photon maps a photon "
+                   "map (.kpm)")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->required();
   command->callback([o] { merge(*o); });
 }
 

@@ -116,28 +116,31 @@ std::vector<std::string> environment() {
   return variables;
 }
 
-std::vector<std::string> apply_thesis_variables(Description& description,
-                                                const std::vector<std::string>& variables) {
+std::vector<Setting> thesis_settings(const Description& description,
+                                     const std::vector<std::string>& variables,
+                                     std::vector<std::string>& report) {
   const auto integrator = find_integrator(description);
-  std::vector<std::string> report;
+  std::vector<Setting> settings;
   for (const std::string& entry : variables) {
     const size_t equals = std::min(entry.find('='), entry.size());
     const std::string name = entry.substr(0, equals);
     const Variable* variable = find_variable(name);
     if (!variable && !lower_case(name).starts_with("photonmap.")) continue;
-    if (integrator && integrator->type != "photonmap")
-      return {fmt::format("the environment's {} has no effect with integrator '{}'", name,
-                          integrator->type)};
-    const Place place = place_in(fmt::format("environment: {}", entry));
+    if (integrator && integrator->type != "photonmap") {
+      report.push_back(fmt::format("the environment's {} has no effect with integrator '{}'", name,
+                                   integrator->type));
+      return {};
+    }
+    const std::string origin = fmt::format("environment: {}", entry);
+    const Place place = place_in(origin);
     if (!variable) fail_unknown(name, place);
     const std::string value =
         translated(*variable, entry.substr(std::min(equals + 1, entry.size())), place);
-    override_property(description, fmt::format("integrator.{}={}", variable->parameter, value),
-                      place);
+    settings.push_back({fmt::format("integrator.{}={}", variable->parameter, value), origin});
     report.push_back(
         fmt::format("{} of the environment: {} = {}", name, variable->parameter, value));
   }
-  return report;
+  return settings;
 }
 
 void add_light_level(CLI::App& command, LevelOptions& levels) {
@@ -156,18 +159,26 @@ void add_eye_level(CLI::App& command, LevelOptions& levels) {
       ->check(CLI::Range(0, 64));
 }
 
-void apply_settings(Description& description, const LevelOptions& levels,
-                    const std::vector<std::string>& settings) {
-  for (const std::string& applied : apply_thesis_variables(description, environment()))
-    note(applied);
+std::vector<Setting> collected_settings(const Description& description, const LevelOptions& levels,
+                                        const std::vector<std::string>& settings) {
+  std::vector<std::string> report;
+  std::vector<Setting> result = thesis_settings(description, environment(), report);
+  for (const std::string& sentence : report) note(sentence);
   const auto set_level = [&](const char* option, const char* parameter, std::optional<int> level) {
-    if (!level) return;
-    override_property(description, fmt::format("integrator.{}={}", parameter, *level),
-                      place_in(fmt::format("command line: {} {}", option, *level)));
+    if (level)
+      result.push_back({fmt::format("integrator.{}={}", parameter, *level),
+                        fmt::format("command line: {} {}", option, *level)});
   };
   set_level("-l", "max_light_level", levels.light);
   set_level("-e", "max_eye_level", levels.eye);
-  for (const std::string& setting : settings) override_property(description, setting);
+  for (const std::string& setting : settings) result.push_back(setting_of_command_line(setting));
+  return result;
+}
+
+void apply_settings(Description& description, const LevelOptions& levels,
+                    const std::vector<std::string>& settings) {
+  for (const Setting& setting : collected_settings(description, levels, settings))
+    override_property(description, setting);
 }
 
 void print_thesis_variables() {

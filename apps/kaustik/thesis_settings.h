@@ -6,19 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "kaustik/scene/description.h"
+#include "kaustik/scene/overrides.h"
 
 namespace kaustik::app {
 
 /// The variables of this program's environment, as "name=value".
 std::vector<std::string> environment();
 
-/// Applies the thesis's variables among `variables` to the description's photonmap integrator (the
-/// default one if the scene names none); settings made later win. Returns a sentence for each that
-/// was applied, or one that none was because the integrator is another. Throws Error for an unknown
-/// photonMap.… and for what is no value; the integrator's table checks numbers and names.
-std::vector<std::string> apply_thesis_variables(Description& description,
-                                                const std::vector<std::string>& variables);
+/// What the thesis's variables among `variables` change in the description's photonmap integrator
+/// (the default one if the scene names none); settings made later win. `report` gets a sentence
+/// for each, or one that none has a say because the integrator is another. Throws Error for an
+/// unknown photonMap.… and for what is no value; the integrator's table checks numbers and names.
+std::vector<Setting> thesis_settings(const Description& description,
+                                     const std::vector<std::string>& variables,
+                                     std::vector<std::string>& report);
 
 /// The thesis's options.
 struct LevelOptions {
@@ -27,8 +28,11 @@ struct LevelOptions {
 void add_light_level(CLI::App& command, LevelOptions& levels);  ///< -l
 void add_eye_level(CLI::App& command, LevelOptions& levels);    ///< -e
 
-/// Applies the variables of this program's environment (and tells of them), the options and then
-/// `settings` ("object.parameter=value"): later ones win.
+/// What the variables of this program's environment (it tells of them), the options and `settings`
+/// ("object.parameter=value") change, in the order in which they apply: later ones win.
+std::vector<Setting> collected_settings(const Description& description, const LevelOptions& levels,
+                                        const std::vector<std::string>& settings);
+/// The same, applied.
 void apply_settings(Description& description, const LevelOptions& levels,
                     const std::vector<std::string>& settings);
 

@@ -134,6 +134,27 @@ TEST_F(Render, TimeLimitIsKept) {
   EXPECT_GT(brightness("a.exr"), 0);
 }
 
+TEST_F(Render, ErrorLimitIsKept) {
+  const auto passes = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> all = {"render", "path.xml", "-o", "a.exr"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const RunResult result = run_well(all);
+    EXPECT_TRUE(contains(result.err, "error of the pixels: ")) << result.err;
+    const Image image = read_image(path("a.exr"));
+    const MetadataValue* count = image.find_metadata("passes");
+    return count ? std::get<int64_t>(*count) : -1;
+  };
+  EXPECT_EQ(passes({"--error", "500%"}), 16);
+  EXPECT_EQ(passes({"--error", "0.001%", "--passes", "20"}), 20);
+  const int64_t in_time = passes({"--error", "0.001%", "--time", "0.3s"});
+  EXPECT_GE(in_time, 1);
+  for (const std::string wrong : {"2", "0%", "-1%", "two", "nan%"}) {
+    const RunResult result = run({"render", "path.xml", "-o", "b.exr", "--error=" + wrong});
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_TRUE(contains(result.err, "cannot read the error")) << result.err;
+  }
+}
+
 TEST_F(Render, ProgressTellsPercentPassesAndRays) {
   const RunResult shown = run_well({"render", "path.xml", "--spp", "2", "-o", "a.exr"});
   EXPECT_TRUE(contains(shown.err, "100 %")) << shown.err;

@@ -8,6 +8,7 @@
 
 #include "kaustik/base/statistics.h"
 #include "kaustik/image/photometry.h"
+#include "kaustik/render/film_errors.h"
 
 namespace kaustik {
 namespace {
@@ -37,7 +38,7 @@ std::vector<std::vector<PassPixel>> made_up_passes(size_t count) {
 }
 
 Film filmed(const std::vector<std::vector<PassPixel>>& passes, const std::vector<uint32_t>& order) {
-  Film film(film_settings(), ComponentSet::all());
+  Film film(film_settings(), {ComponentSet::all()});
   for (const uint32_t pass : order) film.add_pass(passes[pass], pass);
   return film;
 }
@@ -67,7 +68,7 @@ TEST(Film, OrderOfThePassesMakesNoDifference) {
         for (int x = 0; x < width; ++x)
           ASSERT_EQ(image.at(x, y, c), expected.at(x, y, c)) << expected.channel_names()[size_t(c)];
     EXPECT_EQ(shuffled.mean_error(), forward.mean_error());
-    EXPECT_EQ(shuffled.relative_noise(), forward.relative_noise());
+    EXPECT_EQ(shuffled.picture_error(), forward.picture_error());
   }
 }
 
@@ -83,7 +84,7 @@ TEST(Film, NoiseOfBothKindsOfLightOverTheSamples) {
     pixel.squares = {scattered_squares, mirrored_squares};
     return std::vector<PassPixel>(width * height, pixel);
   };
-  Film film(film_settings(), ComponentSet::all());
+  Film film(film_settings(), {ComponentSet::all()});
   film.add_pass(pass_of(2, (1 + 9) / 2.0f, 2, (4 + 4) / 2.0f), 0, 2);
   film.add_pass(pass_of(4, (25 + 9) / 2.0f, 0, 0), 1, 2);
   const Image image = film.image();
@@ -91,7 +92,7 @@ TEST(Film, NoiseOfBothKindsOfLightOverTheSamples) {
   EXPECT_NEAR(value_at(image, 1, 1, "noise.scattered"), std::sqrt(8.0 / 12), 1e-5);
   EXPECT_NEAR(value_at(image, 1, 1, "noise.mirrored"), std::sqrt(4.0 / 12), 1e-5);
   // One sample tells nothing of its noise.
-  Film single(film_settings(), ComponentSet::all());
+  Film single(film_settings(), {ComponentSet::all()});
   single.add_pass(pass_of(2, 4, 2, 4), 0, 1);
   EXPECT_LT(single.image().find_channel("noise.scattered"), 0);
 }
@@ -126,7 +127,7 @@ TEST(Film, MeansAndErrorsOfThePasses) {
 TEST(Film, LayersAreThoseOfTheComponents) {
   ComponentSet set;
   set.add(Component::caustic);
-  Film film(film_settings(), set);
+  Film film(film_settings(), {set});
   const Image empty = film.image();
   EXPECT_GE(empty.find_channel("caustic.R"), 0);
   EXPECT_EQ(empty.find_channel("direct.R"), -1);
@@ -144,7 +145,7 @@ std::vector<PassPixel> grey_pass(float value) {
 }
 
 TEST(Film, MeanErrorComesFromTheReplicates) {
-  Film film(film_settings(), ComponentSet::all());
+  Film film(film_settings(), {ComponentSet::all()});
   EXPECT_TRUE(std::isinf(film.mean_error()));
   film.add_pass(grey_pass(1), 0);
   EXPECT_TRUE(std::isinf(film.mean_error()));
@@ -160,20 +161,72 @@ TEST(Film, MeanErrorComesFromTheReplicates) {
       1e-5);
 }
 
-TEST(Film, NoiseIsRelative) {
-  Film film(film_settings(), ComponentSet::all());
+TEST(Film, ErrorOfThePictureIsRelative) {
+  Film film(film_settings(), {ComponentSet::all()});
   film.add_pass(grey_pass(1), 0);
-  EXPECT_TRUE(std::isinf(film.relative_noise()));
+  EXPECT_TRUE(std::isinf(film.picture_error()));
   film.add_pass(grey_pass(3), 1);
-  // Mean 2, variance of the mean 1.
-  EXPECT_NEAR(film.relative_noise(), std::sqrt(1 / 4.01), 1e-6);
+  // Mean 2, standard error of the mean 1.
+  EXPECT_NEAR(film.picture_error(), 1 / (2 + 0.01 * 2), 1e-6);
+}
+
+/// Passes of one replicate are one value: their sum.
+TEST(Film, ErrorsComeFromTheReplicates) {
+  Film film(film_settings(), {ComponentSet::all()});
+  const float values[] = {1, 2, 4, 3, 9};
+  const uint32_t passes[] = {0, 1, replicate_count, replicate_count + 1, 2};
+  for (int i = 0; i < 5; ++i) film.add_pass(grey_pass(values[i]), passes[i]);
+  // Sums 5, 5 and 9 over 2, 2 and 1 passes; the mean is 19/5.
+  const double mean = 19 / 5.0;
+  const double squares = 2 * std::pow(5 - 2 * mean, 2) + std::pow(9 - mean, 2),
+               variance = squares / 25 * 3 / 2;
+  EXPECT_NEAR(value_at(film.image(), 2, 1, "error.G"), std::sqrt(variance), 1e-5);
+  EXPECT_NEAR(film.picture_error(), std::sqrt(variance) / (1.01 * mean), 1e-6);
+  const ConfidenceInterval interval = FilmErrors(film).luminance(0);
+  EXPECT_NEAR(interval.mean, mean, 1e-6);
+  EXPECT_NEAR(interval.half_width, student_t_quantile(0.975, 2) * std::sqrt(variance), 1e-5);
+}
+
+TEST(Film, BlackPicturesHaveNoError) {
+  Film film(film_settings(), {ComponentSet::all()});
+  for (uint32_t pass = 0; pass < 2; ++pass) film.add_pass(grey_pass(0), pass);
+  EXPECT_EQ(film.picture_error(), 0);
+}
+
+TEST(Film, BiasIsPartOfTheError) {
+  Film film(film_settings(), {ComponentSet::all(), true});
+  for (uint32_t pass = 0; pass < 2; ++pass) {
+    std::vector<PassPixel> pixels = grey_pass(2);
+    for (PassPixel& pixel : pixels) pixel.bias = {0.3f, -0.4f, pass == 0 ? 1.0f : -1.0f, 0};
+    film.add_pass(pixels, pass);
+  }
+  const Image image = film.image();
+  EXPECT_FLOAT_EQ(value_at(image, 1, 2, "bias.G"), -0.4f);
+  EXPECT_FLOAT_EQ(value_at(image, 1, 2, "error.R"), 0.3f);
+  EXPECT_FLOAT_EQ(value_at(image, 1, 2, "error.G"), 0.4f);
+  EXPECT_FLOAT_EQ(value_at(image, 1, 2, "error.B"), 0);
+  const double bias = std::fabs(double(photopic({0.3f, -0.4f, 0})));
+  EXPECT_NEAR(film.picture_error(), bias / 2.02, 1e-6);
+  EXPECT_NEAR(film.mean_error(), bias / 2, 1e-6);
+  EXPECT_NEAR(FilmErrors(film).luminance(3).half_width, bias, 1e-6);
+  EXPECT_LT(Film(film_settings(), {ComponentSet::all()}).image().find_channel("bias.R"), 0);
+}
+
+/// Estimates that cancel one another among neighbours are noise.
+TEST(Film, BiasIsAveragedOverNeighbours) {
+  Film film(film_settings(5, 5), {ComponentSet::all(), true});
+  std::vector<PassPixel> pixels(25);
+  for (size_t i = 0; i < pixels.size(); ++i) pixels[i].bias = Spectrum(i % 2 == 0 ? 1.0f : -1.0f);
+  film.add_pass(pixels, 0);
+  EXPECT_NEAR(value_at(film.image(), 2, 2, "error.R"), 1 / 25.0, 1e-6);
+  EXPECT_FLOAT_EQ(value_at(film.image(), 2, 2, "bias.R"), 1);
 }
 
 TEST(Film, PicturesTooLargeAreRefusedWithTheirPlace) {
   FilmSettings settings = film_settings(30000, 30000);
   settings.place = place_in("scene.xml", 7, 3);
   try {
-    const Film film(settings, ComponentSet::all());
+    const Film film(settings, {ComponentSet::all()});
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::input);

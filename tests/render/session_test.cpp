@@ -64,7 +64,7 @@ struct Script {
                                                                        SampleSink& sink) {
     sink.add(Component::direct, {1, 2, 3, 0});
   };
-  bool splats = false;
+  bool splats = false, estimates_bias = false;
   std::vector<std::string> warnings;
 };
 
@@ -84,6 +84,7 @@ class Scripted final : public Integrator {
     script_.sample(raster, sampler, sink);
   }
   bool splats() const override { return script_.splats; }
+  bool estimates_bias() const override { return script_.estimates_bias; }
 
  private:
   Script script_;
@@ -336,6 +337,53 @@ TEST(Session, StopsInTime) {
   EXPECT_EQ(limited.run().passes, 2u);
 }
 
+/// An error that falls as 1/√passes is looked at after 16, 32, 64 … passes only.
+TEST(Session, StopsAtItsError) {
+  const auto scene = plain_scene();
+  Script script;
+  script.sample = [](const Vec2f&, Sampler& sampler, SampleSink& sink) {
+    // Past the pairs that are stratified numbers are independent.
+    for (uint32_t i = 0; i < Sampler::stratified_pairs; ++i) sampler.next_2d();
+    sink.add(Component::direct, Spectrum(0.5f + sampler.next_1d()));
+  };
+  const Scripted integrator(script);
+  const auto passes = [&](double error, std::optional<uint32_t> most = {}) {
+    SessionSettings settings;
+    settings.error = error;
+    settings.passes = most;
+    settings.samples_per_pass = 1;
+    Session session(*scene, integrator, settings);
+    const SessionReport report = session.run();
+    EXPECT_EQ(report.picture_error, session.film().picture_error());
+    EXPECT_TRUE(most || report.picture_error <= error);
+    return report.passes;
+  };
+  // Standard error of one pass: √(1/12) = 0.289.
+  EXPECT_EQ(passes(0.5), 16u);
+  EXPECT_EQ(passes(0.08), 16u);
+  EXPECT_EQ(passes(0.06), 32u);
+  EXPECT_EQ(passes(0.03), 128u);
+  EXPECT_EQ(passes(0.03, 50), 50u);
+  EXPECT_EQ(passes(0.5, 3), 3u);
+}
+
+TEST(Session, BiasGoesToItsLayer) {
+  const auto scene = plain_scene();
+  Script script;
+  script.estimates_bias = true;
+  script.sample = [](const Vec2f&, Sampler&, SampleSink& sink) {
+    sink.add(Component::caustic, Spectrum(2));
+    sink.add_bias(Spectrum(0.25f));
+    sink.add_bias(Spectrum(-0.5f));
+  };
+  SessionSettings settings;
+  settings.passes = 3;
+  const Image image = rendered(*scene, Scripted(script), settings);
+  ASSERT_GE(image.find_channel("bias.G"), 0);
+  EXPECT_FLOAT_EQ(image.at(5, 5, image.find_channel("bias.G")), -0.25f);
+  EXPECT_FLOAT_EQ(image.at(5, 5, image.find_channel("error.G")), 0.25f);
+}
+
 TEST(Session, TellsItsProgress) {
   const auto scene = plain_scene();
   Script script;
@@ -363,6 +411,28 @@ TEST(Session, TellsItsProgress) {
   EXPECT_EQ(told.back().stage, Progress::Stage::done);
   EXPECT_EQ(told.back().fraction, 1);
   EXPECT_EQ(told.back().passes_done, 5u);
+}
+
+TEST(Session, ShowsItsFilmAfterEveryPass) {
+  const auto scene = plain_scene();
+  const auto integrator = integrator_for(*scene, "path");
+  SessionSettings settings;
+  settings.passes = 5;
+  settings.samples_per_pixel = 5;
+  Session session(*scene, *integrator, settings);
+  std::stop_source stop;
+  std::vector<Image> seen;
+  const SessionReport report = session.run(stop.get_token(), {}, [&] {
+    EXPECT_EQ(session.film().pass_count(), seen.size() + 1);
+    seen.push_back(session.film().image());
+    if (seen.size() == 3) stop.request_stop();
+  });
+  EXPECT_EQ(report.passes, 3u);
+  ASSERT_EQ(seen.size(), 3u);
+  expect_same_bits(seen.back(), session.film().image());
+  settings.passes = 2;
+  settings.samples_per_pixel = 2;
+  expect_same_bits(seen[1], rendered(*scene, *integrator, settings));
 }
 
 TEST(Session, SamplesThatAreNotFiniteAreCountedAndLeftOut) {

@@ -2,46 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
+#include <cassert>
 
 #include "kaustik/base/parallel.h"
-#include "kaustik/base/statistics.h"
 #include "kaustik/image/photometry.h"
+#include "kaustik/render/film_errors.h"
 
 namespace kaustik {
 namespace {
 
-constexpr size_t first_hit_lanes = 7;
 constexpr size_t pixels_per_block = 4096;
-
-/// Sum over the pixels, in parallel, of what `sum_of(begin, end)` returns for a block of them.
-template <typename Value, typename SumOf>
-Value sum_over_blocks(size_t pixels, const SumOf& sum_of) {
-  std::vector<Value> sums((pixels + pixels_per_block - 1) / pixels_per_block);
-  parallel_blocks(pixels, pixels_per_block, [&](size_t begin, size_t end, size_t block) {
-    sums[block] = sum_of(begin, end);
-  });
-  return std::accumulate(sums.begin(), sums.end(), Value(0));
-}
-
-/// The sums, the pass and the image that is written.
-constexpr int64_t film_bytes_per_pixel =
-    sizeof(Fixed) * (3 * component_count + 3 + first_hit_lanes + noise_kinds) + sizeof(PassPixel) +
-    sizeof(float) * (3 * (component_count + 2) + first_hit_lanes + noise_kinds);
-
-void check_size(const FilmSettings& settings) {
-  const Vec2i size = settings.crop_size;
-  try {
-    check_image_size(size.x, size.y, film_bytes_per_pixel / int64_t(sizeof(float)));
-  } catch (const Error&) {
-    throw Error(
-        ErrorKind::input,
-        fmt::format("a picture of {} × {} pixels is too large here: it needs {:.1f} GB", size.x,
-                    size.y, double(size.x) * double(size.y) * double(film_bytes_per_pixel) / 1e9),
-        "choose a smaller width and height, or render it in parts by the film's crop window",
-        settings.place);
-  }
-}
 
 Vec3f rgb_of(const Spectrum& radiance) { return {radiance[0], radiance[1], radiance[2]}; }
 
@@ -55,82 +25,120 @@ std::array<float, noise_kinds> by_noise_kind(
           photopic(rgb_of(part(Component::specular)))};
 }
 
-Film::Film(const FilmSettings& settings, ComponentSet components)
-    : size_(settings.crop_size), components_(components) {
-  check_size(settings);
-  const size_t pixels = size_t(size_.x) * size_t(size_.y);
-  sums_.resize(pixels * component_count * lanes_);
-  squares_.resize(pixels * lanes_);
-  first_hits_.resize(pixels * first_hit_lanes);
-  sample_squares_.resize(pixels * noise_kinds);
+void Film::check_size(const FilmSettings& settings, size_t numbers_per_pixel) {
+  // The sums, the pass and the image that is written.
+  const auto bytes_per_pixel =
+      int64_t(sizeof(Fixed) * numbers_per_pixel + sizeof(PassPixel) +
+              sizeof(float) * (3 * (component_count + 3) + first_hit_lanes_ + noise_kinds));
+  const Vec2i size = settings.crop_size;
+  try {
+    check_image_size(size.x, size.y, bytes_per_pixel / int64_t(sizeof(float)));
+  } catch (const Error&) {
+    throw Error(
+        ErrorKind::input,
+        fmt::format("a picture of {} × {} pixels is too large here: it needs {:.1f} GB", size.x,
+                    size.y, double(size.x) * double(size.y) * double(bytes_per_pixel) / 1e9),
+        "choose a smaller width and height, or render it in parts by the film's crop window",
+        settings.place);
+  }
+}
+
+Film::Film(const FilmSettings& settings, const FilmLayers& layers)
+    : Film(settings.crop_size, layers) {
+  check_size(settings, numbers_per_pixel());
+  numbers_.resize(pixel_count() * numbers_per_pixel());
 }
 
 void Film::add_pass(const std::vector<PassPixel>& pixels, uint32_t pass_index, uint32_t samples) {
-  const auto luminance_sum = sum_over_blocks<Fixed>(pixels.size(), [&](size_t begin, size_t end) {
-    Fixed sum = 0;
-    for (size_t i = begin; i < end; ++i) sum += fixed_from(add_pixel(i, pixels[i]));
-    return sum;
-  });
-  const uint32_t replicate = pass_index % replicate_count;
-  replicate_sums_[replicate] +=
-      fixed_from(double_from(luminance_sum) / double(std::max<size_t>(1, pixels.size())));
-  ++replicate_passes_[replicate];
-  ++pass_count_;
+  assert(pixels.size() == pixel_count() && !passes_.holds(pass_index));
+  const size_t replicate = pass_index % replicate_count;
+  const double luminance_sum =
+      sum_over_blocks(pixels.size(), pixels_per_block, [&](size_t begin, size_t end) {
+        double sum = 0;
+        for (size_t i = begin; i < end; ++i) sum += add_pixel(i, pixels[i], replicate);
+        return sum;
+      });
+  add_to(mean_luminances_[replicate],
+         fixed_from(luminance_sum / double(std::max<size_t>(1, pixels.size()))));
+  passes_.add({pass_index, pass_index + 1});
   sample_count_ += samples;
 }
 
-double Film::add_pixel(size_t i, const PassPixel& pixel) {
+void Film::add(const Film& other) {
+  assert(is_like(other) && passes_.common(other.passes_).empty());
+  parallel_blocks(numbers_.size(), pixels_per_block * numbers_per_pixel(),
+                  [&](size_t begin, size_t end, size_t) {
+                    for (size_t i = begin; i < end; ++i) add_to(numbers_[i], other.numbers_[i]);
+                  });
+  for (size_t r = 0; r < replicate_count; ++r)
+    add_to(mean_luminances_[r], other.mean_luminances_[r]);
+  passes_.add(other.passes_);
+  sample_count_ += other.sample_count_;
+}
+
+double Film::add_pixel(size_t i, const PassPixel& pixel, size_t replicate) {
   double total[lanes_] = {};
   Fixed* sum = sums(i);
   for (int c = 0; c < component_count; ++c)
     for (int lane = 0; lane < lanes_; ++lane) {
       const double value = pixel.radiance[size_t(c)][lane];
-      sum[c * lanes_ + lane] += fixed_from(value);
+      add_to(sum[radiance_ + size_t(c * lanes_ + lane)], fixed_from(value));
       total[lane] += value;
     }
   for (int lane = 0; lane < lanes_; ++lane)
-    squares_[i * lanes_ + size_t(lane)] += fixed_from(total[lane] * total[lane]);
+    add_to(sum[squares_ + size_t(lane)], fixed_from(total[lane] * total[lane]));
   const FirstHit& hit = pixel.first_hit;
-  const double first[first_hit_lanes] = {hit.albedo[0], hit.albedo[1], hit.albedo[2], hit.normal.x,
-                                         hit.normal.y,  hit.normal.z,  hit.depth};
-  for (size_t k = 0; k < first_hit_lanes; ++k)
-    first_hits_[i * first_hit_lanes + k] += fixed_from(first[k]);
+  const double first[first_hit_lanes_] = {hit.albedo[0], hit.albedo[1], hit.albedo[2], hit.normal.x,
+                                          hit.normal.y,  hit.normal.z,  hit.depth};
+  for (size_t k = 0; k < first_hit_lanes_; ++k) add_to(sum[first_hit_ + k], fixed_from(first[k]));
   for (size_t k = 0; k < noise_kinds; ++k)
-    sample_squares_[i * noise_kinds + k] += fixed_from(double(pixel.squares[k]));
-  return photopic(Vec3f(float(total[0]), float(total[1]), float(total[2])));
+    add_to(sum[sample_squares_ + k], fixed_from(double(pixel.squares[k])));
+  if (layers_.bias)
+    for (int lane = 0; lane < lanes_; ++lane)
+      add_to(sum[bias_ + size_t(lane)], fixed_from(double(pixel.bias[lane])));
+  const double luminance = photopic(Vec3f(float(total[0]), float(total[1]), float(total[2])));
+  add_to(sum[luminance_squares_], fixed_from(luminance * luminance));
+  add_to(sum[replicate_luminances_ + replicate], fixed_from(luminance));
+  return luminance;
+}
+
+Spectrum Film::mean(size_t pixel, Component component) const {
+  Spectrum result;
+  for (int lane = 0; lane < lanes_; ++lane)
+    result.set(
+        lane, float(sum(pixel, radiance_ + size_t(int(component) * lanes_ + lane)) / pass_count()));
+  return result;
+}
+
+double Film::total(size_t pixel, int lane) const {
+  Fixed total = 0;
+  for (int c = 0; c < component_count; ++c)
+    add_to(total, sums(pixel)[radiance_ + size_t(c * lanes_ + lane)]);
+  return double_from(total);
 }
 
 Spectrum Film::mean(size_t pixel) const {
   Spectrum result;
-  const Fixed* sum = sums(pixel);
-  for (int lane = 0; lane < lanes_; ++lane) {
-    Fixed total = 0;
-    for (int c = 0; c < component_count; ++c) total += sum[c * lanes_ + lane];
-    result.set(lane, float(double_from(total) / pass_count_));
-  }
+  for (int lane = 0; lane < lanes_; ++lane)
+    result.set(lane, float(total(pixel, lane) / pass_count()));
   return result;
 }
 
-double Film::variance_of_mean(size_t pixel, int lane) const {
-  if (pass_count_ < 2) return 0;
-  const double n = pass_count_;
-  Fixed total = 0;
-  for (int c = 0; c < component_count; ++c) total += sums(pixel)[c * lanes_ + lane];
-  const double m = double_from(total) / n;
-  const double square = double_from(squares_[pixel * lanes_ + size_t(lane)]) / n;
-  return std::max(0.0, square - m * m) / (n - 1);
+Vec3f Film::mean_bias(size_t pixel) const {
+  Vec3f result;
+  for (int lane = 0; lane < lanes_; ++lane)
+    result[lane] = float(sum(pixel, bias_ + size_t(lane)) / pass_count());
+  return result;
 }
 
 std::array<double, noise_kinds> Film::noise(size_t pixel) const {
   std::array<double, noise_kinds> result{};
-  const double passes = pass_count_, samples = double(sample_count_);
+  const double passes = pass_count(), samples = double(sample_count_);
   std::array<Spectrum, component_count> means;
-  for (int c = 0; c < component_count; ++c)
-    for (int lane = 0; lane < lanes_; ++lane)
-      means[size_t(c)].set(lane, float(double_from(sums(pixel)[c * lanes_ + lane]) / passes));
+  for (int c = 0; c < component_count; ++c) means[size_t(c)] = mean(pixel, Component(c));
   const std::array<float, noise_kinds> mean = by_noise_kind(means);
   for (size_t k = 0; k < noise_kinds; ++k) {
-    const double square = double_from(sample_squares_[pixel * noise_kinds + k]) / passes;
+    const double square = sum(pixel, sample_squares_ + k) / passes;
     result[k] = std::sqrt(std::max(0.0, square - double(sqr(mean[k]))) / (samples - 1));
   }
   return result;
@@ -140,61 +148,44 @@ Image Film::image() const {
   std::vector<std::string> names = {"R", "G", "B"};
   for (int c = 0; c < component_count; ++c)
     for (const char* lane : {"R", "G", "B"})
-      if (components_.has(Component(c)))
+      if (layers_.components.has(Component(c)))
         names.push_back(fmt::format("{}.{}", component_names[size_t(c)], lane));
   for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "depth.Z",
                            "error.R", "error.G", "error.B"})
     names.emplace_back(name);
-  const bool knows_noise = sample_count_ >= 2;
-  if (knows_noise) names.insert(names.end(), {"noise.scattered", "noise.mirrored"});
+  if (layers_.bias) names.insert(names.end(), {"bias.R", "bias.G", "bias.B"});
+  if (knows_noise()) names.insert(names.end(), {"noise.scattered", "noise.mirrored"});
   Image image(size_.x, size_.y, names);
-  if (pass_count_ == 0) return image;
+  if (passes_.empty()) return image;
+  const FilmErrors errors(*this);
   parallel_blocks(size_t(size_.y), 1, [&](size_t row, size_t, size_t) {
-    const auto y = int(row);
     for (int x = 0; x < size_.x; ++x) {
-      const size_t pixel = row * size_t(size_.x) + size_t(x);
-      const Spectrum total = mean(pixel);
       int channel = 0;
-      for (int lane = 0; lane < lanes_; ++lane) image.at(x, y, channel++) = total[lane];
-      for (int c = 0; c < component_count; ++c)
-        for (int lane = 0; lane < lanes_; ++lane)
-          if (components_.has(Component(c)))
-            image.at(x, y, channel++) =
-                float(double_from(sums(pixel)[c * lanes_ + lane]) / pass_count_);
-      for (size_t k = 0; k < first_hit_lanes; ++k)
-        image.at(x, y, channel++) =
-            float(double_from(first_hits_[pixel * first_hit_lanes + k]) / pass_count_);
-      for (int lane = 0; lane < lanes_; ++lane)
-        image.at(x, y, channel++) = float(std::sqrt(variance_of_mean(pixel, lane)));
-      if (knows_noise)
-        for (const double deviation : noise(pixel)) image.at(x, y, channel++) = float(deviation);
+      for (const float value : values(row * size_t(size_.x) + size_t(x), errors))
+        image.at(x, int(row), channel++) = value;
     }
   });
   return image;
 }
 
-double Film::mean_error() const {
-  RunningStatistics means;
-  for (size_t r = 0; r < replicate_count; ++r)
-    if (replicate_passes_[r] > 0) means.add(double_from(replicate_sums_[r]) / replicate_passes_[r]);
-  if (means.count() < 2 || !(means.mean() > 0)) return std::numeric_limits<double>::infinity();
-  return student_t_quantile(0.975, double(means.count() - 1)) * means.standard_error() /
-         means.mean();
+std::vector<float> Film::values(size_t pixel, const FilmErrors& errors) const {
+  std::vector<float> result;
+  const auto add_rgb = [&](const Spectrum& s) { result.insert(result.end(), {s[0], s[1], s[2]}); };
+  const auto add_vector = [&](const Vec3f& v) { result.insert(result.end(), {v.x, v.y, v.z}); };
+  add_rgb(mean(pixel));
+  for (int c = 0; c < component_count; ++c)
+    if (layers_.components.has(Component(c))) add_rgb(mean(pixel, Component(c)));
+  for (size_t k = 0; k < first_hit_lanes_; ++k)
+    result.push_back(float(sum(pixel, first_hit_ + k) / pass_count()));
+  add_vector(errors.of_pixel(pixel));
+  if (layers_.bias) add_vector(mean_bias(pixel));
+  if (knows_noise())
+    for (const double deviation : noise(pixel)) result.push_back(float(deviation));
+  return result;
 }
 
-double Film::relative_noise() const {
-  if (pass_count_ < 2) return std::numeric_limits<double>::infinity();
-  const size_t pixels = size_t(size_.x) * size_t(size_.y);
-  const auto sum = sum_over_blocks<double>(pixels, [&](size_t begin, size_t end) {
-    double block = 0;
-    for (size_t i = begin; i < end; ++i) {
-      const Spectrum m = mean(i);
-      for (int lane = 0; lane < lanes_; ++lane)
-        block += variance_of_mean(i, lane) / (sqr(m[lane]) + 0.01);
-    }
-    return block;
-  });
-  return std::sqrt(sum / (double(pixels) * lanes_));
-}
+double Film::mean_error() const { return FilmErrors(*this).of_mean(); }
+
+double Film::picture_error() const { return FilmErrors(*this).of_picture(); }
 
 }  // namespace kaustik

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <unistd.h>
+#include <bit>
 #include <chrono>
 #include <fstream>
 #include <mutex>
@@ -41,6 +42,10 @@ int add_sample(const SampleSink& sink, PassPixel& sum) {
   }
   const std::array<float, noise_kinds> values = by_noise_kind(finite);
   for (size_t k = 0; k < noise_kinds; ++k) sum.squares[k] += sqr(values[k]);
+  if (sink.bias().is_finite())
+    sum.bias += sink.bias();
+  else
+    ++dropped;
   const FirstHit& hit = sink.first_hit();
   if (!hit.albedo.is_finite() || !is_finite(hit.normal) || !std::isfinite(hit.depth))
     return dropped + 1;
@@ -52,6 +57,7 @@ int add_sample(const SampleSink& sink, PassPixel& sum) {
 
 void add_scaled(const PassPixel& pixel, float scale, PassPixel& sum) {
   for (size_t c = 0; c < size_t(component_count); ++c) sum.radiance[c] += pixel.radiance[c] * scale;
+  sum.bias += pixel.bias * scale;
   sum.first_hit.albedo += pixel.first_hit.albedo * scale;
   sum.first_hit.normal += pixel.first_hit.normal * scale;
   sum.first_hit.depth += pixel.first_hit.depth * scale;
@@ -75,7 +81,10 @@ class Session::Monitor {
       : session_(session),
         listener_(listener),
         start_(Clock::now()),
-        light_share_(session.integrator_.samples_camera() ? 0.3 : 1) {}
+        passes_at_start_(session.film_.pass_count()),
+        passes_to_do_(session.film_.passes().missing(session.planned())),
+        light_share_(session.integrator_.samples_camera() ? 0.3 : 1),
+        error_(session.film_.picture_error()) {}
 
   void start_pass() {
     pass_start_ = Clock::now();
@@ -104,9 +113,11 @@ class Session::Monitor {
     tiles_done_ = 0;
     light_done_ = 0;
     light_share_ = std::min(1.0, light_seconds / std::max(1e-9, elapsed()));
-    noise_ = session_.film_.relative_noise();
+    error_ = session_.film_.picture_error();
     tell(Progress::Stage::light, false);
   }
+  uint32_t passes_done() const { return passes_done_; }
+  double error() const { return error_; }
   double elapsed() const { return seconds_since(start_); }
   double seconds_per_pass() const { return elapsed() / std::max(1u, passes_done_.load()); }
 
@@ -119,14 +130,14 @@ class Session::Monitor {
     Progress p;
     p.stage = stage;
     p.elapsed_s = elapsed();
-    p.passes_done = passes_done_;
-    p.passes_total = session_.pass_count_;
+    p.passes_done = passes_at_start_ + passes_done_;
+    p.passes_total = session_.pass_count_ == 0 ? 0 : passes_at_start_ + passes_to_do_;
     p.fraction = stage == Progress::Stage::done ? 1 : fraction(p.elapsed_s);
     p.remaining_s = p.fraction > 1e-3 ? p.elapsed_s * (1 / p.fraction - 1) : -1;
     p.rays_per_s = double(rays) / std::max(1e-9, p.elapsed_s);
     p.photons_per_s = light_seconds > 0 ? double(photons) / light_seconds : 0;
     p.memory_bytes = resident_bytes();
-    p.relative_error = noise_;
+    p.relative_error = error_;
     listener_(p);
   }
 
@@ -134,13 +145,22 @@ class Session::Monitor {
   double light_seconds = 0;
 
  private:
+  /// How many it will take if the error falls with the square root of their number; infinite: not
+  /// known yet.
+  double passes_for_error() const {
+    const double passes = passes_at_start_ + passes_done_;
+    const double needed = passes * std::pow(error_ / *session_.settings_.error, 2);
+    return std::exp2(std::ceil(std::log2(std::max(double(replicate_count), needed))));
+  }
   double fraction(double elapsed_s) const {
     const double tiles = double(session_.tiles_.x) * session_.tiles_.y;
     double f = 0;
-    if (session_.pass_count_ > 0)
+    if (passes_to_do_ > 0)
       f = (passes_done_ + light_share_ * light_done_ +
            (1 - light_share_) * double(tiles_done_) / tiles) /
-          session_.pass_count_;
+          passes_to_do_;
+    if (session_.settings_.error)
+      f = std::max(f, (passes_at_start_ + passes_done_) / passes_for_error());
     if (session_.settings_.seconds) f = std::max(f, elapsed_s / *session_.settings_.seconds);
     return std::min(f, 0.999);
   }
@@ -150,17 +170,23 @@ class Session::Monitor {
   Clock::time_point start_, pass_start_, last_;
   bool told_ = false;
   std::mutex mutex_;
-  std::atomic<uint32_t> passes_done_{0}, tiles_done_{0};
-  std::atomic<double> light_done_{0};  ///< of this pass's light pass
-  std::atomic<double> light_share_;    ///< of a pass's time; a guess before the first is done
-  std::atomic<double> noise_{std::numeric_limits<double>::infinity()};
+  uint32_t passes_at_start_;
+  uint32_t passes_to_do_;  ///< 0: limited by time, or nothing is left
+  std::atomic<uint32_t> passes_done_{0}, tiles_done_{0};  ///< of this session
+  std::atomic<double> light_done_{0};                     ///< of this pass's light pass
+  std::atomic<double> light_share_;  ///< of a pass's time; a guess before the first is done
+  std::atomic<double> error_;        ///< of the picture
 };
 
 Session::Session(const Scene& scene, const Integrator& integrator, const SessionSettings& settings)
+    : Session(scene, integrator, settings, Film(scene.film(), FilmLayers::of(integrator))) {}
+
+Session::Session(const Scene& scene, const Integrator& integrator, const SessionSettings& settings,
+                 Film begun)
     : scene_(scene),
       integrator_(integrator),
       settings_(settings),
-      film_(scene.film(), integrator.components()),
+      film_(std::move(begun)),
       splats_(integrator.splats() ? scene.film() : FilmSettings{{1, 1}, {0, 0}, {1, 1}, {}, 0},
               integrator.components()),
       pixels_(size_t(film_.width()) * size_t(film_.height())),
@@ -174,7 +200,15 @@ Session::~Session() = default;
 void Session::plan() {
   const uint32_t by_integrator = integrator_.default_samples_per_pass();
   std::optional<uint32_t> samples = settings_.samples_per_pixel;
-  if (!samples && !settings_.seconds && scene_.film().sample_count > 0)
+  const bool is_open = settings_.seconds || settings_.error;  // else passes alone end it
+  if (settings_.samples_per_pass) {
+    samples_per_pass_ = *settings_.samples_per_pass;
+    if (samples) pass_count_ = (*samples + samples_per_pass_ - 1) / samples_per_pass_;
+    if (settings_.passes) pass_count_ = *settings_.passes;
+    if (pass_count_ == 0 && !is_open) pass_count_ = default_passes;
+    return;
+  }
+  if (!samples && !is_open && scene_.film().sample_count > 0)
     samples = uint32_t(scene_.film().sample_count);
   if (samples) {
     pass_count_ = settings_.passes.value_or(
@@ -183,28 +217,46 @@ void Session::plan() {
     samples_per_pass_ = (*samples + pass_count_ - 1) / std::max(1u, pass_count_);
   } else {
     samples_per_pass_ = by_integrator;
-    pass_count_ = settings_.passes.value_or(settings_.seconds ? 0 : default_passes);
+    pass_count_ = settings_.passes.value_or(is_open ? 0 : default_passes);
   }
 }
 
+PassRange Session::planned() const {
+  return {settings_.first_pass, settings_.first_pass + pass_count_};
+}
+
+bool Session::is_good_enough(double error) const {
+  const uint32_t passes = film_.pass_count();
+  const bool looks = passes >= replicate_count && std::has_single_bit(passes);
+  return settings_.error && looks && error <= *settings_.error;
+}
+
+bool Session::goes_on(uint32_t index, const std::stop_token& stop, const Monitor& monitor) const {
+  if (pass_count_ > 0 && index >= planned().end) return false;
+  if (stop.stop_requested() && film_.pass_count() > 0) return false;
+  if (is_good_enough(monitor.error())) return false;
+  return !settings_.seconds || monitor.passes_done() == 0 ||
+         monitor.elapsed() + monitor.seconds_per_pass() <= *settings_.seconds;
+}
+
 SessionReport Session::run(std::stop_token stop,
-                           const std::function<void(const Progress&)>& progress) {
+                           const std::function<void(const Progress&)>& progress,
+                           const std::function<void()>& pass_done) {
   report_ = {};
   report_.samples_per_pass = samples_per_pass_;
   Monitor monitor(*this, progress);
   with_threads(settings_.threads, [&] {
-    for (uint32_t i = 0; pass_count_ == 0 || i < pass_count_; ++i) {
-      const bool out_of_time = settings_.seconds && i > 0 &&
-                               monitor.elapsed() + monitor.seconds_per_pass() > *settings_.seconds;
-      if (out_of_time) break;
-      if (stop.stop_requested() && i > 0) break;
-      if (!render_pass(settings_.first_pass + i, stop, monitor)) break;
+    for (uint32_t next = film_.passes().first_missing(settings_.first_pass);
+         goes_on(next, stop, monitor); next = film_.passes().first_missing(next)) {
+      if (!render_pass(next, stop, monitor)) break;
       monitor.pass_done();
+      if (pass_done) pass_done();
     }
   });
   report_.cancelled = stop.stop_requested();
   report_.passes = film_.pass_count();
   report_.mean_error = film_.mean_error();
+  report_.picture_error = monitor.error();
   report_.rays = monitor.rays;
   report_.photons = monitor.photons;
   report_.dropped_samples = monitor.dropped + splats_.dropped();

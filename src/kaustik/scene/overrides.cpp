@@ -56,8 +56,15 @@ std::shared_ptr<Object> find_object(Description& description, const std::string&
 }  // namespace
 
 void override_property(Description& description, const std::string& assignment) {
-  override_property(description, assignment,
-                    place_in(fmt::format("command line: --set {}", assignment)));
+  override_property(description, setting_of_command_line(assignment));
+}
+
+void override_property(Description& description, const Setting& setting) {
+  override_property(description, setting.assignment, place_in(setting.origin));
+}
+
+Setting setting_of_command_line(const std::string& assignment) {
+  return {assignment, fmt::format("command line: --set {}", assignment)};
 }
 
 void override_property(Description& description, const std::string& assignment,

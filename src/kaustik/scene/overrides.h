@@ -5,6 +5,12 @@
 
 namespace kaustik {
 
+/// A change of a description from outside, see override_property().
+struct Setting {
+  std::string assignment;  ///< "object.parameter=value"
+  std::string origin;      ///< "command line: -e 2", for messages
+};
+
 /// Changes a description from outside: `assignment` reads "object.parameter=value", where the
 /// object is an id or a family that the scene has once ("integrator", "sensor", "film", "sampler",
 /// "rfilter"). Replaces what the file says. Throws Error for an object that is not there.
@@ -12,6 +18,9 @@ void override_property(Description& description, const std::string& assignment);
 /// The same for a change that comes from elsewhere than --set: `origin` is named if it is wrong.
 void override_property(Description& description, const std::string& assignment,
                        const Place& origin);
+void override_property(Description& description, const Setting& setting);
+/// As --set gives it.
+Setting setting_of_command_line(const std::string& assignment);
 
 /// Replaces the integrator by one of `type`; the file's properties stay if the type is the same.
 void override_integrator(Description& description, const std::string& type);

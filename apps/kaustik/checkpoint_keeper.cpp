@@ -1,0 +1,56 @@
+#include "checkpoint_keeper.h"
+
+#include <fmt/format.h>
+
+#include "console.h"
+
+namespace kaustik::app {
+namespace {
+
+/// Share of the time that may go into checkpoints.
+constexpr double most_time = 0.1;
+
+std::chrono::steady_clock::duration duration_of(double seconds) {
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+      std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+CheckpointKeeper::CheckpointKeeper(std::string path, double interval_s, RenderRecord record)
+    : path_(std::move(path)),
+      interval_s_(interval_s),
+      record_(std::move(record)),
+      start_(Clock::now()),
+      next_(start_ + duration_of(interval_s)) {}
+
+void CheckpointKeeper::pass_done(const Film& film) {
+  if (path_.empty() || Clock::now() < next_) return;
+  const auto begin = Clock::now();
+  try {
+    write(film);
+  } catch (const std::exception& error) {
+    warn(fmt::format("the checkpoint could not be written, the render goes on: {}", error.what()));
+  }
+  const double took_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  next_ = Clock::now() + duration_of(std::max(interval_s_, took_s * (1 / most_time - 1)));
+}
+
+void CheckpointKeeper::write_last(const Film& film) {
+  if (path_.empty() || film.pass_count() == passes_written_) return;
+  write(film);
+}
+
+void CheckpointKeeper::write(const Film& film) {
+  write_checkpoint(path_, record(), film);
+  passes_written_ = film.pass_count();
+}
+
+RenderRecord CheckpointKeeper::record() const {
+  RenderRecord result = record_;
+  result.seconds += std::chrono::duration<double>(Clock::now() - start_).count();
+  if (result.outputs.reproducible) result.seconds = 0;
+  return result;
+}
+
+}  // namespace kaustik::app

@@ -1,0 +1,85 @@
+#include "render_job.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "checkpoint_keeper.h"
+#include "console.h"
+#include "kaustik/loader/mitsuba_xml.h"
+#include "picture_output.h"
+
+namespace kaustik::app {
+namespace {
+
+/// A failure must not cost the picture: it is thrown when that is written.
+std::exception_ptr write_last_checkpoint(CheckpointKeeper& keeper, const Film& film,
+                                         const SessionReport& report, bool wanted) {
+  if (!wanted) return nullptr;
+  if (report.incomplete_pass) {
+    warn("no pass was finished: there is no checkpoint");
+    return nullptr;
+  }
+  try {
+    keeper.write_last(film);
+  } catch (const Error&) {
+    return std::current_exception();
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+Description load_description(const RenderRecipe& recipe) {
+  LoadOptions load;
+  load.definitions = recipe.definitions;
+  Description description = load_mitsuba_xml(recipe.scene, load);
+  if (!recipe.integrator.empty()) override_integrator(description, recipe.integrator);
+  return description;
+}
+
+RenderJob make_job(Description description, const RenderRecipe& recipe) {
+  for (const Setting& setting : recipe.settings) override_property(description, setting);
+  RenderJob job;
+  job.scene = build_scene(description);
+  std::vector<std::string> warnings = job.scene->warnings();
+  job.integrator = make_integrator(description, *job.scene, warnings);
+  for (const std::string& warning : warnings) warn(warning);
+  if (job.scene->lights().empty())
+    warn("the scene has no light: the picture will be black; add an <emitter> to it");
+  const auto object = find_integrator(description);
+  job.view = {object ? object->type : "photonmap", double(job.scene->camera().horizontal_fov()),
+              double(job.scene->camera().vertical_fov()), job.scene->film().quantity};
+  job.description = std::move(description);
+  return job;
+}
+
+void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& settings,
+             std::optional<Film> begun, const JobOptions& options) {
+  Session session = begun ? Session(*job.scene, *job.integrator, settings, *std::move(begun))
+                          : Session(*job.scene, *job.integrator, settings);
+  const bool keeps = !options.checkpoint.empty();
+  record.program = KAUSTIK_VERSION;
+  record.recipe.samples_per_pass = session.samples_per_pass();
+  // Reads every file of the scene once more, which only a checkpoint is worth.
+  if (keeps) record.recipe.digest = description_digest(job.description);
+  record.plan.passes = session.planned_passes();
+  record.view = job.view;
+
+  CheckpointKeeper keeper(options.checkpoint, options.every_s, record);
+  const InterruptGuard interrupt;
+  ProgressLine line(options.quiet);
+  const SessionReport report = session.run(
+      interrupt.token(), [&](const Progress& p) { line.show(p); },
+      [&] { keeper.pass_done(session.film()); });
+  line.finish();
+  if (!options.quiet) print_errors(session.film());
+  for (const std::string& warning : report.warnings) warn(warning);
+  if (report.cancelled) warn("cancelled: writing what is finished");
+  record.seconds += report.seconds;
+  const std::exception_ptr failed = write_last_checkpoint(keeper, session.film(), report, keeps);
+  write_pictures(session.film(), record, {settings.threads, options.quiet, report.incomplete_pass});
+  if (failed) std::rethrow_exception(failed);
+}
+
+}  // namespace kaustik::app

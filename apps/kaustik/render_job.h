@@ -1,0 +1,35 @@
+#pragma once
+#include <optional>
+
+#include "kaustik/render/checkpoint.h"
+#include "kaustik/render/session.h"
+
+namespace kaustik::app {
+
+/// A scene as a recipe asks for it, ready to be rendered.
+struct RenderJob {
+  Description description;
+  std::shared_ptr<const Scene> scene;
+  std::unique_ptr<Integrator> integrator;
+  ViewFacts view;
+};
+
+/// The recipe's scene file with its definitions and its integrator, before its settings.
+Description load_description(const RenderRecipe& recipe);
+
+/// Applies the recipe's settings and builds the scene; what is odd about it is told. Throws Error.
+RenderJob make_job(Description description, const RenderRecipe& recipe);
+
+/// How a session is watched and kept.
+struct JobOptions {
+  bool quiet = false;
+  std::string checkpoint;  ///< file; "": none
+  double every_s = 30;     ///< between two checkpoints
+};
+
+/// Renders with progress, keeps the checkpoint and writes the picture; goes on with `begun` if it
+/// is there. What `record` lacks is filled in: samples per pass, plan, digest, view. Throws Error.
+void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& settings,
+             std::optional<Film> begun, const JobOptions& options);
+
+}  // namespace kaustik::app

@@ -1,0 +1,245 @@
+// The content of a .kpt file, in the frame of base/binary_file.h; a text is its length (u64) and
+// its bytes, a list its length (u64) and its items, a flag is 0 or 1 (u8):
+//   program (text);
+//   recipe: scene, folder (texts), definitions (list of pairs of texts), integrator (text),
+//   settings (list of pairs of texts: assignment, origin), seed (u64), samples per pass (u32),
+//   digests of the scene and of the integrator (u64 each);
+//   plan: first pass, passes (u32 each), seconds, error (each: flag whether it is given, f64);
+//   outputs: files (list of texts), tone (text), tone settings (list of texts), denoise, float,
+//   reproducible (flags);
+//   view: integrator (text), field of view across and down (f64 each, degrees), irradiance (flag);
+//   seconds that it took (f64);
+//   the film: film_file.cpp.
+#include "kaustik/render/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include "kaustik/base/binary_file.h"
+
+namespace kaustik {
+namespace {
+
+constexpr BinaryFileKind checkpoint_kind = {
+    {0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
+    1,
+    "checkpoint",
+    "give a .kpt file that was written by: kaustik render SCENE --checkpoint FILE.kpt",
+    "render again with this program: kaustik render SCENE --checkpoint FILE.kpt"};
+
+void put_texts(BinaryWriter& writer, const std::vector<std::string>& texts) {
+  writer.put(uint64_t(texts.size()));
+  for (const std::string& text : texts) writer.put_text(text);
+}
+
+std::vector<std::string> get_texts(BinaryReader& reader) {
+  std::vector<std::string> texts(reader.get_count(sizeof(uint64_t)));
+  for (std::string& text : texts) text = reader.get_text();
+  return texts;
+}
+
+double get_finite(BinaryReader& reader) {
+  const auto value = reader.get<double>();
+  if (!std::isfinite(value)) reader.damaged("a number in it is not finite");
+  return value;
+}
+
+void put_recipe(BinaryWriter& writer, const RenderRecipe& recipe) {
+  writer.put_text(recipe.scene);
+  writer.put_text(recipe.folder);
+  writer.put(uint64_t(recipe.definitions.size()));
+  for (const auto& [name, value] : recipe.definitions) {
+    writer.put_text(name);
+    writer.put_text(value);
+  }
+  writer.put_text(recipe.integrator);
+  writer.put(uint64_t(recipe.settings.size()));
+  for (const Setting& setting : recipe.settings) {
+    writer.put_text(setting.assignment);
+    writer.put_text(setting.origin);
+  }
+  writer.put(recipe.seed);
+  writer.put(recipe.samples_per_pass);
+  writer.put(recipe.digest.scene);
+  writer.put(recipe.digest.integrator);
+}
+
+RenderRecipe get_recipe(BinaryReader& reader) {
+  RenderRecipe recipe;
+  recipe.scene = reader.get_text();
+  recipe.folder = reader.get_text();
+  recipe.definitions.resize(reader.get_count(2 * sizeof(uint64_t)));
+  for (auto& [name, value] : recipe.definitions) {
+    name = reader.get_text();
+    value = reader.get_text();
+  }
+  recipe.integrator = reader.get_text();
+  recipe.settings.resize(reader.get_count(2 * sizeof(uint64_t)));
+  for (Setting& setting : recipe.settings) {
+    setting.assignment = reader.get_text();
+    setting.origin = reader.get_text();
+  }
+  recipe.seed = reader.get<uint64_t>();
+  recipe.samples_per_pass = reader.get<uint32_t>();
+  if (recipe.samples_per_pass == 0) reader.damaged("its passes have no samples");
+  recipe.digest.scene = reader.get<uint64_t>();
+  recipe.digest.integrator = reader.get<uint64_t>();
+  return recipe;
+}
+
+void put_optional(BinaryWriter& writer, std::optional<double> value) {
+  writer.put(uint8_t(value.has_value()));
+  writer.put(value.value_or(0));
+}
+
+std::optional<double> get_optional(BinaryReader& reader) {
+  const bool given = reader.get_flag();
+  const double value = get_finite(reader);
+  return given ? std::optional(value) : std::nullopt;
+}
+
+void put_plan(BinaryWriter& writer, const StopPlan& plan) {
+  writer.put(plan.first_pass);
+  writer.put(plan.passes);
+  put_optional(writer, plan.seconds);
+  put_optional(writer, plan.error);
+}
+
+StopPlan get_plan(BinaryReader& reader) {
+  StopPlan plan;
+  plan.first_pass = reader.get<uint32_t>();
+  plan.passes = reader.get<uint32_t>();
+  plan.seconds = get_optional(reader);
+  plan.error = get_optional(reader);
+  return plan;
+}
+
+void put_outputs(BinaryWriter& writer, const OutputPlan& outputs) {
+  put_texts(writer, outputs.files);
+  writer.put_text(outputs.tone);
+  put_texts(writer, outputs.tone_settings);
+  for (const bool flag : {outputs.denoise, outputs.full_float, outputs.reproducible})
+    writer.put(uint8_t(flag));
+}
+
+OutputPlan get_outputs(BinaryReader& reader) {
+  OutputPlan outputs;
+  outputs.files = get_texts(reader);
+  outputs.tone = reader.get_text();
+  outputs.tone_settings = get_texts(reader);
+  for (bool* flag : {&outputs.denoise, &outputs.full_float, &outputs.reproducible})
+    *flag = reader.get_flag();
+  return outputs;
+}
+
+void put_view(BinaryWriter& writer, const ViewFacts& view) {
+  writer.put_text(view.integrator);
+  writer.put(view.horizontal_fov);
+  writer.put(view.vertical_fov);
+  writer.put(uint8_t(view.quantity == Quantity::irradiance));
+}
+
+ViewFacts get_view(BinaryReader& reader) {
+  ViewFacts view;
+  view.integrator = reader.get_text();
+  view.horizontal_fov = get_finite(reader);
+  view.vertical_fov = get_finite(reader);
+  view.quantity = reader.get_flag() ? Quantity::irradiance : Quantity::radiance;
+  return view;
+}
+
+RenderRecord get_record(BinaryReader& reader) {
+  RenderRecord record;
+  record.program = reader.get_text();
+  record.recipe = get_recipe(reader);
+  record.plan = get_plan(reader);
+  record.outputs = get_outputs(reader);
+  record.view = get_view(reader);
+  record.seconds = get_finite(reader);
+  return record;
+}
+
+/// What tells two recipes apart, and how to make them alike; "" if nothing does.
+std::pair<std::string, std::string> difference(const RenderRecipe& a, const RenderRecipe& b) {
+  if (a.digest.scene != b.digest.scene)
+    return {"another scene, or one that was changed",
+            "render all parts with the same scene file, -D and --set"};
+  if (a.digest.integrator != b.digest.integrator)
+    return {"another integrator, or other parameters of it",
+            "render all parts with the same --integrator and --set"};
+  if (a.seed != b.seed)
+    return {fmt::format("seed {} instead of {}", b.seed, a.seed),
+            "render all parts with the same --seed"};
+  if (a.samples_per_pass != b.samples_per_pass)
+    return {
+        fmt::format("{} samples per pass instead of {}", b.samples_per_pass, a.samples_per_pass),
+        "give each part --spp as its --passes times the same number"};
+  return {};
+}
+
+/// From the first pass of either plan to the last pass of either.
+StopPlan merged_plan(const StopPlan& a, const StopPlan& b, const PassSet& passes) {
+  StopPlan plan;
+  plan.first_pass = std::min(a.first_pass, b.first_pass);
+  plan.passes = passes.ranges().back().end - plan.first_pass;
+  return plan;
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film) {
+  BinaryWriter writer(checkpoint_kind);
+  writer.put_text(record.program);
+  put_recipe(writer, record.recipe);
+  put_plan(writer, record.plan);
+  put_outputs(writer, record.outputs);
+  put_view(writer, record.view);
+  writer.put(record.seconds);
+  film.write(writer);
+  writer.write_to(path);
+}
+
+Checkpoint read_checkpoint(const std::string& path) {
+  BinaryReader reader(checkpoint_kind, path);
+  RenderRecord record = get_record(reader);
+  Checkpoint checkpoint{std::move(record), Film::read(reader)};
+  reader.expect_end();
+  if (checkpoint.film.passes().empty()) reader.damaged("it holds no pass");
+  return checkpoint;
+}
+
+bool is_checkpoint(const std::string& path) { return is_of_kind(checkpoint_kind, path); }
+
+void check_program(const Checkpoint& checkpoint, const std::string& path,
+                   const std::string& program) {
+  if (checkpoint.record.program == program) return;
+  throw Error(ErrorKind::input,
+              fmt::format("the checkpoint was written by Kaustik {}, this is {}: their passes may "
+                          "differ",
+                          checkpoint.record.program, program),
+              "use that version, or render again with this one", place_in(path));
+}
+
+void merge_checkpoint(Checkpoint& whole, const std::string& whole_path, const Checkpoint& part,
+                      const std::string& path) {
+  const auto fail = [&](const std::string& message, const std::string& remedy) {
+    throw Error(ErrorKind::input, message, remedy, place_in(path));
+  };
+  const auto [what, remedy] = difference(whole.record.recipe, part.record.recipe);
+  if (!what.empty())
+    fail(fmt::format("this cannot be merged with '{}': it has {}", whole_path, what), remedy);
+  if (!whole.film.is_like(part.film))
+    fail(fmt::format("this cannot be merged with '{}': its picture has another size or other "
+                     "components",
+                     whole_path),
+         "render all parts with the same scene file, -D and --set");
+  const PassSet twice = whole.film.passes().common(part.film.passes());
+  if (!twice.empty())
+    fail(fmt::format("of its passes {} were given before: {}", part.film.passes().text(),
+                     twice.text()),
+         "give each pass once: render parts with their own --first-pass and --passes");
+  whole.film.add(part.film);
+  whole.record.plan = merged_plan(whole.record.plan, part.record.plan, whole.film.passes());
+  whole.record.seconds += part.record.seconds;
+}
+
+}  // namespace kaustik

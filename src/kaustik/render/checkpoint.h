@@ -1,0 +1,87 @@
+#pragma once
+// Renders that can be gone on with: what a film holds, and all that its passes are a function of.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kaustik/render/film.h"
+#include "kaustik/scene/description_digest.h"
+#include "kaustik/scene/overrides.h"
+
+namespace kaustik {
+
+/// What the passes are a function of, in the user's words.
+struct RenderRecipe {
+  std::string scene;   ///< file, relative to `folder` or absolute
+  std::string folder;  ///< working folder, for people
+  std::vector<std::pair<std::string, std::string>> definitions;  ///< name and value of each -D
+  std::string integrator;                                        ///< that was asked for; "": none
+  std::vector<Setting> settings;  ///< of the environment and the command line, later ones win
+  uint64_t seed = 0;
+  uint32_t samples_per_pass = 1;
+  DescriptionDigest digest;  ///< of the description after all of these
+};
+
+/// How far the render was to go.
+struct StopPlan {
+  uint32_t first_pass = 0;
+  uint32_t passes = 0;            ///< from the first on; 0: limited by time or error
+  std::optional<double> seconds;  ///< of all sessions together
+  std::optional<double> error;    ///< of the picture, Film::picture_error()
+};
+
+/// The image files that were asked for.
+struct OutputPlan {
+  std::vector<std::string> files;
+  std::string tone = "histogram";
+  std::vector<std::string> tone_settings;  ///< "parameter=value"
+  bool denoise = false, full_float = false, reproducible = false;
+};
+
+/// What image files tell of the scene beside its light.
+struct ViewFacts {
+  std::string integrator;                       ///< that was used
+  double horizontal_fov = 0, vertical_fov = 0;  ///< degrees
+  Quantity quantity = Quantity::radiance;
+};
+
+/// All that is known of a render beside its sums.
+struct RenderRecord {
+  std::string program;  ///< version
+  RenderRecipe recipe;
+  StopPlan plan;
+  OutputPlan outputs;
+  ViewFacts view;
+  double seconds = 0;  ///< that it took so far
+};
+
+struct Checkpoint {
+  RenderRecord record;
+  Film film;
+};
+
+/// Writes a .kpt file atomically; throws as write_file_atomically() does.
+void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film);
+
+/// Throws Error(input) if the file is missing, no checkpoint, of another version or byte order,
+/// truncated or damaged (a checksum covers every byte). Allocates in proportion to the file's size.
+Checkpoint read_checkpoint(const std::string& path);
+
+/// Whether the file starts as checkpoints do. Throws Error(input) if it cannot be read.
+bool is_checkpoint(const std::string& path);
+
+/// Throws Error(input), at `path`, if the checkpoint was not written by version `program`: passes
+/// of different versions do not belong together.
+void check_program(const Checkpoint& checkpoint, const std::string& path,
+                   const std::string& program);
+
+/// The passes of both, in `whole`. Throws Error(input), at `path`, where part and whole have a pass
+/// in common, or are of different scenes, integrators, settings, seeds or samples per pass.
+/// `whole_path` is for messages.
+void merge_checkpoint(Checkpoint& whole, const std::string& whole_path, const Checkpoint& part,
+                      const std::string& path);
+
+}  // namespace kaustik

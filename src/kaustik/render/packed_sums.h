@@ -1,0 +1,19 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "kaustik/base/binary_file.h"
+#include "kaustik/base/exact_sum.h"
+
+namespace kaustik {
+
+/// Writes exact sums without the bytes that say nothing: most have 5 to 8 of their 16, zeros none.
+/// Each is a byte (low half: number of the first byte that is kept, from the least; high half: of
+/// the last; zero: 0x01, a first one after the last), then these bytes. Bytes before them are 0,
+/// those after them repeat the sign.
+void put_sums(BinaryWriter& writer, std::span<const Fixed> sums);
+
+/// Reads so many; throws as BinaryReader does. Allocates at most 16 bytes for each of the file.
+std::vector<Fixed> get_sums(BinaryReader& reader, uint64_t count);
+
+}  // namespace kaustik

@@ -1,0 +1,91 @@
+#include "kaustik/scene/description_digest.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "kaustik/base/checksum.h"
+#include "kaustik/base/file.h"
+#include "kaustik/scene/scene.h"
+
+namespace kaustik {
+namespace {
+
+uint64_t checksum_of(const std::string& text) {
+  return checksum({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+// Numbers are written so that they can be read back to the last bit; the letter tells apart types
+// that look alike. Texts come with their length, so that no two lists of texts look the same.
+std::string text_of(const std::string& text) { return fmt::format("{}'{}'", text.size(), text); }
+std::string text_of(bool value) { return value ? "yes" : "no"; }
+std::string text_of(int64_t value) { return fmt::format("i{}", value); }
+std::string text_of(double value) { return fmt::format("f{}", value); }
+std::string text_of(const Vec3d& v) { return fmt::format("v{} {} {}", v.x, v.y, v.z); }
+std::string text_of(const Rgb& c) { return fmt::format("c{} {} {}", c.r, c.g, c.b); }
+std::string text_of(const Untyped& value) { return "u" + text_of(value.text); }
+std::string text_of(const SpectralCurve& curve) {
+  std::string text = "s";
+  for (const auto& [wavelength, value] : curve.samples)
+    text += fmt::format("{}:{} ", wavelength, value);
+  return text;
+}
+std::string text_of(const Transform& transform) {
+  std::string text = "t";
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      text += fmt::format("{} ", transform.at(row, column));
+  return text;
+}
+
+/// The path that a property names, "" if it names none.
+std::string file_of(const Property& property) {
+  if (property.name != "filename" && property.name != "photon_map") return {};
+  if (const auto* text = std::get_if<std::string>(&property.value)) return *text;
+  if (const auto* untyped = std::get_if<Untyped>(&property.value)) return untyped->text;
+  return {};
+}
+
+class Digester {
+ public:
+  /// `left_out` counts as if it were not there.
+  explicit Digester(const Object* left_out) : left_out_(left_out) {}
+
+  uint64_t of(const Object& object) {
+    const auto known = objects_.find(&object);
+    if (known != objects_.end()) return known->second;
+    std::string text = text_of(object.family) + text_of(object.type) + text_of(object.id);
+    for (const Property& property : object.properties)
+      text += text_of(property.name) + "=" + value_of(property) + ";";
+    for (const Child& child : object.children)
+      if (child.object.get() != left_out_)
+        text += fmt::format("{}:{:016x};", text_of(child.name), of(*child.object));
+    return objects_[&object] = checksum_of(text);
+  }
+
+ private:
+  std::string value_of(const Property& property) {
+    const std::string file = file_of(property);
+    if (!file.empty()) return fmt::format("file {:016x}", of_file(file));
+    return std::visit([](const auto& value) { return text_of(value); }, property.value);
+  }
+  uint64_t of_file(const std::string& path) {
+    const auto known = files_.find(path);
+    if (known != files_.end()) return known->second;
+    return files_[path] = checksum(read_file(path));
+  }
+
+  const Object* left_out_;
+  std::map<const Object*, uint64_t> objects_;  // shared ones need not be gone through again
+  std::map<std::string, uint64_t> files_;
+};
+
+}  // namespace
+
+DescriptionDigest description_digest(const Description& description) {
+  const auto integrator = find_integrator(description);
+  Digester digester(integrator.get());
+  return {digester.of(*description.scene), integrator ? digester.of(*integrator) : 0};
+}
+
+}  // namespace kaustik

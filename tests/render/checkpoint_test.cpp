@@ -1,0 +1,367 @@
+// Checkpoints: the same bits in parts as at once, and what is wrong with files is told.
+
+#include "kaustik/render/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+
+#include "kaustik/base/checksum.h"
+#include "kaustik/base/file.h"
+#include "kaustik/render/packed_sums.h"
+#include "kaustik/render/session.h"
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+#include "tests/support/temporary_folder.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+/// A glass ball over a floor: every component but media.
+const TestScene& little_scene() {
+  static const TestScene scene(
+      camera("0, -4, 2", "0, 0, 0.5", 45, 8) + flat("rectangle", scale("3"), diffuse("0.5")) +
+      sphere("0, 0, 0.6", 0.6, glass()) +
+      flat("rectangle", scale("0.5") + rotate("1, 0, 0", 180) + translate("0, 0, 3"),
+           area_light("9")));
+  return scene;
+}
+
+std::unique_ptr<Integrator> little_integrator(const std::string& type) {
+  std::string parameters;
+  if (type == "photonmap")
+    parameters =
+        set("global_photons", 2000) + set("caustic_photons", 2000) + set("cache_samples", 16);
+  return little_scene().integrator(type, parameters);
+}
+
+SessionSettings settings_for(PassRange passes) {
+  SessionSettings settings;
+  settings.seed = 5;
+  settings.first_pass = passes.begin;
+  settings.passes = passes.end - passes.begin;
+  settings.samples_per_pass = 2;
+  return settings;
+}
+
+Film rendered(const Integrator& integrator, PassRange passes) {
+  Session session(little_scene().scene(), integrator, settings_for(passes));
+  session.run();
+  return session.film();
+}
+
+void expect_same_bits(const Film& a, const Film& b) {
+  const Image image_a = a.image(), image_b = b.image();
+  ASSERT_EQ(image_a.channel_names(), image_b.channel_names());
+  for (int c = 0; c < image_a.channel_count(); ++c)
+    for (size_t i = 0; i < image_a.pixel_count(); ++i)
+      ASSERT_EQ(image_a.channel(c)[i], image_b.channel(c)[i])
+          << image_a.channel_names()[size_t(c)] << " of pixel " << i;
+  EXPECT_EQ(a.mean_error(), b.mean_error());
+  EXPECT_EQ(a.picture_error(), b.picture_error());
+  EXPECT_EQ(a.passes().ranges(), b.passes().ranges());
+}
+
+RenderRecord little_record() {
+  RenderRecord record;
+  record.program = "1.2.3";
+  record.recipe.scene = "scene.xml";
+  record.recipe.folder = "/somewhere";
+  record.recipe.definitions = {{"size", "24"}, {"name", ""}};
+  record.recipe.integrator = "path";
+  record.recipe.settings = {{"film.width=8", "command line: --set film.width=8"}};
+  record.recipe.seed = 0xfedcba9876543210u;
+  record.recipe.samples_per_pass = 2;
+  record.recipe.digest = {17, 18};
+  record.plan = {3, 16, 60.0, 0.02};
+  record.outputs.files = {"a.exr", "b.png"};
+  record.outputs.tone = "linear";
+  record.outputs.tone_settings = {"exposure=1"};
+  record.outputs.full_float = true;
+  record.view = {"path", 40, 30, Quantity::irradiance};
+  record.seconds = 12.5;
+  return record;
+}
+
+/// Made of one pass, with some negative sums.
+Film little_film(PassRange passes = {0, 1}) {
+  FilmSettings settings;
+  settings.size = settings.crop_size = {3, 2};
+  Film film(settings, {ComponentSet::all()});
+  for (uint32_t pass = passes.begin; pass < passes.end; ++pass) {
+    std::vector<PassPixel> pixels(6);
+    for (size_t i = 0; i < pixels.size(); ++i) {
+      pixels[i].radiance[i] = {float(i) + 0.1f, 3e-7f, 4e9f, 0};
+      pixels[i].first_hit.normal = {-0.5f, 0.25f, -1e-12f};
+    }
+    film.add_pass(pixels, pass, 2);
+  }
+  return film;
+}
+
+class CheckpointFile : public testing::Test {
+ protected:
+  std::string path(const std::string& name = "a.kpt") const { return folder_.path(name); }
+  std::vector<uint8_t> bytes() const { return read_file(path()); }
+  void write(std::vector<uint8_t> bytes, bool with_checksum = false) const {
+    if (with_checksum) {
+      const uint64_t sum = checksum(std::span(bytes).first(bytes.size() - sizeof(uint64_t)));
+      std::memcpy(bytes.data() + bytes.size() - sizeof sum, &sum, sizeof sum);
+    }
+    std::ofstream(path(), std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::ptrdiff_t(bytes.size()));
+  }
+  /// Reading must end with an input error that names the file.
+  void expect_refused(const std::string& message) const {
+    try {
+      read_checkpoint(path());
+      ADD_FAILURE() << "was read, expected: " << message;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(path()), std::string::npos) << error.what();
+      EXPECT_FALSE(error.problems()[0].remedy.empty());
+    }
+  }
+  static std::string merging(Checkpoint& whole, const Checkpoint& part) {
+    try {
+      merge_checkpoint(whole, "whole.kpt", part, "part.kpt");
+    } catch (const Error& error) {
+      EXPECT_FALSE(error.problems()[0].remedy.empty());
+      return error.what();
+    }
+    return {};
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CheckpointFile, HoldsEverything) {
+  const RenderRecord record = little_record();
+  const Film film = little_film({4, 7});
+  write_checkpoint(path(), record, film);
+  EXPECT_TRUE(is_checkpoint(path()));
+  const Checkpoint read = read_checkpoint(path());
+  EXPECT_EQ(read.record.program, record.program);
+  EXPECT_EQ(read.record.recipe.scene, record.recipe.scene);
+  EXPECT_EQ(read.record.recipe.folder, record.recipe.folder);
+  EXPECT_EQ(read.record.recipe.definitions, record.recipe.definitions);
+  EXPECT_EQ(read.record.recipe.integrator, record.recipe.integrator);
+  ASSERT_EQ(read.record.recipe.settings.size(), 1u);
+  EXPECT_EQ(read.record.recipe.settings[0].assignment, record.recipe.settings[0].assignment);
+  EXPECT_EQ(read.record.recipe.settings[0].origin, record.recipe.settings[0].origin);
+  EXPECT_EQ(read.record.recipe.seed, record.recipe.seed);
+  EXPECT_EQ(read.record.recipe.samples_per_pass, 2u);
+  EXPECT_EQ(read.record.recipe.digest, record.recipe.digest);
+  EXPECT_EQ(read.record.plan.first_pass, 3u);
+  EXPECT_EQ(read.record.plan.passes, 16u);
+  EXPECT_EQ(read.record.plan.seconds, 60.0);
+  EXPECT_EQ(read.record.plan.error, 0.02);
+  EXPECT_EQ(read.record.outputs.files, record.outputs.files);
+  EXPECT_EQ(read.record.outputs.tone, "linear");
+  EXPECT_EQ(read.record.outputs.tone_settings, record.outputs.tone_settings);
+  EXPECT_TRUE(read.record.outputs.full_float);
+  EXPECT_FALSE(read.record.outputs.denoise);
+  EXPECT_EQ(read.record.view.vertical_fov, 30);
+  EXPECT_EQ(read.record.view.quantity, Quantity::irradiance);
+  EXPECT_EQ(read.record.seconds, 12.5);
+  expect_same_bits(read.film, film);
+}
+
+TEST_F(CheckpointFile, PassesInPartsAreThoseOfOneRun) {
+  for (const char* type : {"path", "photonmap", "vcm"}) {
+    SCOPED_TRACE(type);
+    const auto integrator = little_integrator(type);
+    const Film whole = rendered(*integrator, {0, 8});
+    write_checkpoint(path(), little_record(), rendered(*integrator, {0, 4}));
+
+    // Gone on with, with an integrator that never saw the first passes.
+    const auto later = little_integrator(type);
+    Session session(little_scene().scene(), *later, settings_for({0, 8}),
+                    read_checkpoint(path()).film);
+    EXPECT_EQ(session.run().passes, 8u);
+    expect_same_bits(session.film(), whole);
+
+    // And put together, in any order.
+    write_checkpoint(path("b.kpt"), little_record(), rendered(*later, {4, 6}));
+    write_checkpoint(path("c.kpt"), little_record(), rendered(*little_integrator(type), {6, 8}));
+    for (const std::vector<std::string>& order :
+         {std::vector<std::string>{"a.kpt", "b.kpt", "c.kpt"}, {"c.kpt", "a.kpt", "b.kpt"}}) {
+      Checkpoint sum = read_checkpoint(path(order[0]));
+      for (size_t i = 1; i < order.size(); ++i)
+        merge_checkpoint(sum, order[0], read_checkpoint(path(order[i])), order[i]);
+      expect_same_bits(sum.film, whole);
+    }
+  }
+}
+
+TEST_F(CheckpointFile, GapsAreFilled) {
+  const auto integrator = little_integrator("path");
+  Film begun = rendered(*integrator, {1, 2});
+  begun.add(rendered(*integrator, {3, 4}));
+  Session session(little_scene().scene(), *integrator, settings_for({0, 5}), begun);
+  std::vector<uint32_t> counts;
+  session.run({}, {}, [&] { counts.push_back(session.film().pass_count()); });
+  EXPECT_EQ(counts, (std::vector<uint32_t>{3, 4, 5}));
+  expect_same_bits(session.film(), rendered(*integrator, {0, 5}));
+}
+
+TEST_F(CheckpointFile, WhatIsCompleteIsLeftAsItIs) {
+  const auto integrator = little_integrator("path");
+  const Film film = rendered(*integrator, {0, 3});
+  Session session(little_scene().scene(), *integrator, settings_for({0, 3}), film);
+  const SessionReport report = session.run();
+  EXPECT_EQ(report.rays, 0u);
+  EXPECT_EQ(report.passes, 3u);
+  expect_same_bits(session.film(), film);
+}
+
+TEST_F(CheckpointFile, CancelledRendersHoldTheirFinishedPasses) {
+  const auto integrator = little_integrator("path");
+  std::stop_source source;
+  Session session(little_scene().scene(), *integrator, settings_for({0, 8}));
+  session.run(source.get_token(), {}, [&] {
+    if (session.film().pass_count() == 3) source.request_stop();
+  });
+  expect_same_bits(session.film(), rendered(*integrator, {0, 3}));
+}
+
+TEST_F(CheckpointFile, MergingRefusesWhatDoesNotBelongTogether) {
+  const auto checkpoint = [](PassRange passes) {
+    return Checkpoint{little_record(), little_film(passes)};
+  };
+  const auto refused = [&](const std::string& message,
+                           const std::function<void(Checkpoint&)>& change) {
+    Checkpoint whole = checkpoint({0, 2}), part = checkpoint({2, 3});
+    change(part);
+    const std::string text = merging(whole, part);
+    EXPECT_NE(text.find(message), std::string::npos) << text;
+    EXPECT_NE(text.find("part.kpt: "), std::string::npos) << text;
+    EXPECT_EQ(whole.film.pass_count(), 2u);
+  };
+  refused("another scene", [](Checkpoint& part) { part.record.recipe.digest.scene = 1; });
+  refused("another integrator", [](Checkpoint& part) { part.record.recipe.digest.integrator = 1; });
+  refused("it has seed 1 instead", [](Checkpoint& part) { part.record.recipe.seed = 1; });
+  refused("it has 3 samples per pass instead of 2",
+          [](Checkpoint& part) { part.record.recipe.samples_per_pass = 3; });
+  refused("of its passes 1–4 were given before: 1", [&](Checkpoint& part) {
+    part.film = little_film({1, 5});
+  });
+  refused("another size", [](Checkpoint& part) {
+    FilmSettings settings;
+    settings.size = settings.crop_size = {2, 2};
+    part.film = Film(settings, {ComponentSet::all()});
+  });
+  Checkpoint whole = checkpoint({0, 2});
+  EXPECT_EQ(merging(whole, checkpoint({2, 3})), "");
+  expect_same_bits(whole.film, little_film({0, 3}));
+}
+
+TEST_F(CheckpointFile, OtherVersionsAreRefused) {
+  const Checkpoint checkpoint{little_record(), little_film()};
+  check_program(checkpoint, "a.kpt", "1.2.3");
+  EXPECT_THROW(check_program(checkpoint, "a.kpt", "1.2.4"), Error);
+}
+
+TEST_F(CheckpointFile, ForeignFilesAreRefused) {
+  expect_refused("No such file");
+  write({});
+  expect_refused("not a checkpoint");
+  EXPECT_FALSE(is_checkpoint(path()));
+  const std::string text = "<scene version=\"3.0.0\"></scene>";
+  write({text.begin(), text.end()});
+  expect_refused("not a checkpoint");
+  write_checkpoint(path(), little_record(), little_film());
+  std::vector<uint8_t> other = bytes();
+  std::reverse(other.begin() + 8, other.begin() + 12);
+  write(other);
+  expect_refused("other byte order");
+  other = bytes();
+  std::reverse(other.begin() + 8, other.begin() + 12);
+  other[12] = 99;
+  write(other);
+  expect_refused("has version 99");
+}
+
+TEST_F(CheckpointFile, TruncatedAndDamagedFilesAreRefused) {
+  write_checkpoint(path(), little_record(), little_film());
+  const std::vector<uint8_t> whole = bytes();
+  for (size_t size = 8; size < whole.size(); size += 1 + size / 37) {
+    write({whole.begin(), whole.begin() + std::ptrdiff_t(size)});
+    expect_refused("damaged");
+  }
+  std::vector<uint8_t> more = whole;
+  more.push_back(0);
+  write(more);
+  expect_refused("damaged");
+  for (size_t i = 16; i < whole.size(); i += 1 + i / 37) {
+    std::vector<uint8_t> flipped = whole;
+    flipped[i] ^= 0x10;
+    write(flipped);
+    expect_refused("damaged");
+  }
+}
+
+/// Behind a checksum that is right there may be anything: it is an error or a checkpoint, and it
+/// takes neither time nor memory out of proportion.
+TEST_F(CheckpointFile, WrongContentsDoNoHarm) {
+  write_checkpoint(path(), little_record(), little_film());
+  const std::vector<uint8_t> whole = bytes();
+  std::mt19937 generator(3);
+  const auto any = [&](size_t end) {
+    return std::uniform_int_distribution<size_t>(0, end - 1)(generator);
+  };
+  int refused = 0;
+  for (int i = 0; i < 1500; ++i) {
+    std::vector<uint8_t> changed = whole;
+    const size_t at = 16 + any(whole.size() - 24);
+    if (i % 3 == 0)
+      for (size_t k = at; k < std::min(at + 8, whole.size() - 8); ++k) changed[k] = 0xff;
+    else if (i % 3 == 1)
+      changed[at] = uint8_t(any(256));
+    else
+      changed.erase(changed.begin() + std::ptrdiff_t(at));
+    write(changed, true);
+    try {
+      const Checkpoint read = read_checkpoint(path());
+      read.film.image();
+      EXPECT_EQ(read.film.width() * read.film.height() > 0, true);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 500);
+}
+
+TEST_F(CheckpointFile, WritingReplacesTheFileAsAWhole) {
+  write_checkpoint(path(), little_record(), little_film());
+  const std::vector<uint8_t> old = bytes();
+  EXPECT_THROW(write_checkpoint(path("nowhere/a.kpt"), little_record(), little_film()), Error);
+  write_checkpoint(path(), little_record(), little_film({0, 2}));
+  EXPECT_NE(bytes(), old);
+  EXPECT_EQ(read_checkpoint(path()).film.pass_count(), 2u);
+}
+
+TEST_F(CheckpointFile, PackedSumsComeBack) {
+  constexpr BinaryFileKind kind = {{0x89, 'T', 'S', 'T', '\r', '\n', 0x1a, '\n'}, 1, "", "", ""};
+  std::vector<Fixed> sums = {0, 1, -1, 127, 128, 255, 256, -127, -128, -129, -256};
+  for (int shift = 0; shift < 126; ++shift)
+    for (const int factor : {1, -1, 3, -3})
+      if (shift < 124) sums.push_back(Fixed(factor) * (Fixed(1) << shift));
+  std::mt19937_64 generator(4);
+  for (int i = 0; i < 5000; ++i)
+    sums.push_back(Fixed(UnsignedFixed(generator()) << 64 | generator()) >> (i % 127));
+  BinaryWriter writer(kind);
+  put_sums(writer, sums);
+  writer.write_to(path());
+  BinaryReader reader(kind, path());
+  EXPECT_TRUE(get_sums(reader, sums.size()) == sums);
+  reader.expect_end();
+}
+
+}  // namespace
+}  // namespace kaustik
