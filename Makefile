@@ -5,9 +5,14 @@ BUILD = build/release
 PREFIX ?= /usr/local
 program = $(BUILD)/kaustik
 scene = scenes/cornell_box/cornell_box.xml
+comparisons = $(BUILD)/benchmarks/comparisons
+RESULTS ?= out/bench_scenes.jsonl
+bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--integrators $(INTEGRATORS)) \
+  $(if $(SECONDS),--seconds $(SECONDS)) $(if $(SEEDS),--seeds $(SEEDS)) $(if $(REFERENCES),--references $(REFERENCES))
+comma = ,
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test thesis bench install package docs format clean
+.PHONY: all setup configure build render test thesis bench bench-scenes bench-peers comparisons references install package docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -36,6 +41,30 @@ thesis: build
 bench: build
 	@scripts/install_packages.sh bench
 	@scripts/run_benchmarks.sh $(BUILD)
+
+# Every method on every scene over time, hours; what is in out/bench_scenes.jsonl is not run again.
+# Lists have commas: make bench-scenes SCENES=metal_ring,peer_ring INTEGRATORS=path,vcm SECONDS=5,10 SEEDS=1,2
+bench-scenes: configure
+	@cmake --build --preset release --target bench_scenes comparisons_page
+	$(comparisons)/bench_scenes --results $(RESULTS) $(bench_scenes_options)
+	$(comparisons)/comparisons_page $(RESULTS)
+
+# Beside Blender Cycles and POV-Ray at equal time: make bench-peers TIME=60 SCENES=metal_ring INTEGRATOR=vcm
+bench-peers: configure
+	@scripts/install_packages.sh bench
+	@cmake --build --preset release --target bench_peers
+	$(BUILD)/benchmarks/peers/bench_peers $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATOR),--integrator $(INTEGRATOR)) \
+	  $(if $(TIME),--seconds $(TIME)) $(if $(REFERENCES),--references $(REFERENCES))
+
+# docs/comparisons.md, of what bench-scenes has measured.
+comparisons: configure
+	@cmake --build --preset release --target comparisons_page
+	$(comparisons)/comparisons_page $(RESULTS) --docs docs
+
+# References that the scenes are compared with, hours; SCENES="atrium museum" makes those, anew.
+references: configure
+	@cmake --build --preset release --target kaustik add_images_tool
+	benchmarks/make_references.sh $(subst $(comma), ,$(SCENES))
 
 install: configure
 	@cmake --build --preset release --target kaustik

@@ -1,9 +1,11 @@
-// add_images_tool OUT A B ...: the sum of independent renders, with the standard error of the sum.
+// add_images_tool OUT A B ...: the sum of independent renders, with the standard error of the sum,
+// and what relative MSE that is.
 #include <cmath>
 
 #include "benchmarks/report.h"
 #include "kaustik/base/error.h"
 #include "kaustik/image/image_io.h"
+#include "kaustik/image/metrics.h"
 
 int main(int argc, char** argv) {
   using namespace kaustik;
@@ -30,6 +32,7 @@ int main(int argc, char** argv) {
       }
     }
     write_image(sum, argv[1]);
+    fmt::print("{}: relative MSE of its own noise {:.2g}\n", argv[1], own_relative_mse(sum));
   } catch (const Error& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;

@@ -1,41 +1,107 @@
 #!/usr/bin/env bash
-# Makes the references of render_bench and cycles_bench: path tracing without L S+ D E, plus light
-# tracing with only that, both unbiased. Takes about an hour on two quiet cores; samples of one pass
-# stratify one another, so the passes are few and large. A render that is interrupted (Ctrl-C) keeps
-# the passes that are finished. Usage: benchmarks/make_references.sh [SCENE ...]
+# Makes references, benchmarks/references/SCENE.exr with the standard error of each pixel. Each
+# component of the light (docs/architecture.md) comes from the method that finds it best without
+# bias: path tracing what it can, light tracing what lamps focus (L S+ D E) and what only they find.
+# What mirrors and water show of focused light has no unbiased method but bdpt by chance; there it
+# is vcm, whose bias shrinks with the passes. A render that is interrupted (Ctrl-C) keeps the passes
+# that are finished. Usage: benchmarks/make_references.sh [SCENE ...]; without names: all that
+# bench_scenes measures by default and does not have. EFFORT=0.1 takes a tenth of the minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=build/release/kaustik
+references=${REFERENCES:-benchmarks/references}
+effort=${EFFORT:-1}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# scene, integrator, components, samples per pixel, passes: adds a part to the sum
+# scene: its file, and what makes its picture as large as the reference is to be
+file_of() {
+  case "$1" in
+    peer_*) echo "benchmarks/peer_scenes/${1#peer_}/scene.xml" ;;
+    *) echo "scenes/$1/$1.xml" ;;
+  esac
+}
+size_of() {
+  case "$1" in
+    peer_*) ;;
+    gallery_*) echo "-D width=400 -D height=300" ;;
+    *) echo "-D size=400" ;;
+  esac
+}
+# scene, integrator, components, options of the length: adds a part to the sum
 part() {
-  "$program" render "scenes/$1/$1.xml" --integrator "$2" --set integrator.components="$3" \
-    --spp "$4" --passes "$5" --seed 1000 --float -o "$work/$1-$2-$3.exr"
+  # shellcheck disable=SC2046
+  "$program" render "$(file_of "$1")" $(size_of "$1") --integrator "$2" \
+    --set integrator.components="$3" "${@:4}" --seed 1000 --float -o "$work/$1-$2-$3.exr"
+}
+# scene, integrator, components, minutes
+minutes() {
+  part "$1" "$2" "$3" --time "$(awk "BEGIN { print $4 * $effort * 60 }")s"
 }
 # scene: the sum of its parts
 finish() {
-  mkdir -p benchmarks/references
-  build/release/benchmarks/add_images_tool "benchmarks/references/$1.exr" "$work/$1"-*.exr
+  mkdir -p "$references"
+  build/release/benchmarks/add_images_tool "$references/$1.exr" "$work/$1"-*.exr
 }
 
-[ $# -gt 0 ] || set -- cornell_box metal_ring
-for scene in "$@"; do
+make_reference() {
+  local scene=$1
   case "$scene" in
-    cornell_box) # nothing in it is specular
-      part cornell_box path emission,direct,indirect 8192 2
-      finish cornell_box
+    # Nothing in it is specular. Samples of one pass stratify one another: few, large passes.
+    cornell_box | peer_cornell)
+      part "$scene" path emission,direct,indirect --spp 8192 --passes 2
       ;;
-    metal_ring) # the lamp in the mirror, by way of the table, is what `path` takes most samples for
-      part metal_ring path emission,direct,indirect 1024 2
-      part metal_ring path specular 10240 10
-      part metal_ring lighttracer caustic 1536 6
-      finish metal_ring
+    # The lamp in the mirror, by way of the table, is what `path` takes most samples for. Of what the
+    # ring focuses, and the table scatters on, paths from the camera find too little.
+    metal_ring | peer_ring)
+      part "$scene" path emission,direct --spp 1024 --passes 2
+      minutes "$scene" bdpt indirect 30
+      part "$scene" path specular --spp 10240 --passes 10
+      part "$scene" lighttracer caustic --spp 1536 --passes 6
+      ;;
+    # What the glass focuses and the walls scatter on is rare and bright to paths from the camera.
+    cornell_spheres | peer_cornell_glass)
+      minutes "$scene" path emission,direct 5
+      minutes "$scene" lighttracer caustic,indirect 30
+      minutes "$scene" vcm specular 30
+      ;;
+    # All light comes through the water: only paths from the lamps find it.
+    pool_below | peer_pool_below)
+      minutes "$scene" path emission,direct 5
+      minutes "$scene" lighttracer caustic,indirect 30
+      minutes "$scene" vcm specular 30
+      ;;
+    # And all that is seen is seen through it.
+    pool_above | peer_pool_above)
+      minutes "$scene" path emission,direct 5
+      minutes "$scene" lighttracer caustic,indirect 15
+      minutes "$scene" vcm specular 60
+      ;;
+    # Lamps among crystals, whose focused light is scattered again.
+    atrium)
+      minutes "$scene" path emission,direct 10
+      minutes "$scene" lighttracer caustic 20
+      minutes "$scene" bdpt indirect 60
+      minutes "$scene" vcm specular 30
+      ;;
+    # Lamps behind walls: connected from both ends, without bias.
+    peer_hidden_light)
+      minutes "$scene" bdpt all 60
+      ;;
+    gallery_1 | gallery_2 | maze | museum | point_spotlight)
+      minutes "$scene" path all 60
       ;;
     *)
       echo "no reference is made of $scene" >&2
       exit 2
       ;;
   esac
-done
+  finish "$scene"
+}
+
+if [ $# -eq 0 ]; then
+  for scene in cornell_box cornell_spheres metal_ring pool_below atrium gallery_1; do
+    [ -e "$references/$scene.exr" ] || set -- "$@" "$scene"
+  done
+fi
+for scene in "$@"; do make_reference "$scene"; done

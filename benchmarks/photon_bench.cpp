@@ -4,6 +4,7 @@
 
 #include "benchmarks/report.h"
 #include "benchmarks/shipped_scenes.h"
+#include "kaustik/photon/matt_merging.h"
 
 namespace {
 
@@ -54,6 +55,63 @@ void measure_estimate(const PhotonMap& map) {
                   neighbors, 1e6 * search / query_count, 1e6 * estimate / query_count, sum));
 }
 
+/// Light vertices strewn over a square of 1 m², as after a diffuse event.
+LightVertices strewn_vertices(size_t count) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> unit(0, 1);
+  LightVertices light;
+  light.path_count = uint32_t(count);
+  std::vector<Vec3f> positions(count);
+  std::vector<LightVertexData> data(count);
+  for (size_t i = 0; i < count; ++i) {
+    positions[i] = {unit(random), unit(random), 0};
+    data[i].flux = {unit(random), unit(random), unit(random), 0};
+    data[i].side = CoarseNormal({0, 0, 1});
+    data[i].direction = PackedDirection(normalize(Vec3f(unit(random), unit(random), 1)));
+    data[i].before = 2;
+    data[i].specular = false;
+    data[i].path = uint32_t(3 * i);
+    data[i].pdf_next_event = 1;
+    for (int k = 0; k < 3; ++k) light.vertices.push_back({1, 1, 1, 1, false});
+  }
+  light.tree = {std::move(positions), std::move(data)};
+  return light;
+}
+
+/// Contributions of light vertices to points, bsdf and weight included, on one core.
+void measure_merging(const LightVertices& light, double per_point) {
+  PathWeights::Settings settings;
+  settings.techniques = {true, true, true, true, true};
+  settings.light_paths = float(light.path_count);
+  const PathWeights weights(settings);
+  const MattMerging merging(light, weights);
+  const double area = per_point / double(light.path_count);
+  const PathVertex seen{1, 0, 0, 1, false};
+  MattDisk disk;
+  disk.normal = {0, 0, 1};
+  disk.radius = float(std::sqrt(area / double(pi)));
+  disk.flatness = 0.3f * disk.radius;
+  disk.least_cosine = 0.5f;
+  disk.weights = weights.matt_vertex({&seen, 1}, float(area), 0.1f);
+  double sum = 0;
+  std::vector<double> times;
+  for (int i = 0; i < repeats; ++i) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> unit(0.1f, 0.9f);
+    times.push_back(cpu_seconds_of([&] {
+      for (size_t q = 0; q < query_count; ++q) {
+        disk.center = {unit(random), unit(random), 0};
+        sum += double(merging.merge(disk).other.wide.sum());
+      }
+    }));
+  }
+  bench::report(fmt::format("merging_{:.0f}", per_point),
+                per_point * query_count / bench::median(times) / 1e6,
+                "million contributions per second and core (at least 8)",
+                fmt::format("{} light vertices, {:.0f} near each point (checksum {:.3g})",
+                            light.path_count, per_point, sum));
+}
+
 }  // namespace
 
 int main() {
@@ -64,5 +122,7 @@ int main() {
                 double(sizeof(Vec3f) + sizeof(Photon) + sizeof(uint32_t)), "bytes",
                 "input arrays and order, freed when the build ends");
   measure_estimate(map);
+  const LightVertices light = strewn_vertices(1000000);
+  for (const double per_point : {30.0, 300.0}) measure_merging(light, per_point);
   return 0;
 }

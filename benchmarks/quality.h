@@ -24,13 +24,27 @@ inline std::optional<Image> reference_of(const std::string& name) {
   return std::nullopt;
 }
 
+/// What every benchmark calls the error of a picture: relative MSE, the mean over pixels and
+/// channels of (x − r)²/(r² + 0.01), without the worst 0.1 % of the pixels.
+inline double error_of(const ImageComparison& with_reference) {
+  return with_reference.relative_mse_trimmed;
+}
+inline double error_of(const Image& image, const Image& reference) {
+  return error_of(compare_images(image, reference));
+}
+
+/// The picture's mean over the reference's, of all channels together.
+inline double ratio_of_means(const ImageComparison& with_reference) {
+  const Vec3d &mean = with_reference.mean, &wanted = with_reference.reference_mean;
+  return (mean.x + mean.y + mean.z) / (wanted.x + wanted.y + wanted.z);
+}
+
 /// What came out of `seconds` of rendering.
 struct Rendering {
   ImageComparison quality;
   double seconds = 0;  ///< what it really took, without building the scene
   double samples_per_pixel = 0;
-  /// Relative MSE without the worst 0.1 % of the pixels.
-  double error() const { return quality.relative_mse_trimmed; }
+  double error() const { return error_of(quality); }
 };
 
 inline Rendering render_for(const std::string& name, const std::string& integrator, double seconds,
@@ -47,17 +61,6 @@ inline Rendering render_for(const std::string& name, const std::string& integrat
   const SessionReport report = session.run();
   return {compare_images(session.film().image(), reference), report.seconds,
           double(report.passes) * report.samples_per_pass};
-}
-
-/// The relative MSE of the reference itself, from its "error" layer (standard errors), without the
-/// worst 0.1 % of the pixels as everywhere.
-inline double error_of_reference(const Image& reference) {
-  const RgbView value = rgb_view(reference), error = rgb_view(reference, "error");
-  std::vector<double> errors(reference.pixel_count());
-  for (size_t i = 0; i < errors.size(); ++i)
-    for (size_t c = 0; c < 3; ++c)
-      errors[i] += sqr(error.planes[c][i]) / (sqr(value.planes[c][i]) + 0.01f) / 3;
-  return trimmed_mean(std::move(errors));
 }
 
 }  // namespace kaustik::bench

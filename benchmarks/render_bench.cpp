@@ -20,7 +20,7 @@ void compare_methods(const std::string& name, double seconds) {
       fmt::format("path: {:.3g} ({:.1f} s, brought to photonmap's time as 1/time), photonmap: "
                   "{:.3g} ({:.1f} s), {} threads; the reference itself: {:.2g}",
                   path_error, by_path.seconds, photonmap.error(), photonmap.seconds,
-                  bench::picture_threads, bench::error_of_reference(*reference)));
+                  bench::picture_threads, own_relative_mse(*reference)));
 }
 
 }  // namespace

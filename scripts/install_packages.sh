@@ -5,10 +5,10 @@ set -euo pipefail
 
 build=(cmake ninja-build pkg-config libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
   libpng-dev libjpeg62-turbo-dev libhwy-dev libpugixml-dev libcli11-dev libfmt-dev libspdlog-dev
-  libgtest-dev libnanoflann-dev)
+  libgtest-dev libnanoflann-dev nlohmann-json3-dev)
 check=(clang clang-format libclang-rt-14-dev)
 package=(dpkg-dev file)
-bench=(blender)
+bench=(blender povray)
 
 wanted=()
 for group in "$@"; do

@@ -1,8 +1,8 @@
 // What numbers of caustic photons do to the metal ring, and the cone filter's constant.
 #include <fmt/format.h>
 
+#include "benchmarks/markdown_table.h"
 #include "error_split.h"
-#include "markdown_table.h"
 #include "scene_run.h"
 
 namespace kaustik::thesis {
@@ -50,7 +50,7 @@ std::string caustic_counts(const Workplace& place) {
       size, seeds);
   std::vector<std::string> header{"`caustic_neighbors` \\ `caustic_photons`"};
   for (const int photons : emitted) header.push_back(fmt::format("{}", photons));
-  MarkdownTable table(header);
+  bench::MarkdownTable table(header);
   std::vector<std::pair<double, int>> best(emitted.size(), {1e30, 0});
   for (const int neighbors : found) {
     std::vector<std::string> row{fmt::format("{}", neighbors)};
@@ -78,7 +78,7 @@ std::string cone_constant(const Workplace& place) {
       "larger k is flatter: less noise, more blur.\nRelative MSE = noise + squared bias, {} "
       "seeds.\n\n",
       seeds);
-  MarkdownTable table({"kernel", "50 found", "200 found"});
+  bench::MarkdownTable table({"kernel", "50 found", "200 found"});
   const auto row = [&](const std::string& title, const std::vector<std::string>& settings) {
     std::vector<std::string> cells{title};
     for (const int neighbors : {50, 200}) {

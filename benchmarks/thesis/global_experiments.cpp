@@ -2,9 +2,9 @@
 // emitted.
 #include <fmt/format.h>
 
+#include "benchmarks/line_plot.h"
+#include "benchmarks/markdown_table.h"
 #include "error_split.h"
-#include "line_plot.h"
-#include "markdown_table.h"
 #include "scene_run.h"
 
 namespace kaustik::thesis {
@@ -67,16 +67,16 @@ std::string figure_8_1(const Workplace& place) {
       "removes. The grid has no more cells than photons are found, so it is coarser with fewer.\n"
       "\n",
       size);
-  MarkdownTable table(
+  bench::MarkdownTable table(
       {"sampling grid", "found, emitted", "10 rays", "30", "50", "100", "of which bias, 100"});
   for (const GridVariant& variant : grid_variants) {
-    LinePlot plot;
+    bench::LinePlot plot;
     plot.title = std::string("Sampling grid: ") + variant.label;
     plot.x_label = "numDiffuse (gather rays)";
     plot.y_label = "relative MSE of indirect light";
     for (size_t i = 0; i < std::size(thesis_counts); ++i) {
       const GlobalCounts& counts = thesis_counts[i];
-      Curve curve{fmt::format("{}, {}", counts.found, counts.emitted), {}, colors[i], false};
+      bench::Curve curve{fmt::format("{}, {}", counts.found, counts.emitted), {}, colors[i], false};
       std::vector<std::string> row{variant.label, curve.label};
       ErrorSplit last;
       for (int rays = 10; rays <= 100; rays += 10) {
@@ -112,7 +112,7 @@ std::string global_coupling(const Workplace& place) {
       size);
   std::vector<std::string> header{"`global_neighbors` \\ `global_photons`"};
   for (const int photons : emitted) header.push_back(fmt::format("{}", photons));
-  MarkdownTable table(header);
+  bench::MarkdownTable table(header);
   for (const int found : {10, 20, 50, 100, 200}) {
     std::vector<std::string> row{fmt::format("{}", found)};
     for (const int photons : emitted) {

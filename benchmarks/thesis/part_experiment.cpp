@@ -3,9 +3,9 @@
 
 #include <cstring>
 
+#include "benchmarks/markdown_table.h"
 #include "kaustik/photon/photon_parts.h"
 #include "kaustik/render/photon_tracing.h"
-#include "markdown_table.h"
 #include "scene_run.h"
 
 namespace kaustik::thesis {
@@ -29,7 +29,7 @@ std::string photon_parts(const Workplace& place) {
         .photons;
   };
   const StoredPhotons whole = trace({});
-  MarkdownTable table({"parts", "global photons", "caustic photons", "photons that differ"});
+  bench::MarkdownTable table({"parts", "global photons", "caustic photons", "photons that differ"});
   for (const uint32_t count : {1u, 2u, 4u, 16u}) {
     std::vector<StoredPhotons> parts;
     for (uint32_t i = 0; i < count; ++i) parts.push_back(trace({i, count}));

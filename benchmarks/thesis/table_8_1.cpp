@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "benchmarks/markdown_table.h"
+#include "benchmarks/quality.h"
 #include "benchmarks/report.h"
 #include "kaustik/base/error.h"
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/denoise.h"
 #include "kaustik/image/metrics.h"
 #include "kaustik/render/photon_tracing.h"
-#include "markdown_table.h"
 #include "scene_run.h"
 
 namespace kaustik::thesis {
@@ -181,8 +182,8 @@ Row measure(const Workplace& place, const ThesisScene& scene) {
       row.seconds = result.report.seconds;
       row.denoising_seconds = denoising_seconds;
     }
-    row.error = quality.relative_mse_trimmed - row.reference_error;
-    row.denoised_error = compare_images(denoised, truth).relative_mse_trimmed - row.reference_error;
+    row.error = bench::error_of(quality) - row.reference_error;
+    row.denoised_error = bench::error_of(denoised, truth) - row.reference_error;
     row.mean_ratio = quality.mean_ratio;
   }
   count_photons(run, place.threads, row);
@@ -223,10 +224,10 @@ void refuse_unknown_scenes(const Workplace& place) {
 
 std::string table_8_1(const Workplace& place) {
   refuse_unknown_scenes(place);
-  MarkdownTable table({"scene", "pixels", "photons 1998: global", "caustic", "ours: global",
-                       "caustic", "samples per pixel", "1998, min", "ours, s", "relative MSE",
-                       "denoised, s", "relative MSE", "reference's own", "times faster",
-                       "asked for", "rays per pixel", "shadow rays per pixel"});
+  bench::MarkdownTable table(
+      {"scene", "pixels", "photons 1998: global", "caustic", "ours: global", "caustic",
+       "samples per pixel", "1998, min", "ours, s", "relative MSE", "denoised, s", "relative MSE",
+       "reference's own", "times faster", "asked for", "rays per pixel", "shadow rays per pixel"});
   for (const ThesisScene& scene : thesis_scenes()) {
     const std::filesystem::path row_file =
         place.work / "fragments" / (std::string("table_") + scene.name + ".row");

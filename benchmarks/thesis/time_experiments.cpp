@@ -1,8 +1,9 @@
 // Where the time goes, and what the irradiance cache saves.
 #include <fmt/format.h>
 
+#include "benchmarks/markdown_table.h"
+#include "benchmarks/quality.h"
 #include "kaustik/image/metrics.h"
-#include "markdown_table.h"
 #include "sampling_profiler.h"
 #include "scene_run.h"
 
@@ -52,7 +53,7 @@ std::string stages(const Workplace& place) {
   for (const ProfileStage& stage : profile_stages()) header.push_back(stage.title);
   header.push_back("rest");
   header.push_back("clock samples");
-  MarkdownTable table(header);
+  bench::MarkdownTable table(header);
   for (const StageCase& one : cases) {
     say(fmt::format("stages: {}", one.title));
     const SceneRun run(one.scene, {"photonmap", one.settings, 256, 256});
@@ -76,13 +77,13 @@ std::string irradiance_cache(const Workplace& place) {
     const SceneRun run("cornell_box", {"path", {}, 256, 256});
     return run.render(in_passes(uint32_t(place.scaled(4096)), 2, 999, place.threads)).image;
   });
-  MarkdownTable table(
+  bench::MarkdownTable table(
       {"parameters", "cache", "s", "rays per pixel", "relative MSE", "relative MSE × s"});
   const auto row = [&](const char* title, bool cached, std::vector<std::string> settings) {
     settings.push_back(fmt::format("integrator.irradiance_cache={}", cached));
     const SceneRun run("cornell_box", {"photonmap", settings, 256, 256});
     const auto result = run.render(in_passes(uint32_t(place.scaled(4)), 1, 1, place.threads));
-    const double error = compare_images(result.image, truth).relative_mse_trimmed;
+    const double error = bench::error_of(result.image, truth);
     table.add({title, cached ? "on" : "off", fmt::format("{:.2f}", result.report.seconds),
                fmt::format("{:.1f}", double(result.report.rays) / (256 * 256)),
                fmt::format("{:.2g}", error), fmt::format("{:.2g}", error * result.report.seconds)});
@@ -102,17 +103,17 @@ std::string maze_cache_quality(const Workplace& place) {
     const SceneRun run("maze", {"path", {}, 256, 256});
     return run.render(in_passes(uint32_t(place.scaled(2048)), 2, 999, place.threads)).image;
   });
-  MarkdownTable table({"`cache_quality`", "s", "rays per pixel", "relative MSE of indirect light",
-                       "of the picture"});
+  bench::MarkdownTable table({"`cache_quality`", "s", "rays per pixel",
+                              "relative MSE of indirect light", "of the picture"});
   for (const char* quality : {"1", "0.5", "0.25", "0.12", "0.06"}) {
     const SceneRun run(
         "maze", {"photonmap", {fmt::format("integrator.cache_quality={}", quality)}, 256, 256});
     const auto result = run.render(in_passes(16, 1, 1, place.threads));
-    table.add({quality, fmt::format("{:.2f}", result.report.seconds),
-               fmt::format("{:.1f}", double(result.report.rays) / (256 * 256)),
-               fmt::format("{:.2g}",
-                           compare_images(result.image, truth, "indirect").relative_mse_trimmed),
-               fmt::format("{:.2g}", compare_images(result.image, truth).relative_mse_trimmed)});
+    table.add(
+        {quality, fmt::format("{:.2f}", result.report.seconds),
+         fmt::format("{:.1f}", double(result.report.rays) / (256 * 256)),
+         fmt::format("{:.2g}", bench::error_of(compare_images(result.image, truth, "indirect"))),
+         fmt::format("{:.2g}", bench::error_of(result.image, truth))});
     say(fmt::format("maze: quality {}", quality));
   }
   return "The maze, 256×256 pixels, one pass with 16 camera samples per pixel, by the allowed "

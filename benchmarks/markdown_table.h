@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-namespace kaustik::thesis {
+namespace kaustik::bench {
 
 /// A table in Markdown; the first column is aligned left, the others right.
 class MarkdownTable {
@@ -29,4 +29,4 @@ class MarkdownTable {
   std::string text_;
 };
 
-}  // namespace kaustik::thesis
+}  // namespace kaustik::bench

@@ -1,10 +1,11 @@
-"""Renders with Blender Cycles what cycles_bench wrote down of a scene of diffuse meshes.
+"""Renders with Blender Cycles what cycles.cpp wrote down of a scene.
 
 blender --background --factory-startup --python-exit-code 1 --python cycles_render.py --
     SCENE.json SECONDS THREADS SEED PICTURE.exr TIMES.txt
 
 Plain path tracing: no denoiser, no clamping, no adaptive sampling, no bound on bounces that
-matters. TIMES.txt gets the samples per pixel and the seconds that they took.
+matters. TIMES.txt gets the samples per pixel, the seconds that they took, and those of a render's
+start and end.
 """
 
 import json
@@ -15,13 +16,50 @@ import bpy
 from mathutils import Matrix, Vector
 
 
-def diffuse_material(surface):
+def reflectance_by_angle(nodes, links, reflectance):
+    """A colour that follows from the cosine between normal and view: its values from 0 to 1."""
+    geometry = nodes.new("ShaderNodeNewGeometry")
+    cosine = nodes.new("ShaderNodeVectorMath")
+    cosine.operation = "DOT_PRODUCT"
+    links.new(geometry.outputs["Normal"], cosine.inputs[0])
+    links.new(geometry.outputs["Incoming"], cosine.inputs[1])
+    curves = nodes.new("ShaderNodeRGBCurve")
+    for channel in range(3):
+        points = curves.mapping.curves[channel].points
+        while len(points) < len(reflectance):
+            points.new(0.5, 0.5)
+        for i, color in enumerate(reflectance):
+            points[i].location = (i / (len(reflectance) - 1), color[channel])
+            points[i].handle_type = "VECTOR"
+    curves.mapping.update()
+    links.new(cosine.outputs["Value"], curves.inputs["Color"])
+    return curves.outputs["Color"]
+
+
+def scattering(nodes, links, surface):
+    """The shader of what a surface does to light."""
+    if surface["material"] == "diffuse":
+        shader = nodes.new("ShaderNodeBsdfDiffuse")
+        shader.inputs["Color"].default_value = (*surface["reflectance"][0], 1)
+    elif surface["material"] == "mirror":
+        shader = nodes.new("ShaderNodeBsdfGlossy")
+        shader.distribution = "SHARP"
+        links.new(reflectance_by_angle(nodes, links, surface["reflectance"]),
+                  shader.inputs["Color"])
+    else:
+        shader = nodes.new("ShaderNodeBsdfGlass")
+        shader.distribution = "SHARP"
+        shader.inputs["Color"].default_value = (1, 1, 1, 1)
+        shader.inputs["IOR"].default_value = surface["ior"]
+    return shader
+
+
+def material_of(surface):
     material = bpy.data.materials.new(surface["name"])
     material.use_nodes = True
     nodes, links = material.node_tree.nodes, material.node_tree.links
     nodes.clear()
-    shader = nodes.new("ShaderNodeBsdfDiffuse")
-    shader.inputs["Color"].default_value = (*surface["reflectance"], 1)
+    shader = scattering(nodes, links, surface)
     if any(surface["radiance"]):
         # The colour of a node is at most 1 in the interface, not here.
         emission = nodes.new("ShaderNodeEmission")
@@ -35,14 +73,22 @@ def diffuse_material(surface):
     return material
 
 
+def mesh_of(surface):
+    mesh = bpy.data.meshes.new(surface["name"])
+    mesh.from_pydata(surface["positions"], [], surface["triangles"])
+    mesh.materials.append(material_of(surface))
+    if surface["normals"]:
+        mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
+        mesh.use_auto_smooth = True
+        mesh.normals_split_custom_set_from_vertices(surface["normals"])
+    return mesh
+
+
 def build_scene(description):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     for surface in description["surfaces"]:
-        mesh = bpy.data.meshes.new(surface["name"])
-        mesh.from_pydata(surface["positions"], [], surface["triangles"])
-        mesh.materials.append(diffuse_material(surface))
-        scene.collection.objects.link(bpy.data.objects.new(surface["name"], mesh))
+        scene.collection.objects.link(bpy.data.objects.new(surface["name"], mesh_of(surface)))
 
     camera = bpy.data.cameras.new("camera")
     camera.sensor_fit = "HORIZONTAL"
@@ -76,6 +122,8 @@ def set_up_rendering(scene, description, threads, seed):
     cycles.light_sampling_threshold = 0
     cycles.caustics_reflective = cycles.caustics_refractive = True
     cycles.max_bounces = cycles.diffuse_bounces = 1024
+    cycles.glossy_bounces = cycles.transmission_bounces = 1024
+    cycles.blur_glossy = 0
     # The standard deviation of Cycles' Gaussian is a quarter of what it calls width.
     cycles.pixel_filter_type = "GAUSSIAN"
     cycles.filter_width = 4 * description["filter_stddev"]
@@ -89,8 +137,8 @@ def seconds_of_render(scene, samples):
 
 
 def render_for(scene, seconds):
-    """Samples per pixel and the time for them alone: a render's start and end, known from renders
-    of one sample, are taken off."""
+    """Samples per pixel, the time for them alone, and that of a render's start and end, which is
+    known from renders of one sample and taken off."""
     one_sample = min(seconds_of_render(scene, 1) for _ in range(3))
 
     def seconds_per_sample(samples):
@@ -100,7 +148,7 @@ def render_for(scene, seconds):
     for goal in (seconds / 6, seconds):
         samples = max(2, round(goal / per_sample))
         per_sample = seconds_per_sample(samples)
-    return samples, per_sample * samples
+    return samples, per_sample * samples, max(0, one_sample - per_sample)
 
 
 def main():
@@ -110,9 +158,9 @@ def main():
     scene = build_scene(description)
     set_up_rendering(scene, description, int(threads), int(seed))
     scene.render.filepath = picture
-    samples, taken = render_for(scene, float(seconds))
+    samples, taken, start_up = render_for(scene, float(seconds))
     with open(times, "w", encoding="utf-8") as file:
-        file.write(f"{samples} {taken}\n")
+        file.write(f"{samples} {taken} {start_up}\n")
 
 
 main()

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-namespace kaustik::thesis {
+namespace kaustik::bench {
 
 struct Curve {
   std::string label;
@@ -12,12 +12,14 @@ struct Curve {
   bool dashed = false;
 };
 
-/// Curves over linear axes that start at zero.
+/// Curves over linear axes, which start at zero, or logarithmic ones, which leave out what is not
+/// above zero.
 struct LinePlot {
   std::string title, x_label, y_label;
+  bool logarithmic = false;  ///< both axes
   std::vector<Curve> curves;
   /// As SVG, readable on light and dark pages.
   std::string svg() const;
 };
 
-}  // namespace kaustik::thesis
+}  // namespace kaustik::bench

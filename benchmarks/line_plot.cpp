@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-namespace kaustik::thesis {
+namespace kaustik::bench {
 namespace {
 
 constexpr double width = 760, height = 460, left = 78, right = 190, top = 44, bottom = 58;
@@ -19,11 +20,48 @@ double mark_distance(double maximum) {
 }
 
 struct Axis {
-  double maximum, distance;
-  explicit Axis(double largest) : distance(mark_distance(largest)) {
-    maximum = std::ceil(largest / distance - 1e-9) * distance;
+  double minimum = 0, maximum = 1;
+  bool logarithmic = false;
+  std::vector<double> marks;  ///< the first is the minimum, the last the maximum
+
+  /// 0 at the minimum, 1 at the maximum.
+  double place(double value) const {
+    return logarithmic ? std::log(value / minimum) / std::log(maximum / minimum)
+                       : (value - minimum) / (maximum - minimum);
   }
 };
+
+Axis linear_axis(double largest) {
+  const double distance = mark_distance(largest);
+  Axis axis;
+  axis.maximum = std::ceil(largest / distance - 1e-9) * distance;
+  for (double x = 0; x <= axis.maximum * 1.0001; x += distance) axis.marks.push_back(x);
+  return axis;
+}
+
+/// Marks at 1, 2 and 5 times powers of ten, or only at those where there are many; the outermost
+/// enclose all values.
+Axis logarithmic_axis(double smallest, double largest) {
+  const int first = int(std::floor(std::log10(smallest) + 1e-9));
+  const int last = int(std::ceil(std::log10(largest) - 1e-9));
+  std::vector<double> marks;
+  for (int power = first; power <= std::max(last, first + 1); ++power)
+    for (const double factor : {1.0, 2.0, 5.0})
+      if (factor == 1 || last - first <= 2) marks.push_back(factor * std::pow(10, power));
+  while (marks.size() > 2 && marks[1] <= smallest * 1.0001) marks.erase(marks.begin());
+  while (marks.size() > 2 && marks[marks.size() - 2] >= largest * 0.9999) marks.pop_back();
+  return {marks.front(), marks.back(), true, marks};
+}
+
+Axis axis_of(const std::vector<double>& values, bool logarithmic) {
+  double smallest = std::numeric_limits<double>::infinity(), largest = 1e-30;
+  for (const double value : values) {
+    largest = std::max(largest, value);
+    if (value > 0) smallest = std::min(smallest, value);
+  }
+  return logarithmic ? logarithmic_axis(std::min(smallest, largest), largest)
+                     : linear_axis(largest);
+}
 
 std::string text_at(double x, double y, const std::string& anchor, const std::string& text,
                     const std::string& more = {}) {
@@ -40,16 +78,16 @@ std::string line(double x0, double y0, double x1, double y1, const char* color) 
 }  // namespace
 
 std::string LinePlot::svg() const {
-  double largest_x = 1e-30, largest_y = 1e-30;
+  std::vector<double> xs, ys;
   for (const Curve& curve : curves)
     for (const auto& [x, y] : curve.points) {
-      largest_x = std::max(largest_x, x);
-      largest_y = std::max(largest_y, y);
+      xs.push_back(x);
+      ys.push_back(y);
     }
-  const Axis x_axis(largest_x), y_axis(largest_y);
-  const auto place_x = [&](double x) { return left + x / x_axis.maximum * (width - left - right); };
+  const Axis x_axis = axis_of(xs, logarithmic), y_axis = axis_of(ys, logarithmic);
+  const auto place_x = [&](double x) { return left + x_axis.place(x) * (width - left - right); };
   const auto place_y = [&](double y) {
-    return height - bottom - y / y_axis.maximum * (height - top - bottom);
+    return height - bottom - y_axis.place(y) * (height - top - bottom);
   };
 
   std::string out = fmt::format(
@@ -58,12 +96,14 @@ std::string LinePlot::svg() const {
       "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"white\"/>\n",
       width, height);
   out += text_at(left, 24, "start", title, " font-weight=\"bold\"");
-  for (double x = 0; x <= x_axis.maximum * 1.0001; x += x_axis.distance) {
-    out += line(place_x(x), place_y(0), place_x(x), place_y(y_axis.maximum), "#e4e4e4");
+  for (const double x : x_axis.marks) {
+    out +=
+        line(place_x(x), place_y(y_axis.minimum), place_x(x), place_y(y_axis.maximum), "#e4e4e4");
     out += text_at(place_x(x), height - bottom + 18, "middle", fmt::format("{:.4g}", x));
   }
-  for (double y = 0; y <= y_axis.maximum * 1.0001; y += y_axis.distance) {
-    out += line(place_x(0), place_y(y), place_x(x_axis.maximum), place_y(y), "#e4e4e4");
+  for (const double y : y_axis.marks) {
+    out +=
+        line(place_x(x_axis.minimum), place_y(y), place_x(x_axis.maximum), place_y(y), "#e4e4e4");
     out += text_at(left - 8, place_y(y) + 4, "end", fmt::format("{:.4g}", y));
   }
   out += text_at((left + width - right) / 2, height - 14, "middle", x_label);
@@ -71,7 +111,9 @@ std::string LinePlot::svg() const {
       0, 0, "middle", y_label,
       fmt::format(" transform=\"translate(18 {:.0f}) rotate(-90)\"", (top + height - bottom) / 2));
   double legend_y = top + 8;
-  for (const Curve& curve : curves) {
+  for (Curve curve : curves) {
+    if (logarithmic)
+      std::erase_if(curve.points, [](const auto& p) { return p.first <= 0 || p.second <= 0; });
     std::string points;
     for (const auto& [x, y] : curve.points)
       points += fmt::format("{:.1f},{:.1f} ", place_x(x), place_y(y));
@@ -93,4 +135,4 @@ std::string LinePlot::svg() const {
   return out + "</svg>\n";
 }
 
-}  // namespace kaustik::thesis
+}  // namespace kaustik::bench

@@ -1,0 +1,207 @@
+// Integrators on scenes over time: `bench_scenes` runs each for a minute (20 s on the scenes with
+// references of others) on all cores and appends what came out to a results file, one line of JSON
+// per run. What is there already from the same program, scene file and reference is not run again.
+// `comparisons_page` makes tables and a page of it.
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <set>
+#include <thread>
+
+#include "benchmarks/comparisons/bench_scene.h"
+#include "benchmarks/comparisons/measurement.h"
+#include "benchmarks/comparisons/snapshots.h"
+
+namespace kaustik::bench {
+namespace {
+
+struct Options {
+  std::vector<std::string> scenes = default_scene_names();
+  std::vector<std::string> integrators{"path", "bdpt", "ppm", "vcm", "photonmap", "auto"};
+  std::vector<double> seconds;  ///< empty: each scene's own
+  std::vector<uint64_t> seeds;  ///< likewise
+  int threads = 0;              ///< 0: all
+  std::string references;       ///< a folder whose references go before the stored ones
+  std::string results = "out/bench_scenes.jsonl";
+  bool any_program = false;
+};
+
+void say(const std::string& text) { fmt::print(stderr, "# {}\n", text); }
+
+bool is_known(const std::string& integrator) {
+  const std::vector<IntegratorType>& types = integrator_types();
+  return std::any_of(types.begin(), types.end(),
+                     [&](const IntegratorType& type) { return type.info.name == integrator; });
+}
+
+/// Leaves out, and says so, what this program does not have.
+std::vector<std::string> known_integrators(const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const std::string& name : names)
+    if (is_known(name))
+      known.push_back(name);
+    else
+      say(fmt::format("there is no integrator '{}': left out", name));
+  return known;
+}
+
+/// The folder's file of the scene's name, else the stored one; "" and says so if there is neither.
+std::string reference_path(const BenchScene& scene, const std::string& folder) {
+  const std::string own = folder + "/" + scene.name + ".exr";
+  if (!folder.empty() && std::filesystem::exists(own)) return own;
+  if (std::filesystem::exists(scene.reference)) return scene.reference;
+  say(fmt::format("{}: left out, there is no {}; make it: make references SCENES={}", scene.name,
+                  scene.reference, scene.name));
+  return {};
+}
+
+/// The scene's description in the size of its reference.
+Description describe(const BenchScene& scene, const std::string& integrator,
+                     const Image& reference) {
+  Description description = load_mitsuba_xml(scene.file);
+  override_integrator(description, integrator);
+  override_property(description, fmt::format("film.width={}", reference.width()));
+  override_property(description, fmt::format("film.height={}", reference.height()));
+  return description;
+}
+
+double reference_noise(const Image& reference) {
+  return reference.find_channel("error.R") >= 0 ? own_relative_mse(reference) : std::nan("");
+}
+
+/// Fills in what came out of a measurement of which scene, integrator, seed, seconds and threads
+/// are known. Throws Error where the integrator refuses the scene.
+void measure(const BenchScene& scene, const Image& reference, Measurement& m) {
+  const auto start = std::chrono::steady_clock::now();
+  const Description description = describe(scene, m.integrator, reference);
+  const auto built = build_scene(description);
+  std::vector<std::string> warnings;
+  const auto method = make_integrator(description, *built, warnings);
+  m.load_seconds = seconds_since(start);
+  SessionSettings settings;
+  settings.seed = m.seed;
+  settings.threads = m.threads;
+  const Snapshots taken = render_with_snapshots(*built, *method, settings, m.seconds, reference);
+  for (const std::optional<ImageComparison>& picture : taken.pictures)
+    m.relmse.push_back(picture ? error_of(*picture) : std::nan(""));
+  m.mean_ratio = taken.pictures.back() ? ratio_of_means(*taken.pictures.back()) : std::nan("");
+  m.passes = taken.passes;
+  m.samples_per_pass = taken.samples_per_pass;
+  m.cpu_share = taken.cpu_share;
+  m.reference_relmse = reference_noise(reference);
+}
+
+/// The measurements that are wanted of one scene, and those that there are.
+class SceneBench {
+ public:
+  SceneBench(const Options& options, const BenchScene& scene, std::string reference_file)
+      : options_(options),
+        scene_(scene),
+        reference_(read_image(reference_file)),
+        program_(hash_of_files({"/proc/self/exe"})),
+        inputs_(hash_of_files({scene.file, reference_file})),
+        done_(read_measurements(options.results)) {}
+
+  void run(const std::vector<std::string>& integrators) const {
+    for (const uint64_t seed : options_.seeds.empty() ? scene_.seeds : options_.seeds)
+      for (const std::string& integrator : integrators) run_unless_done(wanted(integrator, seed));
+  }
+
+ private:
+  Measurement wanted(const std::string& integrator, uint64_t seed) const {
+    Measurement m;
+    m.scene = scene_.name;
+    m.integrator = integrator;
+    m.seed = seed;
+    m.seconds = options_.seconds.empty() ? scene_.seconds : options_.seconds;
+    m.threads = options_.threads;
+    m.program = program_;
+    m.inputs = inputs_;
+    return m;
+  }
+
+  bool covers(const Measurement& old, const Measurement& m) const {
+    return old.scene == m.scene && old.integrator == m.integrator && old.seed == m.seed &&
+           old.threads == m.threads && old.inputs == m.inputs &&
+           (old.program == m.program || options_.any_program) &&
+           std::all_of(m.seconds.begin(), m.seconds.end(),
+                       [&](double t) { return old.relmse_at(t).has_value(); });
+  }
+
+  void run_unless_done(Measurement m) const {
+    if (std::any_of(done_.begin(), done_.end(),
+                    [&](const Measurement& old) { return covers(old, m); })) {
+      say(fmt::format("{}, {}, seed {}: there already", m.scene, m.integrator, m.seed));
+      return;
+    }
+    say(fmt::format("{}, {}, seed {}: {:g} s", m.scene, m.integrator, m.seed, m.seconds.back()));
+    try {
+      measure(scene_, reference_, m);
+    } catch (const Error& error) {
+      say(fmt::format("{}, {}: left out: {}", m.scene, m.integrator, error.what()));
+      return;
+    }
+    append_measurement(options_.results, m);
+    fmt::print("{}\n", m.to_json_line());
+    std::fflush(stdout);
+  }
+
+  const Options& options_;
+  const BenchScene& scene_;
+  Image reference_;
+  std::string program_, inputs_;
+  std::vector<Measurement> done_;
+};
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--scenes", options.scenes, "Folders of scenes/, or peer_NAME")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--integrators", options.integrators, "Which to measure")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--seconds", options.seconds,
+                 "When to look; the last ends the run [5,10,20,40,60; of peer_NAME 5,10,20]")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  app.add_option("--seeds", options.seeds, "One run per seed [1; of peer_NAME 1,2,3]")
+      ->delimiter(',');
+  app.add_option("--threads", options.threads, "Threads [all]")->check(CLI::Range(1, 4096));
+  app.add_option("--references", options.references,
+                 "Folder whose SCENE.exr are compared with instead of the stored references")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--results", options.results, "File that results are appended to")
+      ->capture_default_str();
+  app.add_flag("--any-program", options.any_program,
+               "What another build has measured is not run again either");
+}
+
+int run_all(int argc, char** argv) {
+  Options options;
+  CLI::App app("Measures the error of integrators on scenes over time.");
+  add_options(app, options);
+  CLI11_PARSE(app, argc, argv);
+  std::sort(options.seconds.begin(), options.seconds.end());
+  if (options.threads == 0) options.threads = int(std::thread::hardware_concurrency());
+  std::vector<BenchScene> scenes;
+  for (const std::string& name : options.scenes) scenes.push_back(bench_scene(name));
+  const std::vector<std::string> integrators = known_integrators(options.integrators);
+  for (const BenchScene& scene : scenes) {
+    const std::string reference = reference_path(scene, options.references);
+    if (!reference.empty()) SceneBench(options, scene, reference).run(integrators);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace kaustik::bench
+
+int main(int argc, char** argv) {
+  try {
+    return kaustik::bench::run_all(argc, argv);
+  } catch (const kaustik::Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,111 @@
+// `comparisons_page [RESULTS]` prints the tables of what bench_scenes has measured; with --docs it
+// writes them and plots of the error over time as a page.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <set>
+
+#include "benchmarks/comparisons/tables.h"
+#include "kaustik/base/error.h"
+#include "kaustik/base/file.h"
+
+namespace kaustik::bench {
+namespace {
+
+/// Less than this share of the processors' time: somebody else had the rest, or the method leaves
+/// processors idle.
+constexpr double quiet_share = 0.9;
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::create_directories(path.parent_path());
+  write_file_atomically(path.string(),
+                        {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+}
+
+/// What bears on how far the figures can be trusted.
+std::string circumstances(const Results& results) {
+  std::set<std::string> programs;
+  std::set<int> threads;
+  int disturbed = 0;
+  double least_share = 1;
+  for (const Measurement& m : results.all()) {
+    programs.insert(m.program);
+    threads.insert(m.threads);
+    if (m.cpu_share < quiet_share) ++disturbed;
+    least_share = std::min(least_share, m.cpu_share);
+  }
+  std::string text = fmt::format("{} runs on {} threads", results.all().size(), *threads.begin());
+  if (threads.size() > 1) text += fmt::format(" to {}", *threads.rbegin());
+  text +=
+      fmt::format(", by {} of the program.",
+                  programs.size() == 1 ? "one build" : fmt::format("{} builds", programs.size()));
+  if (disturbed > 0)
+    text += fmt::format(
+        " {} of them had less than {:.0f} % of the processors' time, the worst {:.0f} %: others "
+        "ran "
+        "beside them, or the method leaves processors idle.",
+        disturbed, 100 * quiet_share, 100 * least_share);
+  return text;
+}
+
+std::string tables(const Results& results) {
+  std::string text = "## Error\n\n" + error_table(results);
+  const std::string peers = peer_table(results);
+  if (!peers.empty())
+    text +=
+        "\n## Beside other renderers\n\nThe scenes and the others' figures are those of "
+        "[benchmarks/peer_scenes](../benchmarks/peer_scenes/README.md), which were measured\n"
+        "on 2 cores of one machine at 20 s; ours are measured where this page was made.\n\n" +
+        peers;
+  return text + "\n## Means\n\nMean of the picture over that of the reference.\n\n" +
+         mean_table(results);
+}
+
+std::string page(const Results& results, const std::filesystem::path& docs) {
+  std::string text = fmt::format(
+      "# Methods compared over time\n\n"
+      "`make bench-scenes` measures this, `make comparisons` writes the page. Relative MSE is the "
+      "mean over pixels and channels of\n(x − r)²/(r² + 0.01) without the worst 0.1 % of the "
+      "pixels, against references that `make references` makes (of `peer_…`: that\nother renderers "
+      "have made). Time counts from the start of rendering; a picture counts from the end of its "
+      "last pass.\nWhere there are several seeds, errors are means over them. Ratios above 1 say "
+      "how many times less the error of `{}` is.\n\n{}\n\n",
+      headline_of(results), circumstances(results));
+  text += tables(results) + "\n## Over time\n\n";
+  for (const std::string& scene : results.scenes()) {
+    const std::string file = "comparisons/" + scene + ".svg";
+    write_text(docs / file, error_plot(results, scene).svg());
+    text += fmt::format("![{}]({})\n", scene, file);
+  }
+  return text;
+}
+
+int run(int argc, char** argv) {
+  std::string path = "out/bench_scenes.jsonl", docs;
+  CLI::App app("Tables, and a page with --docs, of what bench_scenes has measured.");
+  app.add_option("results", path, "What bench_scenes wrote")->capture_default_str();
+  app.add_option("--docs", docs, "Folder that comparisons.md and its plots go into [only print]");
+  CLI11_PARSE(app, argc, argv);
+  const Results results(read_measurements(path));
+  if (results.all().empty())
+    throw Error(ErrorKind::input, path + " holds no results", "make some: make bench-scenes");
+  fmt::print("{}\n\n{}", circumstances(results), tables(results));
+  if (docs.empty()) return 0;
+  const std::filesystem::path page_path = std::filesystem::path(docs) / "comparisons.md";
+  write_text(page_path, page(results, docs));
+  fmt::print("\nwritten: {}\n", page_path.string());
+  return 0;
+}
+
+}  // namespace
+}  // namespace kaustik::bench
+
+int main(int argc, char** argv) {
+  try {
+    return kaustik::bench::run(argc, argv);
+  } catch (const kaustik::Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+}

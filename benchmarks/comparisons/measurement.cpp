@@ -1,0 +1,110 @@
+#include "benchmarks/comparisons/measurement.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "kaustik/base/error.h"
+#include "kaustik/base/file.h"
+
+namespace kaustik::bench {
+namespace {
+
+constexpr const char* line_name = "bench-scenes";
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// JSON has no NaN: what there is none of is null.
+double number_of(const nlohmann::json& value) {
+  return value.is_number() ? value.get<double>() : not_a_number;
+}
+
+std::vector<double> numbers_of(const nlohmann::json& values) {
+  std::vector<double> numbers;
+  for (const nlohmann::json& value : values) numbers.push_back(number_of(value));
+  return numbers;
+}
+
+Measurement measurement_of(const nlohmann::json& line) {
+  Measurement m;
+  m.scene = line.at("scene");
+  m.integrator = line.at("integrator");
+  m.seed = line.at("seed");
+  m.seconds = numbers_of(line.at("seconds"));
+  m.relmse = numbers_of(line.at("relmse"));
+  m.relmse.resize(m.seconds.size(), not_a_number);
+  m.mean_ratio = number_of(line.at("mean_ratio"));
+  m.threads = line.at("threads");
+  m.passes = line.at("passes");
+  m.samples_per_pass = line.at("samples_per_pass");
+  m.load_seconds = number_of(line.at("load_seconds"));
+  m.cpu_share = number_of(line.at("cpu_share"));
+  m.reference_relmse = number_of(line.at("reference_relmse"));
+  m.program = line.at("program");
+  m.inputs = line.at("inputs");
+  return m;
+}
+
+}  // namespace
+
+std::optional<double> Measurement::relmse_at(double time) const {
+  for (size_t i = 0; i < seconds.size(); ++i)
+    if (seconds[i] == time) return relmse[i];
+  return std::nullopt;
+}
+
+std::string Measurement::to_json_line() const {
+  const nlohmann::ordered_json line{{"name", line_name},
+                                    {"scene", scene},
+                                    {"integrator", integrator},
+                                    {"seed", seed},
+                                    {"seconds", seconds},
+                                    {"relmse", relmse},
+                                    {"mean_ratio", mean_ratio},
+                                    {"threads", threads},
+                                    {"passes", passes},
+                                    {"samples_per_pass", samples_per_pass},
+                                    {"load_seconds", load_seconds},
+                                    {"cpu_share", cpu_share},
+                                    {"reference_relmse", reference_relmse},
+                                    {"program", program},
+                                    {"inputs", inputs}};
+  return line.dump();
+}
+
+std::vector<Measurement> read_measurements(const std::string& path) {
+  std::vector<Measurement> all;
+  std::ifstream file(path);
+  std::string text;
+  for (int number = 1; std::getline(file, text); ++number) {
+    if (text.empty()) continue;
+    try {
+      const nlohmann::json line = nlohmann::json::parse(text);
+      if (line.value("name", "") == line_name) all.push_back(measurement_of(line));
+    } catch (const nlohmann::json::exception& problem) {
+      throw Error(ErrorKind::input,
+                  fmt::format("{}:{}: not a result: {}", path, number, problem.what()),
+                  "remove the line; a run that was cut short may have left a part of one");
+    }
+  }
+  return all;
+}
+
+void append_measurement(const std::string& path, const Measurement& measurement) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder);
+  std::ofstream file(path, std::ios::app);
+  file << measurement.to_json_line() << std::endl;
+  if (!file) throw Error(ErrorKind::system, path + " cannot be written");
+}
+
+std::string hash_of_files(const std::vector<std::string>& paths) {
+  uint64_t hash = 0xcbf29ce484222325u;
+  for (const std::string& path : paths)
+    for (const uint8_t byte : read_file(path)) hash = (hash ^ byte) * 0x100000001b3u;
+  return fmt::format("{:016x}", hash);
+}
+
+}  // namespace kaustik::bench

@@ -1,0 +1,42 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace kaustik::bench {
+
+/// What one run of an integrator on a scene came to: one line of a results file.
+struct Measurement {
+  std::string scene, integrator;
+  uint64_t seed = 0;
+  std::vector<double> seconds;  ///< when the picture was looked at, without loading the scene
+  /// Error (error_of in quality.h) of the picture after the last pass that had ended by then; NaN
+  /// (null in the file): none had.
+  std::vector<double> relmse;
+  double mean_ratio = 0;  ///< of the last picture's mean to the reference's; NaN: no picture
+  int threads = 0;
+  uint32_t passes = 0, samples_per_pass = 0;
+  double load_seconds = 0;
+  /// CPU time over time × threads, at most 1; much less: others had the processors as well, or the
+  /// method does not use them all.
+  double cpu_share = 0;
+  double reference_relmse = 0;  ///< of the reference's own noise; NaN: it does not tell
+  std::string program;          ///< hash of the program that measured
+  std::string inputs;           ///< hash of the scene file and the reference
+
+  /// The error at one of `seconds`; nothing if it was not looked at then.
+  std::optional<double> relmse_at(double time) const;
+  std::string to_json_line() const;
+};
+
+/// Of a results file, in its order; lines of other kinds are passed over. None without the file.
+/// Throws Error(input) for lines that are no JSON.
+std::vector<Measurement> read_measurements(const std::string& path);
+/// Adds a line at the end of a results file, which is made with its folder if it is missing.
+void append_measurement(const std::string& path, const Measurement& measurement);
+
+/// FNV-1a over the bytes of files, one after the other, in hexadecimal.
+std::string hash_of_files(const std::vector<std::string>& paths);
+
+}  // namespace kaustik::bench

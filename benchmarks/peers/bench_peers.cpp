@@ -1,0 +1,193 @@
+// Kaustik beside Blender Cycles and POV-Ray: `bench_peers` renders three scenes that ship with each
+// of them for the same time on the same threads, start-up excluded, and prints the errors against
+// the stored references, one line of JSON per pair, then a table. The peers get the scene as
+// Kaustik has loaded it. Cycles' picture has to have our mean; POV-Ray is not calibrated.
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <thread>
+
+#include "benchmarks/comparisons/snapshots.h"
+#include "benchmarks/markdown_table.h"
+#include "benchmarks/peers/cycles.h"
+#include "benchmarks/peers/povray.h"
+
+namespace kaustik::bench {
+namespace {
+
+struct PeerBench {
+  const char* scene;
+  double bar;  ///< how many times less than Cycles' our error has to be
+  double aim;  ///< and should be
+};
+
+constexpr std::array peer_benches{PeerBench{"cornell_box", 2, 3},
+                                  PeerBench{"cornell_spheres", 5, 5},
+                                  PeerBench{"metal_ring", 50, 50}};
+/// Cycles' mean may differ from ours by this; otherwise it may not be the same scene.
+constexpr double mean_tolerance = 0.02;
+
+struct Options {
+  std::vector<std::string> scenes, peers{"cycles", "povray"};
+  std::string integrator;  ///< empty: the one that scenes get by default
+  double seconds = 30;
+  int threads = 0;
+  uint64_t seed = 1;
+  std::string references;  ///< a folder whose references go before the stored ones
+};
+
+std::string default_integrator() {
+  for (const IntegratorType& type : integrator_types())
+    if (type.info.name == "auto") return "auto";
+  return "photonmap";
+}
+
+/// One scene as all renderers get it.
+class PeerComparison {
+ public:
+  PeerComparison(const PeerBench& bench, const Options& options, const Image& reference)
+      : bench_(bench),
+        options_(options),
+        reference_(reference),
+        description_(load_shipped(bench.scene)) {
+    use_peer_filter(description_);
+    override_property(description_, fmt::format("film.width={}", reference.width()));
+    override_property(description_, fmt::format("film.height={}", reference.height()));
+    override_integrator(description_, options.integrator);
+    const auto start = std::chrono::steady_clock::now();
+    scene_ = build_scene(description_);
+    std::vector<std::string> warnings;
+    integrator_ = make_integrator(description_, *scene_, warnings);
+    load_seconds_ = seconds_since(start);
+  }
+
+  void with_cycles(MarkdownTable& table) const {
+    const PeerPicture picture = render_with_cycles(peer_scene_of(*scene_), options_.seconds,
+                                                   options_.threads, int(options_.seed));
+    compare("cycles", picture, picture.image,
+            fmt::format("bar: {:g} times, aim: {:g}", bench_.bar, bench_.aim), table);
+  }
+
+  void with_povray(MarkdownTable& table) const {
+    const PeerPicture picture =
+        render_with_povray(peer_scene_of(*scene_), options_.seconds, options_.threads);
+    compare("povray", picture, picture.image, "not calibrated, no bar", table);
+  }
+
+ private:
+  /// Renders as long as the peer has, and tells how both stand.
+  void compare(const std::string& peer, const PeerPicture& theirs, const Image& image,
+               const std::string& bar, MarkdownTable& table) const {
+    SessionSettings settings;
+    settings.seed = options_.seed;
+    settings.threads = options_.threads;
+    const Snapshots ours =
+        render_with_snapshots(*scene_, *integrator_, settings, {theirs.seconds}, reference_);
+    if (!ours.pictures.back())
+      throw Error(ErrorKind::system, "no pass has ended in time", "ask for more seconds");
+    const ImageComparison& our_picture = *ours.pictures.back();
+    const ImageComparison their_picture = compare_images(image, reference_);
+    const double ratio = error_of(their_picture) / error_of(our_picture);
+    const double means = ratio_of_means(their_picture) / ratio_of_means(our_picture);
+    report(fmt::format("{}_vs_{}", bench_.scene, peer), ratio, "ratio of relative MSE",
+           fmt::format(
+               "{}: {:.3g} ({}, {:.2f} s after {:.2f} s of start-up), {}: {:.3g} ({} passes "
+               "after {:.2f} s of loading), mean {:.4f} of ours, {} threads; {}; the "
+               "reference itself: {:.2g}",
+               peer, error_of(their_picture), theirs.effort, theirs.seconds,
+               theirs.start_up_seconds, options_.integrator, error_of(our_picture), ours.passes,
+               load_seconds_, means, options_.threads, bar, own_relative_mse(reference_)));
+    if (peer == "cycles" && std::abs(means - 1) > mean_tolerance)
+      fmt::print(stderr,
+                 "# {}: the mean of Cycles' picture is {:.3f} of ours: too few samples of what it "
+                 "finds by chance, or not the same scene\n",
+                 bench_.scene, means);
+    table.add({bench_.scene, peer, fmt::format("{:.1f}", theirs.seconds),
+               fmt::format("{:.2g}", error_of(their_picture)),
+               fmt::format("{:.2g}", error_of(our_picture)), fmt::format("{:.3g}", ratio),
+               peer == "cycles"
+                   ? fmt::format("{:g}: {}", bench_.bar, ratio >= bench_.bar ? "kept" : "missed")
+                   : "–",
+               fmt::format("{:.4f}", means)});
+  }
+
+  const PeerBench& bench_;
+  const Options& options_;
+  const Image& reference_;
+  Description description_;
+  std::shared_ptr<const Scene> scene_;
+  std::unique_ptr<Integrator> integrator_;
+  double load_seconds_ = 0;
+};
+
+std::optional<Image> find_reference(const std::string& scene, const Options& options) {
+  const std::string own = options.references + "/" + scene + ".exr";
+  if (!options.references.empty() && std::filesystem::exists(own)) return read_image(own);
+  return reference_of(scene);
+}
+
+bool wants(const std::vector<std::string>& names, const std::string& name) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether a peer is asked for and there; says so if it is only asked for.
+bool has_peer(const Options& options, const std::string& name, const std::string& program) {
+  if (!wants(options.peers, name)) return false;
+  if (is_installed(program)) return true;
+  fmt::print(stderr, "# there is no {0} to compare with; on Debian: apt-get install {0}\n",
+             program);
+  return false;
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--scenes", options.scenes,
+                 "Of cornell_box, cornell_spheres, metal_ring [all of them]")
+      ->delimiter(',');
+  app.add_option("--peers", options.peers, "Of cycles, povray")
+      ->delimiter(',')
+      ->capture_default_str();
+  app.add_option("--integrator", options.integrator, "Ours")->capture_default_str();
+  app.add_option("--seconds", options.seconds, "Of each picture")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "Threads [all]")->check(CLI::Range(1, 4096));
+  app.add_option("--seed", options.seed, "Of ours and Cycles'")->capture_default_str();
+  app.add_option("--references", options.references,
+                 "Folder whose SCENE.exr are compared with instead of the stored references")
+      ->check(CLI::ExistingDirectory);
+}
+
+int run_all(int argc, char** argv) {
+  Options options;
+  options.integrator = default_integrator();
+  CLI::App app("Compares with Blender Cycles and POV-Ray at equal time.");
+  add_options(app, options);
+  CLI11_PARSE(app, argc, argv);
+  if (options.threads == 0) options.threads = int(std::thread::hardware_concurrency());
+  const bool cycles = has_peer(options, "cycles", "blender");
+  const bool povray = has_peer(options, "povray", "povray");
+  MarkdownTable table({"scene", "beside", "s", "its relative MSE", options.integrator, "ratio",
+                       "bar", "its mean / ours"});
+  for (const PeerBench& bench : peer_benches) {
+    if (!wants(options.scenes, bench.scene)) continue;
+    const std::optional<Image> reference = find_reference(bench.scene, options);
+    if (!reference) continue;
+    const PeerComparison comparison(bench, options, *reference);
+    if (cycles) comparison.with_cycles(table);
+    if (povray) comparison.with_povray(table);
+  }
+  fmt::print("\n{}", table.text());
+  return 0;
+}
+
+}  // namespace
+}  // namespace kaustik::bench
+
+int main(int argc, char** argv) {
+  try {
+    return kaustik::bench::run_all(argc, argv);
+  } catch (const kaustik::Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+}
