@@ -11,11 +11,11 @@ namespace kaustik {
 
 namespace {
 constexpr size_t max_spheres = 128;
+}  // namespace
 
 const Shape* shape_of(const Scene& scene, const Light& light) {
   return light.shape() >= 0 ? &scene.tracer().shape(uint32_t(light.shape())) : nullptr;
 }
-}  // namespace
 
 EmissionSampler::EmissionSampler(const Scene& scene) : scene_(&scene) {}
 
@@ -70,11 +70,14 @@ EmittedRay EmissionSampler::sample(int light, const Vec2f& u_position, const Vec
   EmittedRay emitted = aimed_
                            ? lights_[size_t(light)]->sample(u_position, u_direction, u_target)
                            : sample_own(*scene_->lights()[size_t(light)], u_position, u_direction);
-  // Infinitely far light has come through an infinite length of what surrounds the scene.
+  dim(light, emitted);
+  return emitted;
+}
+
+void EmissionSampler::dim(int light, EmittedRay& emitted) const {
   const Medium* medium = scene_->light_medium(light);
   if (medium && scene_->lights()[size_t(light)]->is_infinite())
     emitted.flux *= medium->transmittance(infinity);
-  return emitted;
 }
 
 float EmissionSampler::pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const {

@@ -69,6 +69,9 @@ class EmissionSampler {
   /// on light `light` (on the plane across the direction, for infinite lights: any point of the
   /// ray's line) along `direction`.
   float pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const;
+  /// Takes off what infinitely far light has lost on an infinite length of what surrounds the
+  /// scene; sample() has done it.
+  void dim(int light, EmittedRay& emitted) const;
   bool aimed() const { return aimed_; }
   /// Boxes that there are to aim at (by power: found, not aimed at).
   size_t target_count() const { return target_count_; }
@@ -82,6 +85,9 @@ class EmissionSampler {
   size_t target_count_ = 0;
   const Scene* scene_;
 };
+
+/// Of area lights; else null.
+const Shape* shape_of(const Scene& scene, const Light& light);
 
 inline constexpr int default_target_budget = 128;
 

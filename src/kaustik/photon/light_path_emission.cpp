@@ -8,31 +8,77 @@ namespace {
 /// Share of the rays that is aimed at specular objects where there are any.
 constexpr float share_for_caustics = 0.5f;
 
+/// Share of the rays that search.
+constexpr float search_share = 0.5f;
+
 /// Share of the light paths that all lights have alike, whatever their power: the brightest need
 /// not be the one that is seen.
 constexpr double even_share = 0.1;
 
+/// A number below `share`, or not: made uniform again.
+bool takes(float& u, float share) {
+  const bool is_below = u < share;
+  u = is_below ? u / share : (u - share) / (1 - share);
+  u = std::min(u, one_minus_epsilon);
+  return is_below;
+}
+
 }  // namespace
 
 LightPathEmission::LightPathEmission(const Scene& scene, Aim aim)
-    : scene_(scene),
-      own_(scene),
-      aimed_(scene, Lobes::specular, default_target_budget, aim),
-      aimed_share_(aimed_.aimed() && aimed_.target_count() > 0 ? share_for_caustics : 0.0f) {
+    : scene_(&scene),
+      own_(std::make_shared<const EmissionSampler>(scene)),
+      aimed_(std::make_shared<const EmissionSampler>(scene, Lobes::specular, default_target_budget,
+                                                     aim)),
+      aimed_share_(aimed_->aimed() && aimed_->target_count() > 0 ? share_for_caustics : 0.0f) {
   double total = 0, emitting = 0;
   for (const auto& light : scene.lights()) {
     total += double(light->power().sum());
     emitting += light->power().sum() > 0 ? 1 : 0;
   }
-  double sum = 0;
+  std::vector<double> chances;
   for (const auto& light : scene.lights()) {
     const double power = double(light->power().sum());
-    if (power > 0) sum += (1 - even_share) * power / total + even_share / emitting;
+    chances.push_back(power > 0 ? (1 - even_share) * power / total + even_share / emitting : 0.0);
+  }
+  set_chances(chances);
+}
+
+LightPathEmission::LightPathEmission(const LightPathEmission& plain,
+                                     const std::vector<Guide>& guides)
+    : scene_(plain.scene_),
+      own_(plain.own_),
+      aimed_(plain.aimed_),
+      aimed_share_(plain.aimed_share_),
+      guides_(guides) {
+  std::vector<double> chances;
+  for (const Guide& guide : guides) chances.push_back(double(guide.chance));
+  set_chances(chances);
+}
+
+LightPathEmission::LightPathEmission(const LightPathEmission& plain, std::vector<AimTarget> targets)
+    : LightPathEmission(plain) {
+  if (!targets.empty())
+    searching_ = std::make_shared<const EmissionSampler>(*scene_, std::move(targets));
+}
+
+void LightPathEmission::set_chances(const std::vector<double>& chances) {
+  double sum = 0;
+  for (const double chance : chances) {
+    sum += chance;
     const float before = cumulative_.empty() ? 0.0f : cumulative_.back();
     cumulative_.push_back(float(sum));
     // The chance that rounded sums give it.
     chance_.push_back(cumulative_.back() - before);
   }
+}
+
+EmittedRay LightPathEmission::sample_plain(int light, const Vec2f& u_position,
+                                           const Vec2f& u_direction, float u_choice) const {
+  if (searching_ && takes(u_choice, search_share))
+    return searching_->sample(light, u_position, u_direction, u_choice);
+  const bool aims = takes(u_choice, aimed_share_);
+  return (aims ? *aimed_ : *own_).sample(light, u_position, u_direction, u_choice);
 }
 
 LightPathStart LightPathEmission::sample(Sampler& sampler) const {
@@ -42,11 +88,13 @@ LightPathStart LightPathEmission::sample(Sampler& sampler) const {
   const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), u.x);
   const auto light = size_t(found - cumulative_.begin());
   if (light >= chance_.size() || !(chance_[light] > 0)) return start;
-  const bool aims = u.y < aimed_share_;
-  if (aims) u.y = std::min(u.y / aimed_share_, one_minus_epsilon);
-  const EmissionSampler& emission = aims ? aimed_ : own_;
-  start.emitted = emission.sample(int(light), u_position, u_direction, u.y);
   EmittedRay& emitted = start.emitted;
+  if (!guides_.empty() && guides_[light].share > 0 && takes(u.y, guides_[light].share)) {
+    emitted = guides_[light].rays->sample(u_position, u_direction, u.y);
+    own_->dim(int(light), emitted);
+  } else {
+    emitted = sample_plain(int(light), u_position, u_direction, u.y);
+  }
   if (emitted.flux.is_zero()) return start;
   start.light = int(light);
   start.density = density(start.light, emitted.origin, emitted.ray.direction);
@@ -61,11 +109,28 @@ EmissionDensity LightPathEmission::pdf(int light, const SurfacePoint& origin,
   return density(light, origin, direction);
 }
 
+float LightPathEmission::plain_pdf(int light, const SurfacePoint& origin,
+                                   const Vec3f& direction) const {
+  float joint = (1 - aimed_share_) * own_->pdf(light, origin, direction);
+  if (aimed_share_ > 0) joint += aimed_share_ * aimed_->pdf(light, origin, direction);
+  if (searching_) joint += search_share * (searching_->pdf(light, origin, direction) - joint);
+  return joint;
+}
+
+float LightPathEmission::pdf_of_chosen(int light, float plain, const GuideMap::Place& place) const {
+  if (guides_.empty() || !(guides_[size_t(light)].share > 0)) return plain;
+  const Guide& guide = guides_[size_t(light)];
+  return plain + guide.share * (guide.rays->pdf(place) - plain);
+}
+
 EmissionDensity LightPathEmission::density(int light, const SurfacePoint& origin,
                                            const Vec3f& direction) const {
-  const Light& of = *scene_.lights()[size_t(light)];
-  float joint = (1 - aimed_share_) * own_.pdf(light, origin, direction);
-  if (aimed_share_ > 0) joint += aimed_share_ * aimed_.pdf(light, origin, direction);
+  const Light& of = *scene_->lights()[size_t(light)];
+  float joint = plain_pdf(light, origin, direction);
+  if (!guides_.empty() && guides_[size_t(light)].share > 0) {
+    const Guide& guide = guides_[size_t(light)];
+    joint += guide.share * (guide.rays->pdf(origin, direction) - joint);
+  }
   EmissionDensity result;
   if (of.is_delta())
     result.endpoint = 1;

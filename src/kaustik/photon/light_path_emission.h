@@ -1,8 +1,10 @@
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "kaustik/base/sampler.h"
 #include "kaustik/photon/emission.h"
+#include "kaustik/photon/guide_map.h"
 
 namespace kaustik {
 
@@ -24,12 +26,24 @@ struct LightPathStart {
 };
 
 /// Emission of light paths that serve everything at once: first a light is chosen, then the light's
-/// own distribution or, for a share of the rays, one that is aimed at specular objects; the density
-/// is that of the mixture. Immutable.
+/// own distribution or, for a share of the rays, one that is aimed at specular objects, or one that
+/// was learned; the density is that of the mixture. Immutable.
 class LightPathEmission {
  public:
-  /// `scene` must outlive this.
+  /// As nothing has been learned. `scene` must outlive this.
   explicit LightPathEmission(const Scene& scene, Aim aim = default_aim);
+
+  /// What was learned of a light.
+  struct Guide {
+    float chance = 0;  ///< of the light; they sum to 1
+    float share = 0;   ///< of its rays that are drawn by `rays`
+    std::shared_ptr<const GuidedLight> rays;
+  };
+  /// `plain` with the chances, and learned rays for a share, of `guides`, one for each light.
+  LightPathEmission(const LightPathEmission& plain, const std::vector<Guide>& guides);
+  /// `plain` with half of the rays of every light aimed at `targets`: for finding out what to
+  /// learn.
+  LightPathEmission(const LightPathEmission& plain, std::vector<AimTarget> targets);
 
   /// Three dimension pairs.
   LightPathStart sample(Sampler& sampler) const;
@@ -37,15 +51,28 @@ class LightPathEmission {
   /// any point of its line.
   EmissionDensity pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const;
 
+  const Scene& scene() const { return *scene_; }
+  float chance(int light) const { return chance_[size_t(light)]; }
+  /// Joint density of the rays of a light that was chosen, without what was learned.
+  float plain_pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const;
+  /// The same with what was learned, for a ray whose plain density is known.
+  float pdf_of_chosen(int light, float plain, const GuideMap::Place& place) const;
+
  private:
   EmissionDensity density(int light, const SurfacePoint& origin, const Vec3f& direction) const;
+  EmittedRay sample_plain(int light, const Vec2f& u_position, const Vec2f& u_direction,
+                          float u_choice) const;
+  void set_chances(const std::vector<double>& chances);
 
-  const Scene& scene_;
-  EmissionSampler own_;
+  const Scene* scene_;
+  std::shared_ptr<const EmissionSampler> own_;
   std::vector<float> cumulative_;  ///< chances of the lights, summed up
   std::vector<float> chance_;
-  EmissionSampler aimed_;
+  std::shared_ptr<const EmissionSampler> aimed_;
   float aimed_share_ = 0;
+  std::shared_ptr<const EmissionSampler> searching_;  ///< null: none
+  /// Empty while nothing has been learned.
+  std::vector<Guide> guides_;
 };
 
 }  // namespace kaustik
