@@ -97,7 +97,7 @@ TEST(Vcm, AnyLight) {
     const TestScene scene(floor + row.light);
     const Passes path = render(scene, "path", "", {300, 7});
     for (const char* type : {"bdpt", "vcm"}) {
-      const Passes found = render(scene, type, set("radius", 0.01), {200, 8});
+      const Passes found = render(scene, type, set("radius", 0.01), {240, 8});
       expect_equal_means(fmt::format("{} {}", row.name, type), found.mean({""}), path.mean({""}));
       if (type == std::string("bdpt"))
         expect_equal_means(fmt::format("{} {} indirect", row.name, type), found.mean({"indirect"}),
@@ -131,6 +131,36 @@ TEST(Vcm, CausticOfASmallLamp) {
         render(scene, type, set("components", "caustic") + set("light_paths", 1.0), {200, 8})
             .mean({"caustic"}),
         light.mean({"caustic"}), 0.01);
+}
+
+/// A court that is a fiftieth of what the sun shines on, with nine lamps of which one reaches it.
+std::string court_in_a_town() {
+  const std::string grey = diffuse("0.6, 0.55, 0.5");
+  std::string text = camera("0.3, -1.6, 1.5", "0, 0, 0.3", 60, 16) +
+                     wall(scale("12, 12, 1"), diffuse("0.5, 0.45, 0.4")) +
+                     sphere("0.5, 0.6, 0.31", 0.3, diffuse("0.2, 0.4, 0.7")) +
+                     directional_light("0.3, 0.35, -1", 2);
+  const auto block = [&](const std::string& size, const std::string& at) {
+    text += flat("cube", scale(size) + translate(at), grey);
+  };
+  block("2.2, 0.1, 1.5", "0, 2.1, 1.5");
+  block("2.2, 0.1, 1.5", "0, -2.1, 1.5");
+  block("0.1, 2.2, 1.5", "-2.1, 0, 1.5");
+  block("0.1, 2.2, 1.5", "2.1, 0, 1.5");
+  for (int i = 0; i < 9; ++i)
+    text += point_light(fmt::format("{}, {}, 2.5", 8 * (i % 3 - 1), 8 * (i / 3 - 1)), 4);
+  return text;
+}
+
+/// What light paths learn leaves the picture as it is.
+TEST(Vcm, Guided) {
+  const TestScene scene(court_in_a_town());
+  const Passes path = render(scene, "path", "", {300, 7});
+  const Passes found = render(scene, "bdpt", "", {100, 8});
+  for (const char* layer : {"direct", "indirect"})
+    expect_equal_means(fmt::format("guided, {}", layer), found.mean({layer}), path.mean({layer}));
+  const Passes merged = render(scene, "vcm", set("radius", 0.02), {100, 8});
+  expect_near_means("guided, merged", merged.mean({"indirect"}), path.mean({"indirect"}), 0.01);
 }
 
 /// max_depth cuts all techniques at the same length.

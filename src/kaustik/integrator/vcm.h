@@ -9,6 +9,8 @@
 
 namespace kaustik {
 
+class LightPathUse;
+
 /// Vertex connection and merging (Georgiev et al. 2012; Hachisuka et al. 2012): paths from the
 /// camera and paths from the lights, combined by all techniques that are switched on. Its presets
 /// `bdpt` and `ppm` differ in these alone.
@@ -28,18 +30,24 @@ class VcmIntegrator final : public Integrator {
 
  private:
   struct State;
-  /// What is learned from a pilot pass.
+  /// What is learned from pilot passes, and from finished ones.
   struct Plans {
     uint32_t samples_per_pixel = 0;
+    std::shared_ptr<const LightPathEmission> emission;
     PixelPlans pixels;
     /// Vertices that may be connected, per light path: what the weights go by.
     float connectible_per_path = 1;
+    /// Of the light paths of the pilot passes; null: emission is not guided.
+    std::shared_ptr<const LightPathUse> use;
   };
   /// What finished passes of a seed have taught: plans change at passes 1, 2, 4, 8 …, from the sums
   /// of all passes before.
   struct Learning;
   uint32_t light_path_count(uint32_t samples_per_pixel) const;
-  bool learns() const { return settings_.techniques.merging && !(settings_.radius > 0); }
+  bool learns_radii() const { return settings_.techniques.merging && !(settings_.radius > 0); }
+  /// Passes that are learned from; 0: none.
+  uint32_t learned_passes() const;
+  uint32_t remembered_paths(const Pass& pass) const;
   std::shared_ptr<const Plans> plans_for(const Pass& pass, std::stop_token stop) const;
   void learn_from(const LightVertices& light, const Pass& pass) const;
   LightVertices trace(const Plans& plans, const PathWeights& weights, const Pass& pass,
@@ -47,12 +55,14 @@ class VcmIntegrator final : public Integrator {
                       PassReport& report) const;
   PathWeights weights_for(const Plans& plans, const Pass& pass) const;
   std::shared_ptr<const Plans> make_plans(uint32_t samples_per_pixel) const;
+  LightVertices trace_pilot(const LightPathEmission& emission, uint32_t round,
+                            uint32_t count) const;
   /// Those for passes of so many samples, made when they are first asked for.
   std::shared_ptr<const Plans> plans(uint32_t samples_per_pixel) const;
 
   const Scene& scene_;
   VcmSettings settings_;
-  LightPathEmission emission_;
+  std::shared_ptr<const LightPathEmission> plain_;  ///< as nothing has been learned
   mutable std::mutex plans_mutex_;
   mutable std::shared_ptr<const Plans> plans_;
   mutable std::mutex learning_mutex_;

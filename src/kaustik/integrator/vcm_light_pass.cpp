@@ -27,6 +27,7 @@ struct Block {
   std::vector<Vec3f> positions;
   std::vector<LightVertexData> data;  ///< `path` counts within the block
   std::vector<ConnectibleVertex> connectible;
+  std::vector<LightPathBeginning> beginnings;
   uint64_t rays = 0, splats = 0;
 };
 
@@ -137,7 +138,8 @@ class Tracer {
     const SurfaceVertex& vertex = at.vertex;
     const bool wants_irradiance = in_.scene.film().quantity == Quantity::irradiance;
     const bool scatters = any(vertex.lobes() & (Lobes::diffuse | Lobes::glossy));
-    if (!scatters && !(wants_irradiance && techniques.merging)) return;
+    const bool merges = techniques.merging || at.path < in_.remembered_paths;
+    if (!scatters && !(wants_irradiance && merges)) return;
     const Vec3f& ng = vertex.point().ng;
     const float cos_geometric = dot(vertex.wo(), ng);
     if (cos_geometric == 0 || path.vertices.size() > 0xffff) return;
@@ -158,7 +160,7 @@ class Tracer {
       block_.connectible.push_back({at.ray, at.hit, data, at.state.medium});
       connectible_paths_.push_back(at.path - begin_);
     }
-    if (techniques.merging && may_merge) {
+    if (merges && may_merge) {
       path.kept = true;
       // As for photons: the density on the surface counts flux by the geometric cosine.
       set_flux(vertex.has_relief()
@@ -225,6 +227,8 @@ class Tracer {
     for (size_t i = 0; i < paths_.size(); ++i) {
       if (!paths_[i].kept) continue;
       begins[i] = uint32_t(block_.vertices.size());
+      if (begin_ + i < in_.remembered_paths)
+        block_.beginnings.push_back({begins[i], paths_[i].start});
       block_.vertices.insert(block_.vertices.end(), paths_[i].vertices.begin(),
                              paths_[i].vertices.end());
     }
@@ -263,16 +267,20 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
   });
   LightVertices result;
   result.path_count = inputs.light_paths;
+  result.remembered_paths = std::min(inputs.remembered_paths, inputs.light_paths);
   std::vector<size_t> vertex_begin(count + 1), data_begin(count + 1), connectible_begin(count + 1);
+  std::vector<size_t> beginning_begin(count + 1);
   for (size_t i = 0; i < count; ++i) {
     vertex_begin[i + 1] = vertex_begin[i] + blocks[i].vertices.size();
     data_begin[i + 1] = data_begin[i] + blocks[i].data.size();
     connectible_begin[i + 1] = connectible_begin[i] + blocks[i].connectible.size();
+    beginning_begin[i + 1] = beginning_begin[i] + blocks[i].beginnings.size();
     report.rays += blocks[i].rays;
     report.photons += blocks[i].splats;
   }
   result.vertices.resize(vertex_begin[count]);
   result.connectible.resize(connectible_begin[count]);
+  result.beginnings.resize(beginning_begin[count]);
   std::vector<Vec3f> positions(data_begin[count]);
   std::vector<LightVertexData> data(data_begin[count]);
   parallel_blocks(count, 8, [&](size_t first, size_t last, size_t) {
@@ -280,6 +288,7 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
       Block& block = blocks[i];
       for (LightVertexData& d : block.data) d.path += uint32_t(vertex_begin[i]);
       for (ConnectibleVertex& c : block.connectible) c.data.path += uint32_t(vertex_begin[i]);
+      for (LightPathBeginning& b : block.beginnings) b.path += uint32_t(vertex_begin[i]);
       const auto copy = [](const auto& from, auto& to, size_t at) {
         std::copy(from.begin(), from.end(), to.begin() + std::ptrdiff_t(at));
       };
@@ -287,10 +296,12 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
       copy(block.positions, positions, data_begin[i]);
       copy(block.data, data, data_begin[i]);
       copy(block.connectible, result.connectible, connectible_begin[i]);
+      copy(block.beginnings, result.beginnings, beginning_begin[i]);
       block = {};
     }
   });
-  report.photons += data.empty() ? result.connectible.size() : data.size();
+  const bool merges = inputs.weights.settings().techniques.merging && !data.empty();
+  report.photons += merges ? data.size() : result.connectible.size();
   if (!data.empty()) result.tree = {std::move(positions), std::move(data)};
   return result;
 }

@@ -18,6 +18,8 @@ struct VcmLightInputs {
   float camera_samples;  ///< per pixel
   const PixelPlans& plans;
   float shrinkage;  ///< of the disks of merging since the first pass
+  /// Paths whose beginnings are remembered; their vertices are kept as if merging were wanted.
+  uint32_t remembered_paths = 0;
 };
 
 /// Traces the light paths of a pass, keeps their vertices, and splats them where that is one of the

@@ -17,6 +17,10 @@ std::vector<Parameter> parameters(const Techniques& preset) {
       max_depth_parameter(),
       rr_depth_parameter(),
       aim_parameter(),
+      boolean_parameter("guiding", true,
+                        "Light paths are learned from those that reach what the camera sees: which "
+                        "lights they begin at, and where they go. A share of them goes on as "
+                        "without."),
       technique_parameter("unidirectional", preset.unidirectional,
                           "Light that the camera's paths meet by chance counts."),
       technique_parameter("next_event", preset.next_event,
@@ -82,6 +86,7 @@ VcmSettings::VcmSettings(const Arguments& arguments)
       maximum_events(read_maximum_events(arguments)),
       roulette_depth(int(arguments.integer("rr_depth"))),
       aim(read_aim(arguments.text("aim"))),
+      guiding(arguments.boolean("guiding")),
       light_paths(float(arguments.number("light_paths"))),
       connections(int(arguments.integer("connection_samples"))),
       merge_neighbors(int(arguments.integer("merge_neighbors"))),

@@ -12,6 +12,7 @@ struct VcmSettings {
   int maximum_events = 1 << 20;
   int roulette_depth = 5;
   Aim aim = default_aim;
+  bool guiding = true;
   float light_paths = 0.25f;  ///< per camera sample
   int connections = 1;        ///< per vertex of the camera's path
   int merge_neighbors = 30;   ///< light vertices that the first radius is made for

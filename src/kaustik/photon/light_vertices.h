@@ -4,6 +4,7 @@
 
 #include "kaustik/geometry/ray.h"
 #include "kaustik/medium/medium.h"
+#include "kaustik/photon/light_path_emission.h"
 #include "kaustik/photon/sided_tree.h"
 #include "kaustik/transport/path_weights.h"
 
@@ -31,12 +32,21 @@ struct ConnectibleVertex {
   const Medium* medium = nullptr;  ///< that it arrived through
 };
 
+/// How a path began that has left vertices.
+struct LightPathBeginning {
+  uint32_t path = 0;  ///< where its vertices begin
+  LightPathStart start;
+};
+
 /// The vertices of the light paths of a pass. Immutable once built.
 struct LightVertices {
   std::vector<PathVertex> vertices;  ///< path by path, from the light's point on
   SidedTree<LightVertexData> tree;   ///< those that may be merged
   std::vector<ConnectibleVertex> connectible;
   uint32_t path_count = 0;
+  /// Of the first paths, as many as were asked for, in their order.
+  std::vector<LightPathBeginning> beginnings;
+  uint32_t remembered_paths = 0;  ///< those of which that holds what has left vertices
 
   /// The vertices before `data`'s, from the light's point on.
   std::span<const PathVertex> before(const LightVertexData& data) const {

@@ -1,0 +1,95 @@
+// What light paths learn from those that reach what the camera sees.
+
+#include "kaustik/integrator/light_path_use.h"
+
+#include "kaustik/integrator/vcm_light_pass.h"
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+std::string block(const std::string& size, const std::string& at) {
+  return flat("cube", scale(size) + translate(at), diffuse("0.6, 0.55, 0.5"));
+}
+
+/// A court without a roof, 4 m wide, on a floor 80 m wide under the sun: 0.3 % of it.
+std::string court() {
+  return camera("0.3, -1.6, 1.5", "0, 0, 0.3", 60, 64) +
+         flat("rectangle", scale("40, 40, 1"), diffuse("0.5, 0.45, 0.4")) +
+         block("2.2, 0.1, 1.5", "0, 2.1, 1.5") + block("2.2, 0.1, 1.5", "0, -2.1, 1.5") +
+         block("0.1, 2.2, 1.5", "-2.1, 0, 1.5") + block("0.1, 2.2, 1.5", "2.1, 0, 1.5") +
+         directional_light("0.3, 0.35, -1", 2);
+}
+
+/// A hall of fifty lamps, one of which hangs over a pool behind walls that reach up to it.
+std::string pool_in_a_hall() {
+  std::string text = camera("1.5, -1.5, 1.8", "0, 0, 0", 55, 64) +
+                     flat("rectangle", scale("20, 20, 1"), diffuse("0.5, 0.6, 0.7")) +
+                     flat("rectangle", scale("2, 2, 1") + translate("0, 0, 0.5"), glass(1.33)) +
+                     block("2.2, 0.1, 2", "0, 2.1, 2") + block("2.2, 0.1, 2", "0, -2.1, 2") +
+                     block("0.1, 2.2, 2", "-2.1, 0, 2") + block("0.1, 2.2, 2", "2.1, 0, 2");
+  for (int i = 0; i < 50; ++i)
+    text += flat("rectangle",
+                 scale("0.1, 0.1, 1") + rotate("1, 0, 0", 180) +
+                     translate(fmt::format("{}, {}, 3.9", 4 * (i % 10 - 5), 4 * (i / 10 - 2))),
+                 diffuse("0, 0, 0") + area_light("20"));
+  return text;
+}
+
+struct UsefulPaths {
+  size_t plain = 0, learned = 0;
+};
+
+/// Of 2¹⁵ paths those that were of use, without what was learned from a search and with it.
+UsefulPaths useful_paths(const std::string& text) {
+  const TestScene test_scene(text);
+  const Scene& scene = test_scene.scene();
+  const LightPathEmission plain(scene);
+  PathWeights::Settings settings;
+  settings.techniques.merging = true;
+  const PathWeights weights(settings);
+  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  const auto paths = [&](const LightPathEmission& emission, uint32_t index) {
+    Pass pass;
+    pass.index = index;
+    PassReport report;
+    return trace_light_vertices(
+        {scene, emission, weights, ComponentSet::all(), 100, LightPathUse::most_paths, 1,
+         PixelPlans(), 1, LightPathUse::most_paths},
+        pass, Stream::training, nowhere, {}, {}, report);
+  };
+  LightPathUse use(scene, plain);
+  use.learn(paths(LightPathEmission(plain, use.targets()), 0));
+  auto learned = use.emission().learned();
+  if (!learned) return {};
+  use.learn(paths(*learned, 1));
+  learned = use.emission().learned();
+  UsefulPaths result;
+  const auto count = [&](const LightPathEmission& emission) {
+    LightPathUse counted(scene, plain);
+    counted.learn(paths(emission, 2));
+    return counted.emission().size();
+  };
+  return learned ? UsefulPaths{count(plain), count(*learned)} : UsefulPaths();
+}
+
+TEST(LightPathUse, MorePathsAreOfUse) {
+  const struct {
+    const char* name;
+    std::string scene;
+    double factor;
+  } rows[] = {{"a court in the open", court(), 40},
+              {"a pool among fifty lamps", pool_in_a_hall(), 15}};
+  for (const auto& row : rows) {
+    const UsefulPaths found = useful_paths(row.scene);
+    std::printf("  %-30s %zu of 32768 paths are of use, %zu once they have learned\n", row.name,
+                found.plain, found.learned);
+    EXPECT_GT(double(found.learned), row.factor * double(found.plain)) << row.name;
+  }
+}
+
+}  // namespace
+}  // namespace kaustik
