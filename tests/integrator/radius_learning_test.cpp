@@ -53,7 +53,7 @@ PixelPlans learned(const Scene& scene, const Density& density, size_t count, uin
     const auto added = learning.sums_of(scene, first, light_of(density, count, pass));
     for (size_t i = 0; i < sums.size(); ++i) sums[i].add(added[i]);
   }
-  return learning.plans(first, sums, passes, 1);
+  return first.with(learning.plans(first, sums, passes, 1));
 }
 
 double mean_radius(const PixelPlans& plans, int x0, int x1) {

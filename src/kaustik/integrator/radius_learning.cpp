@@ -136,9 +136,9 @@ int RadiusLearning::widest_level(const std::vector<Disagreement>& disagreements,
   return int(levels) - 1;
 }
 
-PixelPlans RadiusLearning::plans(const PixelPlans& first, const std::vector<Sums>& sums,
-                                 uint32_t passes, float shrinkage) const {
-  std::vector<PixelPlan> result(sums.size());
+std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std::vector<Sums>& sums,
+                                             uint32_t passes, float shrinkage) const {
+  std::vector<PixelPlan> result = first.plans();
   std::vector<Disagreement> disagreements(sums.size());
   for (size_t p = 0; p < sums.size(); ++p)
     disagreements[p] = disagreement_of(sums[p], coverage_[p]);
@@ -152,9 +152,8 @@ PixelPlans RadiusLearning::plans(const PixelPlans& first, const std::vector<Sums
     int level = widest_level(disagreements, first, p);
     while (level > 0 && directions_at(level) > most_directions) --level;
     result[p].merge_area = float(pi * sqr(level_radius(probe, level))) / shrinkage;
-    result[p].survival = std::max(least_survival, float(1 / (1 + directions_at(level))));
   }
-  return first.with(std::move(result));
+  return result;
 }
 
 }  // namespace kaustik

@@ -36,10 +36,10 @@ class RadiusLearning {
   /// What the light vertices of one pass add, per probe.
   std::vector<Sums> sums_of(const Scene& scene, const PixelPlans& first,
                             const LightVertices& light) const;
-  /// The plans for what `passes` passes have summed up. Radii are those of the first pass, as in
-  /// PixelPlans: shrinking is up to the caller, `shrinkage` of the areas is taken off beforehand.
-  PixelPlans plans(const PixelPlans& first, const std::vector<Sums>& sums, uint32_t passes,
-                   float shrinkage) const;
+  /// The plans for what `passes` passes have summed up: those of the first pass with other disks.
+  /// Shrinking is up to the caller, `shrinkage` of the areas is taken off beforehand.
+  std::vector<PixelPlan> plans(const PixelPlans& first, const std::vector<Sums>& sums,
+                               uint32_t passes, float shrinkage) const;
 
  private:
   int widest_level(const std::vector<Disagreement>& disagreements, const PixelPlans& first,

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/integrator/path_pilot.h"
 #include "kaustik/integrator/radius_learning.h"
 #include "kaustik/integrator/vcm_camera_path.h"
 #include "kaustik/integrator/vcm_light_pass.h"
@@ -62,10 +63,49 @@ std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::make_plans(
                            Pass{}, Stream::training, nowhere, {}, {}, report);
   if (!vertices.connectible.empty())
     plans->connectible_per_path = float(vertices.connectible.size()) / float(count);
-  if (settings_.techniques.merging)
+  if (settings_.techniques.merging) {
     plans->pixels =
         PixelPlans(scene_, vertices, of_pass, settings_.merge_neighbors, settings_.radius);
+    plans->pilot = make_pilot(*plans, vertices, of_pass, report.rays);
+    plans->pixels = settled(plans->pixels, plans->pixels.plans(), *plans->pilot);
+  }
   return plans;
+}
+
+std::shared_ptr<const VcmIntegrator::Pilot> VcmIntegrator::make_pilot(const Plans& plans,
+                                                                      const LightVertices& light,
+                                                                      uint32_t light_paths,
+                                                                      uint64_t light_rays) const {
+  auto pilot = std::make_shared<Pilot>();
+  PathWeights::Settings settings;
+  settings.techniques = settings_.techniques;
+  settings.techniques.splats = settings.techniques.connections = false;
+  settings.light_paths = float(light_paths);
+  settings.merge_area = plans.pixels.other_area();
+  settings.accepted_area = pi * sqr(near_per_distance * plans.pixels.mean_distance());
+  const PathWeights weights(settings);
+  const auto samples = double(plans.samples_per_pixel);
+  const VcmCameraInputs inputs{
+      scene_,        emission_,      weights, light,
+      MattMerging(), float(samples), 0,       settings.merge_area * inv_pi};
+  const double light_share = double(light.path_count) / double(light_paths);
+  pilot->probes = probe_statistics(
+      inputs, plans.pixels, {light_share, settings_.maximum_events, settings_.roulette_depth});
+  for (const PixelPlan& plan : plans.pixels.plans()) pilot->areas.push_back(plan.merge_area);
+  const Vec2i size = scene_.film().crop_size;
+  pilot->costs = {samples,
+                  double(light_rays) / light_share / (samples * double(size.x) * double(size.y))};
+  return pilot;
+}
+
+PixelPlans VcmIntegrator::settled(const PixelPlans& pixels, std::vector<PixelPlan> plans,
+                                  const Pilot& pilot) {
+  std::vector<MergeScale> scales(plans.size());
+  for (size_t i = 0; i < plans.size(); ++i)
+    scales[i].area =
+        pilot.areas[i] > 0 ? double(plans[i].merge_area) / double(pilot.areas[i]) : 1.0;
+  choose_survival(pilot.probes, pilot.costs, scales, plans);
+  return pixels.with(std::move(plans));
 }
 
 std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans(uint32_t samples_per_pixel) const {
@@ -97,7 +137,9 @@ struct VcmIntegrator::Learning {
     for (size_t i = 0; i < added.size(); ++i) sums[i].add(added[i]);
     if (!std::has_single_bit(++passes)) return;
     auto plans = std::make_shared<Plans>(*first);
-    plans->pixels = radii.plans(first->pixels, sums, passes, sqr(pass_radius(1, passes)));
+    plans->pixels = settled(first->pixels,
+                            radii.plans(first->pixels, sums, passes, sqr(pass_radius(1, passes))),
+                            *first->pilot);
     epochs[passes] = std::move(plans);
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <mutex>
 
+#include "kaustik/integrator/efficiency.h"
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/integrator/pixel_plans.h"
 #include "kaustik/integrator/vcm_settings.h"
@@ -28,10 +29,17 @@ class VcmIntegrator final : public Integrator {
 
  private:
   struct State;
+  /// What the pilot's paths tell of each probe.
+  struct Pilot {
+    std::vector<ProbeStatistics> probes;
+    std::vector<float> areas;  ///< of the disks that they were taken with, m²
+    PassCosts costs;
+  };
   /// What is learned from a pilot pass.
   struct Plans {
     uint32_t samples_per_pixel = 0;
     PixelPlans pixels;
+    std::shared_ptr<const Pilot> pilot;  ///< null: nothing merges
     /// Vertices that may be connected, per light path: what the weights go by.
     float connectible_per_path = 1;
   };
@@ -39,6 +47,11 @@ class VcmIntegrator final : public Integrator {
   /// of all passes before.
   struct Learning;
   uint32_t light_path_count(uint32_t samples_per_pixel) const;
+  std::shared_ptr<const Pilot> make_pilot(const Plans& plans, const LightVertices& light,
+                                          uint32_t light_paths, uint64_t light_rays) const;
+  /// The same with these disks and, as the pilot tells, chances of going on.
+  static PixelPlans settled(const PixelPlans& pixels, std::vector<PixelPlan> plans,
+                            const Pilot& pilot);
   bool learns() const { return settings_.techniques.merging && !(settings_.radius > 0); }
   std::shared_ptr<const Plans> plans_for(const Pass& pass, std::stop_token stop) const;
   void learn_from(const LightVertices& light, const Pass& pass) const;

@@ -82,14 +82,14 @@ void VcmCameraPath::leave() {
 }
 
 bool VcmCameraPath::path_tracing_alone(size_t length) const {
-  return length <= 2 || !in_.weights.settings().techniques.needs_light_paths();
+  return length <= 2 || no_light_paths_ || !in_.weights.settings().techniques.needs_light_paths();
 }
 
 PathHalves VcmCameraPath::halves() const {
   PathHalves result;
   result.camera = vertices_;
-  result.first_merge_area = plan_.merge_area;
-  result.first_survival = plan_.survival;
+  result.first_merge_area = plan_.counted_area(in_.camera_samples);
+  result.first_survival = plan_.counted_survival();
   return result;
 }
 
@@ -252,7 +252,8 @@ void VcmCameraPath::merge(int maximum_events) {
   const SurfaceVertex& vertex = walk_.vertex();
   const Lobes lobes = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
   if (!any(lobes) || in_.light.tree.empty() || !in_.weights.merges_at(vertices_)) return;
-  const float radius = std::sqrt(all_delta_ ? plan_.merge_area * inv_pi : in_.merge_radius_sq);
+  const float radius = merge_radius();
+  if (!(radius > 0)) return;
   const MergeDisk disk(in_.scene, vertex, radius);
   const bool is_matt =
       all_delta_ && lobes == Lobes::diffuse && !vertex.bsdf().transmits() && !vertex.has_relief();
@@ -288,7 +289,8 @@ VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk, flo
   const MattLight light =
       in_.matt.merge({vertex.position(), disk.side(), radius, disk.flatness(), disk.least_cosine(),
                       maximum_events - walk_.events(),
-                      in_.weights.matt_vertex(vertices_, plan_.merge_area, plan_.survival)});
+                      in_.weights.matt_vertex(vertices_, plan_.counted_area(in_.camera_samples),
+                                              plan_.counted_survival())});
   const Spectrum reflected = vertex.diffuse_value();
   MergedLight result;
   const auto add = [&](Component component, const MattLight::Sum& sum) {
@@ -301,32 +303,47 @@ VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk, flo
   return result;
 }
 
-VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, Lobes lobes, float radius,
-                                                 int maximum_events) const {
+float VcmCameraPath::merge_radius() const {
+  return std::sqrt(all_delta_ ? plan_.merge_area * inv_pi : in_.merge_radius_sq);
+}
+
+template <typename Visit>
+void VcmCameraPath::visit_merging(const MergeDisk& disk, float radius, int maximum_events,
+                                  const Visit& visit) const {
   const SurfaceVertex& vertex = walk_.vertex();
-  const float radius_sq = sqr(radius);
   const bool both_sides = vertex.bsdf().transmits();
   const Vec3f& ng = vertex.point().ng;
   const Vec3f side = both_sides || vertex.on_front() ? ng : -ng;
   PathHalves path = halves();
   const auto& tree = in_.light.tree.tree();
+  in_.light.tree.within(vertex.position(), side, both_sides, sqr(radius),
+                        [&](uint32_t index, float distance_sq) {
+                          const LightVertexData& photon = tree.data(index);
+                          if (!disk.counts(tree.key(index) - vertex.position(), photon.side))
+                            return;
+                          if (walk_.events() + int(photon.before) > maximum_events) return;
+                          const Vec3f wi = photon.direction.unpack();
+                          const float pdf_forward = vertex.pdf(wi, Lobes::all);
+                          const PathVertex* before = in_.light.vertices.data() + photon.path;
+                          const PathVertex& merged = before[photon.before];
+                          path.light = {before, photon.before};
+                          path.pdf_light_last = merged.pdf_light;
+                          path.pdf_light_before_last = pdf_light_before(wi);
+                          path.pdf_camera_last = pdf_forward * merged.to_previous;
+                          path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
+                          path.pdf_next_event = photon.pdf_next_event;
+                          visit(photon, wi, distance_sq, in_.weights.merge(path));
+                        });
+}
+
+VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, Lobes lobes, float radius,
+                                                 int maximum_events) const {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const float radius_sq = sqr(radius);
   MergedLight result;
-  in_.light.tree.within(
-      vertex.position(), side, both_sides, radius_sq, [&](uint32_t index, float distance_sq) {
-        const LightVertexData& photon = tree.data(index);
-        if (!disk.counts(tree.key(index) - vertex.position(), photon.side)) return;
-        if (walk_.events() + int(photon.before) > maximum_events) return;
-        const Vec3f wi = photon.direction.unpack();
-        const float pdf_forward = vertex.pdf(wi, Lobes::all);
-        const PathVertex* before = in_.light.vertices.data() + photon.path;
-        const PathVertex& merged = before[photon.before];
-        path.light = {before, photon.before};
-        path.pdf_light_last = merged.pdf_light;
-        path.pdf_light_before_last = pdf_light_before(wi);
-        path.pdf_camera_last = pdf_forward * merged.to_previous;
-        path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
-        path.pdf_next_event = photon.pdf_next_event;
-        const float weight = in_.weights.merge(path);
+  visit_merging(
+      disk, radius, maximum_events,
+      [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq, float weight) {
         if (!(weight > 0)) return;
         const Spectrum arriving =
             photon.flux_spectrum() *
@@ -341,6 +358,23 @@ VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, Lobes lo
           result.of[size_t(component)] += reflected * kernel;
           result.narrow += reflected * narrow_kernel;
         }
+      });
+  return result;
+}
+
+std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices(int maximum_events) const {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const float radius = merge_radius();
+  std::vector<MergedVertex> result;
+  if (!(radius > 0)) return result;
+  const MergeDisk disk(in_.scene, vertex, radius);
+  visit_merging(
+      disk, radius, maximum_events,
+      [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq, float weight) {
+        const float kernel =
+            2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
+        const float factor = vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
+        result.push_back({weight, vertex.eval(wi, Lobes::all) * photon.flux_spectrum() * factor});
       });
   return result;
 }
