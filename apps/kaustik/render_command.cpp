@@ -65,6 +65,11 @@ void render(RenderOptions options) {
   recipe.folder = std::filesystem::current_path().string();
   recipe.definitions = parse_definitions(options.definitions);
   Description description = load_description(recipe);
+  // What the thesis sets is a photon map's.
+  if (!find_integrator(description) && sets_thesis_photon_map(options.levels)) {
+    recipe.integrator = "photonmap";
+    override_integrator(description, recipe.integrator);
+  }
   recipe.settings = collected_settings(description, options.levels, options.settings);
   const RenderJob job = make_job(std::move(description), recipe);
   RenderRecord record;

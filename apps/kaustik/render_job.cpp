@@ -47,8 +47,8 @@ RenderJob make_job(Description description, const RenderRecipe& recipe) {
   for (const std::string& warning : warnings) warn(warning);
   if (job.scene->lights().empty())
     warn("the scene has no light: the picture will be black; add an <emitter> to it");
-  const auto object = find_integrator(description);
-  job.view = {object ? object->type : "photonmap", double(job.scene->camera().horizontal_fov()),
+  job.view = {integrator_type(description, *job.scene),
+              double(job.scene->camera().horizontal_fov()),
               double(job.scene->camera().vertical_fov()), job.scene->film().quantity};
   job.description = std::move(description);
   return job;
@@ -74,6 +74,8 @@ void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& s
       [&] { keeper.pass_done(session.film()); });
   line.finish();
   if (!options.quiet) print_errors(session.film());
+  for (const std::string& decision : report.decisions)
+    if (!options.quiet) note(decision);
   for (const std::string& warning : report.warnings) warn(warning);
   if (report.cancelled) warn("cancelled: writing what is finished");
   record.seconds += report.seconds;

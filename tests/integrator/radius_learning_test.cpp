@@ -92,13 +92,5 @@ TEST(RadiusLearning, EndsOfSurfacesAreNoEdgesOfLight) {
   EXPECT_GT(mean_radius(plans, 44, 48), 0.6 * mean_radius(plans, 28, 36));
 }
 
-TEST(RadiusLearning, PathsGoOnWhereNothingMerges) {
-  const TestScene scene = floor_scene();
-  const auto half = [](float x, float) { return x > 0 ? 1.0f : 0.0f; };
-  const PixelPlans plans = learned(scene.scene(), half, 20'000, 4);
-  EXPECT_EQ(plans.at({10, 30}, 1).survival, 1);
-  EXPECT_LT(plans.at({54, 30}, 1).survival, 0.2);
-}
-
 }  // namespace
 }  // namespace kaustik

@@ -12,7 +12,7 @@ namespace {
 constexpr uint32_t paths_per_probe = 8;
 /// Of the random numbers' addresses.
 constexpr uint64_t pilot_element = uint64_t(3) << 40;
-/// m/p from which on light counts as found by merging alone.
+/// Most of m/p.
 const double most_ratio =
     std::exp2(double(ProbeStatistics::bin_count - ProbeStatistics::bin_of_one));
 
@@ -93,16 +93,15 @@ class Recorder final : public LightWeights {
 void add_merged(const VcmCameraPath& path, float samples, double light_share, int maximum_events,
                 ProbeStatistics& result) {
   const double camera_samples = double(samples);
-  for (const auto& [weight, spectrum] : path.merged_vertices(maximum_events)) {
+  for (const auto& [beyond, spectrum] : path.merged_vertices(maximum_events)) {
     const double light = double(spectrum.sum());
     result.merged += 1 / light_share;
     if (light == 0) continue;
     // Of each of the vertices that a real pass has in place of this one.
     const double squares = light * light * light_share;
-    const double ratio = weight < 1
-                             ? camera_samples * std::sqrt(double(weight) / (1 - double(weight)))
-                             : double(infinity);
-    if (!(ratio < most_ratio)) {
+    const double ratio =
+        beyond > 0 ? std::min(most_ratio, camera_samples / std::sqrt(double(beyond))) : 0.0;
+    if (!(ratio > 0)) {
       result.merged_alone += squares;
       result.radiance += light;
       continue;

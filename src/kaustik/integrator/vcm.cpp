@@ -1,5 +1,8 @@
 #include "kaustik/integrator/vcm.h"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -22,6 +25,9 @@ constexpr double most_light_paths = 1 << 24;
 constexpr uint32_t most_learned_passes = 256;
 /// Of camera distances: the radius of what counts as near in the weights of merging.
 constexpr float near_per_distance = 0.01746f;  // tan 1°
+
+/// Light paths that are tried beside those that are asked for, relative to them.
+constexpr std::array<float, 3> light_path_factors{0.25f, 1, 4};
 
 /// First pass of the epoch that a pass belongs to: 0, 1, 2, 4, 8 …
 uint32_t epoch_begin(uint32_t pass) { return std::min(most_learned_passes, std::bit_floor(pass)); }
@@ -49,7 +55,10 @@ std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::make_plans(
     uint32_t samples_per_pixel) const {
   auto plans = std::make_shared<Plans>();
   plans->samples_per_pixel = samples_per_pixel;
-  const uint32_t of_pass = light_path_count(samples_per_pixel);
+  plans->techniques = settings_.techniques;
+  plans->light_paths = settings_.light_paths;
+  if (!settings_.techniques.needs_light_paths()) return plans;
+  const uint32_t of_pass = light_path_count(samples_per_pixel, settings_.light_paths);
   const uint32_t count = std::min(of_pass, most_pilot_paths);
   PathWeights::Settings pilot;
   pilot.techniques.merging = true;
@@ -67,7 +76,10 @@ std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::make_plans(
     plans->pixels =
         PixelPlans(scene_, vertices, of_pass, settings_.merge_neighbors, settings_.radius);
     plans->pilot = make_pilot(*plans, vertices, of_pass, report.rays);
-    plans->pixels = settled(plans->pixels, plans->pixels.plans(), *plans->pilot);
+    if (settings_.chooses_light_paths)
+      choose_light_paths(*plans);
+    else
+      settle(*plans, plans->pixels.plans());
   }
   return plans;
 }
@@ -92,20 +104,61 @@ std::shared_ptr<const VcmIntegrator::Pilot> VcmIntegrator::make_pilot(const Plan
   pilot->probes = probe_statistics(
       inputs, plans.pixels, {light_share, settings_.maximum_events, settings_.roulette_depth});
   for (const PixelPlan& plan : plans.pixels.plans()) pilot->areas.push_back(plan.merge_area);
+  pilot->light_paths = plans.light_paths;
   const Vec2i size = scene_.film().crop_size;
   pilot->costs = {samples,
                   double(light_rays) / light_share / (samples * double(size.x) * double(size.y))};
   return pilot;
 }
 
-PixelPlans VcmIntegrator::settled(const PixelPlans& pixels, std::vector<PixelPlan> plans,
-                                  const Pilot& pilot) {
-  std::vector<MergeScale> scales(plans.size());
-  for (size_t i = 0; i < plans.size(); ++i)
-    scales[i].area =
-        pilot.areas[i] > 0 ? double(plans[i].merge_area) / double(pilot.areas[i]) : 1.0;
-  choose_survival(pilot.probes, pilot.costs, scales, plans);
-  return pixels.with(std::move(plans));
+Efficiency VcmIntegrator::settle(Plans& plans, std::vector<PixelPlan> pixels) {
+  const Pilot& pilot = *plans.pilot;
+  std::vector<MergeScale> scales(pixels.size());
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    scales[i].light_paths =
+        plans.techniques.merging ? double(plans.light_paths) / double(pilot.light_paths) : 0.0;
+    if (pilot.areas[i] > 0) scales[i].area = double(pixels[i].merge_area) / double(pilot.areas[i]);
+  }
+  const Efficiency result = choose_survival(pilot.probes, pilot.costs, scales, pixels);
+  plans.pixels = plans.pixels.with(std::move(pixels));
+  return result;
+}
+
+void VcmIntegrator::choose_light_paths(Plans& plans) {
+  const std::vector<PixelPlan> pixels = plans.pixels.plans();
+  const auto with = [&](float light_paths) {
+    Plans result = plans;
+    result.light_paths = light_paths;
+    result.techniques.merging = light_paths > 0;
+    const Efficiency expected = settle(result, pixels);
+    return std::pair(std::move(result), expected);
+  };
+  auto [best, least] = with(0);
+  const double of_paths_alone = least.time();
+  for (const float factor : light_path_factors) {
+    auto [other, expected] = with(plans.pilot->light_paths * factor);
+    if (!(expected.time() < least.time())) continue;
+    best = std::move(other);
+    least = expected;
+  }
+  double going_on = 0;
+  for (const PixelPlan& plan : best.pixels.plans()) going_on += double(plan.survival);
+  going_on /= double(std::max<size_t>(1, pixels.size()));
+  const double gain = of_paths_alone / least.time();
+  if (!best.techniques.merging)
+    best.decision = "auto: paths from the camera alone, light paths would not pay";
+  else if (std::isfinite(gain))
+    best.decision = fmt::format(
+        "auto: {:.3g} light paths per camera sample, camera paths go on in {:.0f} % of cases: "
+        "{:.2g} "
+        "times less to do than for paths from the camera alone, by a pilot's estimate",
+        best.light_paths, 100 * going_on, gain);
+  else
+    best.decision = fmt::format(
+        "auto: {:.3g} light paths per camera sample, camera paths go on in {:.0f} % of cases: they "
+        "alone would not find all light",
+        best.light_paths, 100 * going_on);
+  plans = std::move(best);
 }
 
 std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans(uint32_t samples_per_pixel) const {
@@ -115,10 +168,10 @@ std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans(uint32_t sample
   return plans_;
 }
 
-uint32_t VcmIntegrator::light_path_count(uint32_t samples_per_pixel) const {
+uint32_t VcmIntegrator::light_path_count(uint32_t samples_per_pixel, float light_paths) const {
   const Vec2i size = scene_.film().crop_size;
   const double wanted =
-      double(settings_.light_paths) * double(size.x) * double(size.y) * double(samples_per_pixel);
+      double(light_paths) * double(size.x) * double(size.y) * double(samples_per_pixel);
   return uint32_t(std::clamp(wanted, 1.0, most_light_paths));
 }
 
@@ -137,9 +190,7 @@ struct VcmIntegrator::Learning {
     for (size_t i = 0; i < added.size(); ++i) sums[i].add(added[i]);
     if (!std::has_single_bit(++passes)) return;
     auto plans = std::make_shared<Plans>(*first);
-    plans->pixels = settled(first->pixels,
-                            radii.plans(first->pixels, sums, passes, sqr(pass_radius(1, passes))),
-                            *first->pilot);
+    settle(*plans, radii.plans(first->pixels, sums, passes, sqr(pass_radius(1, passes))));
     epochs[passes] = std::move(plans);
   }
 
@@ -156,7 +207,7 @@ VcmIntegrator::~VcmIntegrator() = default;
 std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans_for(const Pass& pass,
                                                                      std::stop_token stop) const {
   const auto first = plans(pass.samples_per_pixel);
-  if (!learns()) return first;
+  if (!learns(*first)) return first;
   const std::lock_guard lock(learning_mutex_);
   return isolated([&] {
     if (!learning_ || learning_->seed != pass.seed || learning_->first != first)
@@ -191,8 +242,8 @@ void VcmIntegrator::learn_from(const LightVertices& light, const Pass& pass) con
 
 PathWeights VcmIntegrator::weights_for(const Plans& plans, const Pass& pass) const {
   PathWeights::Settings weights;
-  weights.techniques = settings_.techniques;
-  weights.light_paths = float(light_path_count(pass.samples_per_pixel));
+  weights.techniques = plans.techniques;
+  weights.light_paths = float(light_path_count(pass.samples_per_pixel, plans.light_paths));
   weights.connections = float(settings_.connections) / plans.connectible_per_path;
   weights.merge_area = plans.pixels.other_area() * sqr(pass_radius(1, pass.index));
   weights.accepted_area = pi * sqr(near_per_distance * plans.pixels.mean_distance());
@@ -205,8 +256,8 @@ LightVertices VcmIntegrator::trace(const Plans& plans, const PathWeights& weight
                                    const ProgressFunction& progress, PassReport& report) const {
   return trace_light_vertices(
       {scene_, emission_, weights, settings_.components, settings_.maximum_events,
-       light_path_count(pass.samples_per_pixel), float(pass.samples_per_pixel), plans.pixels,
-       sqr(pass_radius(1, pass.index))},
+       light_path_count(pass.samples_per_pixel, plans.light_paths), float(pass.samples_per_pixel),
+       plans.pixels, sqr(pass_radius(1, pass.index))},
       pass, Stream::light_path, splats, stop, progress, report);
 }
 
@@ -214,15 +265,16 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
                                                   std::stop_token stop,
                                                   const ProgressFunction& progress) const {
   auto state = std::make_unique<State>();
-  const bool needs_light = settings_.techniques.needs_light_paths();
   state->shrinkage = sqr(pass_radius(1, pass.index));
   state->camera_samples = float(pass.samples_per_pixel);
-  state->plans = needs_light ? plans_for(pass, stop) : std::make_shared<const Plans>();
+  state->plans = plans_for(pass, stop);
   state->weights = weights_for(*state->plans, pass);
-  if (!needs_light) return state;
+  if (!state->plans->decision.empty()) state->report.decisions.push_back(state->plans->decision);
+  const Techniques& techniques = state->plans->techniques;
+  if (!techniques.needs_light_paths()) return state;
   state->light = trace(*state->plans, state->weights, pass, splats, stop, progress, state->report);
-  if (settings_.techniques.merging) state->matt = MattMerging(state->light, state->weights);
-  if (learns() && !stop.stop_requested()) learn_from(state->light, pass);
+  if (techniques.merging) state->matt = MattMerging(state->light, state->weights);
+  if (learns(*state->plans) && !stop.stop_requested()) learn_from(state->light, pass);
   state->connection_scale =
       float(double(state->light.connectible.size()) /
             (double(settings_.connections) * double(state->light.path_count)));
@@ -242,7 +294,7 @@ void VcmIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sam
                                state.connection_scale,
                                state.weights.settings().merge_area * inv_pi};
   VcmCameraPath path(inputs, walk, state.plans->pixels.at(raster, state.shrinkage));
-  const Techniques& techniques = settings_.techniques;
+  const Techniques& techniques = state.plans->techniques;
   while (walk.advance()) {
     path.arrive();
     if (walk.events() >= settings_.maximum_events) return;

@@ -34,25 +34,33 @@ class VcmIntegrator final : public Integrator {
     std::vector<ProbeStatistics> probes;
     std::vector<float> areas;  ///< of the disks that they were taken with, m²
     PassCosts costs;
+    float light_paths = 0;  ///< per camera sample, of the passes that it speaks of
   };
   /// What is learned from a pilot pass.
   struct Plans {
     uint32_t samples_per_pixel = 0;
+    Techniques techniques;
+    float light_paths = 0;  ///< per camera sample
     PixelPlans pixels;
     std::shared_ptr<const Pilot> pilot;  ///< null: nothing merges
+    std::string decision;  ///< what was chosen by itself, for the user; empty: nothing
     /// Vertices that may be connected, per light path: what the weights go by.
     float connectible_per_path = 1;
   };
   /// What finished passes of a seed have taught: plans change at passes 1, 2, 4, 8 …, from the sums
   /// of all passes before.
   struct Learning;
-  uint32_t light_path_count(uint32_t samples_per_pixel) const;
+  /// Of a pass, with so many per camera sample.
+  uint32_t light_path_count(uint32_t samples_per_pixel, float light_paths) const;
   std::shared_ptr<const Pilot> make_pilot(const Plans& plans, const LightVertices& light,
                                           uint32_t light_paths, uint64_t light_rays) const;
-  /// The same with these disks and, as the pilot tells, chances of going on.
-  static PixelPlans settled(const PixelPlans& pixels, std::vector<PixelPlan> plans,
-                            const Pilot& pilot);
-  bool learns() const { return settings_.techniques.merging && !(settings_.radius > 0); }
+  /// Gives the probes these disks and, as the pilot tells, chances of going on.
+  static Efficiency settle(Plans& plans, std::vector<PixelPlan> pixels);
+  /// Settles how many light paths there are, if any, and says so.
+  static void choose_light_paths(Plans& plans);
+  bool learns(const Plans& plans) const {
+    return plans.techniques.merging && !(settings_.radius > 0);
+  }
   std::shared_ptr<const Plans> plans_for(const Pass& pass, std::stop_token stop) const;
   void learn_from(const LightVertices& light, const Pass& pass) const;
   LightVertices trace(const Plans& plans, const PathWeights& weights, const Pass& pass,

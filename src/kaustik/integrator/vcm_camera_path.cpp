@@ -332,7 +332,7 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, float radius, int maxim
                           path.pdf_camera_last = pdf_forward * merged.to_previous;
                           path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
                           path.pdf_next_event = photon.pdf_next_event;
-                          visit(photon, wi, distance_sq, in_.weights.merge(path));
+                          visit(photon, wi, distance_sq, path);
                         });
 }
 
@@ -341,24 +341,25 @@ VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, Lobes lo
   const SurfaceVertex& vertex = walk_.vertex();
   const float radius_sq = sqr(radius);
   MergedLight result;
-  visit_merging(
-      disk, radius, maximum_events,
-      [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq, float weight) {
-        if (!(weight > 0)) return;
-        const Spectrum arriving =
-            photon.flux_spectrum() *
-            (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
-        const float kernel = 1 - distance_sq / radius_sq;
-        const float narrow_kernel = std::max(0.0f, 1 - 2 * distance_sq / radius_sq);
-        for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
-          if (!any(lobes & lobe)) continue;
-          const Component component = walk_.component_of(lobe, photon.specular);
-          if (!walk_.wants(component)) continue;
-          const Spectrum reflected = arriving * vertex.eval(wi, lobe);
-          result.of[size_t(component)] += reflected * kernel;
-          result.narrow += reflected * narrow_kernel;
-        }
-      });
+  visit_merging(disk, radius, maximum_events,
+                [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq,
+                    const PathHalves& path) {
+                  const float weight = in_.weights.merge(path);
+                  if (!(weight > 0)) return;
+                  const Spectrum arriving =
+                      photon.flux_spectrum() *
+                      (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
+                  const float kernel = 1 - distance_sq / radius_sq;
+                  const float narrow_kernel = std::max(0.0f, 1 - 2 * distance_sq / radius_sq);
+                  for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
+                    if (!any(lobes & lobe)) continue;
+                    const Component component = walk_.component_of(lobe, photon.specular);
+                    if (!walk_.wants(component)) continue;
+                    const Spectrum reflected = arriving * vertex.eval(wi, lobe);
+                    result.of[size_t(component)] += reflected * kernel;
+                    result.narrow += reflected * narrow_kernel;
+                  }
+                });
   return result;
 }
 
@@ -368,14 +369,16 @@ std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices(int maxi
   std::vector<MergedVertex> result;
   if (!(radius > 0)) return result;
   const MergeDisk disk(in_.scene, vertex, radius);
-  visit_merging(
-      disk, radius, maximum_events,
-      [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq, float weight) {
-        const float kernel =
-            2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
-        const float factor = vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
-        result.push_back({weight, vertex.eval(wi, Lobes::all) * photon.flux_spectrum() * factor});
-      });
+  visit_merging(disk, radius, maximum_events,
+                [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq,
+                    const PathHalves& path) {
+                  const float kernel = 2 * (1 - distance_sq / sqr(radius)) /
+                                       (pi * sqr(radius) * float(in_.light.path_count));
+                  const float factor =
+                      vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
+                  result.push_back({in_.weights.beyond_merge(path),
+                                    vertex.eval(wi, Lobes::all) * photon.flux_spectrum() * factor});
+                });
   return result;
 }
 

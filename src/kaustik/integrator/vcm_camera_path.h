@@ -41,7 +41,7 @@ class VcmCameraPath final : public LightWeights {
   void merge(int maximum_events);
   /// A light vertex that merges with the vertex, and what it sends on as if no other way found it.
   struct MergedVertex {
-    float weight;  ///< of merging
+    float beyond;  ///< PathWeights::beyond_merge()
     Spectrum light;
   };
   /// All of them, of every component, for who wants to know more than the sum.
@@ -68,7 +68,7 @@ class VcmCameraPath final : public LightWeights {
   };
   MergedLight merged_matt(const MergeDisk& disk, float radius, int maximum_events) const;
   MergedLight merged(const MergeDisk& disk, Lobes lobes, float radius, int maximum_events) const;
-  /// visit(vertex, direction to where it comes from, distance², weight) for all that merge.
+  /// visit(vertex, direction to where it comes from, distance², path) for all that merge.
   template <typename Visit>
   void visit_merging(const MergeDisk& disk, float radius, int maximum_events,
                      const Visit& visit) const;

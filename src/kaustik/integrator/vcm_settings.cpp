@@ -77,17 +77,33 @@ const TypeInfo& ppm_info() {
   return info;
 }
 
+const TypeInfo& auto_info() {
+  static const TypeInfo info{
+      "integrator",
+      "auto",
+      "Chooses by itself, region by region, between paths from the camera and light paths that "
+      "merge with them; needs no parameter.",
+      {components_parameter(), max_depth_parameter(), rr_depth_parameter(),
+       ignored_parameter("hide_emitters", ParameterKind::boolean)}};
+  return info;
+}
+
 VcmSettings::VcmSettings(const Arguments& arguments)
     : components(read_components(arguments)),
       maximum_events(read_maximum_events(arguments)),
-      roulette_depth(int(arguments.integer("rr_depth"))),
-      aim(read_aim(arguments.text("aim"))),
-      light_paths(float(arguments.number("light_paths"))),
-      connections(int(arguments.integer("connection_samples"))),
-      merge_neighbors(int(arguments.integer("merge_neighbors"))),
-      radius(float(arguments.number("radius"))),
-      correlation(arguments.boolean("correlation")),
-      samples_per_pass(uint32_t(arguments.integer("samples_per_pass"))) {
+      roulette_depth(int(arguments.integer("rr_depth"))) {
+  if (&arguments.info() == &auto_info()) {
+    techniques.merging = true;
+    chooses_light_paths = true;
+    return;
+  }
+  aim = read_aim(arguments.text("aim"));
+  light_paths = float(arguments.number("light_paths"));
+  connections = int(arguments.integer("connection_samples"));
+  merge_neighbors = int(arguments.integer("merge_neighbors"));
+  radius = float(arguments.number("radius"));
+  correlation = arguments.boolean("correlation");
+  samples_per_pass = uint32_t(arguments.integer("samples_per_pass"));
   techniques = {arguments.boolean("unidirectional"), arguments.boolean("next_event"),
                 arguments.boolean("splats"), arguments.boolean("connections"),
                 arguments.boolean("merging")};

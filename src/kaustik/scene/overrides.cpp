@@ -23,7 +23,7 @@ std::shared_ptr<Object> integrator_of(Description& description) {
   if (auto object = own_integrator(description)) return object;
   auto object = std::make_shared<Object>();
   object->family = "integrator";
-  object->type = "photonmap";
+  object->type = default_integrator;
   object->place = place_in("command line");
   description.scene->children.push_back({"", object});
   return object;

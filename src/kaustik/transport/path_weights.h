@@ -90,6 +90,9 @@ class PathWeights {
   /// Of a light path's vertex at xₜ; the light half begins behind it. pdf_light_last is the density
   /// of the vertex that merges.
   float merge(const PathHalves& path) const;
+  /// Squared densities of all that camera paths find by going on from there, relative to that of
+  /// merge().
+  float beyond_merge(const PathHalves& path) const;
 
   /// What the weight of merging at a matt first vertex takes from the light path alone: squared
   /// densities relative to merging on an area of 1 m².
