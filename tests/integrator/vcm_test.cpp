@@ -133,6 +133,22 @@ TEST(Vcm, CausticOfASmallLamp) {
         light.mean({"caustic"}), 0.01);
 }
 
+/// Without a technique no light is found, which is told; any technique finds some.
+TEST(Vcm, NoTechniqueIsToldOf) {
+  const TestScene scene(room(large_lamp(), 4));
+  const auto warnings = [&](const std::string& switched_on) {
+    std::string parameters;
+    for (const char* name : {"unidirectional", "next_event", "splats", "connections", "merging"})
+      parameters += set(name, name == switched_on);
+    SplatBuffer splats(scene.scene().film(), ComponentSet());
+    return scene.integrator("vcm", parameters)->prepare({1, 0, 1}, splats, {}, {})->report.warnings;
+  };
+  ASSERT_EQ(warnings("none").size(), 1u);
+  EXPECT_NE(warnings("none")[0].find("all techniques are switched off"), std::string::npos);
+  for (const char* name : {"unidirectional", "next_event", "splats", "connections", "merging"})
+    EXPECT_TRUE(warnings(name).empty()) << name;
+}
+
 /// max_depth cuts all techniques at the same length.
 TEST(Vcm, LongestPath) {
   const TestScene scene(room(large_lamp()));

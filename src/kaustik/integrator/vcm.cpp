@@ -177,6 +177,10 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
   state->camera_samples = float(pass.samples_per_pixel);
   state->plans = needs_light ? plans_for(pass, stop) : std::make_shared<const Plans>();
   state->weights = weights_for(*state->plans, pass);
+  if (!settings_.techniques.any())
+    state->report.warnings.emplace_back(
+        "all techniques are switched off: only lights that the camera sees straight are there; "
+        "switch on unidirectional, next_event, splats, connections or merging");
   if (!needs_light) return state;
   state->light = trace(*state->plans, state->weights, pass, splats, stop, progress, state->report);
   if (settings_.techniques.merging) state->matt = MattMerging(state->light, state->weights);
