@@ -55,12 +55,12 @@ void render(RenderOptions options) {
   settings.first_pass = options.first_pass;
   settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;
-  if (!options.time.empty()) settings.seconds = parse_duration(options.time);
+  if (!options.time.empty()) settings.seconds = parse_duration(options.time, "--time");
   if (!options.error.empty()) settings.error = parse_error_bound(options.error);
   JobOptions job_options;
   job_options.quiet = options.quiet;
   job_options.checkpoint = options.checkpoint;
-  job_options.every_s = parse_duration(options.every);
+  job_options.every_s = parse_duration(options.every, "--every");
 
   recipe.folder = std::filesystem::current_path().string();
   recipe.definitions = parse_definitions(options.definitions);
@@ -81,7 +81,7 @@ void render(RenderOptions options) {
 
 }  // namespace
 
-double parse_duration(const std::string& text) {
+double parse_duration(const std::string& text, const std::string& option) {
   double value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   const std::string unit(end, text.data() + text.size());
@@ -91,7 +91,8 @@ double parse_duration(const std::string& text) {
                                                        : 0;
   if (code != std::errc{} || factor == 0 || !(value > 0) || !std::isfinite(value))
     throw Error(ErrorKind::input, fmt::format("cannot read the time '{}'", text),
-                "write a positive number of seconds (60s), minutes (5m) or hours (1h)");
+                "write a positive number of seconds (60s), minutes (5m) or hours (1h)",
+                place_in("command line: " + option));
   return value * factor;
 }
 
@@ -101,7 +102,7 @@ double parse_error_bound(const std::string& text) {
   const std::string unit(end, text.data() + text.size());
   if (code != std::errc{} || (unit != "%" && unit != " %") || !(value > 0) || !std::isfinite(value))
     throw Error(ErrorKind::input, fmt::format("cannot read the error '{}'", text),
-                "write a positive number of percent: 2%");
+                "write a positive number of percent: 2%", place_in("command line: --error"));
   return value / 100;
 }
 
@@ -112,7 +113,7 @@ std::vector<std::pair<std::string, std::string>> parse_definitions(
     const size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
       throw Error(ErrorKind::input, fmt::format("cannot read the definition '{}'", text),
-                  "write -D name=value");
+                  "write -D name=value", place_in("command line: -D"));
     definitions.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
   return definitions;
@@ -160,9 +161,11 @@ void add_render(CLI::App& program) {
                    "Number of the first pass; --passes and --spp count from it [0]")
       ->check(CLI::Range(0u, 1u << 30));
   command->add_option("--time", options->time, "Stop in time: 60s, 5m, 1h (one pass at least)");
-  command->add_option("--checkpoint", options->checkpoint,
-                      "Keep the finished passes in this file, .kpt: kaustik resume, kaustik merge");
-  command->add_option("--every", options->every, "Time between checkpoints: 30s, 5m, 1h [30s]");
+  auto* checkpoint = command->add_option(
+      "--checkpoint", options->checkpoint,
+      "Keep the finished passes in this file, .kpt: kaustik resume, kaustik merge");
+  command->add_option("--every", options->every, "Time between checkpoints: 30s, 5m, 1h [30s]")
+      ->needs(checkpoint);
   command->add_option("--seed", options->recipe.seed, "Seed of all random numbers [0]");
   command->add_option("--threads", options->threads, "Threads; 0: all [0]")
       ->check(CLI::Range(0, 4096));

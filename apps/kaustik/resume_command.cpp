@@ -55,7 +55,7 @@ SessionSettings session_settings(const ResumeOptions& options, const Checkpoint&
   settings.first_pass = record.plan.first_pass;
   settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;
-  if (!options.time.empty()) settings.seconds = parse_duration(options.time);
+  if (!options.time.empty()) settings.seconds = parse_duration(options.time, "--time");
   if (!options.error.empty()) settings.error = parse_error_bound(options.error);
   if (settings.passes || settings.samples_per_pixel || settings.seconds || settings.error)
     return settings;
@@ -95,7 +95,7 @@ void resume(const ResumeOptions& options) {
   JobOptions job_options;
   job_options.quiet = options.quiet;
   job_options.checkpoint = options.checkpoint;
-  job_options.every_s = parse_duration(options.every);
+  job_options.every_s = parse_duration(options.every, "--every");
   run_job(job, record, settings, std::move(checkpoint.film), job_options);
 }
 

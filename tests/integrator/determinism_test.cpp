@@ -34,6 +34,7 @@ std::vector<Method> methods(int photons = 5000) {
   return {{"path", ""},
           {"lighttracer", ""},
           {"vcm", ""},
+          {"auto", ""},
           {"ppm", ""},
           {"photonmap", counts},
           {"photonmap", counts + set("irradiance_cache", false) + set("reradiate", true)}};

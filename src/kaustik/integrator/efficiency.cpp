@@ -14,7 +14,7 @@ constexpr double most_evenness = 30;
 /// and as adding one light vertex of it up.
 constexpr double rays_of_merging = 3, rays_of_merged = 0.1;
 /// A light path's ray, its vertices sorted and learned from, takes as long as so many rays.
-constexpr double rays_of_light_ray = 2;
+constexpr double rays_of_light_ray = 3;
 /// Errors count relative to a pixel's light, and this share of the picture's mean light.
 constexpr double even_share_of_mean = 0.1;
 constexpr int rounds = 6;

@@ -16,7 +16,8 @@ struct ProbeStatistics {
   /// ∫ f²/p in bins of m/p: all that variances of mixtures of both depend on.
   std::array<double, bin_count> squares{};
   double merged_alone = 0;                         ///< ∫ f²/m where no camera path goes
-  double path_mean_square = 0, path_variance = 0;  ///< of what is better found by a camera path
+  double path_mean_square = 0, path_variance = 0;  ///< of what a camera path finds, but for what
+                                                   ///< merging finds far more often
   double direct_variance = 0;                      ///< of one sample of the vertex's direct light
   double radiance = 0;                             ///< of everything
   double merged = 0;                               ///< light vertices of a pass within the disk

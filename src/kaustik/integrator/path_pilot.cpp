@@ -12,6 +12,11 @@ namespace {
 constexpr uint32_t paths_per_probe = 8;
 /// Of the random numbers' addresses.
 constexpr uint64_t pilot_element = uint64_t(3) << 40;
+/// The kernel of merging weighs its vertices unevenly: they are worth so many of equal weight.
+constexpr double kernel_efficiency = 0.75;
+/// Light that merging finds more often than this, per camera path of a pass, says nothing about how
+/// even what camera paths find is: a single path that happens upon it would.
+constexpr double most_merged = 64;
 /// Most of m/p.
 const double most_ratio =
     std::exp2(double(ProbeStatistics::bin_count - ProbeStatistics::bin_of_one));
@@ -57,6 +62,7 @@ class Recorder final : public LightWeights {
     // Split between the ways as the balance heuristic does.
     const double share = camera_samples_ / (camera_samples_ + ratio_);
     beyond_ += light * share;
+    even_ += light * most_merged * camera_samples_ / (most_merged * camera_samples_ + ratio_);
     result_.squares[size_t(bin_of(ratio_))] += light * light * share / paths_per_probe;
   }
   /// The path leaves the probed vertex.
@@ -66,6 +72,7 @@ class Recorder final : public LightWeights {
   }
   double direct() const { return direct_; }
   double beyond() const { return beyond_; }
+  double even() const { return even_; }
 
  private:
   template <typename Weight>
@@ -76,7 +83,8 @@ class Recorder final : public LightWeights {
     const float alone = weight();
     path_.leave_out_light_paths(false);
     ratio_ = beside_merging > 0 && alone > beside_merging
-                 ? camera_samples_ * std::sqrt(double(alone) / double(beside_merging) - 1)
+                 ? kernel_efficiency * camera_samples_ *
+                       std::sqrt(double(alone) / double(beside_merging) - 1)
                  : 0;
     return alone;
   }
@@ -86,7 +94,7 @@ class Recorder final : public LightWeights {
   double camera_samples_;
   ProbeStatistics& result_;
   bool goes_on_ = false;
-  mutable double seen_ = 0, ratio_ = 0, direct_ = 0, beyond_ = 0;
+  mutable double seen_ = 0, ratio_ = 0, direct_ = 0, beyond_ = 0, even_ = 0;
 };
 
 /// Light that merges there, as what a camera path that goes on would have to find.
@@ -100,7 +108,9 @@ void add_merged(const VcmCameraPath& path, float samples, double light_share, in
     // Of each of the vertices that a real pass has in place of this one.
     const double squares = light * light * light_share;
     const double ratio =
-        beyond > 0 ? std::min(most_ratio, camera_samples / std::sqrt(double(beyond))) : 0.0;
+        beyond > 0
+            ? std::min(most_ratio, kernel_efficiency * camera_samples / std::sqrt(double(beyond)))
+            : 0.0;
     if (!(ratio > 0)) {
       result.merged_alone += squares;
       result.radiance += light;
@@ -122,7 +132,7 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
   ProbeStatistics result;
   plan.survival = plan.evenness = 1;
   constexpr double count = paths_per_probe;
-  double direct = 0, direct_squares = 0, beyond = 0, beyond_squares = 0, rays_beyond = 0;
+  double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
   bool has_merged = false;
   for (uint32_t i = 0; i < paths_per_probe; ++i) {
     Sampler sampler = Sampler::at(0, 0, Stream::training, pilot_element + index, i);
@@ -158,11 +168,12 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
     direct += recorder.direct();
     direct_squares += recorder.direct() * recorder.direct();
     beyond += recorder.beyond();
-    beyond_squares += recorder.beyond() * recorder.beyond();
+    even += recorder.even();
+    even_squares += recorder.even() * recorder.even();
   }
   result.rays_beyond = rays_beyond;
-  result.path_mean_square = beyond_squares / count;
-  result.path_variance = variance_of(beyond, beyond_squares, count);
+  result.path_mean_square = even_squares / count;
+  result.path_variance = variance_of(even, even_squares, count);
   result.direct_variance = variance_of(direct, direct_squares, count);
   result.radiance += (direct + beyond) / count;
   return result;

@@ -271,6 +271,10 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
   state->weights = weights_for(*state->plans, pass);
   if (!state->plans->decision.empty()) state->report.decisions.push_back(state->plans->decision);
   const Techniques& techniques = state->plans->techniques;
+  if (!techniques.any())
+    state->report.warnings.emplace_back(
+        "all techniques are switched off: only lights that the camera sees straight are there; "
+        "switch on unidirectional, next_event, splats, connections or merging");
   if (!techniques.needs_light_paths()) return state;
   state->light = trace(*state->plans, state->weights, pass, splats, stop, progress, state->report);
   if (techniques.merging) state->matt = MattMerging(state->light, state->weights);

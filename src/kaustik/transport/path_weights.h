@@ -11,6 +11,8 @@ struct Techniques {
   bool connections = false;    ///< vertices of both paths are connected
   bool merging = false;        ///< a light path's vertex lies within a radius of a camera path's
 
+  /// Whether light is found at all where the camera does not look straight at it.
+  bool any() const { return unidirectional || next_event || needs_light_paths(); }
   /// Whether light paths are traced.
   bool needs_light_paths() const { return splats || connections || merging; }
 };
