@@ -50,7 +50,7 @@ PixelPlans learned(const Scene& scene, const Density& density, size_t count, uin
   const RadiusLearning learning(scene, first);
   std::vector<RadiusLearning::Sums> sums(first.probes().size());
   for (uint32_t pass = 0; pass < passes; ++pass) {
-    const auto added = learning.sums_of(scene, first, light_of(density, count, pass));
+    const auto added = RadiusLearning::sums_of(first, light_of(density, count, pass));
     for (size_t i = 0; i < sums.size(); ++i) sums[i].add(added[i]);
   }
   return learning.plans(first, sums, passes, 1);

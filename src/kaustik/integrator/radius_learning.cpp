@@ -59,16 +59,16 @@ RadiusLearning::RadiusLearning(const Scene& scene, const PixelPlans& first)
     for (size_t p = begin; p < end; ++p) {
       const PixelProbe& probe = first.probes()[p];
       if (!probe.found) continue;
+      const MergeDisk widest(probe.vertex, float(level_radius(probe, level_count - 1)));
+      const DiskCoverage coverage(scene, widest, rays);
       for (int level = 0; level < level_count; ++level) {
         const auto radius = float(level_radius(probe, level));
-        MergeDisk disk(scene, probe.vertex, radius);
-        disk.look_from_below(rays);
         int covered = 0;
         for (int i = 0; i < coverage_points; ++i) {
           Sampler sampler =
               Sampler::at(0, uint32_t(level), Stream::training, coverage_element + p, uint32_t(i));
           const Vec2f u = sampler.next_2d();
-          if (disk.is_covered(radius * std::sqrt(u.x), 2 * pi * u.y, rays)) ++covered;
+          if (coverage.holds(radius, radius * std::sqrt(u.x), 2 * pi * u.y)) ++covered;
         }
         coverage_[p][size_t(level)] = float(covered) / coverage_points;
       }
@@ -76,10 +76,9 @@ RadiusLearning::RadiusLearning(const Scene& scene, const PixelPlans& first)
   });
 }
 
-std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const Scene& scene,
-                                                          const PixelPlans& first,
-                                                          const LightVertices& light) const {
-  std::vector<Sums> result(coverage_.size());
+std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& first,
+                                                          const LightVertices& light) {
+  std::vector<Sums> result(first.probes().size());
   if (light.tree.empty()) return result;
   parallel_blocks(result.size(), 16, [&](size_t begin, size_t end, size_t) {
     for (size_t p = begin; p < end; ++p) {
@@ -87,7 +86,7 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const Scene& scene,
       if (!probe.found || !(probe.pixel_width > 0)) continue;
       const double least_sq = sqr(level_radius(probe, 0));
       const auto widest = float(level_radius(probe, level_count - 1));
-      const MergeDisk disk(scene, probe.vertex, widest);
+      const MergeDisk disk(probe.vertex, widest);
       Sums& sums = result[p];
       light.tree.within(
           probe.vertex.position(), disk.side(), false, sqr(widest), [&](uint32_t index, float) {

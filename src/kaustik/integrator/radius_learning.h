@@ -33,9 +33,8 @@ class RadiusLearning {
   /// Learns at the probes of `first`, the plans of the first pass.
   RadiusLearning(const Scene& scene, const PixelPlans& first);
 
-  /// What the light vertices of one pass add, per probe.
-  std::vector<Sums> sums_of(const Scene& scene, const PixelPlans& first,
-                            const LightVertices& light) const;
+  /// What the light vertices of one pass add, per probe of `first`.
+  static std::vector<Sums> sums_of(const PixelPlans& first, const LightVertices& light);
   /// The plans for what `passes` passes have summed up. Radii are those of the first pass, as in
   /// PixelPlans: shrinking is up to the caller, `shrinkage` of the areas is taken off beforehand.
   PixelPlans plans(const PixelPlans& first, const std::vector<Sums>& sums, uint32_t passes,

@@ -92,8 +92,8 @@ struct VcmIntegrator::Learning {
   }
 
   /// The next pass.
-  void learn(const Scene& scene, const LightVertices& light) {
-    const auto added = radii.sums_of(scene, first->pixels, light);
+  void learn(const LightVertices& light) {
+    const auto added = RadiusLearning::sums_of(first->pixels, light);
     for (size_t i = 0; i < added.size(); ++i) sums[i].add(added[i]);
     if (!std::has_single_bit(++passes)) return;
     auto plans = std::make_shared<Plans>(*first);
@@ -129,7 +129,7 @@ std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans_for(const Pass&
       PassReport report;
       const LightVertices light =
           trace(plans, weights_for(plans, missing), missing, nowhere, stop, {}, report);
-      if (!stop.stop_requested()) learning_->learn(scene_, light);
+      if (!stop.stop_requested()) learning_->learn(light);
     }
     const auto found = learning_->epochs.find(begin);
     return found != learning_->epochs.end() ? found->second : first;
@@ -143,7 +143,7 @@ void VcmIntegrator::learn_from(const LightVertices& light, const Pass& pass) con
     if (learning_->seed == pass.seed && learning_->passes == pass.index &&
         learning_->first->samples_per_pixel == pass.samples_per_pixel &&
         pass.index < most_learned_passes)
-      learning_->learn(scene_, light);
+      learning_->learn(light);
   });
 }
 
