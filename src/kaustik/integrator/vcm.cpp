@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/radius_learning.h"
@@ -83,27 +84,40 @@ uint32_t VcmIntegrator::light_path_count(uint32_t samples_per_pixel) const {
 }
 
 struct VcmIntegrator::Learning {
-  Learning(const Scene& scene, std::shared_ptr<const Plans> of_first, uint64_t of_seed)
-      : seed(of_seed),
-        first(std::move(of_first)),
-        radii(scene, first->pixels),
-        sums(first->pixels.probes().size()) {
-    epochs[0] = first;
-  }
+  explicit Learning(std::shared_ptr<const Plans> of_first) : first(std::move(of_first)) {}
 
+  /// Forgets all but what every seed has in common.
+  void begin(uint64_t of_seed) {
+    seed = of_seed;
+    sums.assign(first->pixels.probes().size(), {});
+    passes = 0;
+    epochs = {{0, first}};
+  }
   /// The next pass.
   void learn(const LightVertices& light) {
     const auto added = RadiusLearning::sums_of(first->pixels, light);
     for (size_t i = 0; i < added.size(); ++i) sums[i].add(added[i]);
-    if (!std::has_single_bit(++passes)) return;
+    ++passes;
+  }
+  /// The plans of the epoch that begins with this pass, made before that is learned from; those of
+  /// the first pass if it was stopped.
+  std::shared_ptr<const Plans> plans_of(uint32_t epoch, const Scene& scene,
+                                        const std::stop_token& stop, uint64_t& rays) {
+    const auto found = epochs.find(epoch);
+    if (found != epochs.end()) return found->second;
+    if (!radii) {
+      RadiusLearning made(scene, first->pixels, rays, stop);
+      if (stop.stop_requested()) return first;
+      radii = std::move(made);
+    }
     auto plans = std::make_shared<Plans>(*first);
-    plans->pixels = radii.plans(first->pixels, sums, passes, sqr(pass_radius(1, passes)));
-    epochs[passes] = std::move(plans);
+    plans->pixels = radii->plans(first->pixels, sums, passes, sqr(pass_radius(1, passes)));
+    return epochs[epoch] = std::move(plans);
   }
 
-  uint64_t seed;
   std::shared_ptr<const Plans> first;
-  RadiusLearning radii;
+  std::optional<RadiusLearning> radii;  ///< made when it is first asked for
+  uint64_t seed = 0;
   std::vector<RadiusLearning::Sums> sums;
   uint32_t passes = 0;                                      ///< that the sums are of
   std::map<uint32_t, std::shared_ptr<const Plans>> epochs;  ///< by their first pass
@@ -112,37 +126,42 @@ struct VcmIntegrator::Learning {
 VcmIntegrator::~VcmIntegrator() = default;
 
 std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans_for(const Pass& pass,
-                                                                     std::stop_token stop) const {
+                                                                     std::stop_token stop,
+                                                                     PassReport& report) const {
   const auto first = plans(pass.samples_per_pixel);
   if (!learns()) return first;
   const std::lock_guard lock(learning_mutex_);
   return isolated([&] {
-    if (!learning_ || learning_->seed != pass.seed || learning_->first != first)
-      learning_ = std::make_unique<Learning>(scene_, first, pass.seed);
-    const uint32_t begin = epoch_begin(pass.index);
+    const bool is_new = !learning_ || learning_->first != first;
+    if (is_new) learning_ = std::make_unique<Learning>(first);
+    if (is_new || learning_->seed != pass.seed) learning_->begin(pass.seed);
+    const auto plans_of = [&](uint32_t index) {
+      return learning_->plans_of(epoch_begin(index), scene_, stop, report.rays);
+    };
     // Passes that were not rendered here are made up for.
-    while (learning_->passes < begin && !stop.stop_requested()) {
+    while (learning_->passes < epoch_begin(pass.index)) {
       Pass missing = pass;
       missing.index = learning_->passes;
-      const Plans& plans = *learning_->epochs.at(epoch_begin(missing.index));
+      const auto plans = plans_of(missing.index);
       SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
-      PassReport report;
+      PassReport missing_report;
       const LightVertices light =
-          trace(plans, weights_for(plans, missing), missing, nowhere, stop, {}, report);
-      if (!stop.stop_requested()) learning_->learn(light);
+          trace(*plans, weights_for(*plans, missing), missing, nowhere, stop, {}, missing_report);
+      if (stop.stop_requested()) return first;
+      learning_->learn(light);
     }
-    const auto found = learning_->epochs.find(begin);
-    return found != learning_->epochs.end() ? found->second : first;
+    return plans_of(pass.index);
   });
 }
 
 void VcmIntegrator::learn_from(const LightVertices& light, const Pass& pass) const {
   const std::lock_guard lock(learning_mutex_);
   isolated([&] {
-    // Passes out of order are traced anew where they are needed.
+    // Passes out of order are traced anew where they are needed; sums of an epoch whose plans are
+    // still to be made stay as they are.
     if (learning_->seed == pass.seed && learning_->passes == pass.index &&
         learning_->first->samples_per_pixel == pass.samples_per_pixel &&
-        pass.index < most_learned_passes)
+        pass.index < most_learned_passes && learning_->epochs.contains(epoch_begin(pass.index)))
       learning_->learn(light);
   });
 }
@@ -175,7 +194,8 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
   const bool needs_light = settings_.techniques.needs_light_paths();
   state->shrinkage = sqr(pass_radius(1, pass.index));
   state->camera_samples = float(pass.samples_per_pixel);
-  state->plans = needs_light ? plans_for(pass, stop) : std::make_shared<const Plans>();
+  state->plans =
+      needs_light ? plans_for(pass, stop, state->report) : std::make_shared<const Plans>();
   state->weights = weights_for(*state->plans, pass);
   if (!needs_light) return state;
   state->light = trace(*state->plans, state->weights, pass, splats, stop, progress, state->report);
