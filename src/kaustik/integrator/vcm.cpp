@@ -49,10 +49,11 @@ std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::make_plans(
     uint32_t samples_per_pixel) const {
   auto plans = std::make_shared<Plans>();
   plans->samples_per_pixel = samples_per_pixel;
+  if (!settings_.techniques.merging && !settings_.techniques.connections) return plans;
   const uint32_t of_pass = light_path_count(samples_per_pixel);
   const uint32_t count = std::min(of_pass, most_pilot_paths);
   PathWeights::Settings pilot;
-  pilot.techniques.merging = true;
+  pilot.techniques.merging = settings_.techniques.merging;
   pilot.techniques.connections = settings_.techniques.connections;
   const PathWeights weights(pilot);
   SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
