@@ -3,6 +3,7 @@
 
 #include "kaustik/integrator/radius_learning.h"
 
+#include <mutex>
 #include <random>
 
 #include "tests/support/measure.h"
@@ -136,6 +137,27 @@ TEST(RadiusLearning, LooksOnceAndNotBeforeItIsNeeded) {
   EXPECT_EQ(more_rays(1, 2), 0u);
   EXPECT_EQ(more_rays(2, 0), 0u);
   EXPECT_EQ(more_rays(2, 1), 0u);
+}
+
+/// Passes that were not rendered before are made up for: that is light traced, and told of.
+TEST(RadiusLearning, MadeUpPassesAreCountedAndToldOf) {
+  const TestScene scene = floor_scene();
+  const auto learning = scene.integrator("vcm");
+  SplatBuffer splats(scene.scene().film(), learning->components());
+  std::vector<double> told;
+  std::mutex mutex;
+  const auto state = learning->prepare({1, 4, 4}, splats, {}, [&](double share) {
+    const std::lock_guard lock(mutex);
+    told.push_back(share);
+  });
+  // Passes 0 to 3, then the pass itself.
+  ASSERT_FALSE(told.empty());
+  EXPECT_LE(told.front(), 0.2);
+  EXPECT_DOUBLE_EQ(*std::max_element(told.begin(), told.end()), 1);
+  EXPECT_GE(std::count_if(told.begin(), told.end(), [](double share) { return share <= 0.8; }), 4);
+  SplatBuffer again(scene.scene().film(), learning->components());
+  const uint64_t of_one = learning->prepare({1, 4, 4}, again, {}, {})->report.rays;
+  EXPECT_GT(state->report.rays, 3 * of_one);
 }
 
 }  // namespace

@@ -23,6 +23,12 @@ constexpr uint32_t most_learned_passes = 256;
 /// Of camera distances: the radius of what counts as near in the weights of merging.
 constexpr float near_per_distance = 0.01746f;  // tan 1°
 
+/// Progress of part `i` of `count` alike.
+ProgressFunction part_of(const ProgressFunction& whole, uint32_t i, uint32_t count) {
+  if (!whole) return {};
+  return [&whole, i, count](double share) { whole((i + share) / count); };
+}
+
 /// First pass of the epoch that a pass belongs to: 0, 1, 2, 4, 8 …
 uint32_t epoch_begin(uint32_t pass) { return std::min(most_learned_passes, std::bit_floor(pass)); }
 
@@ -126,9 +132,9 @@ struct VcmIntegrator::Learning {
 
 VcmIntegrator::~VcmIntegrator() = default;
 
-std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans_for(const Pass& pass,
-                                                                     std::stop_token stop,
-                                                                     PassReport& report) const {
+std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans_for(
+    const Pass& pass, std::stop_token stop, const ProgressFunction& progress, uint32_t& made_up,
+    PassReport& report) const {
   const auto first = plans(pass.samples_per_pixel);
   if (!learns()) return first;
   const std::lock_guard lock(learning_mutex_);
@@ -139,15 +145,18 @@ std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans_for(const Pass&
     const auto plans_of = [&](uint32_t index) {
       return learning_->plans_of(epoch_begin(index), scene_, stop, report.rays);
     };
-    // Passes that were not rendered here are made up for.
-    while (learning_->passes < epoch_begin(pass.index)) {
+    // Passes that were not rendered here are made up for, as far as learning goes.
+    const uint32_t begin = epoch_begin(pass.index);
+    const uint32_t missing_count = begin - std::min(begin, learning_->passes);
+    for (made_up = 0; made_up < missing_count; ++made_up) {
       Pass missing = pass;
       missing.index = learning_->passes;
       const auto plans = plans_of(missing.index);
       SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
-      PassReport missing_report;
-      const LightVertices light =
-          trace(*plans, weights_for(*plans, missing), missing, nowhere, stop, {}, missing_report);
+      PathWeights::Settings merging_alone = weights_for(*plans, missing).settings();
+      merging_alone.techniques.splats = merging_alone.techniques.connections = false;
+      const LightVertices light = trace(*plans, PathWeights(merging_alone), missing, nowhere, stop,
+                                        part_of(progress, made_up, missing_count + 1), report);
       if (stop.stop_requested()) return first;
       learning_->learn(light);
     }
@@ -195,11 +204,13 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
   const bool needs_light = settings_.techniques.needs_light_paths();
   state->shrinkage = sqr(pass_radius(1, pass.index));
   state->camera_samples = float(pass.samples_per_pixel);
-  state->plans =
-      needs_light ? plans_for(pass, stop, state->report) : std::make_shared<const Plans>();
+  uint32_t made_up = 0;
+  state->plans = needs_light ? plans_for(pass, stop, progress, made_up, state->report)
+                             : std::make_shared<const Plans>();
   state->weights = weights_for(*state->plans, pass);
   if (!needs_light) return state;
-  state->light = trace(*state->plans, state->weights, pass, splats, stop, progress, state->report);
+  state->light = trace(*state->plans, state->weights, pass, splats, stop,
+                       part_of(progress, made_up, made_up + 1), state->report);
   if (settings_.techniques.merging) state->matt = MattMerging(state->light, state->weights);
   if (learns() && !stop.stop_requested()) learn_from(state->light, pass);
   state->connection_scale =

@@ -40,7 +40,9 @@ class VcmIntegrator final : public Integrator {
   struct Learning;
   uint32_t light_path_count(uint32_t samples_per_pixel) const;
   bool learns() const { return settings_.techniques.merging && !(settings_.radius > 0); }
+  /// `made_up`: passes that had to be traced for it, in whose progress one more part is left.
   std::shared_ptr<const Plans> plans_for(const Pass& pass, std::stop_token stop,
+                                         const ProgressFunction& progress, uint32_t& made_up,
                                          PassReport& report) const;
   void learn_from(const LightVertices& light, const Pass& pass) const;
   LightVertices trace(const Plans& plans, const PathWeights& weights, const Pass& pass,
