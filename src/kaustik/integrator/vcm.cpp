@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/path_pilot.h"
@@ -28,6 +29,12 @@ constexpr float near_per_distance = 0.01746f;  // tan 1°
 
 /// Light paths that are tried beside those that are asked for, relative to them.
 constexpr std::array<float, 3> light_path_factors{0.25f, 1, 4};
+
+/// Progress of part `i` of `count` alike.
+ProgressFunction part_of(const ProgressFunction& whole, uint32_t i, uint32_t count) {
+  if (!whole) return {};
+  return [&whole, i, count](double share) { whole((i + share) / count); };
+}
 
 /// First pass of the epoch that a pass belongs to: 0, 1, 2, 4, 8 …
 uint32_t epoch_begin(uint32_t pass) { return std::min(most_learned_passes, std::bit_floor(pass)); }
@@ -57,11 +64,11 @@ std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::make_plans(
   plans->samples_per_pixel = samples_per_pixel;
   plans->techniques = settings_.techniques;
   plans->light_paths = settings_.light_paths;
-  if (!settings_.techniques.needs_light_paths()) return plans;
+  if (!settings_.techniques.merging && !settings_.techniques.connections) return plans;
   const uint32_t of_pass = light_path_count(samples_per_pixel, settings_.light_paths);
   const uint32_t count = std::min(of_pass, most_pilot_paths);
   PathWeights::Settings pilot;
-  pilot.techniques.merging = true;
+  pilot.techniques.merging = settings_.techniques.merging;
   pilot.techniques.connections = settings_.techniques.connections;
   const PathWeights weights(pilot);
   SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
@@ -176,27 +183,40 @@ uint32_t VcmIntegrator::light_path_count(uint32_t samples_per_pixel, float light
 }
 
 struct VcmIntegrator::Learning {
-  Learning(const Scene& scene, std::shared_ptr<const Plans> of_first, uint64_t of_seed)
-      : seed(of_seed),
-        first(std::move(of_first)),
-        radii(scene, first->pixels),
-        sums(first->pixels.probes().size()) {
-    epochs[0] = first;
-  }
+  explicit Learning(std::shared_ptr<const Plans> of_first) : first(std::move(of_first)) {}
 
+  /// Forgets all but what every seed has in common.
+  void begin(uint64_t of_seed) {
+    seed = of_seed;
+    sums.assign(first->pixels.probes().size(), {});
+    passes = 0;
+    epochs = {{0, first}};
+  }
   /// The next pass.
-  void learn(const Scene& scene, const LightVertices& light) {
-    const auto added = radii.sums_of(scene, first->pixels, light);
+  void learn(const LightVertices& light) {
+    const auto added = RadiusLearning::sums_of(first->pixels, light);
     for (size_t i = 0; i < added.size(); ++i) sums[i].add(added[i]);
-    if (!std::has_single_bit(++passes)) return;
+    ++passes;
+  }
+  /// The plans of the epoch that begins with this pass, made before that is learned from; those of
+  /// the first pass if it was stopped.
+  std::shared_ptr<const Plans> plans_of(uint32_t epoch, const Scene& scene,
+                                        const std::stop_token& stop, uint64_t& rays) {
+    const auto found = epochs.find(epoch);
+    if (found != epochs.end()) return found->second;
+    if (!radii) {
+      RadiusLearning made(scene, first->pixels, rays, stop);
+      if (stop.stop_requested()) return first;
+      radii = std::move(made);
+    }
     auto plans = std::make_shared<Plans>(*first);
-    settle(*plans, radii.plans(first->pixels, sums, passes, sqr(pass_radius(1, passes))));
-    epochs[passes] = std::move(plans);
+    settle(*plans, radii->plans(first->pixels, sums, passes, sqr(pass_radius(1, passes))));
+    return epochs[epoch] = std::move(plans);
   }
 
-  uint64_t seed;
   std::shared_ptr<const Plans> first;
-  RadiusLearning radii;
+  std::optional<RadiusLearning> radii;  ///< made when it is first asked for
+  uint64_t seed = 0;
   std::vector<RadiusLearning::Sums> sums;
   uint32_t passes = 0;                                      ///< that the sums are of
   std::map<uint32_t, std::shared_ptr<const Plans>> epochs;  ///< by their first pass
@@ -204,39 +224,47 @@ struct VcmIntegrator::Learning {
 
 VcmIntegrator::~VcmIntegrator() = default;
 
-std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans_for(const Pass& pass,
-                                                                     std::stop_token stop) const {
+std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans_for(
+    const Pass& pass, std::stop_token stop, const ProgressFunction& progress, uint32_t& made_up,
+    PassReport& report) const {
   const auto first = plans(pass.samples_per_pixel);
   if (!learns(*first)) return first;
   const std::lock_guard lock(learning_mutex_);
   return isolated([&] {
-    if (!learning_ || learning_->seed != pass.seed || learning_->first != first)
-      learning_ = std::make_unique<Learning>(scene_, first, pass.seed);
+    const bool is_new = !learning_ || learning_->first != first;
+    if (is_new) learning_ = std::make_unique<Learning>(first);
+    if (is_new || learning_->seed != pass.seed) learning_->begin(pass.seed);
+    const auto plans_of = [&](uint32_t index) {
+      return learning_->plans_of(epoch_begin(index), scene_, stop, report.rays);
+    };
+    // Passes that were not rendered here are made up for, as far as learning goes.
     const uint32_t begin = epoch_begin(pass.index);
-    // Passes that were not rendered here are made up for.
-    while (learning_->passes < begin && !stop.stop_requested()) {
+    const uint32_t missing_count = begin - std::min(begin, learning_->passes);
+    for (made_up = 0; made_up < missing_count; ++made_up) {
       Pass missing = pass;
       missing.index = learning_->passes;
-      const Plans& plans = *learning_->epochs.at(epoch_begin(missing.index));
+      const auto plans = plans_of(missing.index);
       SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
-      PassReport report;
-      const LightVertices light =
-          trace(plans, weights_for(plans, missing), missing, nowhere, stop, {}, report);
-      if (!stop.stop_requested()) learning_->learn(scene_, light);
+      PathWeights::Settings merging_alone = weights_for(*plans, missing).settings();
+      merging_alone.techniques.splats = merging_alone.techniques.connections = false;
+      const LightVertices light = trace(*plans, PathWeights(merging_alone), missing, nowhere, stop,
+                                        part_of(progress, made_up, missing_count + 1), report);
+      if (stop.stop_requested()) return first;
+      learning_->learn(light);
     }
-    const auto found = learning_->epochs.find(begin);
-    return found != learning_->epochs.end() ? found->second : first;
+    return plans_of(pass.index);
   });
 }
 
 void VcmIntegrator::learn_from(const LightVertices& light, const Pass& pass) const {
   const std::lock_guard lock(learning_mutex_);
   isolated([&] {
-    // Passes out of order are traced anew where they are needed.
+    // Passes out of order are traced anew where they are needed; sums of an epoch whose plans are
+    // still to be made stay as they are.
     if (learning_->seed == pass.seed && learning_->passes == pass.index &&
         learning_->first->samples_per_pixel == pass.samples_per_pixel &&
-        pass.index < most_learned_passes)
-      learning_->learn(scene_, light);
+        pass.index < most_learned_passes && learning_->epochs.contains(epoch_begin(pass.index)))
+      learning_->learn(light);
   });
 }
 
@@ -267,7 +295,8 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
   auto state = std::make_unique<State>();
   state->shrinkage = sqr(pass_radius(1, pass.index));
   state->camera_samples = float(pass.samples_per_pixel);
-  state->plans = plans_for(pass, stop);
+  uint32_t made_up = 0;
+  state->plans = plans_for(pass, stop, progress, made_up, state->report);
   state->weights = weights_for(*state->plans, pass);
   if (!state->plans->decision.empty()) state->report.decisions.push_back(state->plans->decision);
   const Techniques& techniques = state->plans->techniques;
@@ -276,7 +305,8 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
         "all techniques are switched off: only lights that the camera sees straight are there; "
         "switch on unidirectional, next_event, splats, connections or merging");
   if (!techniques.needs_light_paths()) return state;
-  state->light = trace(*state->plans, state->weights, pass, splats, stop, progress, state->report);
+  state->light = trace(*state->plans, state->weights, pass, splats, stop,
+                       part_of(progress, made_up, made_up + 1), state->report);
   if (techniques.merging) state->matt = MattMerging(state->light, state->weights);
   if (learns(*state->plans) && !stop.stop_requested()) learn_from(state->light, pass);
   state->connection_scale =

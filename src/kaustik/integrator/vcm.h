@@ -61,7 +61,10 @@ class VcmIntegrator final : public Integrator {
   bool learns(const Plans& plans) const {
     return plans.techniques.merging && !(settings_.radius > 0);
   }
-  std::shared_ptr<const Plans> plans_for(const Pass& pass, std::stop_token stop) const;
+  /// `made_up`: passes that had to be traced for it, in whose progress one more part is left.
+  std::shared_ptr<const Plans> plans_for(const Pass& pass, std::stop_token stop,
+                                         const ProgressFunction& progress, uint32_t& made_up,
+                                         PassReport& report) const;
   void learn_from(const LightVertices& light, const Pass& pass) const;
   LightVertices trace(const Plans& plans, const PathWeights& weights, const Pass& pass,
                       SplatBuffer& splats, std::stop_token stop, const ProgressFunction& progress,

@@ -14,10 +14,7 @@ std::vector<PathVertex>& empty_list() {
   return list;
 }
 
-/// The disk of merging is hardly ever covered by less than one over this.
-constexpr int most_coverage_tries = 32;
-
-/// Of the sampler's forks for that, and for the bias of merging.
+/// Of the sampler's forks for the coverage of the disk of merging, and for the bias of merging.
 constexpr uint32_t coverage_key = 1, bias_key = 2;
 
 /// Chance with which that is estimated: it takes rays.
@@ -235,26 +232,13 @@ void VcmCameraPath::connect_to(const ConnectibleVertex& to, int maximum_events) 
   }
 }
 
-float VcmCameraPath::inverse_coverage(MergeDisk disk, float radius, uint32_t key) const {
-  // Numbers of their own: how many there are is not known beforehand.
-  Sampler numbers = walk_.sampler().fork(key);
-  for (int tries = 1; tries < most_coverage_tries; ++tries) {
-    // A point of the disk, with the density of the kernel.
-    const Vec2f u = numbers.next_2d();
-    if (disk.is_covered(radius * std::sqrt(1 - std::sqrt(1 - u.x)), 2 * pi * u.y, walk_.rays()))
-      return float(tries);
-    if (tries == 1 && disk.look_from_below(walk_.rays())) tries = 0;
-  }
-  return float(most_coverage_tries);
-}
-
 void VcmCameraPath::merge(int maximum_events) {
   const SurfaceVertex& vertex = walk_.vertex();
   const Lobes lobes = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
   if (!any(lobes) || in_.light.tree.empty() || !in_.weights.merges_at(vertices_)) return;
   const float radius = merge_radius();
   if (!(radius > 0)) return;
-  const MergeDisk disk(in_.scene, vertex, radius);
+  const MergeDisk disk(vertex, radius);
   const bool is_matt =
       all_delta_ && lobes == Lobes::diffuse && !vertex.bsdf().transmits() && !vertex.has_relief();
   const MergedLight light = is_matt ? merged_matt(disk, radius, maximum_events)
@@ -264,21 +248,22 @@ void VcmCameraPath::merge(int maximum_events) {
   if (total.is_zero()) return;
   // The kernel's height over the number of light paths.
   const float scale = 2 * inv_pi / (sqr(radius) * float(in_.light.path_count));
-  const float coverage = inverse_coverage(disk, radius, coverage_key);
+  const DiskCoverage covered(in_.scene, disk, walk_.rays());
+  // Numbers of their own: how many there are is not known beforehand.
+  const float coverage = covered.inverse_share(radius, walk_.sampler().fork(coverage_key));
   for (int c = 0; c < component_count; ++c)
     if (!light.of[size_t(c)].is_zero())
       walk_.add(Component(c), light.of[size_t(c)] * (scale * coverage));
-  add_bias_of_merging(total * coverage, light.narrow, scale, radius);
+  add_bias_of_merging(covered, total * coverage, light.narrow, scale, radius);
 }
 
 /// The bias grows by the area, so it is twice what half of the area takes off.
-void VcmCameraPath::add_bias_of_merging(const Spectrum& wide, const Spectrum& narrow, float scale,
-                                        float radius) {
+void VcmCameraPath::add_bias_of_merging(const DiskCoverage& covered, const Spectrum& wide,
+                                        const Spectrum& narrow, float scale, float radius) {
   Sampler numbers = walk_.sampler().fork(bias_key);
   if (!(numbers.next_1d() < bias_chance)) return;
-  const float narrow_radius = radius * std::sqrt(0.5f);
-  const float narrow_coverage = inverse_coverage(
-      MergeDisk(in_.scene, walk_.vertex(), narrow_radius), narrow_radius, bias_key + 1);
+  const float narrow_coverage =
+      covered.inverse_share(radius * std::sqrt(0.5f), walk_.sampler().fork(bias_key + 1));
   const Spectrum difference = wide - narrow * (2 * narrow_coverage);
   walk_.add_bias(difference * (2 * scale / bias_chance));
 }
@@ -311,7 +296,7 @@ template <typename Visit>
 void VcmCameraPath::visit_merging(const MergeDisk& disk, float radius, int maximum_events,
                                   const Visit& visit) const {
   const SurfaceVertex& vertex = walk_.vertex();
-  const bool both_sides = vertex.bsdf().transmits();
+  const bool both_sides = disk.both_sides();
   const Vec3f& ng = vertex.point().ng;
   const Vec3f side = both_sides || vertex.on_front() ? ng : -ng;
   PathHalves path = halves();
@@ -368,7 +353,7 @@ std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices(int maxi
   const float radius = merge_radius();
   std::vector<MergedVertex> result;
   if (!(radius > 0)) return result;
-  const MergeDisk disk(in_.scene, vertex, radius);
+  const MergeDisk disk(vertex, radius);
   visit_merging(disk, radius, maximum_events,
                 [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq,
                     const PathHalves& path) {

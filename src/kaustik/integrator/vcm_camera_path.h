@@ -10,6 +10,7 @@
 
 namespace kaustik {
 
+class DiskCoverage;
 class MergeDisk;
 
 /// What camera paths of a pass share.
@@ -76,12 +77,9 @@ class VcmCameraPath final : public LightWeights {
   /// Of what follows the last vertex, at `position` with geometric normal `ng`; zero: infinitely
   /// far along the walk's ray.
   PathVertex next_vertex(const Vec3f& position, const Vec3f& ng) const;
-  /// An estimate of one over the share of the kernel's disk, unbiased but for shares of a few
-  /// percent, that the surface of the vertex takes up: where it ends within the disk, its light
-  /// would else be too dark.
-  float inverse_coverage(MergeDisk disk, float radius, uint32_t key) const;
   /// `wide` and `narrow`: sums as in MergedLight, the first over the share that is covered.
-  void add_bias_of_merging(const Spectrum& wide, const Spectrum& narrow, float scale, float radius);
+  void add_bias_of_merging(const DiskCoverage& covered, const Spectrum& wide,
+                           const Spectrum& narrow, float scale, float radius);
   void connect_to(const ConnectibleVertex& to, int maximum_events);
   PathHalves halves() const;
   /// Of the last vertex from the camera's side, whose light comes from `wi`.
