@@ -22,7 +22,7 @@ std::exception_ptr write_last_checkpoint(CheckpointKeeper& keeper, const Film& f
   }
   try {
     keeper.write_last(film);
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     return std::current_exception();
   }
   return nullptr;

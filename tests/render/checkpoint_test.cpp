@@ -3,7 +3,9 @@
 #include "kaustik/render/checkpoint.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <filesystem>
 #include <fstream>
 #include <random>
 
@@ -346,6 +348,52 @@ TEST_F(CheckpointFile, WritingReplacesTheFileAsAWhole) {
   EXPECT_EQ(read_checkpoint(path()).film.pass_count(), 2u);
 }
 
+/// Memory that the program may still take, in its life.
+class LittleMemory {
+ public:
+  explicit LittleMemory(rlim_t bytes) {
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    rlim_t used = 0;
+    while (status >> word && word != "VmData:") {
+    }
+    status >> used;
+    ::getrlimit(RLIMIT_DATA, &before_);
+    const rlimit limit{used * 1024 + bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_DATA, &limit);
+  }
+  ~LittleMemory() { ::setrlimit(RLIMIT_DATA, &before_); }
+
+ private:
+  rlimit before_;
+};
+
+/// Then the render goes on, or writes its picture: an Error, and nothing is left behind.
+TEST_F(CheckpointFile, LittleMemoryIsAnError) {
+  if (slow_build) GTEST_SKIP() << "sanitizers take memory of their own";
+  FilmSettings settings;
+  settings.size = settings.crop_size = {500, 500};
+  const Film film(settings, {ComponentSet::all()});
+  const auto write = [&] { write_checkpoint(path(), little_record(), film); };
+  {
+    const LittleMemory little(2 << 20);
+    try {
+      write();
+      ADD_FAILURE() << "was written";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::system);
+      EXPECT_NE(std::string(error.what()).find("not enough memory"), std::string::npos);
+    }
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(std::filesystem::path(path()).parent_path()));
+  {
+    // The file, 11.7 MB, is held in memory once.
+    const LittleMemory enough(16 << 20);
+    write();
+  }
+  EXPECT_GT(bytes().size(), size_t{11} << 20);
+}
+
 TEST_F(CheckpointFile, PackedSumsComeBack) {
   constexpr BinaryFileKind kind = {{0x89, 'T', 'S', 'T', '\r', '\n', 0x1a, '\n'}, 1, "", "", ""};
   std::vector<Fixed> sums = {0, 1, -1, 127, 128, 255, 256, -127, -128, -129, -256};
@@ -358,6 +406,8 @@ TEST_F(CheckpointFile, PackedSumsComeBack) {
   BinaryWriter writer(kind);
   put_sums(writer, sums);
   writer.write_to(path());
+  // Magic, byte order, version and checksum beside the sums.
+  EXPECT_EQ(bytes().size(), packed_size(sums) + 24);
   BinaryReader reader(kind, path());
   EXPECT_TRUE(get_sums(reader, sums.size()) == sums);
   reader.expect_end();

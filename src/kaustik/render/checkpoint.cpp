@@ -14,6 +14,8 @@
 
 #include <fmt/format.h>
 
+#include <new>
+
 #include "kaustik/base/binary_file.h"
 
 namespace kaustik {
@@ -186,7 +188,7 @@ StopPlan merged_plan(const StopPlan& a, const StopPlan& b, const PassSet& passes
 
 }  // namespace
 
-void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film) {
+void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film) try {
   BinaryWriter writer(checkpoint_kind);
   writer.put_text(record.program);
   put_recipe(writer, record.recipe);
@@ -196,6 +198,9 @@ void write_checkpoint(const std::string& path, const RenderRecord& record, const
   writer.put(record.seconds);
   film.write(writer);
   writer.write_to(path);
+} catch (const std::bad_alloc&) {
+  throw Error(ErrorKind::system, fmt::format("cannot write '{}': not enough memory", path),
+              "render the picture in parts by the film's crop window, or where there is more");
 }
 
 Checkpoint read_checkpoint(const std::string& path) {

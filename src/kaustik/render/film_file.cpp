@@ -66,6 +66,8 @@ void Film::write(BinaryWriter& writer) const {
   writer.put(sample_count_);
   put_passes(writer, passes_);
   put_sums(writer, mean_luminances_);
+  // Growing bit by bit would take twice the memory at a time.
+  writer.reserve(packed_size(numbers_));
   put_sums(writer, numbers_);
 }
 

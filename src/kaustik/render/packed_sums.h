@@ -13,6 +13,9 @@ namespace kaustik {
 /// those after them repeat the sign.
 void put_sums(BinaryWriter& writer, std::span<const Fixed> sums);
 
+/// How many bytes that takes.
+uint64_t packed_size(std::span<const Fixed> sums);
+
 /// Reads so many; throws as BinaryReader does. Allocates at most 16 bytes for each of the file.
 std::vector<Fixed> get_sums(BinaryReader& reader, uint64_t count);
 
