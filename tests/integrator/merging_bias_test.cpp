@@ -71,5 +71,46 @@ TEST(MergingBias, IsWhatItIsEstimatedToBe) {
   }
 }
 
+/// A mirror throws light on the floor; the camera sees an edge of that. At a step merging is off by
+/// up to half of the light, and the error must tell of it though signs differ on the two sides.
+TEST(MergingBias, EdgesOfLightAreInTheError) {
+  constexpr int size = 24;
+  constexpr double lamp_z = 0.2, mirror_size = 0.25, view = 0.3;
+  constexpr double height = 2 - lamp_z;  // of the lamp's mirror image
+  constexpr double edge = mirror_size * height / (height - 1);
+  const TestScene scene(camera(fmt::format("{}, 0, 0.4", edge), fmt::format("{}, 0, 0", edge),
+                               2 * std::atan(view / 2 / 0.4) * 180 / std::numbers::pi, size,
+                               "0, 1, 0") +
+                        flat("rectangle", scale("2, 2, 1"), diffuse("0.5, 0.5, 0.5")) +
+                        flat("rectangle", scale("0.25, 0.25, 1") + translate("0, 0, 1"), mirror()) +
+                        point_light("0, 0, 0.2", 1));
+  const auto integrator = scene.integrator(
+      "ppm", set("radius", 0.06) + set("light_paths", 50.0) + set("components", "caustic"));
+  SessionSettings settings;
+  settings.passes = replicate_count;
+  settings.samples_per_pass = slow_build ? 1 : 4;
+  Session session(scene.scene(), *integrator, settings);
+  session.run();
+  const Image image = session.film().image();
+  const int light = image.find_channel("G"), error = image.find_channel("error.G");
+  double true_sq = 0, told_sq = 0;
+  int count = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const double at_x = edge + view * ((x + 0.5) / size - 0.5),
+                   at_y = view * (0.5 - (y + 0.5) / size);
+      if (std::fabs(at_x - edge) > 0.05) continue;
+      const double lit =
+          at_x < edge ? height * std::pow(height * height + at_x * at_x + at_y * at_y, -1.5) : 0;
+      true_sq += std::pow(double(image.at(x, y, light)) - albedo / std::numbers::pi * lit, 2);
+      told_sq += std::pow(double(image.at(x, y, error)), 2);
+      ++count;
+    }
+  const double true_rms = std::sqrt(true_sq / count), told_rms = std::sqrt(told_sq / count);
+  std::printf("  error at the edge %.4f, told %.4f\n", true_rms, told_rms);
+  EXPECT_GT(told_rms, 0.3 * true_rms);
+  EXPECT_LT(told_rms, 1.5 * true_rms);
+}
+
 }  // namespace
 }  // namespace kaustik
