@@ -8,9 +8,9 @@ namespace kaustik {
 namespace {
 
 /// Bounds of a pixel's radius, in widths of the pixel on the surface.
+constexpr float least_widths = 1, most_widths = 6;
 /// Most of the radius at later vertices, in distances of what the camera sees.
 constexpr float most_other_radius = 0.03f;
-constexpr float least_widths = 1, most_widths = 6;
 
 Vec3f side_of(const SurfaceVertex& vertex) {
   return vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
