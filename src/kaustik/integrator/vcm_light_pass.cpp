@@ -1,7 +1,6 @@
 #include "kaustik/integrator/vcm_light_pass.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/transport/direct_light.h"

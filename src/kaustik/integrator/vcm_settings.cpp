@@ -6,10 +6,6 @@
 namespace kaustik {
 namespace {
 
-Parameter technique_parameter(const char* name, bool on, const char* what) {
-  return boolean_parameter(name, on, what);
-}
-
 /// The table of a preset.
 std::vector<Parameter> parameters(const Techniques& preset) {
   std::vector<Parameter> rows = {
@@ -17,18 +13,18 @@ std::vector<Parameter> parameters(const Techniques& preset) {
       max_depth_parameter(),
       rr_depth_parameter(),
       aim_parameter(),
-      technique_parameter("unidirectional", preset.unidirectional,
-                          "Light that the camera's paths meet by chance counts."),
-      technique_parameter("next_event", preset.next_event,
-                          "Every vertex of the camera's paths samples a light."),
-      technique_parameter("splats", preset.splats,
-                          "Vertices of light paths are connected to the camera."),
-      technique_parameter("connections", preset.connections,
-                          "Vertices of the camera's paths are connected to vertices of light "
-                          "paths."),
-      technique_parameter("merging", preset.merging,
-                          "Vertices of light paths near a vertex of the camera's path count as if "
-                          "they were there (photon mapping)."),
+      boolean_parameter("unidirectional", preset.unidirectional,
+                        "Light that the camera's paths meet by chance counts."),
+      boolean_parameter("next_event", preset.next_event,
+                        "Every vertex of the camera's paths samples a light."),
+      boolean_parameter("splats", preset.splats,
+                        "Vertices of light paths are connected to the camera."),
+      boolean_parameter("connections", preset.connections,
+                        "Vertices of the camera's paths are connected to vertices of light "
+                        "paths."),
+      boolean_parameter("merging", preset.merging,
+                        "Vertices of light paths near a vertex of the camera's path count as if "
+                        "they were there (photon mapping)."),
       number_parameter("light_paths", 0.25, "Light paths per camera sample.").range(0.001, 1000),
       integer_parameter("connection_samples", 1,
                         "Vertices of light paths that each vertex of the camera's paths is "

@@ -1,15 +1,4 @@
-// The content of a .kpt file, in the frame of base/binary_file.h; a text is its length (u64) and
-// its bytes, a list its length (u64) and its items, a flag is 0 or 1 (u8):
-//   program (text);
-//   recipe: scene, folder (texts), definitions (list of pairs of texts), integrator (text),
-//   settings (list of pairs of texts: assignment, origin), seed (u64), samples per pass (u32),
-//   digests of the scene and of the integrator (u64 each);
-//   plan: first pass, passes (u32 each), seconds, error (each: flag whether it is given, f64);
-//   outputs: files (list of texts), tone (text), tone settings (list of texts), denoise, float,
-//   reproducible (flags);
-//   view: integrator (text), field of view across and down (f64 each, degrees), irradiance (flag);
-//   seconds that it took (f64);
-//   the film: film_file.cpp.
+// docs/checkpoints.md describes the file; what is put and got here is that, in its order.
 #include "kaustik/render/checkpoint.h"
 
 #include <fmt/format.h>

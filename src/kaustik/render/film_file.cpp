@@ -1,10 +1,4 @@
-// A film's part of a checkpoint:
-//   width, height (i32 each), components (u32, bit c: component c), whether it holds bias (u8, 0 or
-//   1), samples per pixel (u64),
-//   number of ranges of passes (u64), per range its first pass and the one after its last (u32
-//   each), in ascending order, not touching,
-//   sums of the picture's mean luminance over the passes of each replicate (16 packed sums),
-//   per pixel, row by row, its numbers as in Film (packed sums).
+// A film as part of a checkpoint: docs/checkpoints.md.
 #include "kaustik/base/binary_file.h"
 #include "kaustik/render/film.h"
 #include "kaustik/render/packed_sums.h"
