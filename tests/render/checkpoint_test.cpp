@@ -89,7 +89,7 @@ RenderRecord little_record() {
 }
 
 /// Made of one pass, with some negative sums.
-Film little_film(PassRange passes = {0, 1}) {
+Film little_film(PassRange passes = {3, 4}) {
   FilmSettings settings;
   settings.size = settings.crop_size = {3, 2};
   Film film(settings, {ComponentSet::all()});
@@ -339,11 +339,42 @@ TEST_F(CheckpointFile, WrongContentsDoNoHarm) {
   EXPECT_GT(refused, 500);
 }
 
+/// Numbers that no render has, though they can be read: going on from them would go wrong.
+TEST_F(CheckpointFile, NumbersOutOfRangeAreRefused) {
+  const auto refused = [&](const std::string& message, PassRange passes,
+                           const std::function<void(RenderRecord&)>& change) {
+    SCOPED_TRACE(message);
+    RenderRecord record = little_record();
+    record.plan.first_pass = passes.begin;
+    change(record);
+    write_checkpoint(path(), record, little_film(passes));
+    expect_refused(message);
+  };
+  refused("its passes are not valid", {0xfffffffe, 0xffffffff},
+          [](RenderRecord& record) { record.plan.first_pass = 0; });
+  refused("its passes are not valid", {0x80000000, 0x80000001},
+          [](RenderRecord& record) { record.plan.first_pass = 0; });
+  refused("the passes that it was to have are not valid", {0, 1},
+          [](RenderRecord& record) { record.plan.first_pass = 0xfffffff0; });
+  refused("the passes that it was to have are not valid", {1, 2},
+          [](RenderRecord& record) { record.plan.passes = 0x80000000; });
+  refused("its passes come before", {0, 1},
+          [](RenderRecord& record) { record.plan.first_pass = 1; });
+  refused("samples of its passes are not valid", {0, 1},
+          [](RenderRecord& record) { record.recipe.samples_per_pass = 0xffffffff; });
+  refused("do not have the samples", {0, 1},
+          [](RenderRecord& record) { record.recipe.samples_per_pass = 3; });
+  RenderRecord record = little_record();
+  record.plan = {0x7ffffffe, 2, {}, {}};
+  write_checkpoint(path(), record, little_film({0x7ffffffe, 0x80000000}));
+  EXPECT_EQ(read_checkpoint(path()).film.pass_count(), 2u);
+}
+
 TEST_F(CheckpointFile, WritingReplacesTheFileAsAWhole) {
   write_checkpoint(path(), little_record(), little_film());
   const std::vector<uint8_t> old = bytes();
   EXPECT_THROW(write_checkpoint(path("nowhere/a.kpt"), little_record(), little_film()), Error);
-  write_checkpoint(path(), little_record(), little_film({0, 2}));
+  write_checkpoint(path(), little_record(), little_film({3, 5}));
   EXPECT_NE(bytes(), old);
   EXPECT_EQ(read_checkpoint(path()).film.pass_count(), 2u);
 }

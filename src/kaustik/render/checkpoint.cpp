@@ -17,6 +17,9 @@ constexpr BinaryFileKind checkpoint_kind = {
     "give a .kpt file that was written by: kaustik render SCENE --checkpoint FILE.kpt",
     "render again with this program: kaustik render SCENE --checkpoint FILE.kpt"};
 
+/// As many as `kaustik render` takes in all.
+constexpr uint32_t most_samples_per_pass = uint32_t(1) << 30;
+
 void put_texts(BinaryWriter& writer, const std::vector<std::string>& texts) {
   writer.put(uint64_t(texts.size()));
   for (const std::string& text : texts) writer.put_text(text);
@@ -71,7 +74,8 @@ RenderRecipe get_recipe(BinaryReader& reader) {
   }
   recipe.seed = reader.get<uint64_t>();
   recipe.samples_per_pass = reader.get<uint32_t>();
-  if (recipe.samples_per_pass == 0) reader.damaged("its passes have no samples");
+  if (recipe.samples_per_pass == 0 || recipe.samples_per_pass > most_samples_per_pass)
+    reader.damaged("the samples of its passes are not valid");
   recipe.digest.scene = reader.get<uint64_t>();
   recipe.digest.integrator = reader.get<uint64_t>();
   return recipe;
@@ -99,6 +103,8 @@ StopPlan get_plan(BinaryReader& reader) {
   StopPlan plan;
   plan.first_pass = reader.get<uint32_t>();
   plan.passes = reader.get<uint32_t>();
+  if (plan.first_pass >= pass_limit || plan.passes > pass_limit - plan.first_pass)
+    reader.damaged("the passes that it was to have are not valid");
   plan.seconds = get_optional(reader);
   plan.error = get_optional(reader);
   return plan;
@@ -197,7 +203,14 @@ Checkpoint read_checkpoint(const std::string& path) {
   RenderRecord record = get_record(reader);
   Checkpoint checkpoint{std::move(record), Film::read(reader)};
   reader.expect_end();
-  if (checkpoint.film.passes().empty()) reader.damaged("it holds no pass");
+  const Film& film = checkpoint.film;
+  const PassSet& passes = film.passes();
+  if (passes.empty()) reader.damaged("it holds no pass");
+  if (film.samples_per_pixel() !=
+      uint64_t(film.pass_count()) * checkpoint.record.recipe.samples_per_pass)
+    reader.damaged("its passes do not have the samples that it tells");
+  if (checkpoint.record.plan.first_pass >= passes.ranges().back().end)
+    reader.damaged("its passes come before those that it was to have");
   return checkpoint;
 }
 

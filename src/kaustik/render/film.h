@@ -62,6 +62,7 @@ class Film {
   }
   const PassSet& passes() const { return passes_; }
   uint32_t pass_count() const { return passes_.count(); }
+  uint64_t samples_per_pixel() const { return sample_count_; }
   int width() const { return size_.x; }
   int height() const { return size_.y; }
   size_t pixel_count() const { return size_t(size_.x) * size_t(size_.y); }

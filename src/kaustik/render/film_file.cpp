@@ -20,7 +20,8 @@ PassSet get_passes(BinaryReader& reader) {
   uint32_t last_end = 0;
   for (uint64_t i = 0; i < count; ++i) {
     const auto begin = reader.get<uint32_t>(), end = reader.get<uint32_t>();
-    if (begin >= end || (i > 0 && begin <= last_end)) reader.damaged("its passes are not valid");
+    if (begin >= end || end > pass_limit || (i > 0 && begin <= last_end))
+      reader.damaged("its passes are not valid");
     passes.add({begin, end});
     last_end = end;
   }
