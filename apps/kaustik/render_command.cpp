@@ -9,6 +9,7 @@
 #include "console.h"
 #include "kaustik/base/file.h"
 #include "kaustik/image/tone_mapping.h"
+#include "kaustik/integrator/integrator.h"
 #include "picture_output.h"
 #include "render_job.h"
 #include "thesis_settings.h"
@@ -66,12 +67,19 @@ void render(RenderOptions options) {
   recipe.definitions = parse_definitions(options.definitions);
   Description description = load_description(recipe);
   recipe.settings = collected_settings(description, options.levels, options.settings);
-  const RenderJob job = make_job(std::move(description), recipe);
+  const RenderJob job = make_job(std::move(description), recipe, !options.checkpoint.empty());
   RenderRecord record;
   record.recipe = recipe;
   record.plan = {options.first_pass, 0, settings.seconds, settings.error};
   record.outputs = options.outputs;
   run_job(job, record, settings, {}, job_options);
+}
+
+std::string integrator_names() {
+  std::string names;
+  for (const IntegratorType& type : integrator_types())
+    names += (names.empty() ? "" : ", ") + type.info.name;
+  return names;
 }
 
 }  // namespace
@@ -139,8 +147,7 @@ void add_render(CLI::App& program) {
       ->type_name("OBJECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
   command->add_option("--integrator", options->recipe.integrator,
-                      "Use this method instead of the file's: photonmap, path, lighttracer, "
-                      "raytracing, localphong");
+                      "Use this method instead of the file's: " + integrator_names());
   add_light_level(*command, options->levels);
   add_eye_level(*command, options->levels);
   command->add_option("--passes", options->passes, "Number of passes")

@@ -34,7 +34,7 @@ void check_scene_is_there(const RenderRecipe& recipe, const std::string& checkpo
 void check_same(const RenderJob& job, const Checkpoint& checkpoint, const std::string& path) {
   const RenderRecipe& recipe = checkpoint.record.recipe;
   const bool same =
-      description_digest(job.description) == recipe.digest &&
+      job.digest == recipe.digest &&
       checkpoint.film.is_for(job.scene->film().crop_size, FilmLayers::of(*job.integrator));
   if (same) return;
   throw Error(
@@ -80,7 +80,7 @@ void resume(const ResumeOptions& options) {
   if (!options.outputs.empty()) record.outputs.files = options.outputs;
   check_outputs(record.outputs);
   check_scene_is_there(record.recipe, options.checkpoint);
-  const RenderJob job = make_job(load_description(record.recipe), record.recipe);
+  const RenderJob job = make_job(load_description(record.recipe), record.recipe, true);
   check_same(job, checkpoint, options.checkpoint);
 
   const SessionSettings settings = session_settings(options, checkpoint);
