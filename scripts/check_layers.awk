@@ -97,7 +97,7 @@ BEGIN {
   own("libpng", "^png", "image", not_in_word "png_(structp?|infop?|bytep?)" not_in_word)
   own("libjpeg", "^j(peglib|error|config|morecfg)\\.h", "image", not_in_word "jpeg_[a-z]+_struct")
   own("Embree", "^embree[34]/", "geometry", not_in_word "(RTC[A-Z][A-Za-z]+|rtc[A-Z][A-Za-z]+)")
-  own("Highway", "^hwy/", "photon", not_in_word "hwy::")
+  own("Highway", "^hwy/", "light photon", not_in_word "hwy::")
   own("pugixml", "^pugi", "loader", not_in_word "pugi::")
   own("CLI11", "^CLI/", "apps", not_in_word "CLI::")
   own("spdlog", "^spdlog/", "apps", not_in_word "spdlog::")

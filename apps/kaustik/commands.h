@@ -17,13 +17,15 @@ void add_resume(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_help(CLI::App& program);
 
-/// Splits "name=value" of -D; throws Error(input).
+// What an option's text says; throw Error(input) with the option as the place.
+
+/// Splits "name=value" of -D.
 std::vector<std::pair<std::string, std::string>> parse_definitions(
     const std::vector<std::string>& texts);
 
-/// "60", "60s", "5m", "1h" in seconds; throws Error(input).
-double parse_duration(const std::string& text);
-/// "2%" as 0.02; throws Error(input).
+/// "60", "60s", "5m", "1h" in seconds, of `option`: "--time".
+double parse_duration(const std::string& text, const std::string& option);
+/// "2%" of --error as 0.02.
 double parse_error_bound(const std::string& text);
 
 }  // namespace kaustik::app

@@ -37,7 +37,8 @@ PhotonPart parse_part(const std::string& text) {
       return {number - 1, count};
   }
   throw Error(ErrorKind::input, fmt::format("cannot read the part '{}'", text),
-              "write the number of the part and how many there are: --part 2/4");
+              "write the number of the part and how many there are: --part 2/4",
+              place_in("command line: --part"));
 }
 
 std::string light_name(const Scene& scene, size_t light) {

@@ -9,6 +9,7 @@
 #include "console.h"
 #include "kaustik/base/file.h"
 #include "kaustik/image/tone_mapping.h"
+#include "kaustik/integrator/integrator.h"
 #include "picture_output.h"
 #include "render_job.h"
 #include "thesis_settings.h"
@@ -55,18 +56,23 @@ void render(RenderOptions options) {
   settings.first_pass = options.first_pass;
   settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;
-  if (!options.time.empty()) settings.seconds = parse_duration(options.time);
+  if (!options.time.empty()) settings.seconds = parse_duration(options.time, "--time");
   if (!options.error.empty()) settings.error = parse_error_bound(options.error);
   JobOptions job_options;
   job_options.quiet = options.quiet;
   job_options.checkpoint = options.checkpoint;
-  job_options.every_s = parse_duration(options.every);
+  job_options.every_s = parse_duration(options.every, "--every");
 
   recipe.folder = std::filesystem::current_path().string();
   recipe.definitions = parse_definitions(options.definitions);
   Description description = load_description(recipe);
+  // What the thesis sets is a photon map's.
+  if (!find_integrator(description) && sets_thesis_photon_map(options.levels)) {
+    recipe.integrator = "photonmap";
+    override_integrator(description, recipe.integrator);
+  }
   recipe.settings = collected_settings(description, options.levels, options.settings);
-  const RenderJob job = make_job(std::move(description), recipe);
+  const RenderJob job = make_job(std::move(description), recipe, !options.checkpoint.empty());
   RenderRecord record;
   record.recipe = recipe;
   record.plan = {options.first_pass, 0, settings.seconds, settings.error};
@@ -74,9 +80,16 @@ void render(RenderOptions options) {
   run_job(job, record, settings, {}, job_options);
 }
 
+std::string integrator_names() {
+  std::string names;
+  for (const IntegratorType& type : integrator_types())
+    names += (names.empty() ? "" : ", ") + type.info.name;
+  return names;
+}
+
 }  // namespace
 
-double parse_duration(const std::string& text) {
+double parse_duration(const std::string& text, const std::string& option) {
   double value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   const std::string unit(end, text.data() + text.size());
@@ -86,7 +99,8 @@ double parse_duration(const std::string& text) {
                                                        : 0;
   if (code != std::errc{} || factor == 0 || !(value > 0) || !std::isfinite(value))
     throw Error(ErrorKind::input, fmt::format("cannot read the time '{}'", text),
-                "write a positive number of seconds (60s), minutes (5m) or hours (1h)");
+                "write a positive number of seconds (60s), minutes (5m) or hours (1h)",
+                place_in("command line: " + option));
   return value * factor;
 }
 
@@ -96,7 +110,7 @@ double parse_error_bound(const std::string& text) {
   const std::string unit(end, text.data() + text.size());
   if (code != std::errc{} || (unit != "%" && unit != " %") || !(value > 0) || !std::isfinite(value))
     throw Error(ErrorKind::input, fmt::format("cannot read the error '{}'", text),
-                "write a positive number of percent: 2%");
+                "write a positive number of percent: 2%", place_in("command line: --error"));
   return value / 100;
 }
 
@@ -107,7 +121,7 @@ std::vector<std::pair<std::string, std::string>> parse_definitions(
     const size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
       throw Error(ErrorKind::input, fmt::format("cannot read the definition '{}'", text),
-                  "write -D name=value");
+                  "write -D name=value", place_in("command line: -D"));
     definitions.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
   return definitions;
@@ -139,8 +153,7 @@ void add_render(CLI::App& program) {
       ->type_name("OBJECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
   command->add_option("--integrator", options->recipe.integrator,
-                      "Use this method instead of the file's: photonmap, path, lighttracer, "
-                      "raytracing, localphong");
+                      "Use this method instead of the file's: " + integrator_names());
   add_light_level(*command, options->levels);
   add_eye_level(*command, options->levels);
   command->add_option("--passes", options->passes, "Number of passes")
@@ -155,9 +168,11 @@ void add_render(CLI::App& program) {
                    "Number of the first pass; --passes and --spp count from it [0]")
       ->check(CLI::Range(0u, 1u << 30));
   command->add_option("--time", options->time, "Stop in time: 60s, 5m, 1h (one pass at least)");
-  command->add_option("--checkpoint", options->checkpoint,
-                      "Keep the finished passes in this file, .kpt: kaustik resume, kaustik merge");
-  command->add_option("--every", options->every, "Time between checkpoints: 30s, 5m, 1h [30s]");
+  auto* checkpoint = command->add_option(
+      "--checkpoint", options->checkpoint,
+      "Keep the finished passes in this file, .kpt: kaustik resume, kaustik merge");
+  command->add_option("--every", options->every, "Time between checkpoints: 30s, 5m, 1h [30s]")
+      ->needs(checkpoint);
   command->add_option("--seed", options->recipe.seed, "Seed of all random numbers [0]");
   command->add_option("--threads", options->threads, "Threads; 0: all [0]")
       ->check(CLI::Range(0, 4096));

@@ -22,7 +22,7 @@ std::exception_ptr write_last_checkpoint(CheckpointKeeper& keeper, const Film& f
   }
   try {
     keeper.write_last(film);
-  } catch (const Error&) {
+  } catch (const std::exception&) {
     return std::current_exception();
   }
   return nullptr;
@@ -38,19 +38,28 @@ Description load_description(const RenderRecipe& recipe) {
   return description;
 }
 
-RenderJob make_job(Description description, const RenderRecipe& recipe) {
+RenderJob make_job(Description description, const RenderRecipe& recipe, bool with_digest) {
   for (const Setting& setting : recipe.settings) override_property(description, setting);
   RenderJob job;
+  std::exception_ptr unreadable;
+  if (with_digest) {
+    try {
+      job.digest = description_digest(description);
+    } catch (const Error&) {
+      unreadable = std::current_exception();
+    }
+  }
+  // Tells of a file that cannot be read where it is named.
   job.scene = build_scene(description);
+  if (unreadable) std::rethrow_exception(unreadable);
   std::vector<std::string> warnings = job.scene->warnings();
   job.integrator = make_integrator(description, *job.scene, warnings);
   for (const std::string& warning : warnings) warn(warning);
   if (job.scene->lights().empty())
     warn("the scene has no light: the picture will be black; add an <emitter> to it");
-  const auto object = find_integrator(description);
-  job.view = {object ? object->type : "photonmap", double(job.scene->camera().horizontal_fov()),
+  job.view = {integrator_type(description, *job.scene),
+              double(job.scene->camera().horizontal_fov()),
               double(job.scene->camera().vertical_fov()), job.scene->film().quantity};
-  job.description = std::move(description);
   return job;
 }
 
@@ -61,8 +70,7 @@ void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& s
   const bool keeps = !options.checkpoint.empty();
   record.program = KAUSTIK_VERSION;
   record.recipe.samples_per_pass = session.samples_per_pass();
-  // Reads every file of the scene once more, which only a checkpoint is worth.
-  if (keeps) record.recipe.digest = description_digest(job.description);
+  if (keeps) record.recipe.digest = job.digest.value();
   record.plan.passes = session.planned_passes();
   record.view = job.view;
 
@@ -74,6 +82,8 @@ void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& s
       [&] { keeper.pass_done(session.film()); });
   line.finish();
   if (!options.quiet) print_errors(session.film());
+  for (const std::string& decision : report.decisions)
+    if (!options.quiet) note(decision);
   for (const std::string& warning : report.warnings) warn(warning);
   if (report.cancelled) warn("cancelled: writing what is finished");
   record.seconds += report.seconds;

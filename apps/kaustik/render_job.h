@@ -8,7 +8,8 @@ namespace kaustik::app {
 
 /// A scene as a recipe asks for it, ready to be rendered.
 struct RenderJob {
-  Description description;
+  /// Of the files as they were before the scene was built; none: it was not asked for.
+  std::optional<DescriptionDigest> digest;
   std::shared_ptr<const Scene> scene;
   std::unique_ptr<Integrator> integrator;
   ViewFacts view;
@@ -17,8 +18,9 @@ struct RenderJob {
 /// The recipe's scene file with its definitions and its integrator, before its settings.
 Description load_description(const RenderRecipe& recipe);
 
-/// Applies the recipe's settings and builds the scene; what is odd about it is told. Throws Error.
-RenderJob make_job(Description description, const RenderRecipe& recipe);
+/// Applies the recipe's settings and builds the scene; what is odd about it is told. The digest
+/// reads every file of the scene once more: only checkpoints are worth it. Throws Error.
+RenderJob make_job(Description description, const RenderRecipe& recipe, bool with_digest);
 
 /// How a session is watched and kept.
 struct JobOptions {
@@ -28,7 +30,8 @@ struct JobOptions {
 };
 
 /// Renders with progress, keeps the checkpoint and writes the picture; goes on with `begun` if it
-/// is there. What `record` lacks is filled in: samples per pass, plan, digest, view. Throws Error.
+/// is there. A checkpoint needs the job's digest. What `record` lacks is filled in: samples per
+/// pass, plan, digest, view. Throws Error.
 void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& settings,
              std::optional<Film> begun, const JobOptions& options);
 

@@ -34,7 +34,7 @@ void check_scene_is_there(const RenderRecipe& recipe, const std::string& checkpo
 void check_same(const RenderJob& job, const Checkpoint& checkpoint, const std::string& path) {
   const RenderRecipe& recipe = checkpoint.record.recipe;
   const bool same =
-      description_digest(job.description) == recipe.digest &&
+      job.digest == recipe.digest &&
       checkpoint.film.is_for(job.scene->film().crop_size, FilmLayers::of(*job.integrator));
   if (same) return;
   throw Error(
@@ -55,7 +55,7 @@ SessionSettings session_settings(const ResumeOptions& options, const Checkpoint&
   settings.first_pass = record.plan.first_pass;
   settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;
-  if (!options.time.empty()) settings.seconds = parse_duration(options.time);
+  if (!options.time.empty()) settings.seconds = parse_duration(options.time, "--time");
   if (!options.error.empty()) settings.error = parse_error_bound(options.error);
   if (settings.passes || settings.samples_per_pixel || settings.seconds || settings.error)
     return settings;
@@ -80,7 +80,7 @@ void resume(const ResumeOptions& options) {
   if (!options.outputs.empty()) record.outputs.files = options.outputs;
   check_outputs(record.outputs);
   check_scene_is_there(record.recipe, options.checkpoint);
-  const RenderJob job = make_job(load_description(record.recipe), record.recipe);
+  const RenderJob job = make_job(load_description(record.recipe), record.recipe, true);
   check_same(job, checkpoint, options.checkpoint);
 
   const SessionSettings settings = session_settings(options, checkpoint);
@@ -95,7 +95,7 @@ void resume(const ResumeOptions& options) {
   JobOptions job_options;
   job_options.quiet = options.quiet;
   job_options.checkpoint = options.checkpoint;
-  job_options.every_s = parse_duration(options.every);
+  job_options.every_s = parse_duration(options.every, "--every");
   run_job(job, record, settings, std::move(checkpoint.film), job_options);
 }
 

@@ -100,6 +100,10 @@ std::string translated(const Variable& variable, const std::string& value, const
   return value;
 }
 
+bool is_of_thesis(const std::string& variable) {
+  return lower_case(variable).starts_with("photonmap.");
+}
+
 const Parameter& parameter_of(const Variable& variable) {
   for (const IntegratorType& type : integrator_types())
     if (type.info.name == "photonmap")
@@ -125,7 +129,7 @@ std::vector<Setting> thesis_settings(const Description& description,
     const size_t equals = std::min(entry.find('='), entry.size());
     const std::string name = entry.substr(0, equals);
     const Variable* variable = find_variable(name);
-    if (!variable && !lower_case(name).starts_with("photonmap.")) continue;
+    if (!variable && !is_of_thesis(name)) continue;
     if (integrator && integrator->type != "photonmap") {
       report.push_back(fmt::format("the environment's {} has no effect with integrator '{}'", name,
                                    integrator->type));
@@ -157,6 +161,13 @@ void add_eye_level(CLI::App& command, LevelOptions& levels) {
                   "Levels of the camera's path at which photonmap gathers (max_eye_level)")
       ->type_name("N")
       ->check(CLI::Range(0, 64));
+}
+
+bool sets_thesis_photon_map(const LevelOptions& levels) {
+  if (levels.light || levels.eye) return true;
+  for (const std::string& variable : environment())
+    if (is_of_thesis(variable)) return true;
+  return false;
 }
 
 std::vector<Setting> collected_settings(const Description& description, const LevelOptions& levels,

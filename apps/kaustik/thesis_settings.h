@@ -28,6 +28,9 @@ struct LevelOptions {
 void add_light_level(CLI::App& command, LevelOptions& levels);  ///< -l
 void add_eye_level(CLI::App& command, LevelOptions& levels);    ///< -e
 
+/// Whether the options or a variable of this program's environment set anything.
+bool sets_thesis_photon_map(const LevelOptions& levels);
+
 /// What the variables of this program's environment (it tells of them), the options and `settings`
 /// ("object.parameter=value") change, in the order in which they apply: later ones win.
 std::vector<Setting> collected_settings(const Description& description, const LevelOptions& levels,

@@ -1,6 +1,7 @@
 // Integrators on scenes over time: `bench_scenes` runs each for a minute (20 s on the scenes with
 // references of others) on all cores and appends what came out to a results file, one line of JSON
-// per run. What is there already from the same program, scene file and reference is not run again.
+// per run. What is there already from the same program, scene (with all files that it names),
+// integrator and reference is not run again.
 // `comparisons_page` makes tables and a page of it.
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 #include "benchmarks/comparisons/bench_scene.h"
 #include "benchmarks/comparisons/measurement.h"
 #include "benchmarks/comparisons/snapshots.h"
+#include "kaustik/scene/description_digest.h"
 
 namespace kaustik::bench {
 namespace {
@@ -99,8 +101,8 @@ class SceneBench {
       : options_(options),
         scene_(scene),
         reference_(read_image(reference_file)),
-        program_(hash_of_files({"/proc/self/exe"})),
-        inputs_(hash_of_files({scene.file, reference_file})),
+        program_(checksum_of_file("/proc/self/exe")),
+        reference_checksum_(checksum_of_file(reference_file)),
         done_(read_measurements(options.results)) {}
 
   void run(const std::vector<std::string>& integrators) const {
@@ -117,7 +119,9 @@ class SceneBench {
     m.seconds = options_.seconds.empty() ? scene_.seconds : options_.seconds;
     m.threads = options_.threads;
     m.program = program_;
-    m.inputs = inputs_;
+    const DescriptionDigest digest = description_digest(describe(scene_, integrator, reference_));
+    m.inputs =
+        fmt::format("{:016x} {:016x} {}", digest.scene, digest.integrator, reference_checksum_);
     return m;
   }
 
@@ -150,7 +154,7 @@ class SceneBench {
   const Options& options_;
   const BenchScene& scene_;
   Image reference_;
-  std::string program_, inputs_;
+  std::string program_, reference_checksum_;
   std::vector<Measurement> done_;
 };
 

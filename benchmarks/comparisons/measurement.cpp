@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 
+#include "kaustik/base/checksum.h"
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
 
@@ -100,11 +101,8 @@ void append_measurement(const std::string& path, const Measurement& measurement)
   if (!file) throw Error(ErrorKind::system, path + " cannot be written");
 }
 
-std::string hash_of_files(const std::vector<std::string>& paths) {
-  uint64_t hash = 0xcbf29ce484222325u;
-  for (const std::string& path : paths)
-    for (const uint8_t byte : read_file(path)) hash = (hash ^ byte) * 0x100000001b3u;
-  return fmt::format("{:016x}", hash);
+std::string checksum_of_file(const std::string& path) {
+  return fmt::format("{:016x}", checksum(read_file(path)));
 }
 
 }  // namespace kaustik::bench

@@ -22,8 +22,8 @@ struct Measurement {
   /// method does not use them all.
   double cpu_share = 0;
   double reference_relmse = 0;  ///< of the reference's own noise; NaN: it does not tell
-  std::string program;          ///< hash of the program that measured
-  std::string inputs;           ///< hash of the scene file and the reference
+  std::string program;          ///< checksum of the program that measured
+  std::string inputs;  ///< digests of the scene and the integrator, checksum of the reference
 
   /// The error at one of `seconds`; nothing if it was not looked at then.
   std::optional<double> relmse_at(double time) const;
@@ -36,7 +36,7 @@ std::vector<Measurement> read_measurements(const std::string& path);
 /// Adds a line at the end of a results file, which is made with its folder if it is missing.
 void append_measurement(const std::string& path, const Measurement& measurement);
 
-/// FNV-1a over the bytes of files, one after the other, in hexadecimal.
-std::string hash_of_files(const std::vector<std::string>& paths);
+/// In hexadecimal.
+std::string checksum_of_file(const std::string& path);
 
 }  // namespace kaustik::bench

@@ -237,11 +237,16 @@ TEST_F(BadInput, SettingsFromTheCommandLine) {
           "did you mean 'caustic_neighbors'?");
   refused({"--set", "integrator.caustic_neighbors=-3"}, "outside its range", "--set");
   refused({"--set", "integrator.caustic_neighbors=many"}, "has the wrong type", "integer");
-  refused({"--set", "nonsense"}, "cannot read the setting 'nonsense'", "object.parameter=value");
+  refused({"--set", "nonsense"}, "command line: --set nonsense: cannot read the setting 'nonsense'",
+          "object.parameter=value");
   refused({"--set", "fil.width=3"}, "no object 'fil'", "did you mean 'film'?");
-  refused({"-D", "size"}, "cannot read the definition 'size'", "-D name=value");
-  refused({"--time", "soon"}, "cannot read the time 'soon'", "60s");
+  refused({"-D", "size"}, "command line: -D: cannot read the definition 'size'", "-D name=value");
+  refused({"--time", "soon"}, "command line: --time: cannot read the time 'soon'", "60s");
   refused({"--time", "-5s"}, "cannot read the time '-5s'", "60s");
+  refused({"--error", "abc"}, "command line: --error: cannot read the error 'abc'", "2%");
+  refused({"--checkpoint", "a.kpt", "--every", "often"},
+          "command line: --every: cannot read the time 'often'", "60s");
+  refused({"--every", "5s"}, "--every requires --checkpoint", "");
   refused({"--tonemap", "histogramm"}, "histogramm", "histogram");
   refused({"--spp", "0"}, "--spp", "");
   refused({"--threads", "-1"}, "--threads", "");

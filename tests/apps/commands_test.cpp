@@ -248,5 +248,11 @@ TEST_F(Commands, CtrlCLeavesNoHalfPhotonMap) {
   EXPECT_EQ(files(), (std::vector<std::string>{"scene.xml"}));
 }
 
+TEST_F(Commands, RenderNamesEveryIntegrator) {
+  const std::string help = run_well({"render", "--help"}).out;
+  for (const IntegratorType& type : integrator_types())
+    EXPECT_TRUE(contains(help, type.info.name)) << type.info.name;
+}
+
 }  // namespace
 }  // namespace kaustik::test

@@ -187,6 +187,18 @@ TEST_F(Render, AnEmptyCausticMapIsExplained) {
   EXPECT_TRUE(contains(result.err, "the caustic map is empty")) << result.err;
 }
 
+TEST_F(Render, VcmWithoutTechniquesIsExplained) {
+  write("vcm.xml", small_scene("<integrator type=\"vcm\"/>"));
+  const auto warned = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", "vcm.xml", "-q", "--spp", "1", "-o", "a.exr"});
+    for (const char* name : {"unidirectional", "next_event", "splats", "connections"})
+      arguments.insert(arguments.end(), {"--set", "integrator." + std::string(name) + "=false"});
+    return contains(run_well(arguments).err, "all techniques are switched off");
+  };
+  EXPECT_FALSE(warned({}));
+  EXPECT_TRUE(warned({"--set", "integrator.merging=false"}));
+}
+
 TEST_F(Render, StoredPhotonsServeOtherViews) {
   const std::vector<std::string> photons = {"--set", "integrator.global_photons=20000", "--set",
                                             "integrator.caustic_photons=20000"};

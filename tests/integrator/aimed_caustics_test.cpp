@@ -53,13 +53,13 @@ TEST(AimedCaustics, MirrorNeedle) {
   check({"mirror needle",
          point_light("0.05, 0.05, 0.35", 1) +
              cylinder("-0.3, -0.1, 0.3", "0.4, 0.2, 0.5", 0.005, mirror()),
-         60'000, 400'000});
+         20'000, 100'000});
 }
 TEST(AimedCaustics, GlassNeedle) {
   check({"glass needle",
          point_light("0.05, 0.05, 0.45", 1) +
              cylinder("-0.3, -0.1, 0.3", "0.4, 0.2, 0.5", 0.005, glass()),
-         60'000, 400'000});
+         20'000, 150'000});
 }
 /// What only the rim reflects: the mirror's face toward the lamp is covered by a black disk.
 TEST(AimedCaustics, SphereAtItsSilhouette) {
@@ -72,7 +72,7 @@ TEST(AimedCaustics, DirectionalLight) {
   check({"directional",
          directional_light("0.3, 0.2, -1", 1) + sphere("0, 0, 0.7", 0.3, glass()) +
              sphere("0.4, 0.4, 0.4", 0.2, mirror()),
-         60'000, 200'000});
+         25'000, 70'000});
 }
 TEST(AimedCaustics, EnvironmentLight) {
   check({"environment",
@@ -86,7 +86,7 @@ TEST(AimedCaustics, AreaLight) {
               diffuse("0, 0, 0") + area_light("5, 5, 5")) +
              sphere("0, 0, 0.6", 0.3, glass()) +
              cylinder("-0.5, -0.1, 0.3", "-0.5, 0.2, 0.5", 0.02, mirror()),
-         60'000, 200'000});
+         30'000, 100'000});
 }
 
 /// The light tracer aims as well; what it finds of a caustic is the same without.
@@ -98,9 +98,9 @@ TEST(AimedCaustics, LightTracer) {
                   {samples, seed})
         .mean({"caustic"});
   };
-  const RunningStatistics unaimed = caustic_of("none", 1500, 2);
+  const RunningStatistics unaimed = caustic_of("none", 400, 2);
   for (const char* aim : {"boxes", "projection_map"}) {
-    const RunningStatistics aimed = caustic_of(aim, 200, 1);
+    const RunningStatistics aimed = caustic_of(aim, 60, 1);
     expect_equal_means(std::string("aimed light tracer, ") + aim, aimed, unaimed);
     // Aiming is worth it.
     EXPECT_LT(aimed.standard_error(), 1.5 * unaimed.standard_error());
@@ -117,7 +117,7 @@ TEST(AimedCaustics, LampsElsewhereDoNotStarveOne) {
   for (int i = 0; i < 50; ++i)
     many += point_light(fmt::format("{}, {}, 1", 3 + i % 5, i / 5 - 5), 20);
   const TestScene with_one(ball), with_many(many);
-  constexpr int photons = 20'000;
+  constexpr int photons = 5'000;
   const RunningStatistics one = caustic(with_one, "boxes", photons, 16, 1).mean({"caustic"});
   const RunningStatistics of_many = caustic(with_many, "boxes", photons, 16, 1).mean({"caustic"});
   std::printf("  caustic of one lamp: error %.5f alone, %.5f among 51\n",

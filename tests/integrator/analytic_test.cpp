@@ -44,13 +44,13 @@ class Furnace : public testing::Test {
   TestScene scene_;
 };
 
-TEST_F(Furnace, Path) { check("path", render(scene_, "path", "", {64})); }
+TEST_F(Furnace, Path) { check("path", render(scene_, "path", "", {20})); }
 TEST_F(Furnace, LightTracer) { check("lighttracer", render(scene_, "lighttracer", "", {350})); }
-TEST_F(Furnace, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {64})); }
-TEST_F(Furnace, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {120})); }
+TEST_F(Furnace, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {16})); }
+TEST_F(Furnace, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {80})); }
 TEST_F(Furnace, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {100})); }
 TEST_F(Furnace, PhotonMap) {
-  check("photonmap", render(scene_, "photonmap", few_neighbors(20'000), {16}));
+  check("photonmap", render(scene_, "photonmap", few_neighbors(8'000), {16}));
 }
 
 // ---------------------------------------------------------------- light in a diffuse sphere
@@ -73,13 +73,13 @@ class DiffuseSphere : public testing::Test {
   TestScene scene_;
 };
 
-TEST_F(DiffuseSphere, Path) { check("path", render(scene_, "path", "", {100})); }
+TEST_F(DiffuseSphere, Path) { check("path", render(scene_, "path", "", {30})); }
 TEST_F(DiffuseSphere, LightTracer) {
   check("lighttracer", render(scene_, "lighttracer", "", {350}));
 }
-TEST_F(DiffuseSphere, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {64})); }
-TEST_F(DiffuseSphere, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {200})); }
-TEST_F(DiffuseSphere, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {200})); }
+TEST_F(DiffuseSphere, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {10})); }
+TEST_F(DiffuseSphere, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {120})); }
+TEST_F(DiffuseSphere, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {120})); }
 TEST_F(DiffuseSphere, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(20'000), {16}));
 }
@@ -119,17 +119,17 @@ class ParallelPlates : public testing::Test {
   TestScene scene_;
 };
 
-TEST_F(ParallelPlates, Path) { check("path", render(scene_, "path", "", {64})); }
+TEST_F(ParallelPlates, Path) { check("path", render(scene_, "path", "", {20})); }
 TEST_F(ParallelPlates, LightTracer) {
   check("lighttracer", render(scene_, "lighttracer", "", {350}));
 }
-TEST_F(ParallelPlates, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {64})); }
-TEST_F(ParallelPlates, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {64})); }
-TEST_F(ParallelPlates, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {64})); }
+TEST_F(ParallelPlates, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {16})); }
+TEST_F(ParallelPlates, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {24})); }
+TEST_F(ParallelPlates, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {24})); }
 /// Few neighbours of many photons, because their disks leave the plates at the mirrors.
 TEST_F(ParallelPlates, PhotonMap) {
   check("photonmap", render(scene_, "photonmap",
-                            set("global_photons", 60'000) + set("caustic_photons", 60'000) +
+                            set("global_photons", 30'000) + set("caustic_photons", 30'000) +
                                 set("global_neighbors", 6) + set("caustic_neighbors", 6),
                             {16}));
 }
@@ -172,7 +172,7 @@ TEST_F(DiskOverPlane, ClosedFormOnTheAxis) {
 }
 TEST_F(DiskOverPlane, Path) { check("path", render(scene_, "path", "", {64})); }
 TEST_F(DiskOverPlane, LightTracer) {
-  check("lighttracer", render(scene_, "lighttracer", "", {700}));
+  check("lighttracer", render(scene_, "lighttracer", "", {180}));
 }
 TEST_F(DiskOverPlane, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {64})); }
 TEST_F(DiskOverPlane, Vcm) { check("vcm", render(scene_, "vcm", "", {64})); }
@@ -188,7 +188,7 @@ TEST_F(DiskOverPlane, OnTheAxis) {
                             scale("0.5, 0.5, 1") + rotate("1, 0, 0", 180) + translate("0, 0, 1"),
                             diffuse("0, 0, 0") + area_light("4, 4, 4")));
   for (const char* type : {"path", "photonmap"})
-    expect_mean(std::string(type) + " disk on the axis", render(spot, type, "", {64}).mean({""}),
+    expect_mean(std::string(type) + " disk on the axis", render(spot, type, "", {16}).mean({""}),
                 rho * radiance * a * a / (a * a + h * h));
 }
 

@@ -88,7 +88,7 @@ TEST_F(BallLens, BundleIsRight) {
   EXPECT_NEAR(reflectance(1, 1), 0.04, 1e-12);
   EXPECT_GT(flux_seen(), 0.7 * pi_d * irradiance * 0.9);
 }
-TEST_F(BallLens, LightTracer) { check("lighttracer", render(scene_, "lighttracer", "", {100})); }
+TEST_F(BallLens, LightTracer) { check("lighttracer", render(scene_, "lighttracer", "", {20})); }
 TEST_F(BallLens, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", fixed_radius(0.01, 20'000), {32}));
 }
@@ -220,10 +220,10 @@ TEST_F(Nephroid, ClosedFormOnTheAxis) {
               1e-6);
 }
 TEST_F(Nephroid, LightTracer) {
-  check("lighttracer", render(scene_, "lighttracer", set("components", "caustic"), {80}));
+  check("lighttracer", render(scene_, "lighttracer", set("components", "caustic"), {50}));
 }
 TEST_F(Nephroid, PhotonMap) {
-  check("photonmap", render(scene_, "photonmap", fixed_radius(gather_radius, 150'000), {16}));
+  check("photonmap", render(scene_, "photonmap", fixed_radius(gather_radius, 100'000), {16}));
 }
 
 }  // namespace

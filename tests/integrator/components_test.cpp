@@ -171,43 +171,43 @@ TEST(Components, CausticsOfCornellSpheres) {
                                  "film.crop_width=30", "film.crop_height=24"})
     override_property(focus, assignment);
   const TestScene close_up(focus);
-  check_caustic("cornell_spheres, focus,", close_up, {48}, by_light(close_up, 300, "caustic"));
+  check_caustic("cornell_spheres, focus,", close_up, {32}, by_light(close_up, 150, "caustic"));
 }
 
 /// Rooms like that with a large lamp, which `path` finds by any way.
 void check_room(const std::string& name, const std::string& left, const std::string& right) {
   const TestScene scene(balls_in_room(left, right));
-  const Measurement m(name, scene, 64);
+  const Measurement m(name, scene, 48);
   m.expect_none("emission");  // the camera is below the lamp and looks ahead
   m.expect_equal_to_path("direct");
-  m.expect_near(by_light(scene, 350, "indirect"), "indirect");
+  m.expect_near(by_light(scene, 300, "indirect"), "indirect");
   m.expect_near_path("specular");
 }
 /// The same balls where most light paths come to where the camera sees them.
 void check_caustics_in_the_open(const std::string& name, const std::string& left,
                                 const std::string& right, double light_samples) {
   const TestScene scene(balls_on_floor(left, right));
-  check_caustic(name, scene, {64}, by_light(scene, light_samples, "caustic"));
+  check_caustic(name, scene, {40}, by_light(scene, light_samples, "caustic"));
 }
 TEST(Components, MirrorAndGlass) {
   check_room("spheres", mirror(), glass());
-  check_caustics_in_the_open("spheres", mirror(), glass(), 400);
+  check_caustics_in_the_open("spheres", mirror(), glass(), 300);
 }
 TEST(Components, RoughAndPolishedMetal) {
   check_room("GGX", ggx(0.05), ggx(0.3));
-  check_caustics_in_the_open("GGX", ggx(0.05), ggx(0.3), 500);
+  check_caustics_in_the_open("GGX", ggx(0.05), ggx(0.3), 250);
 }
 
 TEST(Components, LampBehindGlass) {
   const TestScene scene(lamp_behind_glass);
   const Measurement m("lamp behind glass", scene, 64, fine_estimates(200'000));
-  const Passes light = by_light(scene, 400, "caustic");
+  const Passes light = by_light(scene, 200, "caustic");
   m.expect_none("emission");
   m.expect_none("direct");
   m.expect_near(light, "caustic");
   m.expect_near(by_light(scene, 1300, "indirect"), "indirect");
   m.expect_near_path("specular");
-  check_caustic("lamp behind glass", scene, {32}, light);
+  check_caustic("lamp behind glass", scene, {16}, light);
 }
 
 /// Also what two unbiased integrators find that share nothing but the scene: where the camera sees
@@ -279,19 +279,19 @@ void check_slope(const std::string& layer, const Passes& found, const Passes& re
 TEST(Components, ErrorFallsWithPasses) {
   const TestScene room(balls_in_room(mirror(), ggx(0.3)));
   const Passes found = render(room, "photonmap", fine_estimates(), {4, 1});
-  const Passes path = render(room, "path", "", {100, 2});
+  const Passes path = render(room, "path", "", {60, 2});
   check_slope("direct", found, path);
   check_slope("specular", found, path);
-  check_slope("indirect", found, by_light(room, 300, "indirect"));
+  check_slope("indirect", found, by_light(room, 150, "indirect"));
   const TestScene open(balls_on_floor(glass(), ggx(0.3)));
   // Few photons and many samples of the camera: the noise is the photons'.
   const auto caustics =
       open.integrator("photonmap", set("components", "caustic") + fine_estimates(4000));
-  const Passes reference = by_light(open, 400, "caustic");
-  check_slope("caustic", render(open, *caustics, {48, 1}), reference);
+  const Passes reference = by_light(open, 200, "caustic");
+  check_slope("caustic", render(open, *caustics, {24, 1}), reference);
   // The twin traces the same photons in every pass.
   const ForgetfulIntegrator twin(*caustics, ForgetfulIntegrator::Forgets::index);
-  EXPECT_GT(slope_of_error("caustic by the same photons", render(open, twin, {48, 1}).images(),
+  EXPECT_GT(slope_of_error("caustic by the same photons", render(open, twin, {24, 1}).images(),
                            reference, "caustic"),
             flattest_slope);
 }

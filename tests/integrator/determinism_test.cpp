@@ -35,6 +35,7 @@ std::vector<Method> methods(int photons = 5000) {
           {"lighttracer", ""},
           {"vcm", ""},
           {"bdpt", ""},
+          {"auto", ""},
           {"ppm", ""},
           {"photonmap", counts},
           {"photonmap", counts + set("irradiance_cache", false) + set("reradiate", true)}};

@@ -146,7 +146,7 @@ TEST(Irradiance, IsThatOfTheSideWhichIsSeen) {
       mean_over_square([](double d_sq) { return 6 * 2 / std::pow(d_sq + 4, 1.5); });
   for (const std::string type : {"path", "photonmap", "lighttracer"}) {
     EXPECT_EQ(render(from("0.4"), type).mean({""}).mean(), 0) << type;
-    const double samples = type == "lighttracer" ? 3000 : 16;
+    const double samples = type == "lighttracer" ? 400 : 16;
     expect_mean(type + " back", render(from("-0.4"), type, "", {samples}).mean({""}), expected);
   }
 }

@@ -37,7 +37,7 @@ TEST(PhotonMapLevels, GatherRaysGatherAgain) {
   for (int level = 1; level <= 3; ++level) {
     expected += std::pow(0.5, level + 2);
     expect_mean(fmt::format("{} levels of gathering", level),
-                render(scene, "photonmap", one_bounce(level, level > 1), {16}).mean({"indirect"}),
+                render(scene, "photonmap", one_bounce(level, level > 1), {4}).mean({"indirect"}),
                 expected);
   }
 }
@@ -47,20 +47,20 @@ TEST(PhotonMapLevels, LightPathsEndAtTheirLimit) {
   double expected = 1 / 4.0 + 1 / 8.0;
   for (int level = 1; level <= 3; ++level, expected += std::pow(0.5, level + 2))
     expect_mean(fmt::format("light paths of {} events", level),
-                render(scene, "photonmap", light_paths_of(level), {16}).mean({"indirect"}),
+                render(scene, "photonmap", light_paths_of(level), {4}).mean({"indirect"}),
                 expected);
 }
 /// With no level at all, what the camera sees is gathered all the same.
 TEST(PhotonMapLevels, TheFirstSurfaceIsNeverApproximated) {
   const TestScene scene(furnace(false));
   expect_mean("max_eye_level = 0",
-              render(scene, "photonmap", one_bounce(0, true), {16}).mean({"indirect"}), 3 / 8.0);
+              render(scene, "photonmap", one_bounce(0, true), {4}).mean({"indirect"}), 3 / 8.0);
 }
 /// Through the shell the wall is at the second level.
 TEST(PhotonMapLevels, AtTheLimitTheGlobalMapIsShown) {
   const TestScene scene(furnace(true));
   const auto specular = [&](int level, bool count_specular) {
-    return render(scene, "photonmap", one_bounce(level, count_specular), {16}).mean({"specular"});
+    return render(scene, "photonmap", one_bounce(level, count_specular), {4}).mean({"specular"});
   };
   expect_mean("estimate at level 1", specular(1, true), ground + 1 / 4.0);
   expect_mean("gathering at level 1", specular(2, true), ground + 3 / 8.0);

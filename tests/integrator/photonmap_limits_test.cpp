@@ -81,7 +81,7 @@ TEST(PhotonMapLimits, LevelOfDetailAndLightSamplesKeepTheMean) {
   const TestScene scene(ball_room(mirror_ball));
   const auto values = [&](const std::string& parameters) {
     return render(scene, "photonmap",
-                  set("global_photons", 40000) + set("caustic_photons", 20000) + parameters, {8})
+                  set("global_photons", 20000) + set("caustic_photons", 20000) + parameters, {4})
         .values({"direct", "indirect"});
   };
   const std::vector<double> plain = values("");

@@ -53,11 +53,11 @@ TEST_F(Options, ImportanceOfCells) {
                                samples),
                       by_path(), 0.005);
   };
-  check("sum", 0.1, 32);
-  check("average", 0.1, 24);
-  check("sum", 0.5, 12);
-  check("average", 0.5, 12);
-  check("sum", 1, 12);  // and all weights are alike
+  check("sum", 0.1, 22);
+  check("average", 0.1, 14);
+  check("sum", 0.5, 6);
+  check("average", 0.5, 6);
+  check("sum", 1, 4);  // and all weights are alike
 }
 TEST_F(Options, IrradianceLookedUpOrEstimated) {
   for (const int stride : {0, 1, 8})
@@ -107,7 +107,7 @@ TEST(PhotonMapOptions, Reradiate) {
     return render(scene, "photonmap",
                   set("components", "caustic,indirect") + photons() + set("reradiate", reradiate) +
                       set("irradiance_cache", false),
-                  {16, 1});
+                  {8, 1});
   };
   const Passes with = measured(true), without = measured(false);
   expect_near_means("indirect, reradiated or not",
@@ -129,7 +129,7 @@ TEST(PhotonMapOptions, SpecularSampling) {
                       set("global_neighbors", 12) + set("caustic_neighbors", 12) +
                       set("specular_sampling", sampling) + set("irradiance_cache", false) +
                       set("diffuse_samples", 1),
-                  {48, 1});
+                  {32, 1});
   };
   const Passes all = measured("importance"), none = measured("none"), perfect = measured("perfect");
   // Neither mirror nor glass: the same random numbers serve for the same.
@@ -152,7 +152,7 @@ TEST(PhotonMapOptions, SpecularSampling) {
 TEST(PhotonMapOptions, SpecularSamplingOfMirrors) {
   const TestScene scene(round_room(diffuse("0.5, 0.5, 0.5"), balls));
   const auto measured = [&](const char* sampling) {
-    return render(scene, "photonmap", photons() + set("specular_sampling", sampling), {8, 1});
+    return render(scene, "photonmap", photons() + set("specular_sampling", sampling), {4, 1});
   };
   const Passes all = measured("importance"), none = measured("none"), perfect = measured("perfect");
   for (const char* layer : {"emission", "direct", "caustic", "indirect", "specular"})

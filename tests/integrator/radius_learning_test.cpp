@@ -3,6 +3,7 @@
 
 #include "kaustik/integrator/radius_learning.h"
 
+#include <mutex>
 #include <random>
 
 #include "tests/support/measure.h"
@@ -47,13 +48,14 @@ LightVertices light_of(const Density& density, size_t count, unsigned seed) {
 template <typename Density>
 PixelPlans learned(const Scene& scene, const Density& density, size_t count, uint32_t passes) {
   const PixelPlans first(scene, light_of(density, count, 99), uint32_t(count), 20, 0);
-  const RadiusLearning learning(scene, first);
+  uint64_t rays = 0;
+  const RadiusLearning learning(scene, first, rays);
   std::vector<RadiusLearning::Sums> sums(first.probes().size());
   for (uint32_t pass = 0; pass < passes; ++pass) {
-    const auto added = learning.sums_of(scene, first, light_of(density, count, pass));
+    const auto added = RadiusLearning::sums_of(first, light_of(density, count, pass));
     for (size_t i = 0; i < sums.size(); ++i) sums[i].add(added[i]);
   }
-  return learning.plans(first, sums, passes, 1);
+  return first.with(learning.plans(first, sums, passes, 1));
 }
 
 double mean_radius(const PixelPlans& plans, int x0, int x1) {
@@ -92,12 +94,62 @@ TEST(RadiusLearning, EndsOfSurfacesAreNoEdgesOfLight) {
   EXPECT_GT(mean_radius(plans, 44, 48), 0.6 * mean_radius(plans, 28, 36));
 }
 
-TEST(RadiusLearning, PathsGoOnWhereNothingMerges) {
+TEST(RadiusLearning, RaysAreCountedAndStopRequestsSeen) {
   const TestScene scene = floor_scene();
-  const auto half = [](float x, float) { return x > 0 ? 1.0f : 0.0f; };
-  const PixelPlans plans = learned(scene.scene(), half, 20'000, 4);
-  EXPECT_EQ(plans.at({10, 30}, 1).survival, 1);
-  EXPECT_LT(plans.at({54, 30}, 1).survival, 0.2);
+  const auto even = [](float, float) { return 1.0f; };
+  const PixelPlans first(scene.scene(), light_of(even, 3000, 99), 3000, 20, 0);
+  uint64_t rays = 0;
+  const RadiusLearning learning(scene.scene(), first, rays);
+  // One ray upward, and two for each of eight points in ten rings.
+  EXPECT_EQ(rays, first.probes().size() * (1 + 2 * 8 * 10));
+  std::stop_source source;
+  source.request_stop();
+  uint64_t rays_after_stop = 0;
+  const RadiusLearning stopped(scene.scene(), first, rays_after_stop, source.get_token());
+  EXPECT_EQ(rays_after_stop, 0u);
+}
+
+/// The rays of light passes, in this order.
+uint64_t light_rays(const TestScene& scene, const Integrator& integrator, uint64_t seed,
+                    uint32_t pass) {
+  SplatBuffer splats(scene.scene().film(), integrator.components());
+  return integrator.prepare({seed, pass, 4}, splats, {}, {})->report.rays;
+}
+
+/// What disks cover is looked at when the first pass that needs it comes, and once for all seeds.
+TEST(RadiusLearning, LooksOnceAndNotBeforeItIsNeeded) {
+  const TestScene scene = floor_scene();
+  const auto learning = scene.integrator("ppm"),
+             given = scene.integrator("ppm", set("radius", 0.1));
+  const auto more_rays = [&](uint64_t seed, uint32_t pass) {
+    return light_rays(scene, *learning, seed, pass) - light_rays(scene, *given, seed, pass);
+  };
+  EXPECT_EQ(more_rays(1, 0), 0u);
+  EXPECT_GT(more_rays(1, 1), 0u);
+  EXPECT_EQ(more_rays(1, 2), 0u);
+  EXPECT_EQ(more_rays(2, 0), 0u);
+  EXPECT_EQ(more_rays(2, 1), 0u);
+}
+
+/// Passes that were not rendered before are made up for: that is light traced, and told of.
+TEST(RadiusLearning, MadeUpPassesAreCountedAndToldOf) {
+  const TestScene scene = floor_scene();
+  const auto learning = scene.integrator("vcm");
+  SplatBuffer splats(scene.scene().film(), learning->components());
+  std::vector<double> told;
+  std::mutex mutex;
+  const auto state = learning->prepare({1, 4, 4}, splats, {}, [&](double share) {
+    const std::lock_guard lock(mutex);
+    told.push_back(share);
+  });
+  // Passes 0 to 3, then the pass itself.
+  ASSERT_FALSE(told.empty());
+  EXPECT_LE(told.front(), 0.2);
+  EXPECT_DOUBLE_EQ(*std::max_element(told.begin(), told.end()), 1);
+  EXPECT_GE(std::count_if(told.begin(), told.end(), [](double share) { return share <= 0.8; }), 4);
+  SplatBuffer again(scene.scene().film(), learning->components());
+  const uint64_t of_one = learning->prepare({1, 4, 4}, again, {}, {})->report.rays;
+  EXPECT_GT(state->report.rays, 3 * of_one);
 }
 
 }  // namespace

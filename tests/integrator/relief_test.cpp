@@ -98,13 +98,13 @@ TEST(Lampshade, IsTheSameForAllIntegrators) {
   const TestScene scene(lampshade(paper(0)));
   const std::string wanted = set("components", "direct, caustic, indirect");
   const std::vector<std::string> layers = {"direct", "caustic", "indirect"};
-  const Passes path = render(scene, "path", wanted, {160, 1});
-  const Passes light = render(scene, "lighttracer", wanted, {256, 2});
+  const Passes path = render(scene, "path", wanted, {80, 1});
+  const Passes light = render(scene, "lighttracer", wanted, {128, 2});
   const Passes map =
       render(scene, "photonmap",
              set("global_photons", int(60'000 * sample_share)) + set("global_neighbors", 30) +
                  set("irradiance_cache", false) + wanted,
-             {24, 3});
+             {12, 3});
   for (const PixelWeight& weight : {PixelWeight(), PixelWeight(on_shade)}) {
     const std::string where = weight ? " on the shade" : " everywhere";
     expect_equal_means("lampshade lighttracer" + where, light.mean(layers, weight),
@@ -117,13 +117,13 @@ TEST(Lampshade, IsTheSameForAllIntegrators) {
 TEST(Lampshade, IsTheSameWithTheCache) {
   const TestScene scene(lampshade(paper(0)));
   const std::string wanted = set("components", "indirect");
-  const Passes path = render(scene, "path", wanted, {400, 1});
+  const Passes path = render(scene, "path", wanted, {300, 1});
   const Passes map =
       render(scene, "photonmap",
              set("global_photons", int(60'000 * sample_share)) + set("global_neighbors", 30) +
                  set("cache_minimum_spacing", 0.2) + set("cache_maximum_spacing", 4.0) +
                  set("cache_quality", 0.1) + wanted,
-             {24, 3});
+             {16, 3});
   expect_near_means("lampshade with the cache", map.mean({"indirect"}, on_shade),
                     path.mean({"indirect"}, on_shade), 0.01);
 }
@@ -131,13 +131,13 @@ TEST(Lampshade, GlossyTransmissionIsTheSame) {
   const TestScene scene(lampshade(paper(0.2)));
   const std::vector<std::string> layers = {"direct", "caustic", "indirect"};
   const std::string wanted = set("components", "direct, caustic, indirect");
-  const Passes path = render(scene, "path", wanted, {256, 1});
+  const Passes path = render(scene, "path", wanted, {128, 1});
   const Passes map =
       render(scene, "photonmap",
              set("global_photons", int(60'000 * sample_share)) +
                  set("caustic_photons", int(60'000 * sample_share)) + set("caustic_neighbors", 20) +
                  set("global_neighbors", 30) + set("irradiance_cache", false) + wanted,
-             {24, 3});
+             {8, 3});
   expect_near_means("frosted lampshade photonmap", map.mean(layers), path.mean(layers), 0.01);
 }
 

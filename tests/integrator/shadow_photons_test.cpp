@@ -165,7 +165,7 @@ TEST(ShadowPhotons, IndirectLightByGatherRays) {
   const std::string common = set("components", "indirect") + set("global_photons", 20'000) +
                              set("global_neighbors", 12) + set("irradiance_cache", false);
   const auto indirect = [&](const std::string& more) {
-    return render(scene, "photonmap", common + more, {8, 2}).values({"indirect"});
+    return render(scene, "photonmap", common + more, {2, 2}).values({"indirect"});
   };
   for (const char* sampling : {"one", "all"}) {
     const std::string choice = set("light_sampling", sampling);

@@ -13,7 +13,7 @@ std::string wall(const std::string& transform, const std::string& bsdf) {
 }
 
 /// A closed room 2 m wide with a glossy floor, a mirror, a glass and a rough metal ball.
-std::string room(const std::string& lights, int size = 16) {
+std::string room(const std::string& lights, int size = 8) {
   const std::string white = diffuse("0.5, 0.5, 0.5");
   return camera("0.1, -0.9, 0.9", "0, 1, 0.5", 65, size) +
          wall(rotate("1, 0, 0", 180) + translate("0, 0, 2"), white) +
@@ -42,17 +42,23 @@ std::string techniques(const Choice& c) {
          set("splats", c.splats) + set("connections", c.connections);
 }
 
+/// What all that follows in this room is compared with, rendered once.
+const Passes& room_by_path() {
+  static const Passes path = render(TestScene(room(large_lamp())), "path", "", {1200, 7});
+  return path;
+}
+
 /// Every set of unbiased techniques that finds all light finds that of `path`, in all components.
 TEST(Vcm, AnyUnbiasedTechniques) {
   const TestScene scene(room(large_lamp()));
-  const Passes path = render(scene, "path", "", {400, 7});
+  const Passes& path = room_by_path();
   const Choice choices[] = {{"met", true, false, false, false},
                             {"sampled", true, true, false, false},
                             {"sampled and splatted", true, true, true, false},
                             {"connected", true, true, false, true},
                             {"all", true, true, true, true}};
   for (const Choice& c : choices) {
-    const Passes found = render(scene, "bdpt", techniques(c), {c.next_event ? 100.0 : 450.0, 8});
+    const Passes found = render(scene, "bdpt", techniques(c), {c.next_event ? 340.0 : 900.0, 8});
     for (const char* layer : {"", "direct", "indirect", "specular"})
       expect_equal_means(fmt::format("{} {}", c.name, layer), found.mean({layer}),
                          path.mean({layer}));
@@ -63,8 +69,8 @@ TEST(Vcm, AnyUnbiasedTechniques) {
 /// without.
 TEST(Vcm, WithoutMeetingLights) {
   const TestScene scene(room(large_lamp()));
-  const Passes path = render(scene, "path", "", {400, 7});
-  const Passes found = render(scene, "bdpt", techniques({"", false, true, true, true}), {130, 8});
+  const Passes& path = room_by_path();
+  const Passes found = render(scene, "bdpt", techniques({"", false, true, true, true}), {320, 8});
   for (const char* layer : {"direct", "indirect"})
     expect_equal_means(fmt::format("lights not met, {}", layer), found.mean({layer}),
                        path.mean({layer}));
@@ -79,40 +85,46 @@ TEST(Vcm, AnyLight) {
       camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 16);
   const struct {
     const char* name;
+    double share;  ///< of the samples that the noisiest takes
     std::string light;
-  } rows[] = {{"point", point_light("0.3, -0.2, 1.2", 2)},
-              {"directional", directional_light("0.2, 0.3, -1", 2)},
-              {"constant", constant_light(1)},
-              {"two-sided lamp", flat("rectangle", scale("0.3, 0.3, 1") + translate("0, 0.4, 0.9"),
-                                      diffuse("0, 0, 0") +
-                                          R"(<emitter type="area"><rgb name="radiance" value="3"/>
+  } rows[] = {{"point", 0.9, point_light("0.3, -0.2, 1.2", 2)},
+              {"directional", 0.75, directional_light("0.2, 0.3, -1", 2)},
+              {"constant", 0.8, constant_light(1)},
+              {"two-sided lamp", 1.15,
+               flat("rectangle", scale("0.3, 0.3, 1") + translate("0, 0.4, 0.9"),
+                    diffuse("0, 0, 0") +
+                        R"(<emitter type="area"><rgb name="radiance" value="3"/>
                                           <boolean name="two_sided" value="true"/></emitter>)")},
-              {"distributed",
+              {"distributed", 0.9,
                R"(<emitter type="distributed"><point name="position" value="0.4, 0, 0.9"/>
                <float name="radius" value="0.1"/><rgb name="intensity" value="1"/></emitter>)"},
-              {"ball", sphere("0.4, 0, 0.7", 0.15, diffuse("0, 0, 0") + area_light("5"))},
-              {"two lamps", point_light("0.3, -0.2, 1.2", 2) +
-                                sphere("0.4, 0, 0.7", 0.15, diffuse("0, 0, 0") + area_light("5"))}};
+              {"ball", 1.15, sphere("0.4, 0, 0.7", 0.15, diffuse("0, 0, 0") + area_light("5"))},
+              {"two lamps", 1,
+               point_light("0.3, -0.2, 1.2", 2) +
+                   sphere("0.4, 0, 0.7", 0.15, diffuse("0, 0, 0") + area_light("5"))}};
   for (const auto& row : rows) {
     const TestScene scene(floor + row.light);
-    const Passes path = render(scene, "path", "", {300, 7});
+    const Passes path = render(scene, "path", "", {300 * row.share, 7});
     for (const char* type : {"bdpt", "vcm"}) {
-      const Passes found = render(scene, type, set("radius", 0.01), {240, 8});
+      const bool unbiased = type == std::string("bdpt");
+      const Passes found =
+          render(scene, type, set("radius", 0.01), {(unbiased ? 240 : 60) * row.share, 8});
       expect_equal_means(fmt::format("{} {}", row.name, type), found.mean({""}), path.mean({""}));
-      if (type == std::string("bdpt"))
+      if (unbiased)
         expect_equal_means(fmt::format("{} {} indirect", row.name, type), found.mean({"indirect"}),
                            path.mean({"indirect"}));
     }
   }
 }
 
-/// Merging is biased by its radius alone.
+/// Merging is biased by its radius alone. The noise is that of the light paths: many for few
+/// samples of the camera.
 TEST(Vcm, Merging) {
   const TestScene scene(room(large_lamp()));
-  const Passes path = render(scene, "path", "", {600, 7});
+  const Passes& path = room_by_path();
   for (const char* type : {"vcm", "ppm"}) {
     const Passes found =
-        render(scene, type, set("radius", 0.03) + set("light_paths", 4.0), {280, 8});
+        render(scene, type, set("radius", 0.03) + set("light_paths", 16.0), {120, 8});
     for (const char* layer : {"direct", "indirect"})
       expect_near_means(fmt::format("{} {}", type, layer), found.mean({layer}), path.mean({layer}),
                         0.01);
@@ -124,11 +136,11 @@ TEST(Vcm, CausticOfASmallLamp) {
   const TestScene scene(camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 16) +
                         wall("", diffuse("0.5, 0.5, 0.5")) + sphere("0, 0.1, 0.5", 0.3, glass()) +
                         sphere("0, 0.3, 1.6", 0.02, diffuse("0, 0, 0") + area_light("500")));
-  const Passes light = render(scene, "lighttracer", set("components", "caustic"), {600, 7});
+  const Passes light = render(scene, "lighttracer", set("components", "caustic"), {300, 7});
   for (const char* type : {"bdpt", "vcm"})
     expect_near_means(
         fmt::format("caustic by {}", type),
-        render(scene, type, set("components", "caustic") + set("light_paths", 1.0), {200, 8})
+        render(scene, type, set("components", "caustic") + set("light_paths", 1.0), {120, 8})
             .mean({"caustic"}),
         light.mean({"caustic"}), 0.01);
 }
@@ -163,15 +175,31 @@ TEST(Vcm, Guided) {
   expect_near_means("guided, merged", merged.mean({"indirect"}), path.mean({"indirect"}), 0.01);
 }
 
+/// Without a technique no light is found, which is told; any technique finds some.
+TEST(Vcm, NoTechniqueIsToldOf) {
+  const TestScene scene(room(large_lamp(), 4));
+  const auto warnings = [&](const std::string& switched_on) {
+    std::string parameters;
+    for (const char* name : {"unidirectional", "next_event", "splats", "connections", "merging"})
+      parameters += set(name, name == switched_on);
+    SplatBuffer splats(scene.scene().film(), ComponentSet());
+    return scene.integrator("vcm", parameters)->prepare({1, 0, 1}, splats, {}, {})->report.warnings;
+  };
+  ASSERT_EQ(warnings("none").size(), 1u);
+  EXPECT_NE(warnings("none")[0].find("all techniques are switched off"), std::string::npos);
+  for (const char* name : {"unidirectional", "next_event", "splats", "connections", "merging"})
+    EXPECT_TRUE(warnings(name).empty()) << name;
+}
+
 /// max_depth cuts all techniques at the same length.
 TEST(Vcm, LongestPath) {
-  const TestScene scene(room(large_lamp()));
+  const TestScene scene(room(large_lamp(), 16));
   for (const int depth : {2, 3, 4}) {
-    const Passes path = render(scene, "path", set("max_depth", depth), {200, 7});
+    const Passes path = render(scene, "path", set("max_depth", depth), {130, 7});
     for (const char* type : {"bdpt", "vcm"})
       expect_near_means(
           fmt::format("{} with at most {} segments", type, depth),
-          render(scene, type, set("max_depth", depth) + set("light_paths", 2.0), {60, 8})
+          render(scene, type, set("max_depth", depth) + set("light_paths", 2.0), {40, 8})
               .mean({""}),
           path.mean({""}), 0.01);
   }

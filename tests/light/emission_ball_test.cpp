@@ -20,6 +20,7 @@ EmissionBall random_ball(Random& random) {
   ball.cos_spread = std::cos(spread);
   ball.sin_spread = std::sin(spread);
   ball.cos_falloff = std::cos(falloff);
+  if (random.next() < 0.3f) ball.ramp = 1 / std::sin(falloff);
   ball.intensity = std::exp(6 * random.next() - 3);
   return ball;
 }
@@ -28,20 +29,21 @@ TEST(EmissionBalls, tell_of_each_what_it_tells_alone) {
   Random random(1);
   size_t positive = 0;
   for (size_t count = 1; count <= 17; ++count) {
-    EmissionBalls balls;
     std::vector<EmissionBall> each;
-    for (size_t i = 0; i < count; ++i) {
-      each.push_back(random_ball(random));
-      balls.add(each.back());
-    }
-    ASSERT_EQ(balls.size(), count);
+    for (size_t i = 0; i < count; ++i) each.push_back(random_ball(random));
+    EmissionBalls balls;
+    (void)balls.add({each.data(), count / 2});
+    const EmissionBalls::Block block = balls.add(each);
+    ASSERT_EQ(block.count, count);
+    EXPECT_EQ(balls.intensities(block)[count - 1], each.back().intensity);
     for (int query = 0; query < 50; ++query) {
       // Now and then at a centre, and without a normal, as in a medium.
       const Vec3f at =
           query % 5 == 0 ? each[size_t(query) % count].center : random.next_3d() * 4.0f;
       const Vec3f normal = query % 3 == 0 ? Vec3f(0.0f) : normalize(random.next_3d() - Vec3f(0.5f));
-      std::vector<float> together(count);
-      balls.irradiance(at, normal, together.data());
+      std::vector<float> together(EmissionBalls::padded(count), -1.0f);
+      balls.irradiance(block, at, normal, together.data());
+      for (size_t i = count; i < together.size(); ++i) EXPECT_EQ(together[i], 0);
       for (size_t i = 0; i < count; ++i) {
         const float alone = each[i].irradiance(at, normal);
         positive += alone > 0;

@@ -47,7 +47,7 @@ LightTree::Item item_at(int light, const Vec3f& position) {
   return item;
 }
 
-TEST(LightTreeBuild, TurnsLeadToEveryLightHoweverTheyAreSpread) {
+TEST(LightTreeBuild, LeadsToEveryLightHoweverTheyAreSpread) {
   std::vector<LightTree::Item> items;
   // Each light twice as far as the one before: splitting by place alone takes one off at a time.
   for (int i = 0; i < 200; ++i) items.push_back(item_at(i, {std::exp2(float(i % 100)), 0, 0}));
@@ -55,14 +55,23 @@ TEST(LightTreeBuild, TurnsLeadToEveryLightHoweverTheyAreSpread) {
   const auto& nodes = build.nodes();
   EXPECT_EQ(nodes.size(), 2 * items.size() - 1);
   std::vector<int> found(items.size(), 0);
-  for (const auto& leaf : nodes) {
-    if (leaf.light < 0) continue;
-    ++found[size_t(leaf.light)];
-    ASSERT_LE(leaf.depth, 64);
-    int node = 0;
-    for (int i = 0; i < leaf.depth; ++i) node = nodes[size_t(node)].left + int(leaf.turns >> i & 1);
-    EXPECT_EQ(nodes[size_t(node)].light, leaf.light);
+  std::vector<int> parents(nodes.size(), 0);
+  for (const auto& node : nodes) {
+    ASSERT_LE(node.depth, LightTree::whole_depth);
+    if (node.light >= 0) {
+      ++found[size_t(node.light)];
+      EXPECT_EQ(node.lights, 1);
+      continue;
+    }
+    for (const int child : {node.left, node.left + 1}) {
+      ++parents[size_t(child)];
+      EXPECT_EQ(nodes[size_t(child)].depth, node.depth + 1);
+    }
+    EXPECT_EQ(node.lights, nodes[size_t(node.left)].lights + nodes[size_t(node.left) + 1].lights);
   }
+  EXPECT_EQ(nodes.front().lights, 200);
+  parents.front() = 1;
+  EXPECT_EQ(parents, std::vector<int>(nodes.size(), 1));
   EXPECT_EQ(found, std::vector<int>(items.size(), 1));
   EXPECT_NEAR(nodes.front().intensity, 200 / (4 * std::numbers::pi), 1e-9);
 }

@@ -3,7 +3,9 @@
 #include "kaustik/render/checkpoint.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <filesystem>
 #include <fstream>
 #include <random>
 
@@ -87,7 +89,7 @@ RenderRecord little_record() {
 }
 
 /// Made of one pass, with some negative sums.
-Film little_film(PassRange passes = {0, 1}) {
+Film little_film(PassRange passes = {3, 4}) {
   FilmSettings settings;
   settings.size = settings.crop_size = {3, 2};
   Film film(settings, {ComponentSet::all()});
@@ -337,13 +339,90 @@ TEST_F(CheckpointFile, WrongContentsDoNoHarm) {
   EXPECT_GT(refused, 500);
 }
 
+/// Numbers that no render has, though they can be read: going on from them would go wrong.
+TEST_F(CheckpointFile, NumbersOutOfRangeAreRefused) {
+  const auto refused = [&](const std::string& message, PassRange passes,
+                           const std::function<void(RenderRecord&)>& change) {
+    SCOPED_TRACE(message);
+    RenderRecord record = little_record();
+    record.plan.first_pass = passes.begin;
+    change(record);
+    write_checkpoint(path(), record, little_film(passes));
+    expect_refused(message);
+  };
+  refused("its passes are not valid", {0xfffffffe, 0xffffffff},
+          [](RenderRecord& record) { record.plan.first_pass = 0; });
+  refused("its passes are not valid", {0x80000000, 0x80000001},
+          [](RenderRecord& record) { record.plan.first_pass = 0; });
+  refused("the passes that it was to have are not valid", {0, 1},
+          [](RenderRecord& record) { record.plan.first_pass = 0xfffffff0; });
+  refused("the passes that it was to have are not valid", {1, 2},
+          [](RenderRecord& record) { record.plan.passes = 0x80000000; });
+  refused("its passes come before", {0, 1},
+          [](RenderRecord& record) { record.plan.first_pass = 1; });
+  refused("samples of its passes are not valid", {0, 1},
+          [](RenderRecord& record) { record.recipe.samples_per_pass = 0xffffffff; });
+  refused("do not have the samples", {0, 1},
+          [](RenderRecord& record) { record.recipe.samples_per_pass = 3; });
+  RenderRecord record = little_record();
+  record.plan = {0x7ffffffe, 2, {}, {}};
+  write_checkpoint(path(), record, little_film({0x7ffffffe, 0x80000000}));
+  EXPECT_EQ(read_checkpoint(path()).film.pass_count(), 2u);
+}
+
 TEST_F(CheckpointFile, WritingReplacesTheFileAsAWhole) {
   write_checkpoint(path(), little_record(), little_film());
   const std::vector<uint8_t> old = bytes();
   EXPECT_THROW(write_checkpoint(path("nowhere/a.kpt"), little_record(), little_film()), Error);
-  write_checkpoint(path(), little_record(), little_film({0, 2}));
+  write_checkpoint(path(), little_record(), little_film({3, 5}));
   EXPECT_NE(bytes(), old);
   EXPECT_EQ(read_checkpoint(path()).film.pass_count(), 2u);
+}
+
+/// Memory that the program may still take, in its life.
+class LittleMemory {
+ public:
+  explicit LittleMemory(rlim_t bytes) {
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    rlim_t used = 0;
+    while (status >> word && word != "VmData:") {
+    }
+    status >> used;
+    ::getrlimit(RLIMIT_DATA, &before_);
+    const rlimit limit{used * 1024 + bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_DATA, &limit);
+  }
+  ~LittleMemory() { ::setrlimit(RLIMIT_DATA, &before_); }
+
+ private:
+  rlimit before_;
+};
+
+/// Then the render goes on, or writes its picture: an Error, and nothing is left behind.
+TEST_F(CheckpointFile, LittleMemoryIsAnError) {
+  if (slow_build) GTEST_SKIP() << "sanitizers take memory of their own";
+  FilmSettings settings;
+  settings.size = settings.crop_size = {500, 500};
+  const Film film(settings, {ComponentSet::all()});
+  const auto write = [&] { write_checkpoint(path(), little_record(), film); };
+  {
+    const LittleMemory little(2 << 20);
+    try {
+      write();
+      ADD_FAILURE() << "was written";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::system);
+      EXPECT_NE(std::string(error.what()).find("not enough memory"), std::string::npos);
+    }
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(std::filesystem::path(path()).parent_path()));
+  {
+    // The file, 11.7 MB, is held in memory once.
+    const LittleMemory enough(16 << 20);
+    write();
+  }
+  EXPECT_GT(bytes().size(), size_t{11} << 20);
 }
 
 TEST_F(CheckpointFile, PackedSumsComeBack) {
@@ -358,6 +437,8 @@ TEST_F(CheckpointFile, PackedSumsComeBack) {
   BinaryWriter writer(kind);
   put_sums(writer, sums);
   writer.write_to(path());
+  // Magic, byte order, version and checksum beside the sums.
+  EXPECT_EQ(bytes().size(), packed_size(sums) + 24);
   BinaryReader reader(kind, path());
   EXPECT_TRUE(get_sums(reader, sums.size()) == sums);
   reader.expect_end();

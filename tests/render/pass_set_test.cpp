@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <random>
 
 namespace kaustik {
@@ -62,6 +63,21 @@ TEST(PassSet, SaysWhatItHolds) {
   EXPECT_EQ(set.text(), "0–3, 7");
   set.add(PassRange{4, 7});
   EXPECT_EQ(set.text(), "0–7");
+}
+
+/// Sets of many ranges are put together in time that grows with their number, not its square.
+TEST(PassSet, ManyRanges) {
+  constexpr uint32_t count = 200'000;
+  PassSet even, odd;
+  for (uint32_t i = 0; i < count; ++i) {
+    even.add(PassRange{4 * i, 4 * i + 1});
+    odd.add(PassRange{4 * i + 2, 4 * i + 3});
+  }
+  const auto start = std::chrono::steady_clock::now();
+  even.add(odd);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_EQ(even.count(), 2 * count);
+  EXPECT_EQ(even.ranges().size(), 2 * count);
 }
 
 }  // namespace

@@ -62,8 +62,9 @@ class SampleSink {
 /// Counters of a light pass, for progress and for the report.
 struct PassReport {
   uint64_t rays = 0;
-  uint64_t photons = 0;               ///< stored or splatted
-  std::vector<std::string> warnings;  ///< a map that stayed empty, and why
+  uint64_t photons = 0;                ///< stored or splatted
+  std::vector<std::string> warnings;   ///< a map that stayed empty, and why
+  std::vector<std::string> decisions;  ///< what the integrator has chosen by itself, and why
 };
 
 /// The immutable state of one pass (photon maps, caches).
@@ -103,7 +104,7 @@ struct IntegratorType {
   /// `scene` must outlive the integrator.
   std::unique_ptr<Integrator> (*create)(const Arguments&, const Scene& scene);
 };
-/// "path", "lighttracer", "photonmap", "vcm", "bdpt", "ppm", "localphong", "raytracing".
+/// "auto", "path", "lighttracer", "photonmap", "vcm", "bdpt", "ppm", "localphong", "raytracing".
 const std::vector<IntegratorType>& integrator_types();
 
 /// The row `components`, which every integrator has, and its reading; throws Error for an unknown

@@ -110,7 +110,7 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
       const PixelProbe& probe = probes_[p];
       const float radius = reach_ * probe.pixel_width;
       if (!probe.found || !(radius > 0)) continue;
-      const MergeDisk disk(scene_, probe.vertex, radius);
+      const MergeDisk disk(probe.vertex, radius);
       light.tree.within(
           probe.vertex.position(), disk.side(), false, sqr(radius), [&](uint32_t index, float) {
             const LightVertexData& photon = light.tree.tree().data(index);

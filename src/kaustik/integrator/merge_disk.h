@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 
+#include "kaustik/base/sampler.h"
 #include "kaustik/photon/photon.h"
 #include "kaustik/transport/vertex.h"
 
@@ -9,14 +10,9 @@ namespace kaustik {
 /// The disk around a vertex within which vertices of light paths merge with it.
 class MergeDisk {
  public:
-  MergeDisk(const Scene& scene, const SurfaceVertex& vertex, float radius)
-      : scene_(scene),
-        ng_(vertex.point().ng),
-        frame_(vertex.on_front() ? ng_ : -ng_),
-        center_(vertex.position()),
-        shape_(vertex.point().shape),
-        radius_(radius),
-        height_(0.25f * radius) {}
+  /// `vertex` must outlive this.
+  MergeDisk(const SurfaceVertex& vertex, float radius)
+      : vertex_(vertex), ng_(vertex.point().ng), radius_(radius) {}
 
   /// Whether a point of a surface counts, that far from the vertex, with normal `side`: it lies
   /// near enough to the tangent plane, and its surface does not stand across.
@@ -29,31 +25,58 @@ class MergeDisk {
   float least_radius_sq(const Vec3f& offset) const {
     return std::max(length_sq(offset), sqr(dot(offset, ng_) / flatness_));
   }
-  /// Whether the surface goes on, and light may fall on it, at a point of the tangent plane
-  /// `distance` away in the direction `angle`. A few rays, which are counted.
-  bool is_covered(float distance, float angle, uint64_t& rays) const;
-  /// Where something hangs closely over the vertex, is_covered() has to look from below it: one
-  /// ray, which is counted. Returns whether that changes its answers.
-  bool look_from_below(uint64_t& rays);
-  const Vec3f& side() const { return frame_.z; }
+  const SurfaceVertex& vertex() const { return vertex_; }
+  float radius() const { return radius_; }
+  /// The geometric normal on the side that is seen.
+  Vec3f side() const { return vertex_.on_front() ? ng_ : -ng_; }
+  /// Whether light counts that arrives on either side: then surfaces whose own normal is turned
+  /// away do not count, else the side on which light arrives tells.
+  bool both_sides() const { return vertex_.bsdf().transmits(); }
   /// Farthest that something may lie from the plane, m …
   float flatness() const { return flatness_ * radius_; }
   /// … and the least cosine between its normal and the vertex's.
-  float least_cosine() const { return least_cosine_; }
+  static float least_cosine() { return least_cosine_; }
 
  private:
-  bool meets(Ray ray, Hit& hit, uint64_t& rays) const;
-
   static constexpr float flatness_ = 0.3f;      ///< share of the radius
   static constexpr float least_cosine_ = 0.5f;  ///< of the normals
 
-  const Scene& scene_;
+  const SurfaceVertex& vertex_;
   const Vec3f ng_;
-  const Frame frame_;
-  const Vec3f center_;
-  const uint32_t shape_;
   float radius_;
-  float height_;  ///< over the tangent plane, from where it is looked for the surface, m
+};
+
+/// How much of the disks around a vertex is surface on which light vertices merge: where that ends
+/// within a disk, the disk's light would else be too dark. It is looked for from points over the
+/// tangent plane, from none that something parts from the vertex: those may lie inside a solid.
+class DiskCoverage {
+ public:
+  /// For disks up to the size of `widest`, whose vertex must outlive this. Counts its rays; one is
+  /// traced here.
+  DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t& rays);
+
+  /// Whether a light vertex at a point of the tangent plane, `distance` away in the direction
+  /// `angle`, would merge in the disk of that radius.
+  bool holds(float radius, float distance, float angle) const;
+  /// An estimate of one over the share of the disk that is covered, by the weights
+  /// 1 − distance²/radius² of the kernel; unbiased but for shares of a few percent.
+  float inverse_share(float radius, Sampler numbers) const;
+
+ private:
+  /// Whether light vertices at a point of a surface merge, as far as its normal tells.
+  bool merges_at(const SurfacePoint& point) const;
+  /// What light passes through hides nothing, but for the vertex's own shape.
+  bool hides(const SurfacePoint& point) const;
+  /// How far away the ray meets a point where stops(point) holds; infinite: nowhere.
+  template <typename Stops>
+  float distance_to(Ray ray, const Stops& stops) const;
+
+  const Scene& scene_;
+  const SurfaceVertex& vertex_;
+  const Frame frame_;  ///< z: the side that is seen
+  const bool both_sides_;
+  uint64_t& rays_;
+  float free_ = infinity;  ///< height over the vertex up to which nothing hangs, m
 };
 
 }  // namespace kaustik

@@ -8,27 +8,12 @@ namespace kaustik {
 namespace {
 
 /// Bounds of a pixel's radius, in widths of the pixel on the surface.
+constexpr float least_widths = 1, most_widths = 6;
 /// Most of the radius at later vertices, in distances of what the camera sees.
 constexpr float most_other_radius = 0.03f;
-constexpr float least_widths = 1, most_widths = 6;
 
 Vec3f side_of(const SurfaceVertex& vertex) {
   return vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
-}
-
-/// From how many directions merging at `vertex` finds light: the effective number of samples of
-/// what its lobes send back, (Σ L)² / Σ L².
-float merged_directions(const SurfaceVertex& vertex, const LightVertices& pilot, float area) {
-  double sum = 0, squares = 0;
-  pilot.tree.within(
-      vertex.position(), side_of(vertex), false, area * inv_pi, [&](uint32_t index, float) {
-        const LightVertexData& photon = pilot.tree.tree().data(index);
-        const Vec3f wi = photon.direction.unpack();
-        const double light = (vertex.eval(wi, Lobes::all) * photon.flux_spectrum()).sum();
-        sum += light;
-        squares += light * light;
-      });
-  return squares > 0 ? float(sum * sum / squares) : 0.0f;
 }
 
 }  // namespace
@@ -43,22 +28,21 @@ PixelPlans::PixelPlans(const Scene& scene, const LightVertices& pilot, uint32_t 
       make_pixel_probes(scene, blocks_, block_size));
   const std::vector<PixelProbe>& probes = *probes_;
   const size_t count = probes.size();
-  plans_.assign(count, {pi * sqr(given), 1});
+  PixelPlan same;
+  same.merge_area = pi * sqr(given);
+  plans_.assign(count, same);
   parallel_blocks(count, 16, [&](size_t begin, size_t end, size_t) {
     SidedTree<LightVertexData>::Neighbors found;
     for (size_t i = begin; i < end; ++i) {
-      const auto& [is_there, vertex, width, distance] = probes[i];
-      if (!is_there || pilot.tree.empty()) continue;
+      const PixelProbe& probe = probes[i];
+      if (!probe.found || pilot.tree.empty()) continue;
       if (!(given > 0)) {
-        pilot.tree.nearest(vertex.position(), side_of(vertex), false, neighbors,
-                           most_widths * width, found);
+        pilot.tree.nearest(probe.vertex.position(), side_of(probe.vertex), false, neighbors,
+                           most_widths * probe.pixel_width, found);
         const float radius = found.complete() ? std::sqrt(found.farthest_sq()) : float(infinity);
-        plans_[i].merge_area =
-            pi * sqr(std::clamp(radius, least_widths * width, most_widths * width));
+        plans_[i].merge_area = pi * sqr(std::clamp(radius, least_widths * probe.pixel_width,
+                                                   most_widths * probe.pixel_width));
       }
-      const double directions =
-          double(merged_directions(vertex, pilot, plans_[i].merge_area)) / share;
-      plans_[i].survival = std::max(least_survival, float(1 / (1 + directions)));
     }
   });
   double distance_sum = 0;

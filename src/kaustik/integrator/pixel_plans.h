@@ -15,13 +15,20 @@ inline constexpr float least_survival = 0.02f;
 struct PixelPlan {
   float merge_area = 0;  ///< of the disk of merging, m²
   float survival = 1;    ///< chance of going on from there
+  /// Mean square over variance of what a path that goes on finds: samples that hardly differ are
+  /// worth more than their number (variance-aware weights, Grittmann et al. 2019).
+  float evenness = 1;
+
+  // What weights go by (PathHalves):
+  /// All samples of a pixel merge with the same light vertices, which count but once.
+  float counted_area(float camera_samples) const { return merge_area / camera_samples; }
+  float counted_survival() const { return survival * evenness; }
 };
 
 /// The plans of the first pass: a table over blocks of pixels, and one radius for all vertices but
 /// the first. The pixel's radius is that which some light vertices of a pilot pass take, within
 /// bounds from the pixel's footprint: smaller ones would blur less than the pixel does anyway,
-/// larger ones show. Where merging finds light from m directions that count, a path that goes on
-/// finds the same light once: it does so with the chance 1/(1 + m).
+/// larger ones show. Whether paths go on is up to choose_survival().
 class PixelPlans {
  public:
   PixelPlans() = default;
@@ -33,6 +40,8 @@ class PixelPlans {
   /// One per block of pixels, row by row.
   const std::vector<PixelProbe>& probes() const { return *probes_; }
   const Vec2i& blocks() const { return blocks_; }
+  /// Those of the probes.
+  const std::vector<PixelPlan>& plans() const { return plans_; }
   /// The same with other plans, one for each probe.
   PixelPlans with(std::vector<PixelPlan> plans) const;
 

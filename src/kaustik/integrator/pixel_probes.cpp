@@ -15,6 +15,7 @@ PixelProbe look(const Scene& scene, const Vec2f& raster, uint64_t block) {
   SampleSink nowhere{ComponentSet()};
   CameraWalk walk(scene, raster, sampler, nowhere);
   PixelProbe probe;
+  probe.raster = raster;
   while (walk.events() < most_delta_events && walk.advance()) {
     const SurfaceVertex& vertex = walk.vertex();
     if (walk.events() == 0) probe.distance = length(vertex.position() - scene.camera().position());

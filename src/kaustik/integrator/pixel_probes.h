@@ -9,6 +9,7 @@ namespace kaustik {
 /// A point that a block of pixels shows: the first vertex whose event is not delta.
 struct PixelProbe {
   bool found = false;
+  Vec2f raster{0, 0};  ///< where it is looked for
   SurfaceVertex vertex;
   float pixel_width = 0;  ///< on the surface, m
   float distance = 0;     ///< from the camera to what is hit first, m

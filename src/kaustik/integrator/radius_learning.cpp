@@ -1,6 +1,7 @@
 #include "kaustik/integrator/radius_learning.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/sampler.h"
@@ -11,8 +12,9 @@ namespace {
 
 /// Of the random numbers' addresses.
 constexpr uint64_t coverage_element = uint64_t(2) << 40;
-/// Points that tell how much of a disk is covered.
-constexpr int coverage_points = 32;
+/// Points that tell how much is covered of the smallest disk, and of what each has beyond the one
+/// before: so many, and more where only some of them are.
+constexpr uint32_t points_per_ring = 8, points_per_cut_ring = 32;
 /// Disks disagree where the squared differences of their lights are so many times their variance.
 constexpr double tolerated = 2.5;
 /// The light of a disk, and its variance, are known from this many directions on.
@@ -50,36 +52,53 @@ RadiusLearning::Disagreement disagreement_of(const RadiusLearning::Sums& sums,
   return result;
 }
 
-}  // namespace
-
-RadiusLearning::RadiusLearning(const Scene& scene, const PixelPlans& first)
-    : coverage_(first.probes().size()) {
-  parallel_blocks(coverage_.size(), 16, [&](size_t begin, size_t end, size_t) {
-    uint64_t rays = 0;
-    for (size_t p = begin; p < end; ++p) {
-      const PixelProbe& probe = first.probes()[p];
-      if (!probe.found) continue;
-      for (int level = 0; level < level_count; ++level) {
-        const auto radius = float(level_radius(probe, level));
-        MergeDisk disk(scene, probe.vertex, radius);
-        disk.look_from_below(rays);
-        int covered = 0;
-        for (int i = 0; i < coverage_points; ++i) {
-          Sampler sampler =
-              Sampler::at(0, uint32_t(level), Stream::training, coverage_element + p, uint32_t(i));
-          const Vec2f u = sampler.next_2d();
-          if (disk.is_covered(radius * std::sqrt(u.x), 2 * pi * u.y, rays)) ++covered;
-        }
-        coverage_[p][size_t(level)] = float(covered) / coverage_points;
-      }
+/// Shares of the disks that are covered, ring by ring: each disk has twice the area of the one
+/// before.
+std::array<float, levels> coverage_of(const Scene& scene, const PixelProbe& probe, size_t number,
+                                      uint64_t& rays) {
+  const MergeDisk widest(probe.vertex, float(level_radius(probe, int(levels) - 1)));
+  const DiskCoverage coverage(scene, widest, rays);
+  std::array<float, levels> result{};
+  double covered = 0, area = 0;  // areas of the first disk
+  for (size_t level = 0; level < levels; ++level) {
+    const double inner = area;
+    area = std::exp2(double(level));
+    uint32_t held = 0, count = 0;
+    for (uint32_t wanted = points_per_ring; count < wanted; ++count) {
+      Sampler sampler =
+          Sampler::at(0, uint32_t(level), Stream::training, coverage_element + number, count);
+      const Vec2f u = sampler.next_2d();
+      const double distance = level_radius(probe, 0) * std::sqrt(inner + (area - inner) * u.x);
+      if (coverage.holds(float(level_radius(probe, int(level))), float(distance), 2 * pi * u.y))
+        ++held;
+      if (count + 1 == points_per_ring && held > 0 && held < points_per_ring)
+        wanted = points_per_cut_ring;
     }
-  });
+    covered += (area - inner) * held / count;
+    result[level] = float(covered / area);
+  }
+  return result;
 }
 
-std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const Scene& scene,
-                                                          const PixelPlans& first,
-                                                          const LightVertices& light) const {
-  std::vector<Sums> result(coverage_.size());
+}  // namespace
+
+RadiusLearning::RadiusLearning(const Scene& scene, const PixelPlans& first, uint64_t& rays,
+                               const std::stop_token& stop)
+    : coverage_(first.probes().size()) {
+  std::atomic<uint64_t> counted{0};
+  parallel_blocks(coverage_.size(), 16, [&](size_t begin, size_t end, size_t) {
+    uint64_t block_rays = 0;
+    for (size_t p = begin; p < end && !stop.stop_requested(); ++p)
+      if (first.probes()[p].found)
+        coverage_[p] = coverage_of(scene, first.probes()[p], p, block_rays);
+    counted += block_rays;
+  });
+  rays += counted;
+}
+
+std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& first,
+                                                          const LightVertices& light) {
+  std::vector<Sums> result(first.probes().size());
   if (light.tree.empty()) return result;
   parallel_blocks(result.size(), 16, [&](size_t begin, size_t end, size_t) {
     for (size_t p = begin; p < end; ++p) {
@@ -87,7 +106,7 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const Scene& scene,
       if (!probe.found || !(probe.pixel_width > 0)) continue;
       const double least_sq = sqr(level_radius(probe, 0));
       const auto widest = float(level_radius(probe, level_count - 1));
-      const MergeDisk disk(scene, probe.vertex, widest);
+      const MergeDisk disk(probe.vertex, widest);
       Sums& sums = result[p];
       light.tree.within(
           probe.vertex.position(), disk.side(), false, sqr(widest), [&](uint32_t index, float) {
@@ -136,9 +155,9 @@ int RadiusLearning::widest_level(const std::vector<Disagreement>& disagreements,
   return int(levels) - 1;
 }
 
-PixelPlans RadiusLearning::plans(const PixelPlans& first, const std::vector<Sums>& sums,
-                                 uint32_t passes, float shrinkage) const {
-  std::vector<PixelPlan> result(sums.size());
+std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std::vector<Sums>& sums,
+                                             uint32_t passes, float shrinkage) const {
+  std::vector<PixelPlan> result = first.plans();
   std::vector<Disagreement> disagreements(sums.size());
   for (size_t p = 0; p < sums.size(); ++p)
     disagreements[p] = disagreement_of(sums[p], coverage_[p]);
@@ -152,9 +171,8 @@ PixelPlans RadiusLearning::plans(const PixelPlans& first, const std::vector<Sums
     int level = widest_level(disagreements, first, p);
     while (level > 0 && directions_at(level) > most_directions) --level;
     result[p].merge_area = float(pi * sqr(level_radius(probe, level))) / shrinkage;
-    result[p].survival = std::max(least_survival, float(1 / (1 + directions_at(level))));
   }
-  return first.with(std::move(result));
+  return result;
 }
 
 }  // namespace kaustik

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <stop_token>
 #include <vector>
 
 #include "kaustik/integrator/pixel_plans.h"
@@ -29,17 +30,17 @@ class RadiusLearning {
     std::array<std::array<double, level_count>, level_count> of{};  ///< [level][smaller level]
   };
 
-  RadiusLearning() = default;
-  /// Learns at the probes of `first`, the plans of the first pass.
-  RadiusLearning(const Scene& scene, const PixelPlans& first);
+  /// Learns at the probes of `first`, the plans of the first pass: looks how much of their disks is
+  /// covered, and counts the rays. Worth nothing if it was stopped.
+  RadiusLearning(const Scene& scene, const PixelPlans& first, uint64_t& rays,
+                 const std::stop_token& stop = {});
 
-  /// What the light vertices of one pass add, per probe.
-  std::vector<Sums> sums_of(const Scene& scene, const PixelPlans& first,
-                            const LightVertices& light) const;
-  /// The plans for what `passes` passes have summed up. Radii are those of the first pass, as in
-  /// PixelPlans: shrinking is up to the caller, `shrinkage` of the areas is taken off beforehand.
-  PixelPlans plans(const PixelPlans& first, const std::vector<Sums>& sums, uint32_t passes,
-                   float shrinkage) const;
+  /// What the light vertices of one pass add, per probe of `first`.
+  static std::vector<Sums> sums_of(const PixelPlans& first, const LightVertices& light);
+  /// The plans for what `passes` passes have summed up: those of the first pass with other disks.
+  /// Shrinking is up to the caller, `shrinkage` of the areas is taken off beforehand.
+  std::vector<PixelPlan> plans(const PixelPlans& first, const std::vector<Sums>& sums,
+                               uint32_t passes, float shrinkage) const;
 
  private:
   int widest_level(const std::vector<Disagreement>& disagreements, const PixelPlans& first,

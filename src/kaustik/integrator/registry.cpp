@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "kaustik/integrator/auto.h"
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/integrator/light_tracer.h"
 #include "kaustik/integrator/local_phong.h"
@@ -27,6 +28,7 @@ std::vector<std::string> valid_components() {
 
 const std::vector<IntegratorType>& integrator_types() {
   static const std::vector<IntegratorType> types{
+      row<AutoIntegrator>(AutoIntegrator::info()),
       row<PathIntegrator>(PathIntegrator::info()),
       row<LightTracer>(LightTracer::info()),
       row<PhotonMapIntegrator>(PhotonMapSettings::info()),

@@ -14,10 +14,7 @@ std::vector<PathVertex>& empty_list() {
   return list;
 }
 
-/// The disk of merging is hardly ever covered by less than one over this.
-constexpr int most_coverage_tries = 32;
-
-/// Of the sampler's forks for that, and for the bias of merging.
+/// Of the sampler's forks for the coverage of the disk of merging, and for the bias of merging.
 constexpr uint32_t coverage_key = 1, bias_key = 2;
 
 /// Chance with which that is estimated: it takes rays.
@@ -82,14 +79,14 @@ void VcmCameraPath::leave() {
 }
 
 bool VcmCameraPath::path_tracing_alone(size_t length) const {
-  return length <= 2 || !in_.weights.settings().techniques.needs_light_paths();
+  return length <= 2 || no_light_paths_ || !in_.weights.settings().techniques.needs_light_paths();
 }
 
 PathHalves VcmCameraPath::halves() const {
   PathHalves result;
   result.camera = vertices_;
-  result.first_merge_area = plan_.merge_area;
-  result.first_survival = plan_.survival;
+  result.first_merge_area = plan_.counted_area(in_.camera_samples);
+  result.first_survival = plan_.counted_survival();
   return result;
 }
 
@@ -235,25 +232,13 @@ void VcmCameraPath::connect_to(const ConnectibleVertex& to, int maximum_events) 
   }
 }
 
-float VcmCameraPath::inverse_coverage(MergeDisk disk, float radius, uint32_t key) const {
-  // Numbers of their own: how many there are is not known beforehand.
-  Sampler numbers = walk_.sampler().fork(key);
-  for (int tries = 1; tries < most_coverage_tries; ++tries) {
-    // A point of the disk, with the density of the kernel.
-    const Vec2f u = numbers.next_2d();
-    if (disk.is_covered(radius * std::sqrt(1 - std::sqrt(1 - u.x)), 2 * pi * u.y, walk_.rays()))
-      return float(tries);
-    if (tries == 1 && disk.look_from_below(walk_.rays())) tries = 0;
-  }
-  return float(most_coverage_tries);
-}
-
 void VcmCameraPath::merge(int maximum_events) {
   const SurfaceVertex& vertex = walk_.vertex();
   const Lobes lobes = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
   if (!any(lobes) || in_.light.tree.empty() || !in_.weights.merges_at(vertices_)) return;
-  const float radius = std::sqrt(all_delta_ ? plan_.merge_area * inv_pi : in_.merge_radius_sq);
-  const MergeDisk disk(in_.scene, vertex, radius);
+  const float radius = merge_radius();
+  if (!(radius > 0)) return;
+  const MergeDisk disk(vertex, radius);
   const bool is_matt =
       all_delta_ && lobes == Lobes::diffuse && !vertex.bsdf().transmits() && !vertex.has_relief();
   const MergedLight light = is_matt ? merged_matt(disk, radius, maximum_events)
@@ -263,21 +248,22 @@ void VcmCameraPath::merge(int maximum_events) {
   if (total.is_zero()) return;
   // The kernel's height over the number of light paths.
   const float scale = 2 * inv_pi / (sqr(radius) * float(in_.light.path_count));
-  const float coverage = inverse_coverage(disk, radius, coverage_key);
+  const DiskCoverage covered(in_.scene, disk, walk_.rays());
+  // Numbers of their own: how many there are is not known beforehand.
+  const float coverage = covered.inverse_share(radius, walk_.sampler().fork(coverage_key));
   for (int c = 0; c < component_count; ++c)
     if (!light.of[size_t(c)].is_zero())
       walk_.add(Component(c), light.of[size_t(c)] * (scale * coverage));
-  add_bias_of_merging(total * coverage, light.narrow, scale, radius);
+  add_bias_of_merging(covered, total * coverage, light.narrow, scale, radius);
 }
 
 /// The bias grows by the area, so it is twice what half of the area takes off.
-void VcmCameraPath::add_bias_of_merging(const Spectrum& wide, const Spectrum& narrow, float scale,
-                                        float radius) {
+void VcmCameraPath::add_bias_of_merging(const DiskCoverage& covered, const Spectrum& wide,
+                                        const Spectrum& narrow, float scale, float radius) {
   Sampler numbers = walk_.sampler().fork(bias_key);
   if (!(numbers.next_1d() < bias_chance)) return;
-  const float narrow_radius = radius * std::sqrt(0.5f);
-  const float narrow_coverage = inverse_coverage(
-      MergeDisk(in_.scene, walk_.vertex(), narrow_radius), narrow_radius, bias_key + 1);
+  const float narrow_coverage =
+      covered.inverse_share(radius * std::sqrt(0.5f), walk_.sampler().fork(bias_key + 1));
   const Spectrum difference = wide - narrow * (2 * narrow_coverage);
   walk_.add_bias(difference * (2 * scale / bias_chance));
 }
@@ -288,7 +274,8 @@ VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk, flo
   const MattLight light =
       in_.matt.merge({vertex.position(), disk.side(), radius, disk.flatness(), disk.least_cosine(),
                       maximum_events - walk_.events(),
-                      in_.weights.matt_vertex(vertices_, plan_.merge_area, plan_.survival)});
+                      in_.weights.matt_vertex(vertices_, plan_.counted_area(in_.camera_samples),
+                                              plan_.counted_survival())});
   const Spectrum reflected = vertex.diffuse_value();
   MergedLight result;
   const auto add = [&](Component component, const MattLight::Sum& sum) {
@@ -301,47 +288,82 @@ VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk, flo
   return result;
 }
 
-VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, Lobes lobes, float radius,
-                                                 int maximum_events) const {
+float VcmCameraPath::merge_radius() const {
+  return std::sqrt(all_delta_ ? plan_.merge_area * inv_pi : in_.merge_radius_sq);
+}
+
+template <typename Visit>
+void VcmCameraPath::visit_merging(const MergeDisk& disk, float radius, int maximum_events,
+                                  const Visit& visit) const {
   const SurfaceVertex& vertex = walk_.vertex();
-  const float radius_sq = sqr(radius);
-  const bool both_sides = vertex.bsdf().transmits();
+  const bool both_sides = disk.both_sides();
   const Vec3f& ng = vertex.point().ng;
   const Vec3f side = both_sides || vertex.on_front() ? ng : -ng;
   PathHalves path = halves();
   const auto& tree = in_.light.tree.tree();
+  in_.light.tree.within(vertex.position(), side, both_sides, sqr(radius),
+                        [&](uint32_t index, float distance_sq) {
+                          const LightVertexData& photon = tree.data(index);
+                          if (!disk.counts(tree.key(index) - vertex.position(), photon.side))
+                            return;
+                          if (walk_.events() + int(photon.before) > maximum_events) return;
+                          const Vec3f wi = photon.direction.unpack();
+                          const float pdf_forward = vertex.pdf(wi, Lobes::all);
+                          const PathVertex* before = in_.light.vertices.data() + photon.path;
+                          const PathVertex& merged = before[photon.before];
+                          path.light = {before, photon.before};
+                          path.pdf_light_last = merged.pdf_light;
+                          path.pdf_light_before_last = pdf_light_before(wi);
+                          path.pdf_camera_last = pdf_forward * merged.to_previous;
+                          path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
+                          path.pdf_next_event = photon.pdf_next_event;
+                          visit(photon, wi, distance_sq, path);
+                        });
+}
+
+VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, Lobes lobes, float radius,
+                                                 int maximum_events) const {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const float radius_sq = sqr(radius);
   MergedLight result;
-  in_.light.tree.within(
-      vertex.position(), side, both_sides, radius_sq, [&](uint32_t index, float distance_sq) {
-        const LightVertexData& photon = tree.data(index);
-        if (!disk.counts(tree.key(index) - vertex.position(), photon.side)) return;
-        if (walk_.events() + int(photon.before) > maximum_events) return;
-        const Vec3f wi = photon.direction.unpack();
-        const float pdf_forward = vertex.pdf(wi, Lobes::all);
-        const PathVertex* before = in_.light.vertices.data() + photon.path;
-        const PathVertex& merged = before[photon.before];
-        path.light = {before, photon.before};
-        path.pdf_light_last = merged.pdf_light;
-        path.pdf_light_before_last = pdf_light_before(wi);
-        path.pdf_camera_last = pdf_forward * merged.to_previous;
-        path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
-        path.pdf_next_event = photon.pdf_next_event;
-        const float weight = in_.weights.merge(path);
-        if (!(weight > 0)) return;
-        const Spectrum arriving =
-            photon.flux_spectrum() *
-            (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
-        const float kernel = 1 - distance_sq / radius_sq;
-        const float narrow_kernel = std::max(0.0f, 1 - 2 * distance_sq / radius_sq);
-        for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
-          if (!any(lobes & lobe)) continue;
-          const Component component = walk_.component_of(lobe, photon.specular);
-          if (!walk_.wants(component)) continue;
-          const Spectrum reflected = arriving * vertex.eval(wi, lobe);
-          result.of[size_t(component)] += reflected * kernel;
-          result.narrow += reflected * narrow_kernel;
-        }
-      });
+  visit_merging(disk, radius, maximum_events,
+                [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq,
+                    const PathHalves& path) {
+                  const float weight = in_.weights.merge(path);
+                  if (!(weight > 0)) return;
+                  const Spectrum arriving =
+                      photon.flux_spectrum() *
+                      (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
+                  const float kernel = 1 - distance_sq / radius_sq;
+                  const float narrow_kernel = std::max(0.0f, 1 - 2 * distance_sq / radius_sq);
+                  for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
+                    if (!any(lobes & lobe)) continue;
+                    const Component component = walk_.component_of(lobe, photon.specular);
+                    if (!walk_.wants(component)) continue;
+                    const Spectrum reflected = arriving * vertex.eval(wi, lobe);
+                    result.of[size_t(component)] += reflected * kernel;
+                    result.narrow += reflected * narrow_kernel;
+                  }
+                });
+  return result;
+}
+
+std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices(int maximum_events) const {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const float radius = merge_radius();
+  std::vector<MergedVertex> result;
+  if (!(radius > 0)) return result;
+  const MergeDisk disk(vertex, radius);
+  visit_merging(disk, radius, maximum_events,
+                [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq,
+                    const PathHalves& path) {
+                  const float kernel = 2 * (1 - distance_sq / sqr(radius)) /
+                                       (pi * sqr(radius) * float(in_.light.path_count));
+                  const float factor =
+                      vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
+                  result.push_back({in_.weights.beyond_merge(path),
+                                    vertex.eval(wi, Lobes::all) * photon.flux_spectrum() * factor});
+                });
   return result;
 }
 

@@ -10,6 +10,7 @@
 
 namespace kaustik {
 
+class DiskCoverage;
 class MergeDisk;
 
 /// What camera paths of a pass share.
@@ -39,6 +40,18 @@ class VcmCameraPath final : public LightWeights {
   void connect(int count, int maximum_events);
   /// Adds light of paths whose vertices are near.
   void merge(int maximum_events);
+  /// A light vertex that merges with the vertex, and what it sends on as if no other way found it.
+  struct MergedVertex {
+    float beyond;  ///< PathWeights::beyond_merge()
+    Spectrum light;
+  };
+  /// All of them, of every component, for who wants to know more than the sum.
+  std::vector<MergedVertex> merged_vertices(int maximum_events) const;
+  /// Whether the vertex is the first whose lobes are more than delta, for all that is known before
+  /// leave().
+  bool is_at_first() const { return all_delta_; }
+  /// From now on, or no longer, light is weighed as if there were no light paths.
+  void leave_out_light_paths(bool leave_out) { no_light_paths_ = leave_out; }
   /// Roulette at the first vertex whose event is not delta: false if the path ends. To be asked
   /// after leave().
   bool survives_first(float u);
@@ -56,15 +69,17 @@ class VcmCameraPath final : public LightWeights {
   };
   MergedLight merged_matt(const MergeDisk& disk, float radius, int maximum_events) const;
   MergedLight merged(const MergeDisk& disk, Lobes lobes, float radius, int maximum_events) const;
+  /// visit(vertex, direction to where it comes from, distance², path) for all that merge.
+  template <typename Visit>
+  void visit_merging(const MergeDisk& disk, float radius, int maximum_events,
+                     const Visit& visit) const;
+  float merge_radius() const;
   /// Of what follows the last vertex, at `position` with geometric normal `ng`; zero: infinitely
   /// far along the walk's ray.
   PathVertex next_vertex(const Vec3f& position, const Vec3f& ng) const;
-  /// An estimate of one over the share of the kernel's disk, unbiased but for shares of a few
-  /// percent, that the surface of the vertex takes up: where it ends within the disk, its light
-  /// would else be too dark.
-  float inverse_coverage(MergeDisk disk, float radius, uint32_t key) const;
   /// `wide` and `narrow`: sums as in MergedLight, the first over the share that is covered.
-  void add_bias_of_merging(const Spectrum& wide, const Spectrum& narrow, float scale, float radius);
+  void add_bias_of_merging(const DiskCoverage& covered, const Spectrum& wide,
+                           const Spectrum& narrow, float scale, float radius);
   void connect_to(const ConnectibleVertex& to, int maximum_events);
   PathHalves halves() const;
   /// Of the last vertex from the camera's side, whose light comes from `wi`.
@@ -91,7 +106,8 @@ class VcmCameraPath final : public LightWeights {
   SurfacePoint last_;      ///< of the walk's last vertex
   Receiver previous_;      ///< the last vertex
   bool all_delta_ = true;  ///< events so far
-  size_t first_ = 0;       ///< number of the first vertex whose event is not delta; 0: none yet
+  bool no_light_paths_ = false;
+  size_t first_ = 0;  ///< number of the first vertex whose event is not delta; 0: none yet
 };
 
 }  // namespace kaustik

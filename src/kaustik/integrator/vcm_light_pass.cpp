@@ -1,7 +1,6 @@
 #include "kaustik/integrator/vcm_light_pass.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/transport/direct_light.h"
@@ -191,8 +190,8 @@ class Tracer {
         vertex.pdf_reverse(connection.direction, Lobes::all) * path.vertices.back().to_previous;
     halves.pdf_next_event = path.pdf_next_event;
     const PixelPlan plan = in_.plans.at(connection.raster, in_.shrinkage);
-    halves.first_merge_area = plan.merge_area;
-    halves.first_survival = plan.survival;
+    halves.first_merge_area = plan.counted_area(in_.camera_samples);
+    halves.first_survival = plan.counted_survival();
     const float weight = in_.weights.splat(halves);
     if (!(weight > 0)) return;
     const float scale =

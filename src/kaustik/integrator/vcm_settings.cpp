@@ -6,10 +6,6 @@
 namespace kaustik {
 namespace {
 
-Parameter technique_parameter(const char* name, bool on, const char* what) {
-  return boolean_parameter(name, on, what);
-}
-
 /// The table of a preset.
 std::vector<Parameter> parameters(const Techniques& preset) {
   std::vector<Parameter> rows = {
@@ -21,18 +17,18 @@ std::vector<Parameter> parameters(const Techniques& preset) {
                         "Light paths are learned from those that reach what the camera sees: which "
                         "lights they begin at, and where they go. A share of them goes on as "
                         "without."),
-      technique_parameter("unidirectional", preset.unidirectional,
-                          "Light that the camera's paths meet by chance counts."),
-      technique_parameter("next_event", preset.next_event,
-                          "Every vertex of the camera's paths samples a light."),
-      technique_parameter("splats", preset.splats,
-                          "Vertices of light paths are connected to the camera."),
-      technique_parameter("connections", preset.connections,
-                          "Vertices of the camera's paths are connected to vertices of light "
-                          "paths."),
-      technique_parameter("merging", preset.merging,
-                          "Vertices of light paths near a vertex of the camera's path count as if "
-                          "they were there (photon mapping)."),
+      boolean_parameter("unidirectional", preset.unidirectional,
+                        "Light that the camera's paths meet by chance counts."),
+      boolean_parameter("next_event", preset.next_event,
+                        "Every vertex of the camera's paths samples a light."),
+      boolean_parameter("splats", preset.splats,
+                        "Vertices of light paths are connected to the camera."),
+      boolean_parameter("connections", preset.connections,
+                        "Vertices of the camera's paths are connected to vertices of light "
+                        "paths."),
+      boolean_parameter("merging", preset.merging,
+                        "Vertices of light paths near a vertex of the camera's path count as if "
+                        "they were there (photon mapping)."),
       number_parameter("light_paths", 0.25, "Light paths per camera sample.").range(0.001, 1000),
       integer_parameter("connection_samples", 1,
                         "Vertices of light paths that each vertex of the camera's paths is "
@@ -81,18 +77,34 @@ const TypeInfo& ppm_info() {
   return info;
 }
 
+const TypeInfo& auto_info() {
+  static const TypeInfo info{
+      "integrator",
+      "auto",
+      "Chooses by itself, region by region, between paths from the camera and light paths that "
+      "merge with them; needs no parameter.",
+      {components_parameter(), max_depth_parameter(), rr_depth_parameter(),
+       ignored_parameter("hide_emitters", ParameterKind::boolean)}};
+  return info;
+}
+
 VcmSettings::VcmSettings(const Arguments& arguments)
     : components(read_components(arguments)),
       maximum_events(read_maximum_events(arguments)),
-      roulette_depth(int(arguments.integer("rr_depth"))),
-      aim(read_aim(arguments.text("aim"))),
-      guiding(arguments.boolean("guiding")),
-      light_paths(float(arguments.number("light_paths"))),
-      connections(int(arguments.integer("connection_samples"))),
-      merge_neighbors(int(arguments.integer("merge_neighbors"))),
-      radius(float(arguments.number("radius"))),
-      correlation(arguments.boolean("correlation")),
-      samples_per_pass(uint32_t(arguments.integer("samples_per_pass"))) {
+      roulette_depth(int(arguments.integer("rr_depth"))) {
+  if (&arguments.info() == &auto_info()) {
+    techniques.merging = true;
+    chooses_light_paths = true;
+    return;
+  }
+  aim = read_aim(arguments.text("aim"));
+  guiding = arguments.boolean("guiding");
+  light_paths = float(arguments.number("light_paths"));
+  connections = int(arguments.integer("connection_samples"));
+  merge_neighbors = int(arguments.integer("merge_neighbors"));
+  radius = float(arguments.number("radius"));
+  correlation = arguments.boolean("correlation");
+  samples_per_pass = uint32_t(arguments.integer("samples_per_pass"));
   techniques = {arguments.boolean("unidirectional"), arguments.boolean("next_event"),
                 arguments.boolean("splats"), arguments.boolean("connections"),
                 arguments.boolean("merging")};

@@ -19,7 +19,9 @@ struct VcmSettings {
   float radius = 0;           ///< of merging in pass 0, m; 0: from the pixels and the light paths
   bool correlation = true;    ///< see PathWeights
   uint32_t samples_per_pass = 4;
+  bool chooses_light_paths = false;  ///< how many, or none at all, by what a pilot tells
 
+  /// Of one of the tables below.
   explicit VcmSettings(const Arguments& arguments);
 };
 
@@ -29,5 +31,8 @@ const TypeInfo& vcm_info();
 const TypeInfo& bdpt_info();
 /// "ppm": merging alone, for what light paths bring; direct light as ever.
 const TypeInfo& ppm_info();
+
+/// "auto": as ppm, and all else by what a pilot tells.
+const TypeInfo& auto_info();
 
 }  // namespace kaustik

@@ -134,6 +134,8 @@ class AreaLight final : public Light {
   std::shared_ptr<const EmissionPattern> pattern_;
   float scale_;
   std::shared_ptr<const Shape> shape_;
+  // Of many lights none is in a cache: what samples ask for lies together.
+  std::unique_ptr<const MeshFaces> faces_;  ///< of meshes of more than a few triangles
   int shape_index_;
   float area_;
   bool two_sided_;
@@ -141,7 +143,6 @@ class AreaLight final : public Light {
   LightBounds bounds_;
   bool is_dark_;
   EmissionBall ball_;
-  std::unique_ptr<const MeshFaces> faces_;  ///< of meshes of more than a few triangles
 };
 
 std::unique_ptr<Light> create_area(const LightInputs& inputs) {

@@ -41,7 +41,9 @@ class DistributedLight final : public Light {
       if (bounds_.cos_angle > 0) cap_height_ = 1.0f + safe_sqrt(1.0f - sqr(bounds_.cos_angle));
     }
     bounds_.position = sphere_->bounds();
-    ball_ = EmissionBall(bounds_, importance_of(DistributedLight::power()));
+    ball_ = settings_.cone ? settings_.cone->emission_ball(bounds_.position, frame_.z,
+                                                           settings.intensity.sum())
+                           : EmissionBall(bounds_, importance_of(DistributedLight::power()));
   }
 
   Spectrum power() const override {

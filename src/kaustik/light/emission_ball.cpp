@@ -1,63 +1,126 @@
+// What may come from balls, many at once; compiled once per instruction set, of which Highway
+// chooses at run time.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kaustik/light/emission_ball.cpp"
+#include <hwy/foreach_target.h>
+// Highway asks for this order.
+#include <hwy/highway.h>
+
 #include "kaustik/light/emission_ball.h"
 
-#include "kaustik/base/vectorize.h"
+HWY_BEFORE_NAMESPACE();
+namespace kaustik::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
 
+/// Rounding of directions must not hide a light at the border of its cone: near an axis the sine
+/// that is found from the cosine is only so good.
+HWY_INLINE float CosineSlack() { return 5e-4f; }
+
+/// Conty Estevez and Kulla, eq. 4, for the sphere around the lights, whose angular radius is
+/// θ_u: intensity · |cos max(0, θ_i − θ_u)| · cos max(0, θ − θ_o − θ_u) / d², where the cosines,
+/// which are the best that any place in the sphere may have, are averaged with those of its centre:
+/// only what is zero has to be taken at its best. `balls`: the numbers of EmissionBall in their
+/// order, each `stride` behind the one before. Angles are kept as cosine and sine times the
+/// distance, so that the roots don't wait for one another.
+template <class D>
+HWY_INLINE hn::Vec<D> irradiance_of(D d, const float* balls, size_t stride, const Vec3f& reference,
+                                    const Vec3f& normal) {
+  using Vector = hn::Vec<D>;
+  const auto column = [&](size_t i) HWY_ATTR { return hn::LoadU(d, balls + i * stride); };
+  const auto dot3 = [](Vector ax, Vector ay, Vector az, Vector bx, Vector by, Vector bz) HWY_ATTR {
+    return hn::MulAdd(ax, bx, hn::MulAdd(ay, by, hn::Mul(az, bz)));
+  };
+  const Vector zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const Vector x = hn::Sub(hn::Set(d, reference.x), column(0));
+  const Vector y = hn::Sub(hn::Set(d, reference.y), column(1));
+  const Vector z = hn::Sub(hn::Set(d, reference.z), column(2));
+  const Vector radius = column(3);
+  const Vector radius_sq = hn::Mul(radius, radius);
+  const Vector distance_sq = dot3(x, y, z, x, y, z);
+  const auto within = hn::Le(distance_sq, radius_sq);
+  const Vector along = dot3(column(4), column(5), column(6), x, y, z);
+  const Vector toward =
+      hn::Neg(dot3(hn::Set(d, normal.x), hn::Set(d, normal.y), hn::Set(d, normal.z), x, y, z));
+
+  const auto other_leg = [&](Vector leg_sq) HWY_ATTR {
+    return hn::Sqrt(hn::Max(hn::Sub(distance_sq, leg_sq), zero));
+  };
+  const Vector distance = hn::Sqrt(distance_sq);
+  const Vector tangent = other_leg(radius_sq);  // distance · cos θ_u; the radius is its sine
+  const Vector across = other_leg(hn::Mul(along, along));
+  const Vector beside = other_leg(hn::Mul(toward, toward));
+  const Vector inverse_sq = hn::Div(one, hn::Max(distance_sq, hn::Set(d, 1e-30f)));
+  // cos max(0, α − θ_u)
+  const auto widened = [&](Vector cosine, Vector sine) HWY_ATTR {
+    const Vector narrowed = hn::Mul(hn::MulAdd(cosine, tangent, hn::Mul(sine, radius)), inverse_sq);
+    return hn::IfThenElse(hn::Or(within, hn::Gt(cosine, tangent)), one, narrowed);
+  };
+  const Vector half = hn::Set(d, 0.5f);
+  const Vector half_inverse = hn::Mul(hn::Mul(half, distance), inverse_sq);
+  const auto averaged = [&](Vector best, Vector at_center) HWY_ATTR {
+    return hn::MulAdd(hn::Max(at_center, zero), half_inverse, hn::Mul(half, best));
+  };
+
+  // max(0, θ − θ_o)
+  const Vector cos_spread = column(7), sin_spread = column(8);
+  const Vector sin_beyond = hn::NegMulAdd(along, sin_spread, hn::Mul(across, cos_spread));
+  const Vector cos_beyond =
+      hn::IfThenElse(hn::Lt(sin_beyond, zero), distance,
+                     hn::MulAdd(along, cos_spread, hn::Mul(across, sin_spread)));
+  const Vector sin_outside = hn::Max(sin_beyond, zero);
+  const Vector cos_emission = widened(cos_beyond, sin_outside);
+  // sin max(0, θ − θ_o − θ_u)
+  const Vector sin_emission = hn::Max(
+      hn::Mul(hn::MulSub(sin_outside, tangent, hn::Mul(cos_beyond, radius)), inverse_sq), zero);
+  const Vector ramp = column(10);
+  const Vector emission = hn::IfThenElse(
+      hn::Gt(ramp, zero), hn::NegMulAdd(ramp, averaged(sin_emission, sin_outside), one),
+      averaged(cos_emission, cos_beyond));
+  const bool any_side = normal.x == 0 && normal.y == 0 && normal.z == 0;
+  const Vector cos_receiver = any_side ? one : widened(toward, beside);
+
+  // Within the sphere a mean distance stands for all. In halls full of lamps half of its radius²
+  // gave about the least variance.
+  const Vector nearest_sq = hn::Max(hn::Mul(half, radius_sq), hn::Set(d, 1e-20f));
+  const Vector base = hn::Div(column(11), hn::Max(distance_sq, nearest_sq));
+  const Vector slack = hn::Set(d, CosineSlack());
+  const Vector receiver = any_side ? one : averaged(cos_receiver, toward);
+  // Beyond its cone, or wholly behind the surface.
+  const auto dark =
+      hn::Or(hn::Lt(cos_emission, hn::Sub(column(9), slack)), hn::Lt(cos_receiver, hn::Neg(slack)));
+  return hn::IfThenZeroElse(dark, hn::Mul(hn::Mul(base, hn::Max(emission, slack)),
+                                          hn::Max(receiver, hn::Set(d, minimum_receiver_cosine))));
+}
+
+float IrradianceOfOne(const float* ball, const Vec3f& reference, const Vec3f& normal) {
+  const hn::CappedTag<float, 1> d;
+  return hn::GetLane(irradiance_of(d, ball, 1, reference, normal));
+}
+
+void IrradianceOfMany(const float* balls, size_t stride, const Vec3f& reference,
+                      const Vec3f& normal, float* result) {
+  const hn::CappedTag<float, EmissionBalls::padding> d;
+  for (size_t i = 0; i < stride; i += hn::Lanes(d))
+    hn::StoreU(irradiance_of(d, balls + i, stride, reference, normal), d, result + i);
+}
+
+}  // namespace
+}  // namespace kaustik::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace kaustik {
 namespace {
+HWY_EXPORT(IrradianceOfOne);
+HWY_EXPORT(IrradianceOfMany);
 
-/// Rounding of directions must not hide a light at the border of its cone.
-constexpr float cosine_slack = 1e-4f;
-
-/// cos max(0, a − b) of angles within [0, π].
-float cos_of_difference(float cos_a, float sin_a, float cos_b, float sin_b) {
-  return cos_a > cos_b ? 1.0f : cos_a * cos_b + sin_a * sin_b;
+/// The order of EmissionBalls' columns.
+std::array<float, EmissionBalls::column_count> numbers_of(const EmissionBall& b) {
+  return {b.center.x, b.center.y,   b.center.z,   b.radius,      b.axis.x, b.axis.y,
+          b.axis.z,   b.cos_spread, b.sin_spread, b.cos_falloff, b.ramp,   b.intensity};
 }
-/// sin max(0, a − b).
-float sin_of_difference(float cos_a, float sin_a, float cos_b, float sin_b) {
-  return cos_a > cos_b ? 0.0f : sin_a * cos_b - cos_a * sin_b;
-}
-
-// Conty Estevez and Kulla, eq. 4, for the sphere around the lights, whose angular radius is
-// θ_u: intensity · |cos max(0, θ_i − θ_u)| · cos max(0, θ − θ_o − θ_u) / d². Without branches, so
-// that compilers make vectors of it.
-inline float irradiance_of_ball(const Vec3f& reference, const Vec3f& normal, float center_x,
-                                float center_y, float center_z, float radius, float axis_x,
-                                float axis_y, float axis_z, float cos_spread, float sin_spread,
-                                float cos_falloff, float intensity) {
-  const float x = reference.x - center_x, y = reference.y - center_y, z = reference.z - center_z;
-  const float distance_sq = x * x + y * y + z * z;
-  const float radius_sq = radius * radius;
-  // Within the sphere a mean distance stands for all: that of points spread evenly over a box from
-  // its centre is a third of radius². A quarter gave the least variance, a whole four times that.
-  const float base = intensity / std::max(std::max(distance_sq, 0.25f * radius_sq), 1e-20f);
-
-  const float inverse = 1.0f / std::sqrt(std::max(distance_sq, 1e-30f));
-  const float sin_u_sq = std::min(1.0f, radius_sq * (inverse * inverse));
-  const float sin_u = std::sqrt(sin_u_sq), cos_u = std::sqrt(1.0f - sin_u_sq);
-  const auto sine_of = [](float cosine) {
-    return std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
-  };
-  const auto within_one = [](float cosine) { return std::min(1.0f, std::max(-1.0f, cosine)); };
-
-  const float cos_axis = within_one((axis_x * x + axis_y * y + axis_z * z) * inverse);
-  const float sin_axis = sine_of(cos_axis);
-  const float cos_x = cos_of_difference(cos_axis, sin_axis, cos_spread, sin_spread);
-  const float sin_x = sin_of_difference(cos_axis, sin_axis, cos_spread, sin_spread);
-  const float cos_emission = cos_of_difference(cos_x, sin_x, cos_u, sin_u);
-
-  const bool any_side = normal.x == 0 && normal.y == 0 && normal.z == 0;
-  const float cos_i = within_one(-(normal.x * x + normal.y * y + normal.z * z) * inverse);
-  const float facing = cos_of_difference(cos_i, sine_of(cos_i), cos_u, sin_u);
-  const float cos_receiver = any_side ? 1.0f : facing;
-
-  const float outside =
-      base * std::max(cos_emission, cosine_slack) * std::max(cos_receiver, minimum_receiver_cosine);
-  // Beyond its cone, or wholly behind the surface.
-  const float lit = cos_emission < cos_falloff - cosine_slack ? 0.0f : outside;
-  const float before = cos_receiver < -cosine_slack ? 0.0f : lit;
-  return distance_sq <= radius_sq ? base : before;
-}
-
 }  // namespace
 
 EmissionBall::EmissionBall(const LightBounds& bounds, double power)
@@ -74,34 +137,25 @@ EmissionBall::EmissionBall(const Bounds3f& position, const EmissionCone& cone, d
       intensity(std::max(float(brightest), std::numeric_limits<float>::min())) {}
 
 float EmissionBall::irradiance(const Vec3f& reference, const Vec3f& normal) const {
-  return irradiance_of_ball(reference, normal, center.x, center.y, center.z, radius, axis.x, axis.y,
-                            axis.z, cos_spread, sin_spread, cos_falloff, intensity);
+  return HWY_DYNAMIC_DISPATCH(IrradianceOfOne)(numbers_of(*this).data(), reference, normal);
 }
 
-void EmissionBalls::add(const EmissionBall& ball) {
-  for (int k = 0; k < 3; ++k) {
-    center_[k].push_back(ball.center[k]);
-    axis_[k].push_back(ball.axis[k]);
+EmissionBalls::Block EmissionBalls::add(std::span<const EmissionBall> balls) {
+  const size_t stride = padded(balls.size());
+  const Block block{uint32_t(columns_.size()), uint32_t(balls.size())};
+  columns_.resize(columns_.size() + column_count * stride, 0.0f);
+  for (size_t i = 0; i < balls.size(); ++i) {
+    const auto numbers = numbers_of(balls[i]);
+    for (size_t k = 0; k < column_count; ++k) columns_[block.first + k * stride + i] = numbers[k];
   }
-  radius_.push_back(ball.radius);
-  cos_spread_.push_back(ball.cos_spread);
-  sin_spread_.push_back(ball.sin_spread);
-  cos_falloff_.push_back(ball.cos_falloff);
-  intensity_.push_back(ball.intensity);
+  return block;
 }
 
-void EmissionBalls::irradiance(const Vec3f& reference, const Vec3f& normal, float* result) const {
-  const float *cx = center_[0].data(), *cy = center_[1].data(), *cz = center_[2].data();
-  const float *ax = axis_[0].data(), *ay = axis_[1].data(), *az = axis_[2].data();
-  const float *radius = radius_.data(), *cos_spread = cos_spread_.data();
-  const float *sin_spread = sin_spread_.data(), *cos_falloff = cos_falloff_.data();
-  const float* intensity = intensity_.data();
-  const size_t count = size();
-  KAUSTIK_INDEPENDENT_TURNS
-  for (size_t i = 0; i < count; ++i)
-    result[i] =
-        irradiance_of_ball(reference, normal, cx[i], cy[i], cz[i], radius[i], ax[i], ay[i], az[i],
-                           cos_spread[i], sin_spread[i], cos_falloff[i], intensity[i]);
+void EmissionBalls::irradiance(const Block& block, const Vec3f& reference, const Vec3f& normal,
+                               float* result) const {
+  HWY_DYNAMIC_DISPATCH(IrradianceOfMany)
+  (columns_.data() + block.first, padded(block.count), reference, normal, result);
 }
 
 }  // namespace kaustik
+#endif

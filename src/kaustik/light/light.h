@@ -89,7 +89,8 @@ class Light {
   /// samples are shared out by: zero only where no light can arrive, and rather too high than too
   /// low. This is the thesis's brightness times projection.
   virtual float expected_irradiance(const LightQuery& query) const = 0;
-  /// Where expected_irradiance() is that of a ball, the ball: many are asked at once. Else null.
+  /// A ball that tells about the same as expected_irradiance(), and is zero no earlier: many are
+  /// asked at once. Null where none does, always of infinite lights.
   virtual const EmissionBall* emission_ball() const { return nullptr; }
   /// For classical ray tracing alone: factor on light that arrives at `reference`, which replaces
   /// the inverse square of the distance by the emitter's `attenuation`. 1 where none is given.
@@ -155,9 +156,9 @@ struct LightType {
 /// One row per type of emitter.
 const std::vector<LightType>& light_types();
 
-/// Chooses one of many lights for a reference point: up to 16 by the irradiance that they may give,
-/// more by a light tree (Conty Estevez and Kulla 2018). Infinite lights and the others are groups,
-/// of which neither gets less than a fifth. Once it has learned which lights are seen from where,
+/// Chooses one of many lights for a reference point by the irradiance that they may give: those
+/// with a place by a light tree (Conty Estevez and Kulla 2018), infinite ones beside it; neither of
+/// these two groups gets less than a fifth. Once it has learned which lights are seen from where,
 /// up to 64 of any kind are chosen by the irradiance that they may give and its share that arrived
 /// at probes nearby. Every light that can reach the point has a chance above zero; lights without
 /// power have none. Immutable once it has learned.

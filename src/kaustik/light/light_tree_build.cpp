@@ -6,7 +6,8 @@ namespace kaustik {
 namespace {
 
 constexpr int bin_count = 12;
-/// Deeper than this nodes are halved by count, so that the turns to any of 2³² lights fit 64 bits.
+/// Deeper than this nodes are halved by count, so that no way to one of 2³¹ lights is longer than
+/// LightTree::whole_depth.
 constexpr int maximum_heuristic_depth = 32;
 
 /// Some lights together.
@@ -22,7 +23,7 @@ struct Group {
     intensity += added_intensity;
     count += added;
   }
-  void add(const LightTreeBuild::Node& n) { add(n.position, n.emission, n.intensity, 1); }
+  void add(const LightTreeBuild::Node& n) { add(n.position, n.emission, n.intensity, n.lights); }
   void add(const Group& g) {
     if (g.count > 0) add(g.position, g.emission, g.intensity, g.count);
   }
@@ -61,8 +62,10 @@ LightTreeBuild::LightTreeBuild(std::vector<LightTree::Item> items) {
     Node leaf;
     leaf.position = item.bounds.position;
     leaf.emission = emission_cone(item.bounds);
-    leaf.intensity = item.power / orientation_measure(leaf.emission);
+    leaf.intensity =
+        item.ball ? double(item.ball->intensity) : item.power / orientation_measure(leaf.emission);
     leaf.light = item.light;
+    leaf.ball = item.ball;
     leaves_.push_back(leaf);
   }
   nodes_.reserve(2 * leaves_.size());
@@ -71,11 +74,9 @@ LightTreeBuild::LightTreeBuild(std::vector<LightTree::Item> items) {
 }
 
 void LightTreeBuild::fill(size_t index, size_t begin, size_t end) {
-  const uint64_t turns = nodes_[index].turns;
   const int depth = nodes_[index].depth;
   if (end - begin == 1) {
     nodes_[index] = leaves_[begin];
-    nodes_[index].turns = turns;
     nodes_[index].depth = depth;
     return;
   }
@@ -83,8 +84,6 @@ void LightTreeBuild::fill(size_t index, size_t begin, size_t end) {
   const size_t left = nodes_.size();
   nodes_.resize(left + 2);
   nodes_[left].depth = nodes_[left + 1].depth = depth + 1;
-  nodes_[left].turns = turns;
-  nodes_[left + 1].turns = turns | (uint64_t{1} << depth);
   fill(left, begin, middle);
   fill(left + 1, middle, end);
   Group both;
@@ -95,6 +94,7 @@ void LightTreeBuild::fill(size_t index, size_t begin, size_t end) {
   node.emission = both.emission;
   node.intensity = both.intensity;
   node.left = int(left);
+  node.lights = both.count;
 }
 
 size_t LightTreeBuild::split(size_t begin, size_t end, int depth) {

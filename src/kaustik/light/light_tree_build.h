@@ -4,22 +4,23 @@
 
 namespace kaustik {
 
-/// Builds the nodes of a LightTree, one light per leaf, splitting by the surface area orientation
-/// heuristic (Conty Estevez and Kulla 2018, eq. 2).
+/// A binary tree over lights, one per leaf, split by the surface area orientation heuristic (Conty
+/// Estevez and Kulla 2018, eq. 2): what a LightTree makes its wider nodes of.
 class LightTreeBuild {
  public:
   struct Node {
     Bounds3f position;
     EmissionCone emission;
     double intensity = 0;
-    int light = -1;  ///< of leaves
-    int left = -1;   ///< of inner nodes; the right child follows
-    uint64_t turns = 0;
+    int light = -1;                      ///< of leaves
+    const EmissionBall* ball = nullptr;  ///< of leaves; may be null
+    int left = -1;                       ///< of inner nodes; the right child follows
+    int lights = 1;                      ///< below it
     int depth = 0;
   };
   /// At least one item.
   explicit LightTreeBuild(std::vector<LightTree::Item> items);
-  /// The root first.
+  /// The root first; at most 64 deep.
   const std::vector<Node>& nodes() const { return nodes_; }
 
  private:

@@ -9,7 +9,9 @@ namespace kaustik {
 namespace {
 
 /// Depth of the tree down to which its nodes are told apart by the point that asks.
-int informed_depth(int level) { return level <= 0 ? LightTree::whole_depth : 6 / level; }
+int informed_depth(int level) {
+  return level <= 0 ? LightTree::whole_depth : std::max(1, 2 / level);
+}
 
 /// Gives every triangle the share of its mean radiance, by a few points. Those may miss what is
 /// bright: none gets less than a tenth of what it would have by its area.
@@ -64,8 +66,10 @@ MeshFaces::MeshFaces(const Shape& shape, bool two_sided, const EmissionPattern* 
 ShapeSample MeshFaces::sample_toward(const LightQuery& query, const Vec2f& u,
                                      float& pdf_solid_angle) const {
   float rest = u.x;
-  const LightSelector::Choice choice =
-      tree_.choose(query.reference, query.normal, rest, informed_depth(query.level));
+  const int depth = informed_depth(query.level);
+  ChoiceWeights weights;
+  tree_.weigh(query, weights, depth);
+  const LightSelector::Choice choice = tree_.choose(query, weights, rest, depth);
   const auto triangle = uint32_t(choice.light);
   const Vec2f b = square_to_triangle({rest, u.y});
   ShapeSample sample{triangle_surface_point(*shape_.mesh(), triangle, b.x, b.y), 0};
@@ -76,8 +80,10 @@ ShapeSample MeshFaces::sample_toward(const LightQuery& query, const Vec2f& u,
 }
 
 float MeshFaces::pdf_toward(const LightQuery& query, const SurfacePoint& point) const {
-  const float probability = tree_.probability(query.reference, query.normal, int(point.primitive),
-                                              informed_depth(query.level));
+  const int depth = informed_depth(query.level);
+  ChoiceWeights weights;
+  tree_.weigh(query, weights, depth);
+  const float probability = tree_.probability(query, weights, int(point.primitive), depth);
   return shape_.pdf_toward(query.reference, point) * density_ratio(point.primitive, probability);
 }
 

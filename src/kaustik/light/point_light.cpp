@@ -1,6 +1,8 @@
 #include "kaustik/base/warp.h"
 #include "kaustik/light/attenuation.h"
+#include "kaustik/light/emission_ball.h"
 #include "kaustik/light/light_kinds.h"
+#include "kaustik/light/power_distribution.h"
 
 namespace kaustik {
 namespace {
@@ -10,7 +12,10 @@ class PointLight final : public Light {
  public:
   PointLight(const Spectrum& intensity, const Vec3f& position,
              const ClassicalAttenuation& attenuation)
-      : intensity_(intensity), point_(free_point(position)), attenuation_(attenuation) {}
+      : intensity_(intensity),
+        point_(free_point(position)),
+        attenuation_(attenuation),
+        ball_(PointLight::bounds(), importance_of(PointLight::power())) {}
 
   Spectrum power() const override { return intensity_ * (4.0f * pi); }
   LightBounds bounds() const override {
@@ -61,6 +66,7 @@ class PointLight final : public Light {
   Spectrum intensity_;
   SurfacePoint point_;  ///< without a normal
   ClassicalAttenuation attenuation_;
+  EmissionBall ball_;
 };
 
 std::unique_ptr<Light> create_point(const LightInputs& inputs) {

@@ -23,6 +23,10 @@ double solid_angle_of_falloff(double cutoff, double beam) {
   return 2 * std::numbers::pi * (one_minus_cos + (1 - one_minus_cos) * one_minus_sinc);
 }
 
+/// Transitions from beam to cutoff that a ramp of the sine follows: others are too narrow for the
+/// rounding of directions, or so wide that the sine turns back.
+constexpr double least_ramp = 0.02, most_ramp = 0.5 * std::numbers::pi;
+
 }  // namespace
 
 SpotCone::SpotCone(double cutoff, double beam)
@@ -32,6 +36,17 @@ SpotCone::SpotCone(double cutoff, double beam)
       cutoff_height_(float(height_of_angle(cutoff))),
       mass_(0.5f * (beam_height_ + cutoff_height_)),
       solid_angle_(float(solid_angle_of_falloff(cutoff, beam))) {}
+
+EmissionBall SpotCone::emission_ball(const Bounds3f& position, const Vec3f& axis,
+                                     double intensity) const {
+  const double width = inv_transition_ > 0 ? 1.0 / double(inv_transition_) : 0.0;
+  const bool ramp = width >= least_ramp && width <= most_ramp;
+  EmissionCone cone{axis, double(cutoff_), 0};
+  if (ramp) cone = {axis, double(cutoff_) - width, width};
+  EmissionBall ball(position, cone, intensity);
+  if (ramp) ball.ramp = float(1 / std::sin(width));
+  return ball;
+}
 
 float SpotCone::falloff(const Vec3f& local) const {
   const float height = height_of(local);

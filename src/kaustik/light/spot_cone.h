@@ -1,5 +1,5 @@
 #pragma once
-#include "kaustik/base/vec.h"
+#include "kaustik/light/emission_ball.h"
 
 namespace kaustik {
 
@@ -14,6 +14,8 @@ class SpotCone {
   /// The falloff over all directions, sr.
   float solid_angle() const { return solid_angle_; }
   float cos_cutoff() const { return 1.0f - cutoff_height_; }
+  /// Of a light within `position` that shines by the falloff about `axis`.
+  EmissionBall emission_ball(const Bounds3f& position, const Vec3f& axis, double intensity) const;
 
   /// A direction with a density close to the falloff: constant within the beam, linear in cosθ
   /// outside, so that falloff/density differs by at most 2 over the cone (for cutoffs up to 90°).

@@ -14,7 +14,8 @@ class SpotLight final : public Light {
         point_(free_point(position)),
         frame_(axis),
         cone_(cone),
-        attenuation_(attenuation) {}
+        attenuation_(attenuation),
+        ball_(cone.emission_ball(SpotLight::bounds().position, frame_.z, intensity.sum())) {}
 
   Spectrum power() const override { return intensity_ * cone_.solid_angle(); }
   LightBounds bounds() const override {
@@ -33,6 +34,7 @@ class SpotLight final : public Light {
     return intensity_.sum() * cone_.falloff(frame_.to_local(-at.direction)) / sqr(at.distance) *
            receiver_cosine(query, at.direction);
   }
+  const EmissionBall* emission_ball() const override { return &ball_; }
   float classical_attenuation(const Vec3f& reference) const override {
     return attenuation_.factor(length(point_.position - reference));
   }
@@ -78,6 +80,7 @@ class SpotLight final : public Light {
   Frame frame_;
   SpotCone cone_;
   ClassicalAttenuation attenuation_;
+  EmissionBall ball_;
 };
 
 std::unique_ptr<Light> create_spot(const LightInputs& inputs) {

@@ -1,18 +1,9 @@
-// The content of a .kpt file, in the frame of base/binary_file.h; a text is its length (u64) and
-// its bytes, a list its length (u64) and its items, a flag is 0 or 1 (u8):
-//   program (text);
-//   recipe: scene, folder (texts), definitions (list of pairs of texts), integrator (text),
-//   settings (list of pairs of texts: assignment, origin), seed (u64), samples per pass (u32),
-//   digests of the scene and of the integrator (u64 each);
-//   plan: first pass, passes (u32 each), seconds, error (each: flag whether it is given, f64);
-//   outputs: files (list of texts), tone (text), tone settings (list of texts), denoise, float,
-//   reproducible (flags);
-//   view: integrator (text), field of view across and down (f64 each, degrees), irradiance (flag);
-//   seconds that it took (f64);
-//   the film: film_file.cpp.
+// docs/checkpoints.md describes the file; what is put and got here is that, in its order.
 #include "kaustik/render/checkpoint.h"
 
 #include <fmt/format.h>
+
+#include <new>
 
 #include "kaustik/base/binary_file.h"
 
@@ -21,10 +12,13 @@ namespace {
 
 constexpr BinaryFileKind checkpoint_kind = {
     {0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
-    1,
+    2,
     "checkpoint",
     "give a .kpt file that was written by: kaustik render SCENE --checkpoint FILE.kpt",
     "render again with this program: kaustik render SCENE --checkpoint FILE.kpt"};
+
+/// As many as `kaustik render` takes in all.
+constexpr uint32_t most_samples_per_pass = uint32_t(1) << 30;
 
 void put_texts(BinaryWriter& writer, const std::vector<std::string>& texts) {
   writer.put(uint64_t(texts.size()));
@@ -80,7 +74,8 @@ RenderRecipe get_recipe(BinaryReader& reader) {
   }
   recipe.seed = reader.get<uint64_t>();
   recipe.samples_per_pass = reader.get<uint32_t>();
-  if (recipe.samples_per_pass == 0) reader.damaged("its passes have no samples");
+  if (recipe.samples_per_pass == 0 || recipe.samples_per_pass > most_samples_per_pass)
+    reader.damaged("the samples of its passes are not valid");
   recipe.digest.scene = reader.get<uint64_t>();
   recipe.digest.integrator = reader.get<uint64_t>();
   return recipe;
@@ -108,6 +103,8 @@ StopPlan get_plan(BinaryReader& reader) {
   StopPlan plan;
   plan.first_pass = reader.get<uint32_t>();
   plan.passes = reader.get<uint32_t>();
+  if (plan.first_pass >= pass_limit || plan.passes > pass_limit - plan.first_pass)
+    reader.damaged("the passes that it was to have are not valid");
   plan.seconds = get_optional(reader);
   plan.error = get_optional(reader);
   return plan;
@@ -186,7 +183,7 @@ StopPlan merged_plan(const StopPlan& a, const StopPlan& b, const PassSet& passes
 
 }  // namespace
 
-void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film) {
+void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film) try {
   BinaryWriter writer(checkpoint_kind);
   writer.put_text(record.program);
   put_recipe(writer, record.recipe);
@@ -196,6 +193,9 @@ void write_checkpoint(const std::string& path, const RenderRecord& record, const
   writer.put(record.seconds);
   film.write(writer);
   writer.write_to(path);
+} catch (const std::bad_alloc&) {
+  throw Error(ErrorKind::system, fmt::format("cannot write '{}': not enough memory", path),
+              "render the picture in parts by the film's crop window, or where there is more");
 }
 
 Checkpoint read_checkpoint(const std::string& path) {
@@ -203,7 +203,14 @@ Checkpoint read_checkpoint(const std::string& path) {
   RenderRecord record = get_record(reader);
   Checkpoint checkpoint{std::move(record), Film::read(reader)};
   reader.expect_end();
-  if (checkpoint.film.passes().empty()) reader.damaged("it holds no pass");
+  const Film& film = checkpoint.film;
+  const PassSet& passes = film.passes();
+  if (passes.empty()) reader.damaged("it holds no pass");
+  if (film.samples_per_pixel() !=
+      uint64_t(film.pass_count()) * checkpoint.record.recipe.samples_per_pass)
+    reader.damaged("its passes do not have the samples that it tells");
+  if (checkpoint.record.plan.first_pass >= passes.ranges().back().end)
+    reader.damaged("its passes come before those that it was to have");
   return checkpoint;
 }
 

@@ -63,7 +63,8 @@ struct Checkpoint {
   Film film;
 };
 
-/// Writes a .kpt file atomically; throws as write_file_atomically() does.
+/// Writes a .kpt file atomically; throws as write_file_atomically() does, and Error(system) if
+/// there is too little memory to collect it.
 void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film);
 
 /// Throws Error(input) if the file is missing, no checkpoint, of another version or byte order,

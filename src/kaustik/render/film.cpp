@@ -93,9 +93,11 @@ double Film::add_pixel(size_t i, const PassPixel& pixel, size_t replicate) {
   for (size_t k = 0; k < first_hit_lanes_; ++k) add_to(sum[first_hit_ + k], fixed_from(first[k]));
   for (size_t k = 0; k < noise_kinds; ++k)
     add_to(sum[sample_squares_ + k], fixed_from(double(pixel.squares[k])));
-  if (layers_.bias)
+  if (layers_.bias) {
+    Fixed* bias = sum + bias_ + replicate % bias_halves * lanes_;
     for (int lane = 0; lane < lanes_; ++lane)
-      add_to(sum[bias_ + size_t(lane)], fixed_from(double(pixel.bias[lane])));
+      add_to(bias[lane], fixed_from(double(pixel.bias[lane])));
+  }
   const double luminance = photopic(Vec3f(float(total[0]), float(total[1]), float(total[2])));
   add_to(sum[luminance_squares_], fixed_from(luminance * luminance));
   add_to(sum[replicate_luminances_ + replicate], fixed_from(luminance));
@@ -124,11 +126,15 @@ Spectrum Film::mean(size_t pixel) const {
   return result;
 }
 
-Vec3f Film::mean_bias(size_t pixel) const {
+Vec3f Film::bias_sum(size_t pixel, size_t half) const {
   Vec3f result;
   for (int lane = 0; lane < lanes_; ++lane)
-    result[lane] = float(sum(pixel, bias_ + size_t(lane)) / pass_count());
+    result[lane] = float(sum(pixel, bias_ + half * lanes_ + size_t(lane)));
   return result;
+}
+
+Vec3f Film::mean_bias(size_t pixel) const {
+  return (bias_sum(pixel, 0) + bias_sum(pixel, 1)) / float(pass_count());
 }
 
 std::array<double, noise_kinds> Film::noise(size_t pixel) const {

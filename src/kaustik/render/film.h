@@ -17,6 +17,9 @@ class FilmErrors;
 /// components direct, caustic and indirect), and what it mirrors and transmits (specular).
 inline constexpr int noise_kinds = 2;
 
+/// Estimates of the bias are summed apart for even and for odd replicates.
+inline constexpr uint32_t bias_halves = 2;
+
 /// What one pass makes of one pixel.
 struct PassPixel {
   std::array<Spectrum, component_count> radiance{};  ///< mean over the pass's samples, plus splats
@@ -59,6 +62,7 @@ class Film {
   }
   const PassSet& passes() const { return passes_; }
   uint32_t pass_count() const { return passes_.count(); }
+  uint64_t samples_per_pixel() const { return sample_count_; }
   int width() const { return size_.x; }
   int height() const { return size_.y; }
   size_t pixel_count() const { return size_t(size_.x) * size_t(size_.y); }
@@ -92,6 +96,8 @@ class Film {
   const std::array<Fixed, replicate_count>& mean_luminances() const { return mean_luminances_; }
   /// Only if holds_bias().
   Vec3f mean_bias(size_t pixel) const;
+  /// Of the passes of even replicates (0) or of odd ones (1): independent of one another.
+  Vec3f bias_sum(size_t pixel, size_t half) const;
 
  private:
   static constexpr int lanes_ = 3;
@@ -103,12 +109,13 @@ class Film {
   static constexpr size_t first_hit_lanes_ = 7;
   static constexpr size_t sample_squares_ = first_hit_ + first_hit_lanes_;  ///< [kind of light]
   static constexpr size_t luminance_squares_ = sample_squares_ + noise_kinds;
-  static constexpr size_t replicate_luminances_ = luminance_squares_ + 1;   ///< [replicate]
-  static constexpr size_t bias_ = replicate_luminances_ + replicate_count;  ///< [lane], if held
+  static constexpr size_t replicate_luminances_ = luminance_squares_ + 1;  ///< [replicate]
+  static constexpr size_t bias_ =
+      replicate_luminances_ + replicate_count;  ///< [half][lane], if held
 
   Film(Vec2i size, const FilmLayers& layers) : size_(size), layers_(layers) {}
   static void check_size(const FilmSettings& settings, size_t numbers_per_pixel);
-  size_t numbers_per_pixel() const { return layers_.bias ? bias_ + lanes_ : bias_; }
+  size_t numbers_per_pixel() const { return layers_.bias ? bias_ + bias_halves * lanes_ : bias_; }
   Fixed* sums(size_t pixel) { return numbers_.data() + pixel * numbers_per_pixel(); }
   const Fixed* sums(size_t pixel) const { return numbers_.data() + pixel * numbers_per_pixel(); }
   double sum(size_t pixel, size_t number) const { return double_from(sums(pixel)[number]); }

@@ -6,22 +6,30 @@
 namespace kaustik {
 namespace {
 
-/// Pixels on either side that a pixel's bias is averaged with.
+/// Pixels on either side that the square of a pixel's bias is averaged with.
 constexpr int bias_reach = 2;
 /// Share of the picture's mean luminance under which a pixel's own counts less and less.
 constexpr double dark_share = 0.01;
 
 double squared(double x) { return x * x; }
 
+using Squares = std::array<float, 4>;
+
 /// Means of each value with its neighbours in a line of `count` values that are `step` apart; at
 /// the ends of those that are there.
-void smooth_line(const Vec3f* values, int count, size_t step, Vec3f* smoothed) {
+void smooth_line(const Squares* values, int count, size_t step, Squares* smoothed) {
   for (int i = 0; i < count; ++i) {
     const int first = std::max(0, i - bias_reach), last = std::min(count - 1, i + bias_reach);
-    Vec3f sum(0, 0, 0);
-    for (int k = first; k <= last; ++k) sum += values[size_t(k) * step];
-    smoothed[size_t(i) * step] = sum / float(last - first + 1);
+    Squares sum{};
+    for (int k = first; k <= last; ++k)
+      for (size_t c = 0; c < sum.size(); ++c) sum[c] += values[size_t(k) * step][c];
+    for (size_t c = 0; c < sum.size(); ++c)
+      smoothed[size_t(i) * step][c] = sum[c] / float(last - first + 1);
   }
+}
+
+Squares product(const Vec3f& a, const Vec3f& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z, photopic(a) * photopic(b)};
 }
 
 }  // namespace
@@ -31,20 +39,28 @@ FilmErrors::FilmErrors(const Film& film) : film_(film) {
     replicate_passes_[r] = film.passes().count_of_remainder(r, replicate_count);
     replicates_ += replicate_passes_[r] > 0 ? 1 : 0;
   }
-  if (film.holds_bias() && film.pass_count() > 0) smooth_bias();
+  if (film.holds_bias()) square_bias();
 }
 
-void FilmErrors::smooth_bias() {
+void FilmErrors::square_bias() {
+  std::array<float, bias_halves> half_passes{};
+  for (uint32_t half = 0; half < bias_halves; ++half)
+    half_passes[half] = float(film_.passes().count_of_remainder(half, bias_halves));
+  if (!(half_passes[0] > 0 && half_passes[1] > 0)) return;
   const int width = film_.width(), height = film_.height();
-  std::vector<Vec3f> rows(film_.pixel_count());
-  bias_.resize(film_.pixel_count());
+  std::vector<Squares> rows(film_.pixel_count());
+  bias_sq_.resize(film_.pixel_count());
   parallel_blocks(size_t(height), 1, [&](size_t y, size_t, size_t) {
-    std::vector<Vec3f> row(static_cast<size_t>(width));
-    for (size_t x = 0; x < row.size(); ++x) row[x] = film_.mean_bias(y * row.size() + x);
+    std::vector<Squares> row(static_cast<size_t>(width));
+    for (size_t x = 0; x < row.size(); ++x) {
+      const size_t pixel = y * row.size() + x;
+      row[x] = product(film_.bias_sum(pixel, 0) / half_passes[0],
+                       film_.bias_sum(pixel, 1) / half_passes[1]);
+    }
     smooth_line(row.data(), width, 1, rows.data() + y * row.size());
   });
   parallel_blocks(size_t(width), 1, [&](size_t x, size_t, size_t) {
-    smooth_line(rows.data() + x, height, size_t(width), bias_.data() + x);
+    smooth_line(rows.data() + x, height, size_t(width), bias_sq_.data() + x);
   });
 }
 
@@ -74,8 +90,8 @@ double FilmErrors::variance_over_passes(double sum, double sum_of_squares) const
   return std::max(0.0, sum_of_squares / n - mean * mean) / (n - 1);
 }
 
-double FilmErrors::bias_luminance(size_t pixel) const {
-  return bias_.empty() ? 0 : std::abs(double(photopic(bias_[pixel])));
+double FilmErrors::bias_luminance_sq(size_t pixel) const {
+  return bias_sq_.empty() ? 0 : double(bias_sq_[pixel][3]);
 }
 
 Vec3f FilmErrors::of_pixel(size_t pixel) const {
@@ -91,7 +107,8 @@ Vec3f FilmErrors::of_pixel(size_t pixel) const {
   }
   Vec3f error;
   for (int lane = 0; lane < 3; ++lane)
-    error[lane] = std::sqrt(variance[lane] + (bias_.empty() ? 0 : sqr(bias_[pixel][lane])));
+    error[lane] = std::sqrt(variance[lane] +
+                            (bias_sq_.empty() ? 0 : std::max(0.0f, bias_sq_[pixel][size_t(lane)])));
   return error;
 }
 
@@ -99,7 +116,8 @@ ConfidenceInterval FilmErrors::luminance(size_t pixel, double confidence) const 
   const double mean = luminance_sum(pixel) / std::max(1.0, passes());
   if (!is_known()) return {mean, std::numeric_limits<double>::infinity()};
   const double t = student_t_quantile(0.5 + confidence / 2, replicates_ - 1);
-  return {mean, t * std::sqrt(luminance_variance(pixel)) + bias_luminance(pixel)};
+  return {mean, t * std::sqrt(luminance_variance(pixel)) +
+                    std::sqrt(std::max(0.0, bias_luminance_sq(pixel)))};
 }
 
 double FilmErrors::of_picture() const {
@@ -111,19 +129,20 @@ double FilmErrors::of_picture() const {
   const double sum = sum_over_blocks(pixels, 4096, [&](size_t begin, size_t end) {
     double block = 0;
     for (size_t i = begin; i < end; ++i) {
-      const double square = luminance_variance(i) + squared(bias_luminance(i));
-      if (square > 0) block += square / squared(std::abs(luminance_sum(i)) / passes() + dark);
+      const double square = luminance_variance(i) + bias_luminance_sq(i);
+      if (square != 0) block += square / squared(std::abs(luminance_sum(i)) / passes() + dark);
     }
     return block;
   });
-  return std::sqrt(sum / double(pixels));
+  return std::sqrt(std::max(0.0, sum) / double(pixels));
 }
 
 double FilmErrors::of_mean() const {
   double sum = 0, bias = 0;
   for (const Fixed part : film_.mean_luminances()) sum += double_from(part);
   if (!is_known() || !(sum > 0)) return std::numeric_limits<double>::infinity();
-  for (size_t i = 0; i < bias_.size(); ++i) bias += double(photopic(film_.mean_bias(i)));
+  if (film_.holds_bias())
+    for (size_t i = 0; i < film_.pixel_count(); ++i) bias += double(photopic(film_.mean_bias(i)));
   const double t = student_t_quantile(0.975, replicates_ - 1);
   const double noise = std::sqrt(variance_by_replicates(film_.mean_luminances().data()));
   return (t * noise + std::abs(bias) / double(film_.pixel_count())) / (sum / passes());

@@ -14,9 +14,11 @@ namespace kaustik {
 /// weighted by their passes. Only their luminances are kept; a channel's error is that over passes,
 /// times what replicates make of that of the luminance.
 ///
-/// Bias: its estimates are as noisy as the picture, and the magnitude of noise is not zero. So it
-/// is averaged over 5 × 5 pixels before the magnitude is taken. What is left of the noise makes
-/// the error too large, never too small.
+/// Bias: its estimates are as noisy as the picture, and the square of noise is not zero. But the
+/// product of two independent estimates has the mean of the bias squared: that of even replicates
+/// times that of odd ones, averaged over 5 × 5 pixels, is what counts, and nothing where that is
+/// negative. (Averaged themselves they would cancel where light has an edge: the bias is of
+/// opposite signs on its two sides.) With passes of one half alone the bias counts as zero.
 class FilmErrors {
  public:
   /// `film` must outlive this and not change.
@@ -45,13 +47,15 @@ class FilmErrors {
   double luminance_variance(size_t pixel) const;
   /// Of a mean over passes as if they were independent.
   double variance_over_passes(double sum, double sum_of_squares) const;
-  double bias_luminance(size_t pixel) const;
-  void smooth_bias();
+  /// Squared; may be negative, which over many pixels cancels what is too large elsewhere.
+  double bias_luminance_sq(size_t pixel) const;
+  void square_bias();
 
   const Film& film_;
   std::array<uint32_t, replicate_count> replicate_passes_{};
-  int replicates_ = 0;       ///< that have passes
-  std::vector<Vec3f> bias_;  ///< averaged over neighbours; empty: none is estimated
+  int replicates_ = 0;  ///< that have passes
+  /// Squared, of R, G, B and the luminance, averaged over neighbours; empty: none is known.
+  std::vector<std::array<float, 4>> bias_sq_;
 };
 
 }  // namespace kaustik

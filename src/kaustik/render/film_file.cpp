@@ -1,10 +1,4 @@
-// A film's part of a checkpoint:
-//   width, height (i32 each), components (u32, bit c: component c), whether it holds bias (u8, 0 or
-//   1), samples per pixel (u64),
-//   number of ranges of passes (u64), per range its first pass and the one after its last (u32
-//   each), in ascending order, not touching,
-//   sums of the picture's mean luminance over the passes of each replicate (16 packed sums),
-//   per pixel, row by row, its numbers as in Film (packed sums).
+// A film as part of a checkpoint: docs/checkpoints.md.
 #include "kaustik/base/binary_file.h"
 #include "kaustik/render/film.h"
 #include "kaustik/render/packed_sums.h"
@@ -26,7 +20,8 @@ PassSet get_passes(BinaryReader& reader) {
   uint32_t last_end = 0;
   for (uint64_t i = 0; i < count; ++i) {
     const auto begin = reader.get<uint32_t>(), end = reader.get<uint32_t>();
-    if (begin >= end || (i > 0 && begin <= last_end)) reader.damaged("its passes are not valid");
+    if (begin >= end || end > pass_limit || (i > 0 && begin <= last_end))
+      reader.damaged("its passes are not valid");
     passes.add({begin, end});
     last_end = end;
   }
@@ -66,6 +61,8 @@ void Film::write(BinaryWriter& writer) const {
   writer.put(sample_count_);
   put_passes(writer, passes_);
   put_sums(writer, mean_luminances_);
+  // Growing bit by bit would take twice the memory at a time.
+  writer.reserve(packed_size(numbers_));
   put_sums(writer, numbers_);
 }
 

@@ -52,6 +52,13 @@ Fixed get_sum(BinaryReader& reader) {
 
 }  // namespace
 
+uint64_t packed_size(std::span<const Fixed> sums) {
+  uint64_t size = 0;
+  for (const Fixed sum : sums)
+    size += sum == 0 ? 1 : uint64_t(2 + last_kept(sum) - first_kept(sum));
+  return size;
+}
+
 void put_sums(BinaryWriter& writer, std::span<const Fixed> sums) {
   for (const Fixed sum : sums) put_sum(writer, sum);
 }

@@ -7,11 +7,12 @@
 
 namespace kaustik {
 
-/// Writes exact sums without the bytes that say nothing: most have 5 to 8 of their 16, zeros none.
-/// Each is a byte (low half: number of the first byte that is kept, from the least; high half: of
-/// the last; zero: 0x01, a first one after the last), then these bytes. Bytes before them are 0,
-/// those after them repeat the sign.
+/// Writes exact sums without the bytes that say nothing, as docs/checkpoints.md describes it: most
+/// have 5 to 8 of their 16, zeros none.
 void put_sums(BinaryWriter& writer, std::span<const Fixed> sums);
+
+/// How many bytes that takes.
+uint64_t packed_size(std::span<const Fixed> sums);
 
 /// Reads so many; throws as BinaryReader does. Allocates at most 16 bytes for each of the file.
 std::vector<Fixed> get_sums(BinaryReader& reader, uint64_t count);

@@ -27,6 +27,23 @@ void PassSet::add(PassRange range) {
   for (const PassRange& each : result) append(each);
 }
 
+void PassSet::add(const PassSet& other) {
+  std::vector<PassRange> all(ranges_.size() + other.ranges_.size());
+  std::merge(ranges_.begin(), ranges_.end(), other.ranges_.begin(), other.ranges_.end(),
+             all.begin(), [](const PassRange& a, const PassRange& b) { return a.begin < b.begin; });
+  ranges_.clear();
+  count_ = 0;
+  for (PassRange range : all) {
+    if (!ranges_.empty() && range.begin <= ranges_.back().end) {
+      const PassRange last = ranges_.back();
+      ranges_.pop_back();
+      count_ -= last.end - last.begin;
+      range = {last.begin, std::max(last.end, range.end)};
+    }
+    append(range);
+  }
+}
+
 void PassSet::append(PassRange range) {
   ranges_.push_back(range);
   count_ += range.end - range.begin;

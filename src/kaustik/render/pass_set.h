@@ -11,14 +11,15 @@ struct PassRange {
   friend bool operator==(const PassRange&, const PassRange&) = default;
 };
 
+/// Passes have smaller numbers than this, so that counting on from one stays in range.
+inline constexpr uint32_t pass_limit = uint32_t(1) << 31;
+
 /// A set of pass numbers, kept as ranges that neither overlap nor touch, in ascending order.
 class PassSet {
  public:
   /// The range may be empty.
   void add(PassRange range);
-  void add(const PassSet& other) {
-    for (const PassRange& range : other.ranges_) add(range);
-  }
+  void add(const PassSet& other);
 
   uint32_t count() const { return count_; }
   /// Those with this remainder of the division by `modulus`.

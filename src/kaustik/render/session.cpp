@@ -64,6 +64,12 @@ void add_scaled(const PassPixel& pixel, float scale, PassPixel& sum) {
   for (size_t k = 0; k < noise_kinds; ++k) sum.squares[k] += pixel.squares[k] * scale;
 }
 
+/// Adds those that are not there yet.
+void add_new(const std::vector<std::string>& sentences, std::vector<std::string>& all) {
+  for (const std::string& sentence : sentences)
+    if (std::find(all.begin(), all.end(), sentence) == all.end()) all.push_back(sentence);
+}
+
 /// Resident memory of the program, 0 where the system does not tell.
 size_t resident_bytes() {
   std::ifstream statm("/proc/self/statm");
@@ -281,10 +287,8 @@ bool Session::render_pass(uint32_t index, std::stop_token stop, Monitor& monitor
   const auto state =
       integrator_.prepare(pass, splats_, stop, [&](double share) { monitor.light_pass_at(share); });
   monitor.light_pass_done(state->report);
-  for (const std::string& warning : state->report.warnings)
-    if (std::find(report_.warnings.begin(), report_.warnings.end(), warning) ==
-        report_.warnings.end())
-      report_.warnings.push_back(warning);
+  add_new(state->report.warnings, report_.warnings);
+  add_new(state->report.decisions, report_.decisions);
   if (integrator_.samples_camera() && !stop.stop_requested())
     parallel_blocks(size_t(tiles_.x) * size_t(tiles_.y), 1, [&](size_t tile, size_t, size_t) {
       if (stop.stop_requested()) return;
@@ -350,10 +354,17 @@ void Session::add_splats() {
     }
 }
 
+std::string integrator_type(const Description& description, const Scene& scene) {
+  if (const std::shared_ptr<Object> given = find_integrator(description)) return given->type;
+  for (uint32_t i = 0; i < scene.surface_count(); ++i)
+    if (scene.surface(i).illumination) return "photonmap";
+  return default_integrator;
+}
+
 std::unique_ptr<Integrator> make_integrator(const Description& description, const Scene& scene,
                                             std::vector<std::string>& warnings) {
-  static const Object default_object{"integrator", "photonmap", "", {}, {}, {}};
   const std::shared_ptr<Object> given = find_integrator(description);
+  const Object default_object{"integrator", integrator_type(description, scene), "", {}, {}, {}};
   return make_integrator(given ? *given : default_object, scene, warnings);
 }
 

@@ -60,6 +60,7 @@ struct SessionReport {
   bool cancelled = false;
   bool incomplete_pass = false;  ///< cancelled in the first pass: the picture is only part of it
   std::vector<std::string> warnings;
+  std::vector<std::string> decisions;  ///< PassReport::decisions
 };
 
 /// Runs passes of an integrator over tiles of the picture on all threads, and sums them on the
@@ -117,7 +118,11 @@ class Session {
   SessionReport report_;
 };
 
-/// Makes the integrator that the description asks for, "photonmap" if it names none. What is
+/// Type of the integrator that make_integrator() makes: what the description asks for; else the
+/// default, or photonmap where surfaces have models of their own, which others would ignore.
+std::string integrator_type(const Description& description, const Scene& scene);
+
+/// Makes the integrator that the description asks for, integrator_type() if it names none. What is
 /// accepted without effect goes to `warnings`. Throws Error.
 std::unique_ptr<Integrator> make_integrator(const Description& description, const Scene& scene,
                                             std::vector<std::string>& warnings);

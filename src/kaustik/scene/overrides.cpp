@@ -23,7 +23,7 @@ std::shared_ptr<Object> integrator_of(Description& description) {
   if (auto object = own_integrator(description)) return object;
   auto object = std::make_shared<Object>();
   object->family = "integrator";
-  object->type = "photonmap";
+  object->type = default_integrator;
   object->place = place_in("command line");
   description.scene->children.push_back({"", object});
   return object;
@@ -73,7 +73,7 @@ void override_property(Description& description, const std::string& assignment,
   const size_t dot = assignment.substr(0, equals).rfind('.');
   if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == equals)
     throw Error(ErrorKind::input, fmt::format("cannot read the setting '{}'", assignment),
-                "write object.parameter=value, such as integrator.caustic_neighbors=200");
+                "write object.parameter=value, such as integrator.caustic_neighbors=200", origin);
   const std::string name = assignment.substr(dot + 1, equals - dot - 1);
   const auto object = find_object(description, assignment.substr(0, dot));
   std::erase_if(object->properties, [&](const Property& p) { return p.name == name; });

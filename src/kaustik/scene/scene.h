@@ -116,6 +116,9 @@ struct BuildOptions {
 std::shared_ptr<const Scene> build_scene(const Description& description,
                                          const BuildOptions& options = {});
 
+/// Type of the integrator of scenes that name none.
+inline constexpr const char* default_integrator = "auto";
+
 /// The scene's integrator object: the one of the top level, null if there is none there. Of several
 /// it is the one that no shape refers to; throws Error if that leaves none, or several.
 std::shared_ptr<Object> find_integrator(const Description& description);

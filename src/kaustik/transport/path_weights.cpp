@@ -187,6 +187,13 @@ float PathWeights::connection(const PathHalves& path) const {
   return weight(view, view.connection(1, view.t()));
 }
 
+float PathWeights::beyond_merge(const PathHalves& path) const {
+  const View view(settings_, path, View::Meeting::at_last);
+  const size_t t = view.t();
+  const float density = view.merge(1, t, view.camera_spread(t), view.light_spread(t + 1));
+  return density > 0 ? squares_beyond(view, 1 / density) : 0.0f;
+}
+
 float PathWeights::merge(const PathHalves& path) const {
   const View view(settings_, path, View::Meeting::at_last);
   const size_t t = view.t();

@@ -11,6 +11,8 @@ struct Techniques {
   bool connections = false;    ///< vertices of both paths are connected
   bool merging = false;        ///< a light path's vertex lies within a radius of a camera path's
 
+  /// Whether light is found at all where the camera does not look straight at it.
+  bool any() const { return unidirectional || next_event || needs_light_paths(); }
   /// Whether light paths are traced.
   bool needs_light_paths() const { return splats || connections || merging; }
 };
@@ -90,6 +92,9 @@ class PathWeights {
   /// Of a light path's vertex at xₜ; the light half begins behind it. pdf_light_last is the density
   /// of the vertex that merges.
   float merge(const PathHalves& path) const;
+  /// Squared densities of all that camera paths find by going on from there, relative to that of
+  /// merge().
+  float beyond_merge(const PathHalves& path) const;
 
   /// What the weight of merging at a matt first vertex takes from the light path alone: squared
   /// densities relative to merging on an area of 1 m².

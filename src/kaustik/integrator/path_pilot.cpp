@@ -1,0 +1,208 @@
+#include "kaustik/integrator/path_pilot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/integrator/merge_disk.h"
+
+namespace kaustik {
+namespace {
+
+constexpr uint32_t paths_per_probe = 8;
+/// Of the random numbers' addresses.
+constexpr uint64_t pilot_element = uint64_t(3) << 40;
+/// The kernel of merging weighs its vertices unevenly: they are worth so many of equal weight.
+constexpr double kernel_efficiency = 0.75;
+/// Light that merging finds more often than this, per camera path of a pass, says nothing about how
+/// even what camera paths find is: a single path that happens upon it would.
+constexpr double most_merged = 64;
+/// Most of m/p.
+const double most_ratio =
+    std::exp2(double(ProbeStatistics::bin_count - ProbeStatistics::bin_of_one));
+
+int bin_of(double ratio) {
+  if (!(ratio > 0)) return 0;
+  const int bin = int(std::lround(std::log2(ratio))) + ProbeStatistics::bin_of_one;
+  return std::clamp(bin, 0, ProbeStatistics::bin_count - 1);
+}
+
+double all_light(const SampleSink& sink) {
+  double sum = 0;
+  for (int c = 0; c < component_count; ++c) sum += double(sink.radiance(Component(c)).sum());
+  return sum;
+}
+
+/// Weighs light as path tracing does, and notes of each contribution what its weight would be
+/// beside merging: from both follows how much more merging would find it.
+class Recorder final : public LightWeights {
+ public:
+  Recorder(VcmCameraPath& path, const SampleSink& sink, float camera_samples,
+           ProbeStatistics& result)
+      : path_(path), sink_(sink), camera_samples_(double(camera_samples)), result_(result) {}
+
+  float sampled(const SurfaceVertex& vertex, const DirectLight& light) const override {
+    return weigh([&] { return path_.sampled(vertex, light); });
+  }
+  float met(int light, const SurfaceVertex& vertex) const override {
+    return weigh([&] { return path_.met(light, vertex); });
+  }
+  float met(int light, const Ray& ray) const override {
+    return weigh([&] { return path_.met(light, ray); });
+  }
+  /// What has been found since the last look belongs to the last weight.
+  void note() const {
+    const double now = all_light(sink_), light = now - seen_;
+    seen_ = now;
+    if (light == 0) return;
+    if (!goes_on_) {
+      direct_ += light;
+      return;
+    }
+    // Split between the ways as the balance heuristic does.
+    const double share = camera_samples_ / (camera_samples_ + ratio_);
+    beyond_ += light * share;
+    even_ += light * most_merged * camera_samples_ / (most_merged * camera_samples_ + ratio_);
+    result_.squares[size_t(bin_of(ratio_))] += light * light * share / paths_per_probe;
+  }
+  /// The path leaves the probed vertex.
+  void go_on() {
+    note();
+    goes_on_ = true;
+  }
+  double direct() const { return direct_; }
+  double beyond() const { return beyond_; }
+  double even() const { return even_; }
+
+ private:
+  template <typename Weight>
+  float weigh(const Weight& weight) const {
+    note();
+    const float beside_merging = weight();
+    path_.leave_out_light_paths(true);
+    const float alone = weight();
+    path_.leave_out_light_paths(false);
+    ratio_ = beside_merging > 0 && alone > beside_merging
+                 ? kernel_efficiency * camera_samples_ *
+                       std::sqrt(double(alone) / double(beside_merging) - 1)
+                 : 0;
+    return alone;
+  }
+
+  VcmCameraPath& path_;
+  const SampleSink& sink_;
+  double camera_samples_;
+  ProbeStatistics& result_;
+  bool goes_on_ = false;
+  mutable double seen_ = 0, ratio_ = 0, direct_ = 0, beyond_ = 0, even_ = 0;
+};
+
+/// Light that merges there, as what a camera path that goes on would have to find.
+void add_merged(const VcmCameraPath& path, float samples, double light_share, int maximum_events,
+                ProbeStatistics& result) {
+  const double camera_samples = double(samples);
+  for (const auto& [beyond, spectrum] : path.merged_vertices(maximum_events)) {
+    const double light = double(spectrum.sum());
+    result.merged += 1 / light_share;
+    if (light == 0) continue;
+    // Of each of the vertices that a real pass has in place of this one.
+    const double squares = light * light * light_share;
+    const double ratio =
+        beyond > 0
+            ? std::min(most_ratio, kernel_efficiency * camera_samples / std::sqrt(double(beyond)))
+            : 0.0;
+    if (!(ratio > 0)) {
+      result.merged_alone += squares;
+      result.radiance += light;
+      continue;
+    }
+    const double share = ratio / (camera_samples + ratio);
+    result.squares[size_t(bin_of(ratio))] += squares * ratio * share;
+    result.radiance += light * share;
+  }
+}
+
+/// Unbiased variance of values of this sum and these squares.
+double variance_of(double sum, double squares, double count) {
+  return std::max(0.0, squares - sum * sum / count) / (count - 1);
+}
+
+ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe, PixelPlan plan,
+                              size_t index, const PilotLimits& limits) {
+  ProbeStatistics result;
+  plan.survival = plan.evenness = 1;
+  constexpr double count = paths_per_probe;
+  double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
+  bool has_merged = false;
+  for (uint32_t i = 0; i < paths_per_probe; ++i) {
+    Sampler sampler = Sampler::at(0, 0, Stream::training, pilot_element + index, i);
+    SampleSink sink(ComponentSet::all());
+    CameraWalk walk(in.scene, probe.raster, sampler, sink);
+    VcmCameraPath path(in, walk, plan);
+    Recorder recorder(path, sink, in.camera_samples, result);
+    walk.weigh_by(recorder);
+    uint64_t rays_before = 0;
+    while (walk.advance()) {
+      path.arrive();
+      if (walk.events() >= limits.maximum_events) break;
+      walk.add_direct_light(1, 1);
+      const bool was_before = path.is_at_first();
+      if (was_before && !has_merged &&
+          any(walk.vertex().lobes() & (Lobes::diffuse | Lobes::glossy))) {
+        has_merged = true;
+        add_merged(path, in.camera_samples, limits.light_share, limits.maximum_events, result);
+      }
+      const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
+      if (!walk.scatter(Lobes::all, 1, u_choice.x, u)) break;
+      path.leave();
+      if (was_before && !path.is_at_first()) {
+        recorder.go_on();
+        rays_before = walk.rays();
+      }
+      if (walk.events() > limits.roulette_depth && !walk.survive(u_choice.y)) break;
+    }
+    recorder.note();
+    if (rays_before == 0) rays_before = walk.rays();
+    result.rays += double(rays_before) / count;
+    rays_beyond += double(walk.rays() - rays_before) / count;
+    direct += recorder.direct();
+    direct_squares += recorder.direct() * recorder.direct();
+    beyond += recorder.beyond();
+    even += recorder.even();
+    even_squares += recorder.even() * recorder.even();
+  }
+  result.rays_beyond = rays_beyond;
+  result.path_mean_square = even_squares / count;
+  result.path_variance = variance_of(even, even_squares, count);
+  result.direct_variance = variance_of(direct, direct_squares, count);
+  result.radiance += (direct + beyond) / count;
+  return result;
+}
+
+}  // namespace
+
+std::vector<ProbeStatistics> probe_statistics(const VcmCameraInputs& inputs,
+                                              const PixelPlans& plans, const PilotLimits& limits) {
+  const std::vector<PixelProbe>& probes = plans.probes();
+  std::vector<ProbeStatistics> single(probes.size());
+  parallel_blocks(probes.size(), 16, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i)
+      single[i] = statistics_at(inputs, probes[i], plans.plans()[i], i, limits);
+  });
+  std::vector<ProbeStatistics> result(probes.size());
+  const Vec2i size = plans.blocks();
+  parallel_blocks(probes.size(), 256, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) {
+      const Vec2i at(int(i % size_t(size.x)), int(i / size_t(size.x)));
+      const int x0 = std::max(0, at.x - 1), x1 = std::min(size.x - 1, at.x + 1);
+      const int y0 = std::max(0, at.y - 1), y1 = std::min(size.y - 1, at.y + 1);
+      for (int y = y0; y <= y1; ++y)
+        for (int x = x0; x <= x1; ++x)
+          result[i].add(single[size_t(y) * size_t(size.x) + size_t(x)],
+                        1.0 / double((x1 - x0 + 1) * (y1 - y0 + 1)));
+    }
+  });
+  return result;
+}
+
+}  // namespace kaustik

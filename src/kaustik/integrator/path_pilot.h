@@ -1,0 +1,22 @@
+#pragma once
+#include <vector>
+
+#include "kaustik/integrator/efficiency.h"
+#include "kaustik/integrator/vcm_camera_path.h"
+
+namespace kaustik {
+
+struct PilotLimits {
+  double light_share = 1;  ///< light paths of the pilot for each of a real pass
+  int maximum_events = 1 << 20;
+  int roulette_depth = 5;
+};
+
+/// A few camera paths at every probe of `plans`, and the light vertices that merge there: how well
+/// either way finds the light. `inputs`: of the pilot pass; its weights know merging alone of what
+/// light paths do, and count those of a real pass. What comes back is averaged over the probes
+/// around; one for each probe.
+std::vector<ProbeStatistics> probe_statistics(const VcmCameraInputs& inputs,
+                                              const PixelPlans& plans, const PilotLimits& limits);
+
+}  // namespace kaustik

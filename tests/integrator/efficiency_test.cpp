@@ -1,0 +1,138 @@
+// How often camera paths go on: by variances and costs, on paper, and the pilot's variances against
+// those of pictures.
+
+#include "kaustik/integrator/efficiency.h"
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/integrator/path_pilot.h"
+#include "kaustik/integrator/vcm_light_pass.h"
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+/// Light of 1 of which camera paths find all, merging a vertex of a pass for each 1/ratio of them.
+ProbeStatistics light(int log2_ratio, double path_variance = 1) {
+  ProbeStatistics probe;
+  probe.squares[size_t(ProbeStatistics::bin_of_one + log2_ratio)] = 1;
+  probe.path_mean_square = 1;
+  probe.path_variance = path_variance;
+  probe.radiance = 1;
+  probe.rays = 2;
+  probe.rays_beyond = 6;
+  return probe;
+}
+
+struct Chosen {
+  std::vector<PixelPlan> plans;
+  Efficiency expected;
+};
+Chosen choose(const std::vector<ProbeStatistics>& probes, double light_paths = 1, double area = 1,
+              double light_rays = 1) {
+  Chosen result;
+  result.plans.resize(probes.size());
+  result.expected =
+      choose_survival(probes, {4, light_rays},
+                      std::vector<MergeScale>(probes.size(), {area, light_paths}), result.plans);
+  return result;
+}
+
+TEST(Efficiency, PathsGoOnWhereNothingElseFindsTheLight) {
+  EXPECT_EQ(choose({light(-12)}).plans[0].survival, 1);
+  EXPECT_EQ(choose({light(12)}).plans[0].survival, least_survival);
+  // Each probe by itself.
+  const Chosen both = choose({light(-12), light(12)});
+  EXPECT_EQ(both.plans[0].survival, 1);
+  EXPECT_EQ(both.plans[1].survival, least_survival);
+  // Disks of 1/4096 of the area find as much less.
+  EXPECT_EQ(choose({light(0)}, 1, 1.0 / 4096).plans[0].survival, 1);
+}
+
+/// With 4 samples, all of which go on, and no light paths the error is the variance of 4 samples.
+TEST(Efficiency, VarianceOfPathsAlone) {
+  ProbeStatistics probe = light(-12, 0.25);
+  probe.direct_variance = 0.5;
+  const Chosen chosen = choose({probe}, 0);
+  ASSERT_EQ(chosen.plans[0].survival, 1);
+  EXPECT_NEAR(chosen.plans[0].evenness, 4, 1e-6);
+  // Relative to light of 1, and a tenth of the picture's mean.
+  EXPECT_NEAR(chosen.expected.squared_error, (0.5 + 0.25) / 4 / 1.01, 1e-4);
+  EXPECT_NEAR(chosen.expected.rays, 8, 1e-9);
+}
+
+/// Of light that merging alone finds, the variance falls with the number of light paths.
+TEST(Efficiency, LightThatNoCameraPathFinds) {
+  ProbeStatistics probe;
+  probe.merged_alone = 0.1;
+  probe.radiance = 1;
+  probe.rays = 2;
+  EXPECT_TRUE(std::isinf(choose({probe}, 0).expected.squared_error));
+  EXPECT_NEAR(choose({probe}, 1).expected.squared_error, 0.1 / 1.01, 1e-6);
+  EXPECT_NEAR(choose({probe}, 4).expected.squared_error, 0.025 / 1.01, 1e-6);
+  EXPECT_GT(choose({probe}, 4).expected.rays, choose({probe}, 1).expected.rays + 3);
+}
+
+/// Both ways together are better than each alone, by the sum of their densities.
+TEST(Efficiency, MixtureOfBothWays) {
+  const double expected = choose({light(2)}).expected.squared_error;
+  const double kappa = 4 * double(choose({light(2)}).plans[0].survival);
+  EXPECT_NEAR(expected, 1 / (kappa + 4) / 1.01, 1e-6);
+}
+
+/// The error that a pilot expects of path tracing is that of path tracing.
+TEST(PathPilot, ExpectsTheVarianceOfPathTracing) {
+  const std::string grey = diffuse("0.6, 0.6, 0.6");
+  const TestScene test(
+      camera("0, -0.9, 1", "0, 1, 0.8", 70, 32) + flat("rectangle", "", grey) +
+      flat("rectangle", rotate("1, 0, 0", 180) + translate("0, 0, 2"), grey) +
+      flat("rectangle", rotate("1, 0, 0", 90) + translate("0, 1, 1"), grey) +
+      flat("rectangle", rotate("0, 1, 0", 90) + translate("-1, 0, 1"), grey) +
+      flat("rectangle", scale("0.3, 0.3, 1") + rotate("1, 0, 0", 180) + translate("0, 0.2, 1.9"),
+           diffuse("0, 0, 0") + area_light("5")));
+  const Scene& scene = test.scene();
+  const LightPathEmission emission(scene);
+  PathWeights::Settings settings;
+  settings.techniques.merging = true;
+  settings.light_paths = 4096;
+  const PathWeights weights(settings);
+  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  PassReport report;
+  const LightVertices vertices = trace_light_vertices(
+      {scene, emission, weights, ComponentSet::all(), 1 << 20, 4096, 1, PixelPlans(), 1}, Pass{},
+      Stream::training, nowhere, {}, {}, report);
+  const PixelPlans plans(scene, vertices, 4096, 30, 0);
+  const VcmCameraInputs inputs{scene, emission, weights, vertices, MattMerging(), 1, 0, 0};
+  auto probes = probe_statistics(inputs, plans, {});
+  for (ProbeStatistics& probe : probes) probe.rays_beyond = 0;  // so that all go on
+  std::vector<PixelPlan> pixels = plans.plans();
+  const Efficiency expected =
+      choose_survival(probes, {1, 0}, std::vector<MergeScale>(probes.size(), {1, 0}), pixels);
+
+  // Of the pixels that the probes look at, in as many passes of one sample.
+  const Passes passes = render(test, "path", "", {1, 3, 512});
+  double mean = 0, error = 0;
+  std::vector<RunningStatistics> values(probes.size());
+  for (const Image& image : passes.images())
+    for (size_t p = 0; p < probes.size(); ++p) {
+      const Vec2f at = plans.probes()[p].raster;
+      double sum = 0;
+      for (int c = 0; c < 3; ++c) sum += double(image.at(int(at.x), int(at.y), c));
+      values[p].add(sum);
+    }
+  for (const RunningStatistics& v : values) mean += v.mean() / double(values.size());
+  for (const RunningStatistics& v : values)
+    error += v.variance() / (v.mean() * v.mean() + 0.01 * mean * mean) / double(values.size());
+  EXPECT_EQ(pixels[0].survival, 1);
+  // The pilot has 8 paths for every 16 pixels; factors like 2, π or the number of lanes would show.
+  EXPECT_NEAR(expected.squared_error / error, 1, 0.35)
+      << expected.squared_error << " expected, " << error << " measured";
+  double radiance = 0;
+  for (const ProbeStatistics& p : probes) radiance += p.radiance / double(probes.size());
+  EXPECT_NEAR(radiance / mean, 1, 0.1);
+}
+
+}  // namespace
+}  // namespace kaustik
