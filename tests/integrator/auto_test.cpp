@@ -69,6 +69,27 @@ TEST(Auto, DecidesByTheScene) {
   EXPECT_GT(going_on(both), 60) << both;
 }
 
+/// Where light paths do not pay, finding that out takes less than a twentieth of the rays of 16
+/// passes.
+TEST(Auto, PilotIsCheap) {
+  const TestScene scene(camera("0, -3, 1.5", "0, 0, 0", 40, 128) +
+                        flat("rectangle", scale("3, 3, 1"), diffuse("0.5, 0.5, 0.5")) +
+                        sphere("0, 0, 0.5", 0.5, diffuse("0.7, 0.3, 0.3")) + constant_light(1));
+  const auto rays_of = [&](const char* type, const std::string& parameters) {
+    const auto integrator = scene.integrator(type, parameters);
+    SessionSettings settings;
+    settings.passes = 16;
+    settings.samples_per_pass = 4;
+    Session session(scene.scene(), *integrator, settings);
+    return double(session.run().rays);
+  };
+  const double alone =
+      rays_of("vcm", set("splats", false) + set("connections", false) + set("merging", false));
+  const double found_out = rays_of("auto", "");
+  EXPECT_GT(found_out, alone);
+  EXPECT_LT(found_out, 1.05 * alone) << found_out / alone;
+}
+
 TEST(Auto, MakesThePictureOfPath) {
   const TestScene scene(room(lamp(ceiling, 8) + sphere("-0.4, 0.4, 0.351", 0.35, mirror()) +
                                  sphere("0.4, 0.2, 0.301", 0.3, glass()),

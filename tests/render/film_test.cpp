@@ -213,6 +213,21 @@ TEST(Film, BiasIsPartOfTheError) {
   EXPECT_LT(Film(film_settings(), {ComponentSet::all()}).image().find_channel("bias.R"), 0);
 }
 
+/// Where the two halves contradict each other that is no bias, but it takes nothing off the noise.
+TEST(Film, ContradictoryBiasDoesNotHideNoise) {
+  const auto film_with = [](bool biased) {
+    Film film(film_settings(), FilmLayers{ComponentSet::all(), biased});
+    for (uint32_t pass = 0; pass < 16; ++pass) {
+      std::vector<PassPixel> pixels = grey_pass(1 + 0.1f * float(pass % 5));
+      for (PassPixel& pixel : pixels) pixel.bias = Spectrum(pass % 2 == 0 ? 3.0f : -3.0f);
+      film.add_pass(pixels, pass);
+    }
+    return film.picture_error();
+  };
+  EXPECT_GT(film_with(false), 0.01);
+  EXPECT_DOUBLE_EQ(film_with(true), film_with(false));
+}
+
 /// At an edge of light the bias is of opposite signs on the two sides, and no smaller for that.
 TEST(Film, BiasOfOppositeSignsDoesNotCancel) {
   Film film(film_settings(8, 5), {ComponentSet::all(), true});

@@ -182,13 +182,17 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
 }  // namespace
 
 std::vector<ProbeStatistics> probe_statistics(const VcmCameraInputs& inputs,
-                                              const PixelPlans& plans, const PilotLimits& limits) {
+                                              const PixelPlans& plans, const PilotLimits& limits,
+                                              uint64_t& rays) {
   const std::vector<PixelProbe>& probes = plans.probes();
   std::vector<ProbeStatistics> single(probes.size());
   parallel_blocks(probes.size(), 16, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i)
       single[i] = statistics_at(inputs, probes[i], plans.plans()[i], i, limits);
   });
+  double counted = 0;
+  for (const ProbeStatistics& s : single) counted += paths_per_probe * (s.rays + s.rays_beyond);
+  rays += uint64_t(std::llround(counted));
   std::vector<ProbeStatistics> result(probes.size());
   const Vec2i size = plans.blocks();
   parallel_blocks(probes.size(), 256, [&](size_t begin, size_t end, size_t) {

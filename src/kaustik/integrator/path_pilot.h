@@ -15,8 +15,9 @@ struct PilotLimits {
 /// A few camera paths at every probe of `plans`, and the light vertices that merge there: how well
 /// either way finds the light. `inputs`: of the pilot pass; its weights know merging alone of what
 /// light paths do, and count those of a real pass. What comes back is averaged over the probes
-/// around; one for each probe.
+/// around; one for each probe. Counts the rays.
 std::vector<ProbeStatistics> probe_statistics(const VcmCameraInputs& inputs,
-                                              const PixelPlans& plans, const PilotLimits& limits);
+                                              const PixelPlans& plans, const PilotLimits& limits,
+                                              uint64_t& rays);
 
 }  // namespace kaustik

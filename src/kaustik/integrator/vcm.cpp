@@ -108,6 +108,7 @@ VcmIntegrator::PilotLight VcmIntegrator::search_light(Plans& plans, uint32_t cou
     PassReport report;
     light.vertices = trace_pilot(*light.emission, pilots - 1, count, report);
     light.rays = report.rays;
+    plans.pilot_rays += report.rays;
     if (!use) return light;
     use->learn(light.vertices);
     const EmissionLearning& learning = use->emission();
@@ -135,7 +136,7 @@ LightVertices VcmIntegrator::trace_pilot(const LightPathEmission& emission, uint
       pass, Stream::training, nowhere, {}, {}, report);
 }
 
-std::shared_ptr<const VcmIntegrator::Pilot> VcmIntegrator::make_pilot(const Plans& plans,
+std::shared_ptr<const VcmIntegrator::Pilot> VcmIntegrator::make_pilot(Plans& plans,
                                                                       const PilotLight& light,
                                                                       uint32_t light_paths) const {
   auto pilot = std::make_shared<Pilot>();
@@ -152,7 +153,8 @@ std::shared_ptr<const VcmIntegrator::Pilot> VcmIntegrator::make_pilot(const Plan
       MattMerging(), float(samples),  0,       settings.merge_area * inv_pi};
   const double light_share = double(light.vertices.path_count) / double(light_paths);
   pilot->probes = probe_statistics(
-      inputs, plans.pixels, {light_share, settings_.maximum_events, settings_.roulette_depth});
+      inputs, plans.pixels, {light_share, settings_.maximum_events, settings_.roulette_depth},
+      plans.pilot_rays);
   for (const PixelPlan& plan : plans.pixels.plans()) pilot->areas.push_back(plan.merge_area);
   pilot->light_paths = plans.light_paths;
   const Vec2i size = scene_.film().crop_size;
@@ -211,10 +213,13 @@ void VcmIntegrator::choose_light_paths(Plans& plans) {
   plans = std::move(best);
 }
 
-std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans(uint32_t samples_per_pixel) const {
+std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans(uint32_t samples_per_pixel,
+                                                                 PassReport& report) const {
   const std::lock_guard lock(plans_mutex_);
-  if (!plans_ || plans_->samples_per_pixel != samples_per_pixel)
+  if (!plans_ || plans_->samples_per_pixel != samples_per_pixel) {
     plans_ = isolated([&] { return make_plans(samples_per_pixel); });
+    report.rays += plans_->pilot_rays;
+  }
   return plans_;
 }
 
@@ -291,7 +296,7 @@ uint32_t VcmIntegrator::epoch_begin(uint32_t pass, const Plans& plans) const {
 std::shared_ptr<const VcmIntegrator::Plans> VcmIntegrator::plans_for(
     const Pass& pass, std::stop_token stop, const ProgressFunction& progress, uint32_t& made_up,
     PassReport& report) const {
-  const auto first = plans(pass.samples_per_pixel);
+  const auto first = plans(pass.samples_per_pixel, report);
   if (learned_passes(*first) == 0) return first;
   const std::lock_guard lock(learning_mutex_);
   return isolated([&] {

@@ -51,6 +51,7 @@ class VcmIntegrator final : public Integrator {
     float light_paths = 0;  ///< per camera sample
     PixelPlans pixels;
     std::shared_ptr<const Pilot> pilot;  ///< null: nothing merges
+    uint64_t pilot_rays = 0;
     std::string decision;  ///< what was chosen by itself, for the user; empty: nothing
     /// Vertices that may be connected, per light path: what the weights go by.
     float connectible_per_path = 1;
@@ -66,7 +67,7 @@ class VcmIntegrator final : public Integrator {
   PilotLight search_light(Plans& plans, uint32_t count) const;
   LightVertices trace_pilot(const LightPathEmission& emission, uint32_t round, uint32_t count,
                             PassReport& report) const;
-  std::shared_ptr<const Pilot> make_pilot(const Plans& plans, const PilotLight& light,
+  std::shared_ptr<const Pilot> make_pilot(Plans& plans, const PilotLight& light,
                                           uint32_t light_paths) const;
   /// Gives the probes these disks and, as the pilot tells, chances of going on.
   static Efficiency settle(Plans& plans, std::vector<PixelPlan> pixels);
@@ -91,7 +92,7 @@ class VcmIntegrator final : public Integrator {
   PathWeights weights_for(const Plans& plans, const Pass& pass) const;
   std::shared_ptr<const Plans> make_plans(uint32_t samples_per_pixel) const;
   /// Those for passes of so many samples, made when they are first asked for.
-  std::shared_ptr<const Plans> plans(uint32_t samples_per_pixel) const;
+  std::shared_ptr<const Plans> plans(uint32_t samples_per_pixel, PassReport& report) const;
 
   const Scene& scene_;
   VcmSettings settings_;

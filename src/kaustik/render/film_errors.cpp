@@ -126,15 +126,19 @@ double FilmErrors::of_picture() const {
   double sum_of_luminances = 0;
   for (const Fixed part : film_.mean_luminances()) sum_of_luminances += double_from(part);
   const double dark = dark_share * std::abs(sum_of_luminances) / passes();
-  const double sum = sum_over_blocks(pixels, 4096, [&](size_t begin, size_t end) {
-    double block = 0;
-    for (size_t i = begin; i < end; ++i) {
-      const double square = luminance_variance(i) + bias_luminance_sq(i);
-      if (square != 0) block += square / squared(std::abs(luminance_sum(i)) / passes() + dark);
-    }
-    return block;
-  });
-  return std::sqrt(std::max(0.0, sum) / double(pixels));
+  const auto sum_of = [&](const auto& square_of) {
+    return sum_over_blocks(pixels, 4096, [&](size_t begin, size_t end) {
+      double block = 0;
+      for (size_t i = begin; i < end; ++i)
+        if (const double square = square_of(i); square != 0)
+          block += square / squared(std::abs(luminance_sum(i)) / passes() + dark);
+      return block;
+    });
+  };
+  // Single products may be negative, and some do not make up for noise.
+  const double noise = sum_of([this](size_t i) { return luminance_variance(i); });
+  const double bias = sum_of([this](size_t i) { return bias_luminance_sq(i); });
+  return std::sqrt((noise + std::max(0.0, bias)) / double(pixels));
 }
 
 double FilmErrors::of_mean() const {
