@@ -233,10 +233,12 @@ TEST_F(BadInput, SettingsFromTheCommandLine) {
   };
   refused({"--integrator", "photonmpa"}, "unknown integrator type 'photonmpa'",
           "did you mean 'photonmap'?");
-  refused({"--set", "integrator.caustic_neighbor=3"}, "no parameter 'caustic_neighbor'",
-          "did you mean 'caustic_neighbors'?");
-  refused({"--set", "integrator.caustic_neighbors=-3"}, "outside its range", "--set");
-  refused({"--set", "integrator.caustic_neighbors=many"}, "has the wrong type", "integer");
+  refused({"--integrator", "photonmap", "--set", "integrator.caustic_neighbor=3"},
+          "no parameter 'caustic_neighbor'", "did you mean 'caustic_neighbors'?");
+  refused({"--integrator", "photonmap", "--set", "integrator.caustic_neighbors=-3"},
+          "outside its range", "--set");
+  refused({"--integrator", "photonmap", "--set", "integrator.caustic_neighbors=many"},
+          "has the wrong type", "integer");
   refused({"--set", "nonsense"}, "command line: --set nonsense: cannot read the setting 'nonsense'",
           "object.parameter=value");
   refused({"--set", "fil.width=3"}, "no object 'fil'", "did you mean 'film'?");

@@ -491,7 +491,8 @@ TEST(MakeIntegrator, ChoosesAndChecks) {
   std::vector<std::string> warnings;
   const Description nothing = parse_mitsuba_xml("<scene version=\"3.0.0\"/>", "test.xml", "");
   EXPECT_EQ(make_integrator(nothing, *scene, warnings)->default_samples_per_pass(),
-            integrator_for(*scene, "photonmap")->default_samples_per_pass());
+            integrator_for(*scene, "auto")->default_samples_per_pass());
+  EXPECT_EQ(integrator_type(nothing, *scene), "auto");
   EXPECT_TRUE(warnings.empty());
   const auto refused = [&](const std::string& inside) -> std::string {
     try {
