@@ -44,7 +44,7 @@ double estimated_bias_of(double within) {
 TEST(MergingBias, IsWhatItIsEstimatedToBe) {
   const TestScene scene = floor_below_a_lamp();
   const Passes found =
-      render(scene, "ppm", set("radius", radius) + set("light_paths", 400.0), {4, 5});
+      render(scene, "ppm", set("radius", radius) + set("light_paths", 400.0), {16, 5});
   const std::vector<double> light = found.values({"caustic"}), bias = found.values({"bias"});
   const double lamp = albedo / std::numbers::pi * irradiance(0);
   RunningStatistics true_bias, estimate;  // less what they should be

@@ -124,7 +124,7 @@ TEST(Vcm, Merging) {
   const Passes& path = room_by_path();
   for (const char* type : {"vcm", "ppm"}) {
     const Passes found =
-        render(scene, type, set("radius", 0.03) + set("light_paths", 16.0), {170, 8});
+        render(scene, type, set("radius", 0.03) + set("light_paths", 16.0), {200, 8});
     for (const char* layer : {"direct", "indirect"})
       expect_near_means(fmt::format("{} {}", type, layer), found.mean({layer}), path.mean({layer}),
                         0.01);

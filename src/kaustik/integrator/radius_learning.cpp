@@ -19,6 +19,8 @@ constexpr uint32_t points_per_ring = 8, points_per_cut_ring = 32;
 constexpr double tolerated = 2.5;
 /// The light of a disk, and its variance, are known from this many directions on.
 constexpr double least_directions = 12;
+/// Kinds of light with a smaller share don't count.
+constexpr double least_share = 0.05;
 /// What merges at a vertex costs time: more than so many per pass are not worth theirs.
 constexpr double most_directions = 400;
 
@@ -30,9 +32,9 @@ double square(double x) { return x * x; }
 
 constexpr auto levels = size_t(RadiusLearning::level_count);
 
-RadiusLearning::Disagreement disagreement_of(const RadiusLearning::Sums& sums,
-                                             const std::array<float, levels>& coverage) {
-  RadiusLearning::Disagreement result;
+RadiusLearning::Disagreement::Pairs disagreement_of(const RadiusLearning::KindSums& sums,
+                                                    const std::array<float, levels>& coverage) {
+  RadiusLearning::Disagreement::Pairs result{};
   // Where next to nothing has arrived, a single vertex more would do.
   const double of_one =
       sums.light[levels - 1] > 0 ? sums.squares[levels - 1] / sums.light[levels - 1] : 0.0;
@@ -47,8 +49,19 @@ RadiusLearning::Disagreement disagreement_of(const RadiusLearning::Sums& sums,
       const double variance =
           std::max(sums.squares[j], of_one * of_one) * square(1 / area[j] - 1 / area[i]) +
           (sums.squares[i] - sums.squares[j]) * square(1 / area[i]);
-      result.of[i][j] = variance > 0 ? square(difference) / variance : 0.0;
+      result[i][j] = variance > 0 ? float(square(difference) / variance) : 0.0f;
     }
+  return result;
+}
+
+RadiusLearning::Disagreement disagreement_of(const RadiusLearning::Sums& sums,
+                                             const std::array<float, levels>& coverage) {
+  double all = 0;
+  for (const auto& kind : sums.of) all += kind.light[levels - 1];
+  RadiusLearning::Disagreement result;
+  for (size_t k = 0; k < RadiusLearning::kind_count; ++k)
+    if (sums.of[k].light[levels - 1] > least_share * all)
+      result.of[k] = disagreement_of(sums.of[k], coverage);
   return result;
 }
 
@@ -120,13 +133,15 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
             const double value = double(
                 (probe.vertex.eval(photon.direction.unpack(), Lobes::all) * photon.flux_spectrum())
                     .sum());
-            sums.light[level] += value;
-            sums.squares[level] += value * value;
+            auto& kind = sums.of[photon.specular ? 0 : 1];
+            kind.light[level] += value;
+            kind.squares[level] += value * value;
           });
-      for (size_t level = 1; level < size_t(level_count); ++level) {
-        sums.light[level] += sums.light[level - 1];
-        sums.squares[level] += sums.squares[level - 1];
-      }
+      for (auto& kind : sums.of)
+        for (size_t level = 1; level < levels; ++level) {
+          kind.light[level] += kind.light[level - 1];
+          kind.squares[level] += kind.squares[level - 1];
+        }
     }
   });
   return result;
@@ -145,13 +160,15 @@ int RadiusLearning::widest_level(const std::vector<Disagreement>& disagreements,
       const size_t i = size_t(y) * size_t(size.x) + size_t(x);
       if (!first.probes()[i].found) continue;
       ++count;
-      for (size_t level = 1; level < levels; ++level)
-        for (size_t smaller = 0; smaller < level; ++smaller)
-          sum.of[level][smaller] += disagreements[i].of[level][smaller];
+      for (size_t k = 0; k < kind_count; ++k)
+        for (size_t level = 1; level < levels; ++level)
+          for (size_t smaller = 0; smaller < level; ++smaller)
+            sum.of[k][level][smaller] += disagreements[i].of[k][level][smaller];
     }
   for (size_t level = 1; level < levels; ++level)
     for (size_t smaller = 0; smaller < level; ++smaller)
-      if (sum.of[level][smaller] > tolerated * count) return int(level) - 1;
+      for (const auto& kind : sum.of)
+        if (double(kind[level][smaller]) > tolerated * count) return int(level) - 1;
   return int(levels) - 1;
 }
 
@@ -165,7 +182,11 @@ std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std:
     const PixelProbe& probe = first.probes()[p];
     if (!probe.found) continue;
     const auto directions_at = [&](int level) {
-      const double light = sums[p].light[size_t(level)], squares = sums[p].squares[size_t(level)];
+      double light = 0, squares = 0;
+      for (const auto& kind : sums[p].of) {
+        light += kind.light[size_t(level)];
+        squares += kind.squares[size_t(level)];
+      }
       return squares > 0 ? light * light / squares / passes : 0.0;
     };
     int level = widest_level(disagreements, first, p);

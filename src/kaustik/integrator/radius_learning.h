@@ -15,19 +15,30 @@ namespace kaustik {
 class RadiusLearning {
  public:
   static constexpr int level_count = 10;  ///< radii from one pixel on, each √2 times the one before
-  /// Sums over light vertices within each disk of a probe, over passes.
-  struct Sums {
+  /// Light that came by specular events only, and the rest: caustics have edges, which the noise of
+  /// what little else there is must not hide.
+  static constexpr size_t kind_count = 2;
+  /// Sums over light vertices within each disk of a probe, over passes, by kind.
+  struct KindSums {
     std::array<double, level_count> light{}, squares{};
+  };
+  struct Sums {
+    std::array<KindSums, kind_count> of;
     void add(const Sums& other) {
-      for (size_t i = 0; i < size_t(level_count); ++i)
-        light[i] += other.light[i], squares[i] += other.squares[i];
+      for (size_t k = 0; k < kind_count; ++k)
+        for (size_t i = 0; i < size_t(level_count); ++i) {
+          of[k].light[i] += other.of[k].light[i];
+          of[k].squares[i] += other.of[k].squares[i];
+        }
     }
   };
 
   /// How much the disks of a probe disagree: for each pair of levels the squared difference of
-  /// their lights over its variance, about 1 where there is nothing but noise.
+  /// their lights over its variance, about 1 where there is nothing but noise. By kind; of a kind
+  /// that counts for little, none.
   struct Disagreement {
-    std::array<std::array<double, level_count>, level_count> of{};  ///< [level][smaller level]
+    using Pairs = std::array<std::array<float, level_count>, level_count>;
+    std::array<Pairs, kind_count> of{};  ///< [kind][level][smaller level]
   };
 
   /// Learns at the probes of `first`, the plans of the first pass: looks how much of their disks is
