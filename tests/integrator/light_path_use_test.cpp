@@ -67,7 +67,6 @@ UsefulPaths useful_paths(const std::string& text) {
   if (!learned) return {};
   use.learn(paths(*learned, 1));
   learned = use.emission().learned();
-  UsefulPaths result;
   const auto count = [&](const LightPathEmission& emission) {
     LightPathUse counted(scene, plain);
     counted.learn(paths(emission, 2));

@@ -77,8 +77,7 @@ std::vector<AimTarget> boxes_around(std::vector<Vec3f> points, size_t count) {
 
 }  // namespace
 
-LightPathUse::LightPathUse(const Scene& scene, const LightPathEmission& plain)
-    : scene_(scene), emission_(plain) {
+LightPathUse::LightPathUse(const Scene& scene, const LightPathEmission& plain) : emission_(plain) {
   const Vec2i size = scene.film().crop_size;
   const int block = block_size(size);
   reach_ = 0.5f * float(block);

@@ -34,7 +34,6 @@ class LightPathUse {
   /// Of each probe: all the light that it sends to the camera, with a floor.
   std::vector<double> totals() const;
 
-  const Scene& scene_;
   std::vector<PixelProbe> probes_;
   std::vector<float> direct_;    ///< light that the probes send to the camera straight from lights
   std::vector<double> arrived_;  ///< sums over the paths so far
