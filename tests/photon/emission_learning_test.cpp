@@ -14,11 +14,7 @@ namespace {
 
 using namespace test;
 
-#ifdef KAUSTIK_SLOW_BUILD
-constexpr int samples = 100'000;
-#else
 constexpr int samples = 200'000;
-#endif
 
 /// Two heaps of points, one of them tiny.
 std::vector<GuideSquare::Point> heaps(int count) {

@@ -11,7 +11,7 @@ namespace kaustik::test {
 namespace {
 
 #ifdef KAUSTIK_SLOW_BUILD
-constexpr int sample_count = 20'000;
+constexpr int sample_count = 100'000;
 #else
 constexpr int sample_count = 200'000;
 #endif
