@@ -67,7 +67,7 @@ TEST(MergingBias, IsWhatItIsEstimatedToBe) {
   // Both to a few percent of the bias, so that an estimate which is off by a factor fails.
   for (const RunningStatistics* off : {&true_bias, &estimate}) {
     EXPECT_NEAR(off->mean() / mean_bias, 0, slow_build ? 0.1 : 0.02);
-    EXPECT_LT(off->standard_error(), 0.01 * std::fabs(mean_bias));
+    EXPECT_LT(off->standard_error(), (slow_build ? 0.03 : 0.01) * std::fabs(mean_bias));
   }
 }
 
