@@ -90,6 +90,8 @@ class CameraWalk {
     path.add_event(after_specular_events ? Lobes::glossy : Lobes::diffuse);
     return path.component();
   }
+  /// Of the events before the vertex.
+  const CameraPathClass& path_class() const { return class_; }
   /// Adds radiance that the vertex sends back.
   void add(Component component, const Spectrum& radiance) {
     sink_.add(component, state_.throughput * radiance);

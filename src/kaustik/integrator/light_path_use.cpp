@@ -77,7 +77,8 @@ std::vector<AimTarget> boxes_around(std::vector<Vec3f> points, size_t count) {
 
 }  // namespace
 
-LightPathUse::LightPathUse(const Scene& scene, const LightPathEmission& plain) : emission_(plain) {
+LightPathUse::LightPathUse(const Scene& scene, const LightPathEmission& plain, ComponentSet wanted)
+    : wanted_(wanted), emission_(plain) {
   const Vec2i size = scene.film().crop_size;
   const int block = block_size(size);
   reach_ = 0.5f * float(block);
@@ -87,7 +88,8 @@ LightPathUse::LightPathUse(const Scene& scene, const LightPathEmission& plain) :
   arrived_.resize(probes_.size());
   parallel_blocks(probes_.size(), 16, [&](size_t begin, size_t end, size_t) {
     for (size_t p = begin; p < end; ++p)
-      if (probes_[p].found) direct_[p] = direct_light_at(scene, probes_[p].vertex, p);
+      if (probes_[p].found && wanted_.has(probes_[p].path.component_after(Lobes::diffuse)))
+        direct_[p] = direct_light_at(scene, probes_[p].vertex, p);
   });
 }
 
@@ -116,9 +118,7 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
             if (photon.path >= beginning_of.size()) return;
             const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
             if (!disk.counts(offset, photon.side)) return;
-            const Spectrum sent =
-                probe.vertex.eval(photon.direction.unpack(), Lobes::all) * photon.flux_spectrum();
-            const float value = sent.sum() * inv_pi / sqr(radius);
+            const float value = probe.sent(photon, wanted_).sum() * inv_pi / sqr(radius);
             if (value > 0) found[block].push_back({uint32_t(p), beginning_of[photon.path], value});
           });
     }

@@ -14,8 +14,9 @@ class LightPathUse {
   /// Paths that a pass remembers the beginnings of, at most.
   static constexpr uint32_t most_pilot_paths = 1 << 17, most_paths = 1 << 15;
 
-  /// `plain`, which must outlive this, is what is to be guided.
-  LightPathUse(const Scene& scene, const LightPathEmission& plain);
+  /// `plain`, which must outlive this, is what is to be guided, for the picture of the `wanted`
+  /// components.
+  LightPathUse(const Scene& scene, const LightPathEmission& plain, ComponentSet wanted);
 
   /// Boxes that hold all probes, to search by.
   std::vector<AimTarget> targets() const;
@@ -34,6 +35,7 @@ class LightPathUse {
   /// Of each probe: all the light that it sends to the camera, with a floor.
   std::vector<double> totals() const;
 
+  ComponentSet wanted_;
   std::vector<PixelProbe> probes_;
   std::vector<float> direct_;    ///< light that the probes send to the camera straight from lights
   std::vector<double> arrived_;  ///< sums over the paths so far

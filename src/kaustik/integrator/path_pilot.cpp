@@ -136,7 +136,7 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
   bool has_merged = false;
   for (uint32_t i = 0; i < paths_per_probe; ++i) {
     Sampler sampler = Sampler::at(0, 0, Stream::training, pilot_element + index, i);
-    SampleSink sink(ComponentSet::all());
+    SampleSink sink(limits.components);
     CameraWalk walk(in.scene, probe.raster, sampler, sink);
     VcmCameraPath path(in, walk, plan);
     Recorder recorder(path, sink, in.camera_samples, result);

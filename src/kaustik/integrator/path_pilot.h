@@ -10,6 +10,7 @@ struct PilotLimits {
   double light_share = 1;  ///< light paths of the pilot for each of a real pass
   int maximum_events = 1 << 20;
   int roulette_depth = 5;
+  ComponentSet components = ComponentSet::all();  ///< that are wanted
 };
 
 /// A few camera paths at every probe of `plans`, and the light vertices that merge there: how well

@@ -23,6 +23,7 @@ PixelProbe look(const Scene& scene, const Vec2f& raster, uint64_t block) {
       probe.found = true;
       probe.vertex = vertex;
       probe.pixel_width = 2 * walk.footprint().width;
+      probe.path = walk.path_class();
       break;
     }
     const Vec2f u = sampler.next_2d();
@@ -32,6 +33,19 @@ PixelProbe look(const Scene& scene, const Vec2f& raster, uint64_t block) {
 }
 
 }  // namespace
+
+Spectrum PixelProbe::sent(const LightVertexData& photon, ComponentSet wanted) const {
+  const Vec3f direction = photon.direction.unpack();
+  Spectrum reflected;
+  for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
+    if (!any(vertex.lobes() & lobe)) continue;
+    CameraPathClass whole = path;
+    whole.add_event(lobe);
+    whole.add_event(photon.specular ? Lobes::glossy : Lobes::diffuse);
+    if (wanted.has(whole.component())) reflected += vertex.eval(direction, lobe);
+  }
+  return reflected * photon.flux_spectrum();
+}
 
 std::vector<PixelProbe> make_pixel_probes(const Scene& scene, const Vec2i& blocks, int block_size) {
   std::vector<PixelProbe> probes(size_t(blocks.x) * size_t(blocks.y));

@@ -110,7 +110,8 @@ RadiusLearning::RadiusLearning(const Scene& scene, const PixelPlans& first, uint
 }
 
 std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& first,
-                                                          const LightVertices& light) {
+                                                          const LightVertices& light,
+                                                          ComponentSet wanted) {
   std::vector<Sums> result(first.probes().size());
   if (light.tree.empty()) return result;
   parallel_blocks(result.size(), 16, [&](size_t begin, size_t end, size_t) {
@@ -130,9 +131,7 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
             size_t level = 0;
             for (double limit = least_sq; reach_sq > limit; limit *= 2) ++level;
             if (level >= levels) return;
-            const double value = double(
-                (probe.vertex.eval(photon.direction.unpack(), Lobes::all) * photon.flux_spectrum())
-                    .sum());
+            const auto value = double(probe.sent(photon, wanted).sum());
             auto& kind = sums.of[photon.specular ? 0 : 1];
             kind.light[level] += value;
             kind.squares[level] += value * value;

@@ -47,7 +47,8 @@ class RadiusLearning {
                  const std::stop_token& stop = {});
 
   /// What the light vertices of one pass add, per probe of `first`.
-  static std::vector<Sums> sums_of(const PixelPlans& first, const LightVertices& light);
+  static std::vector<Sums> sums_of(const PixelPlans& first, const LightVertices& light,
+                                   ComponentSet wanted);
   /// The plans for what `passes` passes have summed up: those of the first pass with other disks.
   /// Shrinking is up to the caller, `shrinkage` of the areas is taken off beforehand.
   std::vector<PixelPlan> plans(const PixelPlans& first, const std::vector<Sums>& sums,

@@ -354,16 +354,20 @@ std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices(int maxi
   std::vector<MergedVertex> result;
   if (!(radius > 0)) return result;
   const MergeDisk disk(vertex, radius);
-  visit_merging(disk, radius, maximum_events,
-                [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq,
-                    const PathHalves& path) {
-                  const float kernel = 2 * (1 - distance_sq / sqr(radius)) /
-                                       (pi * sqr(radius) * float(in_.light.path_count));
-                  const float factor =
-                      vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
-                  result.push_back({in_.weights.beyond_merge(path),
-                                    vertex.eval(wi, Lobes::all) * photon.flux_spectrum() * factor});
-                });
+  visit_merging(
+      disk, radius, maximum_events,
+      [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq,
+          const PathHalves& path) {
+        const float kernel =
+            2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
+        const float factor = vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
+        Spectrum reflected;
+        for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
+          if (any(vertex.lobes() & lobe) && walk_.wants(walk_.component_of(lobe, photon.specular)))
+            reflected += vertex.eval(wi, lobe);
+        result.push_back(
+            {in_.weights.beyond_merge(path), reflected * photon.flux_spectrum() * factor});
+      });
   return result;
 }
 

@@ -45,7 +45,7 @@ class VcmCameraPath final : public LightWeights {
     float beyond;  ///< PathWeights::beyond_merge()
     Spectrum light;
   };
-  /// All of them, of every component, for who wants to know more than the sum.
+  /// All that are wanted, for who must know more than the sum.
   std::vector<MergedVertex> merged_vertices(int maximum_events) const;
   /// Whether the vertex is the first whose lobes are more than delta, for all that is known before
   /// leave().

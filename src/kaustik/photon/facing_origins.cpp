@@ -2,6 +2,7 @@
 
 #include "kaustik/base/warp.h"
 #include "kaustik/geometry/mesh_surface.h"
+#include "kaustik/photon/aim_light.h"
 
 namespace kaustik {
 namespace {
@@ -45,6 +46,27 @@ bool FacingOrigins::sample(const Vec3f& direction, const Vec2f& u, SurfacePoint&
   origin = sample.point;
   density = sample.pdf_position;
   return density > 0;
+}
+
+EmittedRay FacingOrigins::ray(const Vec3f& direction, float pdf_direction, const Vec2f& u) const {
+  EmittedRay result = no_ray();
+  result.on_surface = shape_ != nullptr;
+  SurfacePoint origin;
+  if (!sample(direction, u, origin, result.pdf_position)) return result;
+  float cosine = 1;
+  if (result.on_surface) {
+    result.origin = origin;
+    result.ray = spawn_ray(origin, direction);
+    cosine = dot(origin.ng, direction);
+  } else {
+    result.origin.position = origin.position;
+    result.ray = {origin.position, direction};
+  }
+  if (!(cosine > 0)) return result;
+  result.pdf_direction = pdf_direction;
+  const float joint = result.pdf_position * pdf_direction;
+  if (joint > 0) result.flux = light_->emitted_from(origin, direction) * (cosine / joint);
+  return result;
 }
 
 float FacingOrigins::pdf(const SurfacePoint& origin, const Vec3f& direction) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include "kaustik/light/light.h"
 #include "kaustik/photon/aim_spheres.h"
+#include "kaustik/photon/emission.h"
 
 namespace kaustik {
 
@@ -14,6 +15,9 @@ class FacingOrigins {
 
   /// False if there is none. `pdf`: per area (1 for lights that are points).
   bool sample(const Vec3f& direction, const Vec2f& u, SurfacePoint& origin, float& pdf) const;
+  /// A ray of the light in that direction, by sample(): its density per solid angle, or whatever
+  /// else the caller counts in, is `pdf_direction`. Flux zero: there is none.
+  EmittedRay ray(const Vec3f& direction, float pdf_direction, const Vec2f& u) const;
   /// Density of sample() for a point of the light that `direction` leaves.
   float pdf(const SurfacePoint& origin, const Vec3f& direction) const;
 

@@ -26,7 +26,7 @@ Vec3f square_to_halves(const Vec2f& u) {
 }  // namespace
 
 GuideMap::GuideMap(const Light& light, const Shape* shape, const Bounds3f& scene_bounds)
-    : light_(&light), on_surface_(shape != nullptr), origins_(light, shape) {
+    : light_(&light), origins_(light, shape) {
   if (!light.is_infinite()) {
     kind_ = Kind::direction;
     frame_ = Frame(light.bounds().axis);
@@ -73,24 +73,7 @@ EmittedRay GuideMap::ray_at(const Vec2f& u, float pdf, const Vec2f& u_rest) cons
     result.flux *= pdf > 0 ? 1 / result.pdf_position : 0.0f;
     return result;
   }
-  EmittedRay result = no_ray();
-  result.on_surface = on_surface_;
-  const Vec3f direction = frame_.to_world(square_to_halves(u));
-  SurfacePoint origin;
-  if (!origins_.sample(direction, u_rest, origin, result.pdf_position)) return result;
-  if (on_surface_) {
-    result.origin = origin;
-    result.ray = spawn_ray(origin, direction);
-  } else {
-    result.origin.position = origin.position;
-    result.ray = {origin.position, direction};
-  }
-  const float cosine = on_surface_ ? dot(origin.ng, direction) : 1.0f;
-  if (!(cosine > 0)) return result;
-  result.pdf_direction = pdf * sphere_pdf;
-  const float joint = result.pdf_position * result.pdf_direction;
-  if (joint > 0) result.flux = light_->emitted_from(origin, direction) * (cosine / joint);
-  return result;
+  return origins_.ray(frame_.to_world(square_to_halves(u)), pdf * sphere_pdf, u_rest);
 }
 
 EmittedRay GuidedLight::sample(const Vec2f& u_position, const Vec2f& u_direction, float) const {

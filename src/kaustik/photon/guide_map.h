@@ -30,7 +30,6 @@ class GuideMap {
   EmittedRay ray_from_plane(const Vec2f& u) const;
 
   const Light* light_;
-  bool on_surface_;
   Kind kind_ = Kind::none;
   FacingOrigins origins_;
   Frame frame_;  ///< about the axis of the light

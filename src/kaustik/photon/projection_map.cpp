@@ -82,27 +82,9 @@ float ProjectionMap::pdf(const SurfacePoint& origin, const Vec3f& direction) con
 EmittedRay ProjectionMap::sample(const Vec2f& u_position, const Vec2f& u_direction,
                                  float u_target) const {
   if (own_) return sample_own(*light_, u_position, u_direction);
-  EmittedRay result = no_ray();
-  if (dark_) return result;
-  result.on_surface = on_surface_;
+  if (dark_) return no_ray();
   const Vec3f direction = cells_.sample(u_target, u_direction);
-  SurfacePoint origin;
-  float pdf_position = 0;
-  if (!origins_.sample(direction, u_position, origin, pdf_position)) return result;
-  if (on_surface_) {
-    result.origin = origin;
-    result.ray = spawn_ray(origin, direction);
-  } else {
-    result.origin.position = origin.position;
-    result.ray = {origin.position, direction};
-  }
-  const float cosine = on_surface_ ? dot(origin.ng, direction) : 1.0f;
-  if (!(cosine > 0)) return result;
-  result.pdf_position = pdf_position;
-  result.pdf_direction = cells_.pdf(direction);
-  const float joint = result.pdf_position * result.pdf_direction;
-  if (joint > 0) result.flux = light_->emitted_from(origin, direction) * (cosine / joint);
-  return result;
+  return origins_.ray(direction, cells_.pdf(direction), u_position);
 }
 
 ProjectionPlane::ProjectionPlane(const Light& light, const ProjectionInputs& inputs)

@@ -1,0 +1,77 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kaustik/integrator/efficiency.h"
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/light_path_use.h"
+#include "kaustik/integrator/pixel_plans.h"
+#include "kaustik/integrator/vcm_settings.h"
+#include "kaustik/photon/light_path_emission.h"
+#include "kaustik/photon/light_vertices.h"
+
+namespace kaustik {
+
+/// What the paths of a pilot pass tell of each probe.
+struct VcmPilot {
+  std::vector<ProbeStatistics> probes;
+  std::vector<float> areas;  ///< of the disks that they were taken with, m²
+  PassCosts costs;
+  float light_paths = 0;  ///< per camera sample, of the passes that it speaks of
+};
+
+/// What connection and merging know before a pass, from pilot passes and from finished ones.
+struct VcmPlans {
+  uint32_t samples_per_pixel = 0;
+  std::shared_ptr<const LightPathEmission> emission;
+  Techniques techniques;
+  float light_paths = 0;  ///< per camera sample
+  PixelPlans pixels;
+  std::shared_ptr<const VcmPilot> pilot;  ///< null: nothing merges
+  uint64_t pilot_rays = 0;
+  std::string decision;  ///< what was chosen by itself, for the user; empty: nothing
+  /// Vertices that may be connected, per light path: what the weights go by.
+  float connectible_per_path = 1;
+  /// Of the light paths of the pilot passes; null: emission is not guided.
+  std::shared_ptr<const LightPathUse> use;
+
+  /// Gives the probes these disks and, as the pilot tells, chances of going on.
+  Efficiency settle(std::vector<PixelPlan> disks);
+};
+
+/// Light paths of a pass of a picture of that size, with so many per camera sample.
+uint32_t light_path_count(const Vec2i& size, uint32_t samples_per_pixel, float light_paths);
+
+/// Makes the plans of the first pass, by pilot passes.
+class VcmPlanner {
+ public:
+  /// `plain` is not guided. All must outlive this.
+  VcmPlanner(const Scene& scene, const VcmSettings& settings,
+             const std::shared_ptr<const LightPathEmission>& plain)
+      : scene_(scene), settings_(settings), plain_(plain) {}
+
+  VcmPlans make(uint32_t samples_per_pixel) const;
+
+ private:
+  /// The light paths of a pilot pass.
+  struct PilotLight {
+    std::shared_ptr<const LightPathEmission> emission;
+    LightVertices vertices;
+    uint64_t rays = 0;
+  };
+  /// Emission, and the light paths that tell all else, of pilot passes of so many paths.
+  PilotLight search_light(VcmPlans& plans, uint32_t count) const;
+  LightVertices trace_pilot(const LightPathEmission& emission, uint32_t round, uint32_t count,
+                            PassReport& report) const;
+  VcmPilot make_pilot(VcmPlans& plans, const PilotLight& light, uint32_t light_paths) const;
+
+  const Scene& scene_;
+  const VcmSettings& settings_;
+  const std::shared_ptr<const LightPathEmission>& plain_;
+};
+
+/// What counts as near in the weights of merging, by the distances from the camera, m².
+float accepted_area(const PixelPlans& pixels);
+
+}  // namespace kaustik
