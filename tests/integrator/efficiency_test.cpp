@@ -103,7 +103,8 @@ TEST(PathPilot, ExpectsTheVarianceOfPathTracing) {
   const LightVertices vertices = trace_light_vertices(
       {scene, emission, weights, ComponentSet::all(), 1 << 20, 4096, 1, PixelPlans(), 1}, Pass{},
       Stream::training, nowhere, {}, {}, report);
-  const PixelPlans plans(scene, vertices, 4096, 30, 0);
+  PixelPlans plans(scene);
+  plans.choose_disks(vertices, 4096, 30, 0);
   const VcmCameraInputs inputs{scene, emission, weights, vertices, MattMerging(), 1, 0, 0};
   uint64_t rays = 0;
   auto probes = probe_statistics(inputs, plans, {}, rays);

@@ -61,7 +61,7 @@ UsefulPaths useful_paths(const std::string& text) {
          PixelPlans(), 1, LightPathUse::most_paths},
         pass, Stream::training, nowhere, {}, {}, report);
   };
-  LightPathUse use(scene, plain);
+  LightPathUse use(scene, plain, ComponentSet::all());
   use.learn(paths(LightPathEmission(plain, use.targets()), 0));
   auto learned = use.emission().learned();
   if (!learned) return {};

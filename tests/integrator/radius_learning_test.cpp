@@ -47,12 +47,14 @@ LightVertices light_of(const Density& density, size_t count, unsigned seed) {
 /// Plans after `passes` of this light.
 template <typename Density>
 PixelPlans learned(const Scene& scene, const Density& density, size_t count, uint32_t passes) {
-  const PixelPlans first(scene, light_of(density, count, 99), uint32_t(count), 20, 0);
+  PixelPlans first(scene);
+  first.choose_disks(light_of(density, count, 99), uint32_t(count), 20, 0);
   uint64_t rays = 0;
   const RadiusLearning learning(scene, first, rays);
   std::vector<RadiusLearning::Sums> sums(first.probes().size());
   for (uint32_t pass = 0; pass < passes; ++pass) {
-    const auto added = RadiusLearning::sums_of(first, light_of(density, count, pass));
+    const auto added =
+        RadiusLearning::sums_of(first, light_of(density, count, pass), ComponentSet::all());
     for (size_t i = 0; i < sums.size(); ++i) sums[i].add(added[i]);
   }
   return first.with(learning.plans(first, sums, passes, 1));
@@ -97,7 +99,8 @@ TEST(RadiusLearning, EndsOfSurfacesAreNoEdgesOfLight) {
 TEST(RadiusLearning, RaysAreCountedAndStopRequestsSeen) {
   const TestScene scene = floor_scene();
   const auto even = [](float, float) { return 1.0f; };
-  const PixelPlans first(scene.scene(), light_of(even, 3000, 99), 3000, 20, 0);
+  PixelPlans first(scene.scene());
+  first.choose_disks(light_of(even, 3000, 99), 3000, 20, 0);
   uint64_t rays = 0;
   const RadiusLearning learning(scene.scene(), first, rays);
   // One ray upward, and two for each of eight points in ten rings.

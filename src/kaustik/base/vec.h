@@ -33,7 +33,10 @@ inline float length_sq(const Vec3f& v) { return dot(v, v); }
 inline float length(const Vec3f& v) { return std::sqrt(length_sq(v)); }
 /// `v` must not be zero.
 inline Vec3f normalize(const Vec3f& v) { return v * (1.0f / length(v)); }
-inline float sqr(float x) { return x * x; }
+template <typename T>
+constexpr T sqr(T x) {
+  return x * x;
+}
 inline float safe_sqrt(float x) { return std::sqrt(std::max(0.0f, x)); }
 inline float max_abs(const Vec3f& v) {
   return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});

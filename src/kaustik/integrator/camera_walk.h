@@ -56,6 +56,8 @@ class CameraWalk {
   const SurfaceVertex& vertex() const { return vertex_; }
   /// That the path arrived at the vertex through; null: vacuum.
   const Medium* medium() const { return state_.medium; }
+  /// Of what the camera sees, relative to what the vertex sends back.
+  const Spectrum& throughput() const { return state_.throughput; }
   /// Scattering events so far.
   int events() const { return state_.depth; }
   /// Whether the camera sees the vertex directly or by specular events alone.

@@ -19,6 +19,15 @@ constexpr double rays_of_light_ray = 3;
 constexpr double even_share_of_mean = 0.1;
 constexpr int rounds = 6;
 
+/// What a few paths have found nothing beyond is taken to have this share of the mean there: the
+/// paths of a picture, which are many more, may find light.
+constexpr double share_of_mean_unknown = 0.1;
+
+bool has_found_nothing(const ProbeStatistics& probe) {
+  return probe.rays_beyond > 0 && probe.merged_alone == 0 &&
+         std::all_of(probe.squares.begin(), probe.squares.end(), [](double s) { return s == 0; });
+}
+
 struct Candidate {
   double squared_error = 0, rays = 0, evenness = 1;
 };
@@ -78,10 +87,18 @@ Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const Pas
   double radiance = 0;
   for (const ProbeStatistics& probe : probes) radiance += probe.radiance;
   const double least = std::max(1e-30, even_share_of_mean * radiance / double(probes.size()));
+  ProbeStatistics mean;
+  for (const ProbeStatistics& probe : probes) mean.add(probe, 1 / double(probes.size()));
   std::vector<Candidates> all;
   all.reserve(probes.size());
-  for (size_t p = 0; p < probes.size(); ++p)
-    all.push_back(candidates(probes[p], costs, scales[p], least));
+  for (size_t p = 0; p < probes.size(); ++p) {
+    ProbeStatistics probe = probes[p];
+    if (has_found_nothing(probe)) {
+      probe.squares = mean.squares;
+      for (double& squares : probe.squares) squares *= share_of_mean_unknown;
+    }
+    all.push_back(candidates(probe, costs, scales[p], least));
+  }
 
   // The least product of two sums is the least weighted sum for weights that are found by turns.
   std::vector<size_t> chosen(all.size(), chances.size() / 2);

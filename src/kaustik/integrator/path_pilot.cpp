@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t paths_per_probe = 8;
 /// Of the random numbers' addresses.
-constexpr uint64_t pilot_element = uint64_t(3) << 40;
+constexpr uint64_t pilot_element = uint64_t(4) << 40;
 /// The kernel of merging weighs its vertices unevenly: they are worth so many of equal weight.
 constexpr double kernel_efficiency = 0.75;
 /// Light that merging finds more often than this, per camera path of a pass, says nothing about how
@@ -19,7 +19,7 @@ constexpr double kernel_efficiency = 0.75;
 constexpr double most_merged = 64;
 /// Most of m/p.
 const double most_ratio =
-    std::exp2(double(ProbeStatistics::bin_count - ProbeStatistics::bin_of_one));
+    std::exp2(double(ProbeStatistics::bin_count - 1 - ProbeStatistics::bin_of_one));
 
 int bin_of(double ratio) {
   if (!(ratio > 0)) return 0;
@@ -159,6 +159,7 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
         recorder.go_on();
         rays_before = walk.rays();
       }
+      if (!walk.may_find_more()) break;
       if (walk.events() > limits.roulette_depth && !walk.survive(u_choice.y)) break;
     }
     recorder.note();

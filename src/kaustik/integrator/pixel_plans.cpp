@@ -18,42 +18,40 @@ Vec3f side_of(const SurfaceVertex& vertex) {
 
 }  // namespace
 
-PixelPlans::PixelPlans(const Scene& scene, const LightVertices& pilot, uint32_t paths,
-                       int wanted_neighbors, float given) {
-  const double share = double(pilot.path_count) / double(std::max(1u, paths));
-  const int neighbors = std::max(2, int(std::lround(wanted_neighbors * share)));
+PixelPlans::PixelPlans(const Scene& scene) {
   const Vec2i size = scene.film().crop_size;
   blocks_ = (size + Vec2i(block_size - 1)) / block_size;
   probes_ = std::make_shared<const std::vector<PixelProbe>>(
       make_pixel_probes(scene, blocks_, block_size));
-  const std::vector<PixelProbe>& probes = *probes_;
-  const size_t count = probes.size();
-  PixelPlan same;
-  same.merge_area = pi * sqr(given);
-  plans_.assign(count, same);
-  parallel_blocks(count, 16, [&](size_t begin, size_t end, size_t) {
-    SidedTree<LightVertexData>::Neighbors found;
-    for (size_t i = begin; i < end; ++i) {
-      const PixelProbe& probe = probes[i];
-      if (!probe.found || pilot.tree.empty()) continue;
-      if (!(given > 0)) {
-        pilot.tree.nearest(probe.vertex.position(), side_of(probe.vertex), false, neighbors,
-                           most_widths * probe.pixel_width, found);
-        const float radius = found.complete() ? std::sqrt(found.farthest_sq()) : float(infinity);
-        plans_[i].merge_area = pi * sqr(std::clamp(radius, least_widths * probe.pixel_width,
-                                                   most_widths * probe.pixel_width));
-      }
-    }
-  });
+  plans_.assign(probes_->size(), PixelPlan());
   double distance_sum = 0;
   size_t hits = 0;
-  for (size_t i = 0; i < count; ++i)
-    if (probes[i].distance > 0) distance_sum += double(probes[i].distance), ++hits;
+  for (const PixelProbe& probe : *probes_)
+    if (probe.distance > 0) distance_sum += double(probe.distance), ++hits;
   mean_distance_ = hits > 0 ? float(distance_sum / double(hits)) : 1.0f;
+}
+
+void PixelPlans::choose_disks(const LightVertices& pilot, uint32_t paths, int wanted_neighbors,
+                              float given) {
   if (given > 0) {
     other_area_ = pi * sqr(given);
+    for (PixelPlan& plan : plans_) plan.merge_area = other_area_;
     return;
   }
+  const double share = double(pilot.path_count) / double(std::max(1u, paths));
+  const int neighbors = std::max(2, int(std::lround(wanted_neighbors * share)));
+  parallel_blocks(plans_.size(), 16, [&](size_t begin, size_t end, size_t) {
+    SidedTree<LightVertexData>::Neighbors found;
+    for (size_t i = begin; i < end; ++i) {
+      const PixelProbe& probe = (*probes_)[i];
+      if (!probe.found || pilot.tree.empty()) continue;
+      pilot.tree.nearest(probe.vertex.position(), side_of(probe.vertex), false, neighbors,
+                         most_widths * probe.pixel_width, found);
+      const float radius = found.complete() ? std::sqrt(found.farthest_sq()) : float(infinity);
+      plans_[i].merge_area = pi * sqr(std::clamp(radius, least_widths * probe.pixel_width,
+                                                 most_widths * probe.pixel_width));
+    }
+  });
   fill_gaps();
   const float typical = pilot.tree.typical_radius(neighbors, 0.5f);
   other_area_ = pi * sqr(std::min(typical, most_other_radius * mean_distance_));
@@ -67,25 +65,31 @@ PixelPlans PixelPlans::with(std::vector<PixelPlan> plans) const {
 }
 
 void PixelPlans::fill_gaps() {
-  const auto row = size_t(blocks_.x);
-  size_t known = plans_.size();
-  const auto copy_if_gap = [&](size_t i) {
-    if ((*probes_)[i].found)
-      known = i;
-    else if (known < plans_.size())
-      plans_[i] = plans_[known];
-  };
-  // Along the rows from left to right; what comes before the first of all that is known, backward.
-  for (size_t i = 0; i < plans_.size(); ++i) {
-    if (i % row == 0 && i >= row) known = i - row;
-    copy_if_gap(i);
+  const auto width = size_t(blocks_.x), height = size_t(blocks_.y);
+  std::vector<bool> row_is_known(height);
+  for (size_t y = 0; y < height; ++y) {
+    // From the left, and what comes before the first of a row from the right.
+    size_t first = width;
+    for (size_t x = 0; x < width; ++x) {
+      const size_t i = y * width + x;
+      if ((*probes_)[i].found)
+        first = std::min(first, x);
+      else if (first < width)
+        plans_[i] = plans_[i - 1];
+    }
+    if (first == width) continue;
+    row_is_known[y] = true;
+    for (size_t x = 0; x < first; ++x) plans_[y * width + x] = plans_[y * width + first];
   }
-  known = plans_.size();
-  for (size_t i = plans_.size(); i-- > 0;)
-    if (!(plans_[i].merge_area > 0))
-      copy_if_gap(i);
-    else
-      known = i;
+  // Rows of which nothing is known, from above, and the first ones from below.
+  const auto copy_row = [&](size_t to, size_t from) {
+    if (row_is_known[to] || !row_is_known[from]) return;
+    std::copy_n(plans_.begin() + std::ptrdiff_t(from * width), width,
+                plans_.begin() + std::ptrdiff_t(to * width));
+    row_is_known[to] = true;
+  };
+  for (size_t y = 1; y < height; ++y) copy_row(y, y - 1);
+  for (size_t y = height - 1; y-- > 0;) copy_row(y, y + 1);
 }
 
 }  // namespace kaustik

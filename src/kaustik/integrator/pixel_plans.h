@@ -32,10 +32,11 @@ struct PixelPlan {
 class PixelPlans {
  public:
   PixelPlans() = default;
+  /// With probes, but no disks yet.
+  explicit PixelPlans(const Scene& scene);
   /// So many vertices of a pass set a radius, as a pilot pass tells, which may have fewer paths.
   /// `given` > 0 is taken for all, m. `paths`: light paths of a pass.
-  PixelPlans(const Scene& scene, const LightVertices& pilot, uint32_t paths, int neighbors,
-             float given);
+  void choose_disks(const LightVertices& pilot, uint32_t paths, int neighbors, float given);
 
   /// One per block of pixels, row by row.
   const std::vector<PixelProbe>& probes() const { return *probes_; }

@@ -22,13 +22,11 @@ constexpr double least_directions = 12;
 /// Kinds of light with a smaller share don't count.
 constexpr double least_share = 0.05;
 /// What merges at a vertex costs time: more than so many per pass are not worth theirs.
-constexpr double most_directions = 400;
+constexpr double most_vertices = 600;
 
 double level_radius(const PixelProbe& probe, int level) {
   return double(probe.pixel_width) * std::exp2(0.5 * level);
 }
-
-double square(double x) { return x * x; }
 
 constexpr auto levels = size_t(RadiusLearning::level_count);
 
@@ -43,13 +41,13 @@ RadiusLearning::Disagreement::Pairs disagreement_of(const RadiusLearning::KindSu
     area[i] = std::exp2(double(i)) * std::max(0.05, double(coverage[i]));
   for (size_t i = 1; i < levels; ++i)
     for (size_t j = 0; j < i; ++j) {
-      if (square(sums.light[j]) < least_directions * sums.squares[j]) continue;
+      if (sqr(sums.light[j]) < least_directions * sums.squares[j]) continue;
       const double difference = sums.light[i] / area[i] - sums.light[j] / area[j];
       // Both hold what lies in the smaller one.
       const double variance =
-          std::max(sums.squares[j], of_one * of_one) * square(1 / area[j] - 1 / area[i]) +
-          (sums.squares[i] - sums.squares[j]) * square(1 / area[i]);
-      result[i][j] = variance > 0 ? float(square(difference) / variance) : 0.0f;
+          std::max(sums.squares[j], of_one * of_one) * sqr(1 / area[j] - 1 / area[i]) +
+          (sums.squares[i] - sums.squares[j]) * sqr(1 / area[i]);
+      result[i][j] = variance > 0 ? float(sqr(difference) / variance) : 0.0f;
     }
   return result;
 }
@@ -131,11 +129,14 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
             size_t level = 0;
             for (double limit = least_sq; reach_sq > limit; limit *= 2) ++level;
             if (level >= levels) return;
+            sums.vertices[level] += 1;
             const auto value = double(probe.sent(photon, wanted).sum());
             auto& kind = sums.of[photon.specular ? 0 : 1];
             kind.light[level] += value;
             kind.squares[level] += value * value;
           });
+      for (size_t level = 1; level < levels; ++level)
+        sums.vertices[level] += sums.vertices[level - 1];
       for (auto& kind : sums.of)
         for (size_t level = 1; level < levels; ++level) {
           kind.light[level] += kind.light[level - 1];
@@ -180,16 +181,8 @@ std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std:
   for (size_t p = 0; p < sums.size(); ++p) {
     const PixelProbe& probe = first.probes()[p];
     if (!probe.found) continue;
-    const auto directions_at = [&](int level) {
-      double light = 0, squares = 0;
-      for (const auto& kind : sums[p].of) {
-        light += kind.light[size_t(level)];
-        squares += kind.squares[size_t(level)];
-      }
-      return squares > 0 ? light * light / squares / passes : 0.0;
-    };
     int level = widest_level(disagreements, first, p);
-    while (level > 0 && directions_at(level) > most_directions) --level;
+    while (level > 0 && sums[p].vertices[size_t(level)] > most_vertices * passes) --level;
     result[p].merge_area = float(pi * sqr(level_radius(probe, level))) / shrinkage;
   }
   return result;

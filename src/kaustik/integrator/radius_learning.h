@@ -24,7 +24,9 @@ class RadiusLearning {
   };
   struct Sums {
     std::array<KindSums, kind_count> of;
+    std::array<double, level_count> vertices{};  ///< wanted or not
     void add(const Sums& other) {
+      for (size_t i = 0; i < size_t(level_count); ++i) vertices[i] += other.vertices[i];
       for (size_t k = 0; k < kind_count; ++k)
         for (size_t i = 0; i < size_t(level_count); ++i) {
           of[k].light[i] += other.of[k].light[i];

@@ -36,23 +36,25 @@ VcmIntegrator::VcmIntegrator(const Arguments& arguments, const Scene& scene)
 }
 
 std::shared_ptr<const VcmPlans> VcmIntegrator::plans(uint32_t samples_per_pixel,
+                                                     const std::stop_token& stop,
                                                      PassReport& report) const {
   const std::lock_guard lock(plans_mutex_);
-  if (!plans_ || plans_->samples_per_pixel != samples_per_pixel) {
-    plans_ = isolated([&] {
-      return std::make_shared<const VcmPlans>(
-          VcmPlanner(scene_, settings_, plain_).make(samples_per_pixel));
-    });
-    report.rays += plans_->pilot_rays;
-  }
-  return plans_;
+  if (plans_ && plans_->samples_per_pixel == samples_per_pixel) return plans_;
+  auto made = isolated([&] {
+    return std::make_shared<const VcmPlans>(
+        VcmPlanner(scene_, settings_, plain_).make(samples_per_pixel, stop));
+  });
+  report.rays += made->pilot_rays;
+  if (!stop.stop_requested()) plans_ = made;
+  return made;
 }
 
 std::shared_ptr<const VcmPlans> VcmIntegrator::plans_for(const Pass& pass, std::stop_token stop,
                                                          const ProgressFunction& progress,
                                                          uint32_t& made_up,
                                                          PassReport& report) const {
-  const auto first = plans(pass.samples_per_pixel, report);
+  const auto first = plans(pass.samples_per_pixel, stop, report);
+  if (stop.stop_requested()) return first;
   if (VcmLearning::learned_passes(*first, settings_) == 0) return first;
   const std::lock_guard lock(learning_mutex_);
   return isolated([&] {
@@ -74,8 +76,10 @@ std::shared_ptr<const VcmPlans> VcmIntegrator::plans_for(const Pass& pass, std::
       SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
       PathWeights::Settings merging_alone = weights_for(*plans, missing).settings();
       merging_alone.techniques.splats = merging_alone.techniques.connections = false;
-      const LightVertices light = trace(*plans, PathWeights(merging_alone), missing, nowhere, stop,
-                                        part_of(progress, made_up, missing_count + 1), report);
+      LightVertices light;
+      if (learning_->wants_next())
+        light = trace(*plans, PathWeights(merging_alone), missing, nowhere, stop,
+                      part_of(progress, made_up, missing_count + 1), report);
       if (stop.stop_requested()) return first;
       learning_->learn(light);
     }
@@ -110,7 +114,7 @@ LightVertices VcmIntegrator::trace(const VcmPlans& plans, const PathWeights& wei
       {scene_, *plans.emission, weights, settings_.components, settings_.maximum_events,
        light_path_count(scene_.film().crop_size, pass.samples_per_pixel, plans.light_paths),
        float(pass.samples_per_pixel), plans.pixels, sqr(pass_radius(1, pass.index)),
-       VcmLearning::remembered_paths(pass.index, settings_)},
+       VcmLearning::remembered_paths(pass.index, plans)},
       pass, Stream::light_path, splats, stop, progress, report);
 }
 

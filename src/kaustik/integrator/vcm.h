@@ -35,8 +35,10 @@ class VcmIntegrator final : public Integrator {
                       SplatBuffer& splats, std::stop_token stop, const ProgressFunction& progress,
                       PassReport& report) const;
   PathWeights weights_for(const VcmPlans& plans, const Pass& pass) const;
-  /// Those for passes of so many samples, made when they are first asked for.
-  std::shared_ptr<const VcmPlans> plans(uint32_t samples_per_pixel, PassReport& report) const;
+  /// Those for passes of so many samples, made when they are first asked for; worth nothing if that
+  /// was stopped.
+  std::shared_ptr<const VcmPlans> plans(uint32_t samples_per_pixel, const std::stop_token& stop,
+                                        PassReport& report) const;
 
   const Scene& scene_;
   VcmSettings settings_;

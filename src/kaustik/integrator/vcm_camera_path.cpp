@@ -236,6 +236,11 @@ void VcmCameraPath::merge(int maximum_events) {
   const SurfaceVertex& vertex = walk_.vertex();
   const Lobes lobes = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
   if (!any(lobes) || in_.light.tree.empty() || !in_.weights.merges_at(vertices_)) return;
+  const auto wanted = [&](Lobes lobe) {
+    return any(lobes & lobe) && (walk_.wants(walk_.component_of(lobe, true)) ||
+                                 walk_.wants(walk_.component_of(lobe, false)));
+  };
+  if (!wanted(Lobes::diffuse) && !wanted(Lobes::glossy)) return;
   const float radius = merge_radius();
   if (!(radius > 0)) return;
   const MergeDisk disk(vertex, radius);
@@ -365,8 +370,8 @@ std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices(int maxi
         for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
           if (any(vertex.lobes() & lobe) && walk_.wants(walk_.component_of(lobe, photon.specular)))
             reflected += vertex.eval(wi, lobe);
-        result.push_back(
-            {in_.weights.beyond_merge(path), reflected * photon.flux_spectrum() * factor});
+        result.push_back({in_.weights.beyond_merge(path),
+                          walk_.throughput() * reflected * photon.flux_spectrum() * factor});
       });
   return result;
 }

@@ -38,8 +38,12 @@ uint32_t VcmLearning::epoch_begin(uint32_t pass, uint32_t learned_passes) {
   return std::min(learned_passes, std::bit_floor(pass));
 }
 
-uint32_t VcmLearning::remembered_paths(uint32_t pass, const VcmSettings& settings) {
-  return settings.guiding && teaches_emission(pass) ? LightPathUse::most_paths : 0;
+uint32_t VcmLearning::remembered_paths(uint32_t pass, const VcmPlans& plans) {
+  return plans.use && teaches_emission(pass) ? LightPathUse::most_paths : 0;
+}
+
+bool VcmLearning::wants_next() const {
+  return learns_radii_ || (use_ && teaches_emission(passes_));
 }
 
 bool VcmLearning::expects(const Pass& pass) const {
@@ -77,8 +81,10 @@ std::shared_ptr<const VcmPlans> VcmLearning::plans_of(uint32_t epoch, const Scen
     radii_ = std::move(made);
   }
   auto plans = std::make_shared<VcmPlans>(*epochs_.rbegin()->second);
-  if (learns_radii_)
-    plans->settle(radii_->plans(first_->pixels, sums_, passes_, sqr(pass_radius(1, passes_))));
+  if (learns_radii_) {
+    const float shrinkage = sqr(pass_radius(1, passes_));
+    plans->settle(radii_->plans(first_->pixels, sums_, passes_, shrinkage), shrinkage);
+  }
   if (use_)
     if (const auto learned = use_->emission().learned()) plans->emission = learned;
   if (passes_ >= most_guided_passes) use_.reset();

@@ -20,8 +20,8 @@ class VcmLearning {
   static uint32_t learned_passes(const VcmPlans& first, const VcmSettings& settings);
   /// First pass of the epoch that a pass belongs to: 0, 1, 2, 4, 8 …
   static uint32_t epoch_begin(uint32_t pass, uint32_t learned_passes);
-  /// Paths whose beginnings a pass remembers.
-  static uint32_t remembered_paths(uint32_t pass, const VcmSettings& settings);
+  /// Paths whose beginnings a pass with such plans remembers.
+  static uint32_t remembered_paths(uint32_t pass, const VcmPlans& plans);
 
   const std::shared_ptr<const VcmPlans>& first() const { return first_; }
   /// Whether this is the pass to be learned from next.
@@ -32,6 +32,8 @@ class VcmLearning {
 
   /// Forgets all but what every seed has in common.
   void begin(uint64_t seed);
+  /// Whether the next pass has anything to teach; else learn() will do with no vertices.
+  bool wants_next() const;
   /// The next pass.
   void learn(const LightVertices& light);
   /// The plans of the epoch that begins with this pass, made before that is learned from; those of

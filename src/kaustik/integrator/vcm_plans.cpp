@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "kaustik/integrator/path_pilot.h"
 #include "kaustik/integrator/vcm_camera_path.h"
@@ -26,6 +27,16 @@ constexpr double most_light_paths = 1 << 24;
 /// Light paths that are tried beside those that are asked for, relative to them.
 constexpr std::array<float, 3> light_path_factors{0.25f, 1, 4};
 constexpr float near_per_distance = 0.01746f;  // tan 1°
+
+/// Whether there is a vertex that light of a point, or of something else that is never met, has
+/// come to after a delta event: nothing but light paths will find such light.
+bool has_hidden_light(const LightVertices& light) {
+  const auto all = light.tree.tree().data();
+  return std::any_of(all.begin(), all.end(), [&](const LightVertexData& data) {
+    const PathVertex& first = light.vertices[size_t(data.path) + 1];
+    return data.before >= 2 && first.to_previous == 0 && first.delta;
+  });
+}
 
 std::string described(const VcmPlans& plans, double gain) {
   if (!plans.techniques.merging)
@@ -53,29 +64,32 @@ void choose_light_paths(VcmPlans& plans) {
     VcmPlans result = plans;
     result.light_paths = light_paths;
     result.techniques.merging = light_paths > 0;
-    const Efficiency expected = result.settle(disks);
+    const Efficiency expected = result.settle(disks, 1);
     return std::pair(std::move(result), expected);
   };
-  auto [best, least] = with(0);
-  const double of_paths_alone = least.time();
+  const auto of_paths_alone = with(0);
+  const bool needs_merging = plans.pilot->needs_merging;
+  auto best = of_paths_alone;
+  if (needs_merging) best.second.squared_error = std::numeric_limits<double>::infinity();
   for (const float factor : light_path_factors) {
-    auto [other, expected] = with(plans.pilot->light_paths * factor);
-    if (!(expected.time() < least.time())) continue;
-    best = std::move(other);
-    least = expected;
+    auto other = with(plans.pilot->light_paths * factor);
+    if (other.second.time() < best.second.time()) best = std::move(other);
   }
-  best.decision = described(best, of_paths_alone / least.time());
-  plans = std::move(best);
+  const double gain = needs_merging ? std::numeric_limits<double>::infinity()
+                                    : of_paths_alone.second.time() / best.second.time();
+  plans = std::move(best.first);
+  plans.decision = described(plans, gain);
 }
 
 }  // namespace
 
-Efficiency VcmPlans::settle(std::vector<PixelPlan> disks) {
+Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
   std::vector<MergeScale> scales(disks.size());
   for (size_t i = 0; i < disks.size(); ++i) {
     scales[i].light_paths =
         techniques.merging ? double(light_paths) / double(pilot->light_paths) : 0.0;
-    if (pilot->areas[i] > 0) scales[i].area = double(disks[i].merge_area) / double(pilot->areas[i]);
+    if (pilot->areas[i] > 0)
+      scales[i].area = double(disks[i].merge_area * shrinkage) / double(pilot->areas[i]);
   }
   const Efficiency result = choose_survival(pilot->probes, pilot->costs, scales, disks);
   pixels = pixels.with(std::move(disks));
@@ -92,70 +106,76 @@ float accepted_area(const PixelPlans& pixels) {
   return pi * sqr(near_per_distance * pixels.mean_distance());
 }
 
-VcmPlans VcmPlanner::make(uint32_t samples_per_pixel) const {
+VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& stop) const {
   VcmPlans plans;
   plans.samples_per_pixel = samples_per_pixel;
   plans.emission = plain_;
   plans.techniques = settings_.techniques;
   plans.light_paths = settings_.light_paths;
   if (!settings_.techniques.merging && !settings_.techniques.connections) return plans;
+  if (settings_.techniques.merging) plans.pixels = PixelPlans(scene_);
   const uint32_t of_pass =
       light_path_count(scene_.film().crop_size, samples_per_pixel, settings_.light_paths);
   const uint32_t count = std::min(of_pass, most_pilot_paths);
-  const PilotLight light = search_light(plans, count);
+  const PilotLight light = search_light(plans, count, stop);
   if (!light.vertices.connectible.empty())
     plans.connectible_per_path = float(light.vertices.connectible.size()) / float(count);
-  if (!settings_.techniques.merging) return plans;
-  plans.pixels =
-      PixelPlans(scene_, light.vertices, of_pass, settings_.merge_neighbors, settings_.radius);
+  if (!settings_.techniques.merging || stop.stop_requested()) return plans;
+  plans.pixels.choose_disks(light.vertices, of_pass, settings_.merge_neighbors, settings_.radius);
   plans.pilot = std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass));
   if (settings_.chooses_light_paths)
     choose_light_paths(plans);
   else
-    plans.settle(plans.pixels.plans());
+    plans.settle(plans.pixels.plans(), 1);
   return plans;
 }
 
-VcmPlanner::PilotLight VcmPlanner::search_light(VcmPlans& plans, uint32_t count) const {
-  PilotLight light{plain_, {}, 0};
-  std::shared_ptr<LightPathUse> use;
-  std::shared_ptr<const LightPathEmission> searching = plain_;
-  if (settings_.guiding) {
-    use = std::make_shared<LightPathUse>(scene_, *plain_, settings_.components);
-    plans.use = use;
-    searching = std::make_shared<const LightPathEmission>(*plain_, use->targets());
-    light.emission = searching;
-  }
+VcmPlanner::PilotLight VcmPlanner::search_light(VcmPlans& plans, uint32_t count,
+                                                const std::stop_token& stop) const {
+  if (!settings_.guiding) return trace_pilot(plain_, 0, count, plans, stop);
+  const auto use = std::make_shared<LightPathUse>(scene_, *plain_, settings_.components);
+  plans.use = use;
+  const auto searching = std::make_shared<const LightPathEmission>(*plain_, use->targets());
+  std::shared_ptr<const LightPathEmission> emission = searching;
   for (uint32_t pilots = 1;; ++pilots) {
-    PassReport report;
-    light.vertices = trace_pilot(*light.emission, pilots - 1, count, report);
-    light.rays = report.rays;
-    plans.pilot_rays += report.rays;
-    if (!use) return light;
+    PilotLight light = trace_pilot(emission, pilots - 1, count, plans, stop);
+    if (stop.stop_requested()) return light;
     use->learn(light.vertices);
     const EmissionLearning& learning = use->emission();
     const double before = learning.second_moment(*plans.emission);
     if (const auto learned = learning.learned()) plans.emission = learned;
     const double after = learning.second_moment(*plans.emission);
     const bool searches = plans.emission == plain_ && learning.size() < few_paths;
-    if (pilots == most_pilots || !(searches || after < worth_a_pilot * before)) return light;
-    light.emission = searches ? searching : plans.emission;
+    if (pilots == most_pilots || !(searches || after < worth_a_pilot * before)) {
+      // All else is to be told by light as passes will have it.
+      if (emission != searching) return light;
+      return trace_pilot(plans.emission, pilots, count, plans, stop);
+    }
+    emission = searches ? searching : plans.emission;
   }
 }
 
-LightVertices VcmPlanner::trace_pilot(const LightPathEmission& emission, uint32_t round,
-                                      uint32_t count, PassReport& report) const {
+VcmPlanner::PilotLight VcmPlanner::trace_pilot(std::shared_ptr<const LightPathEmission> emission,
+                                               uint32_t round, uint32_t count, VcmPlans& plans,
+                                               const std::stop_token& stop) const {
   PathWeights::Settings pilot;
   pilot.techniques.merging = settings_.techniques.merging;
   pilot.techniques.connections = settings_.techniques.connections;
+  pilot.accepted_area = accepted_area(plans.pixels);
   const PathWeights weights(pilot);
   SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
   Pass pass;
   pass.index = round;
-  return trace_light_vertices(
-      {scene_, emission, weights, settings_.components, settings_.maximum_events, count, 1,
+  PassReport report;
+  PilotLight light;
+  light.vertices = trace_light_vertices(
+      {scene_, *emission, weights, settings_.components, settings_.maximum_events, count, 1,
        PixelPlans(), 1, settings_.guiding ? LightPathUse::most_pilot_paths : 0},
-      pass, Stream::training, nowhere, {}, {}, report);
+      pass, Stream::training, nowhere, stop, {}, report);
+  light.emission = std::move(emission);
+  light.rays = report.rays;
+  plans.pilot_rays += report.rays;
+  return light;
 }
 
 VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light,
@@ -179,6 +199,7 @@ VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light,
       plans.pilot_rays);
   for (const PixelPlan& plan : plans.pixels.plans()) pilot.areas.push_back(plan.merge_area);
   pilot.light_paths = plans.light_paths;
+  pilot.needs_merging = has_hidden_light(light.vertices);
   const Vec2i size = scene_.film().crop_size;
   pilot.costs = {samples,
                  double(light.rays) / light_share / (samples * double(size.x) * double(size.y))};

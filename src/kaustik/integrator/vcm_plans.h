@@ -19,6 +19,8 @@ struct VcmPilot {
   std::vector<float> areas;  ///< of the disks that they were taken with, m²
   PassCosts costs;
   float light_paths = 0;  ///< per camera sample, of the passes that it speaks of
+  /// Light arrives somewhere in the scene that no path from the camera can find.
+  bool needs_merging = false;
 };
 
 /// What connection and merging know before a pass, from pilot passes and from finished ones.
@@ -36,8 +38,9 @@ struct VcmPlans {
   /// Of the light paths of the pilot passes; null: emission is not guided.
   std::shared_ptr<const LightPathUse> use;
 
-  /// Gives the probes these disks and, as the pilot tells, chances of going on.
-  Efficiency settle(std::vector<PixelPlan> disks);
+  /// Gives the probes these disks and, as the pilot tells, chances of going on, for passes whose
+  /// disks have `shrinkage` times the area.
+  Efficiency settle(std::vector<PixelPlan> disks, float shrinkage);
 };
 
 /// Light paths of a pass of a picture of that size, with so many per camera sample.
@@ -51,7 +54,8 @@ class VcmPlanner {
              const std::shared_ptr<const LightPathEmission>& plain)
       : scene_(scene), settings_(settings), plain_(plain) {}
 
-  VcmPlans make(uint32_t samples_per_pixel) const;
+  /// Worth nothing if it was stopped.
+  VcmPlans make(uint32_t samples_per_pixel, const std::stop_token& stop) const;
 
  private:
   /// The light paths of a pilot pass.
@@ -61,9 +65,9 @@ class VcmPlanner {
     uint64_t rays = 0;
   };
   /// Emission, and the light paths that tell all else, of pilot passes of so many paths.
-  PilotLight search_light(VcmPlans& plans, uint32_t count) const;
-  LightVertices trace_pilot(const LightPathEmission& emission, uint32_t round, uint32_t count,
-                            PassReport& report) const;
+  PilotLight search_light(VcmPlans& plans, uint32_t count, const std::stop_token& stop) const;
+  PilotLight trace_pilot(std::shared_ptr<const LightPathEmission> emission, uint32_t round,
+                         uint32_t count, VcmPlans& plans, const std::stop_token& stop) const;
   VcmPilot make_pilot(VcmPlans& plans, const PilotLight& light, uint32_t light_paths) const;
 
   const Scene& scene_;

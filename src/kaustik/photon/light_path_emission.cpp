@@ -15,6 +15,9 @@ constexpr float search_share = 0.5f;
 /// not be the one that is seen.
 constexpr double even_share = 0.1;
 
+/// Before they are made to sum to 1.
+constexpr double least_chance = 0x1p-22;
+
 /// A number below `share`, or not: made uniform again.
 bool takes(float& u, float share) {
   const bool is_below = u < share;
@@ -63,9 +66,11 @@ LightPathEmission::LightPathEmission(const LightPathEmission& plain, std::vector
 }
 
 void LightPathEmission::set_chances(const std::vector<double>& chances) {
-  double sum = 0;
+  // None may vanish in the rounding of the sums.
+  double sum = 0, total = 0;
+  for (const double chance : chances) total += chance > 0 ? chance + least_chance : 0;
   for (const double chance : chances) {
-    sum += chance;
+    sum += chance > 0 ? (chance + least_chance) / total : 0;
     const float before = cumulative_.empty() ? 0.0f : cumulative_.back();
     cumulative_.push_back(float(sum));
     // The chance that rounded sums give it.

@@ -11,8 +11,6 @@ constexpr int bias_reach = 2;
 /// Share of the picture's mean luminance under which a pixel's own counts less and less.
 constexpr double dark_share = 0.01;
 
-double squared(double x) { return x * x; }
-
 using Squares = std::array<float, 4>;
 
 /// Means of each value with its neighbours in a line of `count` values that are `step` apart; at
@@ -70,9 +68,9 @@ double FilmErrors::variance_by_replicates(const Fixed* sums) const {
   const double mean = total / passes();
   double squares = 0;
   for (size_t r = 0; r < replicate_count; ++r) {
-    squares += squared(double_from(sums[r]) - replicate_passes_[r] * mean);
+    squares += sqr(double_from(sums[r]) - replicate_passes_[r] * mean);
   }
-  return squares / squared(passes()) * replicates_ / (replicates_ - 1);
+  return squares / sqr(passes()) * replicates_ / (replicates_ - 1);
 }
 
 double FilmErrors::luminance_sum(size_t pixel) const {
@@ -131,7 +129,7 @@ double FilmErrors::of_picture() const {
       double block = 0;
       for (size_t i = begin; i < end; ++i)
         if (const double square = square_of(i); square != 0)
-          block += square / squared(std::abs(luminance_sum(i)) / passes() + dark);
+          block += square / sqr(std::abs(luminance_sum(i)) / passes() + dark);
       return block;
     });
   };
