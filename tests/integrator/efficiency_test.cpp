@@ -105,7 +105,7 @@ TEST(PathPilot, ExpectsTheVarianceOfPathTracing) {
       Stream::training, nowhere, {}, {}, report);
   PixelPlans plans(scene);
   plans.choose_disks(vertices, 4096, 30, 0);
-  const VcmCameraInputs inputs{scene, emission, weights, vertices, MattMerging(), 1, 0, 0};
+  const VcmCameraInputs inputs{scene, emission, weights, vertices, MattMerging(), plans, 1, 0, 0};
   uint64_t rays = 0;
   auto probes = probe_statistics(inputs, plans, {}, rays);
   for (ProbeStatistics& probe : probes) probe.rays_beyond = 0;  // so that all go on

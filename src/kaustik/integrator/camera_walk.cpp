@@ -40,6 +40,7 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
       sampler_(sampler),
       sink_(sink),
       class_(traced),
+      raster_(raster),
       ray_(scene.camera().sample_ray(raster)) {
   state_.footprint = Footprint::of_camera(scene.camera().pixel_spread());
   state_.medium = scene.camera_medium();
@@ -58,6 +59,7 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
       class_(other.class_),
       weights_(other.weights_),
       light_choice_(other.light_choice_),
+      raster_(other.raster_),
       ray_(other.ray_),
       vertex_(other.vertex_),
       in_medium_(other.in_medium_),

@@ -56,6 +56,8 @@ class CameraWalk {
   const SurfaceVertex& vertex() const { return vertex_; }
   /// That the path arrived at the vertex through; null: vacuum.
   const Medium* medium() const { return state_.medium; }
+  /// Where it began.
+  const Vec2f& raster() const { return raster_; }
   /// Of what the camera sees, relative to what the vertex sends back.
   const Spectrum& throughput() const { return state_.throughput; }
   /// Scattering events so far.
@@ -150,6 +152,7 @@ class CameraWalk {
   CameraPathClass class_;
   const LightWeights* weights_ = nullptr;        ///< null: those of path tracing
   LightChoice light_choice_ = LightChoice::one;  ///< of the last add_direct_light()
+  Vec2f raster_;                                 ///< where it began
   Ray ray_;
   SurfaceVertex vertex_;
   Receiver in_medium_;  ///< the point where fly() came to in a medium

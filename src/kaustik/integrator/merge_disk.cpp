@@ -6,8 +6,12 @@ namespace {
 /// Share of the radius from which disks are looked at: over the surface by so much that a curved
 /// one does not count as in its own way.
 constexpr float height_share = 0.25f;
+/// Of the radius: what hangs no higher than that makes disks smaller.
+constexpr float per_clearance = 2;
 /// Disks are hardly ever covered by less than one over this.
 constexpr int most_tries = 32;
+/// Points that are tried at most: slivers are left of hardly any disk.
+constexpr int most_points = 256;
 /// That light passes through, one over the other.
 constexpr int most_layers = 4;
 
@@ -37,9 +41,11 @@ DiskCoverage::DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t
       rays_(rays) {
   const float least = 1e-3f * widest.radius();
   const Ray up{vertex_.position() + frame_.z * least, frame_.z,
-               height_share * widest.radius() - least};
+               widest.radius() / per_clearance - least};
   free_ = least + distance_to(up, [&](const SurfacePoint& point) { return hides(point); });
 }
+
+float DiskCoverage::clear_radius() const { return per_clearance * free_; }
 
 bool DiskCoverage::merges_at(const SurfacePoint& point) const {
   const bool keeps_light =
@@ -53,34 +59,46 @@ bool DiskCoverage::hides(const SurfacePoint& point) const {
   return point.shape == vertex_.point().shape || !scene_.surface(point.shape).bsdf->transmits();
 }
 
-bool DiskCoverage::holds(float radius, float distance, float angle) const {
-  const float wanted = height_share * radius;
-  const float height = wanted < free_ ? wanted : 0.5f * free_;
-  const Vec3f above = vertex_.position() + frame_.z * height;
-  const Vec3f over =
-      above + frame_.x * (distance * std::cos(angle)) + frame_.y * (distance * std::sin(angle));
-  bool merges = false;
-  distance_to({over, -frame_.z, height + MergeDisk(vertex_, radius).flatness()},
+std::optional<SurfacePoint> DiskCoverage::obstacle(float height, float angle, float reach) const {
+  std::optional<SurfacePoint> result;
+  distance_to({vertex_.position() + frame_.z * free_height(height), across(angle), reach},
               [&](const SurfacePoint& point) {
-                merges = merges_at(point);
-                return merges || hides(point);
+                if (hides(point)) result = point;
+                return result.has_value();
               });
-  if (!merges) return false;
-  const Vec3f across = over - above;
-  const float distance_there = length(across);
-  return !(distance_there > 0) ||
-         std::isinf(distance_to({above, across * (1 / distance_there), distance_there},
-                                [&](const SurfacePoint& point) { return hides(point); }));
+  return result;
 }
 
-float DiskCoverage::inverse_share(float radius, Sampler numbers) const {
-  for (int tries = 1; tries < most_tries; ++tries) {
+std::optional<SurfacePoint> DiskCoverage::surface_at(float radius, float distance,
+                                                     float angle) const {
+  const float height = free_height(height_share * radius);
+  const Vec3f over = vertex_.position() + frame_.z * height + across(angle) * distance;
+  std::optional<SurfacePoint> result;
+  distance_to({over, -frame_.z, height + MergeDisk(vertex_, radius).flatness()},
+              [&](const SurfacePoint& point) {
+                if (merges_at(point) || hides(point)) result = point;
+                return result.has_value();
+              });
+  return result;
+}
+
+bool DiskCoverage::holds(float radius, float distance, float angle) const {
+  const auto surface = surface_at(radius, distance, angle);
+  if (!surface || !merges_at(*surface)) return false;
+  return !(distance > 0) || !obstacle(height_share * radius, angle, distance);
+}
+
+float DiskCoverage::inverse_share(float radius, const DiskEdges& edges, Sampler numbers) const {
+  int tries = 1;
+  for (int points = 0; points < most_points && tries < most_tries; ++points) {
     // A point of the disk, with the density of the kernel.
     const Vec2f u = numbers.next_2d();
-    if (holds(radius, radius * std::sqrt(1 - std::sqrt(1 - u.x)), 2 * pi * u.y))
-      return float(tries);
+    const float distance = radius * std::sqrt(1 - std::sqrt(1 - u.x)), angle = 2 * pi * u.y;
+    if (!edges.hold(across(angle) * distance)) continue;
+    if (holds(radius, distance, angle)) return float(tries);
+    ++tries;
   }
-  return float(most_tries);
+  return float(tries);
 }
 
 }  // namespace kaustik

@@ -1,7 +1,9 @@
 #pragma once
 #include <algorithm>
+#include <optional>
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/photon/disk_kernel.h"
 #include "kaustik/photon/photon.h"
 #include "kaustik/transport/vertex.h"
 
@@ -55,16 +57,31 @@ class DiskCoverage {
   /// traced here.
   DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t& rays);
 
+  /// What hangs so low over the vertex shades it as sharply as that: wider disks, of those that
+  /// this was made for, would blur it, m.
+  float clear_radius() const;
+
   /// Whether a light vertex at a point of the tangent plane, `distance` away in the direction
   /// `angle`, would merge in the disk of that radius.
   bool holds(float radius, float distance, float angle) const;
-  /// An estimate of one over the share of the disk that is covered, by the weights
-  /// 1 − distance²/radius² of the kernel; unbiased but for shares of a few percent.
-  float inverse_share(float radius, Sampler numbers) const;
+  /// An estimate of one over the share that is covered of what edges leave of the disk, by the
+  /// weights 1 − distance²/radius² of the kernel; unbiased but for shares of a few percent.
+  float inverse_share(float radius, const DiskEdges& edges, Sampler numbers) const;
 
- private:
+  /// What is met first, at that height over the plane, on the way in the direction `angle`.
+  std::optional<SurfacePoint> obstacle(float height, float angle, float reach) const;
+  /// What lies below or above a point of the plane, nearer than the flatness of the disk of that
+  /// radius.
+  std::optional<SurfacePoint> surface_at(float radius, float distance, float angle) const;
   /// Whether light vertices at a point of a surface merge, as far as its normal tells.
   bool merges_at(const SurfacePoint& point) const;
+
+ private:
+  Vec3f across(float angle) const {
+    return frame_.x * std::cos(angle) + frame_.y * std::sin(angle);
+  }
+  /// A height over the plane, `wanted` or less, at which nothing hangs over the vertex.
+  float free_height(float wanted) const { return wanted < free_ ? wanted : 0.5f * free_; }
   /// What light passes through hides nothing, but for the vertex's own shape.
   bool hides(const SurfacePoint& point) const;
   /// How far away the ray meets a point where stops(point) holds; infinite: nowhere.

@@ -1,6 +1,7 @@
 #include "kaustik/integrator/pixel_plans.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "kaustik/base/parallel.h"
 
@@ -55,6 +56,40 @@ void PixelPlans::choose_disks(const LightVertices& pilot, uint32_t paths, int wa
   fill_gaps();
   const float typical = pilot.tree.typical_radius(neighbors, 0.5f);
   other_area_ = pi * sqr(std::min(typical, most_other_radius * mean_distance_));
+}
+
+void PixelPlans::find_edges(const Scene& scene, float widths, float given, uint64_t& rays) {
+  auto edges = std::make_shared<std::vector<SurfaceEdges>>(probes_->size());
+  std::atomic<uint64_t> counted{0};
+  parallel_blocks(edges->size(), 16, [&](size_t begin, size_t end, size_t) {
+    uint64_t block_rays = 0;
+    for (size_t i = begin; i < end; ++i) {
+      const PixelProbe& probe = (*probes_)[i];
+      const float reach = given > 0 ? given : widths * probe.pixel_width;
+      if (probe.found && reach > 0)
+        (*edges)[i] = SurfaceEdges(scene, probe.vertex, reach, block_rays);
+    }
+    counted += block_rays;
+  });
+  rays += counted;
+  edges_ = std::move(edges);
+}
+
+DiskEdges PixelPlans::edges_at(const Vec2f& raster, const SurfaceVertex& vertex) const {
+  if (!edges_) return {};
+  const Vec2i block = block_at(raster);
+  const SurfaceEdges& own = (*edges_)[index_of(block)];
+  if (own.hold_at(vertex)) return own.around(vertex.position());
+  for (int y = std::max(0, block.y - 1); y <= std::min(blocks_.y - 1, block.y + 1); ++y)
+    for (int x = std::max(0, block.x - 1); x <= std::min(blocks_.x - 1, block.x + 1); ++x) {
+      const SurfaceEdges& other = (*edges_)[index_of({x, y})];
+      if (other.hold_at(vertex)) return other.around(vertex.position());
+    }
+  return {};
+}
+
+DiskEdges PixelPlans::edges_of(size_t probe) const {
+  return edges_ ? (*edges_)[probe].around((*probes_)[probe].vertex.position()) : DiskEdges();
 }
 
 PixelPlans PixelPlans::with(std::vector<PixelPlan> plans) const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kaustik/integrator/pixel_probes.h"
+#include "kaustik/integrator/surface_edges.h"
 #include "kaustik/photon/light_vertices.h"
 
 namespace kaustik {
@@ -38,6 +39,14 @@ class PixelPlans {
   /// `given` > 0 is taken for all, m. `paths`: light paths of a pass.
   void choose_disks(const LightVertices& pilot, uint32_t paths, int neighbors, float given);
 
+  /// Looks for the edges of what the probes show, as far as so many widths of a pixel, or `given`
+  /// > 0, m. Counts its rays.
+  void find_edges(const Scene& scene, float widths, float given, uint64_t& rays);
+
+  /// The edges of the surface around a vertex that a pixel shows, by the probes around.
+  DiskEdges edges_at(const Vec2f& raster, const SurfaceVertex& vertex) const;
+  /// Those of a probe's own.
+  DiskEdges edges_of(size_t probe) const;
   /// One per block of pixels, row by row.
   const std::vector<PixelProbe>& probes() const { return *probes_; }
   const Vec2i& blocks() const { return blocks_; }
@@ -48,9 +57,7 @@ class PixelPlans {
 
   /// With disks of `shrinkage` times the area of those of the first pass.
   PixelPlan at(const Vec2f& raster, float shrinkage) const {
-    const int x = std::clamp(int(raster.x) / block_size, 0, blocks_.x - 1);
-    const int y = std::clamp(int(raster.y) / block_size, 0, blocks_.y - 1);
-    PixelPlan plan = plans_[size_t(y) * size_t(blocks_.x) + size_t(x)];
+    PixelPlan plan = plans_[index_of(block_at(raster))];
     plan.merge_area *= shrinkage;
     return plan;
   }
@@ -65,7 +72,16 @@ class PixelPlans {
   void fill_gaps();
 
   static constexpr int block_size = 4;
+  Vec2i block_at(const Vec2f& raster) const {
+    return {std::clamp(int(raster.x) / block_size, 0, blocks_.x - 1),
+            std::clamp(int(raster.y) / block_size, 0, blocks_.y - 1)};
+  }
+  size_t index_of(const Vec2i& block) const {
+    return size_t(block.y) * size_t(blocks_.x) + size_t(block.x);
+  }
+
   std::shared_ptr<const std::vector<PixelProbe>> probes_;
+  std::shared_ptr<const std::vector<SurfaceEdges>> edges_;  ///< of each probe; null: not looked for
   Vec2i blocks_{1, 1};
   std::vector<PixelPlan> plans_{PixelPlan()};
   float other_area_ = 0;

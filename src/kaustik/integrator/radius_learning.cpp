@@ -15,6 +15,8 @@ constexpr uint64_t coverage_element = uint64_t(2) << 40;
 /// Points that tell how much is covered of the smallest disk, and of what each has beyond the one
 /// before: so many, and more where only some of them are.
 constexpr uint32_t points_per_ring = 8, points_per_cut_ring = 32;
+/// Points that are looked for: edges may leave little of a ring.
+constexpr uint32_t most_points = 256;
 /// Disks disagree where the squared differences of their lights are so many times their variance.
 constexpr double tolerated = 2.5;
 /// The light of a disk, and its variance, are known from this many directions on.
@@ -30,78 +32,100 @@ double level_radius(const PixelProbe& probe, int level) {
 
 constexpr auto levels = size_t(RadiusLearning::level_count);
 
-RadiusLearning::Disagreement::Pairs disagreement_of(const RadiusLearning::KindSums& sums,
-                                                    const std::array<float, levels>& coverage) {
-  RadiusLearning::Disagreement::Pairs result{};
+}  // namespace
+
+RadiusLearning::Disagreement::Pairs RadiusLearning::disagreement_of(const KindSums& sums,
+                                                                    const Levels& of) {
+  Disagreement::Pairs result{};
   // Where next to nothing has arrived, a single vertex more would do.
   const double of_one =
       sums.light[levels - 1] > 0 ? sums.squares[levels - 1] / sums.light[levels - 1] : 0.0;
-  std::array<double, levels> area{};
-  for (size_t i = 0; i < levels; ++i)
-    area[i] = std::exp2(double(i)) * std::max(0.05, double(coverage[i]));
+  std::array<double, levels> area{}, light{};
+  for (size_t i = 0; i < levels; ++i) {
+    const Level& level = of[i];
+    const double share = std::max(0.05, level.share);
+    area[i] = level.moments.one * sqr(level.radius) * share;
+    light[i] = (sums.light[i] + level.slope_x * sums.x[i] + level.slope_y * sums.y[i]) *
+               level.scale / share;
+  }
   for (size_t i = 1; i < levels; ++i)
     for (size_t j = 0; j < i; ++j) {
       if (sqr(sums.light[j]) < least_directions * sums.squares[j]) continue;
-      const double difference = sums.light[i] / area[i] - sums.light[j] / area[j];
-      // Both hold what lies in the smaller one.
-      const double variance =
-          std::max(sums.squares[j], of_one * of_one) * sqr(1 / area[j] - 1 / area[i]) +
-          (sums.squares[i] - sums.squares[j]) * sqr(1 / area[i]);
-      result[i][j] = variance > 0 ? float(sqr(difference) / variance) : 0.0f;
+      // ∫ of the squared factor of the wide disk over the narrow one; over its own disk that is its
+      // scale, and so is that of the product with the factor of the narrow one over that.
+      const DiskMoments& m = of[j].moments;
+      const double x = of[i].slope_x * of[j].radius, y = of[i].slope_y * of[j].radius;
+      const double within =
+          sqr(of[i].scale * of[j].radius) *
+          (m.one + 2 * (x * m.x + y * m.y) + x * x * m.xx + 2 * x * y * m.xy + y * y * m.yy);
+      const double inside = std::max(sums.squares[j], of_one * of_one) / area[j];
+      const double outside = (sums.squares[i] - sums.squares[j]) / (area[i] - area[j]);
+      const double variance = inside * std::max(0.0, of[j].scale - 2 * of[i].scale + within) +
+                              outside * std::max(0.0, of[i].scale - within);
+      result[i][j] = variance > 0 ? float(sqr(light[i] - light[j]) / variance) : 0.0f;
     }
   return result;
 }
 
-RadiusLearning::Disagreement disagreement_of(const RadiusLearning::Sums& sums,
-                                             const std::array<float, levels>& coverage) {
+RadiusLearning::Disagreement RadiusLearning::disagreement_of(const Sums& sums, const Levels& of) {
   double all = 0;
   for (const auto& kind : sums.of) all += kind.light[levels - 1];
-  RadiusLearning::Disagreement result;
-  for (size_t k = 0; k < RadiusLearning::kind_count; ++k)
+  Disagreement result;
+  for (size_t k = 0; k < kind_count; ++k)
     if (sums.of[k].light[levels - 1] > least_share * all)
-      result.of[k] = disagreement_of(sums.of[k], coverage);
+      result.of[k] = disagreement_of(sums.of[k], of);
   return result;
 }
 
-/// Shares of the disks that are covered, ring by ring: each disk has twice the area of the one
-/// before.
-std::array<float, levels> coverage_of(const Scene& scene, const PixelProbe& probe, size_t number,
-                                      uint64_t& rays) {
+/// Ring by ring: each disk has twice the area of the one before.
+RadiusLearning::Levels RadiusLearning::levels_of(const Scene& scene, const PixelProbe& probe,
+                                                 const DiskEdges& edges, size_t number,
+                                                 uint64_t& rays) {
   const MergeDisk widest(probe.vertex, float(level_radius(probe, int(levels) - 1)));
   const DiskCoverage coverage(scene, widest, rays);
-  std::array<float, levels> result{};
-  double covered = 0, area = 0;  // areas of the first disk
-  for (size_t level = 0; level < levels; ++level) {
-    const double inner = area;
-    area = std::exp2(double(level));
-    uint32_t held = 0, count = 0;
-    for (uint32_t wanted = points_per_ring; count < wanted; ++count) {
+  const Frame frame(widest.side());
+  Levels result;
+  double covered = 0, area = 0;  // of what edges leave, m²
+  for (size_t i = 0; i < levels; ++i) {
+    Level& level = result[i];
+    level.radius = level_radius(probe, int(i));
+    const auto radius = float(level.radius);
+    level.moments = disk_moments(frame, radius, edges, KernelShape::flat);
+    const DiskKernel kernel(frame, radius, edges, KernelShape::flat);
+    level.scale = double(kernel.scale);
+    level.slope_x = double(dot(kernel.slope, frame.x));
+    level.slope_y = double(dot(kernel.slope, frame.y));
+    const double inner_sq = i == 0 ? 0 : sqr(result[i - 1].radius);
+    uint32_t held = 0, count = 0, points = 0;
+    for (uint32_t wanted = points_per_ring; count < wanted && points < most_points; ++points) {
       Sampler sampler =
-          Sampler::at(0, uint32_t(level), Stream::training, coverage_element + number, count);
+          Sampler::at(0, uint32_t(i), Stream::training, coverage_element + number, points);
       const Vec2f u = sampler.next_2d();
-      const double distance = level_radius(probe, 0) * std::sqrt(inner + (area - inner) * u.x);
-      if (coverage.holds(float(level_radius(probe, int(level))), float(distance), 2 * pi * u.y))
-        ++held;
-      if (count + 1 == points_per_ring && held > 0 && held < points_per_ring)
+      const auto distance =
+          float(std::sqrt(inner_sq + (sqr(level.radius) - inner_sq) * double(u.x)));
+      const float angle = 2 * pi * u.y;
+      if (!edges.hold((frame.x * std::cos(angle) + frame.y * std::sin(angle)) * distance)) continue;
+      if (coverage.holds(radius, distance, angle)) ++held;
+      if (++count == points_per_ring && held > 0 && held < points_per_ring)
         wanted = points_per_cut_ring;
     }
-    covered += (area - inner) * held / count;
-    result[level] = float(covered / area);
+    const double whole = level.moments.one * sqr(level.radius);
+    if (count > 0) covered += (whole - area) * held / count;
+    area = whole;
+    level.share = area > 0 ? covered / area : 0.0;
   }
   return result;
 }
 
-}  // namespace
-
 RadiusLearning::RadiusLearning(const Scene& scene, const PixelPlans& first, uint64_t& rays,
                                const std::stop_token& stop)
-    : coverage_(first.probes().size()) {
+    : levels_(first.probes().size()) {
   std::atomic<uint64_t> counted{0};
-  parallel_blocks(coverage_.size(), 16, [&](size_t begin, size_t end, size_t) {
+  parallel_blocks(levels_.size(), 16, [&](size_t begin, size_t end, size_t) {
     uint64_t block_rays = 0;
     for (size_t p = begin; p < end && !stop.stop_requested(); ++p)
       if (first.probes()[p].found)
-        coverage_[p] = coverage_of(scene, first.probes()[p], p, block_rays);
+        levels_[p] = levels_of(scene, first.probes()[p], first.edges_of(p), p, block_rays);
     counted += block_rays;
   });
   rays += counted;
@@ -119,12 +143,14 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
       const double least_sq = sqr(level_radius(probe, 0));
       const auto widest = float(level_radius(probe, level_count - 1));
       const MergeDisk disk(probe.vertex, widest);
+      const Frame frame(disk.side());
+      const DiskEdges edges = first.edges_of(p);
       Sums& sums = result[p];
       light.tree.within(
           probe.vertex.position(), disk.side(), false, sqr(widest), [&](uint32_t index, float) {
             const LightVertexData& photon = light.tree.tree().data(index);
             const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
-            if (!disk.counts(offset, photon.side)) return;
+            if (!disk.counts(offset, photon.side) || !edges.hold(offset)) return;
             const double reach_sq = double(disk.least_radius_sq(offset));
             size_t level = 0;
             for (double limit = least_sq; reach_sq > limit; limit *= 2) ++level;
@@ -134,6 +160,8 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
             auto& kind = sums.of[photon.specular ? 0 : 1];
             kind.light[level] += value;
             kind.squares[level] += value * value;
+            kind.x[level] += value * double(dot(offset, frame.x));
+            kind.y[level] += value * double(dot(offset, frame.y));
           });
       for (size_t level = 1; level < levels; ++level)
         sums.vertices[level] += sums.vertices[level - 1];
@@ -141,6 +169,8 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
         for (size_t level = 1; level < levels; ++level) {
           kind.light[level] += kind.light[level - 1];
           kind.squares[level] += kind.squares[level - 1];
+          kind.x[level] += kind.x[level - 1];
+          kind.y[level] += kind.y[level - 1];
         }
     }
   });
@@ -176,8 +206,7 @@ std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std:
                                              uint32_t passes, float shrinkage) const {
   std::vector<PixelPlan> result = first.plans();
   std::vector<Disagreement> disagreements(sums.size());
-  for (size_t p = 0; p < sums.size(); ++p)
-    disagreements[p] = disagreement_of(sums[p], coverage_[p]);
+  for (size_t p = 0; p < sums.size(); ++p) disagreements[p] = disagreement_of(sums[p], levels_[p]);
   for (size_t p = 0; p < sums.size(); ++p) {
     const PixelProbe& probe = first.probes()[p];
     if (!probe.found) continue;

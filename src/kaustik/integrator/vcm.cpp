@@ -154,6 +154,7 @@ void VcmIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sam
                                state.weights,
                                state.light,
                                state.matt,
+                               state.plans->pixels,
                                state.camera_samples,
                                state.connection_scale,
                                state.weights.settings().merge_area * inv_pi};

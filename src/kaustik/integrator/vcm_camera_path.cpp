@@ -19,6 +19,7 @@ constexpr uint32_t coverage_key = 1, bias_key = 2;
 
 /// Chance with which that is estimated: it takes rays.
 constexpr float bias_chance = 0.25f;
+const float half_area = std::sqrt(0.5f);  ///< of the radius
 
 /// A point of `light` as emission sees it: its normal is on the side that shines to `direction`.
 SurfacePoint shining(const Light& light, SurfacePoint point, const Vec3f& direction) {
@@ -241,46 +242,61 @@ void VcmCameraPath::merge(int maximum_events) {
                                  walk_.wants(walk_.component_of(lobe, false)));
   };
   if (!wanted(Lobes::diffuse) && !wanted(Lobes::glossy)) return;
-  const float radius = merge_radius();
-  if (!(radius > 0)) return;
+  const float widest = merge_radius();
+  if (!(widest > 0)) return;
+  const DiskCoverage covered(in_.scene, MergeDisk(vertex, widest), walk_.rays());
+  const float radius = std::min(widest, std::max(covered.clear_radius(), walk_.footprint().width));
   const MergeDisk disk(vertex, radius);
+  const DiskWeights weights = disk_weights(disk);
   const bool is_matt =
       all_delta_ && lobes == Lobes::diffuse && !vertex.bsdf().transmits() && !vertex.has_relief();
-  const MergedLight light = is_matt ? merged_matt(disk, radius, maximum_events)
-                                    : merged(disk, lobes, radius, maximum_events);
-  Spectrum total;
-  for (const Spectrum& sum : light.of) total += sum;
-  if (total.is_zero()) return;
-  // The kernel's height over the number of light paths.
-  const float scale = 2 * inv_pi / (sqr(radius) * float(in_.light.path_count));
-  const DiskCoverage covered(in_.scene, disk, walk_.rays());
+  MergedLight light = is_matt ? merged_matt(disk, weights, maximum_events)
+                              : merged(disk, weights, lobes, maximum_events);
+  if (light.is_zero()) return;
+  const auto paths = float(in_.light.path_count);
   // Numbers of their own: how many there are is not known beforehand.
-  const float coverage = covered.inverse_share(radius, walk_.sampler().fork(coverage_key));
-  for (int c = 0; c < component_count; ++c)
-    if (!light.of[size_t(c)].is_zero())
-      walk_.add(Component(c), light.of[size_t(c)] * (scale * coverage));
-  add_bias_of_merging(covered, total * coverage, light.narrow, scale, radius);
-}
-
-/// The bias grows by the area, so it is twice what half of the area takes off.
-void VcmCameraPath::add_bias_of_merging(const DiskCoverage& covered, const Spectrum& wide,
-                                        const Spectrum& narrow, float scale, float radius) {
-  Sampler numbers = walk_.sampler().fork(bias_key);
-  if (!(numbers.next_1d() < bias_chance)) return;
+  light.scale(weights.wide.scale *
+              covered.inverse_share(radius, weights.edges, walk_.sampler().fork(coverage_key)) /
+              paths);
+  Spectrum total;
+  for (int c = 0; c < component_count; ++c) {
+    const Spectrum& sum = light.of[size_t(c)];
+    if (!sum.is_zero()) walk_.add(Component(c), sum);
+    total += sum;
+  }
+  // The bias grows by the area, so it is twice what half of the area takes off.
+  if (!(walk_.sampler().fork(bias_key).next_1d() < bias_chance)) return;
   const float narrow_coverage =
-      covered.inverse_share(radius * std::sqrt(0.5f), walk_.sampler().fork(bias_key + 1));
-  const Spectrum difference = wide - narrow * (2 * narrow_coverage);
-  walk_.add_bias(difference * (2 * scale / bias_chance));
+      covered.inverse_share(radius * half_area, weights.edges, walk_.sampler().fork(bias_key + 1));
+  const Spectrum narrow = light.narrow * (weights.narrow.scale * narrow_coverage / paths);
+  walk_.add_bias((total - narrow) * (2 / bias_chance));
 }
 
-VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk, float radius,
+bool VcmCameraPath::MergedLight::is_zero() const {
+  return std::all_of(of.begin(), of.end(), [](const Spectrum& sum) { return sum.is_zero(); });
+}
+
+void VcmCameraPath::MergedLight::scale(float factor) {
+  for (Spectrum& sum : of) sum *= factor;
+}
+
+VcmCameraPath::DiskWeights VcmCameraPath::disk_weights(const MergeDisk& disk) const {
+  const DiskEdges edges =
+      all_delta_ ? in_.pixels.edges_at(walk_.raster(), disk.vertex()) : DiskEdges();
+  const Frame frame(disk.side());
+  return {edges, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
+          DiskKernel(frame, disk.radius() * half_area, edges, KernelShape::parabolic)};
+}
+
+VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk,
+                                                      const DiskWeights& weights,
                                                       int maximum_events) const {
   const SurfaceVertex& vertex = walk_.vertex();
-  const MattLight light =
-      in_.matt.merge({vertex.position(), disk.side(), radius, disk.flatness(), disk.least_cosine(),
-                      maximum_events - walk_.events(),
-                      in_.weights.matt_vertex(vertices_, plan_.counted_area(in_.camera_samples),
-                                              plan_.counted_survival())});
+  const MattLight light = in_.matt.merge(
+      {vertex.position(), disk.side(), disk.radius(), disk.flatness(), disk.least_cosine(),
+       maximum_events - walk_.events(), weights.edges, weights.wide.slope, weights.narrow.slope,
+       in_.weights.matt_vertex(vertices_, plan_.counted_area(in_.camera_samples),
+                               plan_.counted_survival())});
   const Spectrum reflected = vertex.diffuse_value();
   MergedLight result;
   const auto add = [&](Component component, const MattLight::Sum& sum) {
@@ -298,7 +314,7 @@ float VcmCameraPath::merge_radius() const {
 }
 
 template <typename Visit>
-void VcmCameraPath::visit_merging(const MergeDisk& disk, float radius, int maximum_events,
+void VcmCameraPath::visit_merging(const MergeDisk& disk, int maximum_events,
                                   const Visit& visit) const {
   const SurfaceVertex& vertex = walk_.vertex();
   const bool both_sides = disk.both_sides();
@@ -306,11 +322,11 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, float radius, int maxim
   const Vec3f side = both_sides || vertex.on_front() ? ng : -ng;
   PathHalves path = halves();
   const auto& tree = in_.light.tree.tree();
-  in_.light.tree.within(vertex.position(), side, both_sides, sqr(radius),
-                        [&](uint32_t index, float distance_sq) {
+  in_.light.tree.within(vertex.position(), side, both_sides, sqr(disk.radius()),
+                        [&](uint32_t index, float) {
                           const LightVertexData& photon = tree.data(index);
-                          if (!disk.counts(tree.key(index) - vertex.position(), photon.side))
-                            return;
+                          const Vec3f offset = tree.key(index) - vertex.position();
+                          if (!disk.counts(offset, photon.side)) return;
                           if (walk_.events() + int(photon.before) > maximum_events) return;
                           const Vec3f wi = photon.direction.unpack();
                           const float pdf_forward = vertex.pdf(wi, Lobes::all);
@@ -322,25 +338,28 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, float radius, int maxim
                           path.pdf_camera_last = pdf_forward * merged.to_previous;
                           path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
                           path.pdf_next_event = photon.pdf_next_event;
-                          visit(photon, wi, distance_sq, path);
+                          visit(photon, offset, wi, path);
                         });
 }
 
-VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, Lobes lobes, float radius,
-                                                 int maximum_events) const {
+VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, const DiskWeights& weights,
+                                                 Lobes lobes, int maximum_events) const {
   const SurfaceVertex& vertex = walk_.vertex();
-  const float radius_sq = sqr(radius);
+  const float radius_sq = sqr(disk.radius());
   MergedLight result;
-  visit_merging(disk, radius, maximum_events,
-                [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq,
+  visit_merging(disk, maximum_events,
+                [&](const LightVertexData& photon, const Vec3f& offset, const Vec3f& wi,
                     const PathHalves& path) {
+                  if (!weights.edges.hold(offset)) return;
                   const float weight = in_.weights.merge(path);
                   if (!(weight > 0)) return;
                   const Spectrum arriving =
                       photon.flux_spectrum() *
                       (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
-                  const float kernel = 1 - distance_sq / radius_sq;
-                  const float narrow_kernel = std::max(0.0f, 1 - 2 * distance_sq / radius_sq);
+                  const float share = length_sq(offset) / radius_sq;
+                  const float kernel = (1 - share) * weights.wide.factor(offset);
+                  const float narrow_kernel =
+                      std::max(0.0f, 1 - 2 * share) * weights.narrow.factor(offset);
                   for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
                     if (!any(lobes & lobe)) continue;
                     const Component component = walk_.component_of(lobe, photon.specular);
@@ -360,9 +379,10 @@ std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices(int maxi
   if (!(radius > 0)) return result;
   const MergeDisk disk(vertex, radius);
   visit_merging(
-      disk, radius, maximum_events,
-      [&](const LightVertexData& photon, const Vec3f& wi, float distance_sq,
+      disk, maximum_events,
+      [&](const LightVertexData& photon, const Vec3f& offset, const Vec3f& wi,
           const PathHalves& path) {
+        const float distance_sq = length_sq(offset);
         const float kernel =
             2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
         const float factor = vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;

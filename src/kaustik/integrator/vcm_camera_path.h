@@ -20,6 +20,7 @@ struct VcmCameraInputs {
   const PathWeights& weights;
   const LightVertices& light;
   const MattMerging& matt;
+  const PixelPlans& pixels;
   float camera_samples;    ///< per pixel
   float connection_scale;  ///< of a connected vertex: vertices over paths and connections
   float merge_radius_sq;   ///< at vertices that the camera does not see
@@ -66,20 +67,28 @@ class VcmCameraPath final : public LightWeights {
   struct MergedLight {
     std::array<Spectrum, component_count> of{};  ///< by component
     Spectrum narrow;  ///< of all that is wanted, within half the area: MattLight::narrow
+
+    bool is_zero() const;
+    void scale(float factor);
   };
-  MergedLight merged_matt(const MergeDisk& disk, float radius, int maximum_events) const;
-  MergedLight merged(const MergeDisk& disk, Lobes lobes, float radius, int maximum_events) const;
-  /// visit(vertex, direction to where it comes from, distance², path) for all that merge.
+  /// What a disk of merging weighs light vertices by: kernels for the disk and for half its area.
+  struct DiskWeights {
+    DiskEdges edges;
+    DiskKernel wide, narrow;
+  };
+  DiskWeights disk_weights(const MergeDisk& disk) const;
+  MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights,
+                          int maximum_events) const;
+  MergedLight merged(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes,
+                     int maximum_events) const;
+  /// visit(vertex, how far it lies from the disk's, direction to where it comes from, path) for all
+  /// that merge.
   template <typename Visit>
-  void visit_merging(const MergeDisk& disk, float radius, int maximum_events,
-                     const Visit& visit) const;
+  void visit_merging(const MergeDisk& disk, int maximum_events, const Visit& visit) const;
   float merge_radius() const;
   /// Of what follows the last vertex, at `position` with geometric normal `ng`; zero: infinitely
   /// far along the walk's ray.
   PathVertex next_vertex(const Vec3f& position, const Vec3f& ng) const;
-  /// `wide` and `narrow`: sums as in MergedLight, the first over the share that is covered.
-  void add_bias_of_merging(const DiskCoverage& covered, const Spectrum& wide,
-                           const Spectrum& narrow, float scale, float radius);
   void connect_to(const ConnectibleVertex& to, int maximum_events);
   PathHalves halves() const;
   /// Of the last vertex from the camera's side, whose light comes from `wi`.

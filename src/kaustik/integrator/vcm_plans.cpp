@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "kaustik/integrator/path_pilot.h"
+#include "kaustik/integrator/radius_learning.h"
 #include "kaustik/integrator/vcm_camera_path.h"
 #include "kaustik/integrator/vcm_light_pass.h"
 
@@ -127,6 +128,9 @@ VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& sto
     choose_light_paths(plans);
   else
     plans.settle(plans.pixels.plans(), 1);
+  if (plans.techniques.merging)
+    plans.pixels.find_edges(scene_, RadiusLearning::widest_widths(), settings_.radius,
+                            plans.pilot_rays);
   return plans;
 }
 
@@ -189,9 +193,15 @@ VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light,
   settings.accepted_area = accepted_area(plans.pixels);
   const PathWeights weights(settings);
   const auto samples = double(plans.samples_per_pixel);
-  const VcmCameraInputs inputs{
-      scene_,        *light.emission, weights, light.vertices,
-      MattMerging(), float(samples),  0,       settings.merge_area * inv_pi};
+  const VcmCameraInputs inputs{scene_,
+                               *light.emission,
+                               weights,
+                               light.vertices,
+                               MattMerging(),
+                               plans.pixels,
+                               float(samples),
+                               0,
+                               settings.merge_area * inv_pi};
   const double light_share = double(light.vertices.path_count) / double(light_paths);
   pilot.probes = probe_statistics(
       inputs, plans.pixels,

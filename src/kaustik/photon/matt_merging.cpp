@@ -73,10 +73,9 @@ struct Sums {
 HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Block& block,
                           const MattDisk& disk, Sums& sums) {
   const Tag d;
-  const auto dot_normal = [&](Vec x, Vec y, Vec z) HWY_ATTR {
-    return hn::MulAdd(
-        x, hn::Set(d, disk.normal.x),
-        hn::MulAdd(y, hn::Set(d, disk.normal.y), hn::Mul(z, hn::Set(d, disk.normal.z))));
+  const auto dot_with = [&](const Vec3f& v, Vec x, Vec y, Vec z) HWY_ATTR {
+    return hn::MulAdd(x, hn::Set(d, v.x),
+                      hn::MulAdd(y, hn::Set(d, v.y), hn::Mul(z, hn::Set(d, v.z))));
   };
   if (block.same_side) {
     const Vec3f side(block.side[0][0], block.side[1][0], block.side[2][0]);
@@ -90,25 +89,36 @@ HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Bl
     const Vec distance_sq = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
     Mask counts = hn::Lt(distance_sq, hn::Set(d, radius_sq));
     if (hn::AllFalse(d, counts)) continue;
-    counts = hn::And(counts, hn::Le(hn::Abs(dot_normal(x, y, z)), hn::Set(d, disk.flatness)));
+    counts =
+        hn::And(counts, hn::Le(hn::Abs(dot_with(disk.normal, x, y, z)), hn::Set(d, disk.flatness)));
     if (!block.same_side)
       counts = hn::And(
-          counts, hn::Gt(dot_normal(load_parts(block.side[0] + i), load_parts(block.side[1] + i),
-                                    load_parts(block.side[2] + i)),
+          counts, hn::Gt(dot_with(disk.normal, load_parts(block.side[0] + i),
+                                  load_parts(block.side[1] + i), load_parts(block.side[2] + i)),
                          hn::Set(d, disk.least_cosine * 127)));
     if (block.most_before > disk.most_before)
       counts = hn::And(counts,
                        hn::Le(load_counts(block.before + i), hn::Set(d, float(disk.most_before))));
+    for (size_t edge = 0; edge < disk.edges.count; ++edge)
+      counts = hn::And(counts, hn::Ge(dot_with(disk.edges.edges[edge].inward, x, y, z),
+                                      hn::Set(d, -disk.edges.edges[edge].distance)));
     const Vec kernel = hn::NegMulAdd(distance_sq, hn::Set(d, 1 / radius_sq), hn::Set(d, 1.0f));
     const Vec others =
         hn::MulAdd(hn::Load(d, block.connection + i), hn::Set(d, disk.weights.on_connection),
                    hn::MulAdd(hn::Load(d, block.beyond + i), hn::Set(d, disk.weights.on_beyond),
                               hn::Set(d, disk.weights.base)));
-    const Vec wide = hn::IfThenElseZero(counts, hn::Div(kernel, others));
+    Vec wide = hn::Div(kernel, others);
     // 1 − 2 d² of what has 1 − d², as far as that is not negative.
     const Vec share =
         hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 2.0f), hn::Div(hn::Set(d, 1.0f), kernel)));
-    const Vec narrow = hn::IfThenElseZero(counts, hn::Mul(wide, share));
+    Vec narrow = hn::Mul(wide, share);
+    if (disk.edges.count > 0) {
+      wide = hn::MulAdd(wide, dot_with(disk.slope, x, y, z), wide);
+      narrow = hn::MulAdd(narrow, dot_with(disk.narrow_slope, x, y, z), narrow);
+    }
+    // Last, since points that fill up a bucket are infinitely far away.
+    wide = hn::IfThenElseZero(counts, wide);
+    narrow = hn::IfThenElseZero(counts, narrow);
     // Buckets hold what is near one another, which often came alike.
     const uint32_t specular = uint32_t(block.after_specular) >> i;
     uint8_t bits[8] = {uint8_t(specular), uint8_t(specular >> 8)};

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "kaustik/photon/disk_kernel.h"
 #include "kaustik/photon/kd_tree_buckets.h"
 #include "kaustik/photon/light_vertices.h"
 
@@ -14,14 +15,19 @@ struct MattDisk {
   float flatness = 0;        ///< what lies farther from its plane does not count, m
   float least_cosine = 0;    ///< nor what lies on a surface that is turned away more than this
   int most_before = 0xffff;  ///< nor what has more vertices before it
+  DiskEdges edges;           ///< nor what lies beyond these
+  Vec3f slope{0, 0, 0}, narrow_slope{0, 0, 0};  ///< of the kernels, DiskKernel
   PathWeights::MattVertex weights;
 };
 
 /// What merges there, W, apart for light that came by specular events only and for the rest.
 struct MattLight {
   struct Sum {
-    Spectrum wide;    ///< Σ flux · weight · (1 − distance²/radius²)
-    Spectrum narrow;  ///< within half the area: Σ flux · weight · (1 − 2 distance²/radius²)
+    /// Σ flux · weight · (1 − distance²/radius²) · (1 + slope · offset)
+    Spectrum wide;
+    /// Within half the area: Σ flux · weight · (1 − 2 distance²/radius²) · (1 + narrow slope ·
+    /// offset)
+    Spectrum narrow;
   };
   Sum after_specular, other;
 };

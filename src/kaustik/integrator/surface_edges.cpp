@@ -1,0 +1,190 @@
+#include "kaustik/integrator/surface_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "kaustik/integrator/merge_disk.h"
+
+namespace kaustik {
+namespace {
+
+constexpr size_t direction_count = 16;
+constexpr int bisections = 10;
+/// Shares of the reach: height of the rays that look for walls, and of the plane how far from it
+/// points of the surface may lie.
+constexpr float wall_height = 0.01f, same_height = 1e-3f;
+/// Cosine between normals of one plane.
+constexpr float same_normal = 0.9998f;
+/// A surface goes on where it rises or falls by no more than this share of the way.
+constexpr float gentle = 0.3f;
+/// Lines that lie so much farther than others, relative to the distance, are others.
+constexpr float same_distance = 1.02f;
+/// Of walls: sine of the angle between the surfaces.
+constexpr float least_sine = 0.3f;
+
+Vec3f side_of(const SurfaceVertex& vertex) { return MergeDisk(vertex, 1).side(); }
+
+/// A line that ends the surface, and how far it lies in the direction in which it was met.
+struct Candidate {
+  Vec3f inward;
+  float distance;  ///< from the point
+  size_t direction;
+  float along;
+};
+
+class Search {
+ public:
+  Search(const Scene& scene, const SurfaceVertex& vertex, float reach, uint64_t& rays)
+      : disk_(vertex, reach),
+        coverage_(scene, disk_, rays),
+        origin_(vertex.position()),
+        frame_(disk_.side()),
+        reach_(reach) {
+    for (size_t i = 0; i < direction_count; ++i) {
+      const float angle = angle_of(i);
+      directions_[i] = frame_.x * std::cos(angle) + frame_.y * std::sin(angle);
+      look(i);
+    }
+    for (size_t i = 0; i < direction_count; ++i) add_end(i);
+  }
+
+  bool is_complete() const { return complete_; }
+  const Vec3f& direction(size_t i) const { return directions_[i]; }
+  /// From near to far.
+  std::vector<Candidate> candidates() {
+    std::stable_sort(
+        candidates_.begin(), candidates_.end(),
+        [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+    return std::move(candidates_);
+  }
+
+ private:
+  static float angle_of(size_t i) { return 2 * pi * float(i) / float(direction_count); }
+
+  void look(size_t i) {
+    if (const auto wall = coverage_.obstacle(wall_height * reach_, angle_of(i), reach_)) {
+      add_wall(i, *wall);
+      return;
+    }
+    for (const float share : {0.25f, 0.5f, 0.75f, 1.0f}) {
+      const float distance = share * reach_;
+      if (is_same_plane(i, distance)) continue;
+      float near = distance - 0.25f * reach_, far = distance;
+      for (int step = 0; step < bisections; ++step) {
+        const float middle = 0.5f * (near + far);
+        (is_same_plane(i, middle) ? near : far) = middle;
+      }
+      if (goes_on(i, near))
+        complete_ = false;
+      else
+        ends_[i] = near;
+      return;
+    }
+  }
+
+  bool is_same_plane(size_t i, float distance) const {
+    const auto below = coverage_.surface_at(reach_, distance, angle_of(i));
+    return below && std::fabs(dot(below->ng, frame_.z)) > same_normal &&
+           std::fabs(dot(below->position - origin_, frame_.z)) <= same_height * reach_;
+  }
+  /// Whether there is, a little beyond, what the surface may have turned to by and by.
+  bool goes_on(size_t i, float distance) const {
+    const float step = 0.05f * reach_;
+    const auto below = coverage_.surface_at(reach_, distance + step, angle_of(i));
+    return below && coverage_.merges_at(*below) &&
+           std::fabs(dot(below->position - origin_, frame_.z)) <= gentle * step;
+  }
+
+  void add_wall(size_t i, const SurfacePoint& wall) {
+    const float up = dot(wall.ng, frame_.z);
+    const Vec3f across = wall.ng - frame_.z * up;
+    const float sine = length(across);
+    if (sine < least_sine || coverage_.merges_at(wall)) {
+      complete_ = false;
+      return;
+    }
+    const float distance = dot(wall.ng, origin_ - wall.position) / sine;
+    add(i, across * ((distance < 0 ? -1 : 1) / sine), std::fabs(distance));
+  }
+  /// Where the surface ends in two directions beside each other, the line through both points.
+  void add_end(size_t i) {
+    if (!ends_[i]) return;
+    bool has_line = false;
+    for (const size_t other :
+         {(i + 1) % direction_count, (i + direction_count - 1) % direction_count}) {
+      if (!ends_[other]) continue;
+      has_line = true;
+      const Vec3f from = directions_[i] * *ends_[i];
+      const Vec3f along = directions_[other] * *ends_[other] - from;
+      const Vec3f across = cross(along, frame_.z);
+      const float size = length(across);
+      if (!(size > 0)) continue;
+      const float distance = dot(from, across) / size;
+      add(i, across * ((distance > 0 ? -1 : 1) / size), std::fabs(distance));
+    }
+    if (!has_line) add(i, directions_[i] * -1.0f, *ends_[i]);
+  }
+  void add(size_t i, const Vec3f& inward, float distance) {
+    const float cosine = -dot(inward, directions_[i]);
+    if (!(cosine > 0)) {
+      complete_ = false;
+      return;
+    }
+    candidates_.push_back({inward, distance, i, distance / cosine});
+  }
+
+  MergeDisk disk_;
+  DiskCoverage coverage_;
+  Vec3f origin_;
+  Frame frame_;
+  float reach_;
+  std::array<Vec3f, direction_count> directions_;
+  std::array<std::optional<float>, direction_count> ends_;
+  std::vector<Candidate> candidates_;
+  bool complete_ = true;
+};
+
+}  // namespace
+
+SurfaceEdges::SurfaceEdges(const Scene& scene, const SurfaceVertex& vertex, float reach,
+                           uint64_t& rays)
+    : position_(vertex.position()), normal_(side_of(vertex)), reach_(reach) {
+  Search search(scene, vertex, reach, rays);
+  for (const Candidate& candidate : search.candidates()) {
+    float known = infinity;
+    for (const Line& line : lines_) {
+      const float cosine = -dot(line.inward, search.direction(candidate.direction));
+      const float distance = dot(line.inward, position_) - line.offset;
+      if (cosine > 0) known = std::min(known, distance / cosine);
+    }
+    if (candidate.along * same_distance >= known) continue;
+    if (lines_.size() == DiskEdges::most) {
+      complete_ = false;
+      return;
+    }
+    lines_.push_back({candidate.inward, dot(candidate.inward, position_) - candidate.distance});
+  }
+  complete_ = search.is_complete();
+}
+
+bool SurfaceEdges::hold_at(const SurfaceVertex& vertex) const {
+  const Vec3f across = vertex.position() - position_;
+  if (!(dot(side_of(vertex), normal_) > same_normal) ||
+      std::fabs(dot(across, normal_)) > same_height * reach_)
+    return false;
+  for (const Line& line : lines_)
+    if (dot(line.inward, vertex.position()) < line.offset - same_height * reach_) return false;
+  return true;
+}
+
+DiskEdges SurfaceEdges::around(const Vec3f& position) const {
+  DiskEdges result;
+  for (const Line& line : lines_)
+    result.edges[result.count++] = {line.inward,
+                                    std::max(0.0f, dot(line.inward, position) - line.offset)};
+  return result;
+}
+
+}  // namespace kaustik

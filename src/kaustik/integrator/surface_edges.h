@@ -1,0 +1,37 @@
+#pragma once
+#include <vector>
+
+#include "kaustik/photon/disk_kernel.h"
+#include "kaustik/transport/vertex.h"
+
+namespace kaustik {
+
+/// Where the flat surface around a point ends or meets another, by rays in some directions: the
+/// straight lines that bound what can be seen of its plane from the point, the nearest few.
+class SurfaceEdges {
+ public:
+  SurfaceEdges() = default;
+  /// Looks as far as `reach`, m. Counts its rays.
+  SurfaceEdges(const Scene& scene, const SurfaceVertex& vertex, float reach, uint64_t& rays);
+
+  /// Whether they hold at another vertex: it lies on the same side of the same
+  /// plane, on the near side of all lines.
+  bool hold_at(const SurfaceVertex& vertex) const;
+  /// For disks around such a vertex.
+  DiskEdges around(const Vec3f& position) const;
+  /// Whether nothing else was seen to end the surface.
+  bool are_complete() const { return complete_; }
+
+ private:
+  struct Line {
+    Vec3f inward;
+    float offset;  ///< dot(inward, point) of its points
+  };
+  std::vector<Line> lines_;
+  Vec3f position_{0, 0, 0},
+      normal_{0, 0, 0};  ///< on the side that is seen; zero: looked at nothing
+  float reach_ = 0;
+  bool complete_ = false;
+};
+
+}  // namespace kaustik
