@@ -97,6 +97,15 @@ TEST(Auto, LeavesOutNoLight) {
   const std::string matt =
       decision(open_floor(spark + sphere("0.3, 0.3, 0.5", 0.1, diffuse("0.5, 0.5, 0.5")), 64));
   EXPECT_TRUE(is_for_camera_alone(matt)) << matt;
+  // By a beam onto a plate smaller than a pixel, where no probe looks, and on to nowhere.
+  const std::string narrow = R"(<emitter type="spot"><float name="cutoff_angle" value="0.2"/>
+      <transform name="to_world"><lookat origin="0.3, 0.3, 1.5" target="0.3, 0.3, 0" up="0, 1, 0"/>
+      </transform></emitter>)";
+  const std::string plate = decision(open_floor(
+      narrow + sphere("0.3, 0.3, 0.35", 0.02, glass()) +
+          flat("disk", scale("0.02, 0.02, 1") + translate("0.3, 0.3, 0.3"), diffuse("0.001")),
+      64));
+  EXPECT_NE(plate.find("they alone would not find all light"), std::string::npos) << plate;
 }
 
 /// Media that scatter are left to path tracing.
