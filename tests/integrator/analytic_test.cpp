@@ -49,6 +49,7 @@ TEST_F(Furnace, LightTracer) { check("lighttracer", render(scene_, "lighttracer"
 TEST_F(Furnace, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {16})); }
 TEST_F(Furnace, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {80})); }
 TEST_F(Furnace, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {100})); }
+TEST_F(Furnace, Auto) { check("auto", render(scene_, "auto", "", {100})); }
 TEST_F(Furnace, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(8'000), {16}));
 }
@@ -80,6 +81,7 @@ TEST_F(DiffuseSphere, LightTracer) {
 TEST_F(DiffuseSphere, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {10})); }
 TEST_F(DiffuseSphere, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {120})); }
 TEST_F(DiffuseSphere, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {120})); }
+TEST_F(DiffuseSphere, Auto) { check("auto", render(scene_, "auto", "", {120})); }
 TEST_F(DiffuseSphere, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(20'000), {16}));
 }
@@ -126,6 +128,7 @@ TEST_F(ParallelPlates, LightTracer) {
 TEST_F(ParallelPlates, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {16})); }
 TEST_F(ParallelPlates, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {24})); }
 TEST_F(ParallelPlates, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {24})); }
+TEST_F(ParallelPlates, Auto) { check("auto", render(scene_, "auto", "", {24})); }
 /// Few neighbours of many photons, because their disks leave the plates at the mirrors.
 TEST_F(ParallelPlates, PhotonMap) {
   check("photonmap", render(scene_, "photonmap",
@@ -177,6 +180,7 @@ TEST_F(DiskOverPlane, LightTracer) {
 TEST_F(DiskOverPlane, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {64})); }
 TEST_F(DiskOverPlane, Vcm) { check("vcm", render(scene_, "vcm", "", {64})); }
 TEST_F(DiskOverPlane, Ppm) { check("ppm", render(scene_, "ppm", "", {64})); }
+TEST_F(DiskOverPlane, Auto) { check("auto", render(scene_, "auto", "", {64})); }
 TEST_F(DiskOverPlane, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(2000), {64}));
 }
@@ -187,7 +191,7 @@ TEST_F(DiskOverPlane, OnTheAxis) {
                        flat("disk",
                             scale("0.5, 0.5, 1") + rotate("1, 0, 0", 180) + translate("0, 0, 1"),
                             diffuse("0, 0, 0") + area_light("4, 4, 4")));
-  for (const char* type : {"path", "photonmap"})
+  for (const char* type : {"path", "photonmap", "ppm", "auto"})
     expect_mean(std::string(type) + " disk on the axis", render(spot, type, "", {16}).mean({""}),
                 rho * radiance * a * a / (a * a + h * h));
 }

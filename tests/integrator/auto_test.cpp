@@ -1,5 +1,6 @@
 // The default integrator: what it decides, and that it makes the picture that all others make.
 
+#include "tests/integrator/media_scenes.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
 
@@ -42,6 +43,17 @@ std::string decision(const std::string& scene_text) {
   EXPECT_EQ(report.decisions.size(), 1u);
   return report.decisions.empty() ? "" : report.decisions[0];
 }
+/// What pass 0 of so many samples has chosen, in one line.
+std::string decision(const TestScene& scene, const Integrator& integrator, uint32_t samples) {
+  SplatBuffer splats(scene.scene().film(), ComponentSet());
+  const auto state = integrator.prepare({0, 0, samples}, splats, {}, {});
+  EXPECT_EQ(state->report.decisions.size(), 1u);
+  return state->report.decisions.empty() ? "" : state->report.decisions[0];
+}
+/// Other decisions name the camera alone too, to tell what they are better than.
+bool is_for_camera_alone(const std::string& decision) {
+  return decision.find("auto: paths from the camera alone") == 0;
+}
 /// Of "camera paths go on in 12 % of cases".
 int going_on(const std::string& decision) {
   const std::string before = "go on in ";
@@ -50,44 +62,85 @@ int going_on(const std::string& decision) {
   return std::stoi(decision.substr(at + before.size()));
 }
 
+/// A floor under an even sky.
+std::string open_floor(const std::string& inside, int size) {
+  return camera("0, -3, 1.5", "0, 0, 0", 40, size) +
+         flat("rectangle", scale("3, 3, 1"), diffuse("0.5, 0.5, 0.5")) + constant_light(1) + inside;
+}
+std::string ball_in_the_open(int size) {
+  return open_floor(sphere("0, 0, 0.5", 0.5, diffuse("0.7, 0.3, 0.3")), size);
+}
+
 /// Three scenes, three choices.
 TEST(Auto, DecidesByTheScene) {
-  const std::string open =
-      decision(camera("0, -3, 1.5", "0, 0, 0", 40, 64) +
-               flat("rectangle", scale("3, 3, 1"), diffuse("0.5, 0.5, 0.5")) +
-               sphere("0, 0, 0.5", 0.5, diffuse("0.7, 0.3, 0.3")) + constant_light(1));
-  EXPECT_NE(open.find("camera alone"), std::string::npos) << open;
+  const std::string open = decision(ball_in_the_open(64));
+  EXPECT_TRUE(is_for_camera_alone(open)) << open;
   const std::string hidden = decision(room(hidden_lamp(), 64));
   EXPECT_LT(going_on(hidden), 15) << hidden;
   EXPECT_GE(going_on(hidden), 2) << hidden;
   // A caustic on a floor under an even sky: paths for the sky, light paths for the lamp.
   const std::string both =
-      decision(camera("0, -3, 1.5", "0, 0, 0", 40, 64) +
-               flat("rectangle", scale("3, 3, 1"), diffuse("0.5, 0.5, 0.5")) +
-               sphere("0, 0, 0.6", 0.5, glass()) + constant_light(1) +
-               sphere("0, 0, 4", 0.05, diffuse("0, 0, 0") + area_light("3000")));
+      decision(open_floor(sphere("0, 0, 0.6", 0.5, glass()) +
+                              sphere("0, 0, 4", 0.05, diffuse("0, 0, 0") + area_light("3000")),
+                          64));
   EXPECT_GT(going_on(both), 60) << both;
 }
 
+/// Where a point lamp shines through glass there is light that no path from the camera finds,
+/// however little: light paths are traced. (Without the glass they would not be.)
+TEST(Auto, LeavesOutNoLight) {
+  const std::string spark = point_light("0.3, 0.3, 1", 0.05);
+  const std::string hidden =
+      decision(open_floor(spark + sphere("0.3, 0.3, 0.5", 0.1, glass()), 64));
+  EXPECT_FALSE(is_for_camera_alone(hidden)) << hidden;
+  EXPECT_NE(hidden.find("they alone would not find all light"), std::string::npos) << hidden;
+  const std::string matt =
+      decision(open_floor(spark + sphere("0.3, 0.3, 0.5", 0.1, diffuse("0.5, 0.5, 0.5")), 64));
+  EXPECT_TRUE(is_for_camera_alone(matt)) << matt;
+  // By a beam onto a plate smaller than a pixel, where no probe looks, and on to nowhere.
+  const std::string narrow = R"(<emitter type="spot"><float name="cutoff_angle" value="0.2"/>
+      <transform name="to_world"><lookat origin="0.3, 0.3, 1.5" target="0.3, 0.3, 0" up="0, 1, 0"/>
+      </transform></emitter>)";
+  const std::string plate = decision(open_floor(
+      narrow + sphere("0.3, 0.3, 0.35", 0.02, glass()) +
+          flat("disk", scale("0.02, 0.02, 1") + translate("0.3, 0.3, 0.3"), diffuse("0.001")),
+      64));
+  EXPECT_NE(plate.find("they alone would not find all light"), std::string::npos) << plate;
+}
+
+/// Media that scatter are left to path tracing.
+TEST(Auto, IsPathInMediaThatScatter) {
+  const TestScene scene(airlight_scene(0.3, 20));
+  const auto integrator = scene.integrator("auto");
+  const std::string chosen = decision(scene, *integrator, 4);
+  EXPECT_TRUE(is_for_camera_alone(chosen)) << chosen;
+  EXPECT_NE(chosen.find("media scatter"), std::string::npos) << chosen;
+  const Passes found = render(scene, *integrator, {16, 5}),
+               path = render(scene, "path", "", {16, 5});
+  EXPECT_GT(path.mean({"volume"}).mean(), 0);
+  for (size_t pass = 0; pass < path.images().size(); ++pass)
+    for (int c = 0; c < path.images()[pass].channel_count(); ++c)
+      for (size_t i = 0; i < path.images()[pass].pixel_count(); ++i)
+        ASSERT_EQ(found.images()[pass].channel(c)[i], path.images()[pass].channel(c)[i]);
+}
+
 /// Where light paths do not pay, finding that out takes less than a twentieth of the rays of 16
-/// passes.
+/// passes. Pass 0 has traced none but the pilot's before its samples, then.
 TEST(Auto, PilotIsCheap) {
-  const TestScene scene(camera("0, -3, 1.5", "0, 0, 0", 40, 128) +
-                        flat("rectangle", scale("3, 3, 1"), diffuse("0.5, 0.5, 0.5")) +
-                        sphere("0, 0, 0.5", 0.5, diffuse("0.7, 0.3, 0.3")) + constant_light(1));
-  const auto rays_of = [&](const char* type, const std::string& parameters) {
-    const auto integrator = scene.integrator(type, parameters);
-    SessionSettings settings;
-    settings.passes = 16;
-    settings.samples_per_pass = 4;
-    Session session(scene.scene(), *integrator, settings);
-    return double(session.run().rays);
-  };
-  const double alone =
-      rays_of("vcm", set("splats", false) + set("connections", false) + set("merging", false));
-  const double found_out = rays_of("auto", "");
-  EXPECT_GT(found_out, alone);
-  EXPECT_LT(found_out, 1.05 * alone) << found_out / alone;
+  const TestScene scene(ball_in_the_open(128));
+  SplatBuffer splats(scene.scene().film(), ComponentSet());
+  const auto state = scene.integrator("auto")->prepare({0, 0, 4}, splats, {}, {});
+  ASSERT_EQ(state->report.decisions.size(), 1u);
+  EXPECT_TRUE(is_for_camera_alone(state->report.decisions[0]));
+  const double pilot = double(state->report.rays);
+  const auto path = scene.integrator("path");
+  SessionSettings settings;
+  settings.passes = 16;
+  settings.samples_per_pass = 4;
+  Session session(scene.scene(), *path, settings);
+  const auto picture = double(session.run().rays);
+  EXPECT_GT(pilot, 0);
+  EXPECT_LT(pilot, 0.05 * picture) << pilot / picture;
 }
 
 TEST(Auto, MakesThePictureOfPath) {
@@ -101,12 +154,35 @@ TEST(Auto, MakesThePictureOfPath) {
     expect_near_means(fmt::format("auto {}", layer), found.mean({layer}), path.mean({layer}), 0.01);
 }
 
+/// Of a glass ball, whose brightest caustic lies in full view.
+TEST(Auto, MakesTheCausticsOfLightTracer) {
+  const std::string small_lamp =
+      lamp(scale("0.15, 0.15, 1") + rotate("1, 0, 0", 180) + translate("0, 0.5, 1.95"), 50);
+  const std::string text = room(small_lamp + sphere("0, 0.5, 0.9", 0.3, glass()), 32);
+  EXPECT_FALSE(is_for_camera_alone(decision(text)));
+  const TestScene scene(text);
+  const std::string components = set("components", "caustic");
+  const Passes referee = render(scene, "lighttracer", components, {15, 7});
+  const Passes found = render(scene, "auto", components, {12, 8});
+  expect_near_means("auto caustic", found.mean({"caustic"}), referee.mean({"caustic"}), 0.01);
+}
+
+/// In a mirror ball.
+TEST(Auto, ShowsTheMirrorImagesOfPath) {
+  const TestScene scene(room(lamp(ceiling, 8) + sphere("-0.4, 0.4, 0.6", 0.35, mirror()), 16));
+  const std::string components = set("components", "specular");
+  const Passes path = render(scene, "path", components, {200, 7});
+  const Passes found = render(scene, "auto", components, {200, 8});
+  expect_near_means("auto specular", found.mean({"specular"}), path.mean({"specular"}), 0.01);
+}
+
 TEST(Auto, HasNoBiasWithoutLightPaths) {
-  const TestScene scene(camera("0, -3, 1.5", "0, 0, 0", 40, 16) +
-                        flat("rectangle", scale("3, 3, 1"), diffuse("0.5, 0.5, 0.5")) +
-                        sphere("0, 0, 0.5", 0.5, diffuse("0.7, 0.3, 0.3")) + constant_light(1));
+  const TestScene scene(ball_in_the_open(16));
+  const auto integrator = scene.integrator("auto");
   const Passes path = render(scene, "path", "", {64, 7});
-  const Passes found = render(scene, "auto", "", {64, 8});
+  const Passes found = render(scene, *integrator, {64, 8});
+  const std::string chosen = decision(scene, *integrator, uint32_t(64 * sample_share));
+  EXPECT_TRUE(is_for_camera_alone(chosen)) << chosen;
   for (const char* layer : {"", "direct"})
     expect_equal_means(fmt::format("auto {}", layer), found.mean({layer}), path.mean({layer}));
 }

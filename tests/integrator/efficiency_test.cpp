@@ -1,11 +1,12 @@
 // How often camera paths go on: by variances and costs, on paper, and the pilot's variances against
-// those of pictures.
+// those of pictures, of paths alone and of merging.
 
 #include "kaustik/integrator/efficiency.h"
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/path_pilot.h"
 #include "kaustik/integrator/vcm_light_pass.h"
+#include "kaustik/integrator/vcm_plans.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
 
@@ -134,6 +135,106 @@ TEST(PathPilot, ExpectsTheVarianceOfPathTracing) {
   double radiance = 0;
   for (const ProbeStatistics& p : probes) radiance += p.radiance / double(probes.size());
   EXPECT_NEAR(radiance / mean, 1, 0.1);
+}
+
+/// Matt from within, without an edge that would make the samples of a pixel differ.
+std::string hollow() {
+  return camera("0.2, -0.6, 0.1", "0, 1, 0.1", 50, 24) +
+         sphere("0, 0, 0", 1, diffuse("0.6, 0.6, 0.6"), true) + point_light("0.4, 0.1, 0.3", 1);
+}
+
+constexpr uint32_t samples_of_pass = 4;
+constexpr float light_paths = 4;       // per camera sample
+constexpr float merge_radius = 0.15f;  // some pixels wide
+
+/// What ppm expects of a pass, by a pilot with `light_share` of its light paths.
+struct Forecast {
+  double squared_error = 0, radiance = 0;
+  std::vector<PixelPlan> plans;
+};
+Forecast forecast(const Scene& scene, const Techniques& techniques, double light_share) {
+  const LightPathEmission emission(scene);
+  PixelPlans plans(scene);
+  const uint32_t of_pass = light_path_count(scene.film().crop_size, samples_of_pass, light_paths);
+  PathWeights::Settings settings;
+  settings.techniques = techniques;
+  settings.light_paths = float(of_pass);
+  settings.merge_area = pi * sqr(merge_radius);
+  settings.accepted_area = accepted_area(plans);
+  const PathWeights weights(settings);
+  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  PassReport report;
+  const LightVertices vertices =
+      trace_light_vertices({scene, emission, weights, ComponentSet::all(), 1 << 20,
+                            uint32_t(light_share * of_pass), 1, PixelPlans(), 1},
+                           Pass{}, Stream::training, nowhere, {}, {}, report);
+  plans.choose_disks(vertices, of_pass, 30, merge_radius);
+  const VcmCameraInputs inputs{scene,         emission,        weights, vertices,
+                               MattMerging(), samples_of_pass, 0,       sqr(merge_radius)};
+  PilotLimits limits;
+  limits.light_share = light_share;
+  uint64_t rays = 0;
+  const auto probes = probe_statistics(inputs, plans, limits, rays);
+  const double camera_samples = double(of_pass) / double(light_paths);
+  Forecast result;
+  result.plans = plans.plans();
+  result.squared_error =
+      choose_survival(probes, {samples_of_pass, double(report.rays) / light_share / camera_samples},
+                      std::vector<MergeScale>(probes.size(), {1, 1}), result.plans)
+          .squared_error;
+  for (const ProbeStatistics& p : probes) result.radiance += p.radiance / double(probes.size());
+  return result;
+}
+
+/// The same of pictures. All are first passes, whose disks have not shrunk, of as many seeds.
+Forecast measured(const TestScene& test, const Integrator& integrator) {
+  constexpr uint64_t seeds = slow_build ? 12 : 64;
+  std::vector<RunningStatistics> values(test.scene().film().crop_size.x *
+                                        size_t(test.scene().film().crop_size.y));
+  for (uint64_t seed = 1; seed <= seeds; ++seed) {
+    SessionSettings settings;
+    settings.seed = seed;
+    settings.passes = 1;
+    settings.samples_per_pass = samples_of_pass;
+    Session session(test.scene(), integrator, settings);
+    session.run();
+    const Image image = session.film().image();
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i].add(double(image.channel(0)[i]) + double(image.channel(1)[i]) +
+                    double(image.channel(2)[i]));
+  }
+  Forecast result;
+  const auto count = double(values.size());
+  for (const RunningStatistics& v : values) result.radiance += v.mean() / count;
+  const double least = 0.01 * result.radiance * result.radiance;
+  for (const RunningStatistics& v : values)
+    result.squared_error += v.variance() / (v.mean() * v.mean() + least) / count;
+  return result;
+}
+
+/// The error that a pilot expects of merging beside paths that all go on, and of merging alone, is
+/// that of passes of ppm. Four light paths per camera sample make merging's share in it the larger.
+TEST(PathPilot, ExpectsTheVarianceOfMerging) {
+  const TestScene test(hollow());
+  for (const bool next_event : {true, false}) {
+    SCOPED_TRACE(next_event ? "both ways" : "merging alone");
+    const auto ppm = test.integrator(
+        "ppm", set("guiding", false) + set("radius", double(merge_radius)) +
+                   set("light_paths", double(light_paths)) + set("next_event", next_event));
+    const Forecast found = measured(test, *ppm);
+    for (const double light_share : {1.0, 0.25}) {
+      SCOPED_TRACE(light_share);
+      const Forecast expected =
+          forecast(test.scene(), {true, next_event, false, false, true}, light_share);
+      // A lamp that is a point is met by none of them.
+      for (const PixelPlan& plan : expected.plans)
+        EXPECT_EQ(plan.survival, next_event ? 1.0f : least_survival);
+      // A picture knows its error to 2 %, a pilot expects it to 4 %. What is within a third is not
+      // when it is doubled or halved.
+      EXPECT_NEAR(expected.squared_error / found.squared_error, 1, 1.0 / 3);
+      EXPECT_NEAR(expected.radiance / found.radiance, 1, 0.15);
+    }
+  }
 }
 
 }  // namespace

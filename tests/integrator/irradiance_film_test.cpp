@@ -81,14 +81,14 @@ TEST_P(IrradianceUnderDisk, IsTheSameOnAnyFloor) {
 }
 INSTANTIATE_TEST_SUITE_P(All, IrradianceUnderDisk,
                          testing::Values("path", "photonmap", "lighttracer", "raytracing",
-                                         "localphong"));
+                                         "localphong", "ppm", "auto"));
 
 /// A sphere of radius a and radiance L at height h, its centre over the point: E = πL a²/h².
 TEST(IrradianceUnderSphere, OnTheAxis) {
   const TestScene scene(meter("0, 0.1, 0.3", "0, 0, 0", 1, 4) +
                         flat("rectangle", scale("2, 2, 1"), diffuse("0, 0, 0")) +
                         sphere("0, 0, 2", 0.5, diffuse("0, 0, 0") + area_light("3")));
-  for (const char* type : {"path", "photonmap"})
+  for (const char* type : {"path", "photonmap", "ppm", "auto"})
     expect_mean(std::string(type) + " sphere", render(scene, type, "", {64}).mean({""}),
                 pi_d * 3 * 0.25 / 4);
 }
@@ -128,10 +128,15 @@ TEST_F(IrradianceInFurnace, PhotonMapWithoutCache) {
                thin_estimates(40'000) + set("irradiance_cache", false), {16}));
 }
 
+TEST_F(IrradianceInFurnace, Ppm) {
+  check("ppm", render(scene(mirror()), "ppm", set("light_paths", 1.0), {100}));
+}
+TEST_F(IrradianceInFurnace, Auto) { check("auto", render(scene(mirror()), "auto", "", {64})); }
+
 /// Where the picture shows nothing there is no surface, and what is beyond the scene is not on any.
 TEST(Irradiance, IsZeroBeyondTheScene) {
   const TestScene scene(meter("0, 0, 0", "0, 0, 1", 40) + far_shape + constant_light(1));
-  for (const char* type : {"path", "photonmap"})
+  for (const char* type : {"path", "photonmap", "ppm", "auto"})
     EXPECT_EQ(render(scene, type).mean({""}).mean(), 0) << type;
 }
 
@@ -144,7 +149,7 @@ TEST(Irradiance, IsThatOfTheSideWhichIsSeen) {
   };
   const double expected =
       mean_over_square([](double d_sq) { return 6 * 2 / std::pow(d_sq + 4, 1.5); });
-  for (const std::string type : {"path", "photonmap", "lighttracer"}) {
+  for (const std::string type : {"path", "photonmap", "lighttracer", "ppm", "auto"}) {
     EXPECT_EQ(render(from("0.4"), type).mean({""}).mean(), 0) << type;
     const double samples = type == "lighttracer" ? 400 : 16;
     expect_mean(type + " back", render(from("-0.4"), type, "", {samples}).mean({""}), expected);
@@ -165,7 +170,7 @@ TEST(Irradiance, OfWhatMediaLetThrough) {
     const double d = std::sqrt(d_sq + 4);
     return 5 * 2 / (d * d * d) * std::exp(-0.2 * d);
   });
-  for (const std::string type : {"path", "photonmap", "lighttracer"}) {
+  for (const std::string type : {"path", "photonmap", "lighttracer", "ppm", "auto"}) {
     const double samples = type == "lighttracer" ? 6000 : 16;
     const Passes passes = render(scene, type, "", {samples});
     expect_mean(type + " in water", passes.mean({""}), expected);

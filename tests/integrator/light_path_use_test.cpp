@@ -68,7 +68,7 @@ UsefulPaths useful_paths(const std::string& text) {
   use.learn(paths(*learned, 1));
   learned = use.emission().learned();
   const auto count = [&](const LightPathEmission& emission) {
-    LightPathUse counted(scene, plain);
+    LightPathUse counted(scene, plain, ComponentSet::all());
     counted.learn(paths(emission, 2));
     return counted.emission().size();
   };

@@ -175,6 +175,32 @@ TEST(Vcm, Guided) {
   expect_near_means("guided, merged", merged.mean({"indirect"}), path.mean({"indirect"}), 0.01);
 }
 
+/// And it learns something: where few light paths are of use, and nothing else finds indirect
+/// light, guided ones leave less than half of the variance.
+TEST(Vcm, GuidingPays) {
+  const TestScene scene(court_in_a_town());
+  const auto variance = [&](const char* type, bool guiding) {
+    const Passes passes =
+        render(scene, type,
+               set("guiding", guiding) + set("next_event", false) + set("radius", 0.05) +
+                   set("light_paths", 16.0) + set("components", "indirect"),
+               {8, 9});
+    double sum = 0;
+    for (size_t i = 0; i < passes.images()[0].pixel_count(); ++i) {
+      RunningStatistics pixel;
+      for (const Image& image : passes.images())
+        pixel.add(double(image.channel(image.find_channel("indirect.G"))[i]));
+      sum += pixel.variance();
+    }
+    return sum;
+  };
+  for (const char* type : {"bdpt", "vcm", "ppm"}) {
+    const double share = variance(type, true) / variance(type, false);
+    std::printf("  %s: guided light paths leave %.2f of the variance\n", type, share);
+    EXPECT_LT(share, 0.5) << type;
+  }
+}
+
 /// Without a technique no light is found, which is told; any technique finds some.
 TEST(Vcm, NoTechniqueIsToldOf) {
   const TestScene scene(room(large_lamp(), 4));

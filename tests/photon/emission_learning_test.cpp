@@ -15,6 +15,11 @@ namespace {
 using namespace test;
 
 constexpr int samples = 200'000;
+#ifdef KAUSTIK_SLOW_BUILD
+constexpr int unbiased_samples = 100'000;
+#else
+constexpr int unbiased_samples = 500'000;
+#endif
 
 /// Two heaps of points, one of them tiny.
 std::vector<GuideSquare::Point> heaps(int count) {
@@ -124,35 +129,162 @@ std::vector<std::string> learned_kinds() {
           "mesh",  "directional", "distributedspot", "two-sided ball"};
 }
 
-/// The density of a sample is what pdf() says, and the flux that meets the target is that of plain
-/// emission; of the rays, five times as many meet it.
+constexpr int heights = 4, turns = 16;
+
+/// Which of as many equal parts of the light's flux a ray belongs to: by its turn about the normal,
+/// or the light's axis, and where it is known how much leaves at which height, by that.
+size_t part_of(const std::string& kind, const EmittedRay& ray) {
+  const Vec3f local =
+      ray.on_surface ? Frame(ray.origin.ng).to_local(ray.ray.direction) : ray.ray.direction;
+  const double turn = std::atan2(double(local.y), double(local.x)) / (2 * std::numbers::pi) + 0.5;
+  const auto z = double(local.z);
+  const auto index = [](double x, int count) {
+    return size_t(std::clamp(int(x * count), 0, count - 1));
+  };
+  if (ray.on_surface) return index(z * z, heights) * turns + index(turn, turns);
+  if (kind == "point") return index((z + 1) / 2, heights) * turns + index(turn, turns);
+  return index(turn, heights * turns);
+}
+
+/// What a light of radiance, intensity or irradiance 1 sends to the target, W; 0: no closed form.
+double flux_to_target(const std::string& kind) {
+  constexpr double r_sq = 0.3 * 0.3, pi_d = std::numbers::pi;
+  const double distance_sq = 0.3 * 0.3 + 0.1 * 0.1 + 2 * 2;
+  if (kind == "point" || kind == "spot") return 2 * pi_d * (1 - std::sqrt(1 - r_sq / distance_sq));
+  if (kind == "directional") return pi_d * r_sq;
+  constexpr int steps = 400;
+  double sum = 0;
+  if (kind == "rectangle") {
+    // The ball is above the horizon of all its points, which send it π (r/d)² cosθ per area.
+    for (int i = 0; i < steps; ++i)
+      for (int j = 0; j < steps; ++j) {
+        const double x = 0.8 * ((i + 0.5) / steps - 0.5) - 0.3;
+        const double y = 0.6 * ((j + 0.5) / steps - 0.5) - 0.1;
+        sum += pi_d * r_sq * 2 / std::pow(x * x + y * y + 4, 1.5);
+      }
+    return sum * 0.8 * 0.6 / (steps * steps);
+  }
+  if (kind != "mesh") {
+    // Over all directions, where the shadows of two balls of the same radius overlap. (The target
+    // lies within the beam of spots.)
+    const double diameter = 0.6, largest = std::asin(diameter / std::sqrt(distance_sq));
+    for (int i = 0; i < steps; ++i) {
+      const double angle = largest * (i + 0.5) / steps;
+      const double apart = std::sqrt(distance_sq) * std::sin(angle);
+      const double lens = 2 * r_sq * std::acos(apart / diameter) -
+                          apart / 2 * std::sqrt(diameter * diameter - apart * apart);
+      sum += 2 * pi_d * std::sin(angle) * lens;
+    }
+    const double radiance = kind == "distributedspot" ? 1 / (pi_d * r_sq) : 1;
+    return radiance * sum * largest / steps;
+  }
+  return 0;
+}
+
+/// Sums of emitted light over density, which have the mean of the flux whatever the density is.
+struct Emitted {
+  RunningStatistics all, to_target;
+  std::vector<double> parts, part_squares;
+  double met = 0;  ///< rays that meet the target
+};
+Emitted emitted(const LightPathEmission& emission, const std::string& kind, uint64_t seed,
+                int count) {
+  Emitted result;
+  result.parts.resize(heights * turns);
+  result.part_squares.resize(heights * turns);
+  for (uint64_t i = 0; i < uint64_t(count); ++i) {
+    Sampler sampler((seed + i) * 0x9e3779b97f4a7c15ull, 0);
+    const LightPathStart start = emission.sample(sampler);
+    const bool met = meets_target(emission.scene(), start);
+    const double flux = start.light < 0 ? 0.0 : double(start.emitted.flux[1]);
+    result.all.add(flux);
+    result.to_target.add(met ? flux : 0.0);
+    result.met += met ? 1 : 0;
+    if (start.light < 0) continue;
+    const size_t part = part_of(kind, start.emitted);
+    result.parts[part] += flux;
+    result.part_squares[part] += flux * flux;
+  }
+  return result;
+}
+
+/// That densities are `planted` times too large. Of light with a single direction, whose beam has
+/// no end, only the target is known.
+double p_value(const Emitted& found, const std::string& kind, double power, double planted) {
+  std::vector<double> p_values;
+  if (const double known = flux_to_target(kind); known > 0)
+    p_values.push_back(z_test_p_value(found.to_target, known * planted));
+  if (kind != "directional") {
+    p_values.push_back(z_test_p_value(found.all, power * planted));
+    const auto count = double(found.all.count());
+    const double expected = power * planted / double(found.parts.size());
+    double chi_square = 0;
+    for (size_t i = 0; i < found.parts.size(); ++i) {
+      const double mean = found.parts[i] / count;
+      const double variance = (found.part_squares[i] / count - mean * mean) / count;
+      chi_square += variance > 0 ? (mean - expected) * (mean - expected) / variance : 1e6;
+    }
+    p_values.push_back(chi_square_p_value(chi_square, int(found.parts.size())));
+  }
+  return double(p_values.size()) * *std::min_element(p_values.begin(), p_values.end());
+}
+
+/// Flux over density is that of the light: in all, in parts of equal flux, and on the target.
 TEST(LearnedEmission, IsUnbiased) {
+  const double level = sidak_level(0.01, int(learned_kinds().size()));
   for (const std::string& kind : learned_kinds()) {
     const Lesson lesson = lesson_of({light(kind)});
     ASSERT_TRUE(lesson.learned) << kind;
-    RunningStatistics plain, learned;
-    double plain_met = 0, learned_met = 0;
-    for (uint32_t i = 0; i < uint32_t(samples); ++i) {
-      Sampler a(31 + uint64_t(i), 0), b(0x10000000 + uint64_t(i), 0);
-      const LightPathStart by_plain = lesson.plain->sample(a),
-                           by_learned = lesson.learned->sample(b);
-      const bool met = meets_target(*lesson.scene, by_learned);
-      const bool plainly_met = meets_target(*lesson.scene, by_plain);
-      plain.add(plainly_met ? double(by_plain.emitted.flux.sum()) : 0);
-      learned.add(met ? double(by_learned.emitted.flux.sum()) : 0);
-      plain_met += plainly_met ? 1 : 0;
-      learned_met += met ? 1 : 0;
-      if (!met) continue;
-      const EmissionDensity again =
-          lesson.learned->pdf(0, by_learned.emitted.origin, by_learned.emitted.ray.direction);
-      EXPECT_EQ(again.rest, by_learned.density.rest) << kind;
+    const double power = double(lesson.scene->lights()[0]->power()[1]);
+    const Emitted found = emitted(*lesson.learned, kind, 1, unbiased_samples);
+    EXPECT_GT(p_value(found, kind, power, 1), level) << kind;
+#ifndef KAUSTIK_SLOW_BUILD
+    EXPECT_LT(p_value(found, kind, power, 1.02), level) << kind << ": an error of 2 % goes unseen";
+#endif
+  }
+}
+
+/// More rays meet the target, with less noise, and no other flux.
+TEST(LearnedEmission, FindsTheTarget) {
+  for (const std::string& kind : learned_kinds()) {
+    const Lesson lesson = lesson_of({light(kind)});
+    ASSERT_TRUE(lesson.learned) << kind;
+    const Emitted plain = emitted(*lesson.plain, kind, 31, samples);
+    const Emitted learned = emitted(*lesson.learned, kind, 0x10000000, samples);
+    EXPECT_GT(learned.met, 5 * plain.met) << kind;
+    EXPECT_LT(learned.to_target.variance(), 0.3 * plain.to_target.variance()) << kind;
+    const double error =
+        std::hypot(plain.to_target.standard_error(), learned.to_target.standard_error());
+    EXPECT_GT(z_test_p_value(learned.to_target.mean(), error, plain.to_target.mean()), 1e-3)
+        << kind;
+  }
+}
+
+/// What sample() says of its density is what pdf() says, but where rounding puts a ray into the
+/// next leaf.
+TEST(GuidedLight, SamplesKnowTheirDensity) {
+  std::vector<GuideSquare::Point> points = heaps(5000);
+  Random anywhere(13);
+  for (int i = 0; i < 5000; ++i) points.push_back({anywhere.pair(), 30});
+  for (const std::string& kind : learned_kinds()) {
+    const auto scene = make_scene({light(kind), sphere(Vec3d(0.3, 0.1, 0), 0.3, black())});
+    const Light& of = *scene->lights()[0];
+    const GuidedLight guided(
+        std::make_shared<const GuideMap>(of, shape_of(*scene, of), scene->tracer().bounds()),
+        GuideSquare(points));
+    Random random(7);
+    int emitting = 0, different = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      const Vec2f u_position = random.pair(), u_direction = random.pair();
+      const EmittedRay ray = guided.sample(u_position, u_direction, 0.5f);
+      if (ray.flux.is_zero()) continue;
+      ++emitting;
+      const double told = double(ray.pdf_position) * double(ray.pdf_direction);
+      const double density = double(guided.pdf(ray.origin, ray.ray.direction));
+      if (!(std::fabs(density - told) < 1e-3 * told)) ++different;
     }
-    const double error = std::hypot(plain.standard_error(), learned.standard_error());
-    EXPECT_GT(z_test_p_value(learned.mean() - plain.mean(), error, 0), 1e-3) << kind;
-    // And a wrong one is found out.
-    EXPECT_LT(z_test_p_value(1.2 * learned.mean() - plain.mean(), error, 0), 1e-2) << kind;
-    EXPECT_GT(learned_met, 5 * plain_met) << kind;
-    EXPECT_LT(learned.variance(), 0.3 * plain.variance()) << kind;
+    EXPECT_GT(emitting, 1000) << kind;
+    EXPECT_LT(different, 0.002 * emitting) << kind;
   }
 }
 

@@ -174,7 +174,7 @@ TEST_F(CheckpointFile, HoldsEverything) {
 }
 
 TEST_F(CheckpointFile, PassesInPartsAreThoseOfOneRun) {
-  for (const char* type : {"path", "photonmap", "vcm"}) {
+  for (const char* type : {"path", "photonmap", "vcm", "auto"}) {
     SCOPED_TRACE(type);
     const auto integrator = little_integrator(type);
     const Film whole = rendered(*integrator, {0, 8});
@@ -198,6 +198,16 @@ TEST_F(CheckpointFile, PassesInPartsAreThoseOfOneRun) {
       expect_same_bits(sum.film, whole);
     }
   }
+}
+
+/// What auto learns from pass to pass is in the test above: it traces light paths in this scene.
+TEST_F(CheckpointFile, LittleSceneMakesAutoLearn) {
+  SplatBuffer splats(little_scene().scene().film(), ComponentSet());
+  const auto state = little_integrator("auto")->prepare({5, 0, 2}, splats, {}, {});
+  ASSERT_EQ(state->report.decisions.size(), 1u);
+  EXPECT_NE(state->report.decisions[0].find("light paths per camera sample"), std::string::npos)
+      << state->report.decisions[0];
+  EXPECT_GT(state->report.photons, 0u);
 }
 
 TEST_F(CheckpointFile, GapsAreFilled) {
