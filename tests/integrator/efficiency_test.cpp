@@ -169,8 +169,8 @@ Forecast forecast(const Scene& scene, const Techniques& techniques, double light
                             uint32_t(light_share * of_pass), 1, PixelPlans(), 1},
                            Pass{}, Stream::training, nowhere, {}, {}, report);
   plans.choose_disks(vertices, of_pass, 30, merge_radius);
-  const VcmCameraInputs inputs{scene,         emission,        weights, vertices,
-                               MattMerging(), samples_of_pass, 0,       sqr(merge_radius)};
+  const VcmCameraInputs inputs{scene, emission,        weights, vertices,         MattMerging(),
+                               plans, samples_of_pass, 0,       sqr(merge_radius)};
   PilotLimits limits;
   limits.light_share = light_share;
   uint64_t rays = 0;

@@ -140,7 +140,7 @@ TEST(Vcm, CausticOfASmallLamp) {
   for (const char* type : {"bdpt", "vcm"})
     expect_near_means(
         fmt::format("caustic by {}", type),
-        render(scene, type, set("components", "caustic") + set("light_paths", 1.0), {120, 8})
+        render(scene, type, set("components", "caustic") + set("light_paths", 1.0), {200, 8})
             .mean({"caustic"}),
         light.mean({"caustic"}), 0.01);
 }

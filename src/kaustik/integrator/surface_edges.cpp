@@ -1,7 +1,6 @@
 #include "kaustik/integrator/surface_edges.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -11,7 +10,7 @@ namespace kaustik {
 namespace {
 
 constexpr size_t direction_count = 16;
-constexpr int bisections = 10;
+constexpr int bisections = 14;
 /// Shares of the reach: height of the rays that look for walls, and of the plane how far from it
 /// points of the surface may lie.
 constexpr float wall_height = 0.01f, same_height = 1e-3f;
@@ -21,6 +20,8 @@ constexpr float same_normal = 0.9998f;
 constexpr float gentle = 0.3f;
 /// Lines that lie so much farther than others, relative to the distance, are others.
 constexpr float same_distance = 1.02f;
+/// Between the two ways by which a straight end is looked for, radians.
+constexpr float end_angle = 0.1f;
 /// Of walls: sine of the angle between the surfaces.
 constexpr float least_sine = 0.3f;
 
@@ -42,16 +43,11 @@ class Search {
         origin_(vertex.position()),
         frame_(disk_.side()),
         reach_(reach) {
-    for (size_t i = 0; i < direction_count; ++i) {
-      const float angle = angle_of(i);
-      directions_[i] = frame_.x * std::cos(angle) + frame_.y * std::sin(angle);
-      look(i);
-    }
-    for (size_t i = 0; i < direction_count; ++i) add_end(i);
+    for (size_t i = 0; i < direction_count; ++i) look(i);
   }
 
   bool is_complete() const { return complete_; }
-  const Vec3f& direction(size_t i) const { return directions_[i]; }
+  Vec3f direction(size_t i) const { return across(angle_of(i)); }
   /// From near to far.
   std::vector<Candidate> candidates() {
     std::stable_sort(
@@ -62,72 +58,79 @@ class Search {
 
  private:
   static float angle_of(size_t i) { return 2 * pi * float(i) / float(direction_count); }
+  Vec3f across(float angle) const {
+    return frame_.x * std::cos(angle) + frame_.y * std::sin(angle);
+  }
 
   void look(size_t i) {
-    if (const auto wall = coverage_.obstacle(wall_height * reach_, angle_of(i), reach_)) {
+    const float angle = angle_of(i);
+    if (const auto wall = coverage_.obstacle(wall_height * reach_, angle, reach_)) {
       add_wall(i, *wall);
       return;
     }
+    const auto end = end_at(angle);
+    if (!end) return;
+    if (goes_on(angle, *end))
+      complete_ = false;
+    else
+      add_end(i, *end);
+  }
+
+  /// How far the plane goes on.
+  std::optional<float> end_at(float angle) const {
     for (const float share : {0.25f, 0.5f, 0.75f, 1.0f}) {
       const float distance = share * reach_;
-      if (is_same_plane(i, distance)) continue;
+      if (is_same_plane(angle, distance)) continue;
       float near = distance - 0.25f * reach_, far = distance;
       for (int step = 0; step < bisections; ++step) {
         const float middle = 0.5f * (near + far);
-        (is_same_plane(i, middle) ? near : far) = middle;
+        (is_same_plane(angle, middle) ? near : far) = middle;
       }
-      if (goes_on(i, near))
-        complete_ = false;
-      else
-        ends_[i] = near;
-      return;
+      return near;
     }
+    return std::nullopt;
   }
-
-  bool is_same_plane(size_t i, float distance) const {
-    const auto below = coverage_.surface_at(reach_, distance, angle_of(i));
-    return below && std::fabs(dot(below->ng, frame_.z)) > same_normal &&
-           std::fabs(dot(below->position - origin_, frame_.z)) <= same_height * reach_;
+  bool is_same_plane(float angle, float distance) const {
+    const auto surface = coverage_.surface_at(reach_, distance, angle);
+    return surface && std::fabs(dot(surface->ng, frame_.z)) > same_normal &&
+           std::fabs(dot(surface->position - origin_, frame_.z)) <= same_height * reach_;
   }
   /// Whether there is, a little beyond, what the surface may have turned to by and by.
-  bool goes_on(size_t i, float distance) const {
+  bool goes_on(float angle, float distance) const {
     const float step = 0.05f * reach_;
-    const auto below = coverage_.surface_at(reach_, distance + step, angle_of(i));
-    return below && coverage_.merges_at(*below) &&
-           std::fabs(dot(below->position - origin_, frame_.z)) <= gentle * step;
+    const auto surface = coverage_.surface_at(reach_, distance + step, angle);
+    return surface && coverage_.merges_at(*surface) &&
+           std::fabs(dot(surface->position - origin_, frame_.z)) <= gentle * step;
   }
 
   void add_wall(size_t i, const SurfacePoint& wall) {
     const float up = dot(wall.ng, frame_.z);
-    const Vec3f across = wall.ng - frame_.z * up;
-    const float sine = length(across);
+    const Vec3f in_plane = wall.ng - frame_.z * up;
+    const float sine = length(in_plane);
     if (sine < least_sine || coverage_.merges_at(wall)) {
       complete_ = false;
       return;
     }
     const float distance = dot(wall.ng, origin_ - wall.position) / sine;
-    add(i, across * ((distance < 0 ? -1 : 1) / sine), std::fabs(distance));
+    add(i, in_plane * ((distance < 0 ? -1 : 1) / sine), std::fabs(distance));
   }
-  /// Where the surface ends in two directions beside each other, the line through both points.
-  void add_end(size_t i) {
-    if (!ends_[i]) return;
-    bool has_line = false;
-    for (const size_t other :
-         {(i + 1) % direction_count, (i + direction_count - 1) % direction_count}) {
-      if (!ends_[other]) continue;
-      has_line = true;
-      const Vec3f from = directions_[i] * *ends_[i];
-      const Vec3f along = directions_[other] * *ends_[other] - from;
-      const Vec3f across = cross(along, frame_.z);
-      const float size = length(across);
-      if (!(size > 0)) continue;
-      const float distance = dot(from, across) / size;
-      add(i, across * ((distance > 0 ? -1 : 1) / size), std::fabs(distance));
+  /// A line through that end and another one beside it; straight across if there is none.
+  void add_end(size_t i, float distance) {
+    const Vec3f end = direction(i) * distance;
+    for (const float angle : {angle_of(i) + end_angle, angle_of(i) - end_angle}) {
+      const auto other = end_at(angle);
+      if (!other) continue;
+      const Vec3f in_plane = cross(across(angle) * *other - end, frame_.z);
+      const float size = length(in_plane);
+      const float offset = dot(end, in_plane) / size;
+      if (!(std::fabs(offset) > least_sine * distance)) continue;
+      add(i, in_plane * ((offset > 0 ? -1 : 1) / size), std::fabs(offset));
+      return;
     }
-    if (!has_line) add(i, directions_[i] * -1.0f, *ends_[i]);
+    add(i, direction(i) * -1.0f, distance);
   }
   void add(size_t i, const Vec3f& inward, float distance) {
-    const float cosine = -dot(inward, directions_[i]);
+    const float cosine = -dot(inward, direction(i));
     if (!(cosine > 0)) {
       complete_ = false;
       return;
@@ -140,8 +143,6 @@ class Search {
   Vec3f origin_;
   Frame frame_;
   float reach_;
-  std::array<Vec3f, direction_count> directions_;
-  std::array<std::optional<float>, direction_count> ends_;
   std::vector<Candidate> candidates_;
   bool complete_ = true;
 };

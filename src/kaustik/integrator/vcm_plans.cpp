@@ -26,7 +26,9 @@ constexpr size_t few_paths = 1024;
 /// Light paths of a pass at most: their vertices take some gigabytes.
 constexpr double most_light_paths = 1 << 24;
 /// Light paths that are tried beside those that are asked for, relative to them.
-constexpr std::array<float, 3> light_path_factors{0.25f, 1, 4};
+constexpr std::array<float, 3> light_path_factors{1, 4, 0.25f};
+/// Fewer have wider disks, whose bias is not counted: they must be so much better.
+constexpr double worth_fewer = 1.25;
 constexpr float near_per_distance = 0.01746f;  // tan 1°
 
 /// Whether there is a vertex that light of a point, or of something else that is never met, has
@@ -74,7 +76,8 @@ void choose_light_paths(VcmPlans& plans) {
   if (needs_merging) best.second.squared_error = std::numeric_limits<double>::infinity();
   for (const float factor : light_path_factors) {
     auto other = with(plans.pilot->light_paths * factor);
-    if (other.second.time() < best.second.time()) best = std::move(other);
+    const double handicap = factor < 1 && best.first.techniques.merging ? worth_fewer : 1;
+    if (other.second.time() * handicap < best.second.time()) best = std::move(other);
   }
   const double gain = needs_merging ? std::numeric_limits<double>::infinity()
                                     : of_paths_alone.second.time() / best.second.time();

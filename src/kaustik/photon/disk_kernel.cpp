@@ -2,76 +2,140 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace kaustik {
 namespace {
 
-constexpr size_t direction_count = 64;
-
-struct Direction {
-  float x, y;
-};
-const std::array<Direction, direction_count>& directions() {
-  static const auto table = [] {
-    std::array<Direction, direction_count> result;
-    for (size_t i = 0; i < direction_count; ++i) {
-      const float angle = 2 * pi * (float(i) + 0.5f) / float(direction_count);
-      result[i] = {std::cos(angle), std::sin(angle)};
-    }
-    return result;
-  }();
-  return table;
-}
-
-/// ∫ shape(r) rⁿ⁺¹ dr from 0 to `reach`, n = 0, 1, 2.
+/// ∫ shape(r) rⁿ⁺¹ dr over the radius, n = 0, 1, 2.
 struct RadialMoments {
-  float zeroth, first, second;
+  double zeroth, first, second;
 };
-RadialMoments radial_moments(float reach, KernelShape shape) {
-  const float r2 = reach * reach, r3 = r2 * reach, r4 = r2 * r2;
-  if (shape == KernelShape::flat) return {r2 / 2, r3 / 3, r4 / 4};
-  return {r2 / 2 - r4 / 4, r3 / 3 - r4 * reach / 5, r4 / 4 - r4 * r2 / 6};
+RadialMoments radial_moments(KernelShape shape) {
+  if (shape == KernelShape::flat) return {1.0 / 2, 1.0 / 3, 1.0 / 4};
+  return {1.0 / 4, 2.0 / 15, 1.0 / 12};
 }
+
+/// Of the disk between two angles.
+void add_sector(double from, double to, KernelShape shape, DiskMoments& sum) {
+  const RadialMoments radial = radial_moments(shape);
+  const double half = (to - from) / 2, turned = (std::sin(2 * to) - std::sin(2 * from)) / 4;
+  sum.one += radial.zeroth * (to - from);
+  sum.x += radial.first * (std::sin(to) - std::sin(from));
+  sum.y += radial.first * (std::cos(from) - std::cos(to));
+  sum.xx += radial.second * (half + turned);
+  sum.yy += radial.second * (half - turned);
+  sum.xy += radial.second * (sqr(std::sin(to)) - sqr(std::sin(from))) / 2;
+}
+
+struct Point {
+  double x, y;
+};
+
+/// Of the triangle between the center and two points, from the first to the second: all is of the
+/// fourth degree, for which six points are exact (Dunavant 1985).
+void add_triangle(const Point& p, const Point& q, KernelShape shape, DiskMoments& sum) {
+  struct Rule {
+    double weight, near, far;
+  };
+  constexpr Rule rules[2] = {{0.223381589678011, 0.108103018168070, 0.445948490915965},
+                             {0.109951743655322, 0.816847572980459, 0.091576213509771}};
+  const double area = (p.x * q.y - p.y * q.x) / 2;
+  const auto add = [&](double weight, double of_p, double of_q) {
+    const double x = of_p * p.x + of_q * q.x, y = of_p * p.y + of_q * q.y;
+    const double value = weight * area * (shape == KernelShape::flat ? 1 : 1 - x * x - y * y);
+    sum.one += value;
+    sum.x += value * x;
+    sum.y += value * y;
+    sum.xx += value * x * x;
+    sum.xy += value * x * y;
+    sum.yy += value * y * y;
+  };
+  for (const Rule& rule : rules) {
+    add(rule.weight, rule.near, rule.far);
+    add(rule.weight, rule.far, rule.near);
+    add(rule.weight, rule.far, rule.far);
+  }
+}
+
+/// A line that cuts the unit disk: the angle of its nearest point, and how near.
+struct Line {
+  double angle, distance;
+
+  /// How far it lies from the center in the direction `at`; infinite: nowhere.
+  double reach(double at) const {
+    const double cosine = std::cos(at - angle);
+    return cosine > 0 ? distance / cosine : std::numeric_limits<double>::infinity();
+  }
+};
+
+/// The angles between which one line, or the circle, bounds what is left of the disk.
+class Corners {
+ public:
+  void add(double angle) { angles_[count_++] = angle - two_pi * std::floor(angle / two_pi); }
+  /// visit(from, to) between each and the next.
+  template <typename Visit>
+  void each(const Visit& visit) {
+    std::sort(angles_.begin(), angles_.begin() + std::ptrdiff_t(count_));
+    for (size_t i = 0; i < count_; ++i)
+      visit(angles_[i], i + 1 < count_ ? angles_[i + 1] : angles_[0] + two_pi);
+  }
+
+ private:
+  static constexpr double two_pi = 2 * std::numbers::pi;
+  static constexpr size_t most = 2 * DiskEdges::most + DiskEdges::most * (DiskEdges::most - 1) / 2;
+  std::array<double, most> angles_{};
+  size_t count_ = 0;
+};
 
 }  // namespace
 
 DiskMoments disk_moments(const Frame& frame, float radius, const DiskEdges& edges,
                          KernelShape shape) {
-  struct Line {
-    float x, y, distance;
-  };
-  std::array<Line, DiskEdges::most> lines;
+  std::array<Line, DiskEdges::most> lines{};
   size_t count = 0;
+  Corners corners;
   for (size_t i = 0; i < edges.count; ++i) {
     const DiskEdges::Edge& edge = edges.edges[i];
-    if (edge.distance < radius)
-      lines[count++] = {-dot(edge.inward, frame.x), -dot(edge.inward, frame.y),
-                        edge.distance / radius};
-  }
-  const RadialMoments whole = radial_moments(1, shape);
-  if (count == 0) {
-    const double second = double(pi * whole.second);
-    return {double(2 * pi * whole.zeroth), 0, 0, second, 0, second};
-  }
-  // What is left is convex: in each direction it reaches from the center to the first line.
-  DiskMoments result;
-  for (const Direction& d : directions()) {
-    float reach = 1;
-    for (size_t i = 0; i < count; ++i) {
-      const float cosine = d.x * lines[i].x + d.y * lines[i].y;
-      if (cosine * reach > lines[i].distance) reach = lines[i].distance / cosine;
+    if (!(edge.distance < radius)) continue;
+    const Line line{double(std::atan2(-dot(edge.inward, frame.y), -dot(edge.inward, frame.x))),
+                    double(edge.distance) / double(radius)};
+    const double half = std::acos(line.distance);
+    corners.add(line.angle - half);
+    corners.add(line.angle + half);
+    for (size_t other = 0; other < count; ++other) {
+      // Where both meet.
+      const Line& l = lines[other];
+      const double sine = std::sin(line.angle - l.angle);
+      if (sine == 0) continue;
+      const Point meeting{
+          (l.distance * std::sin(line.angle) - line.distance * std::sin(l.angle)) / sine,
+          (line.distance * std::cos(l.angle) - l.distance * std::cos(line.angle)) / sine};
+      if (sqr(meeting.x) + sqr(meeting.y) < 1) corners.add(std::atan2(meeting.y, meeting.x));
     }
-    const RadialMoments radial = radial_moments(reach, shape);
-    result.one += double(radial.zeroth);
-    result.x += double(d.x * radial.first);
-    result.y += double(d.y * radial.first);
-    result.xx += double(d.x * d.x * radial.second);
-    result.xy += double(d.x * d.y * radial.second);
-    result.yy += double(d.y * d.y * radial.second);
+    lines[count++] = line;
   }
-  constexpr double step = 2 * double(pi) / double(direction_count);
-  for (double* sum : {&result.one, &result.x, &result.y, &result.xx, &result.xy, &result.yy})
-    *sum *= step;
+  DiskMoments result;
+  if (count == 0) {
+    add_sector(0, 2 * std::numbers::pi, shape, result);
+    return result;
+  }
+  corners.each([&](double from, double to) {
+    const double middle = (from + to) / 2;
+    const Line* nearest = nullptr;
+    for (size_t i = 0; i < count; ++i)
+      if (lines[i].reach(middle) < (nearest ? nearest->reach(middle) : 1)) nearest = &lines[i];
+    if (!nearest) {
+      add_sector(from, to, shape, result);
+      return;
+    }
+    const auto end = [&](double at) {
+      const double reach = std::min(1.0, nearest->reach(at));
+      return Point{reach * std::cos(at), reach * std::sin(at)};
+    };
+    add_triangle(end(from), end(to), shape, result);
+  });
   return result;
 }
 

@@ -9,8 +9,8 @@ namespace kaustik {
 /// Straight lines at which a surface ends within a disk: what lies beyond one does not count.
 struct DiskEdges {
   struct Edge {
-    Vec3f inward;        ///< unit, in the plane of the disk
-    float distance = 0;  ///< of the disk's center, m, not negative
+    Vec3f inward{0, 0, 0};  ///< unit, in the plane of the disk
+    float distance = 0;     ///< of the disk's center, m, not negative
   };
   static constexpr size_t most = 4;
   std::array<Edge, most> edges;

@@ -1,0 +1,116 @@
+// The straight edges that a surface's disks of merging end at: walls, ends, corners, bodies on the
+// floor, and what is none.
+
+#include "kaustik/integrator/surface_edges.h"
+
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+const std::string grey = diffuse("0.5, 0.5, 0.5");
+const std::string floor_ = flat("rectangle", scale("5, 5, 1"), grey);
+
+/// Seen from above, around (x, y, 0).
+class Seen {
+ public:
+  explicit Seen(const std::string& inside, float x = 0, float y = 0, float reach = 0.5f)
+      : scene_(camera("0, 0, 9", "0, 0, 0", 30, 4, "0, 1, 0") + inside) {
+    vertex_ = vertex_at(x, y);
+    edges_ = SurfaceEdges(scene_.scene(), vertex_, reach, rays_);
+    around_ = edges_.around(vertex_.position());
+  }
+  SurfaceVertex vertex_at(float x, float y) const {
+    const Ray ray{{x, y, 3}, {0, 0, -1}, infinity};
+    Hit hit;
+    EXPECT_TRUE(scene_.scene().intersect(ray, hit));
+    SurfaceVertex vertex;
+    vertex.meet(scene_.scene(), ray, hit, TransportMode::radiance);
+    return vertex;
+  }
+  const SurfaceEdges& edges() const { return edges_; }
+  const DiskEdges& around() const { return around_; }
+  /// That there is an edge there, on the side of (x, y).
+  void expect_edge(double x, double y, double distance) const {
+    for (size_t i = 0; i < around_.count; ++i)
+      if (std::fabs(double(around_.edges[i].inward.x) + x) < 0.02 &&
+          std::fabs(double(around_.edges[i].inward.y) + y) < 0.02 &&
+          std::fabs(double(around_.edges[i].distance) - distance) < 0.004)
+        return;
+    std::string found;
+    for (size_t i = 0; i < around_.count; ++i)
+      found += fmt::format(" ({:.3f}, {:.3f}) at {:.3f}", -around_.edges[i].inward.x,
+                           -around_.edges[i].inward.y, around_.edges[i].distance);
+    ADD_FAILURE() << "no edge toward " << x << ", " << y << " at " << distance << ", but" << found;
+  }
+
+ private:
+  TestScene scene_;
+  SurfaceVertex vertex_;
+  uint64_t rays_ = 0;
+  SurfaceEdges edges_;
+  DiskEdges around_;
+};
+
+TEST(SurfaceEdges, OfNothingNearby) {
+  const Seen seen(floor_);
+  EXPECT_EQ(seen.around().count, 0u);
+  EXPECT_TRUE(seen.edges().are_complete());
+}
+
+TEST(SurfaceEdges, WallsAndCorners) {
+  const std::string wall = flat("rectangle", rotate("0, 1, 0", -90) + translate("0.2, 0, 1"), grey);
+  const Seen one(floor_ + wall);
+  EXPECT_EQ(one.around().count, 1u);
+  one.expect_edge(1, 0, 0.2);
+  const Seen two(floor_ + wall +
+                 flat("rectangle", rotate("1, 0, 0", 90) + translate("0, 0.3, 1"), grey));
+  EXPECT_EQ(two.around().count, 2u);
+  two.expect_edge(1, 0, 0.2);
+  two.expect_edge(0, 1, 0.3);
+  EXPECT_TRUE(two.edges().are_complete());
+}
+
+TEST(SurfaceEdges, EndsOfTheSurface) {
+  const std::string table =
+      flat("rectangle", scale("0.6, 0.6, 1") + rotate("0, 0, 1", 30) + translate("0, 0, 1"), grey);
+  const Seen seen(floor_ + table, 0.4f * 0.8660254f, 0.4f * 0.5f);
+  EXPECT_EQ(seen.around().count, 1u);
+  seen.expect_edge(std::cos(pi / 6), std::sin(pi / 6), 0.2);
+  // Light below the table is none of its business, and its edges none of the floor's.
+  EXPECT_FALSE(seen.edges().hold_at(seen.vertex_at(2, 0)));
+  EXPECT_TRUE(seen.edges().hold_at(seen.vertex_at(0, 0)));
+}
+
+TEST(SurfaceEdges, BodiesOnTheFloor) {
+  const std::string box = flat("cube", scale("0.5, 0.5, 0.2") + translate("0.8, 0, 0.2"), grey);
+  const Seen beside(floor_ + box);
+  EXPECT_EQ(beside.around().count, 1u);
+  beside.expect_edge(1, 0, 0.3);
+  // Behind the line the floor goes on, but not within sight.
+  EXPECT_FALSE(beside.edges().hold_at(beside.vertex_at(2, 0)));
+  const Seen on_top(floor_ + box, 0.5f, 0, 0.7f);
+  on_top.expect_edge(-1, 0, 0.2);
+  on_top.expect_edge(0, 1, 0.5);
+  on_top.expect_edge(0, -1, 0.5);
+}
+
+/// What bends by and by is no edge: disks there are looked at point by point.
+TEST(SurfaceEdges, CurvesAreNone) {
+  const Seen ball(sphere("0, 0, -2", 2, grey));
+  EXPECT_EQ(ball.around().count, 0u);
+  EXPECT_FALSE(ball.edges().are_complete());
+}
+
+/// A wall that light passes through is none either.
+TEST(SurfaceEdges, GlassIsNone) {
+  const Seen seen(floor_ + flat("rectangle", rotate("0, 1, 0", -90) + translate("0.2, 0, 1"),
+                                "<bsdf type=\"dielectric\"/>"));
+  EXPECT_EQ(seen.around().count, 0u);
+}
+
+}  // namespace
+}  // namespace kaustik
