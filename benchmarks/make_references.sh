@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Makes references, benchmarks/references/SCENE.exr with the standard error of each pixel. Each
-# component of the light (docs/architecture.md) comes from the method that finds it best without
-# bias: path tracing what it can, light tracing what lamps focus (L S+ D E) and what only they find.
-# What mirrors and water show of focused light has no unbiased method but bdpt by chance; there it
-# is vcm, whose bias shrinks with the passes. A render that is interrupted (Ctrl-C) keeps the passes
-# that are finished. Usage: benchmarks/make_references.sh [SCENE ...]; without names: all that
-# bench_scenes measures by default and does not have. EFFORT=0.1 takes a tenth of the minutes.
+# component of the light (docs/architecture.md) comes from what finds it best without bias: path
+# tracing what it can, light tracing what lamps focus (L S+ D E) and what only they find. What
+# mirrors, glass and water show of such light no unbiased method finds in reasonable time; there, and
+# for light that is scattered on from it, it is auto, whose bias shrinks with the passes: the tests
+# compare its means with those of the unbiased methods. A render that is interrupted (Ctrl-C) keeps
+# the passes that are finished. Usage: benchmarks/make_references.sh [SCENE ...]; without names: all
+# that bench_scenes measures by default and does not have. EFFORT=0.1 takes a tenth of the minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=build/release/kaustik
@@ -48,34 +49,42 @@ make_reference() {
   local scene=$1
   case "$scene" in
     # Nothing in it is specular. Samples of one pass stratify one another: few, large passes.
-    cornell_box | peer_cornell)
+    cornell_box)
       part "$scene" path emission,direct,indirect --spp 8192 --passes 2
       ;;
-    # The lamp in the mirror, by way of the table, is what `path` takes most samples for. Of what the
-    # ring focuses, and the table scatters on, paths from the camera find too little.
-    metal_ring | peer_ring)
-      part "$scene" path emission,direct --spp 1024 --passes 2
-      minutes "$scene" bdpt indirect 30
-      part "$scene" path specular --spp 10240 --passes 10
-      part "$scene" lighttracer caustic --spp 1536 --passes 6
+    peer_cornell)
+      minutes "$scene" path emission,direct,indirect 10
       ;;
-    # What the glass focuses and the walls scatter on is rare and bright to paths from the camera.
+    metal_ring)
+      minutes "$scene" path emission,direct 2
+      minutes "$scene" bdpt indirect 2
+      minutes "$scene" lighttracer caustic 4
+      minutes "$scene" auto specular 10
+      ;;
+    peer_ring)
+      minutes "$scene" path emission,direct 1
+      minutes "$scene" bdpt indirect 1
+      minutes "$scene" lighttracer caustic 1
+      minutes "$scene" auto specular 3
+      ;;
     cornell_spheres | peer_cornell_glass)
-      minutes "$scene" path emission,direct 5
-      minutes "$scene" lighttracer caustic,indirect 30
-      minutes "$scene" vcm specular 30
+      minutes "$scene" path emission,direct 1
+      minutes "$scene" lighttracer caustic 1
+      minutes "$scene" lighttracer indirect 5
+      minutes "$scene" auto specular 3
       ;;
     # All light comes through the water: only paths from the lamps find it.
     pool_below | peer_pool_below)
-      minutes "$scene" path emission,direct 5
-      minutes "$scene" lighttracer caustic,indirect 30
-      minutes "$scene" vcm specular 30
+      minutes "$scene" path emission,direct 0.5
+      minutes "$scene" lighttracer caustic 8
+      minutes "$scene" auto indirect 3
+      minutes "$scene" auto specular 3
       ;;
-    # And all that is seen is seen through it.
+    # And nearly all that is seen is seen through it.
     pool_above | peer_pool_above)
-      minutes "$scene" path emission,direct 5
-      minutes "$scene" lighttracer caustic,indirect 15
-      minutes "$scene" vcm specular 60
+      minutes "$scene" path emission,direct 0.5
+      minutes "$scene" lighttracer caustic,indirect 1.5
+      minutes "$scene" auto specular 7
       ;;
     # Lamps among crystals, whose focused light is scattered again.
     atrium)
@@ -84,9 +93,10 @@ make_reference() {
       minutes "$scene" bdpt indirect 60
       minutes "$scene" vcm specular 30
       ;;
-    # Lamps behind walls: connected from both ends, without bias.
+    # Lamps behind walls.
     peer_hidden_light)
-      minutes "$scene" bdpt all 60
+      minutes "$scene" path emission,direct,caustic,specular 0.5
+      minutes "$scene" lighttracer indirect 8
       ;;
     gallery_1 | gallery_2 | maze | museum | point_spotlight)
       minutes "$scene" path all 60
