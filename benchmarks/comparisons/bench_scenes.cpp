@@ -24,7 +24,8 @@ struct Options {
   std::vector<double> seconds;  ///< empty: each scene's own
   std::vector<uint64_t> seeds;  ///< likewise
   int threads = 0;              ///< 0: all
-  std::string references;       ///< a folder whose references go before the stored ones
+  /// A folder whose references go before those that came with the scenes.
+  std::string references = std::string(KAUSTIK_SOURCE_DIR) + "/benchmarks/references";
   std::string results = "out/bench_scenes.jsonl";
   bool any_program = false;
 };
@@ -48,11 +49,19 @@ std::vector<std::string> known_integrators(const std::vector<std::string>& names
   return known;
 }
 
-/// The folder's file of the scene's name, else the stored one; "" and says so if there is neither.
+/// The folder's file of the scene's name, and says how bright it is beside the one that came with
+/// the scene; else that one; "" and says so if there is neither.
 std::string reference_path(const BenchScene& scene, const std::string& folder) {
   const std::string own = folder + "/" + scene.name + ".exr";
-  if (!folder.empty() && std::filesystem::exists(own)) return own;
-  if (std::filesystem::exists(scene.reference)) return scene.reference;
+  const bool has_other = std::filesystem::exists(scene.reference);
+  if (std::filesystem::exists(own)) {
+    if (has_other && !std::filesystem::equivalent(own, scene.reference))
+      say(fmt::format("{}: {} has {:.4f} of the light of {}", scene.name, own,
+                      ratio_of_means(compare_images(read_image(own), read_image(scene.reference))),
+                      scene.reference));
+    return own;
+  }
+  if (has_other) return scene.reference;
   say(fmt::format("{}: left out, there is no {}; make it: make references SCENES={}", scene.name,
                   scene.reference, scene.name));
   return {};
@@ -172,9 +181,11 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--seeds", options.seeds, "One run per seed [1; of peer_NAME 1,2,3]")
       ->delimiter(',');
   app.add_option("--threads", options.threads, "Threads [all]")->check(CLI::Range(1, 4096));
-  app.add_option("--references", options.references,
-                 "Folder whose SCENE.exr are compared with instead of the stored references")
-      ->check(CLI::ExistingDirectory);
+  app.add_option(
+         "--references", options.references,
+         "Folder whose SCENE.exr are compared with instead of those that came with the scene")
+      ->check(CLI::ExistingDirectory)
+      ->capture_default_str();
   app.add_option("--results", options.results, "File that results are appended to")
       ->capture_default_str();
   app.add_flag("--any-program", options.any_program,

@@ -75,15 +75,19 @@ void PixelPlans::find_edges(const Scene& scene, float widths, float given, uint6
   edges_ = std::move(edges);
 }
 
-DiskEdges PixelPlans::edges_at(const Vec2f& raster, const SurfaceVertex& vertex) const {
+PixelPlans::Surroundings PixelPlans::surroundings(const Vec2f& raster,
+                                                  const SurfaceVertex& vertex) const {
   if (!edges_) return {};
+  const auto known = [&](const SurfaceEdges& edges) {
+    return Surroundings{edges.around(vertex.position()), edges.are_complete()};
+  };
   const Vec2i block = block_at(raster);
   const SurfaceEdges& own = (*edges_)[index_of(block)];
-  if (own.hold_at(vertex)) return own.around(vertex.position());
+  if (own.hold_at(vertex)) return known(own);
   for (int y = std::max(0, block.y - 1); y <= std::min(blocks_.y - 1, block.y + 1); ++y)
     for (int x = std::max(0, block.x - 1); x <= std::min(blocks_.x - 1, block.x + 1); ++x) {
       const SurfaceEdges& other = (*edges_)[index_of({x, y})];
-      if (other.hold_at(vertex)) return other.around(vertex.position());
+      if (other.hold_at(vertex)) return known(other);
     }
   return {};
 }

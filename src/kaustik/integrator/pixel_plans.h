@@ -43,8 +43,12 @@ class PixelPlans {
   /// > 0, m. Counts its rays.
   void find_edges(const Scene& scene, float widths, float given, uint64_t& rays);
 
-  /// The edges of the surface around a vertex that a pixel shows, by the probes around.
-  DiskEdges edges_at(const Vec2f& raster, const SurfaceVertex& vertex) const;
+  struct Surroundings {
+    DiskEdges edges;
+    bool are_complete = false;  ///< nothing else was seen to end the surface
+  };
+  /// Of a vertex that a pixel shows, by the probes around.
+  Surroundings surroundings(const Vec2f& raster, const SurfaceVertex& vertex) const;
   /// Those of a probe's own.
   DiskEdges edges_of(size_t probe) const;
   /// One per block of pixels, row by row.

@@ -21,6 +21,9 @@ constexpr uint32_t coverage_key = 1, bias_key = 2;
 constexpr float bias_chance = 0.25f;
 const float half_area = std::sqrt(0.5f);  ///< of the radius
 
+/// Chance of looking at what is covered where edges say all.
+constexpr float look_chance = 0.125f;
+
 /// A point of `light` as emission sees it: its normal is on the side that shines to `direction`.
 SurfacePoint shining(const Light& light, SurfacePoint point, const Vec3f& direction) {
   if (light.is_two_sided() && dot(point.ng, direction) < 0) {
@@ -254,10 +257,8 @@ void VcmCameraPath::merge(int maximum_events) {
                               : merged(disk, weights, lobes, maximum_events);
   if (light.is_zero()) return;
   const auto paths = float(in_.light.path_count);
-  // Numbers of their own: how many there are is not known beforehand.
   light.scale(weights.wide.scale *
-              covered.inverse_share(radius, weights.edges, walk_.sampler().fork(coverage_key)) /
-              paths);
+              inverse_share(covered, radius, weights.surroundings, coverage_key) / paths);
   Spectrum total;
   for (int c = 0; c < component_count; ++c) {
     const Spectrum& sum = light.of[size_t(c)];
@@ -267,7 +268,7 @@ void VcmCameraPath::merge(int maximum_events) {
   // The bias grows by the area, so it is twice what half of the area takes off.
   if (!(walk_.sampler().fork(bias_key).next_1d() < bias_chance)) return;
   const float narrow_coverage =
-      covered.inverse_share(radius * half_area, weights.edges, walk_.sampler().fork(bias_key + 1));
+      inverse_share(covered, radius * half_area, weights.surroundings, bias_key + 1);
   const Spectrum narrow = light.narrow * (weights.narrow.scale * narrow_coverage / paths);
   walk_.add_bias((total - narrow) * (2 / bias_chance));
 }
@@ -281,22 +282,35 @@ void VcmCameraPath::MergedLight::scale(float factor) {
 }
 
 VcmCameraPath::DiskWeights VcmCameraPath::disk_weights(const MergeDisk& disk) const {
-  const DiskEdges edges =
-      all_delta_ ? in_.pixels.edges_at(walk_.raster(), disk.vertex()) : DiskEdges();
+  PixelPlans::Surroundings surroundings;
+  if (all_delta_) surroundings = in_.pixels.surroundings(walk_.raster(), disk.vertex());
+  const DiskEdges& edges = surroundings.edges;
   const Frame frame(disk.side());
-  return {edges, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
+  return {surroundings, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
           DiskKernel(frame, disk.radius() * half_area, edges, KernelShape::parabolic)};
+}
+
+float VcmCameraPath::inverse_share(const DiskCoverage& covered, float radius,
+                                   const PixelPlans::Surroundings& surroundings,
+                                   uint32_t key) const {
+  // Numbers of their own: how many there are is not known beforehand.
+  Sampler numbers = walk_.sampler().fork(key);
+  if (!surroundings.are_complete) return covered.inverse_share(radius, surroundings.edges, numbers);
+  // It is hardly ever less than all: looking counts for the times without.
+  if (!(numbers.next_1d() < look_chance)) return 1;
+  return 1 + (covered.inverse_share(radius, surroundings.edges, numbers) - 1) / look_chance;
 }
 
 VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk,
                                                       const DiskWeights& weights,
                                                       int maximum_events) const {
   const SurfaceVertex& vertex = walk_.vertex();
-  const MattLight light = in_.matt.merge(
-      {vertex.position(), disk.side(), disk.radius(), disk.flatness(), disk.least_cosine(),
-       maximum_events - walk_.events(), weights.edges, weights.wide.slope, weights.narrow.slope,
-       in_.weights.matt_vertex(vertices_, plan_.counted_area(in_.camera_samples),
-                               plan_.counted_survival())});
+  const MattLight light =
+      in_.matt.merge({vertex.position(), disk.side(), disk.radius(), disk.flatness(),
+                      disk.least_cosine(), maximum_events - walk_.events(),
+                      weights.surroundings.edges, weights.wide.slope, weights.narrow.slope,
+                      in_.weights.matt_vertex(vertices_, plan_.counted_area(in_.camera_samples),
+                                              plan_.counted_survival())});
   const Spectrum reflected = vertex.diffuse_value();
   MergedLight result;
   const auto add = [&](Component component, const MattLight::Sum& sum) {
@@ -350,7 +364,7 @@ VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, const Di
   visit_merging(disk, maximum_events,
                 [&](const LightVertexData& photon, const Vec3f& offset, const Vec3f& wi,
                     const PathHalves& path) {
-                  if (!weights.edges.hold(offset)) return;
+                  if (!weights.surroundings.edges.hold(offset)) return;
                   const float weight = in_.weights.merge(path);
                   if (!(weight > 0)) return;
                   const Spectrum arriving =
