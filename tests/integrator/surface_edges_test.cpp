@@ -18,7 +18,7 @@ const std::string floor_ = flat("rectangle", scale("5, 5, 1"), grey);
 class Seen {
  public:
   explicit Seen(const std::string& inside, float x = 0, float y = 0, float reach = 0.5f)
-      : scene_(camera("0, 0, 9", "0, 0, 0", 30, 4, "0, 1, 0") + inside) {
+      : scene_(camera("0, 0, 9", "0, 0, 0", 30, 4, "0, 1, 0") + inside), reach_(reach) {
     vertex_ = vertex_at(x, y);
     edges_ = SurfaceEdges(scene_.scene(), vertex_, reach, rays_);
     around_ = edges_.around(vertex_.position());
@@ -33,6 +33,7 @@ class Seen {
   }
   const SurfaceEdges& edges() const { return edges_; }
   const DiskEdges& around() const { return around_; }
+  bool is_complete() const { return edges_.are_complete(vertex_.position(), reach_); }
   /// That there is an edge there, on the side of (x, y).
   void expect_edge(double x, double y, double distance) const {
     for (size_t i = 0; i < around_.count; ++i)
@@ -49,6 +50,7 @@ class Seen {
 
  private:
   TestScene scene_;
+  float reach_;
   SurfaceVertex vertex_;
   uint64_t rays_ = 0;
   SurfaceEdges edges_;
@@ -58,7 +60,9 @@ class Seen {
 TEST(SurfaceEdges, OfNothingNearby) {
   const Seen seen(floor_);
   EXPECT_EQ(seen.around().count, 0u);
-  EXPECT_TRUE(seen.edges().are_complete());
+  EXPECT_TRUE(seen.is_complete());
+  // Of what lies beyond its reach it knows nothing.
+  EXPECT_FALSE(seen.edges().are_complete({0.1f, 0, 0}, 0.5f));
 }
 
 TEST(SurfaceEdges, WallsAndCorners) {
@@ -71,7 +75,7 @@ TEST(SurfaceEdges, WallsAndCorners) {
   EXPECT_EQ(two.around().count, 2u);
   two.expect_edge(1, 0, 0.2);
   two.expect_edge(0, 1, 0.3);
-  EXPECT_TRUE(two.edges().are_complete());
+  EXPECT_TRUE(two.is_complete());
 }
 
 TEST(SurfaceEdges, EndsOfTheSurface) {
@@ -102,7 +106,15 @@ TEST(SurfaceEdges, BodiesOnTheFloor) {
 TEST(SurfaceEdges, CurvesAreNone) {
   const Seen ball(sphere("0, 0, -2", 2, grey));
   EXPECT_EQ(ball.around().count, 0u);
-  EXPECT_FALSE(ball.edges().are_complete());
+  EXPECT_FALSE(ball.is_complete());
+}
+
+/// A mirror in the floor keeps no light.
+TEST(SurfaceEdges, WhereNothingMerges) {
+  const Seen seen(flat("rectangle", scale("2, 5, 1") + translate("-1.9, 0, 0"), grey) +
+                  flat("rectangle", scale("2, 5, 1") + translate("2.1, 0, 0"), mirror()));
+  EXPECT_EQ(seen.around().count, 1u);
+  seen.expect_edge(1, 0, 0.1);
 }
 
 /// A wall that light passes through is none either.

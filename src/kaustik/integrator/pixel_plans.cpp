@@ -65,7 +65,8 @@ void PixelPlans::find_edges(const Scene& scene, float widths, float given, uint6
     uint64_t block_rays = 0;
     for (size_t i = begin; i < end; ++i) {
       const PixelProbe& probe = (*probes_)[i];
-      const float reach = given > 0 ? given : widths * probe.pixel_width;
+      const float reach =
+          (given > 0 ? given : widths * probe.pixel_width) + float(block_size) * probe.pixel_width;
       if (probe.found && reach > 0)
         (*edges)[i] = SurfaceEdges(scene, probe.vertex, reach, block_rays);
     }
@@ -75,11 +76,12 @@ void PixelPlans::find_edges(const Scene& scene, float widths, float given, uint6
   edges_ = std::move(edges);
 }
 
-PixelPlans::Surroundings PixelPlans::surroundings(const Vec2f& raster,
-                                                  const SurfaceVertex& vertex) const {
+PixelPlans::Surroundings PixelPlans::surroundings(const Vec2f& raster, const SurfaceVertex& vertex,
+                                                  float radius) const {
   if (!edges_) return {};
   const auto known = [&](const SurfaceEdges& edges) {
-    return Surroundings{edges.around(vertex.position()), edges.are_complete()};
+    return Surroundings{edges.around(vertex.position()),
+                        edges.are_complete(vertex.position(), radius)};
   };
   const Vec2i block = block_at(raster);
   const SurfaceEdges& own = (*edges_)[index_of(block)];

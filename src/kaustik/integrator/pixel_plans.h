@@ -39,16 +39,16 @@ class PixelPlans {
   /// `given` > 0 is taken for all, m. `paths`: light paths of a pass.
   void choose_disks(const LightVertices& pilot, uint32_t paths, int neighbors, float given);
 
-  /// Looks for the edges of what the probes show, as far as so many widths of a pixel, or `given`
-  /// > 0, m. Counts its rays.
+  /// Looks for the edges of what the probes show, for disks of so many widths of a pixel, or of
+  /// `given` > 0, m, around all that their blocks show. Counts its rays.
   void find_edges(const Scene& scene, float widths, float given, uint64_t& rays);
 
   struct Surroundings {
     DiskEdges edges;
     bool are_complete = false;  ///< nothing else was seen to end the surface
   };
-  /// Of a vertex that a pixel shows, by the probes around.
-  Surroundings surroundings(const Vec2f& raster, const SurfaceVertex& vertex) const;
+  /// Of a disk around a vertex that a pixel shows, by the probes around.
+  Surroundings surroundings(const Vec2f& raster, const SurfaceVertex& vertex, float radius) const;
   /// Those of a probe's own.
   DiskEdges edges_of(size_t probe) const;
   /// One per block of pixels, row by row.

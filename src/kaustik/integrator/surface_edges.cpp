@@ -92,7 +92,8 @@ class Search {
   }
   bool is_same_plane(float angle, float distance) const {
     const auto surface = coverage_.surface_at(reach_, distance, angle);
-    return surface && std::fabs(dot(surface->ng, frame_.z)) > same_normal &&
+    return surface && coverage_.merges_at(*surface) &&
+           std::fabs(dot(surface->ng, frame_.z)) > same_normal &&
            std::fabs(dot(surface->position - origin_, frame_.z)) <= same_height * reach_;
   }
   /// Whether there is, a little beyond, what the surface may have turned to by and by.

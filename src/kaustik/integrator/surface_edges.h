@@ -19,8 +19,10 @@ class SurfaceEdges {
   bool hold_at(const SurfaceVertex& vertex) const;
   /// For disks around such a vertex.
   DiskEdges around(const Vec3f& position) const;
-  /// Whether nothing else was seen to end the surface.
-  bool are_complete() const { return complete_; }
+  /// Whether nothing else was seen to end the surface within a disk.
+  bool are_complete(const Vec3f& position, float radius) const {
+    return complete_ && length(position - position_) + radius <= reach_;
+  }
 
  private:
   struct Line {

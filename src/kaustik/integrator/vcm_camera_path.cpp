@@ -283,7 +283,8 @@ void VcmCameraPath::MergedLight::scale(float factor) {
 
 VcmCameraPath::DiskWeights VcmCameraPath::disk_weights(const MergeDisk& disk) const {
   PixelPlans::Surroundings surroundings;
-  if (all_delta_) surroundings = in_.pixels.surroundings(walk_.raster(), disk.vertex());
+  if (all_delta_)
+    surroundings = in_.pixels.surroundings(walk_.raster(), disk.vertex(), disk.radius());
   const DiskEdges& edges = surroundings.edges;
   const Frame frame(disk.side());
   return {surroundings, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
