@@ -211,10 +211,12 @@ void expect_independence(const std::string& what, const SeedsAndPasses& pictures
   }
 }
 
+/// Small pixels: with wide disks the bias of merging, which depends on the pass, would be something
+/// that seeds have in common.
 TEST(Determinism, ReplicatesAreIndependent) {
-  const TestScene scene = small_scene(20);
+  const TestScene scene = small_scene(40);
   for (const Method& m : methods(1000))
-    expect_independence(m.type, SeedsAndPasses(scene, *scene.integrator(m.type, m.parameters), 4));
+    expect_independence(m.type, SeedsAndPasses(scene, *scene.integrator(m.type, m.parameters), 1));
 }
 
 /// The same of so few photons that most of the noise is theirs.

@@ -21,7 +21,7 @@ class Seen {
       : scene_(camera("0, 0, 9", "0, 0, 0", 30, 4, "0, 1, 0") + inside), reach_(reach) {
     vertex_ = vertex_at(x, y);
     edges_ = SurfaceEdges(scene_.scene(), vertex_, reach, rays_);
-    around_ = edges_.around(vertex_.position());
+    around_ = edges_.around(vertex_.position(), reach);
   }
   SurfaceVertex vertex_at(float x, float y) const {
     const Ray ray{{x, y, 3}, {0, 0, -1}, infinity};

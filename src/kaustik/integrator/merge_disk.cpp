@@ -39,9 +39,10 @@ DiskCoverage::DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t
       frame_(widest.side()),
       both_sides_(widest.both_sides()),
       rays_(rays) {
-  const float least = 1e-3f * widest.radius();
-  const Ray up{vertex_.position() + frame_.z * least, frame_.z,
-               widest.radius() / per_clearance - least};
+  // From off the surface, by what its position may be wrong.
+  Ray up = spawn_ray(vertex_.point(), frame_.z);
+  const float least = std::max(dot(up.origin - vertex_.position(), frame_.z), 0.0f);
+  up.t_max = widest.radius() / per_clearance - least;
   free_ = least + distance_to(up, [&](const SurfacePoint& point) { return hides(point); });
 }
 
@@ -69,23 +70,23 @@ std::optional<SurfacePoint> DiskCoverage::obstacle(float height, float angle, fl
   return result;
 }
 
-std::optional<SurfacePoint> DiskCoverage::surface_at(float radius, float distance,
-                                                     float angle) const {
-  const float height = free_height(height_share * radius);
+std::optional<SurfacePoint> DiskCoverage::surface_at(float wanted_height, float depth,
+                                                     float distance, float angle) const {
+  const float height = free_height(wanted_height);
   const Vec3f over = vertex_.position() + frame_.z * height + across(angle) * distance;
   std::optional<SurfacePoint> result;
-  distance_to({over, -frame_.z, height + MergeDisk(vertex_, radius).flatness()},
-              [&](const SurfacePoint& point) {
-                if (merges_at(point) || hides(point)) result = point;
-                return result.has_value();
-              });
+  distance_to({over, -frame_.z, height + depth}, [&](const SurfacePoint& point) {
+    if (merges_at(point) || hides(point)) result = point;
+    return result.has_value();
+  });
   return result;
 }
 
 bool DiskCoverage::holds(float radius, float distance, float angle) const {
-  const auto surface = surface_at(radius, distance, angle);
+  const float height = height_share * radius;
+  const auto surface = surface_at(height, MergeDisk(vertex_, radius).flatness(), distance, angle);
   if (!surface || !merges_at(*surface)) return false;
-  return !(distance > 0) || !obstacle(height_share * radius, angle, distance);
+  return !(distance > 0) || !obstacle(height, angle, distance);
 }
 
 float DiskCoverage::inverse_share(float radius, const DiskEdges& edges, Sampler numbers) const {

@@ -70,9 +70,9 @@ class DiskCoverage {
 
   /// What is met first, at that height over the plane, on the way in the direction `angle`.
   std::optional<SurfacePoint> obstacle(float height, float angle, float reach) const;
-  /// What lies below or above a point of the plane, nearer than the flatness of the disk of that
-  /// radius.
-  std::optional<SurfacePoint> surface_at(float radius, float distance, float angle) const;
+  /// What is met first from that height over a point of the plane down to that depth below it.
+  std::optional<SurfacePoint> surface_at(float height, float depth, float distance,
+                                         float angle) const;
   /// Whether light vertices at a point of a surface merge, as far as its normal tells.
   bool merges_at(const SurfacePoint& point) const;
 

@@ -58,12 +58,13 @@ void PixelPlans::choose_disks(const LightVertices& pilot, uint32_t paths, int wa
   other_area_ = pi * sqr(std::min(typical, most_other_radius * mean_distance_));
 }
 
-void PixelPlans::find_edges(const Scene& scene, float widths, float given, uint64_t& rays) {
+void PixelPlans::find_edges(const Scene& scene, float widths, float given, uint64_t& rays,
+                            const std::stop_token& stop) {
   auto edges = std::make_shared<std::vector<SurfaceEdges>>(probes_->size());
   std::atomic<uint64_t> counted{0};
   parallel_blocks(edges->size(), 16, [&](size_t begin, size_t end, size_t) {
     uint64_t block_rays = 0;
-    for (size_t i = begin; i < end; ++i) {
+    for (size_t i = begin; i < end && !stop.stop_requested(); ++i) {
       const PixelProbe& probe = (*probes_)[i];
       const float reach =
           (given > 0 ? given : widths * probe.pixel_width) + float(block_size) * probe.pixel_width;
@@ -80,7 +81,7 @@ PixelPlans::Surroundings PixelPlans::surroundings(const Vec2f& raster, const Sur
                                                   float radius) const {
   if (!edges_) return {};
   const auto known = [&](const SurfaceEdges& edges) {
-    return Surroundings{edges.around(vertex.position()),
+    return Surroundings{edges.around(vertex.position(), radius),
                         edges.are_complete(vertex.position(), radius)};
   };
   const Vec2i block = block_at(raster);
@@ -94,8 +95,11 @@ PixelPlans::Surroundings PixelPlans::surroundings(const Vec2f& raster, const Sur
   return {};
 }
 
-DiskEdges PixelPlans::edges_of(size_t probe) const {
-  return edges_ ? (*edges_)[probe].around((*probes_)[probe].vertex.position()) : DiskEdges();
+PixelPlans::Surroundings PixelPlans::surroundings(size_t probe, float radius) const {
+  if (!edges_) return {};
+  const Vec3f position = (*probes_)[probe].vertex.position();
+  const SurfaceEdges& edges = (*edges_)[probe];
+  return {edges.around(position, radius), edges.are_complete(position, radius)};
 }
 
 PixelPlans PixelPlans::with(std::vector<PixelPlan> plans) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 #include "kaustik/integrator/pixel_probes.h"
@@ -41,7 +42,8 @@ class PixelPlans {
 
   /// Looks for the edges of what the probes show, for disks of so many widths of a pixel, or of
   /// `given` > 0, m, around all that their blocks show. Counts its rays.
-  void find_edges(const Scene& scene, float widths, float given, uint64_t& rays);
+  void find_edges(const Scene& scene, float widths, float given, uint64_t& rays,
+                  const std::stop_token& stop = {});
 
   struct Surroundings {
     DiskEdges edges;
@@ -49,8 +51,8 @@ class PixelPlans {
   };
   /// Of a disk around a vertex that a pixel shows, by the probes around.
   Surroundings surroundings(const Vec2f& raster, const SurfaceVertex& vertex, float radius) const;
-  /// Those of a probe's own.
-  DiskEdges edges_of(size_t probe) const;
+  /// The same around a probe.
+  Surroundings surroundings(size_t probe, float radius) const;
   /// One per block of pixels, row by row.
   const std::vector<PixelProbe>& probes() const { return *probes_; }
   const Vec2i& blocks() const { return blocks_; }

@@ -40,17 +40,18 @@ RadiusLearning::Disagreement::Pairs RadiusLearning::disagreement_of(const KindSu
   // Where next to nothing has arrived, a single vertex more would do.
   const double of_one =
       sums.light[levels - 1] > 0 ? sums.squares[levels - 1] / sums.light[levels - 1] : 0.0;
-  std::array<double, levels> area{}, light{};
+  std::array<double, levels> area{}, share{}, light{};
   for (size_t i = 0; i < levels; ++i) {
     const Level& level = of[i];
-    const double share = std::max(0.05, level.share);
-    area[i] = level.moments.one * sqr(level.radius) * share;
+    area[i] = level.moments.one * sqr(level.radius);
+    share[i] = std::max(0.05, level.share);
     light[i] = (sums.light[i] + level.slope_x * sums.x[i] + level.slope_y * sums.y[i]) *
-               level.scale / share;
+               level.scale / share[i];
   }
   for (size_t i = 1; i < levels; ++i)
     for (size_t j = 0; j < i; ++j) {
       if (sqr(sums.light[j]) < least_directions * sums.squares[j]) continue;
+      if (!(area[i] > area[j])) continue;
       // ∫ of the squared factor of the wide disk over the narrow one; over its own disk that is its
       // scale, and so is that of the product with the factor of the narrow one over that.
       const DiskMoments& m = of[j].moments;
@@ -60,8 +61,10 @@ RadiusLearning::Disagreement::Pairs RadiusLearning::disagreement_of(const KindSu
           (m.one + 2 * (x * m.x + y * m.y) + x * x * m.xx + 2 * x * y * m.xy + y * y * m.yy);
       const double inside = std::max(sums.squares[j], of_one * of_one) / area[j];
       const double outside = (sums.squares[i] - sums.squares[j]) / (area[i] - area[j]);
-      const double variance = inside * std::max(0.0, of[j].scale - 2 * of[i].scale + within) +
-                              outside * std::max(0.0, of[i].scale - within);
+      const double variance = inside * std::max(0.0, of[j].scale / sqr(share[j]) -
+                                                         2 * of[i].scale / (share[i] * share[j]) +
+                                                         within / sqr(share[i])) +
+                              outside * std::max(0.0, of[i].scale - within) / sqr(share[i]);
       result[i][j] = variance > 0 ? float(sqr(light[i] - light[j]) / variance) : 0.0f;
     }
   return result;
@@ -79,11 +82,13 @@ RadiusLearning::Disagreement RadiusLearning::disagreement_of(const Sums& sums, c
 
 /// Ring by ring: each disk has twice the area of the one before.
 RadiusLearning::Levels RadiusLearning::levels_of(const Scene& scene, const PixelProbe& probe,
-                                                 const DiskEdges& edges, size_t number,
+                                                 const PixelPlans& first, size_t number,
                                                  uint64_t& rays) {
   const MergeDisk widest(probe.vertex, float(level_radius(probe, int(levels) - 1)));
   const DiskCoverage coverage(scene, widest, rays);
   const Frame frame(widest.side());
+  const PixelPlans::Surroundings surroundings = first.surroundings(number, widest.radius());
+  const DiskEdges& edges = surroundings.edges;
   Levels result;
   double covered = 0, area = 0;  // of what edges leave, m²
   for (size_t i = 0; i < levels; ++i) {
@@ -91,7 +96,8 @@ RadiusLearning::Levels RadiusLearning::levels_of(const Scene& scene, const Pixel
     level.radius = level_radius(probe, int(i));
     const auto radius = float(level.radius);
     level.moments = disk_moments(frame, radius, edges, KernelShape::flat);
-    const DiskKernel kernel(frame, radius, edges, KernelShape::flat);
+    DiskKernel kernel(frame, radius, edges, KernelShape::flat);
+    if (!surroundings.are_complete) kernel.level();
     level.scale = double(kernel.scale);
     level.slope_x = double(dot(kernel.slope, frame.x));
     level.slope_y = double(dot(kernel.slope, frame.y));
@@ -125,7 +131,7 @@ RadiusLearning::RadiusLearning(const Scene& scene, const PixelPlans& first, uint
     uint64_t block_rays = 0;
     for (size_t p = begin; p < end && !stop.stop_requested(); ++p)
       if (first.probes()[p].found)
-        levels_[p] = levels_of(scene, first.probes()[p], first.edges_of(p), p, block_rays);
+        levels_[p] = levels_of(scene, first.probes()[p], first, p, block_rays);
     counted += block_rays;
   });
   rays += counted;
@@ -144,7 +150,7 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
       const auto widest = float(level_radius(probe, level_count - 1));
       const MergeDisk disk(probe.vertex, widest);
       const Frame frame(disk.side());
-      const DiskEdges edges = first.edges_of(p);
+      const DiskEdges edges = first.surroundings(p, widest).edges;
       Sums& sums = result[p];
       light.tree.within(
           probe.vertex.position(), disk.side(), false, sqr(widest), [&](uint32_t index, float) {

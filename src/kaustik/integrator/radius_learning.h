@@ -77,7 +77,7 @@ class RadiusLearning {
     double scale = 0, slope_x = 0, slope_y = 0;  ///< 1/m², 1/m, 1/m
   };
   using Levels = std::array<Level, level_count>;
-  static Levels levels_of(const Scene& scene, const PixelProbe& probe, const DiskEdges& edges,
+  static Levels levels_of(const Scene& scene, const PixelProbe& probe, const PixelPlans& first,
                           size_t number, uint64_t& rays);
   static Disagreement::Pairs disagreement_of(const KindSums& sums, const Levels& levels);
   static Disagreement disagreement_of(const Sums& sums, const Levels& levels);

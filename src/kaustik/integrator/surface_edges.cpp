@@ -42,11 +42,13 @@ class Search {
         coverage_(scene, disk_, rays),
         origin_(vertex.position()),
         frame_(disk_.side()),
-        reach_(reach) {
+        reach_(reach),
+        complete_(reach) {
     for (size_t i = 0; i < direction_count; ++i) look(i);
   }
 
-  bool is_complete() const { return complete_; }
+  /// How far nothing was seen to end the surface but the candidates, m.
+  float complete() const { return complete_; }
   Vec3f direction(size_t i) const { return across(angle_of(i)); }
   /// From near to far.
   std::vector<Candidate> candidates() {
@@ -64,24 +66,23 @@ class Search {
 
   void look(size_t i) {
     const float angle = angle_of(i);
-    if (const auto wall = coverage_.obstacle(wall_height * reach_, angle, reach_)) {
-      add_wall(i, *wall);
-      return;
-    }
-    const auto end = end_at(angle);
+    const auto wall = coverage_.obstacle(wall_height * reach_, angle, reach_);
+    const float at_wall = wall ? dot(wall->position - origin_, across(angle)) : reach_;
+    if (wall) add_wall(i, *wall);
+    const auto end = end_at(angle, at_wall / same_distance);
     if (!end) return;
     if (goes_on(angle, *end))
-      complete_ = false;
+      complete_ = std::min(complete_, *end);
     else
       add_end(i, *end);
   }
 
-  /// How far the plane goes on.
-  std::optional<float> end_at(float angle) const {
+  /// How far the plane goes on, if not as far as `farthest`.
+  std::optional<float> end_at(float angle, float farthest) const {
     for (const float share : {0.25f, 0.5f, 0.75f, 1.0f}) {
-      const float distance = share * reach_;
+      const float distance = share * farthest;
       if (is_same_plane(angle, distance)) continue;
-      float near = distance - 0.25f * reach_, far = distance;
+      float near = distance - 0.25f * farthest, far = distance;
       for (int step = 0; step < bisections; ++step) {
         const float middle = 0.5f * (near + far);
         (is_same_plane(angle, middle) ? near : far) = middle;
@@ -90,8 +91,12 @@ class Search {
     }
     return std::nullopt;
   }
+  /// Under what hangs over the surface, as light that merges there is.
+  std::optional<SurfacePoint> surface_at(float distance, float angle) const {
+    return coverage_.surface_at(wall_height * reach_, disk_.flatness(), distance, angle);
+  }
   bool is_same_plane(float angle, float distance) const {
-    const auto surface = coverage_.surface_at(reach_, distance, angle);
+    const auto surface = surface_at(distance, angle);
     return surface && coverage_.merges_at(*surface) &&
            std::fabs(dot(surface->ng, frame_.z)) > same_normal &&
            std::fabs(dot(surface->position - origin_, frame_.z)) <= same_height * reach_;
@@ -99,7 +104,7 @@ class Search {
   /// Whether there is, a little beyond, what the surface may have turned to by and by.
   bool goes_on(float angle, float distance) const {
     const float step = 0.05f * reach_;
-    const auto surface = coverage_.surface_at(reach_, distance + step, angle);
+    const auto surface = surface_at(distance + step, angle);
     return surface && coverage_.merges_at(*surface) &&
            std::fabs(dot(surface->position - origin_, frame_.z)) <= gentle * step;
   }
@@ -109,7 +114,7 @@ class Search {
     const Vec3f in_plane = wall.ng - frame_.z * up;
     const float sine = length(in_plane);
     if (sine < least_sine || coverage_.merges_at(wall)) {
-      complete_ = false;
+      complete_ = std::min(complete_, length(wall.position - origin_));
       return;
     }
     const float distance = dot(wall.ng, origin_ - wall.position) / sine;
@@ -119,7 +124,7 @@ class Search {
   void add_end(size_t i, float distance) {
     const Vec3f end = direction(i) * distance;
     for (const float angle : {angle_of(i) + end_angle, angle_of(i) - end_angle}) {
-      const auto other = end_at(angle);
+      const auto other = end_at(angle, reach_);
       if (!other) continue;
       const Vec3f in_plane = cross(across(angle) * *other - end, frame_.z);
       const float size = length(in_plane);
@@ -133,7 +138,7 @@ class Search {
   void add(size_t i, const Vec3f& inward, float distance) {
     const float cosine = -dot(inward, direction(i));
     if (!(cosine > 0)) {
-      complete_ = false;
+      complete_ = std::min(complete_, distance);
       return;
     }
     candidates_.push_back({inward, distance, i, distance / cosine});
@@ -145,7 +150,7 @@ class Search {
   Frame frame_;
   float reach_;
   std::vector<Candidate> candidates_;
-  bool complete_ = true;
+  float complete_;
 };
 
 }  // namespace
@@ -158,17 +163,16 @@ SurfaceEdges::SurfaceEdges(const Scene& scene, const SurfaceVertex& vertex, floa
     float known = infinity;
     for (const Line& line : lines_) {
       const float cosine = -dot(line.inward, search.direction(candidate.direction));
-      const float distance = dot(line.inward, position_) - line.offset;
-      if (cosine > 0) known = std::min(known, distance / cosine);
+      if (cosine > 0) known = std::min(known, line.distance / cosine);
     }
     if (candidate.along * same_distance >= known) continue;
     if (lines_.size() == DiskEdges::most) {
-      complete_ = false;
+      complete_ = std::min(search.complete(), candidate.distance);
       return;
     }
-    lines_.push_back({candidate.inward, dot(candidate.inward, position_) - candidate.distance});
+    lines_.push_back({candidate.inward, candidate.distance});
   }
-  complete_ = search.is_complete();
+  complete_ = search.complete();
 }
 
 bool SurfaceEdges::hold_at(const SurfaceVertex& vertex) const {
@@ -177,15 +181,16 @@ bool SurfaceEdges::hold_at(const SurfaceVertex& vertex) const {
       std::fabs(dot(across, normal_)) > same_height * reach_)
     return false;
   for (const Line& line : lines_)
-    if (dot(line.inward, vertex.position()) < line.offset - same_height * reach_) return false;
+    if (dot(line.inward, across) < -line.distance) return false;
   return true;
 }
 
-DiskEdges SurfaceEdges::around(const Vec3f& position) const {
+DiskEdges SurfaceEdges::around(const Vec3f& position, float radius) const {
   DiskEdges result;
-  for (const Line& line : lines_)
-    result.edges[result.count++] = {line.inward,
-                                    std::max(0.0f, dot(line.inward, position) - line.offset)};
+  for (const Line& line : lines_) {
+    const float distance = line.distance + dot(line.inward, position - position_);
+    if (distance < radius) result.edges[result.count++] = {line.inward, std::max(0.0f, distance)};
+  }
   return result;
 }
 

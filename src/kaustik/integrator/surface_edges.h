@@ -17,23 +17,23 @@ class SurfaceEdges {
   /// Whether they hold at another vertex: it lies on the same side of the same
   /// plane, on the near side of all lines.
   bool hold_at(const SurfaceVertex& vertex) const;
-  /// For disks around such a vertex.
-  DiskEdges around(const Vec3f& position) const;
+  /// Those that cut the disk around such a vertex.
+  DiskEdges around(const Vec3f& position, float radius) const;
   /// Whether nothing else was seen to end the surface within a disk.
   bool are_complete(const Vec3f& position, float radius) const {
-    return complete_ && length(position - position_) + radius <= reach_;
+    return length(position - position_) + radius <= complete_;
   }
 
  private:
   struct Line {
     Vec3f inward;
-    float offset;  ///< dot(inward, point) of its points
+    float distance;  ///< from position_
   };
   std::vector<Line> lines_;
   Vec3f position_{0, 0, 0},
       normal_{0, 0, 0};  ///< on the side that is seen; zero: looked at nothing
   float reach_ = 0;
-  bool complete_ = false;
+  float complete_ = 0;  ///< how far nothing else was seen to end the surface, m
 };
 
 }  // namespace kaustik

@@ -21,9 +21,6 @@ constexpr uint32_t coverage_key = 1, bias_key = 2;
 constexpr float bias_chance = 0.25f;
 const float half_area = std::sqrt(0.5f);  ///< of the radius
 
-/// Chance of looking at what is covered where edges say all.
-constexpr float look_chance = 0.125f;
-
 /// A point of `light` as emission sees it: its normal is on the side that shines to `direction`.
 SurfacePoint shining(const Light& light, SurfacePoint point, const Vec3f& direction) {
   if (light.is_two_sided() && dot(point.ng, direction) < 0) {
@@ -257,8 +254,11 @@ void VcmCameraPath::merge(int maximum_events) {
                               : merged(disk, weights, lobes, maximum_events);
   if (light.is_zero()) return;
   const auto paths = float(in_.light.path_count);
+  // Numbers of their own: how many there are is not known beforehand.
   light.scale(weights.wide.scale *
-              inverse_share(covered, radius, weights.surroundings, coverage_key) / paths);
+              covered.inverse_share(radius, weights.surroundings.edges,
+                                    walk_.sampler().fork(coverage_key)) /
+              paths);
   Spectrum total;
   for (int c = 0; c < component_count; ++c) {
     const Spectrum& sum = light.of[size_t(c)];
@@ -267,8 +267,8 @@ void VcmCameraPath::merge(int maximum_events) {
   }
   // The bias grows by the area, so it is twice what half of the area takes off.
   if (!(walk_.sampler().fork(bias_key).next_1d() < bias_chance)) return;
-  const float narrow_coverage =
-      inverse_share(covered, radius * half_area, weights.surroundings, bias_key + 1);
+  const float narrow_coverage = covered.inverse_share(
+      radius * half_area, weights.surroundings.edges, walk_.sampler().fork(bias_key + 1));
   const Spectrum narrow = light.narrow * (weights.narrow.scale * narrow_coverage / paths);
   walk_.add_bias((total - narrow) * (2 / bias_chance));
 }
@@ -287,19 +287,14 @@ VcmCameraPath::DiskWeights VcmCameraPath::disk_weights(const MergeDisk& disk) co
     surroundings = in_.pixels.surroundings(walk_.raster(), disk.vertex(), disk.radius());
   const DiskEdges& edges = surroundings.edges;
   const Frame frame(disk.side());
-  return {surroundings, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
-          DiskKernel(frame, disk.radius() * half_area, edges, KernelShape::parabolic)};
-}
-
-float VcmCameraPath::inverse_share(const DiskCoverage& covered, float radius,
-                                   const PixelPlans::Surroundings& surroundings,
-                                   uint32_t key) const {
-  // Numbers of their own: how many there are is not known beforehand.
-  Sampler numbers = walk_.sampler().fork(key);
-  if (!surroundings.are_complete) return covered.inverse_share(radius, surroundings.edges, numbers);
-  // It is hardly ever less than all: looking counts for the times without.
-  if (!(numbers.next_1d() < look_chance)) return 1;
-  return 1 + (covered.inverse_share(radius, surroundings.edges, numbers) - 1) / look_chance;
+  DiskWeights weights{surroundings, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
+                      DiskKernel(frame, disk.radius() * half_area, edges, KernelShape::parabolic)};
+  // Slopes are for all of what edges leave, not for a part of it that is covered.
+  if (!surroundings.are_complete) {
+    weights.wide.level();
+    weights.narrow.level();
+  }
+  return weights;
 }
 
 VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk,

@@ -77,9 +77,6 @@ class VcmCameraPath final : public LightWeights {
     DiskKernel wide, narrow;
   };
   DiskWeights disk_weights(const MergeDisk& disk) const;
-  /// One over the share of a disk that is covered; `key`: of the random numbers.
-  float inverse_share(const DiskCoverage& covered, float radius,
-                      const PixelPlans::Surroundings& surroundings, uint32_t key) const;
   MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights,
                           int maximum_events) const;
   MergedLight merged(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes,

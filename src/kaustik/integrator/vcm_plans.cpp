@@ -133,7 +133,7 @@ VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& sto
     plans.settle(plans.pixels.plans(), 1);
   if (plans.techniques.merging)
     plans.pixels.find_edges(scene_, RadiusLearning::widest_widths(), settings_.radius,
-                            plans.pilot_rays);
+                            plans.pilot_rays, stop);
   return plans;
 }
 

@@ -142,21 +142,20 @@ DiskMoments disk_moments(const Frame& frame, float radius, const DiskEdges& edge
 DiskKernel::DiskKernel(const Frame& frame, float radius, const DiskEdges& edges,
                        KernelShape shape) {
   const DiskMoments m = disk_moments(frame, radius, edges, shape);
-  const auto unit_scale = [&] { return float(1 / (m.one * double(radius) * double(radius))); };
-  if (!edges.cut(radius)) {
-    scale = unit_scale();
-    return;
-  }
+  even_scale_ = scale = float(1 / (m.one * double(radius) * double(radius)));
+  if (!edges.cut(radius)) return;
   // a + b · p with ∫ (a + b · p) = 1 and ∫ p (a + b · p) = 0.
   const double determinant = m.xx * m.yy - m.xy * m.xy;
-  if (!(determinant > 0)) {
-    scale = unit_scale();
-    return;
-  }
+  if (!(determinant > 0)) return;
   const double bx = -(m.yy * m.x - m.xy * m.y) / determinant;
   const double by = -(m.xx * m.y - m.xy * m.x) / determinant;
   scale = float(1 / ((m.one + bx * m.x + by * m.y) * double(radius) * double(radius)));
   slope = (frame.x * float(bx) + frame.y * float(by)) * (1 / radius);
+}
+
+void DiskKernel::level() {
+  scale = even_scale_;
+  slope = {0, 0, 0};
 }
 
 }  // namespace kaustik

@@ -53,7 +53,12 @@ struct DiskKernel {
 
   /// For what edges leave of the disk, if that is no sliver.
   DiskKernel(const Frame& frame, float radius, const DiskEdges& edges, KernelShape shape);
+  /// Leaves out the slope: then only even light is found as it is.
+  void level();
   float factor(const Vec3f& offset) const { return 1 + dot(slope, offset); }
+
+ private:
+  float even_scale_ = 0;  ///< scale without slope
 };
 
 }  // namespace kaustik
