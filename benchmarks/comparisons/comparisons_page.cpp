@@ -68,7 +68,9 @@ std::string page(const Results& results, const std::filesystem::path& docs) {
       "`make bench-scenes` measures this, `make comparisons` writes the page. Relative MSE is the "
       "mean over pixels and channels of\n(x − r)²/(r² + 0.01) without the worst 0.1 % of the "
       "pixels, against references that `make references` makes (of `peer_…`: where\nthere are "
-      "any, else those that other renderers have made). Time counts from the start of rendering; a "
+      "any, else those that other renderers have made). In these, what mirrors and glass show of "
+      "focused light is by `auto`\nitself, of long runs; see benchmarks/README.md. Time counts "
+      "from the start of rendering; a "
       "picture counts from the end of its "
       "last pass.\nWhere there are several seeds, errors are means over them. Ratios above 1 say "
       "how many times less the error of `{}` is.\n\n{}\n\n",
