@@ -10,9 +10,12 @@ RESULTS ?= out/bench_scenes.jsonl
 bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--integrators $(INTEGRATORS)) \
   $(if $(SECONDS),--seconds $(SECONDS)) $(if $(SEEDS),--seeds $(SEEDS)) $(if $(REFERENCES),--references $(REFERENCES))
 comma = ,
+ablation_scenes = peer_cornell,peer_cornell_glass,peer_ring,peer_pool_above,peer_pool_below,peer_hidden_light
+ablation_integrators = auto,ppm,ppm:guiding=false,ppm:aim=none,ppm:choose_survival=false,ppm:learn_radii=false,ppm:edges=false,$\
+  ppm:correlation=false,ppm:merging=false,ppm:splats=true,ppm:splats=true:connections=true
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test thesis bench bench-scenes bench-peers comparisons references install package docs format clean
+.PHONY: all setup configure build render test thesis bench bench-scenes bench-peers ablation comparisons references install package docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -47,6 +50,13 @@ bench: build
 bench-scenes: configure
 	@cmake --build --preset release --target bench_scenes comparisons_page
 	$(comparisons)/bench_scenes --results $(RESULTS) $(bench_scenes_options)
+	$(comparisons)/comparisons_page $(RESULTS)
+
+# What each device of ppm and auto is worth: the error without it, on six scenes.
+ablation: configure
+	@cmake --build --preset release --target bench_scenes comparisons_page
+	$(comparisons)/bench_scenes --results $(RESULTS) --scenes $(or $(SCENES),$(ablation_scenes)) --seconds $(or $(SECONDS),5$(comma)20) \
+	  --seeds $(or $(SEEDS),1) --integrators $(or $(INTEGRATORS),$(ablation_integrators))
 	$(comparisons)/comparisons_page $(RESULTS)
 
 # Beside Blender Cycles and POV-Ray at equal time: make bench-peers TIME=60 SCENES=metal_ring INTEGRATOR=vcm

@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/scene/scene_report.h"
+#include "render_job.h"
 
 namespace kaustik::app {
 namespace {
@@ -10,7 +11,9 @@ namespace {
 void info(const std::string& path, const std::vector<std::string>& definitions) {
   LoadOptions load;
   load.definitions = parse_definitions(definitions);
-  const auto scene = build_scene(load_mitsuba_xml(path, load));
+  const Description description = load_mitsuba_xml(path, load);
+  tell_of_memory(description);
+  const auto scene = build_scene(description);
   const SceneReport report = describe_scene(*scene);
   for (const std::string& line : report.lines) fmt::print("{}\n", line);
   for (const std::string& warning : report.warnings) fmt::print("warning: {}\n", warning);

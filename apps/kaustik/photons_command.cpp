@@ -10,6 +10,7 @@
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/photon_tracing.h"
 #include "kaustik/scene/overrides.h"
+#include "render_job.h"
 #include "thesis_settings.h"
 
 namespace kaustik::app {
@@ -79,6 +80,7 @@ void trace_photons(const PhotonsOptions& options) {
   // Before the settings, so that they speak of the integrator that is used.
   override_integrator(description, "photonmap");
   apply_settings(description, options.levels, options.settings);
+  tell_of_memory(description);
   const auto scene = build_scene(description);
   for (const std::string& warning : scene->warnings()) warn(warning);
 

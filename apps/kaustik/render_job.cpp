@@ -6,7 +6,9 @@
 
 #include "checkpoint_keeper.h"
 #include "console.h"
+#include "kaustik/base/memory.h"
 #include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/scene/mesh_memory.h"
 #include "picture_output.h"
 
 namespace kaustik::app {
@@ -28,7 +30,20 @@ std::exception_ptr write_last_checkpoint(CheckpointKeeper& keeper, const Film& f
   return nullptr;
 }
 
+/// Meshes that take less are not worth a word.
+constexpr uint64_t much_memory = 500'000'000;
+
 }  // namespace
+
+void tell_of_memory(const Description& description) {
+  const uint64_t bytes = expected_mesh_memory(description);
+  if (bytes < much_memory) return;
+  const auto gigabytes = [](auto count) { return fmt::format("{:.1f} GB", double(count) / 1e9); };
+  note(fmt::format("reading large meshes: they will take up to {} of memory", gigabytes(bytes)));
+  if (bytes > uint64_t(physical_memory_bytes()))
+    warn(fmt::format("this machine has {}: the program may be stopped for lack of memory",
+                     gigabytes(physical_memory_bytes())));
+}
 
 Description load_description(const RenderRecipe& recipe) {
   LoadOptions load;
@@ -49,6 +64,7 @@ RenderJob make_job(Description description, const RenderRecipe& recipe, bool wit
       unreadable = std::current_exception();
     }
   }
+  tell_of_memory(description);
   // Tells of a file that cannot be read where it is named.
   job.scene = build_scene(description);
   if (unreadable) std::rethrow_exception(unreadable);

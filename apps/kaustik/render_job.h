@@ -15,6 +15,9 @@ struct RenderJob {
   ViewFacts view;
 };
 
+/// Says how much memory large meshes will take, before they are read.
+void tell_of_memory(const Description& description);
+
 /// The recipe's scene file with its definitions and its integrator, before its settings.
 Description load_description(const RenderRecipe& recipe);
 

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
-#include <set>
+#include <sstream>
 #include <thread>
 
 #include "benchmarks/comparisons/bench_scene.h"
@@ -33,9 +33,20 @@ struct Options {
 void say(const std::string& text) { fmt::print(stderr, "# {}\n", text); }
 
 bool is_known(const std::string& integrator) {
+  const std::string name = type_of(integrator);
   const std::vector<IntegratorType>& types = integrator_types();
   return std::any_of(types.begin(), types.end(),
-                     [&](const IntegratorType& type) { return type.info.name == integrator; });
+                     [&](const IntegratorType& type) { return type.info.name == name; });
+}
+
+/// `integrator` may have settings: see type_of().
+void set_integrator(Description& description, const std::string& integrator) {
+  override_integrator(description, type_of(integrator));
+  std::stringstream settings(integrator);
+  std::string setting;
+  std::getline(settings, setting, setting_separator);  // the type
+  while (std::getline(settings, setting, setting_separator))
+    override_property(description, "integrator." + setting);
 }
 
 /// Leaves out, and says so, what this program does not have.
@@ -71,7 +82,7 @@ std::string reference_path(const BenchScene& scene, const std::string& folder) {
 Description describe(const BenchScene& scene, const std::string& integrator,
                      const Image& reference) {
   Description description = load_mitsuba_xml(scene.file);
-  override_integrator(description, integrator);
+  set_integrator(description, integrator);
   override_property(description, fmt::format("film.width={}", reference.width()));
   override_property(description, fmt::format("film.height={}", reference.height()));
   return description;
@@ -171,7 +182,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--scenes", options.scenes, "Folders of scenes/, or peer_NAME")
       ->delimiter(',')
       ->capture_default_str();
-  app.add_option("--integrators", options.integrators, "Which to measure")
+  app.add_option("--integrators", options.integrators,
+                 "Which to measure; with settings: ppm:guiding=false:aim=none")
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--seconds", options.seconds,

@@ -58,6 +58,19 @@ std::string tables(const Results& results) {
         "[benchmarks/peer_scenes](../benchmarks/peer_scenes/README.md), which were measured\n"
         "on 2 cores of one machine at 20 s; ours are measured where this page was made.\n\n" +
         peers;
+  const std::string early = early_table(results);
+  if (!early.empty())
+    text +=
+        "\n## The first seconds\n\n`photonmap` gathers from maps through an irradiance cache: a "
+        "smooth picture soon, with a bias that stays visible longer.\nWhere it is ahead it is told "
+        "here.\n\n" +
+        early;
+  const std::string ablation = ablation_table(results);
+  if (!ablation.empty())
+    text +=
+        "\n## Each device off\n\nThe error with a setting changed over that without at equal "
+        "time, in parentheses the same of the time that a pass takes\n(`make ablation`).\n\n" +
+        ablation;
   return text + "\n## Means\n\nMean of the picture over that of the reference.\n\n" +
          mean_table(results);
 }

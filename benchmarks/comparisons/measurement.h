@@ -6,6 +6,12 @@
 
 namespace kaustik::bench {
 
+/// An integrator as it is named here may have settings, each after this sign: type:name=value.
+inline constexpr char setting_separator = ':';
+inline std::string type_of(const std::string& integrator) {
+  return integrator.substr(0, integrator.find(setting_separator));
+}
+
 /// What one run of an integrator on a scene came to: one line of a results file.
 struct Measurement {
   std::string scene, integrator;

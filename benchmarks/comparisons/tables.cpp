@@ -78,7 +78,7 @@ std::optional<double> best_of_four(const Results& results, const std::string& sc
 Results::Results(const std::vector<Measurement>& in_order) {
   for (const Measurement& m : in_order) {
     add_once(scenes_, m.scene);
-    add_once(integrators_, m.integrator);
+    add_once(type_of(m.integrator) == m.integrator ? integrators_ : variants_, m.integrator);
     std::erase_if(newest_, [&](const Measurement& old) {
       return old.scene == m.scene && old.integrator == m.integrator && old.seed == m.seed;
     });
@@ -124,6 +124,11 @@ std::optional<double> Results::mean_ratio(const std::string& scene,
   return mean_over_seeds(scene, integrator, [](const Measurement& m) { return m.mean_ratio; });
 }
 
+std::optional<double> Results::passes(const std::string& scene,
+                                      const std::string& integrator) const {
+  return mean_over_seeds(scene, integrator, [](const Measurement& m) { return double(m.passes); });
+}
+
 std::optional<double> Results::reference_relmse(const std::string& scene) const {
   for (const Measurement& m : newest_)
     if (m.scene == scene && !std::isnan(m.reference_relmse)) return m.reference_relmse;
@@ -163,6 +168,54 @@ std::string error_table(const Results& results) {
   means.push_back(cell(to_best.value(), "{:.3g}"));
   means.push_back(cell(to_path.value(), "{:.3g}"));
   table.add(means);
+  return table.text();
+}
+
+std::string early_table(const Results& results) {
+  const std::string headline = headline_of(results), rival = "photonmap";
+  if (headline == rival || !results.has(rival)) return {};
+  MarkdownTable table({"scene", "s", rival, headline, rival + " / " + headline, "ahead"});
+  GeometricMean mean;
+  for (const std::string& scene : results.scenes()) {
+    const double time = results.times(scene).front();
+    const auto theirs = results.relmse(scene, rival, time),
+               ours = results.relmse(scene, headline, time);
+    const std::optional<double> gain = ratio(theirs, ours);
+    if (!gain) continue;
+    mean.add(gain);
+    table.add({scene, fmt::format("{:g}", time), cell(theirs), cell(ours), cell(gain, "{:.3g}"),
+               *gain < 1 ? rival : headline});
+  }
+  table.add({"geometric mean", "", "", "", cell(mean.value(), "{:.3g}"), ""});
+  return table.text();
+}
+
+std::string ablation_table(const Results& results) {
+  if (results.variants().empty()) return {};
+  std::vector<std::string> header{"scene", "s"};
+  for (const std::string& variant : results.variants()) header.push_back(variant);
+  MarkdownTable table(header);
+  std::vector<GeometricMean> means(results.variants().size());
+  for (const std::string& scene : results.scenes()) {
+    const double time = results.last_time(scene);
+    std::vector<std::string> row{scene, fmt::format("{:g}", time)};
+    bool is_measured = false;
+    for (size_t i = 0; i < results.variants().size(); ++i) {
+      const std::string& variant = results.variants()[i];
+      const std::string whole = type_of(variant);
+      const std::optional<double> error =
+          ratio(results.relmse(scene, variant, time), results.relmse(scene, whole, time));
+      const std::optional<double> cost =
+          ratio(results.passes(scene, whole), results.passes(scene, variant));
+      means[i].add(error);
+      is_measured = is_measured || error;
+      row.push_back(cell(error, "{:.3g}") + " (" + cell(cost) + ")");
+    }
+    if (is_measured) table.add(row);
+  }
+  std::vector<std::string> last{"geometric mean", ""};
+  for (const GeometricMean& mean : means) last.push_back(cell(mean.value(), "{:.3g}"));
+  table.add(last);
   return table.text();
 }
 

@@ -1,7 +1,6 @@
 #include "kaustik/image/image.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <new>
@@ -9,15 +8,10 @@
 #include <set>
 
 #include "kaustik/base/error.h"
+#include "kaustik/base/memory.h"
 
 namespace kaustik {
 namespace {
-
-int64_t physical_memory_bytes() {
-  const int64_t pages = ::sysconf(_SC_PHYS_PAGES);
-  const int64_t page_size = ::sysconf(_SC_PAGESIZE);
-  return pages > 0 && page_size > 0 ? pages * page_size : INT64_MAX;
-}
 
 void check_channel_names(const std::vector<std::string>& names) {
   std::set<std::string_view> seen;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kaustik/base/parallel.h"
+
 namespace kaustik {
 namespace {
 
@@ -18,6 +20,7 @@ constexpr double rays_of_light_ray = 3;
 /// Errors count relative to a pixel's light, and this share of the picture's mean light.
 constexpr double even_share_of_mean = 0.1;
 constexpr int rounds = 6;
+constexpr size_t probes_per_block = 256;
 
 /// What a few paths have found nothing beyond is taken to have this share of the mean there: the
 /// paths of a picture, which are many more, may find light.
@@ -89,16 +92,17 @@ Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const Pas
   const double least = std::max(1e-30, even_share_of_mean * radiance / double(probes.size()));
   ProbeStatistics mean;
   for (const ProbeStatistics& probe : probes) mean.add(probe, 1 / double(probes.size()));
-  std::vector<Candidates> all;
-  all.reserve(probes.size());
-  for (size_t p = 0; p < probes.size(); ++p) {
-    ProbeStatistics probe = probes[p];
-    if (has_found_nothing(probe)) {
-      probe.squares = mean.squares;
-      for (double& squares : probe.squares) squares *= share_of_mean_unknown;
+  std::vector<Candidates> all(probes.size());
+  parallel_blocks(probes.size(), probes_per_block, [&](size_t begin, size_t end, size_t) {
+    for (size_t p = begin; p < end; ++p) {
+      ProbeStatistics probe = probes[p];
+      if (has_found_nothing(probe)) {
+        probe.squares = mean.squares;
+        for (double& squares : probe.squares) squares *= share_of_mean_unknown;
+      }
+      all[p] = candidates(probe, costs, scales[p], least);
     }
-    all.push_back(candidates(probe, costs, scales[p], least));
-  }
+  });
 
   // The least product of two sums is the least weighted sum for weights that are found by turns.
   std::vector<size_t> chosen(all.size(), chances.size() / 2);

@@ -133,7 +133,6 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
   plan.survival = plan.evenness = 1;
   constexpr double count = paths_per_probe;
   double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
-  bool has_merged = false;
   for (uint32_t i = 0; i < paths_per_probe; ++i) {
     Sampler sampler = Sampler::at(0, 0, Stream::training, pilot_element + index, i);
     SampleSink sink(limits.components);
@@ -147,11 +146,9 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
       if (walk.events() >= limits.maximum_events) break;
       walk.add_direct_light(1, 1);
       const bool was_before = path.is_at_first();
-      if (was_before && !has_merged &&
-          any(walk.vertex().lobes() & (Lobes::diffuse | Lobes::glossy))) {
-        has_merged = true;
+      // Of the first path alone: which vertex paths come to may be up to chance.
+      if (was_before && i == 0 && any(walk.vertex().lobes() & (Lobes::diffuse | Lobes::glossy)))
         add_merged(path, in.camera_samples, limits.light_share, limits.maximum_events, result);
-      }
       const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
       if (!walk.scatter(Lobes::all, 1, u_choice.x, u)) break;
       path.leave();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numbers>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/sampler.h"
@@ -23,6 +24,8 @@ constexpr double tolerated = 2.5;
 constexpr double least_directions = 12;
 /// Kinds of light with a smaller share don't count.
 constexpr double least_share = 0.05;
+/// Disks of which edges leave less tell nothing of those that the block's other vertices have.
+constexpr double least_left = 0.125;
 /// What merges at a vertex costs time: more than so many per pass are not worth theirs.
 constexpr double most_vertices = 600;
 
@@ -30,6 +33,7 @@ double level_radius(const PixelProbe& probe, int level) {
   return double(probe.pixel_width) * std::exp2(0.5 * level);
 }
 
+constexpr size_t probes_per_block = 256;
 constexpr auto levels = size_t(RadiusLearning::level_count);
 
 }  // namespace
@@ -87,8 +91,7 @@ RadiusLearning::Levels RadiusLearning::levels_of(const Scene& scene, const Pixel
   const MergeDisk widest(probe.vertex, float(level_radius(probe, int(levels) - 1)));
   const DiskCoverage coverage(scene, widest, rays);
   const Frame frame(widest.side());
-  const PixelPlans::Surroundings surroundings = first.surroundings(number, widest.radius());
-  const DiskEdges& edges = surroundings.edges;
+  const DiskEdges edges = first.surroundings(number, widest.radius()).edges;
   Levels result;
   double covered = 0, area = 0;  // of what edges leave, m²
   for (size_t i = 0; i < levels; ++i) {
@@ -97,7 +100,7 @@ RadiusLearning::Levels RadiusLearning::levels_of(const Scene& scene, const Pixel
     const auto radius = float(level.radius);
     level.moments = disk_moments(frame, radius, edges, KernelShape::flat);
     DiskKernel kernel(frame, radius, edges, KernelShape::flat);
-    if (!surroundings.are_complete) kernel.level();
+    if (!first.surroundings(number, radius).are_complete) kernel.level();
     level.scale = double(kernel.scale);
     level.slope_x = double(dot(kernel.slope, frame.x));
     level.slope_y = double(dot(kernel.slope, frame.y));
@@ -156,12 +159,14 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
           probe.vertex.position(), disk.side(), false, sqr(widest), [&](uint32_t index, float) {
             const LightVertexData& photon = light.tree.tree().data(index);
             const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
-            if (!disk.counts(offset, photon.side) || !edges.hold(offset)) return;
+            if (!disk.counts(offset, photon.side)) return;
             const double reach_sq = double(disk.least_radius_sq(offset));
             size_t level = 0;
             for (double limit = least_sq; reach_sq > limit; limit *= 2) ++level;
             if (level >= levels) return;
+            // The block's other vertices may have no edges.
             sums.vertices[level] += 1;
+            if (!edges.hold(offset)) return;
             const auto value = double(probe.sent(photon, wanted).sum());
             auto& kind = sums.of[photon.specular ? 0 : 1];
             kind.light[level] += value;
@@ -212,14 +217,22 @@ std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std:
                                              uint32_t passes, float shrinkage) const {
   std::vector<PixelPlan> result = first.plans();
   std::vector<Disagreement> disagreements(sums.size());
-  for (size_t p = 0; p < sums.size(); ++p) disagreements[p] = disagreement_of(sums[p], levels_[p]);
-  for (size_t p = 0; p < sums.size(); ++p) {
-    const PixelProbe& probe = first.probes()[p];
-    if (!probe.found) continue;
-    int level = widest_level(disagreements, first, p);
-    while (level > 0 && sums[p].vertices[size_t(level)] > most_vertices * passes) --level;
-    result[p].merge_area = float(pi * sqr(level_radius(probe, level))) / shrinkage;
-  }
+  parallel_blocks(sums.size(), probes_per_block, [&](size_t begin, size_t end, size_t) {
+    for (size_t p = begin; p < end; ++p) disagreements[p] = disagreement_of(sums[p], levels_[p]);
+  });
+  parallel_blocks(sums.size(), probes_per_block, [&](size_t begin, size_t end, size_t) {
+    for (size_t p = begin; p < end; ++p) {
+      const PixelProbe& probe = first.probes()[p];
+      if (!probe.found) continue;
+      int level = widest_level(disagreements, first, p);
+      const auto is_too_wide = [&](size_t i) {
+        return sums[p].vertices[i] > most_vertices * passes ||
+               levels_[p][i].moments.one < least_left * std::numbers::pi;
+      };
+      while (level > 0 && is_too_wide(size_t(level))) --level;
+      result[p].merge_area = float(pi * sqr(level_radius(probe, level))) / shrinkage;
+    }
+  });
   return result;
 }
 

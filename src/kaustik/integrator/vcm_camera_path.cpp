@@ -265,12 +265,16 @@ void VcmCameraPath::merge(int maximum_events) {
     if (!sum.is_zero()) walk_.add(Component(c), sum);
     total += sum;
   }
-  // The bias grows by the area, so it is twice what half of the area takes off.
+  // The bias grows by the area, so it is twice what half of the area takes off; by the radius where
+  // an edge cuts the disk and no slope makes up for it.
+  const bool grows_by_radius =
+      weights.surroundings.edges.cut(radius) && !weights.surroundings.are_complete;
+  const float whole = grows_by_radius ? 1 / (1 - half_area) : 2.0f;
   if (!(walk_.sampler().fork(bias_key).next_1d() < bias_chance)) return;
   const float narrow_coverage = covered.inverse_share(
       radius * half_area, weights.surroundings.edges, walk_.sampler().fork(bias_key + 1));
   const Spectrum narrow = light.narrow * (weights.narrow.scale * narrow_coverage / paths);
-  walk_.add_bias((total - narrow) * (2 / bias_chance));
+  walk_.add_bias((total - narrow) * (whole / bias_chance));
 }
 
 bool VcmCameraPath::MergedLight::is_zero() const {

@@ -18,7 +18,7 @@ bool teaches_emission(uint32_t pass) {
 }
 
 bool learns_radii(const VcmPlans& plans, const VcmSettings& settings) {
-  return plans.techniques.merging && !(settings.radius > 0);
+  return plans.techniques.merging && settings.learn_radii && !(settings.radius > 0);
 }
 
 }  // namespace

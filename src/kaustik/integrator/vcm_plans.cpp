@@ -41,6 +41,12 @@ bool has_hidden_light(const LightVertices& light) {
   });
 }
 
+/// Whether light of these components may merge.
+bool is_merging_wanted(ComponentSet components) {
+  return components.has(Component::caustic) || components.has(Component::indirect) ||
+         components.has(Component::specular) || components.has(Component::volume);
+}
+
 std::string described(const VcmPlans& plans, double gain) {
   if (!plans.techniques.merging)
     return "auto: paths from the camera alone, light paths would not pay";
@@ -95,7 +101,8 @@ Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
     if (pilot->areas[i] > 0)
       scales[i].area = double(disks[i].merge_area * shrinkage) / double(pilot->areas[i]);
   }
-  const Efficiency result = choose_survival(pilot->probes, pilot->costs, scales, disks);
+  Efficiency result;
+  if (chooses_survival) result = choose_survival(pilot->probes, pilot->costs, scales, disks);
   pixels = pixels.with(std::move(disks));
   return result;
 }
@@ -116,6 +123,7 @@ VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& sto
   plans.emission = plain_;
   plans.techniques = settings_.techniques;
   plans.light_paths = settings_.light_paths;
+  plans.chooses_survival = settings_.choose_survival;
   if (!settings_.techniques.merging && !settings_.techniques.connections) return plans;
   if (settings_.techniques.merging) plans.pixels = PixelPlans(scene_);
   const uint32_t of_pass =
@@ -131,7 +139,7 @@ VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& sto
     choose_light_paths(plans);
   else
     plans.settle(plans.pixels.plans(), 1);
-  if (plans.techniques.merging)
+  if (plans.techniques.merging && settings_.edges)
     plans.pixels.find_edges(scene_, RadiusLearning::widest_widths(), settings_.radius,
                             plans.pilot_rays, stop);
   return plans;
@@ -212,7 +220,7 @@ VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light,
       plans.pilot_rays);
   for (const PixelPlan& plan : plans.pixels.plans()) pilot.areas.push_back(plan.merge_area);
   pilot.light_paths = plans.light_paths;
-  pilot.needs_merging = has_hidden_light(light.vertices);
+  pilot.needs_merging = is_merging_wanted(settings_.components) && has_hidden_light(light.vertices);
   const Vec2i size = scene_.film().crop_size;
   pilot.costs = {samples,
                  double(light.rays) / light_share / (samples * double(size.x) * double(size.y))};

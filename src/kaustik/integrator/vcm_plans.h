@@ -38,8 +38,10 @@ struct VcmPlans {
   /// Of the light paths of the pilot passes; null: emission is not guided.
   std::shared_ptr<const LightPathUse> use;
 
-  /// Gives the probes these disks and, as the pilot tells, chances of going on, for passes whose
-  /// disks have `shrinkage` times the area.
+  bool chooses_survival = true;  ///< else camera paths always go on
+
+  /// Gives the probes these disks and, as the pilot tells if that is wanted, chances of going on,
+  /// for passes whose disks have `shrinkage` times the area.
   Efficiency settle(std::vector<PixelPlan> disks, float shrinkage);
 };
 

@@ -45,6 +45,15 @@ std::vector<Parameter> parameters(const Techniques& preset) {
       boolean_parameter("correlation", true,
                         "Weights of merging take into account that what is merged shares the "
                         "camera's path."),
+      boolean_parameter("learn_radii", true,
+                        "Radii are learned from the light paths of the passes before; else those "
+                        "of the first pass shrink."),
+      boolean_parameter("edges", true,
+                        "Disks of merging end at the straight edges around them, with kernels that "
+                        "light's gradient does not bias."),
+      boolean_parameter("choose_survival", true,
+                        "A pilot chooses, place by place, how often the camera's paths go on "
+                        "beside what merges; else they always do."),
       integer_parameter("samples_per_pass", 4, "Samples per pixel and pass.").range(1, 1 << 20),
       ignored_parameter("hide_emitters", ParameterKind::boolean)};
   return rows;
@@ -104,6 +113,9 @@ VcmSettings::VcmSettings(const Arguments& arguments)
   merge_neighbors = int(arguments.integer("merge_neighbors"));
   radius = float(arguments.number("radius"));
   correlation = arguments.boolean("correlation");
+  learn_radii = arguments.boolean("learn_radii");
+  edges = arguments.boolean("edges");
+  choose_survival = arguments.boolean("choose_survival");
   samples_per_pass = uint32_t(arguments.integer("samples_per_pass"));
   techniques = {arguments.boolean("unidirectional"), arguments.boolean("next_event"),
                 arguments.boolean("splats"), arguments.boolean("connections"),

@@ -13,11 +13,14 @@ struct VcmSettings {
   int roulette_depth = 5;
   Aim aim = default_aim;
   bool guiding = true;
-  float light_paths = 0.25f;  ///< per camera sample
-  int connections = 1;        ///< per vertex of the camera's path
-  int merge_neighbors = 30;   ///< light vertices that the first radius is made for
-  float radius = 0;           ///< of merging in pass 0, m; 0: from the pixels and the light paths
-  bool correlation = true;    ///< see PathWeights
+  float light_paths = 0.25f;    ///< per camera sample
+  int connections = 1;          ///< per vertex of the camera's path
+  int merge_neighbors = 30;     ///< light vertices that the first radius is made for
+  float radius = 0;             ///< of merging in pass 0, m; 0: from the pixels and the light paths
+  bool correlation = true;      ///< see PathWeights
+  bool learn_radii = true;      ///< from the passes before; else the first pass's shrink
+  bool edges = true;            ///< disks of merging end at the straight edges around them
+  bool choose_survival = true;  ///< of camera paths beside what merges; else they always go on
   uint32_t samples_per_pass = 4;
   bool chooses_light_paths = false;  ///< how many, or none at all, by what a pilot tells
 

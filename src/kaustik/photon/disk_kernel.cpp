@@ -8,6 +8,10 @@
 namespace kaustik {
 namespace {
 
+/// What edges leave less than this of, over the squared radius, is nothing: three lines through the
+/// center may leave nothing at all.
+constexpr double least_left = 1e-9;
+
 /// ∫ shape(r) rⁿ⁺¹ dr over the radius, n = 0, 1, 2.
 struct RadialMoments {
   double zeroth, first, second;
@@ -142,6 +146,7 @@ DiskMoments disk_moments(const Frame& frame, float radius, const DiskEdges& edge
 DiskKernel::DiskKernel(const Frame& frame, float radius, const DiskEdges& edges,
                        KernelShape shape) {
   const DiskMoments m = disk_moments(frame, radius, edges, shape);
+  if (!(m.one > least_left)) return;
   even_scale_ = scale = float(1 / (m.one * double(radius) * double(radius)));
   if (!edges.cut(radius)) return;
   // a + b · p with ∫ (a + b · p) = 1 and ∫ p (a + b · p) = 0.

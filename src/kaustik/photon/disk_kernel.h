@@ -51,7 +51,7 @@ struct DiskKernel {
   float scale = 0;       ///< 1/m²
   Vec3f slope{0, 0, 0};  ///< 1/m
 
-  /// For what edges leave of the disk, if that is no sliver.
+  /// For what edges leave of the disk; 0 where that is nothing.
   DiskKernel(const Frame& frame, float radius, const DiskEdges& edges, KernelShape shape);
   /// Leaves out the slope: then only even light is found as it is.
   void level();

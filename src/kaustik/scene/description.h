@@ -34,4 +34,7 @@ struct Description {
   std::shared_ptr<Object> scene;  ///< never null; its children are the top-level objects
 };
 
+/// The path of the file that a property `filename` or `photon_map` names, "" for all others.
+std::string file_of(const Property& property);
+
 }  // namespace kaustik

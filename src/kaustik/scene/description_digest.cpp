@@ -38,14 +38,6 @@ std::string text_of(const Transform& transform) {
   return text;
 }
 
-/// The path that a property names, "" if it names none.
-std::string file_of(const Property& property) {
-  if (property.name != "filename" && property.name != "photon_map") return {};
-  if (const auto* text = std::get_if<std::string>(&property.value)) return *text;
-  if (const auto* untyped = std::get_if<Untyped>(&property.value)) return untyped->text;
-  return {};
-}
-
 class Digester {
  public:
   /// `left_out` counts as if it were not there.
