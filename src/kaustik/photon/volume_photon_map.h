@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "kaustik/photon/disc_hierarchy.h"
 #include "kaustik/photon/photon.h"
 #include "kaustik/transport/volume_light.h"
 
@@ -15,7 +16,7 @@ struct VolumePhoton {
   const Medium* medium = nullptr;
 };
 
-/// Volume photons in a hierarchy of boxes, and the beam radiance estimate (Jarosz, Zwicker and
+/// Volume photons in a hierarchy of discs, and the beam radiance estimate (Jarosz, Zwicker and
 /// Jensen 2008): all photons whose disc, facing the ray, is met by a segment count at once, without
 /// steps along it. The radius of a disc is the distance of the photon's k-th nearest neighbour, so
 /// light that is focused stays sharp. Immutable; deterministic; estimates are thread-safe.
@@ -37,15 +38,9 @@ class VolumePhotonMap final : public VolumeLight {
 
  private:
   void order_photons(std::vector<VolumePhoton> photons, int neighbors, float shrinkage);
-  void build_boxes();
-  Spectrum leaf_radiance(size_t leaf, const Ray& ray, float length, const Medium& medium) const;
 
-  static constexpr size_t leaf_size = 8;
   std::vector<VolumePhoton> photons_;
-  /// A complete binary tree: the children of node i are 2i and 2i + 1, leaves begin at
-  /// `first_leaf_`; node 0 is unused, boxes without photons are empty.
-  std::vector<Bounds3f> boxes_;
-  size_t first_leaf_ = 1;
+  DiscHierarchy discs_;
 };
 
 }  // namespace kaustik
