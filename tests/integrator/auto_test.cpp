@@ -108,22 +108,6 @@ TEST(Auto, LeavesOutNoLight) {
   EXPECT_NE(plate.find("they alone would not find all light"), std::string::npos) << plate;
 }
 
-/// Media that scatter are left to path tracing.
-TEST(Auto, IsPathInMediaThatScatter) {
-  const TestScene scene(airlight_scene(0.3, 20));
-  const auto integrator = scene.integrator("auto");
-  const std::string chosen = decision(scene, *integrator, 4);
-  EXPECT_TRUE(is_for_camera_alone(chosen)) << chosen;
-  EXPECT_NE(chosen.find("media scatter"), std::string::npos) << chosen;
-  const Passes found = render(scene, *integrator, {16, 5}),
-               path = render(scene, "path", "", {16, 5});
-  EXPECT_GT(path.mean({"volume"}).mean(), 0);
-  for (size_t pass = 0; pass < path.images().size(); ++pass)
-    for (int c = 0; c < path.images()[pass].channel_count(); ++c)
-      for (size_t i = 0; i < path.images()[pass].pixel_count(); ++i)
-        ASSERT_EQ(found.images()[pass].channel(c)[i], path.images()[pass].channel(c)[i]);
-}
-
 /// Where light paths do not pay, finding that out takes less than a twentieth of the rays of 16
 /// passes. Pass 0 has traced none but the pilot's before its samples, then.
 TEST(Auto, PilotIsCheap) {

@@ -18,7 +18,8 @@ struct WholePath {
 };
 
 /// Densities over some magnitudes; the light's point has no event.
-WholePath random_path(std::mt19937& random, size_t length, double delta_share) {
+WholePath random_path(std::mt19937& random, size_t length, double delta_share,
+                      double medium_share = 0) {
   std::uniform_real_distribution<float> exponent(-2, 2), unit(0, 1);
   const auto density = [&] { return std::pow(10.0f, exponent(random)); };
   WholePath path;
@@ -27,8 +28,14 @@ WholePath random_path(std::mt19937& random, size_t length, double delta_share) {
     vertex.pdf_camera = density();
     vertex.pdf_light = density();
     vertex.delta = double(unit(random)) < delta_share;
+    if (double(unit(random)) < medium_share) {
+      vertex.delta = false;
+      vertex.mean_free_path = density();
+      vertex.merge_volume = 1e-4f * density() * vertex.mean_free_path;
+    }
   }
   path.vertices.back().delta = false;
+  path.vertices.back().mean_free_path = 0;
   path.pdf_next_event = density();
   path.first_merge_area = 1e-4f * density();
   path.first_survival = 0.05f + 0.95f * unit(random);
@@ -44,9 +51,10 @@ struct Halves {
     for (size_t i = 1; i <= t; ++i) {
       camera.push_back(all[i - 1]);
       const bool after_delta = i >= 2 && all[i - 2].delta;
-      camera.back().spread =
-          i == 1 ? 1
-                 : weights.spread_after(camera[i - 2].spread, all[i - 1].pdf_camera, after_delta);
+      camera.back().spread = i == 1
+                                 ? 1
+                                 : weights.spread_after(camera[i - 2].spread, all[i - 1].pdf_camera,
+                                                        all[i - 1], after_delta);
       if (i + 1 >= t) camera.back().pdf_light = -1;  // not known yet
     }
     for (size_t i = n; i > t; --i) {
@@ -54,7 +62,8 @@ struct Halves {
       const bool after_delta = i < n && all[i].delta;
       light.back().spread =
           i == n ? 1
-                 : weights.spread_after(light[n - i - 1].spread, all[i - 1].pdf_light, after_delta);
+                 : weights.spread_after(light[n - i - 1].spread, all[i - 1].pdf_light, all[i - 1],
+                                        after_delta);
       if (i <= t + 2) light.back().pdf_camera = -1;
     }
     halves.camera = camera;
@@ -86,10 +95,12 @@ double sum_of_weights(const WholePath& path, const PathWeights& weights, int& te
   if (on.next_event && n >= 2 && !is_delta(n - 1))
     add(weights.next_event(Halves(path, n - 1, weights).halves));
   if (on.splats && n >= 3 && !is_delta(1)) add(weights.splat(Halves(path, 0, weights).halves));
-  for (size_t t = 1; t + 2 <= n; ++t) {
+  for (size_t t = 1; t + 1 <= n; ++t) {
     const Halves halves(path, t, weights);
-    if (on.connections && !is_delta(t) && !is_delta(t + 1)) add(weights.connection(halves.halves));
-    if (on.merging && !is_delta(t)) add(weights.merge(halves.halves));
+    const bool in_medium = path.vertices[t - 1].mean_free_path > 0;
+    if (on.connections && t + 2 <= n && !is_delta(t) && !is_delta(t + 1))
+      add(weights.connection(halves.halves));
+    if (on.merging && (t + 2 <= n || in_medium) && !is_delta(t)) add(weights.merge(halves.halves));
   }
   return sum;
 }
@@ -103,6 +114,7 @@ PathWeights::Settings settings_of(unsigned mask, std::mt19937& random) {
   settings.connections = 0.1f + unit(random);
   settings.merge_area = 1e-3f * unit(random);
   settings.accepted_area = 0.1f * unit(random);
+  settings.first_medium_share = unit(random);
   settings.correlation = unit(random) < 0.8f;
   settings.least_spread = unit(random) < 0.5f ? 0.0f : 0.1f;
   return settings;
@@ -114,7 +126,8 @@ TEST(PathWeights, SumToOne) {
   for (int i = 0; i < 20'000; ++i) {
     const unsigned mask = 1 + random() % 31;
     const PathWeights weights(settings_of(mask, random));
-    const WholePath path = random_path(random, 1 + random() % 7, i % 3 == 0 ? 0.0 : 0.3);
+    const WholePath path =
+        random_path(random, 1 + random() % 7, i % 3 == 0 ? 0.0 : 0.3, i % 2 == 0 ? 0.0 : 0.5);
     int techniques = 0;
     const double sum = sum_of_weights(path, weights, techniques);
     if (techniques == 0) continue;

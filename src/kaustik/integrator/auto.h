@@ -3,9 +3,9 @@
 
 namespace kaustik {
 
-/// The default: a method for the scene, which needs no parameter. Where media scatter light that is
-/// path tracing; else paths from the camera and light paths that merge with them, how many and
-/// where being chosen by a pilot (VcmSettings::chooses_light_paths). Says what it chose
+/// The default: a method for the scene, which needs no parameter: paths from the camera and light
+/// paths that merge with them, how many and where being chosen by a pilot
+/// (VcmSettings::chooses_light_paths). Says what it chose
 /// (PassReport::decisions).
 class AutoIntegrator final : public Integrator {
  public:
@@ -25,7 +25,6 @@ class AutoIntegrator final : public Integrator {
 
  private:
   std::unique_ptr<Integrator> method_;
-  std::string decision_;  ///< made without a pilot; empty: none
 };
 
 }  // namespace kaustik

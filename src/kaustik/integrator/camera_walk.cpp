@@ -63,6 +63,7 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
       ray_(other.ray_),
       vertex_(other.vertex_),
       in_medium_(other.in_medium_),
+      is_in_medium_(other.is_in_medium_),
       previous_(other.previous_),
       distance_(other.distance_),
       only_delta_(other.only_delta_),
@@ -81,6 +82,7 @@ void CameraWalk::describe_what_is_seen(const SurfaceVertex& vertex, float distan
 template <typename PassMedium>
 CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
   const bool only_arrives = seeks_irradiance();
+  is_in_medium_ = false;
   for (;;) {
     sampler_.start_vertex(segments_++);
     Hit hit;
@@ -123,13 +125,20 @@ bool CameraWalk::advance(const VolumeLight* volume) {
          }) == Arrival::surface;
 }
 
-CameraWalk::Arrival CameraWalk::fly() {
+CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume) {
+  const Component in_medium = class_.component_in_medium();
+  if (!sink_.wants(in_medium)) volume = nullptr;
   return travel([&](float length) {
+    if (volume && state_.medium->scatters())
+      sink_.add(in_medium, state_.throughput * volume->radiance(ray_, length, *state_.medium));
     const Medium::Flight flight =
         state_.medium->sample_flight(length, state_.throughput, sampler_.next_2d());
     state_.throughput *= flight.weight;
     if (!flight.scattered) return false;
-    in_medium_ = Receiver(ray_.origin + ray_.direction * flight.distance, state_.depth);
+    // As for light paths, which don't know the depth.
+    in_medium_ =
+        Receiver(ray_.origin + ray_.direction * flight.distance, weights_ ? 1 : state_.depth);
+    is_in_medium_ = true;
     distance_ += flight.distance;
     state_.footprint.travel(flight.distance);
     return true;
@@ -201,11 +210,15 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
 
 void CameraWalk::add_medium_light() {
   const Component component = class_.component_in_medium();
+  const Scatterer here = scatterer();
   const auto scatter = [&](const DirectLight& light, ShadowAnswer& answer) {
     if (!sink_.wants(component)) return Spectrum();
     const float phase = state_.medium->phase().eval(-ray_.direction, light.wi);
-    const float weight =
-        light.pdf_solid_angle == 0 ? 1.0f : mis_weight(light.pdf_solid_angle, phase);
+    float weight = 1;
+    if (weights_)
+      weight = weights_->sampled(here, light);
+    else if (light.pdf_solid_angle > 0)
+      weight = mis_weight(light.pdf_solid_angle, phase);
     const Spectrum visible = trace_shadow_ray(scene_, light, state_.medium, rays_, answer);
     return light.radiance * visible * (phase * weight);
   };

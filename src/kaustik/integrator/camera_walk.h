@@ -5,6 +5,7 @@
 #include "kaustik/transport/direct_light.h"
 #include "kaustik/transport/path_class.h"
 #include "kaustik/transport/path_state.h"
+#include "kaustik/transport/scatterer.h"
 #include "kaustik/transport/visibility.h"
 #include "kaustik/transport/volume_light.h"
 
@@ -22,7 +23,7 @@ class LightWeights {
  public:
   virtual ~LightWeights() = default;
   /// Of light sampled at `vertex`.
-  virtual float sampled(const SurfaceVertex& vertex, const DirectLight& light) const = 0;
+  virtual float sampled(const Scatterer& vertex, const DirectLight& light) const = 0;
   /// Of light that the path meets, on the surface of `vertex` …
   virtual float met(int light, const SurfaceVertex& vertex) const = 0;
   /// … or beyond the scene.
@@ -52,8 +53,13 @@ class CameraWalk {
   /// The same by free flight: the path may also come to a point in a medium, where the next event
   /// is add_medium_light() and scatter_in_medium() instead of what there is for surfaces.
   enum class Arrival { nothing, surface, medium };
-  Arrival fly();
+  Arrival fly(const VolumeLight* volume = nullptr);
   const SurfaceVertex& vertex() const { return vertex_; }
+  /// The surface, or the point of a medium, that the walk has come to: until it is scattered.
+  Scatterer scatterer() const {
+    if (!is_in_medium_) return vertex_;
+    return {in_medium_.point.position, -ray_.direction, *state_.medium};
+  }
   /// That the path arrived at the vertex through; null: vacuum.
   const Medium* medium() const { return state_.medium; }
   /// Where it began.
@@ -108,6 +114,8 @@ class CameraWalk {
   /// Whether anything that is wanted may be found further on.
   bool may_find_more() const { return class_.may_find(sink_.wanted()); }
 
+  /// Of light that a medium scatters into the path on its next segment.
+  Component component_in_medium() const { return class_.component_in_medium(); }
   /// Adds light sampled at the point in the medium and scattered there.
   void add_medium_light();
   /// Chooses a direction by the medium's phase function for the next fly().
@@ -155,8 +163,9 @@ class CameraWalk {
   Vec2f raster_;                                 ///< where it began
   Ray ray_;
   SurfaceVertex vertex_;
-  Receiver in_medium_;  ///< the point where fly() came to in a medium
-  Receiver previous_;   ///< where the last event was
+  Receiver in_medium_;         ///< the point where fly() came to in a medium
+  bool is_in_medium_ = false;  ///< the walk is there
+  Receiver previous_;          ///< where the last event was
   float distance_ = 0;
   bool only_delta_ = true;  ///< every surface so far has delta lobes alone
   uint32_t segments_ = 0;   ///< traced so far: those across null boundaries count, each has a block

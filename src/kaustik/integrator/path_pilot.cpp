@@ -41,7 +41,7 @@ class Recorder final : public LightWeights {
            ProbeStatistics& result)
       : path_(path), sink_(sink), camera_samples_(double(camera_samples)), result_(result) {}
 
-  float sampled(const SurfaceVertex& vertex, const DirectLight& light) const override {
+  float sampled(const Scatterer& vertex, const DirectLight& light) const override {
     return weigh([&] { return path_.sampled(vertex, light); });
   }
   float met(int light, const SurfaceVertex& vertex) const override {
@@ -98,10 +98,10 @@ class Recorder final : public LightWeights {
 };
 
 /// Light that merges there, as what a camera path that goes on would have to find.
-void add_merged(const VcmCameraPath& path, float samples, double light_share, int maximum_events,
+void add_merged(const VcmCameraPath& path, float samples, double light_share,
                 ProbeStatistics& result) {
   const double camera_samples = double(samples);
-  for (const auto& [beyond, spectrum] : path.merged_vertices(maximum_events)) {
+  for (const auto& [beyond, spectrum] : path.merged_vertices()) {
     const double light = double(spectrum.sum());
     result.merged += 1 / light_share;
     if (light == 0) continue;
@@ -141,14 +141,13 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
     Recorder recorder(path, sink, in.camera_samples, result);
     walk.weigh_by(recorder);
     uint64_t rays_before = 0;
-    while (walk.advance()) {
-      path.arrive();
+    while (path.go_on(false) != CameraWalk::Arrival::nothing) {
       if (walk.events() >= limits.maximum_events) break;
       walk.add_direct_light(1, 1);
       const bool was_before = path.is_at_first();
       // Of the first path alone: which vertex paths come to may be up to chance.
       if (was_before && i == 0 && any(walk.vertex().lobes() & (Lobes::diffuse | Lobes::glossy)))
-        add_merged(path, in.camera_samples, limits.light_share, limits.maximum_events, result);
+        add_merged(path, in.camera_samples, limits.light_share, result);
       const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
       if (!walk.scatter(Lobes::all, 1, u_choice.x, u)) break;
       path.leave();

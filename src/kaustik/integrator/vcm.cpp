@@ -22,6 +22,7 @@ struct VcmIntegrator::State final : PassState {
   LightVertices light;
   MattMerging matt;
   float shrinkage = 1;  ///< of the disks of merging
+  MediumDisks media;    ///< shrunk
   float connection_scale = 0;
   float camera_samples = 1;
 };
@@ -30,9 +31,8 @@ VcmIntegrator::VcmIntegrator(const Arguments& arguments, const Scene& scene)
     : scene_(scene),
       settings_(arguments),
       plain_(std::make_shared<const LightPathEmission>(scene, settings_.aim)) {
-  if (scene.has_scattering())
-    throw Error(ErrorKind::input, "this integrator does not scatter light in media yet",
-                "use integrator path or photonmap", arguments.place());
+  // It knows of what use paths are on surfaces alone.
+  if (scene.has_scattering()) settings_.guiding = false;
 }
 
 std::shared_ptr<const VcmPlans> VcmIntegrator::plans(uint32_t samples_per_pixel,
@@ -103,6 +103,7 @@ PathWeights VcmIntegrator::weights_for(const VcmPlans& plans, const Pass& pass) 
   weights.connections = float(settings_.connections) / plans.connectible_per_path;
   weights.merge_area = plans.pixels.other_area() * sqr(pass_radius(1, pass.index));
   weights.accepted_area = accepted_area(plans.pixels);
+  weights.first_medium_share = 1 / float(pass.samples_per_pixel);
   weights.correlation = settings_.correlation;
   return PathWeights(weights);
 }
@@ -110,11 +111,12 @@ PathWeights VcmIntegrator::weights_for(const VcmPlans& plans, const Pass& pass) 
 LightVertices VcmIntegrator::trace(const VcmPlans& plans, const PathWeights& weights,
                                    const Pass& pass, SplatBuffer& splats, std::stop_token stop,
                                    const ProgressFunction& progress, PassReport& report) const {
+  const float shrinkage = sqr(pass_radius(1, pass.index));
   return trace_light_vertices(
       {scene_, *plans.emission, weights, settings_.components, settings_.maximum_events,
        light_path_count(scene_.film().crop_size, pass.samples_per_pixel, plans.light_paths),
-       float(pass.samples_per_pixel), plans.pixels, sqr(pass_radius(1, pass.index)),
-       VcmLearning::remembered_paths(pass.index, plans)},
+       float(pass.samples_per_pixel), plans.pixels, shrinkage,
+       VcmLearning::remembered_paths(pass.index, plans), plans.media.shrunk(shrinkage)},
       pass, Stream::light_path, splats, stop, progress, report);
 }
 
@@ -127,6 +129,7 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
   uint32_t made_up = 0;
   state->plans = plans_for(pass, stop, progress, made_up, state->report);
   state->weights = weights_for(*state->plans, pass);
+  state->media = state->plans->media.shrunk(state->shrinkage);
   if (!state->plans->decision.empty()) state->report.decisions.push_back(state->plans->decision);
   const Techniques& techniques = state->plans->techniques;
   if (!techniques.any())
@@ -157,17 +160,24 @@ void VcmIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sam
                                state.plans->pixels,
                                state.camera_samples,
                                state.connection_scale,
-                               state.weights.settings().merge_area * inv_pi};
+                               state.weights.settings().merge_area * inv_pi,
+                               state.media,
+                               settings_.maximum_events};
   VcmCameraPath path(inputs, walk, state.plans->pixels.at(raster, state.shrinkage));
   const Techniques& techniques = state.plans->techniques;
-  while (walk.advance()) {
-    path.arrive();
+  for (;;) {
+    const CameraWalk::Arrival arrival = path.go_on(scene_.has_scattering());
+    if (arrival == CameraWalk::Arrival::nothing) return;
+    const bool in_medium = arrival == CameraWalk::Arrival::medium;
     if (walk.events() >= settings_.maximum_events) return;
-    if (techniques.next_event) walk.add_direct_light(1, 1);
-    if (techniques.merging) path.merge(settings_.maximum_events);
-    if (techniques.connections) path.connect(settings_.connections, settings_.maximum_events);
+    if (techniques.next_event) in_medium ? walk.add_medium_light() : walk.add_direct_light(1, 1);
+    if (techniques.merging && !in_medium) path.merge();
+    if (techniques.connections) path.connect(settings_.connections);
     const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
-    if (!walk.scatter(Lobes::all, 1, u_choice.x, u)) return;
+    if (in_medium)
+      walk.scatter_in_medium(u);
+    else if (!walk.scatter(Lobes::all, 1, u_choice.x, u))
+      return;
     path.leave();
     if (!walk.may_find_more()) return;
     if (!path.survives_first(sampler.next_1d())) return;

@@ -37,32 +37,57 @@ VcmCameraPath::VcmCameraPath(const VcmCameraInputs& inputs, CameraWalk& walk, co
   walk.weigh_by(*this);
 }
 
-PathVertex VcmCameraPath::next_vertex(const Vec3f& position, const Vec3f& ng) const {
+PathVertex VcmCameraPath::next_vertex(const Vec3f& position, const Facing& facing) const {
   PathVertex next;
+  if (facing.extinction > 0) next.mean_free_path = 1 / facing.extinction;
   if (vertices_.empty()) {
     const CameraConnection connection = in_.scene.camera().connect(position);
     next.pdf_camera = connection.importance * in_.camera_samples *
-                      abs_dot(connection.direction, ng) / sqr(connection.distance);
+                      facing.factor(connection.direction) / sqr(connection.distance);
     return next;
   }
   const PathVertex& before = vertices_.back();
   const float pdf = before.delta ? 1.0f : walk_.last_pdf();
-  if (ng == Vec3f(0, 0, 0)) {
-    next.pdf_camera = pdf;
-  } else {
-    const Vec3f& direction = walk_.ray().direction;
-    const float distance_sq = length_sq(position - last_.position);
-    next.pdf_camera = pdf * abs_dot(direction, ng) / distance_sq;
-    next.to_previous = abs_dot(direction, last_.ng) / distance_sq;
-  }
-  next.spread = in_.weights.spread_after(before.spread, next.pdf_camera, before.delta);
+  const Vec3f& direction = walk_.ray().direction;
+  const float distance_sq = length_sq(position - last_.position);
+  next.pdf_camera = pdf * facing.factor(direction) / distance_sq;
+  next.to_previous = last_facing_.factor(direction) / distance_sq;
+  next.spread = in_.weights.spread_after(before.spread, next.pdf_camera, next, before.delta);
   return next;
 }
 
+PathVertex VcmCameraPath::next_in_medium(const Vec3f& position, const Medium& medium) const {
+  PathVertex next = next_vertex(position, {{}, mean_extinction(medium)});
+  next.merge_volume = in_.media.merge_volume(position, medium);
+  return next;
+}
+
+PathVertex VcmCameraPath::infinitely_far() const {
+  PathVertex next;
+  const PathVertex& before = vertices_.back();
+  next.pdf_camera = before.delta ? 1.0f : walk_.last_pdf();
+  next.spread = in_.weights.spread_after(before.spread, next.pdf_camera, next, before.delta);
+  return next;
+}
+
+CameraWalk::Arrival VcmCameraPath::go_on(bool scatters_in_media) {
+  CameraWalk::Arrival arrival = CameraWalk::Arrival::nothing;
+  if (scatters_in_media)
+    arrival = walk_.fly(in_.weights.settings().techniques.merging ? this : nullptr);
+  else if (walk_.advance())
+    arrival = CameraWalk::Arrival::surface;
+  if (arrival != CameraWalk::Arrival::nothing) arrive();
+  return arrival;
+}
+
 void VcmCameraPath::arrive() {
-  const SurfacePoint& point = walk_.vertex().point();
-  vertices_.push_back(next_vertex(point.position, point.ng));
+  here_ = walk_.scatterer();
+  const SurfacePoint& point = here_.point();
+  const Facing facing = here_.facing();
+  vertices_.push_back(here_.is_in_medium() ? next_in_medium(point.position, *walk_.medium())
+                                           : next_vertex(point.position, facing));
   last_ = point;
+  last_facing_ = facing;
 }
 
 void VcmCameraPath::leave() {
@@ -72,15 +97,17 @@ void VcmCameraPath::leave() {
     all_delta_ = false;
     first_ = vertices_.size();
   }
-  previous_ = Receiver(walk_.vertex(), 1);
+  previous_ = here_.is_in_medium() ? Receiver(here_.position(), 1) : Receiver(walk_.vertex(), 1);
   if (vertices_.size() < 2 || !in_.weights.settings().techniques.needs_light_paths()) return;
   vertices_[vertices_.size() - 2].pdf_light =
-      (vertex.delta ? 1.0f : walk_.vertex().pdf_reverse(walk_.ray().direction, Lobes::all)) *
+      (vertex.delta ? 1.0f : here_.pdf_reverse(walk_.ray().direction, Lobes::all)) *
       vertex.to_previous;
 }
 
 bool VcmCameraPath::path_tracing_alone(size_t length) const {
-  return length <= 2 || no_light_paths_ || !in_.weights.settings().techniques.needs_light_paths();
+  const Techniques& techniques = in_.weights.settings().techniques;
+  if (no_light_paths_ || !techniques.needs_light_paths()) return true;
+  return length <= 2 && !(techniques.merging && is_in_medium());
 }
 
 PathHalves VcmCameraPath::halves() const {
@@ -93,23 +120,22 @@ PathHalves VcmCameraPath::halves() const {
 
 float VcmCameraPath::pdf_light_before(const Vec3f& wi) const {
   if (vertices_.size() < 2) return 0;
-  return walk_.vertex().pdf_reverse(wi, Lobes::all) * vertices_.back().to_previous;
+  return here_.pdf_reverse(wi, Lobes::all) * vertices_.back().to_previous;
 }
 
-float VcmCameraPath::sampled(const SurfaceVertex& vertex, const DirectLight& light) const {
+float VcmCameraPath::sampled(const Scatterer& vertex, const DirectLight& light) const {
   const Techniques& techniques = in_.weights.settings().techniques;
   if (!techniques.next_event) return 0;
   const bool is_alone = path_tracing_alone(vertices_.size() + 1);
   if (is_alone) {
     if (light.pdf_solid_angle == 0 || !techniques.unidirectional) return 1;
-    return mis_weight(light.pdf_solid_angle,
-                      vertex.pdf(light.wi, Lobes::all) * (all_delta_ ? plan_.survival : 1.0f));
+    return mis_weight(light.pdf_solid_angle, vertex.pdf(light.wi, Lobes::all) * survival_to_come());
   }
   const Light& of = *in_.scene.lights()[size_t(light.light)];
   const SurfacePoint origin = shining(of, light.on_light, -light.wi);
   const EmissionDensity emission =
       in_.emission.pdf(light.light, of.is_infinite() ? vertex.point() : origin, -light.wi);
-  const float cosine = abs_dot(light.wi, vertex.point().ng);
+  const float cosine = vertex.facing().factor(light.wi);
   const float distance_sq = of.is_infinite() ? 1.0f : sqr(light.distance);
   const float light_cosine =
       of.is_infinite() || of.is_delta() ? 1.0f : abs_dot(light.wi, of.emitting_normal(origin));
@@ -142,8 +168,8 @@ float VcmCameraPath::met(int light, const SurfaceVertex& vertex) const {
   const float distance_sq = length_sq(point.position - last_.position);
   const SurfacePoint origin = shining(*in_.scene.lights()[size_t(light)], point, vertex.wo());
   const EmissionDensity emission = in_.emission.pdf(light, origin, vertex.wo());
-  const PathVertex on_light = next_vertex(point.position, point.ng);
-  return met_weight(on_light, emission, abs_dot(direction, last_.ng) / distance_sq,
+  const PathVertex on_light = next_vertex(point.position, {point.ng, 0});
+  return met_weight(on_light, emission, last_facing_.factor(direction) / distance_sq,
                     next_event * abs_dot(direction, point.ng) / distance_sq);
 }
 
@@ -158,8 +184,7 @@ float VcmCameraPath::met(int light, const Ray& ray) const {
   if (path_tracing_alone(vertices_.size() + 1))
     return next_event > 0 ? mis_weight(walk_.last_pdf() * survival_before(), next_event) : 1.0f;
   const EmissionDensity emission = in_.emission.pdf(light, last_, -ray.direction);
-  return met_weight(next_vertex({0, 0, 0}, {0, 0, 0}), emission, abs_dot(ray.direction, last_.ng),
-                    next_event);
+  return met_weight(infinitely_far(), emission, last_facing_.factor(ray.direction), next_event);
 }
 
 float VcmCameraPath::met_weight(const PathVertex& on_light, const EmissionDensity& emission,
@@ -174,23 +199,25 @@ float VcmCameraPath::met_weight(const PathVertex& on_light, const EmissionDensit
   return weight;
 }
 
-void VcmCameraPath::connect(int count, int maximum_events) {
+void VcmCameraPath::connect(int count) {
   const std::vector<ConnectibleVertex>& all = in_.light.connectible;
-  const SurfaceVertex& vertex = walk_.vertex();
-  if (all.empty() || !any(vertex.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
+  if (all.empty() || !any(here_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
   for (int i = 0; i < count; ++i) {
     // One number alone has too few bits for millions of vertices.
     const Vec2f u = walk_.sampler().one_of(uint32_t(count), uint32_t(i)).next_2d();
     const double which = (double(u.x) + double(u.y) * 0x1p-24) * double(all.size());
-    connect_to(all[std::min(size_t(which), all.size() - 1)], maximum_events);
+    connect_to(all[std::min(size_t(which), all.size() - 1)]);
   }
 }
 
-void VcmCameraPath::connect_to(const ConnectibleVertex& to, int maximum_events) {
+void VcmCameraPath::connect_to(const ConnectibleVertex& to) {
   // Events: those of the walk, at both vertices, and between the light and `to`.
-  if (walk_.events() + 1 + int(to.data.before) > maximum_events) return;
-  const SurfaceVertex& vertex = walk_.vertex();
-  const SurfaceVertex other(in_.scene, to.ray, to.hit, TransportMode::flux);
+  if (walk_.events() + 1 + int(to.data.before) > in_.maximum_events) return;
+  const Scatterer& vertex = here_;
+  SurfaceVertex surface;
+  if (!to.in_medium) surface.meet(in_.scene, to.ray, to.hit, TransportMode::flux);
+  const Scatterer other =
+      to.in_medium ? Scatterer(to.ray.origin, -to.ray.direction, *to.medium) : Scatterer(surface);
   const Vec3f between = other.position() - vertex.position();
   const float distance_sq = length_sq(between);
   if (!(distance_sq > 0)) return;
@@ -199,10 +226,10 @@ void VcmCameraPath::connect_to(const ConnectibleVertex& to, int maximum_events) 
   PathHalves path = halves();
   path.light = {in_.light.vertices.data() + to.data.path, size_t(to.data.before) + 1};
   path.pdf_light_last =
-      other.pdf(-direction, Lobes::all) * abs_dot(direction, vertex.point().ng) / distance_sq;
+      other.pdf(-direction, Lobes::all) * vertex.facing().factor(direction) / distance_sq;
   path.pdf_light_before_last = pdf_light_before(direction);
   path.pdf_camera_last =
-      vertex.pdf(direction, Lobes::all) * abs_dot(direction, other.point().ng) / distance_sq;
+      vertex.pdf(direction, Lobes::all) * other.facing().factor(direction) / distance_sq;
   path.pdf_camera_before_last = other.pdf_reverse(-direction, Lobes::all) * other_data.to_previous;
   path.pdf_next_event = to.data.pdf_next_event;
   const float weight = in_.weights.connection(path);
@@ -217,7 +244,9 @@ void VcmCameraPath::connect_to(const ConnectibleVertex& to, int maximum_events) 
     for (const Lobes other_lobe : {Lobes::diffuse, Lobes::glossy}) {
       if (!any(other.lobes() & other_lobe)) continue;
       const Component component =
-          walk_.component_of(lobe, other_lobe == Lobes::glossy && to.data.specular);
+          vertex.is_in_medium()
+              ? walk_.component_in_medium()
+              : walk_.component_of(lobe, other_lobe == Lobes::glossy && to.data.specular);
       if (!walk_.wants(component)) continue;
       const Spectrum value = reflected * arriving * other.eval_cosine(-direction, other_lobe);
       if (value.is_zero()) continue;
@@ -233,7 +262,7 @@ void VcmCameraPath::connect_to(const ConnectibleVertex& to, int maximum_events) 
   }
 }
 
-void VcmCameraPath::merge(int maximum_events) {
+void VcmCameraPath::merge() {
   const SurfaceVertex& vertex = walk_.vertex();
   const Lobes lobes = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
   if (!any(lobes) || in_.light.tree.empty() || !in_.weights.merges_at(vertices_)) return;
@@ -250,8 +279,7 @@ void VcmCameraPath::merge(int maximum_events) {
   const DiskWeights weights = disk_weights(disk);
   const bool is_matt =
       all_delta_ && lobes == Lobes::diffuse && !vertex.bsdf().transmits() && !vertex.has_relief();
-  MergedLight light = is_matt ? merged_matt(disk, weights, maximum_events)
-                              : merged(disk, weights, lobes, maximum_events);
+  MergedLight light = is_matt ? merged_matt(disk, weights) : merged(disk, weights, lobes);
   if (light.is_zero()) return;
   const auto paths = float(in_.light.path_count);
   // Numbers of their own: how many there are is not known beforehand.
@@ -302,12 +330,11 @@ VcmCameraPath::DiskWeights VcmCameraPath::disk_weights(const MergeDisk& disk) co
 }
 
 VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk,
-                                                      const DiskWeights& weights,
-                                                      int maximum_events) const {
+                                                      const DiskWeights& weights) const {
   const SurfaceVertex& vertex = walk_.vertex();
   const MattLight light =
       in_.matt.merge({vertex.position(), disk.side(), disk.radius(), disk.flatness(),
-                      disk.least_cosine(), maximum_events - walk_.events(),
+                      disk.least_cosine(), in_.maximum_events - walk_.events(),
                       weights.surroundings.edges, weights.wide.slope, weights.narrow.slope,
                       in_.weights.matt_vertex(vertices_, plan_.counted_area(in_.camera_samples),
                                               plan_.counted_survival())});
@@ -328,8 +355,7 @@ float VcmCameraPath::merge_radius() const {
 }
 
 template <typename Visit>
-void VcmCameraPath::visit_merging(const MergeDisk& disk, int maximum_events,
-                                  const Visit& visit) const {
+void VcmCameraPath::visit_merging(const MergeDisk& disk, const Visit& visit) const {
   const SurfaceVertex& vertex = walk_.vertex();
   const bool both_sides = disk.both_sides();
   const Vec3f& ng = vertex.point().ng;
@@ -341,7 +367,7 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, int maximum_events,
                           const LightVertexData& photon = tree.data(index);
                           const Vec3f offset = tree.key(index) - vertex.position();
                           if (!disk.counts(offset, photon.side)) return;
-                          if (walk_.events() + int(photon.before) > maximum_events) return;
+                          if (walk_.events() + int(photon.before) > in_.maximum_events) return;
                           const Vec3f wi = photon.direction.unpack();
                           const float pdf_forward = vertex.pdf(wi, Lobes::all);
                           const PathVertex* before = in_.light.vertices.data() + photon.path;
@@ -357,65 +383,115 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, int maximum_events,
 }
 
 VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, const DiskWeights& weights,
-                                                 Lobes lobes, int maximum_events) const {
+                                                 Lobes lobes) const {
   const SurfaceVertex& vertex = walk_.vertex();
   const float radius_sq = sqr(disk.radius());
   MergedLight result;
-  visit_merging(disk, maximum_events,
-                [&](const LightVertexData& photon, const Vec3f& offset, const Vec3f& wi,
-                    const PathHalves& path) {
-                  if (!weights.surroundings.edges.hold(offset)) return;
-                  const float weight = in_.weights.merge(path);
-                  if (!(weight > 0)) return;
-                  const Spectrum arriving =
-                      photon.flux_spectrum() *
-                      (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
-                  const float share = length_sq(offset) / radius_sq;
-                  const float kernel = (1 - share) * weights.wide.factor(offset);
-                  const float narrow_kernel =
-                      std::max(0.0f, 1 - 2 * share) * weights.narrow.factor(offset);
-                  for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
-                    if (!any(lobes & lobe)) continue;
-                    const Component component = walk_.component_of(lobe, photon.specular);
-                    if (!walk_.wants(component)) continue;
-                    const Spectrum reflected = arriving * vertex.eval(wi, lobe);
-                    result.of[size_t(component)] += reflected * kernel;
-                    result.narrow += reflected * narrow_kernel;
-                  }
-                });
+  visit_merging(disk, [&](const LightVertexData& photon, const Vec3f& offset, const Vec3f& wi,
+                          const PathHalves& path) {
+    if (!weights.surroundings.edges.hold(offset)) return;
+    const float weight = in_.weights.merge(path);
+    if (!(weight > 0)) return;
+    const Spectrum arriving =
+        photon.flux_spectrum() *
+        (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
+    const float share = length_sq(offset) / radius_sq;
+    const float kernel = (1 - share) * weights.wide.factor(offset);
+    const float narrow_kernel = std::max(0.0f, 1 - 2 * share) * weights.narrow.factor(offset);
+    for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
+      if (!any(lobes & lobe)) continue;
+      const Component component = walk_.component_of(lobe, photon.specular);
+      if (!walk_.wants(component)) continue;
+      const Spectrum reflected = arriving * vertex.eval(wi, lobe);
+      result.of[size_t(component)] += reflected * kernel;
+      result.narrow += reflected * narrow_kernel;
+    }
+  });
   return result;
 }
 
-std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices(int maximum_events) const {
+std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices() const {
   const SurfaceVertex& vertex = walk_.vertex();
   const float radius = merge_radius();
   std::vector<MergedVertex> result;
   if (!(radius > 0)) return result;
   const MergeDisk disk(vertex, radius);
-  visit_merging(
-      disk, maximum_events,
-      [&](const LightVertexData& photon, const Vec3f& offset, const Vec3f& wi,
-          const PathHalves& path) {
-        const float distance_sq = length_sq(offset);
-        const float kernel =
-            2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
-        const float factor = vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
-        Spectrum reflected;
-        for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
-          if (any(vertex.lobes() & lobe) && walk_.wants(walk_.component_of(lobe, photon.specular)))
-            reflected += vertex.eval(wi, lobe);
-        result.push_back({in_.weights.beyond_merge(path),
-                          walk_.throughput() * reflected * photon.flux_spectrum() * factor});
-      });
+  visit_merging(disk, [&](const LightVertexData& photon, const Vec3f& offset, const Vec3f& wi,
+                          const PathHalves& path) {
+    const float distance_sq = length_sq(offset);
+    const float kernel =
+        2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
+    const float factor = vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
+    Spectrum reflected;
+    for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
+      if (any(vertex.lobes() & lobe) && walk_.wants(walk_.component_of(lobe, photon.specular)))
+        reflected += vertex.eval(wi, lobe);
+    result.push_back({in_.weights.beyond_merge(path),
+                      walk_.throughput() * reflected * photon.flux_spectrum() * factor});
+  });
   return result;
 }
 
+float VcmCameraPath::merging_length() const {
+  const PathWeights::Settings& settings = in_.weights.settings();
+  if (!settings.techniques.merging) return 0;
+  if (all_delta_) return infinity;
+  const float spread = vertices_.back().spread;
+  if (vertices_.back().delta) return spread >= settings.least_spread ? infinity : 0.0f;
+  if (!(settings.least_spread > 0)) return infinity;
+  // Across the segment its density is pdf / length².
+  if (spread < settings.least_spread) return 0;
+  return std::sqrt(spread * walk_.last_pdf() * settings.accepted_area / settings.least_spread);
+}
+
+float VcmCameraPath::medium_merge_weight(const MergeableMediumVertex& light, float phase,
+                                         float phase_back) const {
+  const PathVertex& at = vertices_.back();
+  const PathVertex* before = in_.light.vertices.data() + light.path;
+  PathHalves path = halves();
+  path.light = {before, light.before};
+  path.pdf_light_last = light.pdf_light;
+  path.pdf_light_before_last = phase_back * at.to_previous;
+  path.pdf_camera_last = phase * light.to_previous;
+  if (light.before >= 2) path.pdf_camera_before_last = before[light.before - 2].pdf_camera;
+  path.pdf_next_event = light.pdf_next_event;
+  return in_.weights.merge(path);
+}
+
+Spectrum VcmCameraPath::radiance(const Ray& ray, float length, const Medium& medium) const {
+  Spectrum sum;
+  const float merging = std::min(length, merging_length());
+  if (in_.light.in_media.empty() || !(merging > 0)) return sum;
+  const PhaseFunction& phase_function = medium.phase();
+  const Vec3f wo = -ray.direction;
+  const auto count = float(in_.light.path_count);
+  in_.light.in_media.discs.visit_met(ray, merging, [&](size_t i, float along, float distance_sq) {
+    const MergeableMediumVertex& light = in_.light.in_media.data[i];
+    if (!light.medium->is_like(medium) || walk_.events() + int(light.before) > in_.maximum_events)
+      return;
+    const Vec3f position = ray.origin + ray.direction * along;
+    const float radius_sq = sqr(in_.light.in_media.discs.radius(i));
+    const Vec3f wi = light.direction.unpack();
+    const float phase = phase_function.eval(wo, wi);
+    vertices_.push_back(next_in_medium(position, medium));
+    const float weight = medium_merge_weight(light, phase, phase_function.eval(wi, wo));
+    vertices_.pop_back();
+    const float kernel = 2 * inv_pi * (1 - distance_sq / radius_sq) / radius_sq;
+    sum += light.flux_spectrum() * medium.transmittance(along) * (kernel * phase * weight / count);
+  });
+  return sum;
+}
+
 float VcmCameraPath::survival_before() const {
-  return first_ == vertices_.size() ? plan_.survival : 1.0f;
+  return first_ == vertices_.size() && !is_in_medium() ? plan_.survival : 1.0f;
+}
+
+float VcmCameraPath::survival_to_come() const {
+  return all_delta_ && !is_in_medium() ? plan_.survival : 1.0f;
 }
 
 bool VcmCameraPath::survives_first(float u) {
-  if (first_ != vertices_.size()) return true;
+  if (first_ != vertices_.size() || is_in_medium()) return true;
   return plan_.survival >= 1 || walk_.survive_with(plan_.survival, u);
 }
 

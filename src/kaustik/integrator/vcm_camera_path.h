@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "kaustik/integrator/camera_walk.h"
+#include "kaustik/integrator/medium_disks.h"
 #include "kaustik/integrator/pixel_plans.h"
 #include "kaustik/photon/light_path_emission.h"
 #include "kaustik/photon/light_vertices.h"
@@ -24,30 +25,33 @@ struct VcmCameraInputs {
   float camera_samples;    ///< per pixel
   float connection_scale;  ///< of a connected vertex: vertices over paths and connections
   float merge_radius_sq;   ///< at vertices that the camera does not see
+  MediumDisks media = {};
+  int maximum_events = 1 << 20;
 };
 
 /// A camera walk's vertices as multiple importance sampling sees them, and what light paths bring
-/// to them.
-class VcmCameraPath final : public LightWeights {
+/// to them; as a VolumeLight what merges with the segment that the walk is on in a medium.
+class VcmCameraPath final : public LightWeights, public VolumeLight {
  public:
   /// `walk` must not have gone anywhere; `plan` is that of its pixel.
   VcmCameraPath(const VcmCameraInputs& inputs, CameraWalk& walk, const PixelPlan& plan);
 
-  /// The walk has come to a vertex.
-  void arrive();
+  /// Takes the walk to its next vertex, and adds what merges with its segments in media. If
+  /// nothing is to be scattered there, media take their share alone.
+  CameraWalk::Arrival go_on(bool scatters_in_media);
   /// The walk has chosen where to go on.
   void leave();
   /// Adds light of paths that are connected to the vertex, `count` of them.
-  void connect(int count, int maximum_events);
-  /// Adds light of paths whose vertices are near.
-  void merge(int maximum_events);
+  void connect(int count);
+  /// Adds light of paths whose vertices are near; on surfaces.
+  void merge();
   /// A light vertex that merges with the vertex, and what it sends on as if no other way found it.
   struct MergedVertex {
     float beyond;  ///< PathWeights::beyond_merge()
     Spectrum light;
   };
   /// All that are wanted, for who must know more than the sum.
-  std::vector<MergedVertex> merged_vertices(int maximum_events) const;
+  std::vector<MergedVertex> merged_vertices() const;
   /// Whether the vertex is the first whose lobes are more than delta, for all that is known before
   /// leave().
   bool is_at_first() const { return all_delta_; }
@@ -57,9 +61,10 @@ class VcmCameraPath final : public LightWeights {
   /// after leave().
   bool survives_first(float u);
 
-  float sampled(const SurfaceVertex& vertex, const DirectLight& light) const override;
+  float sampled(const Scatterer& vertex, const DirectLight& light) const override;
   float met(int light, const SurfaceVertex& vertex) const override;
   float met(int light, const Ray& ray) const override;
+  Spectrum radiance(const Ray& ray, float length, const Medium& medium) const override;
 
  private:
   /// What merges with the vertex, before it is divided by the area of the disk and the number of
@@ -77,19 +82,24 @@ class VcmCameraPath final : public LightWeights {
     DiskKernel wide, narrow;
   };
   DiskWeights disk_weights(const MergeDisk& disk) const;
-  MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights,
-                          int maximum_events) const;
-  MergedLight merged(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes,
-                     int maximum_events) const;
+  MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights) const;
+  MergedLight merged(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes) const;
   /// visit(vertex, how far it lies from the disk's, direction to where it comes from, path) for all
   /// that merge.
   template <typename Visit>
-  void visit_merging(const MergeDisk& disk, int maximum_events, const Visit& visit) const;
+  void visit_merging(const MergeDisk& disk, const Visit& visit) const;
   float merge_radius() const;
-  /// Of what follows the last vertex, at `position` with geometric normal `ng`; zero: infinitely
-  /// far along the walk's ray.
-  PathVertex next_vertex(const Vec3f& position, const Vec3f& ng) const;
-  void connect_to(const ConnectibleVertex& to, int maximum_events);
+  /// Of what follows the last vertex, along the walk's ray.
+  PathVertex next_vertex(const Vec3f& position, const Facing& facing) const;
+  PathVertex next_in_medium(const Vec3f& position, const Medium& medium) const;
+  PathVertex infinitely_far() const;
+  void arrive();
+  /// How far from the last vertex segments in media merge, m.
+  float merging_length() const;
+  /// Weight of merging with `light`, which lies beside `at`, the last vertex.
+  float medium_merge_weight(const MergeableMediumVertex& light, float phase,
+                            float phase_back) const;
+  void connect_to(const ConnectibleVertex& to);
   PathHalves halves() const;
   /// Of the last vertex from the camera's side, whose light comes from `wi`.
   float pdf_light_before(const Vec3f& wi) const;
@@ -101,8 +111,11 @@ class VcmCameraPath final : public LightWeights {
     receiver.level = vertices_.size() > 1 ? 1 : 0;
     return receiver;
   }
-  /// Chance of the roulette at the last vertex, if it is that of survives_first().
+  /// Chance of the roulette at the last vertex, if it is that of survives_first(): once it is left,
+  /// and before.
   float survival_before() const;
+  float survival_to_come() const;
+  bool is_in_medium() const { return vertices_.back().mean_free_path > 0; }
   /// Weight of meeting the light at `on_light`; `to_last` turns a density per solid angle there
   /// into that of the last vertex.
   float met_weight(const PathVertex& on_light, const EmissionDensity& emission, float to_last,
@@ -112,7 +125,9 @@ class VcmCameraPath final : public LightWeights {
   CameraWalk& walk_;
   PixelPlan plan_;
   std::vector<PathVertex>& vertices_;
-  SurfacePoint last_;      ///< of the walk's last vertex
+  Scatterer here_;         ///< the walk's last vertex, until the walk goes on
+  SurfacePoint last_;      ///< of that vertex, without normals in a medium
+  Facing last_facing_;     ///< of that vertex
   Receiver previous_;      ///< the last vertex
   bool all_delta_ = true;  ///< events so far
   bool no_light_paths_ = false;

@@ -5,6 +5,7 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/transport/direct_light.h"
 #include "kaustik/transport/light_path.h"
+#include "kaustik/transport/scatterer.h"
 
 namespace kaustik {
 namespace {
@@ -15,7 +16,7 @@ constexpr size_t paths_per_block = 1024;
 struct PathUnderWay {
   std::vector<PathVertex> vertices;
   LightPathStart start;
-  Vec3f normal;  ///< geometric, of the last vertex; zero at a point without a surface
+  Facing last;  ///< of the last vertex; zero at a point without a surface
   float pdf_next_event = 0;
   bool kept = false;  ///< some vertex may be merged or connected
 };
@@ -26,15 +27,16 @@ struct Block {
   std::vector<Vec3f> positions;
   std::vector<LightVertexData> data;  ///< `path` counts within the block
   std::vector<ConnectibleVertex> connectible;
+  std::vector<DiscHierarchy::Disc> discs;  ///< of the following
+  std::vector<MergeableMediumVertex> in_media;
   std::vector<LightPathBeginning> beginnings;
   uint64_t rays = 0, splats = 0;
 };
 
 /// Density with which direct light is sampled at `vertex` from the point where a light path begins,
 /// `distance` away; measure as PathHalves::pdf_next_event.
-float next_event_density(const Scene& scene, const SurfaceVertex& vertex, int light,
+float next_event_density(const Scene& scene, const Receiver& receiver, int light,
                          const SurfacePoint& on_light, const Vec3f& to_light, float distance) {
-  const Receiver receiver(vertex, 1);
   const Light& of = *scene.lights()[size_t(light)];
   if (of.is_delta())
     return scene.light_selector().probability(receiver.point.position, receiver.normal, light);
@@ -56,10 +58,12 @@ class Tracer {
     limits.maximum_events = std::max(0, in_.maximum_events - 1);
     limits.needs_reverse_pdf = true;
     const auto emit = [this](uint32_t i) { return start(i); };
-    const auto meet = [this](const LightVertex& at) {
-      add_vertex(at);
-      return Lobes::all;
-    };
+    const auto meet = Handlers{[this](const LightVertex& at) {
+                                 add_vertex(at);
+                                 return Lobes::all;
+                               },
+                               [this](const LightMediumVertex& at) { show_in_medium(at); },
+                               [this](const LightMediumEvent& event) { add_event(event.at); }};
     block_.rays += trace_light_paths(in_.scene, begin, end, limits, emit, meet).rays;
     gather();
     return std::move(block_);
@@ -85,7 +89,7 @@ class Tracer {
     PathVertex on_light;
     on_light.pdf_light = start.density.endpoint;
     path.vertices.push_back(on_light);
-    path.normal = start.emitted.on_surface ? start.emitted.origin.ng : Vec3f(0, 0, 0);
+    path.last = {start.emitted.on_surface ? start.emitted.origin.ng : Vec3f(0, 0, 0), 0};
     return LightPath(start.emitted.ray, start.emitted.flux, in_.scene.light_medium(start.light),
                      Lobes::specular, sampler);
   }
@@ -94,14 +98,14 @@ class Tracer {
     return *in_.scene.lights()[size_t(path.start.light)];
   }
 
-  void add_vertex(const LightVertex& at) {
-    PathUnderWay& path = paths_[at.path - begin_];
+  /// What follows the last vertex, `distance` away in the direction opposite to `wo`.
+  PathVertex next_vertex(PathUnderWay& path, const Receiver& receiver, const Facing& facing,
+                         const PathState& state, const Vec3f& wo, float distance) const {
     std::vector<PathVertex>& vertices = path.vertices;
-    const SurfaceVertex& vertex = at.vertex;
-    const Vec3f& wo = vertex.wo();
-    const float cosine = abs_dot(wo, vertex.point().ng);
-    const float distance_sq = sqr(at.distance);
+    const float cosine = facing.factor(wo);
+    const float distance_sq = sqr(distance);
     PathVertex next;
+    if (facing.extinction > 0) next.mean_free_path = 1 / facing.extinction;
     if (vertices.size() == 1) {
       const Light& light = light_of(path);
       if (light.is_infinite()) {
@@ -110,28 +114,128 @@ class Tracer {
       } else {
         next.pdf_light = path.start.density.rest * cosine / distance_sq;
         // Lights that are no surface are never met.
-        next.to_previous = light.shape() < 0 ? 0.0f : abs_dot(wo, path.normal) / distance_sq;
+        next.to_previous = light.shape() < 0 ? 0.0f : path.last.factor(wo) / distance_sq;
       }
-      path.pdf_next_event = next_event_density(in_.scene, vertex, path.start.light,
-                                               path.start.emitted.origin, wo, at.distance);
+      path.pdf_next_event = next_event_density(in_.scene, receiver, path.start.light,
+                                               path.start.emitted.origin, wo, distance);
     } else {
-      const bool after_delta = at.state.pdf_forward == 0;
+      const bool after_delta = state.pdf_forward == 0;
       vertices.back().delta = after_delta;
       vertices[vertices.size() - 2].pdf_camera =
-          (after_delta ? 1.0f : at.state.pdf_reverse) * vertices.back().to_previous;
-      next.pdf_light = (after_delta ? 1.0f : at.state.pdf_forward) * cosine / distance_sq;
-      next.to_previous = abs_dot(wo, path.normal) / distance_sq;
+          (after_delta ? 1.0f : state.pdf_reverse) * vertices.back().to_previous;
+      next.pdf_light = (after_delta ? 1.0f : state.pdf_forward) * cosine / distance_sq;
+      next.to_previous = path.last.factor(wo) / distance_sq;
     }
-    next.spread =
-        in_.weights.spread_after(vertices.back().spread, next.pdf_light, vertices.back().delta);
-    vertices.push_back(next);
-    path.normal = vertex.point().ng;
-    const bool has_events = vertices.size() >= 3;
+    next.spread = in_.weights.spread_after(vertices.back().spread, next.pdf_light, next,
+                                           vertices.back().delta);
+    return next;
+  }
+  PathVertex next_in_medium(PathUnderWay& path, const LightMediumVertex& at) const {
+    PathVertex next = next_vertex(path, Receiver(at.position, 1), {{}, mean_extinction(at.medium)},
+                                  at.state, at.wo, at.distance);
+    next.merge_volume = in_.media.merge_volume(at.position, at.medium);
+    return next;
+  }
+
+  void add_vertex(const LightVertex& at) {
+    PathUnderWay& path = paths_[at.path - begin_];
+    const SurfaceVertex& vertex = at.vertex;
+    const Facing facing{vertex.point().ng, 0};
+    path.vertices.push_back(
+        next_vertex(path, Receiver(vertex, 1), facing, at.state, vertex.wo(), at.distance));
+    path.last = facing;
+    const bool has_events = path.vertices.size() >= 3;
     if (has_events && in_.weights.settings().techniques.splats) splat(at, path);
     keep(at, path, has_events);
   }
 
-  /// Light from the lamp itself is not merged: sampling it is better, and has no bias.
+  /// Where the path goes on from.
+  void add_event(const LightMediumVertex& at) {
+    PathUnderWay& path = paths_[at.path - begin_];
+    path.vertices.push_back(next_in_medium(path, at));
+    path.last = {{}, mean_extinction(at.medium)};
+    if (!in_.weights.settings().techniques.connections || path.vertices.size() > 0xffff) return;
+    path.kept = true;
+    ConnectibleVertex vertex;
+    vertex.ray = {at.position, -at.wo, infinity};
+    vertex.medium = &at.medium;
+    vertex.in_medium = true;
+    vertex.data.specular = false;
+    vertex.data.before = uint16_t(path.vertices.size() - 1);
+    vertex.data.pdf_next_event = path.pdf_next_event;
+    for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+      vertex.data.flux[size_t(lane)] = at.flux[lane];
+    block_.connectible.push_back(vertex);
+    connectible_paths_.push_back(at.path - begin_);
+  }
+
+  /// Where no path goes on from, but light is shown: merged and splatted.
+  void show_in_medium(const LightMediumVertex& at) {
+    const Techniques& techniques = in_.weights.settings().techniques;
+    if (!techniques.merging && !techniques.splats) return;
+    PathUnderWay& path = paths_[at.path - begin_];
+    const PathVertex vertex = next_in_medium(path, at);
+    const size_t before = path.vertices.size();
+    if (techniques.merging && before <= 0xffff) {
+      path.kept = true;
+      MergeableMediumVertex data;
+      for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+        data.flux[size_t(lane)] = at.flux[lane];
+      data.direction = PackedDirection(at.wo);
+      data.before = uint16_t(before);
+      data.path = at.path - begin_;
+      data.pdf_next_event = path.pdf_next_event;
+      data.pdf_light = vertex.pdf_light;
+      data.to_previous = vertex.to_previous;
+      data.medium = &at.medium;
+      block_.discs.push_back({at.position, in_.media.radius(at.position)});
+      block_.in_media.push_back(data);
+    }
+    // Nobody asks for the irradiance of haze.
+    if (!techniques.splats || before < 2 || in_.scene.film().quantity == Quantity::irradiance)
+      return;
+    path.vertices.push_back(vertex);
+    splat_from_medium(at, path);
+    path.vertices.pop_back();
+  }
+
+  void splat_from_medium(const LightMediumVertex& at, const PathUnderWay& path) {
+    if (!in_.components.has(Component::volume)) return;
+    const CameraConnection connection = in_.scene.camera().connect(at.position);
+    if (!(connection.importance > 0)) return;
+    const float phase = at.medium.phase().eval(at.wo, connection.direction);
+    const float weight =
+        in_.weights.splat(splat_halves(path, connection, mean_extinction(at.medium),
+                                       at.medium.phase().eval(connection.direction, at.wo)));
+    const Spectrum value = at.flux * (phase * weight * connection.importance /
+                                      (sqr(connection.distance) * float(in_.light_paths)));
+    if (!(weight > 0) || value.is_zero()) return;
+    SurfacePoint point;
+    point.position = at.position;
+    const Spectrum visible = shadow_ray_transmittance(
+        in_.scene, spawn_ray_to(point, in_.scene.camera().position()), &at.medium, block_.rays);
+    if (visible.is_zero()) return;
+    ++block_.splats;
+    splats_.add(connection.raster, Component::volume, value * visible);
+  }
+
+  /// `facing`: of the last vertex to the camera. `pdf_reverse`: density with which a path from the
+  /// camera would be scattered there to the vertex before.
+  PathHalves splat_halves(const PathUnderWay& path, const CameraConnection& connection,
+                          float facing, float pdf_reverse) const {
+    PathHalves halves;
+    halves.light = path.vertices;
+    halves.pdf_camera_last =
+        connection.importance * in_.camera_samples * facing / sqr(connection.distance);
+    halves.pdf_camera_before_last = pdf_reverse * path.vertices.back().to_previous;
+    halves.pdf_next_event = path.pdf_next_event;
+    const PixelPlan plan = in_.plans.at(connection.raster, in_.shrinkage);
+    halves.first_merge_area = plan.counted_area(in_.camera_samples);
+    halves.first_survival = plan.counted_survival();
+    return halves;
+  }
+
+  /// Light from the lamp itself is not merged on surfaces: sampling it is better, and has no bias.
   void keep(const LightVertex& at, PathUnderWay& path, bool may_merge) {
     const Techniques& techniques = in_.weights.settings().techniques;
     const SurfaceVertex& vertex = at.vertex;
@@ -156,7 +260,7 @@ class Tracer {
     if (techniques.connections && scatters) {
       path.kept = true;
       set_flux(1);
-      block_.connectible.push_back({at.ray, at.hit, data, at.state.medium});
+      block_.connectible.push_back({at.ray, at.hit, data, at.state.medium, false});
       connectible_paths_.push_back(at.path - begin_);
     }
     if (merges && may_merge) {
@@ -181,18 +285,9 @@ class Tracer {
     if (!any(seen)) return;
     const CameraConnection connection = in_.scene.camera().connect(vertex.position());
     if (!(connection.importance > 0)) return;
-    const float cosine = abs_dot(connection.direction, vertex.point().ng);
-    PathHalves halves;
-    halves.light = path.vertices;
-    halves.pdf_camera_last =
-        connection.importance * in_.camera_samples * cosine / sqr(connection.distance);
-    halves.pdf_camera_before_last =
-        vertex.pdf_reverse(connection.direction, Lobes::all) * path.vertices.back().to_previous;
-    halves.pdf_next_event = path.pdf_next_event;
-    const PixelPlan plan = in_.plans.at(connection.raster, in_.shrinkage);
-    halves.first_merge_area = plan.counted_area(in_.camera_samples);
-    halves.first_survival = plan.counted_survival();
-    const float weight = in_.weights.splat(halves);
+    const float weight = in_.weights.splat(
+        splat_halves(path, connection, abs_dot(connection.direction, vertex.point().ng),
+                     vertex.pdf_reverse(connection.direction, Lobes::all)));
     if (!(weight > 0)) return;
     const float scale =
         weight * connection.importance / (sqr(connection.distance) * float(in_.light_paths));
@@ -236,6 +331,7 @@ class Tracer {
       block_.positions.push_back(kept.position);
       block_.data.push_back(kept.data);
     }
+    for (MergeableMediumVertex& vertex : block_.in_media) vertex.path = begins[vertex.path];
     for (size_t i = 0; i < connectible_paths_.size(); ++i)
       block_.connectible[i].data.path = begins[connectible_paths_[i]];
   }
@@ -250,6 +346,25 @@ class Tracer {
   std::vector<uint32_t> connectible_paths_;
   Block block_;
 };
+
+/// So that vertices of the list's neighbourhood are near one another.
+MediumVertices in_order(const std::vector<DiscHierarchy::Disc>& discs,
+                        const std::vector<MergeableMediumVertex>& data) {
+  if (data.empty()) return {};
+  std::vector<Vec3f> positions;
+  positions.reserve(discs.size());
+  for (const DiscHierarchy::Disc& disc : discs) positions.push_back(disc.center);
+  const std::vector<uint32_t> order = order_in_space(positions);
+  std::vector<DiscHierarchy::Disc> ordered(discs.size());
+  MediumVertices result;
+  result.data.resize(data.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    ordered[i] = discs[order[i]];
+    result.data[i] = data[order[i]];
+  }
+  result.discs = DiscHierarchy(std::move(ordered));
+  return result;
+}
 
 }  // namespace
 
@@ -268,12 +383,13 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
   result.path_count = inputs.light_paths;
   result.remembered_paths = std::min(inputs.remembered_paths, inputs.light_paths);
   std::vector<size_t> vertex_begin(count + 1), data_begin(count + 1), connectible_begin(count + 1);
-  std::vector<size_t> beginning_begin(count + 1);
+  std::vector<size_t> beginning_begin(count + 1), medium_begin(count + 1);
   for (size_t i = 0; i < count; ++i) {
     vertex_begin[i + 1] = vertex_begin[i] + blocks[i].vertices.size();
     data_begin[i + 1] = data_begin[i] + blocks[i].data.size();
     connectible_begin[i + 1] = connectible_begin[i] + blocks[i].connectible.size();
     beginning_begin[i + 1] = beginning_begin[i] + blocks[i].beginnings.size();
+    medium_begin[i + 1] = medium_begin[i] + blocks[i].in_media.size();
     report.rays += blocks[i].rays;
     report.photons += blocks[i].splats;
   }
@@ -282,11 +398,14 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
   result.beginnings.resize(beginning_begin[count]);
   std::vector<Vec3f> positions(data_begin[count]);
   std::vector<LightVertexData> data(data_begin[count]);
+  std::vector<DiscHierarchy::Disc> discs(medium_begin[count]);
+  std::vector<MergeableMediumVertex> in_media(medium_begin[count]);
   parallel_blocks(count, 8, [&](size_t first, size_t last, size_t) {
     for (size_t i = first; i < last; ++i) {
       Block& block = blocks[i];
       for (LightVertexData& d : block.data) d.path += uint32_t(vertex_begin[i]);
       for (ConnectibleVertex& c : block.connectible) c.data.path += uint32_t(vertex_begin[i]);
+      for (MergeableMediumVertex& m : block.in_media) m.path += uint32_t(vertex_begin[i]);
       for (LightPathBeginning& b : block.beginnings) b.path += uint32_t(vertex_begin[i]);
       const auto copy = [](const auto& from, auto& to, size_t at) {
         std::copy(from.begin(), from.end(), to.begin() + std::ptrdiff_t(at));
@@ -295,12 +414,16 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
       copy(block.positions, positions, data_begin[i]);
       copy(block.data, data, data_begin[i]);
       copy(block.connectible, result.connectible, connectible_begin[i]);
+      copy(block.discs, discs, medium_begin[i]);
+      copy(block.in_media, in_media, medium_begin[i]);
       copy(block.beginnings, result.beginnings, beginning_begin[i]);
       block = {};
     }
   });
-  const bool merges = inputs.weights.settings().techniques.merging && !data.empty();
-  report.photons += merges ? data.size() : result.connectible.size();
+  const bool merges = inputs.weights.settings().techniques.merging;
+  const size_t merging_count = merges ? data.size() + in_media.size() : 0;
+  report.photons += merging_count > 0 ? merging_count : result.connectible.size();
+  result.in_media = in_order(discs, in_media);
   if (!data.empty()) result.tree = {std::move(positions), std::move(data)};
   return result;
 }

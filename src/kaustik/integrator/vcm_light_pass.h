@@ -1,5 +1,6 @@
 #pragma once
 #include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/medium_disks.h"
 #include "kaustik/integrator/pixel_plans.h"
 #include "kaustik/photon/light_path_emission.h"
 #include "kaustik/photon/light_vertices.h"
@@ -20,6 +21,7 @@ struct VcmLightInputs {
   float shrinkage;  ///< of the disks of merging since the first pass
   /// Paths whose beginnings are remembered; their vertices are kept as if merging were wanted.
   uint32_t remembered_paths = 0;
+  MediumDisks media = {};
 };
 
 /// Traces the light paths of a pass, keeps their vertices, and splats them where that is one of the

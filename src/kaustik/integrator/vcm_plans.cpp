@@ -35,10 +35,25 @@ constexpr float near_per_distance = 0.01746f;  // tan 1°
 /// come to after a delta event: nothing but light paths will find such light.
 bool has_hidden_light(const LightVertices& light) {
   const auto all = light.tree.tree().data();
-  return std::any_of(all.begin(), all.end(), [&](const LightVertexData& data) {
+  const auto is_hidden = [&](const auto& data) {
     const PathVertex& first = light.vertices[size_t(data.path) + 1];
     return data.before >= 2 && first.to_previous == 0 && first.delta;
-  });
+  };
+  return std::any_of(all.begin(), all.end(), is_hidden) ||
+         std::any_of(light.in_media.data.begin(), light.in_media.data.end(), is_hidden);
+}
+
+/// As many vertices as on surfaces, were those in media spread over the picture, in discs that blur
+/// by no more than theirs.
+MediumDisks medium_disks(const Scene& scene, const VcmSettings& settings,
+                         const LightVertices& pilot, uint32_t of_pass, float mean_length) {
+  constexpr float least_widths = 1, most_widths = 6;
+  const Vec2i size = scene.film().crop_size;
+  const double per_pixel = double(pilot.in_media.size()) / double(pilot.path_count) *
+                           double(of_pass) / (double(size.x) * double(size.y));
+  const double wanted = std::sqrt(double(settings.merge_neighbors) * double(inv_pi) / per_pixel);
+  const float widths = wanted < double(most_widths) ? float(wanted) : most_widths;
+  return {scene, std::max(least_widths, widths), settings.radius, mean_length};
 }
 
 /// Whether light of these components may merge.
@@ -134,6 +149,8 @@ VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& sto
     plans.connectible_per_path = float(light.vertices.connectible.size()) / float(count);
   if (!settings_.techniques.merging || stop.stop_requested()) return plans;
   plans.pixels.choose_disks(light.vertices, of_pass, settings_.merge_neighbors, settings_.radius);
+  plans.media =
+      medium_disks(scene_, settings_, light.vertices, of_pass, plans.pixels.mean_distance());
   plans.pilot = std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass));
   if (settings_.chooses_light_paths)
     choose_light_paths(plans);
@@ -212,7 +229,9 @@ VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light,
                                plans.pixels,
                                float(samples),
                                0,
-                               settings.merge_area * inv_pi};
+                               settings.merge_area * inv_pi,
+                               plans.media,
+                               settings_.maximum_events};
   const double light_share = double(light.vertices.path_count) / double(light_paths);
   pilot.probes = probe_statistics(
       inputs, plans.pixels,

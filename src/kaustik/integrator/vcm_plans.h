@@ -6,6 +6,7 @@
 #include "kaustik/integrator/efficiency.h"
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/integrator/light_path_use.h"
+#include "kaustik/integrator/medium_disks.h"
 #include "kaustik/integrator/pixel_plans.h"
 #include "kaustik/integrator/vcm_settings.h"
 #include "kaustik/photon/light_path_emission.h"
@@ -30,6 +31,7 @@ struct VcmPlans {
   Techniques techniques;
   float light_paths = 0;  ///< per camera sample
   PixelPlans pixels;
+  MediumDisks media;                      ///< of the first pass
   std::shared_ptr<const VcmPilot> pilot;  ///< null: nothing merges
   uint64_t pilot_rays = 0;
   std::string decision;  ///< what was chosen by itself, for the user; empty: nothing

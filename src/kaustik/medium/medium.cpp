@@ -36,6 +36,15 @@ Medium::Medium(const Spectrum& extinction, const Spectrum& albedo,
   assert(phase_);
 }
 
+bool Medium::is_like(const Medium& other) const {
+  if (this == &other) return true;
+  for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+    if (extinction_[lane] != other.extinction_[lane] ||
+        scattering_[lane] != other.scattering_[lane])
+      return false;
+  return phase_->mean_cosine() == other.phase_->mean_cosine();
+}
+
 Spectrum Medium::transmittance(float distance) const {
   Spectrum result(1);
   // A lane that absorbs nothing stays 1 at an infinite distance too, where 0 · ∞ has no value.

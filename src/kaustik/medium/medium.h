@@ -19,6 +19,9 @@ class Medium {
   const Spectrum& scattering() const { return scattering_; }
   bool scatters() const { return !scattering_.is_zero(); }
   const PhaseFunction& phase() const { return *phase_; }
+  /// Whether it is the same stuff, in an object of its own perhaps: scenes may describe a medium
+  /// once for every boundary. (Phase functions are told apart by their mean cosine.)
+  bool is_like(const Medium& other) const;
 
   /// Share of the light of each lane that is left after `distance` (≥ 0, may be infinite) on a
   /// straight line: exp(−σ_t d), the law of Beer and Lambert.

@@ -4,6 +4,7 @@
 
 #include "kaustik/geometry/ray.h"
 #include "kaustik/medium/medium.h"
+#include "kaustik/photon/disc_hierarchy.h"
 #include "kaustik/photon/light_path_emission.h"
 #include "kaustik/photon/sided_tree.h"
 #include "kaustik/transport/path_weights.h"
@@ -26,10 +27,35 @@ struct LightVertexData {
 
 /// A vertex that can be met again, to be connected.
 struct ConnectibleVertex {
-  Ray ray;  ///< that met the surface
+  Ray ray;  ///< that met the surface; in a medium with the direction alone, and its origin there
   Hit hit;
   LightVertexData data;
   const Medium* medium = nullptr;  ///< that it arrived through
+  bool in_medium = false;          ///< flux is what is scattered there
+};
+
+/// A vertex in a medium that may be merged. It is a point of the segment between the path's
+/// vertices where light is sure to be scattered (LightMediumVertex), and not one of those itself.
+struct MergeableMediumVertex {
+  std::array<float, Spectrum::lane_count> flux{};  ///< W scattered, were this the only path
+  PackedDirection direction;                       ///< toward the vertex before
+  uint16_t before = 0;       ///< vertices before it, the light's point included
+  uint32_t path = 0;         ///< where the path's vertices begin
+  float pdf_next_event = 0;  ///< see PathHalves
+  float pdf_light = 0;       ///< see PathVertex
+  float to_previous = 0;     ///< see PathVertex
+  const Medium* medium = nullptr;
+
+  Spectrum flux_spectrum() const { return {flux[0], flux[1], flux[2], flux[3]}; }
+};
+
+/// Those of a pass, and their discs.
+struct MediumVertices {
+  std::vector<MergeableMediumVertex> data;
+  DiscHierarchy discs;  ///< in the same order
+
+  size_t size() const { return data.size(); }
+  bool empty() const { return data.empty(); }
 };
 
 /// How a path began that has left vertices.
@@ -42,6 +68,7 @@ struct LightPathBeginning {
 struct LightVertices {
   std::vector<PathVertex> vertices;  ///< path by path, from the light's point on
   SidedTree<LightVertexData> tree;   ///< those that may be merged
+  MediumVertices in_media;           ///< those in media that may be merged
   std::vector<ConnectibleVertex> connectible;
   uint32_t path_count = 0;
   /// Of the first paths, as many as were asked for, in their order.

@@ -39,11 +39,9 @@ bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPa
   return true;
 }
 
-LightMediumVertex sample_medium_vertex(LightPath& path, float limit) {
-  const Medium& medium = *path.state.medium;
-  const Medium::Flight flight =
-      medium.sample_collision(limit, path.state.throughput, path.sampler.next_2d());
-  LightMediumVertex vertex{{0, 0, 0}, -path.ray.direction, medium, {}, path.path_class, 0};
+LightMediumVertex medium_vertex(const LightPath& path, const Medium::Flight& flight) {
+  LightMediumVertex vertex{{0, 0, 0}, -path.ray.direction, *path.state.medium, {}, path.path_class,
+                           0,         path.state,          path.index};
   if (!flight.scattered) return vertex;
   vertex.position = path.ray.origin + path.ray.direction * flight.distance;
   vertex.flux = path.state.throughput * flight.weight;
@@ -51,22 +49,22 @@ LightMediumVertex sample_medium_vertex(LightPath& path, float limit) {
   return vertex;
 }
 
-MediumPassage pass_medium(LightPath& path, float limit, const LightPathLimits& limits) {
+LightMediumVertex sample_medium_vertex(LightPath& path, float limit) {
+  return medium_vertex(path, path.state.medium->sample_collision(limit, path.state.throughput,
+                                                                 path.sampler.next_2d()));
+}
+
+MediumFate scatter_in_medium(LightPath& path, const Medium::Flight& flight,
+                             const LightPathLimits& limits) {
   const Medium& medium = *path.state.medium;
-  const Medium::Flight flight =
-      medium.sample_flight(limit, path.state.throughput, path.sampler.next_2d());
-  if (!flight.scattered) {
-    path.attenuate(flight.weight);
-    return MediumPassage::through;
-  }
   const bool follow =
       limits.in_media == MediumEvents::follow ||
       (limits.in_media == MediumEvents::after_events && path.path_class.events() > 0);
-  if (!follow) return MediumPassage::stopped;
-  if (path.path_class.events() >= limits.maximum_events) return MediumPassage::too_long;
+  if (!follow) return MediumFate::stopped;
+  if (path.path_class.events() >= limits.maximum_events) return MediumFate::too_long;
   const Vec2f u = path.sampler.next_2d();
   const float survival = survival_of(path, flight.weight);
-  if (!(path.sampler.next_1d() < survival)) return MediumPassage::absorbed;
+  if (!(path.sampler.next_1d() < survival)) return MediumFate::absorbed;
   path.attenuate(flight.weight * (1 / survival));
   const Vec3f wo = -path.ray.direction;
   const Vec3f wi = medium.phase().sample(wo, u);
@@ -77,7 +75,7 @@ MediumPassage pass_medium(LightPath& path, float limit, const LightPathLimits& l
   path.path_class.add_medium_event();
   path.ray = {path.ray.origin + path.ray.direction * flight.distance, wi, infinity};
   path.distance = 0;
-  return MediumPassage::scattered;
+  return MediumFate::scattered;
 }
 
 }  // namespace kaustik

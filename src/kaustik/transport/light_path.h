@@ -59,6 +59,14 @@ struct LightMediumVertex {
   Spectrum flux;                     ///< that the medium scatters within the segment, W
   const LightPathClass& path_class;  ///< the events before this vertex
   float distance;                    ///< from the path's previous vertex, m
+  const PathState& state;            ///< at the begin of the segment
+  uint32_t path;                     ///< number of the path
+};
+
+/// The point of the segment where free flight has ended, from which the path goes on unless it is
+/// absorbed there. The mean flux over such points is that of the points above.
+struct LightMediumEvent {
+  LightMediumVertex at;
 };
 
 /// Where light paths may go on after they are scattered in a medium.
@@ -95,15 +103,21 @@ struct LightPathCounts {
 bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPathLimits& limits,
                         LightPath& path);
 
+/// The point of its segment through its medium where `path` is scattered by `flight`.
+LightMediumVertex medium_vertex(const LightPath& path, const Medium::Flight& flight);
 /// The point of its segment through its medium, of length `limit`, where `path` is scattered
 /// surely; the flux is zero where nothing scatters.
 LightMediumVertex sample_medium_vertex(LightPath& path, float limit);
 
-/// How a path comes through a segment in a medium.
-enum class MediumPassage { through, scattered, absorbed, stopped, too_long };
-/// Takes `path` along its segment of length `limit` by free flight; where it is scattered it has a
-/// new ray.
-MediumPassage pass_medium(LightPath& path, float limit, const LightPathLimits& limits);
+/// Free flight of `path` along its segment of length `limit`.
+inline Medium::Flight fly_through_medium(LightPath& path, float limit) {
+  return path.state.medium->sample_flight(limit, path.state.throughput, path.sampler.next_2d());
+}
+/// What becomes of a path that a medium takes out of its flight.
+enum class MediumFate { scattered, absorbed, stopped, too_long };
+/// Scatters `path` where `flight` has ended: it has a new ray then.
+MediumFate scatter_in_medium(LightPath& path, const Medium::Flight& flight,
+                             const LightPathLimits& limits);
 
 /// Handlers of different vertices as one.
 template <typename... Parts>
@@ -115,9 +129,10 @@ Handlers(Parts...) -> Handlers<Parts...>;
 
 /// Follows the light paths `begin` to `end`. `emit(i)` gives the i-th, or nothing. At every surface
 /// `handler(const LightVertex&)` answers with the lobes by which the path may go on (Lobes::none
-/// stops it). A handler that also takes a LightMediumVertex is shown those. Some dozens of paths
-/// advance side by side: their rays are traced in packets, and the memory that they need is fetched
-/// early (`make bench` compares with rays one by one). The order is the same in every run.
+/// stops it). A handler that also takes a LightMediumVertex or a LightMediumEvent is shown those.
+/// Some dozens of paths advance side by side: their rays are traced in packets, and the memory that
+/// they need is fetched early (`make bench` compares with rays one by one). The order is the same
+/// in every run.
 template <typename Emit, typename Handler>
 LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t end,
                                   const LightPathLimits& limits, const Emit& emit,
@@ -141,18 +156,22 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
         const LightMediumVertex in_medium = sample_medium_vertex(path, hit.t);
         if (!in_medium.flux.is_zero()) handler(in_medium);
       }
-      switch (pass_medium(path, hit.t, limits)) {
-        case MediumPassage::through:
-          break;
-        case MediumPassage::scattered:
-          return true;
-        case MediumPassage::absorbed:
-          return ended(counts.absorbed_in_media);
-        case MediumPassage::stopped:
-          return ended(counts.stopped);
-        case MediumPassage::too_long:
-          return ended(counts.too_long);
+      const Medium::Flight flight = fly_through_medium(path, hit.t);
+      if (flight.scattered) {
+        if constexpr (std::is_invocable_v<const Handler&, const LightMediumEvent&>)
+          handler(LightMediumEvent{medium_vertex(path, flight)});
+        switch (scatter_in_medium(path, flight, limits)) {
+          case MediumFate::scattered:
+            return true;
+          case MediumFate::absorbed:
+            return ended(counts.absorbed_in_media);
+          case MediumFate::stopped:
+            return ended(counts.stopped);
+          case MediumFate::too_long:
+            return ended(counts.too_long);
+        }
       }
+      path.attenuate(flight.weight);
     }
     if (!(hit.t < infinity)) return ended(counts.escaped);
     path.state.footprint.travel(hit.t);

@@ -11,7 +11,7 @@ namespace kaustik {
 /// connecting the halves where they meet. With Q_i the product of the camera's densities up to x_i
 /// and of the lights' beyond it, x_i is
 ///   connected to x_i+1 with density Q_i · connections,
-///   merged with Q_i · p_light(x_i) · n A_i c_i,
+///   merged with Q_i · p_light(x_i) · n A_i c_i (in media a volume in place of the area A_i),
 /// and the whole path is splatted with Q_0 · n, sampled with Q_n-1 · p_next / p_light(x_n), met
 /// with Q_n. `ratio` is Q_i / Q_t.
 class PathWeights::View {
@@ -24,6 +24,7 @@ class PathWeights::View {
         t_(path.camera.size()),
         n_(path.camera.size() + path.light.size()) {
     while (first_ < t_ && path_.camera[first_ - 1].delta) ++first_;
+    first_survival_ = vertex(first_).mean_free_path > 0 ? 1.0f : path_.first_survival;
   }
 
   size_t t() const { return t_; }
@@ -42,7 +43,7 @@ class PathWeights::View {
   }
   /// … and with the chance that the path comes there.
   float reach(size_t i) const {
-    return i == first_ + 1 ? pdf_camera(i) * path_.first_survival : pdf_camera(i);
+    return i == first_ + 1 ? pdf_camera(i) * first_survival_ : pdf_camera(i);
   }
   /// At vertices where the halves meet what is not delta counts, whatever event the light path went
   /// on by.
@@ -72,34 +73,39 @@ class PathWeights::View {
   }
   /// The spreads are those up to x_i and from x_i+1 on.
   float merge(float ratio, size_t i, float camera_spread, float light_spread) const {
-    if (!settings_.techniques.merging || i < 1 || i + 2 > n_ || is_delta(i)) return 0;
+    if (!settings_.techniques.merging || i < 1 || i + 1 > n_ || is_delta(i)) return 0;
+    const PathVertex& at = vertex(i);
+    const bool in_medium = at.mean_free_path > 0;
+    if (!in_medium && i + 2 > n_) return 0;
     const float density = ratio * pdf_light(i) * settings_.light_paths;
-    if (i == first_) return density * path_.first_merge_area;
+    if (i == first_)
+      return density *
+             (in_medium ? at.merge_volume * settings_.first_medium_share : path_.first_merge_area);
     if (camera_spread < settings_.least_spread) return 0;
     const float either = camera_spread + light_spread - camera_spread * light_spread;
     const float independent = settings_.correlation && either > 0 ? camera_spread / either : 1.0f;
-    return density * settings_.merge_area * independent;
+    return density * (in_medium ? at.merge_volume : settings_.merge_area) * independent;
   }
-
- private:
+  /// 1 ≤ i ≤ n.
   const PathVertex& vertex(size_t i) const {
     return i <= t_ ? path_.camera[i - 1] : path_.light[n_ - i];
   }
 
+ private:
   const Settings& settings_;
   const PathHalves& path_;
   Meeting meeting_;
   size_t t_, n_;
   size_t first_ = 1;  ///< the first vertex whose event is not delta
+  float first_survival_ = 1;
 };
 
 float PathWeights::squares_at(const View& path, size_t i, float scale, float camera_spread,
                               float light_spread) const {
   const size_t n = path.n();
   if (i == 0) return sqr(path.splat(scale));
-  float sum = 0;
-  if (i + 2 <= n)
-    sum += sqr(path.connection(scale, i)) + sqr(path.merge(scale, i, camera_spread, light_spread));
+  float sum =
+      sqr(path.connection(scale, i)) + sqr(path.merge(scale, i, camera_spread, light_spread));
   if (i + 1 == n) sum += sqr(path.next_event(scale));
   if (i == n) sum += sqr(path.unidirectional(scale));
   return sum;
@@ -112,7 +118,8 @@ float PathWeights::squares_beyond(const View& path, float scale) const {
     ratio *= path.reach(i) / path.pdf_light(i);
     if (!(ratio > 0)) break;
     if (i >= 2)
-      camera_spread = spread_after(camera_spread, path.pdf_camera(i), path.is_delta(i - 1));
+      camera_spread =
+          spread_after(camera_spread, path.pdf_camera(i), path.vertex(i), path.is_delta(i - 1));
     sum += squares_at(path, i, ratio, camera_spread, path.light_spread(i + 1));
   }
   return sum;
@@ -125,7 +132,8 @@ float PathWeights::squares_before(const View& path, float scale) const {
     ratio *= path.pdf_light(i + 1) / path.reach(i + 1);
     if (!(ratio > 0)) break;
     if (i + 1 < n)
-      light_spread = spread_after(light_spread, path.pdf_light(i + 1), path.is_delta(i + 2));
+      light_spread = spread_after(light_spread, path.pdf_light(i + 1), path.vertex(i + 1),
+                                  path.is_delta(i + 2));
     sum += squares_at(path, i, ratio, path.camera_spread(i), light_spread);
   }
   return sum;

@@ -17,16 +17,20 @@ struct Techniques {
   bool needs_light_paths() const { return splats || connections || merging; }
 };
 
-/// A vertex of a path as the ways of finding it see it. Densities are per area, and per solid angle
-/// at what is infinitely far away; given the vertex from which the path comes. At delta events,
-/// whose chance is the same in both directions, that chance is left out of both.
+/// A vertex of a path as the ways of finding it see it. Densities are per area, per volume in a
+/// medium, and per solid angle at what is infinitely far away; given the vertex from which the path
+/// comes. At delta events, whose chance is the same in both directions, that chance is left out of
+/// both.
 struct PathVertex {
   float pdf_camera = 0;   ///< with which paths from the camera find it
   float pdf_light = 0;    ///< with which paths from the lights find it
   float to_previous = 0;  ///< density per solid angle at the vertex to that of its predecessor (on
                           ///< the path that is followed)
   float spread = 1;       ///< see PathWeights; along the path up to and with this vertex
-  bool delta = false;     ///< the path is scattered here by a delta event
+  float mean_free_path = 0;  ///< 1/σ_t of the medium (mean over the lanes), m; 0: on a surface
+  float merge_volume = 0;  ///< of merging in the medium, m³: what camera paths that are scattered
+                           ///< in 1 m³ around the vertex have along their segments for it
+  bool delta = false;      ///< the path is scattered here by a delta event
 };
 
 /// A path x₀ (the camera) … xₙ (on a light) in two halves with what meets between xₜ and xₜ₊₁.
@@ -60,8 +64,13 @@ struct PathHalves {
 /// over so much that what merging adds is not worth its time. It is left out where a is less than
 /// `least_spread`.
 ///
-/// Left out as well: Russian roulette but that of the first vertex; splats, connections and merging
-/// of paths of less than three segments, where light sampled or met by chance is better and has no
+/// In media light paths' vertices merge with the segments of camera paths, scattered there or not
+/// (beam radiance estimate, Jarosz, Zwicker and Jensen 2008): a disk that is swept along a segment
+/// finds what paths that are scattered on it find in the disk times the mean free path.
+///
+/// Left out as well: Russian roulette but that of the first vertex, which is on surfaces alone;
+/// what media leave of light between the vertices; on paths of less than three segments splats,
+/// connections and merging on surfaces, where light sampled or met by chance is better and has no
 /// bias.
 class PathWeights {
  public:
@@ -73,6 +82,9 @@ class PathWeights {
     /// Area of the disk of merging at vertices that the camera sees, directly or by delta events,
     /// comes with the path, since it is the pixel's; that of all others, m²:
     float merge_area = 0;
+    /// At the first vertex in a medium merging counts by this: the samples of a pixel share what
+    /// they find.
+    float first_medium_share = 1;
     float accepted_area = 0;  ///< of the correlation, m²
     bool correlation = true;
     float least_spread = 0.1f;
@@ -117,9 +129,11 @@ class PathWeights {
   /// Whether vertices merge at the last of `camera`.
   bool merges_at(std::span<const PathVertex> camera) const;
 
-  /// PathVertex::spread of a vertex found with density `pdf` after one of `spread`.
-  float spread_after(float spread, float pdf, bool after_delta) const {
-    return after_delta ? spread : spread * accepted(pdf);
+  /// PathVertex::spread of `vertex`, found with density `pdf` after one of `spread`. In media paths
+  /// spread across their direction.
+  float spread_after(float spread, float pdf, const PathVertex& vertex, bool after_delta) const {
+    if (after_delta) return spread;
+    return spread * accepted(vertex.mean_free_path > 0 ? pdf * vertex.mean_free_path : pdf);
   }
 
  private:

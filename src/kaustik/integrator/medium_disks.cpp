@@ -1,0 +1,30 @@
+#include "kaustik/integrator/medium_disks.h"
+
+#include "kaustik/transport/scatterer.h"
+
+namespace kaustik {
+
+MediumDisks::MediumDisks(const Scene& scene, float widths, float given, float mean_length)
+    : camera_(scene.camera().position()),
+      per_distance_(widths * 2 * scene.camera().pixel_spread()),
+      given_(given),
+      mean_length_(mean_length) {}
+
+MediumDisks MediumDisks::shrunk(float shrinkage) const {
+  MediumDisks result = *this;
+  result.per_distance_ *= std::sqrt(shrinkage);
+  result.given_ *= std::sqrt(shrinkage);
+  return result;
+}
+
+float MediumDisks::radius(const Vec3f& position) const {
+  return given_ > 0 ? given_ : per_distance_ * length(position - camera_);
+}
+
+float MediumDisks::merge_volume(const Vec3f& position, const Medium& medium) const {
+  const float extinction = mean_extinction(medium);
+  const float collision_chance = -std::expm1(-extinction * mean_length_);
+  return pi * sqr(radius(position)) / (extinction * collision_chance);
+}
+
+}  // namespace kaustik
