@@ -32,6 +32,37 @@ Image picture(const Scene& scene, const Integrator& integrator, uint64_t seed, u
   return session.film().image();
 }
 
+/// The same of a layer after 1, 2, 4 … passes up to `last`, each pass of a seed of its own: those
+/// of one seed stratify one another from the seventeenth on. `truth_variance` is the reference's
+/// own.
+std::vector<double> errors_of_independent_passes(const Scene& scene, const Integrator& integrator,
+                                                 const std::vector<double>& truth,
+                                                 double truth_variance, uint32_t last,
+                                                 uint64_t pictures) {
+  std::vector<double> errors;
+  for (uint64_t picture = 0; picture < pictures; ++picture) {
+    std::vector<double> sum(truth.size());
+    size_t next = 0;
+    for (uint32_t pass = 0; pass < last; ++pass) {
+      SessionSettings settings;
+      settings.seed = 1000 * picture + pass;
+      settings.first_pass = pass;
+      settings.passes = 1;
+      settings.samples_per_pass = 4;
+      Session session(scene, integrator, settings);
+      session.run();
+      for (size_t i = 0; i < sum.size(); ++i) sum[i] += session.film().total(i, 1);
+      if (pass + 1 != 1u << next) continue;
+      double squares = 0;
+      for (size_t i = 0; i < sum.size(); ++i)
+        squares += std::pow(sum[i] / (pass + 1) - truth[i], 2) / double(sum.size());
+      if (errors.size() == next) errors.push_back(-truth_variance);
+      errors[next++] += squares / double(pictures);
+    }
+  }
+  return errors;
+}
+
 /// Mean squared error over seeds after 1, 2, 4 … passes of one sample, up to `last`.
 std::vector<double> errors_over_passes(const Scene& scene, const Integrator& integrator,
                                        const Image& truth, uint32_t last, int seeds) {
@@ -87,6 +118,58 @@ TEST(Convergence, UnbiasedTechniques) {
   for (const char* type : {"path", "bdpt"})
     expect_slope(type, errors_over_passes(scene.scene(), *scene.integrator(type), truth, 16, seeds),
                  -1, 0.05);
+}
+
+/// A point lamp's light that falls on a floor through a pane: nothing but caustic light, and
+/// smooth, so that disks of a few pixels have hardly any bias. (Smaller ones share a pixel's light,
+/// whose mean knows no disks.)
+class LightThroughAPane : public testing::Test {
+ protected:
+  static constexpr int size = 24;
+  static constexpr uint32_t last = slow_build ? 8 : 128;
+  LightThroughAPane() : truth_(size_t(size) * size) {
+    // What light tracing finds without bias, as are the variances of its passes.
+    const auto light = scene_.integrator("lighttracer", set("components", "caustic"));
+    SessionSettings settings;
+    settings.seed = 77;
+    settings.passes = replicate_count;
+    settings.samples_per_pass = slow_build ? 50 : 1000;
+    Session session(scene_.scene(), *light, settings);
+    session.run();
+    const double n = replicate_count;
+    for (size_t i = 0; i < truth_.size(); ++i) {
+      truth_[i] = session.film().total(i, 1) / n;
+      truth_variance_ += (session.film().total_squares(i, 1) / n - truth_[i] * truth_[i]) /
+                         (n - 1) / double(truth_.size());
+    }
+  }
+  std::vector<double> errors(const std::string& parameters, uint64_t pictures) const {
+    const auto ppm = scene_.integrator("ppm", set("components", "caustic") + parameters);
+    return errors_of_independent_passes(scene_.scene(), *ppm, truth_, truth_variance_, last,
+                                        pictures);
+  }
+
+  TestScene scene_{camera("0, 0, 0.9", "0, 0, 0", 58.1, size, "0, 1, 0") +
+                   flat("rectangle", scale("1, 1, 1"), diffuse("0.6, 0.6, 0.6")) +
+                   flat("rectangle", scale("1, 1, 1") + translate("0, 0, 1"), glass()) +
+                   point_light("0, 0, 2", 10)};
+  std::vector<double> truth_;
+  double truth_variance_ = 0;
+};
+
+/// Of `errors`, those from the eighth pass on: it takes some passes until sums over them are as
+/// their integrals.
+std::vector<double> later(const std::vector<double>& errors) {
+  return {errors.begin() + (slow_build ? 0 : 3), errors.end()};
+}
+
+/// The areas of disks shrink as i^(−1/3): the noise of a mean of n passes falls as n^(−2/3) (Knaus
+/// and Zwicker 2011).
+TEST_F(LightThroughAPane, NoiseOfShrinkingDisks) {
+  const std::string shrinking = set("radius", 0.12) + set("guiding", false);
+  expect_slope("ppm, disks that shrink",
+               later(errors(shrinking + set("light_paths", 1.0), slow_build ? 1 : 4)), -2.0 / 3,
+               0.1);
 }
 
 }  // namespace

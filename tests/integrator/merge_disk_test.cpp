@@ -64,6 +64,10 @@ class Disk {
         << what;
     EXPECT_GE(rays, uint64_t(held));
   }
+  float clear_radius(float widest = radius) const {
+    uint64_t rays = 0;
+    return DiskCoverage(scene_.scene(), MergeDisk(vertex_, widest), rays).clear_radius();
+  }
 
  private:
   TestScene scene_;
@@ -135,6 +139,27 @@ TEST(MergeDisk, BelowSomethingSolid) {
   Disk(rectangle(half) + lid, 0.04).expect_share("straight edge below a solid", 1 - beyond);
   Disk(rectangle(half) + rectangle(scale("2, 2, 1") + translate("0, 0, 0.05")), 0.04)
       .expect_share("straight edge below a sheet", 1 - beyond);
+}
+
+/// Twice the height of what hangs over the vertex, if that is less than its radius …
+TEST(MergeDisk, WhatHangsLowEndsTheDisk) {
+  const std::string floor = rectangle(scale("2, 2, 1"));
+  const auto below = [&](const std::string& height, const std::string& bsdf) {
+    return Disk(floor + rectangle(scale("1, 1, 1") + translate("0, 0, " + height), bsdf), 0.001);
+  };
+  const std::string grey = diffuse("0.5, 0.5, 0.5");
+  for (const double height : {0.002, 0.05, 0.2, 0.24})
+    EXPECT_NEAR(below(std::to_string(height), grey).clear_radius(), 2 * height, 1e-5) << height;
+  EXPECT_NEAR(below("0.05", mirror()).clear_radius(), 0.1, 1e-5);
+  // … by the widest disk there is to be.
+  EXPECT_EQ(below("0.26", grey).clear_radius(), infinity);
+  EXPECT_EQ(below("0.05", grey).clear_radius(0.09f), infinity);
+  EXPECT_NEAR(below("0.05", grey).clear_radius(0.11f), 0.1, 1e-5);
+  // What light passes through does not shade, nor does what hangs beside the vertex.
+  EXPECT_EQ(below("0.05", glass()).clear_radius(), infinity);
+  EXPECT_EQ(Disk(floor + rectangle(scale("1, 1, 1") + translate("1.01, 0, 0.05"))).clear_radius(),
+            infinity);
+  EXPECT_EQ(Disk(floor).clear_radius(), infinity);
 }
 
 }  // namespace

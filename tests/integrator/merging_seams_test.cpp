@@ -53,5 +53,103 @@ TEST(MergingSeams, AMirror) {
                  columns({5, 6}));
 }
 
+/// A rectangle over the whole depth of that floor, from x = `from` to `to`.
+std::string strip(double from, double to, double z, const std::string& bsdf) {
+  return flat("rectangle",
+              scale(fmt::format("{}, 0.6, 1", (to - from) / 2)) +
+                  translate(fmt::format("{}, 0, {}", (from + to) / 2, z)),
+              bsdf);
+}
+std::string floor_from(double from, double to) {
+  return strip(from, to, 0, two_sided(diffuse("0.6, 0.6, 0.6")));
+}
+/// Thin, black and across: the camera sees next to nothing of it, and no light falls on it.
+std::string wall_at(double x, double bottom = 0) {
+  return flat("rectangle",
+              scale(fmt::format("{}, 0.6, 1", 0.15 - bottom / 2)) + rotate("0, 1, 0", -90) +
+                  translate(fmt::format("{}, 0, {}", x, 0.15 + bottom / 2)),
+              two_sided(diffuse("0, 0, 0")));
+}
+/// Light from straight above, through a pane where there is one.
+class LitFloor {
+ public:
+  explicit LitFloor(const std::string& shapes,
+                    const std::string& above = strip(-0.7, 0.7, 1, glass()))
+      : scene_(camera("0, 0, 0.9", "0, 0, 0", 58.1, 16, "0, 1, 0") + shapes + above +
+               directional_light("0, 0, -1", 1)),
+        found_(
+            test::render(scene_, "ppm", set("radius", 0.1) + set("light_paths", 25.0), {4, 16})) {}
+  RunningStatistics mean(const PixelWeight& weight = {}) const {
+    return found_.mean({"caustic"}, weight);
+  }
+  void expect_as_open(const std::string& what, const LitFloor& open,
+                      const std::vector<int>& which) const {
+    expect_near_means(what, Comparison(mean(columns(which)), open.mean()), 0.01, 0.005);
+  }
+
+ private:
+  TestScene scene_;
+  Passes found_;
+};
+
+/// The columns are 1/16 m wide, the middle lies between the columns 7 and 8, and disks reach over
+/// one and a half of them.
+TEST(MergingSeams, WallsAndGapsInEvenLight) {
+  const LitFloor open(floor_from(-0.6, 0.6));
+  LitFloor(floor_from(-0.6, 0.6) + wall_at(0)).expect_as_open("wall", open, {6, 7, 8, 9});
+  LitFloor(floor_from(-0.6, 0)).expect_as_open("end of the floor", open, {6, 7});
+  LitFloor(floor_from(-0.6, -0.0625) + floor_from(-0.04, 0.6))
+      .expect_as_open("gap in the floor", open, {5, 6});
+  LitFloor(floor_from(-0.6, -0.0625) + floor_from(0, 0.6) + wall_at(-0.03, -0.1))
+      .expect_as_open("gap before a wall", open, {5, 6});
+  // As wide as the rays that look for walls pass below it.
+  LitFloor(floor_from(-0.6, 0.6) + wall_at(0, 0.03))
+      .expect_as_open("gap below a wall", open, {6, 7, 8, 9});
+}
+
+/// Behind a thin wall it is dark, right up to the wall, and before it as bright as elsewhere.
+TEST(MergingSeams, NoLightThroughThinWalls) {
+  const LitFloor open(floor_from(-0.6, 0.6));
+  const std::string half_sky =
+      strip(-0.7, 0, 1, glass()) + strip(0, 0.7, 1, two_sided(diffuse("0, 0, 0")));
+  const LitFloor parted(floor_from(-0.6, 0.6) + wall_at(0), half_sky);
+  parted.expect_as_open("before the wall", open, {6, 7});
+  EXPECT_EQ(parted.mean(columns({8, 9, 10})).mean(), 0);
+  // Without the wall the light is blurred by disks that reach over its edge.
+  EXPECT_GT(LitFloor(floor_from(-0.6, 0.6), half_sky).mean(columns({8})).mean(),
+            0.05 * open.mean().mean());
+}
+
+/// A black lid hangs over the left half of the floor. The mean over samples of caustic light at
+/// that point below it, by disks of `radius` in a picture of `size` pixels over 0.44 m.
+double caustic_below_lid(double height, float x, double radius, int size) {
+  const TestScene scene(camera("0.6, 0, 0.06", "0, 0, 0", 40, size) + floor_from(-0.6, 0.6) +
+                        strip(-0.6, 0, height, two_sided(diffuse("0, 0, 0"))) +
+                        strip(-0.7, 0.7, 1, glass()) + directional_light("0, 0, -1", 1));
+  const auto integrator = scene.integrator(
+      "ppm", set("radius", radius) + set("light_paths", 60'000.0 / (4 * size * size)));
+  SplatBuffer splats(scene.scene().film(), integrator->components());
+  const auto state = integrator->prepare({1, 0, 4}, splats, {}, {});
+  const Vec2f raster = scene.scene().camera().connect({x, 0, 0}).raster;
+  RunningStatistics light;
+  for (uint32_t i = 0; i < 16; ++i) {
+    Sampler sampler = Sampler::at(1, 0, Stream::camera, 0, i);
+    SampleSink sink(integrator->components());
+    integrator->sample(*state, raster, sampler, sink);
+    EXPECT_NEAR(sink.first_hit().depth, 0.6 - double(x), 0.01);
+    light.add(double(sink.radiance(Component::caustic).sum()));
+  }
+  return light.mean();
+}
+
+/// What hangs low shades as sharply as that: disks are no wider than twice its height, but for half
+/// a pixel.
+TEST(MergingSeams, NoLightBelowWhatHangsLow) {
+  constexpr double height = 0.01, radius = 0.25;
+  EXPECT_EQ(caustic_below_lid(height, -0.022f, radius, 60), 0);
+  EXPECT_GT(caustic_below_lid(height, -0.015f, radius, 60), 0);
+  EXPECT_GT(caustic_below_lid(height, -0.022f, radius, 8), 0);
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -112,5 +112,100 @@ TEST_F(PixelPlanGaps, TakeDisksOfTheirRow) {
   EXPECT_GT(area(1, 3), 2 * area(6, 3));
 }
 
+/// A floor that a wall ends at x = 0.5, and a shelf 1 m over its left part, seen from above: 8 × 8
+/// blocks of 0.25 m on the floor. The shelf's end, at x = −0.45, is seen at x = −0.5.
+class Surroundings : public testing::Test {
+ protected:
+  static constexpr float block = 0.25f, pixel = block / 4;
+  Surroundings() : plans_(scene_.scene()) {
+    uint64_t rays = 0;
+    plans_.find_edges(scene_.scene(), widths, 0, rays);
+    EXPECT_GT(rays, 0u);
+  }
+  /// Where a point of the floor is seen.
+  static Vec2f raster(float x, float y) { return Vec2f(16 + x / pixel, 16 - y / pixel); }
+  SurfaceVertex vertex(const Vec3f& from, const Vec3f& direction) const {
+    const Ray ray{from, direction, infinity};
+    Hit hit;
+    EXPECT_TRUE(scene_.scene().intersect(ray, hit));
+    SurfaceVertex result;
+    result.meet(scene_.scene(), ray, hit, TransportMode::radiance);
+    return result;
+  }
+  SurfaceVertex on_floor(float x, float y) const { return vertex({x, y, 0.5f}, {0, 0, -1}); }
+  SurfaceVertex on_shelf(float x, float y) const { return vertex({x, y, 5}, {0, 0, -1}); }
+  static void expect_edge(const PixelPlans::Surroundings& found, float distance) {
+    ASSERT_EQ(found.edges.count, 1u);
+    EXPECT_NEAR(found.edges.edges[0].inward.x, -1, 1e-3);
+    EXPECT_NEAR(found.edges.edges[0].distance, distance, 2e-3);
+  }
+  static void expect_nothing_known(const PixelPlans::Surroundings& found) {
+    EXPECT_EQ(found.edges.count, 0u);
+    EXPECT_FALSE(found.are_complete);
+  }
+
+  static constexpr float widths = 4;  ///< radii up to a block; sought as far as two
+  const std::string grey_ = diffuse("0.5, 0.5, 0.5");
+  TestScene scene_{
+      camera("0, 0, 10", "0, 0, 0", 2 * std::atan(0.1) * 180 / std::numbers::pi, 32, "0, 1, 0") +
+      flat("rectangle", scale("3, 3, 1"), grey_) +
+      flat("rectangle", scale("0.1, 3, 1") + rotate("0, 1, 0", -90) + translate("0.5, 0, 0.1"),
+           grey_) +
+      flat("rectangle", scale("1, 3, 1") + translate("-1.45, 0, 1"), grey_)};
+  PixelPlans plans_;
+};
+
+TEST_F(Surroundings, EdgesThatCutTheDisk) {
+  const SurfaceVertex vertex = on_floor(0.3f, 0.1f);
+  const auto wide = plans_.surroundings(raster(0.3f, 0.1f), vertex, 0.24f);
+  expect_edge(wide, 0.2f);
+  EXPECT_TRUE(wide.are_complete);
+  const auto narrow = plans_.surroundings(raster(0.3f, 0.1f), vertex, 0.19f);
+  EXPECT_EQ(narrow.edges.count, 0u);
+  EXPECT_TRUE(narrow.are_complete);
+  // The same around a probe, the middle of its block.
+  const size_t probe = 3 * 8 + 5;
+  EXPECT_NEAR(plans_.probes()[probe].vertex.position().x, 0.375, 1e-3);
+  expect_edge(plans_.surroundings(probe, 0.24f), 0.125f);
+}
+
+/// Beyond two blocks from the probe nobody has looked.
+TEST_F(Surroundings, AreCompleteWithinWhatWasSeen) {
+  const Vec2f at = raster(0.125f, 0.125f);
+  const SurfaceVertex middle = on_floor(0.125f, 0.125f), corner = on_floor(0.02f, 0.02f);
+  const float reach = 2 * block, off = std::sqrt(2.0f) * 0.105f;
+  EXPECT_TRUE(plans_.surroundings(at, middle, 0.97f * reach).are_complete);
+  EXPECT_FALSE(plans_.surroundings(at, middle, 1.03f * reach).are_complete);
+  EXPECT_TRUE(plans_.surroundings(at, corner, 0.97f * reach - off).are_complete);
+  EXPECT_FALSE(plans_.surroundings(at, corner, 1.03f * reach - off).are_complete);
+  EXPECT_FALSE(PixelPlans(scene_.scene()).surroundings(at, middle, 0.01f).are_complete);
+}
+
+/// Neither of another plane nor of the other side of the plane.
+TEST_F(Surroundings, OfTheRightPlaneAndSide) {
+  const Vec2f at = raster(0.3f, 0.1f);
+  expect_nothing_known(plans_.surroundings(at, on_shelf(-0.7f, 0.1f), 0.2f));
+  expect_nothing_known(plans_.surroundings(at, vertex({0.3f, 0.1f, -1}, {0, 0, 1}), 0.24f));
+  expect_nothing_known(
+      plans_.surroundings(at, vertex({0.3f, 0.1f, 0.1f}, {1, 0, 0}), 0.2f));  // on the wall
+  // What lies behind the wall is told by a block beside, whose probe lies there too.
+  const auto behind = plans_.surroundings(at, on_floor(0.6f, 0.1f), 0.2f);
+  ASSERT_EQ(behind.edges.count, 1u);
+  EXPECT_NEAR(behind.edges.edges[0].inward.x, 1, 1e-3);
+  EXPECT_NEAR(behind.edges.edges[0].distance, 0.1, 2e-3);
+  expect_nothing_known(plans_.surroundings(raster(0.1f, 0.1f), on_floor(0.6f, 0.1f), 0.2f));
+}
+
+/// What a block shows but its probe does not may be known of one beside it, not of one farther off.
+TEST_F(Surroundings, OfBlocksBeside) {
+  // Seen through a block whose probe is on the shelf, at the shelf's end.
+  const Vec2f beside = raster(-0.51f, 0.1f), farther = raster(-0.76f, 0.1f);
+  const auto of_shelf = plans_.surroundings(beside, on_shelf(-0.5f, 0.1f), 0.2f);
+  expect_edge(of_shelf, 0.05f);
+  const SurfaceVertex floor = on_floor(-0.3f, 0.1f);
+  EXPECT_TRUE(plans_.surroundings(beside, floor, 0.1f).are_complete);
+  expect_nothing_known(plans_.surroundings(farther, floor, 0.1f));
+}
+
 }  // namespace
 }  // namespace kaustik
