@@ -113,11 +113,11 @@ TestScene floor_with_wall() {
 /// Mean over some seeds of the radii of the two blocks on either side of pixel 48. So few light
 /// vertices that none of the disks has more than are worth their time.
 template <typename Density>
-RunningStatistics radii_there(const TestScene& scene, const Density& density) {
+RunningStatistics radii_there(const TestScene& scene, const Density& density,
+                              Edges edges = Edges::found, int end = 56, size_t count = 1500) {
   RunningStatistics result;
   for (unsigned seed = 1; seed <= (slow_build ? 2 : 24); ++seed)
-    result.add(
-        mean_radius(learned(scene.scene(), density, 1500, 8, Edges::found, 1000 * seed), 40, 56));
+    result.add(mean_radius(learned(scene.scene(), density, count, 8, edges, 1000 * seed), 40, end));
   return result;
 }
 
@@ -135,6 +135,25 @@ TEST(RadiusLearning, DisksAtAWallAreAsWideAsOthers) {
   };
   expect_alike("even light", [](float, float) { return 1.0f; });
   expect_alike("linear light", [](float x, float) { return 0.5f + 0.3f * x; });
+}
+
+/// The same of disks of which a part is covered, where no edges are known.
+TEST(RadiusLearning, DisksThatAreHalfCoveredAreAsWideAsOthers) {
+  const TestScene open = floor_scene(),
+                  strip(camera("0, 0, 10", "0, 0, 0", 11.42, 64, "0, 1, 0") +
+                        flat("rectangle", scale("2.5, 3, 1") + translate("-2, 0, 0"),
+                             diffuse("0.5, 0.5, 0.5")) +
+                        point_light("0, 0, 5", 1));
+  const auto on_strip = [](float x, float) { return x < 0.5f ? 1.0f : 0.0f; };
+  // As dense: 1000 of them in two thirds of what 1500 lie in.
+  const Comparison radii(radii_there(strip, on_strip, Edges::not_looked_for, 48, 1000),
+                         radii_there(
+                             open, [](float, float) { return 1.0f; }, Edges::not_looked_for, 48));
+  std::printf("  %.4f m at the end, %.3f ± %.3f times that of an open floor\n", radii.mean(),
+              radii.ratio(), radii.relative_error());
+  if (!slow_build) {
+    EXPECT_NEAR(radii.ratio(), 1, 0.1);
+  }
 }
 
 TEST(RadiusLearning, RaysAreCountedAndStopRequestsSeen) {
