@@ -75,7 +75,7 @@ std::string described(const VcmPlans& plans, double gain) {
                 "{:.2g} times less to do than for paths from the camera alone, by a pilot's "
                 "estimate",
                 gain)
-          : std::string("they alone would not find all light");
+          : std::string("they alone might not find all light");
   return fmt::format(
       "auto: {:.3g} light paths per camera sample, camera paths go on in {:.0f} % of cases: {}",
       plans.light_paths, 100 * going_on, why);
@@ -87,7 +87,7 @@ void choose_light_paths(VcmPlans& plans) {
   const auto with = [&](float light_paths) {
     VcmPlans result = plans;
     result.light_paths = light_paths;
-    result.techniques.merging = light_paths > 0;
+    if (light_paths == 0) result.techniques = result.techniques.of_camera_paths();
     const Efficiency expected = result.settle(disks, 1);
     return std::pair(std::move(result), expected);
   };
@@ -239,7 +239,8 @@ VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light,
       plans.pilot_rays);
   for (const PixelPlan& plan : plans.pixels.plans()) pilot.areas.push_back(plan.merge_area);
   pilot.light_paths = plans.light_paths;
-  pilot.needs_merging = is_merging_wanted(settings_.components) && has_hidden_light(light.vertices);
+  pilot.needs_merging = scene_.has_scattering() || (is_merging_wanted(settings_.components) &&
+                                                    has_hidden_light(light.vertices));
   const Vec2i size = scene_.film().crop_size;
   pilot.costs = {samples,
                  double(light.rays) / light_share / (samples * double(size.x) * double(size.y))};

@@ -20,7 +20,8 @@ struct VcmPilot {
   std::vector<float> areas;  ///< of the disks that they were taken with, m²
   PassCosts costs;
   float light_paths = 0;  ///< per camera sample, of the passes that it speaks of
-  /// Light arrives somewhere in the scene that no path from the camera can find.
+  /// Light arrives somewhere in the scene that no path from the camera can find, or media scatter
+  /// it, of which the pilot knows nothing.
   bool needs_merging = false;
 };
 
