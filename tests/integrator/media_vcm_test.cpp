@@ -74,6 +74,20 @@ TEST(VcmInMedia, CausticInTheAir) {
   }
 }
 
+/// A ball of fog whose mean free path is far less than a pixel: discs as wide as pixels would reach
+/// out of it, and make it a third darker.
+TEST(VcmInMedia, DenseFog) {
+  const TestScene scene(
+      camera("0, -3, 0", "0, 0, 0", 40, 16) +
+      sphere("0, 0, 0", 1, null_bsdf + medium("interior", "100, 100, 100", "0.9, 0.9, 0.9", 0)) +
+      point_light("0, 0, 3", 10));
+  const Passes path = render(scene, "path", "", {200, 7});
+  for (const char* type : {"ppm", "auto"})
+    expect_near_means(fmt::format("{}, dense fog", type),
+                      render(scene, type, "", {100, 8}).mean({"volume"}), path.mean({"volume"}),
+                      0.01);
+}
+
 /// The same bits for any number of threads.
 TEST(VcmInMedia, IsTheSameForAnyNumberOfThreads) {
   const TestScene scene(hazy_room());

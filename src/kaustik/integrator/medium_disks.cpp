@@ -1,9 +1,10 @@
 #include "kaustik/integrator/medium_disks.h"
 
+#include <algorithm>
+
 #include "kaustik/transport/scatterer.h"
 
 namespace kaustik {
-
 MediumDisks::MediumDisks(const Scene& scene, float widths, float given, float mean_length)
     : camera_(scene.camera().position()),
       per_distance_(widths * 2 * scene.camera().pixel_spread()),
@@ -14,17 +15,20 @@ MediumDisks MediumDisks::shrunk(float shrinkage) const {
   MediumDisks result = *this;
   result.per_distance_ *= std::sqrt(shrinkage);
   result.given_ *= std::sqrt(shrinkage);
+  result.mean_free_paths_ *= std::sqrt(shrinkage);
   return result;
 }
 
-float MediumDisks::radius(const Vec3f& position) const {
-  return given_ > 0 ? given_ : per_distance_ * length(position - camera_);
+float MediumDisks::radius(const Vec3f& position, const Medium& medium) const {
+  if (given_ > 0) return given_;
+  return std::min(per_distance_ * length(position - camera_),
+                  mean_free_paths_ / mean_extinction(medium));
 }
 
 float MediumDisks::merge_volume(const Vec3f& position, const Medium& medium) const {
   const float extinction = mean_extinction(medium);
   const float collision_chance = -std::expm1(-extinction * mean_length_);
-  return pi * sqr(radius(position)) / (extinction * collision_chance);
+  return pi * sqr(radius(position, medium)) / (extinction * collision_chance);
 }
 
 }  // namespace kaustik

@@ -13,8 +13,9 @@ class MediumDisks {
 
   /// These with `shrinkage` times the area.
   MediumDisks shrunk(float shrinkage) const;
-  /// m.
-  float radius(const Vec3f& position) const;
+  /// m. No more than a share of the mean free path, within which light in a medium hardly varies,
+  /// but for a radius that was given.
+  float radius(const Vec3f& position, const Medium& medium) const;
   /// PathVertex::merge_volume: the disc's area times the mean free path, and times how much more
   /// often light paths' vertices are found there than those of free flight, since they are sure to
   /// be scattered within their segments.
@@ -24,6 +25,7 @@ class MediumDisks {
   Vec3f camera_{0, 0, 0};
   float per_distance_ = 0;
   float given_ = 0;
+  float mean_free_paths_ = 0.05f;  ///< at most
   float mean_length_ = 1;
 };
 

@@ -188,7 +188,7 @@ class Tracer {
       data.pdf_light = vertex.pdf_light;
       data.to_previous = vertex.to_previous;
       data.medium = &at.medium;
-      block_.discs.push_back({at.position, in_.media.radius(at.position)});
+      block_.discs.push_back({at.position, in_.media.radius(at.position, at.medium)});
       block_.in_media.push_back(data);
     }
     // Nobody asks for the irradiance of haze.
