@@ -243,6 +243,35 @@ void CameraWalk::scatter_in_medium(const Vec2f& u) {
 bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u) {
   const BsdfSample sample = vertex_.sample(u_lobe, u, lobes);
   if (sample.event == Lobes::none || sample.weight.is_zero()) return false;
+  go_on(sample, probability);
+  return true;
+}
+
+std::optional<CameraWalk::DeltaEvents> CameraWalk::delta_events() const {
+  constexpr float least = 0, most = 0.99999994f;
+  if (vertex_.lobes() != Lobes::delta || !vertex_.bsdf().transmits()) return std::nullopt;
+  const DeltaEvents events{vertex_.sample(least, {}, Lobes::delta),
+                           vertex_.sample(most, {}, Lobes::delta)};
+  const auto is_some = [](const BsdfSample& sample) {
+    return sample.event == Lobes::delta && !sample.weight.is_zero();
+  };
+  if (!is_some(events.reflection) || !is_some(events.transmission) ||
+      events.reflection.transmission || !events.transmission.transmission)
+    return std::nullopt;
+  // A mask over glass has a third.
+  constexpr float rounding = 1e-4f;
+  if (events.reflection.pdf_solid_angle + events.transmission.pdf_solid_angle < 1 - rounding)
+    return std::nullopt;
+  return events;
+}
+
+void CameraWalk::branch(const BsdfSample& event) {
+  state_.throughput *= event.pdf_solid_angle;
+  state_.roulette_scale *= 1 / event.pdf_solid_angle;
+  go_on(event, 1);
+}
+
+void CameraWalk::go_on(const BsdfSample& sample, float probability) {
   state_.throughput *= sample.weight * (1 / probability);
   // Roulette must not see that this is one of several branches.
   state_.roulette_scale *= sqr(sample.eta) * std::max(1.0f, probability);
@@ -254,7 +283,6 @@ bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec
   class_.add_event(sample.event);
   state_.medium = vertex_.medium_toward(sample.wi, state_.medium);
   ray_ = spawn_ray(vertex_.point(), sample.wi);
-  return true;
 }
 
 bool CameraWalk::survive(float u) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "kaustik/base/sampler.h"
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/photon/shadow_map.h"
@@ -124,6 +126,14 @@ class CameraWalk {
   /// Chooses a direction by `lobes` for the next advance(); false if the light is absorbed.
   /// `probability` is that of having chosen these lobes, or the number of branches that do so.
   bool scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u);
+  /// The two events between which chance chooses where a smooth transparent surface both reflects
+  /// and transmits, and does nothing else; pdf_solid_angle is the chance.
+  struct DeltaEvents {
+    BsdfSample reflection, transmission;
+  };
+  std::optional<DeltaEvents> delta_events() const;
+  /// The path goes on by one of these as the one of several branches that always does.
+  void branch(const BsdfSample& event);
   /// Russian roulette on the throughput; false if the path ends.
   bool survive(float u);
   /// The same with a chance that does not come from the throughput.
@@ -138,6 +148,7 @@ class CameraWalk {
   Component seen(Component component) const {
     return state_.depth == 0 ? component : class_.component_after(Lobes::diffuse);
   }
+  void go_on(const BsdfSample& event, float probability);
   void add_reflected(Lobes event, const Spectrum& radiance) {
     sink_.add(class_.component_after(event), state_.throughput * radiance);
   }

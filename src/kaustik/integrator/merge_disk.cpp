@@ -60,14 +60,28 @@ bool DiskCoverage::hides(const SurfacePoint& point) const {
   return point.shape == vertex_.point().shape || !scene_.surface(point.shape).bsdf->transmits();
 }
 
-std::optional<SurfacePoint> DiskCoverage::obstacle(float height, float angle, float reach) const {
+template <typename Stops>
+std::optional<SurfacePoint> DiskCoverage::first_on_way(float height, float angle, float reach,
+                                                       const Stops& stops) const {
   std::optional<SurfacePoint> result;
   distance_to({vertex_.position() + frame_.z * free_height(height), across(angle), reach},
               [&](const SurfacePoint& point) {
-                if (hides(point)) result = point;
+                if (stops(point)) result = point;
                 return result.has_value();
               });
   return result;
+}
+
+std::optional<SurfacePoint> DiskCoverage::obstacle(float height, float angle, float reach) const {
+  return first_on_way(height, angle, reach,
+                      [&](const SurfacePoint& point) { return hides(point); });
+}
+
+std::optional<SurfacePoint> DiskCoverage::interface(float height, float angle, float reach) const {
+  return first_on_way(height, angle, reach, [&](const SurfacePoint& point) {
+    const Bsdf& bsdf = *scene_.surface(point.shape).bsdf;
+    return bsdf.transmits() && bsdf.lobes() == Lobes::delta;
+  });
 }
 
 std::optional<SurfacePoint> DiskCoverage::surface_at(float wanted_height, float depth,

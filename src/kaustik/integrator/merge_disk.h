@@ -68,8 +68,11 @@ class DiskCoverage {
   /// weights 1 − distance²/radius² of the kernel; unbiased but for shares of a few percent.
   float inverse_share(float radius, const DiskEdges& edges, Sampler numbers) const;
 
-  /// What is met first, at that height over the plane, on the way in the direction `angle`.
+  /// What is met first of what hides what lies behind, at that height over the plane, on the way in
+  /// the direction `angle`.
   std::optional<SurfacePoint> obstacle(float height, float angle, float reach) const;
+  /// The same of what refracts: light behind it has come another way.
+  std::optional<SurfacePoint> interface(float height, float angle, float reach) const;
   /// What is met first from that height over a point of the plane down to that depth below it.
   std::optional<SurfacePoint> surface_at(float height, float depth, float distance,
                                          float angle) const;
@@ -84,6 +87,9 @@ class DiskCoverage {
   float free_height(float wanted) const { return wanted < free_ ? wanted : 0.5f * free_; }
   /// What light passes through hides nothing, but for the vertex's own shape.
   bool hides(const SurfacePoint& point) const;
+  template <typename Stops>
+  std::optional<SurfacePoint> first_on_way(float height, float angle, float reach,
+                                           const Stops& stops) const;
   /// How far away the ray meets a point where stops(point) holds; infinite: nowhere.
   template <typename Stops>
   float distance_to(Ray ray, const Stops& stops) const;

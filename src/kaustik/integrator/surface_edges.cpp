@@ -67,8 +67,14 @@ class Search {
   void look(size_t i) {
     const float angle = angle_of(i);
     const auto wall = coverage_.obstacle(wall_height * reach_, angle, reach_);
-    const float at_wall = wall ? dot(wall->position - origin_, across(angle)) : reach_;
+    float at_wall = wall ? dot(wall->position - origin_, across(angle)) : reach_;
     if (wall) add_wall(i, *wall);
+    // What lies on the surface or over it, such as a ball of glass, parts nothing.
+    const auto interface = coverage_.interface(wall_height * reach_, angle, at_wall);
+    if (interface && stands_across(*interface)) {
+      add_wall(i, *interface);
+      at_wall = dot(interface->position - origin_, across(angle));
+    }
     const auto end = end_at(angle, at_wall / same_distance);
     if (!end) return;
     if (goes_on(angle, *end))
@@ -109,9 +115,14 @@ class Search {
            std::fabs(dot(surface->position - origin_, frame_.z)) <= gentle * step;
   }
 
+  Vec3f in_plane_of(const Vec3f& normal) const {
+    return normal - frame_.z * dot(normal, frame_.z);
+  }
+  bool stands_across(const SurfacePoint& wall) const {
+    return length(in_plane_of(wall.ng)) >= least_sine;
+  }
   void add_wall(size_t i, const SurfacePoint& wall) {
-    const float up = dot(wall.ng, frame_.z);
-    const Vec3f in_plane = wall.ng - frame_.z * up;
+    const Vec3f in_plane = in_plane_of(wall.ng);
     const float sine = length(in_plane);
     if (sine < least_sine || coverage_.merges_at(wall)) {
       complete_ = std::min(complete_, length(wall.position - origin_));

@@ -1,7 +1,9 @@
 #pragma once
 #include <mutex>
 
+#include "kaustik/integrator/camera_walk.h"
 #include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/vcm_camera_path.h"
 #include "kaustik/integrator/vcm_learning.h"
 #include "kaustik/integrator/vcm_plans.h"
 #include "kaustik/integrator/vcm_settings.h"
@@ -26,6 +28,19 @@ class VcmIntegrator final : public Integrator {
 
  private:
   struct State;
+  /// A path of several that camera paths branch into at smooth transparent surfaces.
+  struct Branch {
+    float share = 1;     ///< what chance would have left of such paths, over what was followed
+    float survival = 1;  ///< with which it is followed beyond the next vertex
+
+    /// One that chance would choose that often.
+    Branch by(float chance) const;
+  };
+  void follow(const Techniques& techniques, CameraWalk& walk, VcmCameraPath& path,
+              Branch branch) const;
+  /// Follows the less likely of two events and lets `stem` go on by the other.
+  void split(const Techniques& techniques, CameraWalk& stem, VcmCameraPath& path,
+             const CameraWalk::DeltaEvents& events, Branch& branch) const;
   /// `made_up`: passes that had to be traced for it, in whose progress one more part is left.
   std::shared_ptr<const VcmPlans> plans_for(const Pass& pass, std::stop_token stop,
                                             const ProgressFunction& progress, uint32_t& made_up,

@@ -7,7 +7,7 @@
 namespace kaustik {
 namespace {
 
-/// Walks have no vertices in common, and branches don't occur here, so each thread has one list.
+/// One walk after the other, but for branches, so each thread has one list.
 std::vector<PathVertex>& empty_list() {
   static thread_local std::vector<PathVertex> list;
   list.clear();
@@ -33,8 +33,24 @@ SurfacePoint shining(const Light& light, SurfacePoint point, const Vec3f& direct
 }  // namespace
 
 VcmCameraPath::VcmCameraPath(const VcmCameraInputs& inputs, CameraWalk& walk, const PixelPlan& plan)
-    : in_(inputs), walk_(walk), plan_(plan), vertices_(empty_list()) {
+    : in_(inputs), walk_(walk), plan_(plan), vertices_(empty_list()), vertices_before_(0) {
   walk.weigh_by(*this);
+}
+
+VcmCameraPath::VcmCameraPath(const VcmCameraPath& other, CameraWalk& branch)
+    : in_(other.in_),
+      walk_(branch),
+      plan_(other.plan_),
+      vertices_(other.vertices_),
+      vertices_before_(vertices_.size()),
+      here_(branch.scatterer()),
+      last_(other.last_),
+      last_facing_(other.last_facing_),
+      previous_(other.previous_),
+      all_delta_(other.all_delta_),
+      no_light_paths_(other.no_light_paths_),
+      first_(other.first_) {
+  walk_.weigh_by(*this);
 }
 
 PathVertex VcmCameraPath::next_vertex(const Vec3f& position, const Facing& facing) const {

@@ -36,6 +36,13 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   /// `walk` must not have gone anywhere; `plan` is that of its pixel.
   VcmCameraPath(const VcmCameraInputs& inputs, CameraWalk& walk, const PixelPlan& plan);
 
+  /// The same path so far for a branch of the walk. Until that is done, `other` must not go on; this
+  /// takes back what it did to what they share.
+  VcmCameraPath(const VcmCameraPath& other, CameraWalk& branch);
+  ~VcmCameraPath() { vertices_.resize(vertices_before_); }
+  VcmCameraPath(const VcmCameraPath&) = delete;
+  VcmCameraPath& operator=(const VcmCameraPath&) = delete;
+
   /// Takes the walk to its next vertex, and adds what merges with its segments in media. If
   /// nothing is to be scattered there, media take their share alone.
   CameraWalk::Arrival go_on(bool scatters_in_media);
@@ -124,7 +131,8 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   const VcmCameraInputs& in_;
   CameraWalk& walk_;
   PixelPlan plan_;
-  std::vector<PathVertex>& vertices_;
+  std::vector<PathVertex>& vertices_;  ///< those of branches come after those of their stem
+  size_t vertices_before_;             ///< its size when this was made
   Scatterer here_;         ///< the walk's last vertex, until the walk goes on
   SurfacePoint last_;      ///< of that vertex, without normals in a medium
   Facing last_facing_;     ///< of that vertex
