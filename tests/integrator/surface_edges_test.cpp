@@ -117,11 +117,18 @@ TEST(SurfaceEdges, WhereNothingMerges) {
   seen.expect_edge(1, 0, 0.1);
 }
 
-/// A wall that light passes through is none either.
-TEST(SurfaceEdges, GlassIsNone) {
-  const Seen seen(floor_ + flat("rectangle", rotate("0, 1, 0", -90) + translate("0.2, 0, 1"),
+/// Light on the other side of glass that stands on the floor has come another way, as behind the
+/// surface of water along a wall.
+TEST(SurfaceEdges, WhatRefracts) {
+  const Seen wall(floor_ + flat("rectangle", rotate("0, 1, 0", -90) + translate("0.2, 0, 1"),
                                 "<bsdf type=\"dielectric\"/>"));
-  EXPECT_EQ(seen.around().count, 0u);
+  EXPECT_EQ(wall.around().count, 1u);
+  wall.expect_edge(1, 0, 0.2);
+  EXPECT_TRUE(wall.is_complete());
+  // Around where a ball touches the floor it is all air.
+  const Seen ball(floor_ + sphere("0.45, 0, 0.4", 0.4, glass()));
+  EXPECT_EQ(ball.around().count, 0u);
+  EXPECT_TRUE(ball.is_complete());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Connection and merging: every choice of techniques makes the same picture.
 
+#include "kaustik/material/fresnel.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
 
@@ -215,6 +216,23 @@ TEST(Vcm, NoTechniqueIsToldOf) {
   EXPECT_NE(warnings("none")[0].find("all techniques are switched off"), std::string::npos);
   for (const char* name : {"unidirectional", "next_event", "splats", "connections", "merging"})
     EXPECT_TRUE(warnings(name).empty()) << name;
+}
+
+/// A lamp mirrored in glass is there in every sample: paths branch, they do not choose.
+TEST(Vcm, MirroredLampsAreNoNoise) {
+  const TestScene scene(
+      camera("0, -2, 2", "0, 0, 0", 1, 4) +
+      flat("rectangle", scale("3, 3, 1"), R"(<bsdf type="dielectric">
+                                               <float name="int_ior" value="1.5"/></bsdf>)") +
+      flat("rectangle", rotate("1, 0, 0", 135) + translate("0, 2, 2"), area_light("100")));
+  const double seen = 100 * double(fresnel_dielectric(std::sqrt(0.5f), 1.5f).reflectance);
+  for (const char* type : {"bdpt", "vcm", "auto"}) {
+    const Passes found = render(scene, type, "", {1, 1, 2});
+    for (const Image& image : found.images())
+      for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+          EXPECT_NEAR(double(image.at(x, y, 0)), seen, 0.05 * seen) << type;
+  }
 }
 
 /// max_depth cuts all techniques at the same length.

@@ -33,6 +33,35 @@ double level_radius(const PixelProbe& probe, int level) {
   return double(probe.pixel_width) * std::exp2(0.5 * level);
 }
 
+/// Areas of disks, in pixels, as geometric means of those around a probe, near ones twice: seams
+/// show where one block's disks are many times as wide as the next one's.
+std::vector<PixelPlan> smoothed(const PixelPlans& at, const std::vector<PixelPlan>& plans) {
+  const std::vector<PixelProbe>& probes = at.probes();
+  const Vec2i size = at.blocks();
+  const auto is_known = [&](size_t i) {
+    return probes[i].found && probes[i].pixel_width > 0 && plans[i].merge_area > 0;
+  };
+  std::vector<PixelPlan> result = plans;
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const size_t own = size_t(y) * size_t(size.x) + size_t(x);
+      if (!is_known(own)) continue;
+      double log_radii = 0, weights = 0;
+      for (int v = std::max(0, y - 1); v <= std::min(size.y - 1, y + 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(size.x - 1, x + 1); ++u) {
+          const size_t i = size_t(v) * size_t(size.x) + size_t(u);
+          if (!is_known(i)) continue;
+          const double weight = (u == x ? 2 : 1) * (v == y ? 2 : 1);
+          log_radii += weight * std::log(std::sqrt(double(plans[i].merge_area)) /
+                                         double(probes[i].pixel_width));
+          weights += weight;
+        }
+      const double widths = std::exp(log_radii / weights);
+      result[own].merge_area = float(sqr(widths * double(probes[own].pixel_width)));
+    }
+  return result;
+}
+
 constexpr size_t probes_per_block = 256;
 constexpr auto levels = size_t(RadiusLearning::level_count);
 
@@ -233,7 +262,7 @@ std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std:
       result[p].merge_area = float(pi * sqr(level_radius(probe, level))) / shrinkage;
     }
   });
-  return result;
+  return smoothed(first, result);
 }
 
 }  // namespace kaustik

@@ -115,9 +115,7 @@ class Search {
            std::fabs(dot(surface->position - origin_, frame_.z)) <= gentle * step;
   }
 
-  Vec3f in_plane_of(const Vec3f& normal) const {
-    return normal - frame_.z * dot(normal, frame_.z);
-  }
+  Vec3f in_plane_of(const Vec3f& normal) const { return normal - frame_.z * dot(normal, frame_.z); }
   bool stands_across(const SurfacePoint& wall) const {
     return length(in_plane_of(wall.ng)) >= least_sine;
   }

@@ -232,8 +232,7 @@ void VcmIntegrator::split(const Techniques& techniques, CameraWalk& stem, VcmCam
     VcmCameraPath of_branch(path, walk);
     walk.branch(other);
     of_branch.leave();
-    if (walk.may_find_more())
-      follow(techniques, walk, of_branch, branch.by(other.pdf_solid_angle));
+    if (walk.may_find_more()) follow(techniques, walk, of_branch, branch.by(other.pdf_solid_angle));
   }
   stem.branch(likely);
   branch = branch.by(likely.pdf_solid_angle);
