@@ -36,8 +36,8 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   /// `walk` must not have gone anywhere; `plan` is that of its pixel.
   VcmCameraPath(const VcmCameraInputs& inputs, CameraWalk& walk, const PixelPlan& plan);
 
-  /// The same path so far for a branch of the walk. Until that is done, `other` must not go on; this
-  /// takes back what it did to what they share.
+  /// The same path so far for a branch of the walk. Until that is done, `other` must not go on;
+  /// this takes back what it did to what they share.
   VcmCameraPath(const VcmCameraPath& other, CameraWalk& branch);
   ~VcmCameraPath() { vertices_.resize(vertices_before_); }
   VcmCameraPath(const VcmCameraPath&) = delete;
@@ -113,10 +113,10 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   /// Whether light is only sampled and met by chance on paths of this many segments.
   bool path_tracing_alone(size_t length) const;
   /// The last vertex as it asked for light.
-  Receiver weighed_receiver() const {
-    Receiver receiver = previous_;
-    receiver.level = vertices_.size() > 1 ? 1 : 0;
-    return receiver;
+  LightQuery weighed_query() const {
+    LightQuery query = previous_;
+    query.level = vertices_.size() > 1 ? 1 : 0;
+    return query;
   }
   /// Chance of the roulette at the last vertex, if it is that of survives_first(): once it is left,
   /// and before.
@@ -133,11 +133,11 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   PixelPlan plan_;
   std::vector<PathVertex>& vertices_;  ///< those of branches come after those of their stem
   size_t vertices_before_;             ///< its size when this was made
-  Scatterer here_;         ///< the walk's last vertex, until the walk goes on
-  SurfacePoint last_;      ///< of that vertex, without normals in a medium
-  Facing last_facing_;     ///< of that vertex
-  Receiver previous_;      ///< the last vertex
-  bool all_delta_ = true;  ///< events so far
+  Scatterer here_;                     ///< the walk's last vertex, until the walk goes on
+  SurfacePoint last_;                  ///< of that vertex, without normals in a medium
+  Facing last_facing_;                 ///< of that vertex
+  LightQuery previous_;                ///< of the last vertex
+  bool all_delta_ = true;              ///< events so far
   bool no_light_paths_ = false;
   size_t first_ = 0;  ///< number of the first vertex whose event is not delta; 0: none yet
 };
