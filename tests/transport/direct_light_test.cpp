@@ -86,7 +86,7 @@ TEST(RecursionLevel, DensitiesFollowIt) {
       const SurfacePoint on_light = scene->tracer().surface_point(ray, hit);
       if (dot(on_light.ng, light.wi) > -0.05f || scene->occluded(light.shadow_ray)) continue;
       const auto pdf = [&](const Receiver& asked, LightChoice choice) {
-        return double(direct_light_pdf(*scene, asked, choice, 0, on_light));
+        return double(direct_light_pdf(*scene, asked.query(), choice, 0, on_light));
       };
       const double reported = double(light.pdf_solid_angle);
       ASSERT_NEAR(pdf(receiver, LightChoice::one), reported, 2e-3 * reported) << level;

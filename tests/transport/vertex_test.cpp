@@ -267,7 +267,7 @@ TEST(DirectLight, IrradianceOfADisk) {
       Hit hit;
       const Ray ray = spawn_ray(vertex.point(), light.wi);
       ASSERT_TRUE(scene->intersect(ray, hit));
-      EXPECT_NEAR(direct_light_pdf(*scene, vertex, LightChoice::one, 0,
+      EXPECT_NEAR(direct_light_pdf(*scene, light_query(vertex), LightChoice::one, 0,
                                    scene->tracer().surface_point(ray, hit)),
                   light.pdf_solid_angle, 1e-3f * light.pdf_solid_angle);
     }

@@ -51,6 +51,9 @@ class Sampler {
   /// In [0, 1)².
   Vec2f next_2d();
 
+  /// As next_2d(), where the numbers are not needed.
+  void skip_pair() { ++pair_; }
+
   /// Moves to the fixed block of dimensions of vertex `vertex` of the path, whatever was drawn
   /// before: what one vertex uses never shifts the numbers of the next.
   void start_vertex(uint32_t vertex) { pair_ = (vertex + 1) * pairs_per_vertex; }
@@ -95,10 +98,10 @@ inline Vec2f Sampler::next_2d() {
   const uint32_t reversed = owen_hash_reversed(reversed_index_, uint32_t(h));
   const uint64_t seeds = h * 0xd1342543de82ef95ull + 1;
   // The first Sobol dimension is the bit reversal of the index: reversed once more, the index.
-  const uint32_t x = reverse_bits(owen_hash_reversed(reverse_bits(reversed), uint32_t(h >> 32)));
-  const uint32_t y =
-      reverse_bits(owen_hash_reversed(sobol_second_reversed(reversed), uint32_t(seeds >> 32)));
-  return {to_unit(x), to_unit(y)};
+  const Words sobol_reversed{reverse_bits(reversed), sobol_second_reversed(reversed), 0, 0};
+  const Words seeds_of_both{uint32_t(h >> 32), uint32_t(seeds >> 32), 0, 0};
+  const Words both = reverse_bits(owen_hash_reversed(sobol_reversed, seeds_of_both));
+  return {to_unit(both[0]), to_unit(both[1])};
 }
 
 }  // namespace kaustik

@@ -6,16 +6,28 @@
 
 namespace kaustik::sampler_details {
 
-constexpr uint32_t reverse_bits(uint32_t x) {
-  x = __builtin_bswap32(x);
+/// Numbers that the same is done to.
+using Words = uint32_t __attribute__((vector_size(16)));
+
+/// Of every byte by itself.
+template <typename Word>
+constexpr Word reverse_bits_of_bytes(Word x) {
   x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
   x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
   return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
 }
+constexpr uint32_t reverse_bits(uint32_t x) { return reverse_bits_of_bytes(__builtin_bswap32(x)); }
+inline Words reverse_bits(Words x) {
+  using Bytes = uint8_t __attribute__((vector_size(16)));
+  const auto bytes = Bytes(x);
+  return reverse_bits_of_bytes(Words(
+      __builtin_shufflevector(bytes, bytes, 3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12)));
+}
 
 /// Laine–Karras permutation with the constants found by Vegdahl: an Owen scramble of bits that
 /// stand in reversed order.
-constexpr uint32_t owen_hash_reversed(uint32_t x, uint32_t seed) {
+template <typename Word>
+constexpr Word owen_hash_reversed(Word x, Word seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
   x *= (seed >> 16) | 1u;

@@ -1,4 +1,5 @@
 #pragma once
+#include <bit>
 #include <cstdint>
 
 #include "kaustik/base/transform.h"
@@ -46,14 +47,54 @@ struct UvDerivatives {
   Vec3f dpdu{0, 0, 0}, dpdv{0, 0, 0};
 };
 
+// Inline: a ray that a function returns is copied, and a copy of what was just written waits for it
+// to reach the cache.
+
+/// `from` + `offset` and one float further in that direction; what std::nextafter does for finite
+/// numbers, inline.
+inline float round_outward(float from, float offset) {
+  const float moved = from + offset;
+  if (offset == 0) return moved;
+  if (moved == 0) return std::copysign(std::numeric_limits<float>::denorm_min(), offset);
+  const bool away_from_zero = (moved > 0) == (offset > 0);
+  return std::bit_cast<float>(std::bit_cast<uint32_t>(moved) + (away_from_zero ? 1u : ~0u));
+}
+
+/// `position` moved off its surface by at least `distance`, to the side of `direction`.
+inline Vec3f offset_by(const SurfacePoint& point, const Vec3f& direction, float distance) {
+  const Vec3f offset = point.ng * (dot(direction, point.ng) < 0 ? -distance : distance);
+  return {round_outward(point.position.x, offset.x), round_outward(point.position.y, offset.y),
+          round_outward(point.position.z, offset.z)};
+}
+
 /// `position` moved off its surface to the side of `direction`, just far enough that a ray from
 /// there cannot meet the surface again by rounding: by the point's own error bound, which follows
 /// from the magnitude of the coordinates and never from the scene's scale.
-Vec3f offset_origin(const SurfacePoint& point, const Vec3f& direction);
+inline Vec3f offset_origin(const SurfacePoint& point, const Vec3f& direction) {
+  return offset_by(point, direction, point.error);
+}
+
 /// A ray that leaves `point` along unit `direction`.
-Ray spawn_ray(const SurfacePoint& point, const Vec3f& direction);
+inline Ray spawn_ray(const SurfacePoint& point, const Vec3f& direction) {
+  return {offset_origin(point, direction), direction, infinity};
+}
+
 /// A ray from `from` that ends just before `to`; its direction is not normalised, t_max is 1.
-Ray spawn_ray_to(const SurfacePoint& from, const SurfacePoint& to);
-Ray spawn_ray_to(const SurfacePoint& from, const Vec3f& to);
+inline Ray spawn_ray_to(const SurfacePoint& from, const Vec3f& to) {
+  const Vec3f origin = offset_origin(from, to - from.position);
+  return {origin, to - origin, 1.0f};
+}
+inline Ray spawn_ray_to(const SurfacePoint& from, const SurfacePoint& to) {
+  const Vec3f separation = to.position - from.position;
+  const Vec3f origin = offset_origin(from, separation);
+  // The far end also has to clear what the length of the ray adds: the rounding of its direction
+  // and the intersection test's own sums over coordinates relative to the ray's origin.
+  const float length_error =
+      8 * float_rounding *
+      (std::fabs(to.ng.x * separation.x) + std::fabs(to.ng.y * separation.y) +
+       std::fabs(to.ng.z * separation.z));
+  const Vec3f target = offset_by(to, -separation, to.error + length_error);
+  return {origin, target - origin, 1.0f};
+}
 
 }  // namespace kaustik

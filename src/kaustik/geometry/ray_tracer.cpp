@@ -92,6 +92,7 @@ SurfacePoint placed(const InstanceRecord& instance, const SurfacePoint& local) {
 /// A degenerate triangle that is hit all the same gets the normal that the hit test saw.
 inline SurfacePoint mesh_point(const TriangleMesh& mesh, const Hit& hit) {
   SurfacePoint point = triangle_surface_point(mesh, hit.primitive, hit.u, hit.v);
+  point.shape = hit.shape;
   if (point.ng == Vec3f(0, 0, 0)) [[unlikely]] {
     float scale = 0;
     point.ng = point.ns = vec3(unit_and_scale(lanes(hit.ng), scale));
@@ -463,9 +464,7 @@ SurfacePoint RayTracer::surface_point(const Ray& ray, const Hit& hit) const {
   const ShapeRecord& record = impl_->records[hit.shape];
   if (!record.mesh || hit.instance != no_instance) [[unlikely]]
     return impl_->point_of_others(record, ray, hit);
-  SurfacePoint point = mesh_point(*record.mesh, hit);
-  point.shape = hit.shape;
-  return point;
+  return mesh_point(*record.mesh, hit);
 }
 
 UvDerivatives RayTracer::uv_derivatives(const SurfacePoint& point) const {

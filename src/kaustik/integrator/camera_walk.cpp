@@ -236,7 +236,7 @@ void CameraWalk::scatter_in_medium(const Vec2f& u) {
   state_.depth += 1;
   only_delta_ = false;
   class_.add_medium_event();
-  previous_ = in_medium_;
+  previous_ = in_medium_.query();
   ray_ = {in_medium_.point.position, wi, infinity};
 }
 
@@ -249,9 +249,9 @@ bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec
 
 std::optional<CameraWalk::DeltaEvents> CameraWalk::delta_events() const {
   constexpr float least = 0, most = 0.99999994f;
-  if (vertex_.lobes() != Lobes::delta || !vertex_.bsdf().transmits()) return std::nullopt;
-  const DeltaEvents events{vertex_.sample(least, {}, Lobes::delta),
-                           vertex_.sample(most, {}, Lobes::delta)};
+  if (vertex_.lobes() != Lobes::delta || !vertex_.transmits()) return std::nullopt;
+  const DeltaEvents events{vertex_.sample(least, {0, 0}, Lobes::delta),
+                           vertex_.sample(most, {0, 0}, Lobes::delta)};
   const auto is_some = [](const BsdfSample& sample) {
     return sample.event == Lobes::delta && !sample.weight.is_zero();
   };
@@ -277,7 +277,7 @@ void CameraWalk::go_on(const BsdfSample& sample, float probability) {
   state_.roulette_scale *= sqr(sample.eta) * std::max(1.0f, probability);
   state_.pdf_forward = sample.event == Lobes::delta ? 0 : probability * sample.pdf_solid_angle;
   state_.footprint.scatter(sample.event, sample.pdf_solid_angle);
-  previous_ = Receiver(vertex_, state_.depth);
+  previous_ = light_query(vertex_, state_.depth);
   state_.depth += 1;
   only_delta_ = only_delta_ && !any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy));
   class_.add_event(sample.event);

@@ -33,7 +33,7 @@ class MergeDisk {
   Vec3f side() const { return vertex_.on_front() ? ng_ : -ng_; }
   /// Whether light counts that arrives on either side: then surfaces whose own normal is turned
   /// away do not count, else the side on which light arrives tells.
-  bool both_sides() const { return vertex_.bsdf().transmits(); }
+  bool both_sides() const { return vertex_.transmits(); }
   /// Farthest that something may lie from the plane, m …
   float flatness() const { return flatness_ * radius_; }
   /// … and the least cosine between its normal and the vertex's.

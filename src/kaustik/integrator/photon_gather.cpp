@@ -68,7 +68,7 @@ Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes,
   Spectrum irradiance;
   const Vec3f& ng = vertex.point().ng;
   // Relief is left out: from a gather ray's distance its bent normals even out.
-  if ((vertex.lobes() & lobes) != Lobes::diffuse || vertex.bsdf().transmits() ||
+  if ((vertex.lobes() & lobes) != Lobes::diffuse || vertex.transmits() ||
       !precomputed_.lookup(vertex.position(), vertex.on_front() ? ng : -ng, irradiance))
     return global(vertex, lobes, recursion);
   return vertex.diffuse_value() * irradiance;

@@ -83,7 +83,7 @@ class PhotonLight final : public RadianceSource {
 
 /// Whether indirect light on the far side of the surface counts.
 inline bool gathers_through(const SurfaceVertex& vertex) {
-  return vertex.bsdf().transmits() && !vertex.diffuse_value_through().is_zero();
+  return vertex.transmits() && !vertex.diffuse_value_through().is_zero();
 }
 
 /// What the diffuse lobe of `vertex` sends to its wo of irradiance(normal), W/m², on its side and,

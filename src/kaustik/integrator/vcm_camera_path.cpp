@@ -113,7 +113,7 @@ void VcmCameraPath::leave() {
     all_delta_ = false;
     first_ = vertices_.size();
   }
-  previous_ = here_.is_in_medium() ? Receiver(here_.position(), 1) : Receiver(walk_.vertex(), 1);
+  previous_ = here_.is_in_medium() ? LightQuery(here_.position()) : light_query(walk_.vertex());
   if (vertices_.size() < 2 || !in_.weights.settings().techniques.needs_light_paths()) return;
   vertices_[vertices_.size() - 2].pdf_light =
       (vertex.delta ? 1.0f : here_.pdf_reverse(walk_.ray().direction, Lobes::all)) *
@@ -177,7 +177,7 @@ float VcmCameraPath::met(int light, const SurfaceVertex& vertex) const {
   const float next_event =
       after_delta || !techniques.next_event
           ? 0.0f
-          : direct_light_pdf(in_.scene, weighed_receiver(), LightChoice::one, light, point);
+          : direct_light_pdf(in_.scene, weighed_query(), LightChoice::one, light, point);
   if (path_tracing_alone(vertices_.size() + 1))
     return next_event > 0 ? mis_weight(walk_.last_pdf() * survival_before(), next_event) : 1.0f;
   const Vec3f direction = -vertex.wo();
@@ -196,7 +196,7 @@ float VcmCameraPath::met(int light, const Ray& ray) const {
   const float next_event =
       vertices_.back().delta || !techniques.next_event
           ? 0.0f
-          : direct_light_pdf(in_.scene, weighed_receiver(), LightChoice::one, light, ray.direction);
+          : direct_light_pdf(in_.scene, weighed_query(), LightChoice::one, light, ray.direction);
   if (path_tracing_alone(vertices_.size() + 1))
     return next_event > 0 ? mis_weight(walk_.last_pdf() * survival_before(), next_event) : 1.0f;
   const EmissionDensity emission = in_.emission.pdf(light, last_, -ray.direction);
@@ -294,7 +294,7 @@ void VcmCameraPath::merge() {
   const MergeDisk disk(vertex, radius);
   const DiskWeights weights = disk_weights(disk);
   const bool is_matt =
-      all_delta_ && lobes == Lobes::diffuse && !vertex.bsdf().transmits() && !vertex.has_relief();
+      all_delta_ && lobes == Lobes::diffuse && !vertex.transmits() && !vertex.has_relief();
   MergedLight light = is_matt ? merged_matt(disk, weights) : merged(disk, weights, lobes);
   if (light.is_zero()) return;
   const auto paths = float(in_.light.path_count);

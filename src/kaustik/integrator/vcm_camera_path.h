@@ -113,10 +113,10 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   /// Whether light is only sampled and met by chance on paths of this many segments.
   bool path_tracing_alone(size_t length) const;
   /// The last vertex as it asked for light.
-  Receiver weighed_receiver() const {
-    Receiver receiver = previous_;
-    receiver.level = vertices_.size() > 1 ? 1 : 0;
-    return receiver;
+  LightQuery weighed_query() const {
+    LightQuery query = previous_;
+    query.level = vertices_.size() > 1 ? 1 : 0;
+    return query;
   }
   /// Chance of the roulette at the last vertex, if it is that of survives_first(): once it is left,
   /// and before.
@@ -136,7 +136,7 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   Scatterer here_;                     ///< the walk's last vertex, until the walk goes on
   SurfacePoint last_;                  ///< of that vertex, without normals in a medium
   Facing last_facing_;                 ///< of that vertex
-  Receiver previous_;                  ///< the last vertex
+  LightQuery previous_;                ///< of the last vertex
   bool all_delta_ = true;              ///< events so far
   bool no_light_paths_ = false;
   size_t first_ = 0;  ///< number of the first vertex whose event is not delta; 0: none yet

@@ -35,13 +35,13 @@ struct Block {
 
 /// Density with which direct light is sampled at `vertex` from the point where a light path begins,
 /// `distance` away; measure as PathHalves::pdf_next_event.
-float next_event_density(const Scene& scene, const Receiver& receiver, int light,
+float next_event_density(const Scene& scene, const LightQuery& query, int light,
                          const SurfacePoint& on_light, const Vec3f& to_light, float distance) {
   const Light& of = *scene.lights()[size_t(light)];
   if (of.is_delta())
-    return scene.light_selector().probability(receiver.point.position, receiver.normal, light);
-  if (of.is_infinite()) return direct_light_pdf(scene, receiver, LightChoice::one, light, to_light);
-  return direct_light_pdf(scene, receiver, LightChoice::one, light, on_light) *
+    return scene.light_selector().probability(query.reference, query.normal, light);
+  if (of.is_infinite()) return direct_light_pdf(scene, query, LightChoice::one, light, to_light);
+  return direct_light_pdf(scene, query, LightChoice::one, light, on_light) *
          abs_dot(to_light, of.emitting_normal(on_light)) / sqr(distance);
 }
 
@@ -99,7 +99,7 @@ class Tracer {
   }
 
   /// What follows the last vertex, `distance` away in the direction opposite to `wo`.
-  PathVertex next_vertex(PathUnderWay& path, const Receiver& receiver, const Facing& facing,
+  PathVertex next_vertex(PathUnderWay& path, const LightQuery& query, const Facing& facing,
                          const PathState& state, const Vec3f& wo, float distance) const {
     std::vector<PathVertex>& vertices = path.vertices;
     const float cosine = facing.factor(wo);
@@ -116,7 +116,7 @@ class Tracer {
         // Lights that are no surface are never met.
         next.to_previous = light.shape() < 0 ? 0.0f : path.last.factor(wo) / distance_sq;
       }
-      path.pdf_next_event = next_event_density(in_.scene, receiver, path.start.light,
+      path.pdf_next_event = next_event_density(in_.scene, query, path.start.light,
                                                path.start.emitted.origin, wo, distance);
     } else {
       const bool after_delta = state.pdf_forward == 0;
@@ -131,8 +131,8 @@ class Tracer {
     return next;
   }
   PathVertex next_in_medium(PathUnderWay& path, const LightMediumVertex& at) const {
-    PathVertex next = next_vertex(path, Receiver(at.position, 1), {{}, mean_extinction(at.medium)},
-                                  at.state, at.wo, at.distance);
+    PathVertex next = next_vertex(path, LightQuery(at.position, {0, 0, 0}, 1),
+                                  {{}, mean_extinction(at.medium)}, at.state, at.wo, at.distance);
     next.merge_volume = in_.media.merge_volume(at.position, at.medium);
     return next;
   }
@@ -142,7 +142,7 @@ class Tracer {
     const SurfaceVertex& vertex = at.vertex;
     const Facing facing{vertex.point().ng, 0};
     path.vertices.push_back(
-        next_vertex(path, Receiver(vertex, 1), facing, at.state, vertex.wo(), at.distance));
+        next_vertex(path, light_query(vertex, 1), facing, at.state, vertex.wo(), at.distance));
     path.last = facing;
     const bool has_events = path.vertices.size() >= 3;
     if (has_events && in_.weights.settings().techniques.splats) splat(at, path);

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -178,6 +179,8 @@ class LightSelector {
     int light = -1;  ///< −1: no light has power
     float probability = 0;
   };
+  /// What choose() answers everywhere, where at most one light has power; else null.
+  const Choice* only_choice() const { return only_choice_ ? &*only_choice_ : nullptr; }
   /// `normal` as of a LightQuery. `u` in [0, 1) is replaced by a fresh uniform number.
   Choice choose(const Vec3f& reference, const Vec3f& normal, float& u) const {
     Choice choice;
@@ -193,6 +196,7 @@ class LightSelector {
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+  std::optional<Choice> only_choice_;
 };
 
 }  // namespace kaustik

@@ -84,7 +84,6 @@ struct LightSelector::Impl {
   LightTree tree;                       ///< of all lights that have a place
   double infinite_power = 0, local_power = 0;
   std::vector<bool> is_infinite;
-  int only_light = -1;         ///< the one that has power, if there is one alone
   FewLights learned;           ///< all that have power, if they are few enough to learn about
   LightVisibility visibility;  ///< empty: not learned
 
@@ -93,7 +92,6 @@ struct LightSelector::Impl {
     return visibility.empty() ? nullptr : visibility.shares(query.reference, query.normal);
   }
   bool any_infinite() const { return !infinite.empty() || !infinite_by_power.empty(); }
-  bool nothing_shines() const { return tree.empty() && !any_infinite(); }
 
   void weigh(const LightQuery& query, GroupWeights& w) const {
     if (!infinite.empty()) infinite.weigh(query, nullptr, w.infinite);
@@ -157,7 +155,8 @@ LightSelector::LightSelector(const std::vector<std::unique_ptr<Light>>& lights)
   else
     impl_->infinite_by_power = PowerDistribution(infinite_powers);
   impl_->tree = LightTree(std::move(items), lights.size());
-  if (shining.size() == 1) impl_->only_light = shining.front();
+  if (shining.empty()) only_choice_.emplace();
+  if (shining.size() == 1) only_choice_ = {shining.front(), 1.0f};
   if (shining.size() <= maximum_learned) impl_->learned = FewLights(lights, shining);
 }
 
@@ -171,9 +170,8 @@ void LightSelector::learn(LightVisibility visibility) {
 
 void LightSelector::choose(const Vec3f& reference, const Vec3f& normal, std::span<float> u,
                            Choice* choices) const {
-  if (impl_->only_light >= 0 || impl_->nothing_shines()) {
-    const bool one = impl_->only_light >= 0;
-    std::fill_n(choices, u.size(), one ? Choice{impl_->only_light, 1.0f} : Choice());
+  if (only_choice_) {
+    std::fill_n(choices, u.size(), *only_choice_);
     return;
   }
   const LightQuery query(reference, normal);
@@ -190,8 +188,7 @@ void LightSelector::choose(const Vec3f& reference, const Vec3f& normal, std::spa
 
 float LightSelector::probability(const Vec3f& reference, const Vec3f& normal, int light) const {
   if (light < 0) return 0;
-  if (impl_->only_light >= 0) return light == impl_->only_light ? 1.0f : 0.0f;
-  if (impl_->nothing_shines()) return 0;
+  if (only_choice_) return light == only_choice_->light ? 1.0f : 0.0f;
   const LightQuery query(reference, normal);
   if (const float* shares = impl_->shares(query)) {
     ChoiceWeights w;

@@ -96,7 +96,7 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   const Lobes asked = lobes & vertex.lobes();
   const Vec3f side = vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
   if (!any(asked)) return {};
-  const bool is_opaque_matt = asked == Lobes::diffuse && !vertex.bsdf().transmits();
+  const bool is_opaque_matt = asked == Lobes::diffuse && !vertex.transmits();
   if (is_opaque_matt && !vertex.has_relief()) {
     DensityEstimate estimate = irradiance(vertex.position(), side, settings);
     estimate.value *= vertex.diffuse_value();
@@ -105,7 +105,7 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   DensityEstimate estimate;
   if (settings.neighbors <= 0 || empty()) return estimate;
   Neighbors& neighbors = workspace();
-  const bool both_sides = vertex.bsdf().transmits();
+  const bool both_sides = vertex.transmits();
   tree_.nearest(vertex.position(), both_sides ? vertex.point().ng : side, both_sides,
                 settings.neighbors, settings.maximum_radius, neighbors);
   const Disk disk = disk_of(neighbors, settings.maximum_radius);

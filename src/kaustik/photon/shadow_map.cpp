@@ -12,7 +12,7 @@ void ShadowSight::look() {
   std::vector<Counts>& counts = workspace();
   counts.clear();
   const Vec3f& ng = vertex_.point().ng;
-  const bool both_sides = vertex_.bsdf().transmits();
+  const bool both_sides = vertex_.transmits();
   const SidedTree<ShadowPhoton>& tree = map_->tree();
   tree.nearest(vertex_.position(), both_sides || vertex_.on_front() ? ng : -ng, both_sides,
                settings_.neighbors, settings_.maximum_radius, neighbors);

@@ -336,7 +336,8 @@ uint64_t Session::render_pixel(const Pass& pass, const PassState& state, int x, 
       integrator_.sample(state, {float(x) + 0.5f + offset.x, float(y) + 0.5f + offset.y}, sampler,
                          sink);
       rays += sink.rays();
-      monitor.dropped += add_sample(sink, block);
+      // Threads would wait for one another if each sample wrote to what they share.
+      if (const int dropped = add_sample(sink, block)) monitor.dropped += uint64_t(dropped);
     }
     add_scaled(block, 1, sum);
   }

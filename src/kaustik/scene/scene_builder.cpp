@@ -224,7 +224,7 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
     static const Object default_bsdf{"bsdf", "diffuse", "", {}, {}, {}};
     built.surface.bsdf = create_bsdf(default_bsdf);
   }
-  built.surface.is_null = built.surface.bsdf && built.surface.bsdf->is_null();
+  if (built.surface.bsdf) built.surface.ask_bsdf();
   read_media(object, built.surface);
   if (!has_all_required(arguments)) return std::nullopt;
   collecting(file_place(arguments), [&] { built.shape = type->create(arguments); });

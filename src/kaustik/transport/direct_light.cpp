@@ -2,16 +2,6 @@
 
 namespace kaustik {
 
-Receiver::Receiver(const SurfaceVertex& vertex, int recursion_level)
-    : point(vertex.point()), level(recursion_level) {
-  if (!vertex.bsdf().transmits()) normal = vertex.on_front() ? point.ng : -point.ng;
-}
-
-LightSelector::Choice choose_light(const Scene& scene, const Receiver& receiver, Sampler& sampler) {
-  float u = sampler.next_1d();
-  return scene.light_selector().choose(receiver.point.position, receiver.normal, u);
-}
-
 bool sample_direct_light(const Scene& scene, const Receiver& receiver, Sampler& sampler,
                          DirectLight& result) {
   const LightSelector::Choice choice = choose_light(scene, receiver, sampler);
@@ -61,25 +51,24 @@ namespace {
 
 /// The light's chance with LightChoice::one; else whether it is sampled at all. How many samples it
 /// gets is left out of the weights, here as there: they only have to agree.
-float choice_factor(const Scene& scene, const Receiver& receiver, LightChoice choice, int light) {
+float choice_factor(const Scene& scene, const LightQuery& query, LightChoice choice, int light) {
   if (choice == LightChoice::one)
-    return scene.light_selector().probability(receiver.point.position, receiver.normal, light);
-  const Light& of = *scene.lights()[size_t(light)];
-  return of.expected_irradiance(receiver.query()) > 0 ? 1.0f : 0.0f;
+    return scene.light_selector().probability(query.reference, query.normal, light);
+  return scene.lights()[size_t(light)]->expected_irradiance(query) > 0 ? 1.0f : 0.0f;
 }
 
 }  // namespace
 
-float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice choice, int light,
+float direct_light_pdf(const Scene& scene, const LightQuery& query, LightChoice choice, int light,
                        const SurfacePoint& on_light) {
-  return choice_factor(scene, receiver, choice, light) *
-         scene.lights()[size_t(light)]->pdf_toward(receiver.query(), on_light);
+  return choice_factor(scene, query, choice, light) *
+         scene.lights()[size_t(light)]->pdf_toward(query, on_light);
 }
 
-float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice choice, int light,
+float direct_light_pdf(const Scene& scene, const LightQuery& query, LightChoice choice, int light,
                        const Vec3f& direction) {
-  return choice_factor(scene, receiver, choice, light) *
-         scene.lights()[size_t(light)]->pdf_toward_direction(receiver.query(), direction);
+  return choice_factor(scene, query, choice, light) *
+         scene.lights()[size_t(light)]->pdf_toward_direction(query, direction);
 }
 
 float diffuse_probability(const SurfaceVertex& vertex) {

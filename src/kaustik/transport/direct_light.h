@@ -10,11 +10,20 @@
 
 namespace kaustik {
 
+/// What lights are asked with at a vertex: only light on the viewer's side counts there, unless the
+/// surface transmits.
+inline LightQuery light_query(const SurfaceVertex& vertex, int recursion_level = 0) {
+  LightQuery query(vertex.position(), {0, 0, 0}, recursion_level);
+  if (!vertex.transmits())
+    query.normal = vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
+  return query;
+}
+
 /// Where light arrives: on a surface or in a medium.
 struct Receiver {
   Receiver() = default;
-  /// On a surface only light on the viewer's side counts, unless it transmits.
-  Receiver(const SurfaceVertex& vertex, int recursion_level = 0);  // NOLINT: a vertex is one
+  Receiver(const SurfaceVertex& vertex, int recursion_level = 0)  // NOLINT: a vertex is one
+      : point(vertex.point()), normal(light_query(vertex).normal), level(recursion_level) {}
   /// In a medium.
   explicit Receiver(const Vec3f& position, int recursion_level = 0) : level(recursion_level) {
     point.position = position;
@@ -64,7 +73,15 @@ enum class ShadowAnswer {
 };
 
 /// One light for a sample, by LightSelector. One dimension pair of `sampler`.
-LightSelector::Choice choose_light(const Scene& scene, const Receiver& receiver, Sampler& sampler);
+inline LightSelector::Choice choose_light(const Scene& scene, const Receiver& receiver,
+                                          Sampler& sampler) {
+  if (const LightSelector::Choice* only = scene.light_selector().only_choice()) {
+    sampler.skip_pair();
+    return *only;
+  }
+  float u = sampler.next_1d();
+  return scene.light_selector().choose(receiver.point.position, receiver.normal, u);
+}
 /// Samples a light that was chosen; false if nothing can arrive.
 bool sample_chosen_light(const Scene& scene, const Receiver& receiver,
                          const LightSelector::Choice& choice, const Vec2f& u, DirectLight& result);
@@ -95,12 +112,12 @@ template <typename Value, typename Reflect>
 Value sample_direct_lights(const Scene& scene, const Receiver& receiver,
                            const LightSampling& sampling, Sampler& sampler, const Reflect& reflect);
 
-/// Density per solid angle with which a sample at `receiver` finds the point `on_light` of an area
-/// light …
-float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice choice, int light,
+/// Density per solid angle with which a sample of what asks with `query` finds the point `on_light`
+/// of an area light …
+float direct_light_pdf(const Scene& scene, const LightQuery& query, LightChoice choice, int light,
                        const SurfacePoint& on_light);
 /// … or an environment light in `direction`.
-float direct_light_pdf(const Scene& scene, const Receiver& receiver, LightChoice choice, int light,
+float direct_light_pdf(const Scene& scene, const LightQuery& query, LightChoice choice, int light,
                        const Vec3f& direction);
 
 /// Power heuristic with exponent 2 for one sample each (Veach 1997).
@@ -146,12 +163,15 @@ Value sample_with_shadow_rays(const Scene& scene, const Receiver& receiver,
                ? reflect(std::as_const(light), answer)
                : Value();
   };
+  const auto most = size_t(most_shadow_rays(scene, receiver, choice.light));
+  if (most == 1) {
+    ShadowAnswer not_asked{};
+    return sample(sampler, not_asked);
+  }
   constexpr size_t most_groups = 16;
   std::array<ShadowAnswer, most_groups> first{};
   std::array<Value, most_groups> values{};
-  const auto most = size_t(most_shadow_rays(scene, receiver, choice.light));
   const size_t groups = std::min(most, std::clamp<size_t>(most / 4, 4, most_groups));
-  if (groups == 1) return sample(sampler, first[0]);
   const Sampler parent = sampler;
   int lit = 0, dark = 0;
   for (size_t g = 0; g < groups; ++g) {

@@ -20,12 +20,13 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
   const Surface& surface = scene.surface(point_.shape);
   surface_ = &surface;
   bsdf_ = surface.bsdf.get();
-  lobes_ = bsdf_->lobes();
+  lobes_ = surface.lobes;
+  transmits_ = surface.transmits;
   light_ = surface.light;
   context_.mode = mode;
   turn_to(normal_toward(wo_, point_));
   has_relief_ = false;
-  const SurfaceNeeds asked = bsdf_->needs();
+  const SurfaceNeeds asked = surface.needs;
   if (asked == SurfaceNeeds::none) {
     TextureCoordinates at;
     at.uv = point_.uv;
@@ -42,6 +43,7 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
 void SurfaceVertex::paint_white() {
   bsdf_ = &white_diffuse();
   lobes_ = bsdf_->lobes();
+  transmits_ = bsdf_->transmits();
   const Vec3f normal = normal_toward(wo_, point_);
   turn_to(dot(wo_, normal) < 0 ? -normal : normal);
   side_sign_ = dot(frame_.z, point_.ng) < 0 ? -1.0f : 1.0f;

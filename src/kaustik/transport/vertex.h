@@ -29,6 +29,8 @@ class SurfaceVertex {
   const Vec3f& position() const { return point_.position; }
   const Bsdf& bsdf() const { return *bsdf_; }
   Lobes lobes() const { return lobes_; }
+  /// Of the bsdf.
+  bool transmits() const { return transmits_; }
   /// Whether paths go straight on, without an event (Bsdf::is_null).
   bool is_null() const { return surface_->is_null; }
   /// What a path goes on through along `direction`, having arrived through `arrived`.
@@ -89,6 +91,7 @@ class SurfaceVertex {
   const Surface* surface_ = nullptr;
   const Bsdf* bsdf_ = nullptr;
   Lobes lobes_ = Lobes::none;  ///< of the bsdf
+  bool transmits_ = false;     ///< the same
   int light_ = -1;
   BsdfContext context_;
   Frame frame_;
