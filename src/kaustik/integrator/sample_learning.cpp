@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numeric>
 
 #include "kaustik/base/parallel.h"
@@ -22,35 +20,25 @@ constexpr double even_share_of_mean = 0.1;
 constexpr double rays_of_sample = 3;
 /// Blocks on either side that a block's light and rays are averaged with.
 constexpr int light_reach = 1;
-/// A block counts as if so many pairs of it had the picture's mean deviation: a few may have seen
-/// nothing of what makes others differ.
-constexpr double pairs_of_mean = 2;
+/// A block counts as if so many pairs more had the picture's mean variance: those that there are
+/// may have seen nothing of what seldom makes others differ.
+constexpr double pairs_of_mean = 16;
 /// Share of the blocks whose variance counts as that of the next one: single samples that happen
 /// upon a lamp say little of the picture.
-constexpr double outliers = 0.005;
+constexpr double outliers = 0.001;
 /// Of counts, relative to their mean.
 constexpr uint32_t least_divisor = 4, most_factor = 4;
 /// Less is not worth it.
 constexpr double worth_spreading = 1.05;
 
-/// How counts are made of what was seen.
+/// How counts are made of variances: averaged over the blocks that far on either side, and their
+/// roots taken to that power.
 struct Rule {
-  int reach;     ///< blocks on either side that deviations are averaged with
-  double power;  ///< of the deviation
-  bool robust;   ///< deviations are means of differences, not roots of their squares
+  int reach;
+  double power;
 };
-constexpr std::array<Rule, 12> rules{{{4, 0.5, true},
-                                      {2, 0.5, true},
-                                      {1, 0.5, true},
-                                      {4, 0.75, true},
-                                      {2, 0.75, true},
-                                      {1, 0.75, true},
-                                      {2, 1, true},
-                                      {1, 1, true},
-                                      {4, 0.75, false},
-                                      {2, 0.75, false},
-                                      {2, 1, false},
-                                      {1, 1, false}}};
+constexpr std::array<Rule, 9> rules{
+    {{4, 0.5}, {2, 0.5}, {1, 0.5}, {4, 0.75}, {2, 0.75}, {1, 0.75}, {4, 1}, {2, 1}, {1, 1}}};
 
 double all_light(const SampleSink& sink) {
   Spectrum sum;
@@ -91,9 +79,8 @@ std::vector<double> of_blocks(const std::vector<SampleLearning::Sums>& sums, con
 
 /// Of all blocks, relative to the light that they show.
 struct Noise {
-  double pairs = 0;                ///< of a block
-  std::vector<double> variance;    ///< unbiased, but for outliers
-  std::vector<double> difference;  ///< mean amount
+  double pairs = 0;              ///< of a block
+  std::vector<double> variance;  ///< unbiased, but for outliers
 };
 
 struct Blocks {
@@ -119,12 +106,10 @@ Blocks blocks_of(const std::vector<SampleLearning::Sums>& all, const std::vector
 }
 
 Noise noise_of(const std::vector<SampleLearning::Sums>& sums, const Blocks& blocks) {
-  Noise noise{0, of_blocks(sums, [](const auto& s) { return s.squares; }),
-              of_blocks(sums, [](const auto& s) { return s.differences; })};
+  Noise noise{0, of_blocks(sums, [](const auto& s) { return s.squares; })};
   for (size_t i = 0; i < sums.size(); ++i) {
     noise.pairs = std::max(noise.pairs, sums[i].pairs);
     noise.variance[i] *= blocks.scale[i];
-    noise.difference[i] *= std::sqrt(blocks.scale[i]);
   }
   return noise;
 }
@@ -138,13 +123,12 @@ void clip_outliers(std::vector<double>& values) {
 
 /// What counts are in proportion to, but for the rays, squared.
 std::vector<double> weights_by(const Rule& rule, const Noise& noise, const Blocks& blocks) {
-  std::vector<double> result =
-      around(rule.robust ? noise.difference : noise.variance, blocks.size, rule.reach);
+  std::vector<double> result = around(noise.variance, blocks.size, rule.reach);
   const double mean = std::accumulate(result.begin(), result.end(), 0.0) / double(result.size());
   const double seen = noise.pairs * double(sqr(2 * rule.reach + 1));
   for (double& value : result) {
     const double shrunk = (value * seen + mean * pairs_of_mean) / (seen + pairs_of_mean);
-    value = std::pow(shrunk, (rule.robust ? 2 : 1) * rule.power);
+    value = std::pow(shrunk, rule.power);
   }
   return result;
 }
@@ -204,7 +188,6 @@ double time_of(const std::vector<double>& variances, const Blocks& blocks,
 void SampleLearning::Sums::add(const Sums& other) {
   pairs += other.pairs;
   squares += other.squares;
-  differences += other.differences;
   light += other.light;
   rays += other.rays;
 }
@@ -253,8 +236,8 @@ std::vector<SampleLearning::Sums> SampleLearning::take_samples(
       light[i] = all_light(sink);
       pair_rays += sink.rays();
     }
-    result[block].add({1, 0.5 * sqr(light[0] - light[1]), std::fabs(light[0] - light[1]),
-                       (light[0] + light[1]) / 2, double(pair_rays) / 2});
+    result[block].add(
+        {1, 0.5 * sqr(light[0] - light[1]), (light[0] + light[1]) / 2, double(pair_rays) / 2});
     return pair_rays;
   };
   std::atomic<uint64_t> counted{0};
@@ -302,11 +285,6 @@ SampleLearning::Counts SampleLearning::counts(const std::vector<BlockSums>& sums
                   counts_for(weights_by(rules[r], noise[half], blocks), blocks, samples_per_pixel));
   });
   const auto best = size_t(std::min_element(after.begin(), after.end()) - after.begin());
-  if (getenv("KSL")) {
-    std::fprintf(stderr, "pairs %.0f gains:", noise[0].pairs);
-    for (size_t r = 0; r < rules.size(); ++r) std::fprintf(stderr, " %.3f", before / after[r]);
-    std::fprintf(stderr, " best %zu\n", best);
-  }
   if (!(after[best] > 0 && before > worth_spreading * after[best])) return {};
   return {
       counts_for(weights_by(rules[best], noise_of(all, blocks), blocks), blocks, samples_per_pixel),

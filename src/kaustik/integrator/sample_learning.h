@@ -20,7 +20,6 @@ class SampleLearning {
   struct Sums {
     double pairs = 0;
     double squares = 0;          ///< half the squared differences: variances
-    double differences = 0;      ///< their amounts
     double light = 0, rays = 0;  ///< of single samples, means of pairs
     void add(const Sums& other);
   };
