@@ -18,6 +18,10 @@ class AutoIntegrator final : public Integrator {
               SampleSink& sink) const override {
     method_->sample(state, raster, sampler, sink);
   }
+  PixelSamples pixel_samples(const PassState& state, const Pass& pass,
+                             const Vec2i& pixel) const override {
+    return method_->pixel_samples(state, pass, pixel);
+  }
   bool splats() const override { return method_->splats(); }
   uint32_t default_samples_per_pass() const override { return method_->default_samples_per_pass(); }
   ComponentSet components() const override { return method_->components(); }

@@ -22,6 +22,13 @@ struct Pass {
   uint32_t samples_per_pixel = 1;  ///< of this pass and every other
 };
 
+/// Camera samples of a pixel in a pass: how many, and which of its replicate's sequence. No index
+/// may come twice in a replicate.
+struct PixelSamples {
+  uint32_t first_index = 0;
+  uint32_t count = 1;
+};
+
 /// What is known of the surface that a pixel shows, for denoisers and compositing.
 struct FirstHit {
   // Of the first surface that is more than a mirror or clear glass; of the last of those if none is
@@ -90,6 +97,12 @@ class Integrator {
   virtual bool splats() const { return false; }
   /// Whether sample() does anything.
   virtual bool samples_camera() const { return true; }
+  /// Camera samples of a pixel in the pass of that state; their mean over the pixels is at most
+  /// the pass's. All passes count alike.
+  virtual PixelSamples pixel_samples(const PassState&, const Pass& pass,
+                                     const Vec2i& /*pixel*/) const {
+    return {pass.index / replicate_count * pass.samples_per_pixel, pass.samples_per_pixel};
+  }
   /// Samples per pixel and pass if the user asks for nothing else.
   virtual uint32_t default_samples_per_pass() const { return 4; }
   /// The components that its results hold.

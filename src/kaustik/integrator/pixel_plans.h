@@ -27,12 +27,21 @@ struct PixelPlan {
   float counted_survival() const { return survival * evenness; }
 };
 
+/// Camera samples per pixel, by blocks of pixels, of the passes of an epoch.
+struct SampleSpread {
+  uint32_t begin = 0;                   ///< first pass of the epoch
+  std::vector<uint32_t> counts;         ///< of a pass
+  std::vector<uint32_t> first_indices;  ///< of a replicate's first pass of the epoch
+  std::vector<uint32_t> next_indices;   ///< the same of the next epoch
+};
+
 /// The plans of the first pass: a table over blocks of pixels, and one radius for all vertices but
 /// the first. The pixel's radius is that which some light vertices of a pilot pass take, within
 /// bounds from the pixel's footprint: smaller ones would blur less than the pixel does anyway,
 /// larger ones show. Whether paths go on is up to choose_survival().
 class PixelPlans {
  public:
+  static constexpr int block_size = 4;  ///< pixels on a side
   PixelPlans() = default;
   /// With probes, but no disks yet.
   explicit PixelPlans(const Scene& scene);
@@ -61,6 +70,13 @@ class PixelPlans {
   /// The same with other plans, one for each probe.
   PixelPlans with(std::vector<PixelPlan> plans) const;
 
+  /// Null: all pixels get as many camera samples.
+  const std::shared_ptr<const SampleSpread>& spread() const { return spread_; }
+  void set_spread(std::shared_ptr<const SampleSpread> spread) { spread_ = std::move(spread); }
+  size_t block_of(const Vec2i& pixel) const {
+    return index_of(block_at(Vec2f(float(pixel.x), float(pixel.y))));
+  }
+
   /// With disks of `shrinkage` times the area of those of the first pass.
   PixelPlan at(const Vec2f& raster, float shrinkage) const {
     PixelPlan plan = plans_[index_of(block_at(raster))];
@@ -77,7 +93,6 @@ class PixelPlans {
   /// than its probe.
   void fill_gaps();
 
-  static constexpr int block_size = 4;
   Vec2i block_at(const Vec2f& raster) const {
     return {std::clamp(int(raster.x) / block_size, 0, blocks_.x - 1),
             std::clamp(int(raster.y) / block_size, 0, blocks_.y - 1)};
@@ -88,6 +103,7 @@ class PixelPlans {
 
   std::shared_ptr<const std::vector<PixelProbe>> probes_;
   std::shared_ptr<const std::vector<SurfaceEdges>> edges_;  ///< of each probe; null: not looked for
+  std::shared_ptr<const SampleSpread> spread_;
   Vec2i blocks_{1, 1};
   std::vector<PixelPlan> plans_{PixelPlan()};
   float other_area_ = 0;

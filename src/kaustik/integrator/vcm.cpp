@@ -40,7 +40,18 @@ struct VcmIntegrator::State final : PassState {
   float shrinkage = 1;  ///< of the disks of merging
   MediumDisks media;    ///< shrunk
   float connection_scale = 0;
+  /// Per pixel, on average: what all weights go by, so those of all ways of finding a path still
+  /// sum to 1 where a pixel gets more or fewer.
   float camera_samples = 1;
+
+  State() = default;
+  State(std::shared_ptr<const VcmPlans> of_pass, const PathWeights& weights_of_pass,
+        const Pass& pass)
+      : plans(std::move(of_pass)),
+        weights(weights_of_pass),
+        shrinkage(sqr(pass_radius(1, pass.index))),
+        media(plans->media.shrunk(shrinkage)),
+        camera_samples(float(pass.samples_per_pixel)) {}
 };
 
 VcmIntegrator::VcmIntegrator(const Arguments& arguments, const Scene& scene)
@@ -80,7 +91,8 @@ std::shared_ptr<const VcmPlans> VcmIntegrator::plans_for(const Pass& pass, std::
   const std::lock_guard lock(learning_mutex_);
   return isolated([&] {
     const bool is_new = !learning_ || learning_->first() != first;
-    if (is_new) learning_ = std::make_unique<VcmLearning>(first, settings_);
+    if (is_new)
+      learning_ = std::make_unique<VcmLearning>(first, settings_, scene_.film().crop_size);
     if (is_new || learning_->seed() != pass.seed) learning_->begin(pass.seed);
     const uint32_t learned = VcmLearning::learned_passes(*first, settings_);
     const auto plans_of = [&](uint32_t index) {
@@ -93,26 +105,47 @@ std::shared_ptr<const VcmPlans> VcmIntegrator::plans_for(const Pass& pass, std::
     for (made_up = 0; made_up < missing_count; ++made_up) {
       Pass missing = pass;
       missing.index = learning_->passes();
-      const auto plans = plans_of(missing.index);
-      SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
-      PathWeights::Settings merging_alone = weights_for(*plans, missing).settings();
-      merging_alone.techniques.splats = merging_alone.techniques.connections = false;
-      LightVertices light;
-      if (learning_->wants_next())
-        light = trace(*plans, PathWeights(merging_alone), missing, nowhere, stop,
-                      part_of(progress, made_up, missing_count + 1), report);
+      learn_missing(plans_of(missing.index), missing, stop,
+                    part_of(progress, made_up, missing_count + 1), report);
       if (stop.stop_requested()) return first;
-      learning_->learn(light);
     }
     return plans_of(pass.index);
   });
 }
 
-void VcmIntegrator::learn_from(const LightVertices& light, const Pass& pass) const {
+void VcmIntegrator::learn_missing(std::shared_ptr<const VcmPlans> plans, const Pass& missing,
+                                  std::stop_token stop, const ProgressFunction& progress,
+                                  PassReport& report) const {
+  if (!learning_->wants_next()) return learning_->learn({}, {});
+  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  State state(plans, weights_for(*plans, missing), missing);
+  std::vector<SampleLearning::Sums> samples;
+  if (VcmLearning::wants_samples(missing.index, *learning_->first(), settings_)) {
+    trace_light(state, missing, nowhere, stop, progress);
+    samples =
+        learning_->samples().take_samples(scene_, *this, state, missing, stop, state.report.rays);
+  } else {
+    // What merges is all that radii are learned from.
+    PathWeights::Settings merging_alone = state.weights.settings();
+    merging_alone.techniques.splats = merging_alone.techniques.connections = false;
+    state.light =
+        trace(*plans, PathWeights(merging_alone), missing, nowhere, stop, progress, state.report);
+  }
+  report.rays += state.report.rays;
+  report.photons += state.report.photons;
+  if (!stop.stop_requested()) learning_->learn(state.light, samples);
+}
+
+void VcmIntegrator::learn_from(State& state, const Pass& pass, const std::stop_token& stop) const {
   const std::lock_guard lock(learning_mutex_);
   isolated([&] {
     // Passes out of order are traced anew where they are needed.
-    if (learning_->expects(pass)) learning_->learn(light);
+    if (!learning_->expects(pass)) return;
+    std::vector<SampleLearning::Sums> samples;
+    if (VcmLearning::wants_samples(pass.index, *learning_->first(), settings_))
+      samples =
+          learning_->samples().take_samples(scene_, *this, state, pass, stop, state.report.rays);
+    if (!stop.stop_requested()) learning_->learn(state.light, samples);
   });
 }
 
@@ -141,32 +174,43 @@ LightVertices VcmIntegrator::trace(const VcmPlans& plans, const PathWeights& wei
       pass, Stream::light_path, splats, stop, progress, report);
 }
 
+void VcmIntegrator::trace_light(State& state, const Pass& pass, SplatBuffer& splats,
+                                std::stop_token stop, const ProgressFunction& progress) const {
+  if (!state.plans->techniques.needs_light_paths()) return;
+  state.light = trace(*state.plans, state.weights, pass, splats, stop, progress, state.report);
+  if (state.plans->techniques.merging) state.matt = MattMerging(state.light, state.weights);
+  state.connection_scale = float(double(state.light.connectible.size()) /
+                                 (double(settings_.connections) * double(state.light.path_count)));
+}
+
 std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer& splats,
                                                   std::stop_token stop,
                                                   const ProgressFunction& progress) const {
-  auto state = std::make_unique<State>();
-  state->shrinkage = sqr(pass_radius(1, pass.index));
-  state->camera_samples = float(pass.samples_per_pixel);
   uint32_t made_up = 0;
-  state->plans = plans_for(pass, stop, progress, made_up, state->report);
-  state->weights = weights_for(*state->plans, pass);
-  state->media = state->plans->media.shrunk(state->shrinkage);
-  if (!state->plans->decision.empty()) state->report.decisions.push_back(state->plans->decision);
-  const Techniques& techniques = state->plans->techniques;
-  if (!techniques.any())
+  PassReport report;
+  const auto plans = plans_for(pass, stop, progress, made_up, report);
+  auto state = std::make_unique<State>(plans, weights_for(*plans, pass), pass);
+  state->report = std::move(report);
+  if (!plans->decision.empty()) state->report.decisions.push_back(plans->decision);
+  if (!plans->techniques.any())
     state->report.warnings.emplace_back(
         "all techniques are switched off: only lights that the camera sees straight are there; "
         "switch on unidirectional, next_event, splats, connections or merging");
-  if (!techniques.needs_light_paths()) return state;
-  state->light = trace(*state->plans, state->weights, pass, splats, stop,
-                       part_of(progress, made_up, made_up + 1), state->report);
-  if (techniques.merging) state->matt = MattMerging(state->light, state->weights);
-  if (VcmLearning::learned_passes(*state->plans, settings_) > 0 && !stop.stop_requested())
-    learn_from(state->light, pass);
-  state->connection_scale =
-      float(double(state->light.connectible.size()) /
-            (double(settings_.connections) * double(state->light.path_count)));
+  trace_light(*state, pass, splats, stop, part_of(progress, made_up, made_up + 1));
+  if (VcmLearning::learned_passes(*plans, settings_) > 0 && !stop.stop_requested())
+    learn_from(*state, pass, stop);
   return state;
+}
+
+PixelSamples VcmIntegrator::pixel_samples(const PassState& state, const Pass& pass,
+                                          const Vec2i& pixel) const {
+  const PixelPlans& pixels = static_cast<const State&>(state).plans->pixels;
+  const SampleSpread* spread = pixels.spread().get();
+  if (!spread) return Integrator::pixel_samples(state, pass, pixel);
+  const size_t block = pixels.block_of(pixel);
+  const uint32_t count = spread->counts[block];
+  const uint32_t rounds = (pass.index - spread->begin) / replicate_count;
+  return {spread->first_indices[block] + rounds * count, count};
 }
 
 void VcmIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sampler& sampler,

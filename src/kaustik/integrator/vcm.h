@@ -21,6 +21,8 @@ class VcmIntegrator final : public Integrator {
                                      const ProgressFunction& progress) const override;
   void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
               SampleSink& sink) const override;
+  PixelSamples pixel_samples(const PassState& state, const Pass& pass,
+                             const Vec2i& pixel) const override;
   bool splats() const override { return settings_.techniques.splats; }
   uint32_t default_samples_per_pass() const override { return settings_.samples_per_pass; }
   ComponentSet components() const override { return settings_.components; }
@@ -45,7 +47,14 @@ class VcmIntegrator final : public Integrator {
   std::shared_ptr<const VcmPlans> plans_for(const Pass& pass, std::stop_token stop,
                                             const ProgressFunction& progress, uint32_t& made_up,
                                             PassReport& report) const;
-  void learn_from(const LightVertices& light, const Pass& pass) const;
+  /// The pass's light paths, and all that samples need of them.
+  void trace_light(State& state, const Pass& pass, SplatBuffer& splats, std::stop_token stop,
+                   const ProgressFunction& progress) const;
+  /// A pass that is not rendered here, as far as learning goes.
+  void learn_missing(std::shared_ptr<const VcmPlans> plans, const Pass& missing,
+                     std::stop_token stop, const ProgressFunction& progress,
+                     PassReport& report) const;
+  void learn_from(State& state, const Pass& pass, const std::stop_token& stop) const;
   LightVertices trace(const VcmPlans& plans, const PathWeights& weights, const Pass& pass,
                       SplatBuffer& splats, std::stop_token stop, const ProgressFunction& progress,
                       PassReport& report) const;

@@ -21,17 +21,50 @@ bool learns_radii(const VcmPlans& plans, const VcmSettings& settings) {
   return plans.techniques.merging && settings.learn_radii && !(settings.radius > 0);
 }
 
+bool learns_samples(const VcmPlans& plans, const VcmSettings& settings) {
+  // A single sample can't be shared out.
+  return settings.adaptive && plans.pilot && plans.samples_per_pixel > 1;
+}
+
+/// Those of the epoch that begins with pass `begin`, after `before` (null: `samples` everywhere).
+/// No index comes twice in a replicate, and as few as can be are left out.
+std::shared_ptr<const SampleSpread> spread_of(uint32_t begin, std::vector<uint32_t> counts,
+                                              const SampleSpread* before, uint32_t samples) {
+  SampleSpread result{begin, std::move(counts), {}, {}};
+  // A replicate has one pass at most in all the epochs before the 16th pass.
+  const bool is_first_round = begin < replicate_count;
+  const uint32_t rounds_before = std::max(1u, begin / replicate_count);
+  for (size_t i = 0; i < result.counts.size(); ++i) {
+    const uint32_t count = result.counts[i];
+    const uint32_t used = before ? before->next_indices[i] : rounds_before * samples;
+    result.first_indices.push_back(is_first_round ? 0 : used);
+    // Epochs are as long as all passes before them.
+    result.next_indices.push_back(is_first_round ? std::max(used, count)
+                                                 : used + rounds_before * count);
+  }
+  return std::make_shared<const SampleSpread>(std::move(result));
+}
+
 }  // namespace
 
-VcmLearning::VcmLearning(std::shared_ptr<const VcmPlans> first, const VcmSettings& settings)
+VcmLearning::VcmLearning(std::shared_ptr<const VcmPlans> first, const VcmSettings& settings,
+                         const Vec2i& picture)
     : first_(std::move(first)),
       settings_(settings),
-      learns_radii_(learns_radii(*first_, settings)) {}
+      learns_radii_(learns_radii(*first_, settings)),
+      no_samples_(learns_samples(*first_, settings)
+                      ? SampleLearning(picture, first_->pixels.blocks(), PixelPlans::block_size)
+                      : SampleLearning()) {}
 
 uint32_t VcmLearning::learned_passes(const VcmPlans& first, const VcmSettings& settings) {
-  if (!first.techniques.needs_light_paths()) return 0;
+  const uint32_t for_samples = learns_samples(first, settings) ? SampleLearning::most_passes : 0;
+  if (!first.techniques.needs_light_paths()) return for_samples;
   if (learns_radii(first, settings)) return most_learned_passes;
-  return first.use ? most_guided_passes : 0;
+  return std::max(for_samples, first.use ? most_guided_passes : 0);
+}
+
+bool VcmLearning::wants_samples(uint32_t pass, const VcmPlans& first, const VcmSettings& settings) {
+  return learns_samples(first, settings) && pass < SampleLearning::most_passes;
 }
 
 uint32_t VcmLearning::epoch_begin(uint32_t pass, uint32_t learned_passes) {
@@ -43,7 +76,8 @@ uint32_t VcmLearning::remembered_paths(uint32_t pass, const VcmPlans& plans) {
 }
 
 bool VcmLearning::wants_next() const {
-  return learns_radii_ || (use_ && teaches_emission(passes_));
+  return learns_radii_ || (use_ && teaches_emission(passes_)) ||
+         wants_samples(passes_, *first_, settings_);
 }
 
 bool VcmLearning::expects(const Pass& pass) const {
@@ -58,17 +92,32 @@ void VcmLearning::begin(uint64_t seed) {
   seed_ = seed;
   sums_.assign(learns_radii_ ? first_->pixels.probes().size() : 0, {});
   use_ = first_->use ? std::make_unique<LightPathUse>(*first_->use) : nullptr;
+  samples_ = no_samples_;
   passes_ = 0;
   epochs_ = {{0, first_}};
 }
 
-void VcmLearning::learn(const LightVertices& light) {
+void VcmLearning::learn(const LightVertices& light,
+                        const std::vector<SampleLearning::Sums>& samples) {
+  samples_.learn(samples, passes_);
   if (learns_radii_) {
     const auto added = RadiusLearning::sums_of(first_->pixels, light, settings_.components);
     for (size_t i = 0; i < added.size(); ++i) sums_[i].add(added[i]);
   }
   if (use_ && teaches_emission(passes_)) use_->learn(light);
   ++passes_;
+}
+
+void VcmLearning::spread_samples(VcmPlans& plans, uint32_t epoch) const {
+  if (epoch < SampleLearning::least_passes || epoch > SampleLearning::most_passes) return;
+  const uint32_t samples = plans.samples_per_pixel;
+  SampleLearning::Counts found = samples_.counts(samples);
+  const std::shared_ptr<const SampleSpread> before = plans.pixels.spread();
+  if (found.of_block.empty()) {
+    if (!before) return;
+    found.of_block.assign(plans.pixels.probes().size(), samples);
+  }
+  plans.pixels.set_spread(spread_of(epoch, std::move(found.of_block), before.get(), samples));
 }
 
 std::shared_ptr<const VcmPlans> VcmLearning::plans_of(uint32_t epoch, const Scene& scene,
@@ -85,6 +134,7 @@ std::shared_ptr<const VcmPlans> VcmLearning::plans_of(uint32_t epoch, const Scen
     const float shrinkage = sqr(pass_radius(1, passes_));
     plans->settle(radii_->plans(first_->pixels, sums_, passes_, shrinkage), shrinkage);
   }
+  if (learns_samples(*first_, settings_)) spread_samples(*plans, epoch);
   if (use_)
     if (const auto learned = use_->emission().learned()) plans->emission = learned;
   if (passes_ >= most_guided_passes) use_.reset();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kaustik/integrator/radius_learning.h"
+#include "kaustik/integrator/sample_learning.h"
 #include "kaustik/integrator/vcm_plans.h"
 
 namespace kaustik {
@@ -14,7 +15,8 @@ namespace kaustik {
 class VcmLearning {
  public:
   /// From `first`, the plans of the first pass. The settings must outlive this.
-  VcmLearning(std::shared_ptr<const VcmPlans> first, const VcmSettings& settings);
+  VcmLearning(std::shared_ptr<const VcmPlans> first, const VcmSettings& settings,
+              const Vec2i& picture);
 
   /// Passes that are learned from, where those are the plans of the first; 0: none.
   static uint32_t learned_passes(const VcmPlans& first, const VcmSettings& settings);
@@ -24,6 +26,8 @@ class VcmLearning {
   static uint32_t remembered_paths(uint32_t pass, const VcmPlans& plans);
 
   const std::shared_ptr<const VcmPlans>& first() const { return first_; }
+  /// Whether the pass teaches how camera samples are spread: it is to take some for that.
+  static bool wants_samples(uint32_t pass, const VcmPlans& first, const VcmSettings& settings);
   /// Whether this is the pass to be learned from next.
   bool expects(const Pass& pass) const;
   uint64_t seed() const { return seed_; }
@@ -34,14 +38,19 @@ class VcmLearning {
   void begin(uint64_t seed);
   /// Whether the next pass has anything to teach; else learn() will do with no vertices.
   bool wants_next() const;
-  /// The next pass.
-  void learn(const LightVertices& light);
+  /// What takes the samples that wants_samples() speaks of.
+  const SampleLearning& samples() const { return samples_; }
+  /// The next pass, with those samples if it wants any.
+  void learn(const LightVertices& light, const std::vector<SampleLearning::Sums>& samples);
   /// The plans of the epoch that begins with this pass, made before that is learned from; those of
   /// the first pass if it was stopped.
   std::shared_ptr<const VcmPlans> plans_of(uint32_t epoch, const Scene& scene,
                                            const std::stop_token& stop, uint64_t& rays);
 
  private:
+  /// Those of the epoch that begins, by the passes before.
+  void spread_samples(VcmPlans& plans, uint32_t epoch) const;
+
   std::shared_ptr<const VcmPlans> first_;
   const VcmSettings& settings_;
   bool learns_radii_;
@@ -49,6 +58,8 @@ class VcmLearning {
   std::optional<RadiusLearning> radii_;  ///< made when it is first asked for
   uint64_t seed_ = 0;
   std::vector<RadiusLearning::Sums> sums_;
+  const SampleLearning no_samples_;  ///< nothing learned yet
+  SampleLearning samples_;
   uint32_t passes_ = 0;
   std::map<uint32_t, std::shared_ptr<const VcmPlans>> epochs_;  ///< by their first pass
 };

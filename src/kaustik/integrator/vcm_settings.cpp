@@ -6,6 +6,12 @@
 namespace kaustik {
 namespace {
 
+Parameter adaptive_parameter() {
+  return boolean_parameter("adaptive", true,
+                           "Pixels whose samples differed in the passes before get more of them, "
+                           "at the cost of others; where light paths may merge.");
+}
+
 /// The table of a preset.
 std::vector<Parameter> parameters(const Techniques& preset) {
   std::vector<Parameter> rows = {
@@ -55,6 +61,7 @@ std::vector<Parameter> parameters(const Techniques& preset) {
                         "A pilot chooses, place by place, how often the camera's paths go on "
                         "beside what merges; else they always do."),
       integer_parameter("samples_per_pass", 4, "Samples per pixel and pass.").range(1, 1 << 20),
+      adaptive_parameter(),
       ignored_parameter("hide_emitters", ParameterKind::boolean)};
   return rows;
 }
@@ -92,7 +99,7 @@ const TypeInfo& auto_info() {
       "auto",
       "Chooses by itself, region by region, between paths from the camera and light paths that "
       "merge with them; needs no parameter.",
-      {components_parameter(), max_depth_parameter(), rr_depth_parameter(),
+      {components_parameter(), max_depth_parameter(), rr_depth_parameter(), adaptive_parameter(),
        ignored_parameter("hide_emitters", ParameterKind::boolean)}};
   return info;
 }
@@ -100,7 +107,8 @@ const TypeInfo& auto_info() {
 VcmSettings::VcmSettings(const Arguments& arguments)
     : components(read_components(arguments)),
       maximum_events(read_maximum_events(arguments)),
-      roulette_depth(int(arguments.integer("rr_depth"))) {
+      roulette_depth(int(arguments.integer("rr_depth"))),
+      adaptive(arguments.boolean("adaptive")) {
   if (&arguments.info() == &auto_info()) {
     techniques.merging = true;
     chooses_light_paths = true;

@@ -22,6 +22,7 @@ struct VcmSettings {
   bool edges = true;            ///< disks of merging end at the straight edges around them
   bool choose_survival = true;  ///< of camera paths beside what merges; else they always go on
   uint32_t samples_per_pass = 4;
+  bool adaptive = true;              ///< camera samples go where passes before find them to differ
   bool chooses_light_paths = false;  ///< how many, or none at all, by what a pilot tells
 
   /// Of one of the tables below.

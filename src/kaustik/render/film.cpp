@@ -55,7 +55,7 @@ void Film::add_pass(const std::vector<PassPixel>& pixels, uint32_t pass_index, u
   const double luminance_sum =
       sum_over_blocks(pixels.size(), pixels_per_block, [&](size_t begin, size_t end) {
         double sum = 0;
-        for (size_t i = begin; i < end; ++i) sum += add_pixel(i, pixels[i], replicate);
+        for (size_t i = begin; i < end; ++i) sum += add_pixel(i, pixels[i], replicate, samples);
         return sum;
       });
   add_to(mean_luminances_[replicate],
@@ -76,7 +76,7 @@ void Film::add(const Film& other) {
   sample_count_ += other.sample_count_;
 }
 
-double Film::add_pixel(size_t i, const PassPixel& pixel, size_t replicate) {
+double Film::add_pixel(size_t i, const PassPixel& pixel, size_t replicate, uint32_t samples) {
   double total[lanes_] = {};
   Fixed* sum = sums(i);
   for (int c = 0; c < component_count; ++c)
@@ -93,6 +93,7 @@ double Film::add_pixel(size_t i, const PassPixel& pixel, size_t replicate) {
   for (size_t k = 0; k < first_hit_lanes_; ++k) add_to(sum[first_hit_ + k], fixed_from(first[k]));
   for (size_t k = 0; k < noise_kinds; ++k)
     add_to(sum[sample_squares_ + k], fixed_from(double(pixel.squares[k])));
+  add_to(sum[samples_], fixed_from(double(pixel.samples > 0 ? pixel.samples : samples)));
   if (layers_.bias) {
     Fixed* bias = sum + bias_ + replicate % bias_halves * lanes_;
     for (int lane = 0; lane < lanes_; ++lane)
@@ -139,13 +140,14 @@ Vec3f Film::mean_bias(size_t pixel) const {
 
 std::array<double, noise_kinds> Film::noise(size_t pixel) const {
   std::array<double, noise_kinds> result{};
-  const double passes = pass_count(), samples = double(sample_count_);
+  const double passes = pass_count(), samples = sum(pixel, samples_);
   std::array<Spectrum, component_count> means;
   for (int c = 0; c < component_count; ++c) means[size_t(c)] = mean(pixel, Component(c));
   const std::array<float, noise_kinds> mean = by_noise_kind(means);
   for (size_t k = 0; k < noise_kinds; ++k) {
     const double square = sum(pixel, sample_squares_ + k) / passes;
-    result[k] = std::sqrt(std::max(0.0, square - double(sqr(mean[k]))) / (samples - 1));
+    result[k] =
+        std::sqrt(std::max(0.0, square - double(sqr(mean[k]))) / std::max(1.0, samples - 1));
   }
   return result;
 }

@@ -27,6 +27,8 @@ struct PassPixel {
   /// Mean over the samples of the squared photopic value.
   std::array<float, noise_kinds> squares{};
   Spectrum bias;  ///< mean over the samples
+  /// Camera samples; 0: as many as add_pass() says.
+  uint32_t samples = 0;
 };
 
 /// Photopic values of the kinds of light.
@@ -50,8 +52,8 @@ class Film {
   /// Throws Error(input) when the picture does not fit into memory.
   Film(const FilmSettings& settings, const FilmLayers& layers);
 
-  /// Adds a finished pass of so many samples per pixel, which must not be there yet; `pixels` row
-  /// by row. Not thread-safe.
+  /// Adds a finished pass of so many samples per pixel on average, which must not be there yet;
+  /// `pixels` row by row. Not thread-safe.
   void add_pass(const std::vector<PassPixel>& pixels, uint32_t pass_index, uint32_t samples = 1);
   /// Adds the passes of another film of this size and these layers; none may be in both.
   void add(const Film& other);
@@ -62,6 +64,7 @@ class Film {
   }
   const PassSet& passes() const { return passes_; }
   uint32_t pass_count() const { return passes_.count(); }
+  /// On average.
   uint64_t samples_per_pixel() const { return sample_count_; }
   int width() const { return size_.x; }
   int height() const { return size_.y; }
@@ -108,7 +111,8 @@ class Film {
   static constexpr size_t first_hit_ = squares_ + lanes_;  ///< [albedo 3, normal 3, depth 1]
   static constexpr size_t first_hit_lanes_ = 7;
   static constexpr size_t sample_squares_ = first_hit_ + first_hit_lanes_;  ///< [kind of light]
-  static constexpr size_t luminance_squares_ = sample_squares_ + noise_kinds;
+  static constexpr size_t samples_ = sample_squares_ + noise_kinds;
+  static constexpr size_t luminance_squares_ = samples_ + 1;
   static constexpr size_t replicate_luminances_ = luminance_squares_ + 1;  ///< [replicate]
   static constexpr size_t bias_ =
       replicate_luminances_ + replicate_count;  ///< [half][lane], if held
@@ -120,7 +124,7 @@ class Film {
   const Fixed* sums(size_t pixel) const { return numbers_.data() + pixel * numbers_per_pixel(); }
   double sum(size_t pixel, size_t number) const { return double_from(sums(pixel)[number]); }
   /// Adds a pixel of a pass and returns its luminance.
-  double add_pixel(size_t i, const PassPixel& pixel, size_t replicate);
+  double add_pixel(size_t i, const PassPixel& pixel, size_t replicate, uint32_t samples);
   /// The pixel's values in the image's order of channels.
   std::vector<float> values(size_t pixel, const FilmErrors& errors) const;
   bool knows_noise() const { return sample_count_ >= 2; }
@@ -132,7 +136,7 @@ class Film {
   Vec2i size_;
   FilmLayers layers_;
   PassSet passes_;
-  uint64_t sample_count_ = 0;   ///< per pixel
+  uint64_t sample_count_ = 0;   ///< per pixel, on average
   std::vector<Fixed> numbers_;  ///< [pixel][number]
   std::array<Fixed, replicate_count> mean_luminances_{};
 };

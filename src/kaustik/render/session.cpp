@@ -321,16 +321,16 @@ uint64_t Session::render_pixel(const Pass& pass, const PassState& state, int x, 
   const uint64_t address =
       uint64_t(y + film.crop_offset.y) * uint64_t(film.size.x) + uint64_t(x + film.crop_offset.x);
   const uint32_t replicate = pass.index % replicate_count;
-  const uint32_t first_index = pass.index / replicate_count * pass.samples_per_pixel;
+  const PixelSamples samples = integrator_.pixel_samples(state, pass, {x, y});
   uint64_t rays = 0;
   uint32_t done = 0;
   PassPixel sum;
-  while (done < pass.samples_per_pixel && !(done > 0 && stop.stop_requested())) {
+  while (done < samples.count && !(done > 0 && stop.stop_requested())) {
     PassPixel block;
-    const uint32_t end = std::min(pass.samples_per_pixel, done + samples_per_block);
+    const uint32_t end = std::min(samples.count, done + samples_per_block);
     for (; done < end; ++done) {
       Sampler sampler =
-          Sampler::at(pass.seed, replicate, Stream::camera, address, first_index + done);
+          Sampler::at(pass.seed, replicate, Stream::camera, address, samples.first_index + done);
       const Vec2f offset = film.filter.sample(sampler.next_2d());
       SampleSink sink(integrator_.components());
       integrator_.sample(state, {float(x) + 0.5f + offset.x, float(y) + 0.5f + offset.y}, sampler,
@@ -341,7 +341,9 @@ uint64_t Session::render_pixel(const Pass& pass, const PassState& state, int x, 
     }
     add_scaled(block, 1, sum);
   }
-  add_scaled(sum, 1.0f / float(done), pixels_[size_t(y) * size_t(film_.width()) + size_t(x)]);
+  PassPixel& pixel = pixels_[size_t(y) * size_t(film_.width()) + size_t(x)];
+  add_scaled(sum, 1.0f / float(done), pixel);
+  pixel.samples = done;
   return rays;
 }
 

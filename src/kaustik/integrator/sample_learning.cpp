@@ -1,0 +1,295 @@
+#include "kaustik/integrator/sample_learning.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include "kaustik/base/parallel.h"
+
+namespace kaustik {
+namespace {
+
+/// Pairs of samples that a block gets in the first passes, which know nothing yet, and later.
+constexpr uint32_t first_pairs = 2, later_pairs = 1, first_passes = 4;
+/// Of the random numbers' addresses.
+constexpr uint64_t training_element = uint64_t(5) << 40;
+/// Noise counts relative to a pixel's light, and this share of the picture's mean light.
+constexpr double even_share_of_mean = 0.1;
+/// Rays that take as long as what a sample does beside tracing rays.
+constexpr double rays_of_sample = 3;
+/// Blocks on either side that a block's light and rays are averaged with.
+constexpr int light_reach = 1;
+/// A block counts as if so many pairs more had the picture's mean variance: those that there are
+/// may have seen nothing of what seldom makes others differ.
+constexpr double pairs_of_mean = 16;
+/// Share of the blocks whose variance counts as that of the next one: single samples that happen
+/// upon a lamp say little of the picture.
+constexpr double outliers = 0.001;
+/// Of counts, relative to their mean. Fewer would leave more where light is found by rare chance,
+/// which those that are learned from have not seen.
+constexpr uint32_t least_divisor = 2, most_factor = 4;
+/// Less is not worth it.
+constexpr double worth_spreading = 1.05;
+
+/// How counts are made of variances: averaged over the blocks that far on either side, and their
+/// roots taken to that power.
+struct Rule {
+  int reach;
+  double power;
+};
+constexpr std::array<Rule, 9> rules{
+    {{4, 0.5}, {2, 0.5}, {1, 0.5}, {4, 0.75}, {2, 0.75}, {1, 0.75}, {4, 1}, {2, 1}, {1, 1}}};
+
+double all_light(const SampleSink& sink) {
+  Spectrum sum;
+  for (int c = 0; c < component_count; ++c)
+    if (sink.radiance(Component(c)).is_finite()) sum += sink.radiance(Component(c));
+  return double(sum.sum());
+}
+
+/// Mean of values over each block and those around it.
+std::vector<double> around(const std::vector<double>& values, const Vec2i& blocks, int reach) {
+  // Along the rows, then along the columns.
+  const auto sweep = [&](const std::vector<double>& from, bool across) {
+    std::vector<double> result(from.size());
+    const int length = across ? blocks.x : blocks.y, lines = across ? blocks.y : blocks.x;
+    const auto at = [&](int line, int i) {
+      return across ? size_t(line) * size_t(blocks.x) + size_t(i)
+                    : size_t(i) * size_t(blocks.x) + size_t(line);
+    };
+    for (int line = 0; line < lines; ++line)
+      for (int i = 0; i < length; ++i) {
+        const int first = std::max(0, i - reach), last = std::min(length - 1, i + reach);
+        double sum = 0;
+        for (int k = first; k <= last; ++k) sum += from[at(line, k)];
+        result[at(line, i)] = sum / double(last - first + 1);
+      }
+    return result;
+  };
+  return sweep(sweep(values, true), false);
+}
+
+template <typename Value>
+std::vector<double> of_blocks(const std::vector<SampleLearning::Sums>& sums, const Value& value) {
+  std::vector<double> result;
+  result.reserve(sums.size());
+  for (const SampleLearning::Sums& s : sums) result.push_back(s.pairs > 0 ? value(s) / s.pairs : 0);
+  return result;
+}
+
+/// Of all blocks, relative to the light that they show.
+struct Noise {
+  double pairs = 0;              ///< of a block
+  std::vector<double> variance;  ///< unbiased, but for outliers
+};
+
+struct Blocks {
+  Vec2i size;
+  const std::vector<uint32_t>& pixels;
+  std::vector<double> rays;
+  std::vector<double> scale;  ///< one over the squared light that noise is relative to
+};
+
+Blocks blocks_of(const std::vector<SampleLearning::Sums>& all, const std::vector<uint32_t>& pixels,
+                 const Vec2i& size) {
+  Blocks result{size, pixels,
+                around(of_blocks(all, [](const auto& s) { return s.rays; }), size, light_reach),
+                around(of_blocks(all, [](const auto& s) { return s.light; }), size, light_reach)};
+  const double mean =
+      std::accumulate(result.scale.begin(), result.scale.end(), 0.0) / double(all.size());
+  for (double& rays : result.rays) rays += rays_of_sample;
+  for (double& scale : result.scale) {
+    const double square = sqr(scale) + sqr(even_share_of_mean * mean);
+    scale = square > 0 ? 1 / square : 0;
+  }
+  return result;
+}
+
+Noise noise_of(const std::vector<SampleLearning::Sums>& sums, const Blocks& blocks) {
+  Noise noise{0, of_blocks(sums, [](const auto& s) { return s.squares; })};
+  for (size_t i = 0; i < sums.size(); ++i) {
+    noise.pairs = std::max(noise.pairs, sums[i].pairs);
+    noise.variance[i] *= blocks.scale[i];
+  }
+  return noise;
+}
+
+void clip_outliers(std::vector<double>& values) {
+  std::vector<double> sorted = values;
+  const auto largest = sorted.begin() + std::ptrdiff_t((1 - outliers) * double(values.size() - 1));
+  std::nth_element(sorted.begin(), largest, sorted.end());
+  for (double& value : values) value = std::min(value, *largest);
+}
+
+/// What counts are in proportion to, but for the rays, squared.
+std::vector<double> weights_by(const Rule& rule, const Noise& noise, const Blocks& blocks) {
+  std::vector<double> result = around(noise.variance, blocks.size, rule.reach);
+  const double mean = std::accumulate(result.begin(), result.end(), 0.0) / double(result.size());
+  const double seen = noise.pairs * double(sqr(2 * rule.reach + 1));
+  for (double& value : result) {
+    const double shrunk = (value * seen + mean * pairs_of_mean) / (seen + pairs_of_mean);
+    value = std::pow(shrunk, rule.power);
+  }
+  return result;
+}
+
+/// Doubles the count of one block after the other, where most variance is taken off per ray.
+std::vector<uint32_t> counts_for(const std::vector<double>& weights, const Blocks& blocks,
+                                 uint32_t samples) {
+  const uint32_t least = std::max(1u, samples / least_divisor), most = samples * most_factor;
+  std::vector<uint32_t> counts(weights.size(), least);
+  struct Next {
+    double worth;
+    size_t block;
+    bool operator<(const Next& other) const {
+      return worth < other.worth || (worth == other.worth && block > other.block);
+    }
+  };
+  std::vector<Next> heap;
+  heap.reserve(counts.size());
+  const auto next = [&](size_t i) {
+    return Next{weights[i] / (sqr(double(counts[i])) * blocks.rays[i]), i};
+  };
+  uint64_t left = 0;
+  for (size_t i = 0; i < counts.size(); ++i) {
+    heap.push_back(next(i));
+    left += uint64_t(samples - least) * blocks.pixels[i];
+  }
+  std::make_heap(heap.begin(), heap.end());
+  while (!heap.empty()) {
+    std::pop_heap(heap.begin(), heap.end());
+    const size_t i = heap.back().block;
+    const uint64_t more = uint64_t(counts[i]) * blocks.pixels[i];
+    if (2 * counts[i] > most || more > left) {
+      heap.pop_back();
+      continue;
+    }
+    left -= more;
+    counts[i] *= 2;
+    heap.back() = next(i);
+    std::push_heap(heap.begin(), heap.end());
+  }
+  return counts;
+}
+
+/// Variance times rays.
+double time_of(const std::vector<double>& variances, const Blocks& blocks,
+               const std::vector<uint32_t>& counts) {
+  double variance = 0, rays = 0;
+  for (size_t i = 0; i < counts.size(); ++i) {
+    variance += variances[i] / counts[i] * blocks.pixels[i];
+    rays += blocks.rays[i] * counts[i] * blocks.pixels[i];
+  }
+  return variance * rays;
+}
+
+}  // namespace
+
+void SampleLearning::Sums::add(const Sums& other) {
+  pairs += other.pairs;
+  squares += other.squares;
+  light += other.light;
+  rays += other.rays;
+}
+
+SampleLearning::Sums SampleLearning::BlockSums::all() const {
+  Sums result = of[0];
+  result.add(of[1]);
+  return result;
+}
+
+SampleLearning::SampleLearning(const Vec2i& picture, const Vec2i& blocks, int block_size)
+    : picture_(picture), blocks_(blocks), block_size_(block_size) {
+  for (int y = 0; y < blocks.y; ++y)
+    for (int x = 0; x < blocks.x; ++x)
+      pixels_.push_back(uint32_t(std::min(block_size, picture.x - x * block_size) *
+                                 std::min(block_size, picture.y - y * block_size)));
+  sums_.resize(pixels_.size());
+}
+
+std::vector<SampleLearning::Sums> SampleLearning::take_samples(
+    const Scene& scene, const Integrator& integrator, const PassState& state, const Pass& pass,
+    const std::stop_token& stop, uint64_t& rays) const {
+  std::vector<Sums> result(sums_.size());
+  const uint32_t pairs = pass.index < first_passes ? first_pairs : later_pairs;
+  const auto add_pair = [&](size_t block, uint32_t pair) {
+    const Vec2i first =
+        Vec2i(int(block % size_t(blocks_.x)), int(block / size_t(blocks_.x))) * block_size_;
+    const Vec2i size(std::min(block_size_, picture_.x - first.x),
+                     std::min(block_size_, picture_.y - first.y));
+    // Pixels of one block stratify one another over the passes.
+    const Vec2f where = Sampler::at(pass.seed, 0, Stream::training, training_element + block,
+                                    pass.index * first_pairs + pair)
+                            .next_2d();
+    const Vec2i pixel = first + Vec2i(std::min(int(where.x * float(size.x)), size.x - 1),
+                                      std::min(int(where.y * float(size.y)), size.y - 1));
+    std::array<double, 2> light{};
+    uint64_t pair_rays = 0;
+    for (uint32_t i = 0; i < 2; ++i) {
+      // Samples that stratify one another would differ too much.
+      Sampler sampler = Sampler::at(pass.seed, 1 + 2 * pair + i, Stream::training,
+                                    training_element + block, pass.index);
+      const Vec2f offset = scene.film().filter.sample(sampler.next_2d());
+      SampleSink sink(integrator.components());
+      integrator.sample(state, {float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y},
+                        sampler, sink);
+      light[i] = all_light(sink);
+      pair_rays += sink.rays();
+    }
+    result[block].add(
+        {1, 0.5 * sqr(light[0] - light[1]), (light[0] + light[1]) / 2, double(pair_rays) / 2});
+    return pair_rays;
+  };
+  std::atomic<uint64_t> counted{0};
+  parallel_blocks(result.size(), 16, [&](size_t begin, size_t end, size_t) {
+    uint64_t sum = 0;
+    for (size_t block = begin; block < end && !stop.stop_requested(); ++block)
+      for (uint32_t pair = 0; pair < pairs; ++pair) sum += add_pair(block, pair);
+    counted += sum;
+  });
+  rays += counted;
+  return result;
+}
+
+void SampleLearning::learn(const std::vector<Sums>& samples, uint32_t pass) {
+  for (size_t i = 0; i < samples.size(); ++i) sums_[i].of[pass % 2].add(samples[i]);
+}
+
+SampleLearning::Counts SampleLearning::counts(uint32_t samples_per_pixel) const {
+  return counts(sums_, pixels_, blocks_, samples_per_pixel);
+}
+
+SampleLearning::Counts SampleLearning::counts(const std::vector<BlockSums>& sums,
+                                              const std::vector<uint32_t>& pixels,
+                                              const Vec2i& size, uint32_t samples_per_pixel) {
+  if (sums.empty()) return {};
+  std::vector<Sums> all;
+  std::array<std::vector<Sums>, 2> halves;
+  for (const BlockSums& block : sums) {
+    all.push_back(block.all());
+    for (size_t h = 0; h < 2; ++h) halves[h].push_back(block.of[h]);
+  }
+  const Blocks blocks = blocks_of(all, pixels, size);
+  const std::array<Noise, 2> noise{noise_of(halves[0], blocks), noise_of(halves[1], blocks)};
+  if (!(noise[0].pairs > 0 && noise[1].pairs > 0)) return {};
+  std::array<std::vector<double>, 2> truth{noise[0].variance, noise[1].variance};
+  for (auto& variances : truth) clip_outliers(variances);
+
+  const std::vector<uint32_t> even(sums.size(), samples_per_pixel);
+  const double before = time_of(truth[0], blocks, even) + time_of(truth[1], blocks, even);
+  std::array<double, rules.size()> after{};
+  parallel_blocks(rules.size(), 1, [&](size_t r, size_t, size_t) {
+    for (size_t half = 0; half < 2; ++half)
+      after[r] +=
+          time_of(truth[1 - half], blocks,
+                  counts_for(weights_by(rules[r], noise[half], blocks), blocks, samples_per_pixel));
+  });
+  const auto best = size_t(std::min_element(after.begin(), after.end()) - after.begin());
+  if (!(after[best] > 0 && before > worth_spreading * after[best])) return {};
+  return {
+      counts_for(weights_by(rules[best], noise_of(all, blocks), blocks), blocks, samples_per_pixel),
+      before / after[best]};
+}
+
+}  // namespace kaustik
