@@ -83,8 +83,8 @@ make_reference() {
     # And nearly all that is seen is seen through it.
     pool_above | peer_pool_above)
       minutes "$scene" path emission,direct 0.5
-      minutes "$scene" lighttracer caustic,indirect 1.5
-      minutes "$scene" auto specular 7
+      minutes "$scene" lighttracer caustic,indirect 4
+      minutes "$scene" auto specular 5
       ;;
     # Lamps among crystals, whose focused light is scattered again.
     atrium)
