@@ -2,6 +2,7 @@
 // over 8 x 8 pixels): points of each pixel that stratify one another over samples and passes, as
 // renders have them; points that do so over the samples of a pass and over neighbouring pixels,
 // along a Z-shaped curve ("blue noise", Ahmed and Wonka 2020); and independent ones.
+// All pixels have as many samples (adaptive = false).
 #include <cmath>
 
 #include "benchmarks/quality.h"
@@ -107,6 +108,7 @@ void measure(const std::string& name, const std::string& type, uint32_t passes) 
   if (!reference) return;
   Description description = bench::load_shipped(name);
   override_integrator(description, type);
+  if (type == "auto") override_property(description, "integrator.adaptive=false");
   const auto scene = build_scene(description);
   std::vector<std::string> warnings;
   const auto integrator = make_integrator(description, *scene, warnings);

@@ -243,14 +243,14 @@ TEST(AdaptiveSamples, WeightsSumToOne) {
   expect_near_means("many samples", found.mean({""}, many), path.mean({""}, many), 0.005);
 }
 
-Film film_of(const TestScene& scene, PassRange range, int threads) {
+Film film_of(const TestScene& scene, PassRange range, int threads, const char* type = "auto") {
   SessionSettings settings;
   settings.seed = 3;
   settings.first_pass = range.begin;
   settings.passes = range.end - range.begin;
   settings.samples_per_pass = 4;
   settings.threads = threads;
-  const auto integrator = scene.integrator("auto");
+  const auto integrator = scene.integrator(type);
   Session session(scene.scene(), *integrator, settings);
   session.run();
   return session.film();
@@ -275,6 +275,21 @@ TEST(AdaptiveSamples, SameBits) {
                           whole.channel(c).size_bytes()),
               0)
         << c;
+}
+
+/// Also those of a later round of the replicates, with splats and connections.
+TEST(AdaptiveSamples, SameBitsOfLaterPasses) {
+  const TestScene scene(floor_and_wall());
+  const uint32_t begin = replicate_count, end = begin + 2;
+  const Image whole = film_of(scene, {0, end}, 2, "vcm").image();
+  Film parts = film_of(scene, {begin, end}, 1, "vcm");
+  parts.add(film_of(scene, {0, begin}, 2, "vcm"));
+  const Image merged = parts.image();
+  for (int c = 0; c < whole.channel_count(); ++c)
+    EXPECT_EQ(std::memcmp(whole.channel(c).data(), merged.channel(c).data(),
+                          whole.channel(c).size_bytes()),
+              0)
+        << whole.channel_names()[size_t(c)];
 }
 
 /// No sample comes twice in a replicate.

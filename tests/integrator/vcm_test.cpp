@@ -235,6 +235,22 @@ TEST(Vcm, MirroredLampsAreNoNoise) {
   }
 }
 
+/// Of a pane before the sky layers show the pane, not what it mirrors.
+TEST(Vcm, LayersShowTheLikelyBranch) {
+  const TestScene scene(
+      camera("0, 0, 2", "0, 1, 2", 1, 2) +
+      flat("rectangle", scale("9, 9, 1") + rotate("1, 0, 0", 120) + translate("0, 3, 2"),
+           R"(<bsdf type="dielectric"/>)") +
+      flat("rectangle", scale("50, 50, 1"), diffuse("0.2, 0.7, 0.3")) + constant_light(1));
+  for (const char* type : {"path", "bdpt"}) {
+    const Passes found = render(scene, type, "", {16, 1, 1});
+    const Image& image = found.images().front();
+    const int albedo = image.find_channel("albedo.G");
+    ASSERT_GE(albedo, 0);
+    EXPECT_GT(double(image.at(0, 0, albedo)), 0.9) << type;
+  }
+}
+
 /// max_depth cuts all techniques at the same length.
 TEST(Vcm, LongestPath) {
   const TestScene scene(room(large_lamp(), 16));

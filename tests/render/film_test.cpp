@@ -97,6 +97,25 @@ TEST(Film, NoiseOfBothKindsOfLightOverTheSamples) {
   EXPECT_LT(single.image().find_channel("noise.scattered"), 0);
 }
 
+/// All passes count alike, however many samples a pixel has in each.
+TEST(Film, NoiseOfUnevenPasses) {
+  const auto pass_of = [](uint32_t samples) {
+    PassPixel pixel;
+    // Single samples are 0 or 2: variance 1.
+    pixel.radiance[size_t(Component::direct)] = Spectrum(1);
+    pixel.squares = {2, 0};
+    pixel.samples = samples;
+    return std::vector<PassPixel>(width * height, pixel);
+  };
+  Film film(film_settings(), {ComponentSet::all()});
+  uint32_t pass = 0;
+  for (const uint32_t samples : {40u, 40u, 160u, 160u}) film.add_pass(pass_of(samples), pass++, 40);
+  const double variance = (2.0 / 40 + 2.0 / 160) / 16;
+  // Up to what the mean takes off the variance of so many samples.
+  EXPECT_NEAR(value_at(film.image(), 1, 1, "noise.scattered"), std::sqrt(variance),
+              0.01 * std::sqrt(variance));
+}
+
 TEST(Film, MeansAndErrorsOfThePasses) {
   const auto passes = made_up_passes(7);
   const Film film = filmed(passes, counting(passes.size()));

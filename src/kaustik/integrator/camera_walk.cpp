@@ -259,7 +259,7 @@ std::optional<CameraWalk::DeltaEvents> CameraWalk::delta_events() const {
       events.reflection.transmission || !events.transmission.transmission)
     return std::nullopt;
   // A mask over glass has a third.
-  constexpr float rounding = 1e-4f;
+  constexpr float rounding = 1e-6f;
   if (events.reflection.pdf_solid_angle + events.transmission.pdf_solid_angle < 1 - rounding)
     return std::nullopt;
   return events;

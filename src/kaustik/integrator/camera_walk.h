@@ -111,6 +111,9 @@ class CameraWalk {
   /// An estimate of the bias of what add() was given.
   void add_bias(const Spectrum& radiance) { sink_.add_bias(state_.throughput * radiance); }
   bool wants(Component component) const { return sink_.wants(component); }
+  /// What layers show of the surface that is seen, by this walk and its branches.
+  const FirstHit& first_hit() const { return sink_.first_hit(); }
+  void set_first_hit(const FirstHit& seen) { sink_.set_first_hit(seen); }
   uint64_t& rays() { return rays_; }
 
   /// Whether anything that is wanted may be found further on.

@@ -51,13 +51,13 @@ float DiskCoverage::clear_radius() const { return per_clearance * free_; }
 bool DiskCoverage::merges_at(const SurfacePoint& point) const {
   const bool keeps_light =
       scene_.film().quantity == Quantity::irradiance ||
-      any(scene_.surface(point.shape).bsdf->lobes() & (Lobes::diffuse | Lobes::glossy));
+      any(scene_.surface(point.shape).lobes & (Lobes::diffuse | Lobes::glossy));
   const float cosine = dot(point.ng, vertex_.point().ng);
   return keeps_light && (both_sides_ ? cosine : std::fabs(cosine)) > MergeDisk::least_cosine();
 }
 
 bool DiskCoverage::hides(const SurfacePoint& point) const {
-  return point.shape == vertex_.point().shape || !scene_.surface(point.shape).bsdf->transmits();
+  return point.shape == vertex_.point().shape || !scene_.surface(point.shape).transmits;
 }
 
 template <typename Stops>
@@ -79,8 +79,8 @@ std::optional<SurfacePoint> DiskCoverage::obstacle(float height, float angle, fl
 
 std::optional<SurfacePoint> DiskCoverage::interface(float height, float angle, float reach) const {
   return first_on_way(height, angle, reach, [&](const SurfacePoint& point) {
-    const Bsdf& bsdf = *scene_.surface(point.shape).bsdf;
-    return bsdf.transmits() && bsdf.lobes() == Lobes::delta;
+    const Surface& surface = scene_.surface(point.shape);
+    return surface.transmits && surface.lobes == Lobes::delta;
   });
 }
 

@@ -245,6 +245,7 @@ int RadiusLearning::widest_level(const std::vector<Disagreement>& disagreements,
 std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std::vector<Sums>& sums,
                                              uint32_t passes, float shrinkage) const {
   std::vector<PixelPlan> result = first.plans();
+  std::vector<float> most(sums.size(), float(infinity));  // areas
   std::vector<Disagreement> disagreements(sums.size());
   parallel_blocks(sums.size(), probes_per_block, [&](size_t begin, size_t end, size_t) {
     for (size_t p = begin; p < end; ++p) disagreements[p] = disagreement_of(sums[p], levels_[p]);
@@ -253,16 +254,23 @@ std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std:
     for (size_t p = begin; p < end; ++p) {
       const PixelProbe& probe = first.probes()[p];
       if (!probe.found) continue;
-      int level = widest_level(disagreements, first, p);
+      const auto area_of = [&](int level) {
+        return float(pi * sqr(level_radius(probe, level))) / shrinkage;
+      };
       const auto is_too_wide = [&](size_t i) {
         return sums[p].vertices[i] > most_vertices * passes ||
                levels_[p][i].moments.one < least_left * std::numbers::pi;
       };
+      int level = int(levels) - 1;
       while (level > 0 && is_too_wide(size_t(level))) --level;
-      result[p].merge_area = float(pi * sqr(level_radius(probe, level))) / shrinkage;
+      most[p] = area_of(level);
+      result[p].merge_area = area_of(std::min(level, widest_level(disagreements, first, p)));
     }
   });
-  return smoothed(first, result);
+  result = smoothed(first, result);
+  for (size_t p = 0; p < result.size(); ++p)
+    result[p].merge_area = std::min(result[p].merge_area, most[p]);
+  return result;
 }
 
 }  // namespace kaustik

@@ -12,6 +12,10 @@ namespace {
 
 /// Pairs of samples that a block gets in the first passes, which know nothing yet, and later.
 constexpr uint32_t first_pairs = 2, later_pairs = 1, first_passes = 4;
+constexpr uint32_t pairs_before(uint32_t pass) {
+  const uint32_t first = std::min(pass, first_passes);
+  return first * first_pairs + (pass - first) * later_pairs;
+}
 /// Of the random numbers' addresses.
 constexpr uint64_t training_element = uint64_t(5) << 40;
 /// Noise counts relative to a pixel's light, and this share of the picture's mean light.
@@ -219,17 +223,17 @@ std::vector<SampleLearning::Sums> SampleLearning::take_samples(
     const Vec2i size(std::min(block_size_, picture_.x - first.x),
                      std::min(block_size_, picture_.y - first.y));
     // Pixels of one block stratify one another over the passes.
-    const Vec2f where = Sampler::at(pass.seed, 0, Stream::training, training_element + block,
-                                    pass.index * first_pairs + pair)
-                            .next_2d();
+    const uint32_t number = pairs_before(pass.index) + pair;
+    const Vec2f where =
+        Sampler::at(pass.seed, 0, Stream::training, training_element + block, number).next_2d();
     const Vec2i pixel = first + Vec2i(std::min(int(where.x * float(size.x)), size.x - 1),
                                       std::min(int(where.y * float(size.y)), size.y - 1));
     std::array<double, 2> light{};
     uint64_t pair_rays = 0;
     for (uint32_t i = 0; i < 2; ++i) {
-      // Samples that stratify one another would differ too much.
-      Sampler sampler = Sampler::at(pass.seed, 1 + 2 * pair + i, Stream::training,
-                                    training_element + block, pass.index);
+      // Samples that stratify one another would differ too much, and passes are to be independent.
+      Sampler sampler =
+          Sampler::at(pass.seed, 1 + 2 * number + i, Stream::training, training_element + block, 0);
       const Vec2f offset = scene.film().filter.sample(sampler.next_2d());
       SampleSink sink(integrator.components());
       integrator.sample(state, {float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y},

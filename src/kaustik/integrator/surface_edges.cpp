@@ -66,15 +66,16 @@ class Search {
 
   void look(size_t i) {
     const float angle = angle_of(i);
-    const auto wall = coverage_.obstacle(wall_height * reach_, angle, reach_);
-    float at_wall = wall ? dot(wall->position - origin_, across(angle)) : reach_;
-    if (wall) add_wall(i, *wall);
     // What lies on the surface or over it, such as a ball of glass, parts nothing.
-    const auto interface = coverage_.interface(wall_height * reach_, angle, at_wall);
-    if (interface && stands_across(*interface)) {
-      add_wall(i, *interface);
-      at_wall = dot(interface->position - origin_, across(angle));
-    }
+    auto interface = coverage_.interface(wall_height * reach_, angle, reach_);
+    if (interface && !stands_across(*interface)) interface.reset();
+    const auto along = [&](const SurfacePoint& point) {
+      return dot(point.position - origin_, across(angle));
+    };
+    float at_wall = interface ? along(*interface) : reach_;
+    const auto wall = coverage_.obstacle(wall_height * reach_, angle, at_wall);
+    if (wall) at_wall = along(*wall);
+    if (wall || interface) add_wall(i, wall ? *wall : *interface);
     const auto end = end_at(angle, at_wall / same_distance);
     if (!end) return;
     if (goes_on(angle, *end))

@@ -44,7 +44,6 @@ struct VcmIntegrator::State final : PassState {
   /// sum to 1 where a pixel gets more or fewer.
   float camera_samples = 1;
 
-  State() = default;
   State(std::shared_ptr<const VcmPlans> of_pass, const PathWeights& weights_of_pass,
         const Pass& pass)
       : plans(std::move(of_pass)),
@@ -119,18 +118,17 @@ void VcmIntegrator::learn_missing(std::shared_ptr<const VcmPlans> plans, const P
   if (!learning_->wants_next()) return learning_->learn({}, {});
   SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
   State state(plans, weights_for(*plans, missing), missing);
+  // Nobody sees its splats; what camera samples connect to is of use for these alone.
+  const bool wants_samples =
+      VcmLearning::wants_samples(missing.index, *learning_->first(), settings_);
+  PathWeights::Settings unseen = state.weights.settings();
+  unseen.techniques.splats = false;
+  unseen.techniques.connections = unseen.techniques.connections && wants_samples;
+  trace_light(state, missing, PathWeights(unseen), nowhere, stop, progress);
   std::vector<SampleLearning::Sums> samples;
-  if (VcmLearning::wants_samples(missing.index, *learning_->first(), settings_)) {
-    trace_light(state, missing, nowhere, stop, progress);
+  if (wants_samples)
     samples =
         learning_->samples().take_samples(scene_, *this, state, missing, stop, state.report.rays);
-  } else {
-    // What merges is all that radii are learned from.
-    PathWeights::Settings merging_alone = state.weights.settings();
-    merging_alone.techniques.splats = merging_alone.techniques.connections = false;
-    state.light =
-        trace(*plans, PathWeights(merging_alone), missing, nowhere, stop, progress, state.report);
-  }
   report.rays += state.report.rays;
   report.photons += state.report.photons;
   if (!stop.stop_requested()) learning_->learn(state.light, samples);
@@ -174,10 +172,11 @@ LightVertices VcmIntegrator::trace(const VcmPlans& plans, const PathWeights& wei
       pass, Stream::light_path, splats, stop, progress, report);
 }
 
-void VcmIntegrator::trace_light(State& state, const Pass& pass, SplatBuffer& splats,
-                                std::stop_token stop, const ProgressFunction& progress) const {
+void VcmIntegrator::trace_light(State& state, const Pass& pass, const PathWeights& weights,
+                                SplatBuffer& splats, std::stop_token stop,
+                                const ProgressFunction& progress) const {
   if (!state.plans->techniques.needs_light_paths()) return;
-  state.light = trace(*state.plans, state.weights, pass, splats, stop, progress, state.report);
+  state.light = trace(*state.plans, weights, pass, splats, stop, progress, state.report);
   if (state.plans->techniques.merging) state.matt = MattMerging(state.light, state.weights);
   state.connection_scale = float(double(state.light.connectible.size()) /
                                  (double(settings_.connections) * double(state.light.path_count)));
@@ -196,7 +195,7 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
     state->report.warnings.emplace_back(
         "all techniques are switched off: only lights that the camera sees straight are there; "
         "switch on unidirectional, next_event, splats, connections or merging");
-  trace_light(*state, pass, splats, stop, part_of(progress, made_up, made_up + 1));
+  trace_light(*state, pass, state->weights, splats, stop, part_of(progress, made_up, made_up + 1));
   if (VcmLearning::learned_passes(*plans, settings_) > 0 && !stop.stop_requested())
     learn_from(*state, pass, stop);
   return state;
@@ -269,7 +268,8 @@ void VcmIntegrator::split(const Techniques& techniques, CameraWalk& stem, VcmCam
   const bool mirrors = events.reflection.pdf_solid_angle > events.transmission.pdf_solid_angle;
   const BsdfSample& likely = mirrors ? events.reflection : events.transmission;
   const BsdfSample& other = mirrors ? events.transmission : events.reflection;
-  // The likely one last: layers of what is seen show that.
+  // Layers of what is seen show the likely one.
+  const FirstHit seen = stem.first_hit();
   {
     Sampler numbers = stem.sampler().fork(branch_key);
     CameraWalk walk(stem, numbers);
@@ -278,6 +278,7 @@ void VcmIntegrator::split(const Techniques& techniques, CameraWalk& stem, VcmCam
     of_branch.leave();
     if (walk.may_find_more()) follow(techniques, walk, of_branch, branch.by(other.pdf_solid_angle));
   }
+  stem.set_first_hit(seen);
   stem.branch(likely);
   branch = branch.by(likely.pdf_solid_angle);
 }

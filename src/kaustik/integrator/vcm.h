@@ -48,8 +48,8 @@ class VcmIntegrator final : public Integrator {
                                             const ProgressFunction& progress, uint32_t& made_up,
                                             PassReport& report) const;
   /// The pass's light paths, and all that samples need of them.
-  void trace_light(State& state, const Pass& pass, SplatBuffer& splats, std::stop_token stop,
-                   const ProgressFunction& progress) const;
+  void trace_light(State& state, const Pass& pass, const PathWeights& weights, SplatBuffer& splats,
+                   std::stop_token stop, const ProgressFunction& progress) const;
   /// A pass that is not rendered here, as far as learning goes.
   void learn_missing(std::shared_ptr<const VcmPlans> plans, const Pass& missing,
                      std::stop_token stop, const ProgressFunction& progress,

@@ -36,7 +36,9 @@ std::shared_ptr<const SampleSpread> spread_of(uint32_t begin, std::vector<uint32
   const uint32_t rounds_before = std::max(1u, begin / replicate_count);
   for (size_t i = 0; i < result.counts.size(); ++i) {
     const uint32_t count = result.counts[i];
-    const uint32_t used = before ? before->next_indices[i] : rounds_before * samples;
+    // From a multiple on: whole runs of a sequence stratify one another best.
+    const uint32_t before_it = before ? before->next_indices[i] : rounds_before * samples;
+    const uint32_t used = (before_it + count - 1) / count * count;
     result.first_indices.push_back(is_first_round ? 0 : used);
     // Epochs are as long as all passes before them.
     result.next_indices.push_back(is_first_round ? std::max(used, count)

@@ -155,7 +155,7 @@ LightSelector::LightSelector(const std::vector<std::unique_ptr<Light>>& lights)
   else
     impl_->infinite_by_power = PowerDistribution(infinite_powers);
   impl_->tree = LightTree(std::move(items), lights.size());
-  if (shining.empty()) only_choice_.emplace();
+  if (shining.empty()) only_choice_ = Choice();
   if (shining.size() == 1) only_choice_ = {shining.front(), 1.0f};
   if (shining.size() <= maximum_learned) impl_->learned = FewLights(lights, shining);
 }

@@ -93,7 +93,8 @@ double Film::add_pixel(size_t i, const PassPixel& pixel, size_t replicate, uint3
   for (size_t k = 0; k < first_hit_lanes_; ++k) add_to(sum[first_hit_ + k], fixed_from(first[k]));
   for (size_t k = 0; k < noise_kinds; ++k)
     add_to(sum[sample_squares_ + k], fixed_from(double(pixel.squares[k])));
-  add_to(sum[samples_], fixed_from(double(pixel.samples > 0 ? pixel.samples : samples)));
+  add_to(sum[inverse_samples_],
+         fixed_from(1 / double(pixel.samples > 0 ? pixel.samples : samples)));
   if (layers_.bias) {
     Fixed* bias = sum + bias_ + replicate % bias_halves * lanes_;
     for (int lane = 0; lane < lanes_; ++lane)
@@ -140,14 +141,16 @@ Vec3f Film::mean_bias(size_t pixel) const {
 
 std::array<double, noise_kinds> Film::noise(size_t pixel) const {
   std::array<double, noise_kinds> result{};
-  const double passes = pass_count(), samples = sum(pixel, samples_);
+  const double passes = pass_count();
+  // Variance of the mean of all passes, relative to that of a sample; 1/n if all are alike.
+  const double share = sum(pixel, inverse_samples_) / sqr(passes);
   std::array<Spectrum, component_count> means;
   for (int c = 0; c < component_count; ++c) means[size_t(c)] = mean(pixel, Component(c));
   const std::array<float, noise_kinds> mean = by_noise_kind(means);
   for (size_t k = 0; k < noise_kinds; ++k) {
     const double square = sum(pixel, sample_squares_ + k) / passes;
-    result[k] =
-        std::sqrt(std::max(0.0, square - double(sqr(mean[k]))) / std::max(1.0, samples - 1));
+    const double spread = std::max(0.0, square - double(sqr(mean[k])));
+    result[k] = std::sqrt(spread * share / std::max(share, 1 - share));
   }
   return result;
 }

@@ -111,8 +111,9 @@ class Film {
   static constexpr size_t first_hit_ = squares_ + lanes_;  ///< [albedo 3, normal 3, depth 1]
   static constexpr size_t first_hit_lanes_ = 7;
   static constexpr size_t sample_squares_ = first_hit_ + first_hit_lanes_;  ///< [kind of light]
-  static constexpr size_t samples_ = sample_squares_ + noise_kinds;
-  static constexpr size_t luminance_squares_ = samples_ + 1;
+  /// One over the samples of a pass: passes count alike.
+  static constexpr size_t inverse_samples_ = sample_squares_ + noise_kinds;
+  static constexpr size_t luminance_squares_ = inverse_samples_ + 1;
   static constexpr size_t replicate_luminances_ = luminance_squares_ + 1;  ///< [replicate]
   static constexpr size_t bias_ =
       replicate_luminances_ + replicate_count;  ///< [half][lane], if held

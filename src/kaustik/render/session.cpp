@@ -316,7 +316,8 @@ void Session::render_tile(const Pass& pass, const PassState& state, int tile,
 
 uint64_t Session::render_pixel(const Pass& pass, const PassState& state, int x, int y,
                                const std::stop_token& stop, Monitor& monitor) {
-  // The address of a pixel is its place in the whole picture, so a crop window shows the same.
+  // The address of a pixel is its place in the whole picture, so that a crop window shows the same
+  // where nothing is learned from the picture.
   const FilmSettings& film = scene_.film();
   const uint64_t address =
       uint64_t(y + film.crop_offset.y) * uint64_t(film.size.x) + uint64_t(x + film.crop_offset.x);
