@@ -93,8 +93,8 @@ double reference_noise(const Image& reference) {
 }
 
 /// Fills in what came out of a measurement of which scene, integrator, seed, seconds and threads
-/// are known. Throws Error where the integrator refuses the scene.
-void measure(const BenchScene& scene, const Image& reference, Measurement& m) {
+/// are known, and returns the last picture. Throws Error where the integrator refuses the scene.
+Image measure(const BenchScene& scene, const Image& reference, Measurement& m) {
   const auto start = std::chrono::steady_clock::now();
   const Description description = describe(scene, m.integrator, reference);
   const auto built = build_scene(description);
@@ -112,6 +112,7 @@ void measure(const BenchScene& scene, const Image& reference, Measurement& m) {
   m.samples_per_pass = taken.samples_per_pass;
   m.cpu_share = taken.cpu_share;
   m.reference_relmse = reference_noise(reference);
+  return taken.last;
 }
 
 /// The measurements that are wanted of one scene, and those that there are.
@@ -161,7 +162,7 @@ class SceneBench {
     }
     say(fmt::format("{}, {}, seed {}: {:g} s", m.scene, m.integrator, m.seed, m.seconds.back()));
     try {
-      measure(scene_, reference_, m);
+      keep(m, measure(scene_, reference_, m));
     } catch (const Error& error) {
       say(fmt::format("{}, {}: left out: {}", m.scene, m.integrator, error.what()));
       return;
@@ -169,6 +170,15 @@ class SceneBench {
     append_measurement(options_.results, m);
     fmt::print("{}\n", m.to_json_line());
     std::fflush(stdout);
+  }
+
+  /// Pictures of one seed are enough to look at.
+  void keep(const Measurement& m, const Image& picture) const {
+    const auto& seeds = options_.seeds.empty() ? scene_.seeds : options_.seeds;
+    if (picture.width() == 0 || m.seed != seeds.front()) return;
+    const std::string path = picture_path(options_.results, m.scene, m.integrator);
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+    write_image(picture, path);
   }
 
   const Options& options_;

@@ -6,9 +6,12 @@
 #include <filesystem>
 #include <set>
 
+#include "benchmarks/comparisons/bench_scene.h"
+#include "benchmarks/comparisons/picture_strip.h"
 #include "benchmarks/comparisons/tables.h"
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
+#include "kaustik/image/image_io.h"
 
 namespace kaustik::bench {
 namespace {
@@ -75,7 +78,31 @@ std::string tables(const Results& results) {
          mean_table(results);
 }
 
-std::string page(const Results& results, const std::filesystem::path& docs) {
+/// Of path tracing and of the headline beside the reference, as far as pictures were kept; "":
+/// none.
+std::string picture_of(const std::string& scene, const std::string& results_file,
+                       const std::string& headline, const std::filesystem::path& docs) {
+  std::vector<Image> pictures;
+  std::string shown;
+  const BenchScene known = bench_scene(scene);
+  const std::string own =
+      std::string(KAUSTIK_SOURCE_DIR) + "/benchmarks/references/" + scene + ".exr";
+  const std::string reference = std::filesystem::exists(own) ? own : known.reference;
+  for (const std::string& integrator : {std::string("path"), headline}) {
+    const std::string path = picture_path(results_file, scene, integrator);
+    if (!std::filesystem::exists(path)) continue;
+    pictures.push_back(read_image(path));
+    shown += "`" + integrator + "`, ";
+  }
+  if (pictures.empty() || !std::filesystem::exists(reference)) return {};
+  const std::string file = "comparisons/" + scene + ".jpg";
+  std::filesystem::create_directories((docs / file).parent_path());
+  write_shown_image(picture_strip(pictures, read_image(reference)), (docs / file).string(), 90);
+  return fmt::format("{}reference:\n\n![pictures of {}]({})\n\n", shown, scene, file);
+}
+
+std::string page(const Results& results, const std::string& results_file,
+                 const std::filesystem::path& docs) {
   std::string text = fmt::format(
       "# Methods compared over time\n\n"
       "`make bench-scenes` measures this, `make comparisons` writes the page. Relative MSE is the "
@@ -88,11 +115,16 @@ std::string page(const Results& results, const std::filesystem::path& docs) {
       "last pass.\nWhere there are several seeds, errors are means over them. Ratios above 1 say "
       "how many times less the error of `{}` is.\n\n{}\n\n",
       headline_of(results), circumstances(results));
-  text += tables(results) + "\n## Over time\n\n";
+  text +=
+      tables(results) +
+      "\n## Scene by scene\n\nThe error over time; the pictures at the end of it, all brought to "
+      "the display by the same factor, and below each the relative\nsquared error of its "
+      "pixels, from 10⁻⁶ (dark blue) to 1 (yellow).\n\n";
   for (const std::string& scene : results.scenes()) {
     const std::string file = "comparisons/" + scene + ".svg";
     write_text(docs / file, error_plot(results, scene).svg());
-    text += fmt::format("![{}]({})\n", scene, file);
+    text += fmt::format("### {}\n\n![error over time]({})\n\n", scene, file) +
+            picture_of(scene, results_file, headline_of(results), docs);
   }
   return text;
 }
@@ -109,7 +141,7 @@ int run(int argc, char** argv) {
   fmt::print("{}\n\n{}", circumstances(results), tables(results));
   if (docs.empty()) return 0;
   const std::filesystem::path page_path = std::filesystem::path(docs) / "comparisons.md";
-  write_text(page_path, page(results, docs));
+  write_text(page_path, page(results, path, docs));
   fmt::print("\nwritten: {}\n", page_path.string());
   return 0;
 }

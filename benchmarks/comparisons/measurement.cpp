@@ -101,6 +101,13 @@ void append_measurement(const std::string& path, const Measurement& measurement)
   if (!file) throw Error(ErrorKind::system, path + " cannot be written");
 }
 
+std::string picture_path(const std::string& results, const std::string& scene,
+                         const std::string& integrator) {
+  const std::filesystem::path folder =
+      std::filesystem::path(results).replace_extension().string() + "_pictures";
+  return (folder / (scene + "-" + integrator + ".exr")).string();
+}
+
 std::string checksum_of_file(const std::string& path) {
   return fmt::format("{:016x}", checksum(read_file(path)));
 }

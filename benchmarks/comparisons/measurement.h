@@ -42,6 +42,10 @@ std::vector<Measurement> read_measurements(const std::string& path);
 /// Adds a line at the end of a results file, which is made with its folder if it is missing.
 void append_measurement(const std::string& path, const Measurement& measurement);
 
+/// Where the last picture of a run is kept, beside the results.
+std::string picture_path(const std::string& results, const std::string& scene,
+                         const std::string& integrator);
+
 /// In hexadecimal.
 std::string checksum_of_file(const std::string& path);
 

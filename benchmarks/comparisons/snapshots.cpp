@@ -14,6 +14,17 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+Image colors_of(const Image& image) {
+  const std::vector<std::string> names = {"R", "G", "B"};
+  Image result(image.width(), image.height(), names);
+  for (int c = 0; c < int(names.size()); ++c) {
+    const int channel = image.find_channel(names[size_t(c)]);
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x) result.at(x, y, c) = image.at(x, y, channel);
+  }
+  return result;
+}
+
 /// Looks at the film of a session between its passes, when it is time to.
 class Photographer {
  public:
@@ -50,7 +61,9 @@ class Photographer {
   }
   void look() {
     looking_seconds_ = looking_seconds_ + seconds_of([&] {
-                         latest_ = compare_images(session_.film().image(), reference_);
+                         const Image image = session_.film().image();
+                         latest_ = compare_images(image, reference_);
+                         result_.last = colors_of(image);
                          result_.passes = session_.film().pass_count();
                        });
   }

@@ -10,7 +10,8 @@ namespace kaustik::bench {
 struct Snapshots {
   /// One per time: the picture after the last pass that had ended by then; nothing: none had.
   std::vector<std::optional<ImageComparison>> pictures;
-  uint32_t passes = 0;  ///< of the last of them
+  Image last;           ///< "R", "G", "B" of the last of them; empty: there is none
+  uint32_t passes = 0;  ///< of that
   uint32_t samples_per_pass = 0;
   double cpu_share = 0;  ///< CPU time over time × threads
 };
