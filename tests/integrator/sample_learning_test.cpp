@@ -142,6 +142,20 @@ double floor_luminance(int x, int y) {
   return rho / std::numbers::pi * sum / (n * n);
 }
 
+/// Passes of four samples.
+Film rendered(const TestScene& scene, const Integrator& integrator, uint64_t seed, PassRange range,
+              int threads = 0) {
+  SessionSettings settings;
+  settings.seed = seed;
+  settings.first_pass = range.begin;
+  settings.passes = range.end - range.begin;
+  settings.samples_per_pass = 4;
+  settings.threads = threads;
+  Session session(scene.scene(), integrator, settings);
+  session.run();
+  return session.film();
+}
+
 /// Of pictures of `seeds` seeds, pixel by pixel.
 struct Measured {
   double chi_square = 0, expected = 0, deviation = 0;  ///< of the squares of Student's t
@@ -158,13 +172,8 @@ Measured measure(double planted, bool adaptive = true) {
   std::vector<RunningStatistics> pixels(size_t(side) * side);
   Measured result;
   for (uint64_t seed = 1; seed <= seeds; ++seed) {
-    SessionSettings settings;
-    settings.seed = seed;
-    settings.passes = slow_build ? 4 : 16;
-    settings.samples_per_pass = 4;
-    Session session(scene.scene(), *integrator, settings);
-    session.run();
-    const FilmErrors errors(session.film());
+    const Film film = rendered(scene, *integrator, seed, {0, slow_build ? 4u : 16u});
+    const FilmErrors errors(film);
     for (size_t i = 0; i < pixels.size(); ++i) {
       const ConfidenceInterval interval = errors.luminance(i);
       pixels[i].add(interval.mean);
@@ -173,8 +182,8 @@ Measured measure(double planted, bool adaptive = true) {
       result.held += std::fabs(interval.mean - truth) <= interval.half_width ? 1 : 0;
       ++result.all;
       result.squared_errors += std::pow(interval.mean - truth, 2);
-      result.estimated += std::pow(
-          interval.half_width / student_t_quantile(0.975, session.film().pass_count() - 1), 2);
+      result.estimated +=
+          std::pow(interval.half_width / student_t_quantile(0.975, film.pass_count() - 1), 2);
     }
   }
   // The square of Student's t is that of F(1, ν).
@@ -229,31 +238,15 @@ TEST(AdaptiveSamples, WeightsSumToOne) {
   const auto many = [&](int x, int y) { return counts[size_t(y * 64 + x)] > 4 ? 1.0 : 0.0; };
   ASSERT_FALSE(are_alike(counts));
   std::vector<Image> pictures;
-  for (uint64_t seed = 1; seed <= measured_passes; ++seed) {
-    SessionSettings settings;
-    settings.seed = seed;
-    settings.passes = slow_build ? 4 : 12;
-    settings.samples_per_pass = 4;
-    Session session(scene.scene(), *vcm, settings);
-    session.run();
-    pictures.push_back(session.film().image());
-  }
+  for (uint64_t seed = 1; seed <= measured_passes; ++seed)
+    pictures.push_back(rendered(scene, *vcm, seed, {0, slow_build ? 4u : 12u}).image());
   const Passes found(std::move(pictures));
   const Passes path = render(scene, "path", "", {200, 7});
   expect_near_means("many samples", found.mean({""}, many), path.mean({""}, many), 0.005);
 }
 
 Film film_of(const TestScene& scene, PassRange range, int threads, const char* type = "auto") {
-  SessionSettings settings;
-  settings.seed = 3;
-  settings.first_pass = range.begin;
-  settings.passes = range.end - range.begin;
-  settings.samples_per_pass = 4;
-  settings.threads = threads;
-  const auto integrator = scene.integrator(type);
-  Session session(scene.scene(), *integrator, settings);
-  session.run();
-  return session.film();
+  return rendered(scene, *scene.integrator(type), 3, range, threads);
 }
 
 /// Passes are the same whoever renders them, whether or not he has rendered those before.
