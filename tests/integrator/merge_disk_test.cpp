@@ -116,7 +116,8 @@ TEST(MergeDisk, NeighboursWithoutLight) {
       .expect_share("below glass", 1);
 }
 
-/// A wall ends the disk; so does a solid that stands on the floor, whose inside has no light.
+/// A wall ends the disk; so does a solid that stands on the floor, whose inside has no light, but
+/// not what lies beyond a solid.
 TEST(MergeDisk, WallsAndSolids) {
   const double beyond = share_beyond(0.1);
   const std::string floor = rectangle(scale("2, 2, 1"));
@@ -127,6 +128,10 @@ TEST(MergeDisk, WallsAndSolids) {
         <translate value="1.1, 0, {}"/></transform>{}</shape>)",
                              1 + std::stod(height), diffuse("0.5, 0.5, 0.5")))
         .expect_share(fmt::format("solid at {}", height), 1 - beyond);
+  Disk(floor + fmt::format(R"(<shape type="cube"><transform name="to_world">
+      <scale value="0.05, 2, 1"/><translate value="0.15, 0, 0"/></transform>{}</shape>)",
+                           diffuse("0.5, 0.5, 0.5")))
+      .expect_share("rib", 1 - beyond + share_beyond(0.2));
 }
 
 /// The disk lies in a gap below a solid: what is above the solid's lower face is its inside.

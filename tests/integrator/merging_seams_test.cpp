@@ -74,11 +74,11 @@ std::string wall_at(double x, double bottom = 0) {
 class LitFloor {
  public:
   explicit LitFloor(const std::string& shapes,
-                    const std::string& above = strip(-0.7, 0.7, 1, glass()))
+                    const std::string& above = strip(-0.7, 0.7, 1, glass()), double samples = 16)
       : scene_(camera("0, 0, 0.9", "0, 0, 0", 58.1, 16, "0, 1, 0") + shapes + above +
                directional_light("0, 0, -1", 1)),
-        found_(
-            test::render(scene_, "ppm", set("radius", 0.1) + set("light_paths", 25.0), {4, 16})) {}
+        found_(test::render(scene_, "ppm", set("radius", 0.1) + set("light_paths", 25.0),
+                            {samples, 16})) {}
   RunningStatistics mean(const PixelWeight& weight = {}) const {
     return found_.mean({"caustic"}, weight);
   }
@@ -105,6 +105,23 @@ TEST(MergingSeams, WallsAndGapsInEvenLight) {
   // As wide as the rays that look for walls pass below it.
   LitFloor(floor_from(-0.6, 0.6) + wall_at(0, 0.03))
       .expect_as_open("gap below a wall", open, {6, 7, 8, 9});
+}
+
+/// Furrows have more surface than the disks over them.
+TEST(MergingSeams, FurrowsInEvenLight) {
+  constexpr double slope = 25 * std::numbers::pi / 180, width = 0.005;
+  std::string furrows;
+  for (int i = -120; i < 120; ++i)
+    furrows += flat("rectangle",
+                    scale(fmt::format("{:.6f}, 0.6, 1", width / 2 / std::cos(slope))) +
+                        rotate("0, 1, 0", i % 2 == 0 ? 25 : -25) +
+                        translate(fmt::format("{}, 0, 0", (i + 0.5) * width)),
+                    two_sided(diffuse("0.6, 0.6, 0.6")));
+  const double open = LitFloor(floor_from(-0.6, 0.6)).mean().mean();
+  expect_near_means("furrows",
+                    Comparison(LitFloor(furrows, strip(-0.7, 0.7, 1, glass()), 24).mean(),
+                               open * std::cos(slope)),
+                    0.01, 0.005);
 }
 
 /// Behind a thin wall it is dark, right up to the wall, and before it as bright as elsewhere.

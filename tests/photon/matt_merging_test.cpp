@@ -19,8 +19,8 @@ PathWeights all_techniques() {
   return PathWeights(settings);
 }
 
-/// Paths of a light, a diffuse event and a vertex that merges, on two floors that lie close and a
-/// wall.
+/// Paths of a light, a diffuse event and a vertex that merges, on two floors that lie close, of
+/// which half of the upper one is aslant, and a wall.
 LightVertices light_vertices(uint32_t count) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> unit(0, 1);
@@ -31,7 +31,10 @@ LightVertices light_vertices(uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) {
     LightVertexData d;
     const int where = int(random() % 3);
-    const Vec3f normal = where < 2 ? Vec3f(0, 0, where == 0 ? 1.0f : -1.0f) : Vec3f(1, 0, 0);
+    const Vec3f normal =
+        where < 2
+            ? normalize({where == 0 && i % 2 == 0 ? 0.7f : 0.0f, 0, where == 0 ? 1.0f : -1.0f})
+            : Vec3f(1, 0, 0);
     const float a = unit(random), b = unit(random);
     positions.push_back(where < 2 ? Vec3f(a, b, where == 0 ? 0.0f : -0.02f)
                                   : Vec3f(0.5f, a, b * 0.2f));
@@ -66,9 +69,9 @@ MattLight by_definition(const LightVertices& light, const PathWeights& weights,
     const LightVertexData& data = tree.data(i);
     const Vec3f offset = tree.key(i) - disk.center;
     const float share = length_sq(offset) / sqr(disk.radius);
+    const float cosine = dot(data.side.unpack(), disk.normal);
     if (!(share < 1) || std::fabs(dot(offset, disk.normal)) > disk.flatness ||
-        data.side.dot(disk.normal) <= disk.least_cosine * 127 || data.before > disk.most_before ||
-        !disk.edges.hold(offset))
+        cosine <= disk.least_cosine || data.before > disk.most_before || !disk.edges.hold(offset))
       continue;
     const std::span<const PathVertex> before = light.before(data);
     PathHalves path;
@@ -76,15 +79,16 @@ MattLight by_definition(const LightVertices& light, const PathWeights& weights,
     path.light = before;
     path.pdf_light_last = light.at(data).pdf_light;
     path.pdf_camera_last =
-        dot(disk.normal, data.direction.unpack()) * inv_pi * light.at(data).to_previous;
+        dot(data.side.unpack(), data.direction.unpack()) * inv_pi * light.at(data).to_previous;
     path.pdf_camera_before_last = before[before.size() - 2].pdf_camera;
     path.pdf_next_event = data.pdf_next_event;
     path.first_merge_area = area;
     path.first_survival = survival;
-    const Spectrum flux = data.flux_spectrum() * weights.merge(path);
+    const Spectrum flux = data.flux_spectrum() * (weights.merge(path) * cosine);
     MattLight::Sum& sum = data.specular ? result.after_specular : result.other;
     sum.wide += flux * ((1 - share) * (1 + dot(disk.slope, offset)));
-    sum.narrow += flux * (std::max(0.0f, 1 - 2 * share) * (1 + dot(disk.narrow_slope, offset)));
+    sum.narrow += flux * (std::max(0.0f, 1 - share / sqr(narrow_radius)) *
+                          (1 + dot(disk.narrow_slope, offset)));
   }
   return result;
 }

@@ -117,8 +117,8 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
             const LightVertexData& photon = light.tree.tree().data(index);
             if (photon.path >= beginning_of.size()) return;
             const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
-            if (!disk.counts(offset, photon.side)) return;
-            const float value = probe.sent(photon, wanted_).sum() * inv_pi / sqr(radius);
+            const float value = probe.sent(photon, wanted_).sum() *
+                                disk.share(offset, photon.side) * inv_pi / sqr(radius);
             if (value > 0) found[block].push_back({uint32_t(p), beginning_of[photon.path], value});
           });
     }

@@ -12,8 +12,8 @@ constexpr float per_clearance = 2;
 constexpr int most_tries = 32;
 /// Points that are tried at most: slivers are left of hardly any disk.
 constexpr int most_points = 256;
-/// That light passes through, one over the other.
-constexpr int most_layers = 4;
+/// That rays are followed through.
+constexpr int most_layers = 8;
 
 }  // namespace
 
@@ -100,7 +100,13 @@ bool DiskCoverage::holds(float radius, float distance, float angle) const {
   const float height = height_share * radius;
   const auto surface = surface_at(height, MergeDisk(vertex_, radius).flatness(), distance, angle);
   if (!surface || !merges_at(*surface)) return false;
-  return !(distance > 0) || !obstacle(height, angle, distance);
+  if (!(distance > 0)) return true;
+  bool inside = false;
+  first_on_way(height, angle, distance, [&](const SurfacePoint& point) {
+    inside = inside != hides(point);
+    return false;
+  });
+  return !inside;
 }
 
 float DiskCoverage::inverse_share(float radius, const DiskEdges& edges, Sampler numbers) const {

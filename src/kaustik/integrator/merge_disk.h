@@ -16,14 +16,16 @@ class MergeDisk {
   MergeDisk(const SurfaceVertex& vertex, float radius)
       : vertex_(vertex), ng_(vertex.point().ng), radius_(radius) {}
 
-  /// Whether a point of a surface counts, that far from the vertex, with normal `side`: it lies
-  /// near enough to the tangent plane, and its surface does not stand across.
-  bool counts(const Vec3f& offset, const CoarseNormal& side) const {
-    return std::fabs(dot(offset, ng_)) <= flatness() &&
-           std::fabs(side.dot(ng_)) > least_cosine_ * 127;
+  /// How much light counts at a point of a surface, that far from the vertex, with normal `side`:
+  /// as much as its surface covers of the tangent plane, the cosine between the two, for relief has
+  /// more surface than plane; 0 where it lies too far from the plane or stands across.
+  float share(const Vec3f& offset, const CoarseNormal& side) const {
+    if (std::fabs(dot(offset, ng_)) > flatness()) return 0;
+    const float cosine = std::fabs(side.dot(ng_)) / side.length();
+    return cosine > least_cosine_ ? std::min(cosine, 1.0f) : 0.0f;
   }
-  /// Square of the radius of the smallest disk around the vertex in which counts() holds for the
-  /// point, as far as its normal allows, m².
+  /// Square of the radius of the smallest disk around the vertex in which a point counts, as
+  /// far as its normal allows, m².
   float least_radius_sq(const Vec3f& offset) const {
     return std::max(length_sq(offset), sqr(dot(offset, ng_) / flatness_));
   }
@@ -50,7 +52,8 @@ class MergeDisk {
 
 /// How much of the disks around a vertex is surface on which light vertices merge: where that ends
 /// within a disk, the disk's light would else be too dark. It is looked for from points over the
-/// tangent plane, from none that something parts from the vertex: those may lie inside a solid.
+/// tangent plane, from none that lie inside a solid or behind a wall: what stands across the way
+/// there has been entered, and left, and entered again, as often as it was met.
 class DiskCoverage {
  public:
   /// For disks up to the size of `widest`, whose vertex must outlive this. Counts its rays; one is

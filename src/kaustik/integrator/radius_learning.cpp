@@ -188,7 +188,8 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
           probe.vertex.position(), disk.side(), false, sqr(widest), [&](uint32_t index, float) {
             const LightVertexData& photon = light.tree.tree().data(index);
             const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
-            if (!disk.counts(offset, photon.side)) return;
+            const float share = disk.share(offset, photon.side);
+            if (!(share > 0)) return;
             const double reach_sq = double(disk.least_radius_sq(offset));
             size_t level = 0;
             for (double limit = least_sq; reach_sq > limit; limit *= 2) ++level;
@@ -196,7 +197,7 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
             // The block's other vertices may have no edges.
             sums.vertices[level] += 1;
             if (!edges.hold(offset)) return;
-            const auto value = double(probe.sent(photon, wanted).sum());
+            const auto value = double(probe.sent(photon, wanted).sum() * share);
             auto& kind = sums.of[photon.specular ? 0 : 1];
             kind.light[level] += value;
             kind.squares[level] += value * value;

@@ -19,7 +19,6 @@ constexpr uint32_t coverage_key = 1, bias_key = 2;
 
 /// Chance with which that is estimated: it takes rays.
 constexpr float bias_chance = 0.25f;
-const float half_area = std::sqrt(0.5f);  ///< of the radius
 
 /// A point of `light` as emission sees it: its normal is on the side that shines to `direction`.
 SurfacePoint shining(const Light& light, SurfacePoint point, const Vec3f& direction) {
@@ -309,16 +308,13 @@ void VcmCameraPath::merge() {
     if (!sum.is_zero()) walk_.add(Component(c), sum);
     total += sum;
   }
-  // The bias grows by the area, so it is twice what half of the area takes off; by the radius where
-  // an edge cuts the disk and no slope makes up for it.
-  const bool grows_by_radius =
-      weights.surroundings.edges.cut(radius) && !weights.surroundings.are_complete;
-  const float whole = grows_by_radius ? 1 / (1 - half_area) : 2.0f;
+  // The bias is estimated as if it grew by the radius, as it does where light has an edge: where it
+  // is smooth it grows by the area, and is two thirds of that.
   if (!(walk_.sampler().fork(bias_key).next_1d() < bias_chance)) return;
   const float narrow_coverage = covered.inverse_share(
-      radius * half_area, weights.surroundings.edges, walk_.sampler().fork(bias_key + 1));
+      radius * narrow_radius, weights.surroundings.edges, walk_.sampler().fork(bias_key + 1));
   const Spectrum narrow = light.narrow * (weights.narrow.scale * narrow_coverage / paths);
-  walk_.add_bias((total - narrow) * (whole / bias_chance));
+  walk_.add_bias((total - narrow) * (1 / ((1 - narrow_radius) * bias_chance)));
 }
 
 bool VcmCameraPath::MergedLight::is_zero() const {
@@ -335,8 +331,9 @@ VcmCameraPath::DiskWeights VcmCameraPath::disk_weights(const MergeDisk& disk) co
     surroundings = in_.pixels.surroundings(walk_.raster(), disk.vertex(), disk.radius());
   const DiskEdges& edges = surroundings.edges;
   const Frame frame(disk.side());
-  DiskWeights weights{surroundings, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
-                      DiskKernel(frame, disk.radius() * half_area, edges, KernelShape::parabolic)};
+  DiskWeights weights{
+      surroundings, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
+      DiskKernel(frame, disk.radius() * narrow_radius, edges, KernelShape::parabolic)};
   // Slopes are for all of what edges leave, not for a part of it that is covered.
   if (!surroundings.are_complete) {
     weights.wide.level();
@@ -382,7 +379,8 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, const Visit& visit) con
                         [&](uint32_t index, float) {
                           const LightVertexData& photon = tree.data(index);
                           const Vec3f offset = tree.key(index) - vertex.position();
-                          if (!disk.counts(offset, photon.side)) return;
+                          const float share = disk.share(offset, photon.side);
+                          if (!(share > 0)) return;
                           if (walk_.events() + int(photon.before) > in_.maximum_events) return;
                           const Vec3f wi = photon.direction.unpack();
                           const float pdf_forward = vertex.pdf(wi, Lobes::all);
@@ -394,7 +392,7 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, const Visit& visit) con
                           path.pdf_camera_last = pdf_forward * merged.to_previous;
                           path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
                           path.pdf_next_event = photon.pdf_next_event;
-                          visit(photon, offset, wi, path);
+                          visit(photon, photon.flux_spectrum() * share, offset, wi, path);
                         });
 }
 
@@ -403,17 +401,17 @@ VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, const Di
   const SurfaceVertex& vertex = walk_.vertex();
   const float radius_sq = sqr(disk.radius());
   MergedLight result;
-  visit_merging(disk, [&](const LightVertexData& photon, const Vec3f& offset, const Vec3f& wi,
-                          const PathHalves& path) {
+  visit_merging(disk, [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset,
+                          const Vec3f& wi, const PathHalves& path) {
     if (!weights.surroundings.edges.hold(offset)) return;
     const float weight = in_.weights.merge(path);
     if (!(weight > 0)) return;
     const Spectrum arriving =
-        photon.flux_spectrum() *
-        (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
+        flux * (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
     const float share = length_sq(offset) / radius_sq;
     const float kernel = (1 - share) * weights.wide.factor(offset);
-    const float narrow_kernel = std::max(0.0f, 1 - 2 * share) * weights.narrow.factor(offset);
+    const float narrow_kernel =
+        std::max(0.0f, 1 - share / sqr(narrow_radius)) * weights.narrow.factor(offset);
     for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
       if (!any(lobes & lobe)) continue;
       const Component component = walk_.component_of(lobe, photon.specular);
@@ -432,8 +430,8 @@ std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices() const 
   std::vector<MergedVertex> result;
   if (!(radius > 0)) return result;
   const MergeDisk disk(vertex, radius);
-  visit_merging(disk, [&](const LightVertexData& photon, const Vec3f& offset, const Vec3f& wi,
-                          const PathHalves& path) {
+  visit_merging(disk, [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset,
+                          const Vec3f& wi, const PathHalves& path) {
     const float distance_sq = length_sq(offset);
     const float kernel =
         2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
@@ -442,8 +440,8 @@ std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices() const 
     for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
       if (any(vertex.lobes() & lobe) && walk_.wants(walk_.component_of(lobe, photon.specular)))
         reflected += vertex.eval(wi, lobe);
-    result.push_back({in_.weights.beyond_merge(path),
-                      walk_.throughput() * reflected * photon.flux_spectrum() * factor});
+    result.push_back(
+        {in_.weights.beyond_merge(path), walk_.throughput() * reflected * flux * factor});
   });
   return result;
 }

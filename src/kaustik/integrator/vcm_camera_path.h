@@ -78,7 +78,7 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   /// light paths.
   struct MergedLight {
     std::array<Spectrum, component_count> of{};  ///< by component
-    Spectrum narrow;  ///< of all that is wanted, within half the area: MattLight::narrow
+    Spectrum narrow;  ///< of all that is wanted, within the narrow disk: MattLight::narrow
 
     bool is_zero() const;
     void scale(float factor);
@@ -91,8 +91,8 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   DiskWeights disk_weights(const MergeDisk& disk) const;
   MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights) const;
   MergedLight merged(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes) const;
-  /// visit(vertex, how far it lies from the disk's, direction to where it comes from, path) for all
-  /// that merge.
+  /// visit(vertex, its flux as far as it counts, how far it lies from the disk's, direction to where
+  /// it comes from, path) for all that merge.
   template <typename Visit>
   void visit_merging(const MergeDisk& disk, const Visit& visit) const;
   float merge_radius() const;

@@ -77,9 +77,13 @@ HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Bl
     return hn::MulAdd(x, hn::Set(d, v.x),
                       hn::MulAdd(y, hn::Set(d, v.y), hn::Mul(z, hn::Set(d, v.z))));
   };
+  // Where surfaces stand across the disk, they have more area than it.
+  Vec cosine = hn::Set(d, 1.0f);
   if (block.same_side) {
     const Vec3f side(block.side[0][0], block.side[1][0], block.side[2][0]);
-    if (!(dot(side, disk.normal) > disk.least_cosine * 127)) return;
+    const float of_all = dot(side, disk.normal) / block.side_length[0];
+    if (!(of_all > disk.least_cosine)) return;
+    cosine = hn::Set(d, std::min(1.0f, of_all));
   }
   const float radius_sq = sqr(disk.radius);
   for (size_t i = 0; i < MattMerging::Block::size; i += hn::Lanes(d)) {
@@ -91,11 +95,14 @@ HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Bl
     if (hn::AllFalse(d, counts)) continue;
     counts =
         hn::And(counts, hn::Le(hn::Abs(dot_with(disk.normal, x, y, z)), hn::Set(d, disk.flatness)));
-    if (!block.same_side)
-      counts = hn::And(
-          counts, hn::Gt(dot_with(disk.normal, load_parts(block.side[0] + i),
-                                  load_parts(block.side[1] + i), load_parts(block.side[2] + i)),
-                         hn::Set(d, disk.least_cosine * 127)));
+    if (!block.same_side) {
+      cosine =
+          hn::Min(hn::Set(d, 1.0f),
+                  hn::Div(dot_with(disk.normal, load_parts(block.side[0] + i),
+                                   load_parts(block.side[1] + i), load_parts(block.side[2] + i)),
+                          hn::Load(d, block.side_length + i)));
+      counts = hn::And(counts, hn::Gt(cosine, hn::Set(d, disk.least_cosine)));
+    }
     if (block.most_before > disk.most_before)
       counts = hn::And(counts,
                        hn::Le(load_counts(block.before + i), hn::Set(d, float(disk.most_before))));
@@ -107,10 +114,11 @@ HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Bl
         hn::MulAdd(hn::Load(d, block.connection + i), hn::Set(d, disk.weights.on_connection),
                    hn::MulAdd(hn::Load(d, block.beyond + i), hn::Set(d, disk.weights.on_beyond),
                               hn::Set(d, disk.weights.base)));
-    Vec wide = hn::Div(kernel, others);
-    // 1 − 2 d² of what has 1 − d², as far as that is not negative.
+    Vec wide = hn::Mul(cosine, hn::Div(kernel, others));
+    // 1 − a d² of what has 1 − d², as far as that is not negative.
+    constexpr float areas = 1 / (narrow_radius * narrow_radius);
     const Vec share =
-        hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, 2.0f), hn::Div(hn::Set(d, 1.0f), kernel)));
+        hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, areas), hn::Div(hn::Set(d, areas - 1), kernel)));
     Vec narrow = hn::Mul(wide, share);
     if (disk.edges.count > 0) {
       wide = hn::MulAdd(wide, dot_with(disk.slope, x, y, z), wide);
@@ -194,6 +202,7 @@ void fill_block(const LightVertices& light, const PathWeights& weights, size_t b
       block.side[axis][i] = side[axis];
       block.same_side = block.same_side && side[axis] == block.side[axis][0];
     }
+    block.side_length[i] = data.side.length();
     block.after_specular = uint16_t(block.after_specular | unsigned(data.specular) << i);
   }
 }

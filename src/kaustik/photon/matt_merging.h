@@ -7,6 +7,10 @@
 
 namespace kaustik {
 
+/// Radius of the narrow disk that tells the bias of the wide one, relative to its: one that is nearly
+/// as wide has nearly the same bias where the light comes from far within both.
+inline constexpr float narrow_radius = 0.5f;
+
 /// A disk at a matt vertex that the camera sees, and what its surface tells of the weights.
 struct MattDisk {
   Vec3f center;
@@ -23,10 +27,11 @@ struct MattDisk {
 /// What merges there, W, apart for light that came by specular events only and for the rest.
 struct MattLight {
   struct Sum {
-    /// Σ flux · weight · (1 − distance²/radius²) · (1 + slope · offset)
-    Spectrum wide;
-    /// Within half the area: Σ flux · weight · (1 − 2 distance²/radius²) · (1 + narrow slope ·
+    /// Σ flux · weight · cosine between the normals · (1 − distance²/radius²) · (1 + slope ·
     /// offset)
+    Spectrum wide;
+    /// The same with the kernel of the narrow disk, 1 − distance²/(narrow_radius · radius)², and
+    /// its slope.
     Spectrum narrow;
   };
   Sum after_specular, other;
@@ -49,6 +54,7 @@ class MattMerging {
     float flux[Spectrum::lane_count][size];
     float connection[size], beyond[size];  ///< PathWeights::MattMerge
     int8_t side[3][size];                  ///< LightVertexData::side
+    float side_length[size];               ///< of that
     uint16_t before[size];                 ///< LightVertexData::before
     uint16_t most_before = 0;              ///< of all
     uint16_t after_specular = 0;           ///< bit i: that of vertex i
