@@ -91,8 +91,8 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   DiskWeights disk_weights(const MergeDisk& disk) const;
   MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights) const;
   MergedLight merged(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes) const;
-  /// visit(vertex, its flux as far as it counts, how far it lies from the disk's, direction to where
-  /// it comes from, path) for all that merge.
+  /// visit(vertex, its flux as far as it counts, how far it lies from the disk's, direction to
+  /// where it comes from, path) for all that merge.
   template <typename Visit>
   void visit_merging(const MergeDisk& disk, const Visit& visit) const;
   float merge_radius() const;

@@ -7,8 +7,8 @@
 
 namespace kaustik {
 
-/// Radius of the narrow disk that tells the bias of the wide one, relative to its: one that is nearly
-/// as wide has nearly the same bias where the light comes from far within both.
+/// Radius of the narrow disk that tells the bias of the wide one, relative to its: one that is
+/// nearly as wide has nearly the same bias where the light comes from far within both.
 inline constexpr float narrow_radius = 0.5f;
 
 /// A disk at a matt vertex that the camera sees, and what its surface tells of the weights.
