@@ -62,7 +62,8 @@ LightVertices light_vertices(uint32_t count) {
 
 /// What counts at a disk, vertex by vertex, by the whole weights.
 MattLight by_definition(const LightVertices& light, const PathWeights& weights,
-                        const MattDisk& disk, const PathVertex& seen, float area, float survival) {
+                        const MattDisk& disk, const PathVertex& seen, float area, float survival,
+                        float connected) {
   MattLight result;
   const auto& tree = light.tree.tree();
   for (uint32_t i = 0; i < tree.size(); ++i) {
@@ -84,6 +85,7 @@ MattLight by_definition(const LightVertices& light, const PathWeights& weights,
     path.pdf_next_event = data.pdf_next_event;
     path.first_merge_area = area;
     path.first_survival = survival;
+    path.connected = connected;
     const Spectrum flux = data.flux_spectrum() * (weights.merge(path) * cosine);
     MattLight::Sum& sum = data.specular ? result.after_specular : result.other;
     sum.wide += flux * ((1 - share) * (1 + dot(disk.slope, offset)));
@@ -125,9 +127,10 @@ TEST(MattMerging, FindsWhatALoopFinds) {
     PathVertex seen;
     seen.pdf_camera = 1 + 50 * unit(random);
     const float area = pi * sqr(disk.radius), survival = 0.1f + 0.9f * unit(random);
-    disk.weights = weights.matt_vertex({&seen, 1}, area, survival);
+    const float connected = i % 4 == 0 ? 0.0f : 1.0f;
+    disk.weights = weights.matt_vertex({&seen, 1}, area, survival, connected);
     const MattLight light_there = merging.merge(disk);
-    const MattLight expected = by_definition(light, weights, disk, seen, area, survival);
+    const MattLight expected = by_definition(light, weights, disk, seen, area, survival, connected);
     expect_same(light_there.after_specular.wide, expected.after_specular.wide);
     expect_same(light_there.after_specular.narrow, expected.after_specular.narrow);
     expect_same(light_there.other.wide, expected.other.wide);

@@ -84,6 +84,10 @@ void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   rays_beyond += weight * other.rays_beyond;
 }
 
+double rays_beside_camera_path(const PassCosts& costs, double light_paths) {
+  return rays_of_merging + rays_of_light_ray * costs.light_rays * light_paths;
+}
+
 Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
                            const std::vector<MergeScale>& scales, std::vector<PixelPlan>& plans) {
   if (probes.empty()) return {};

@@ -48,6 +48,10 @@ struct Efficiency {
   double time() const { return squared_error * rays; }
 };
 
+/// What a camera sample takes in rays beside those of its path, where light merges: its own work,
+/// and its part of the light paths.
+double rays_beside_camera_path(const PassCosts& costs, double light_paths);
+
 /// Chooses for every probe how often camera paths go on from its vertex, so that the product of the
 /// picture's variance and its cost is least (Grittmann et al. 2022 choose techniques that way).
 /// With κ = S s v and ν the light paths relative to the pilot's the variance of a pass is that of

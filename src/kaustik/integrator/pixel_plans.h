@@ -20,6 +20,7 @@ struct PixelPlan {
   /// Mean square over variance of what a path that goes on finds: samples that hardly differ are
   /// worth more than their number (variance-aware weights, Grittmann et al. 2019).
   float evenness = 1;
+  float connected = 1;  ///< whether camera vertices are connected to those of light paths: 0 or 1
 
   // What weights go by (PathHalves):
   /// All samples of a pixel merge with the same light vertices, which count but once.

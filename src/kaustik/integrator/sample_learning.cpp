@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/integrator/block_means.h"
 
 namespace kaustik {
 namespace {
@@ -27,8 +28,7 @@ constexpr int light_reach = 1;
 /// A block counts as if so many pairs more had the picture's mean variance: those that there are
 /// may have seen nothing of what seldom makes others differ.
 constexpr double pairs_of_mean = 16;
-/// Share of the blocks whose variance counts as that of the next one: single samples that happen
-/// upon a lamp say little of the picture.
+/// Share of the blocks whose variance counts as that of the next one.
 constexpr double outliers = 0.001;
 /// Of counts, relative to their mean. Fewer would leave more where light is found by rare chance,
 /// which those that are learned from have not seen.
@@ -50,28 +50,6 @@ double all_light(const SampleSink& sink) {
   for (int c = 0; c < component_count; ++c)
     if (sink.radiance(Component(c)).is_finite()) sum += sink.radiance(Component(c));
   return double(sum.sum());
-}
-
-/// Mean of values over each block and those around it.
-std::vector<double> around(const std::vector<double>& values, const Vec2i& blocks, int reach) {
-  // Along the rows, then along the columns.
-  const auto sweep = [&](const std::vector<double>& from, bool across) {
-    std::vector<double> result(from.size());
-    const int length = across ? blocks.x : blocks.y, lines = across ? blocks.y : blocks.x;
-    const auto at = [&](int line, int i) {
-      return across ? size_t(line) * size_t(blocks.x) + size_t(i)
-                    : size_t(i) * size_t(blocks.x) + size_t(line);
-    };
-    for (int line = 0; line < lines; ++line)
-      for (int i = 0; i < length; ++i) {
-        const int first = std::max(0, i - reach), last = std::min(length - 1, i + reach);
-        double sum = 0;
-        for (int k = first; k <= last; ++k) sum += from[at(line, k)];
-        result[at(line, i)] = sum / double(last - first + 1);
-      }
-    return result;
-  };
-  return sweep(sweep(values, true), false);
 }
 
 template <typename Value>
@@ -97,9 +75,10 @@ struct Blocks {
 
 Blocks blocks_of(const std::vector<SampleLearning::Sums>& all, const std::vector<uint32_t>& pixels,
                  const Vec2i& size) {
-  Blocks result{size, pixels,
-                around(of_blocks(all, [](const auto& s) { return s.rays; }), size, light_reach),
-                around(of_blocks(all, [](const auto& s) { return s.light; }), size, light_reach)};
+  Blocks result{
+      size, pixels,
+      means_around(of_blocks(all, [](const auto& s) { return s.rays; }), size, light_reach),
+      means_around(of_blocks(all, [](const auto& s) { return s.light; }), size, light_reach)};
   const double mean =
       std::accumulate(result.scale.begin(), result.scale.end(), 0.0) / double(all.size());
   for (double& rays : result.rays) rays += rays_of_sample;
@@ -119,16 +98,9 @@ Noise noise_of(const std::vector<SampleLearning::Sums>& sums, const Blocks& bloc
   return noise;
 }
 
-void clip_outliers(std::vector<double>& values) {
-  std::vector<double> sorted = values;
-  const auto largest = sorted.begin() + std::ptrdiff_t((1 - outliers) * double(values.size() - 1));
-  std::nth_element(sorted.begin(), largest, sorted.end());
-  for (double& value : values) value = std::min(value, *largest);
-}
-
 /// What counts are in proportion to, but for the rays, squared.
 std::vector<double> weights_by(const Rule& rule, const Noise& noise, const Blocks& blocks) {
-  std::vector<double> result = around(noise.variance, blocks.size, rule.reach);
+  std::vector<double> result = means_around(noise.variance, blocks.size, rule.reach);
   const double mean = std::accumulate(result.begin(), result.end(), 0.0) / double(result.size());
   const double seen = noise.pairs * double(sqr(2 * rule.reach + 1));
   for (double& value : result) {
@@ -278,7 +250,7 @@ SampleLearning::Counts SampleLearning::counts(const std::vector<BlockSums>& sums
   const std::array<Noise, 2> noise{noise_of(halves[0], blocks), noise_of(halves[1], blocks)};
   if (!(noise[0].pairs > 0 && noise[1].pairs > 0)) return {};
   std::array<std::vector<double>, 2> truth{noise[0].variance, noise[1].variance};
-  for (auto& variances : truth) clip_outliers(variances);
+  for (auto& variances : truth) clip_outliers(variances, outliers);
 
   const std::vector<uint32_t> even(sums.size(), samples_per_pixel);
   const double before = time_of(truth[0], blocks, even) + time_of(truth[1], blocks, even);

@@ -64,6 +64,7 @@ VcmIntegrator::VcmIntegrator(const Arguments& arguments, const Scene& scene)
   // dots that connections take off.
   if (settings_.chooses_light_paths)
     settings_.techniques.splats = settings_.techniques.connections = true;
+  settings_.chooses_connections = false;
 }
 
 std::shared_ptr<const VcmPlans> VcmIntegrator::plans(uint32_t samples_per_pixel,
@@ -119,19 +120,35 @@ void VcmIntegrator::learn_missing(std::shared_ptr<const VcmPlans> plans, const P
   SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
   State state(plans, weights_for(*plans, missing), missing);
   // Nobody sees its splats; what camera samples connect to is of use for these alone.
-  const bool wants_samples =
-      VcmLearning::wants_samples(missing.index, *learning_->first(), settings_);
   PathWeights::Settings unseen = state.weights.settings();
   unseen.techniques.splats = false;
-  unseen.techniques.connections = unseen.techniques.connections && wants_samples;
+  unseen.techniques.connections =
+      unseen.techniques.connections &&
+      (VcmLearning::wants_samples(missing.index, *learning_->first(), settings_) ||
+       VcmLearning::tries_connections(missing.index, *learning_->first(), settings_));
   trace_light(state, missing, PathWeights(unseen), nowhere, stop, progress);
-  std::vector<SampleLearning::Sums> samples;
-  if (wants_samples)
-    samples =
-        learning_->samples().take_samples(scene_, *this, state, missing, stop, state.report.rays);
+  const VcmLearning::Samples samples = learning_samples(state, missing, stop);
   report.rays += state.report.rays;
   report.photons += state.report.photons;
   if (!stop.stop_requested()) learning_->learn(state.light, samples);
+}
+
+VcmLearning::Samples VcmIntegrator::learning_samples(State& state, const Pass& pass,
+                                                     const std::stop_token& stop) const {
+  VcmLearning::Samples result;
+  if (VcmLearning::wants_samples(pass.index, *learning_->first(), settings_))
+    result.spread =
+        learning_->samples().take_samples(scene_, *this, state, pass, stop, state.report.rays);
+  if (VcmLearning::tries_connections(pass.index, *learning_->first(), settings_))
+    result.trial = learning_->connections().take_samples(
+        scene_.film().filter, settings_.components, pass,
+        [&](ConnectionLearning::Way way, const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
+          PixelPlan plan = state.plans->pixels.at(raster, state.shrinkage);
+          plan.connected = way == ConnectionLearning::connected ? 1.0f : 0.0f;
+          trace_sample(state, raster, plan, sampler, sink);
+        },
+        stop, state.report.rays);
+  return result;
 }
 
 void VcmIntegrator::learn_from(State& state, const Pass& pass, const std::stop_token& stop) const {
@@ -139,10 +156,7 @@ void VcmIntegrator::learn_from(State& state, const Pass& pass, const std::stop_t
   isolated([&] {
     // Passes out of order are traced anew where they are needed.
     if (!learning_->expects(pass)) return;
-    std::vector<SampleLearning::Sums> samples;
-    if (VcmLearning::wants_samples(pass.index, *learning_->first(), settings_))
-      samples =
-          learning_->samples().take_samples(scene_, *this, state, pass, stop, state.report.rays);
+    const VcmLearning::Samples samples = learning_samples(state, pass, stop);
     if (!stop.stop_requested()) learning_->learn(state.light, samples);
   });
 }
@@ -178,8 +192,9 @@ void VcmIntegrator::trace_light(State& state, const Pass& pass, const PathWeight
   if (!state.plans->techniques.needs_light_paths()) return;
   state.light = trace(*state.plans, weights, pass, splats, stop, progress, state.report);
   if (state.plans->techniques.merging) state.matt = MattMerging(state.light, state.weights);
-  state.connection_scale = float(double(state.light.connectible.size()) /
-                                 (double(settings_.connections) * double(state.light.path_count)));
+  state.connection_scale =
+      float(double(state.light.connectible.size()) /
+            (double(settings_.connections) * double(state.light.connectible_paths())));
 }
 
 std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer& splats,
@@ -190,7 +205,8 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
   const auto plans = plans_for(pass, stop, progress, made_up, report);
   auto state = std::make_unique<State>(plans, weights_for(*plans, pass), pass);
   state->report = std::move(report);
-  if (!plans->decision.empty()) state->report.decisions.push_back(plans->decision);
+  state->report.decisions.insert(state->report.decisions.end(), plans->decisions.begin(),
+                                 plans->decisions.end());
   if (!plans->techniques.any())
     state->report.warnings.emplace_back(
         "all techniques are switched off: only lights that the camera sees straight are there; "
@@ -215,6 +231,11 @@ PixelSamples VcmIntegrator::pixel_samples(const PassState& state, const Pass& pa
 void VcmIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sampler& sampler,
                            SampleSink& sink) const {
   const auto& state = static_cast<const State&>(pass_state);
+  trace_sample(state, raster, state.plans->pixels.at(raster, state.shrinkage), sampler, sink);
+}
+
+void VcmIntegrator::trace_sample(const State& state, const Vec2f& raster, const PixelPlan& plan,
+                                 Sampler& sampler, SampleSink& sink) const {
   CameraWalk walk(scene_, raster, sampler, sink);
   const VcmCameraInputs inputs{scene_,
                                *state.plans->emission,
@@ -227,7 +248,7 @@ void VcmIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sam
                                state.weights.settings().merge_area * inv_pi,
                                state.media,
                                settings_.maximum_events};
-  VcmCameraPath path(inputs, walk, state.plans->pixels.at(raster, state.shrinkage));
+  VcmCameraPath path(inputs, walk, plan);
   follow(state.plans->techniques, walk, path, {});
 }
 

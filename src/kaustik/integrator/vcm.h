@@ -38,6 +38,9 @@ class VcmIntegrator final : public Integrator {
     /// One that chance would choose that often.
     Branch by(float chance) const;
   };
+  /// A camera sample of a pixel with that plan.
+  void trace_sample(const State& state, const Vec2f& raster, const PixelPlan& plan,
+                    Sampler& sampler, SampleSink& sink) const;
   void follow(const Techniques& techniques, CameraWalk& walk, VcmCameraPath& path,
               Branch branch) const;
   /// Follows the less likely of two events and lets `stem` go on by the other.
@@ -54,6 +57,9 @@ class VcmIntegrator final : public Integrator {
   void learn_missing(std::shared_ptr<const VcmPlans> plans, const Pass& missing,
                      std::stop_token stop, const ProgressFunction& progress,
                      PassReport& report) const;
+  /// What a pass has to teach beside its light paths.
+  VcmLearning::Samples learning_samples(State& state, const Pass& pass,
+                                        const std::stop_token& stop) const;
   void learn_from(State& state, const Pass& pass, const std::stop_token& stop) const;
   LightVertices trace(const VcmPlans& plans, const PathWeights& weights, const Pass& pass,
                       SplatBuffer& splats, std::stop_token stop, const ProgressFunction& progress,

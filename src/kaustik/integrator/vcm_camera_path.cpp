@@ -130,6 +130,7 @@ PathHalves VcmCameraPath::halves() const {
   result.camera = vertices_;
   result.first_merge_area = plan_.counted_area(in_.camera_samples);
   result.first_survival = plan_.counted_survival();
+  result.connected = plan_.connected;
   return result;
 }
 
@@ -216,7 +217,9 @@ float VcmCameraPath::met_weight(const PathVertex& on_light, const EmissionDensit
 
 void VcmCameraPath::connect(int count) {
   const std::vector<ConnectibleVertex>& all = in_.light.connectible;
-  if (all.empty() || !any(here_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
+  if (all.empty() || !(plan_.connected > 0) ||
+      !any(here_.lobes() & (Lobes::diffuse | Lobes::glossy)))
+    return;
   for (int i = 0; i < count; ++i) {
     // One number alone has too few bits for millions of vertices.
     const Vec2f u = walk_.sampler().one_of(uint32_t(count), uint32_t(i)).next_2d();
@@ -350,7 +353,7 @@ VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk,
                       disk.least_cosine(), in_.maximum_events - walk_.events(),
                       weights.surroundings.edges, weights.wide.slope, weights.narrow.slope,
                       in_.weights.matt_vertex(vertices_, plan_.counted_area(in_.camera_samples),
-                                              plan_.counted_survival())});
+                                              plan_.counted_survival(), plan_.connected)});
   const Spectrum reflected = vertex.diffuse_value();
   MergedLight result;
   const auto add = [&](Component component, const MattLight::Sum& sum) {

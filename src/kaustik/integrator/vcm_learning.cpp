@@ -1,5 +1,7 @@
 #include "kaustik/integrator/vcm_learning.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -13,6 +15,9 @@ constexpr uint32_t most_learned_passes = 256;
 /// The same for emission; of each epoch the last pass.
 constexpr uint32_t most_guided_passes = 16;
 
+/// On a side: one block of the trial of connections has so many of the plans.
+constexpr int blocks_per_trial = 2;
+
 bool teaches_emission(uint32_t pass) {
   return pass < most_guided_passes && std::has_single_bit(pass + 1);
 }
@@ -24,6 +29,10 @@ bool learns_radii(const VcmPlans& plans, const VcmSettings& settings) {
 bool learns_samples(const VcmPlans& plans, const VcmSettings& settings) {
   // A single sample can't be shared out.
   return settings.adaptive && plans.pilot && plans.samples_per_pixel > 1;
+}
+
+bool learns_connections(const VcmPlans& plans, const VcmSettings& settings) {
+  return settings.chooses_connections && plans.pilot && plans.techniques.merging;
 }
 
 /// Those of the epoch that begins with pass `begin`, after `before` (null: `samples` everywhere).
@@ -56,17 +65,27 @@ VcmLearning::VcmLearning(std::shared_ptr<const VcmPlans> first, const VcmSetting
       learns_radii_(learns_radii(*first_, settings)),
       no_samples_(learns_samples(*first_, settings)
                       ? SampleLearning(picture, first_->pixels.blocks(), PixelPlans::block_size)
-                      : SampleLearning()) {}
+                      : SampleLearning()),
+      no_connections_(learns_connections(*first_, settings)
+                          ? ConnectionLearning(picture, blocks_per_trial * PixelPlans::block_size)
+                          : ConnectionLearning()) {}
 
 uint32_t VcmLearning::learned_passes(const VcmPlans& first, const VcmSettings& settings) {
-  const uint32_t for_samples = learns_samples(first, settings) ? SampleLearning::most_passes : 0;
-  if (!first.techniques.needs_light_paths()) return for_samples;
+  uint32_t passes = learns_samples(first, settings) ? SampleLearning::most_passes : 0;
+  if (learns_connections(first, settings))
+    passes = std::max(passes, ConnectionLearning::first_pass + ConnectionLearning::pass_count);
+  if (!first.techniques.needs_light_paths()) return passes;
   if (learns_radii(first, settings)) return most_learned_passes;
-  return std::max(for_samples, first.use ? most_guided_passes : 0);
+  return std::max(passes, first.use ? most_guided_passes : 0);
 }
 
 bool VcmLearning::wants_samples(uint32_t pass, const VcmPlans& first, const VcmSettings& settings) {
   return learns_samples(first, settings) && pass < SampleLearning::most_passes;
+}
+
+bool VcmLearning::tries_connections(uint32_t pass, const VcmPlans& first,
+                                    const VcmSettings& settings) {
+  return learns_connections(first, settings) && ConnectionLearning::tries_in(pass);
 }
 
 uint32_t VcmLearning::epoch_begin(uint32_t pass, uint32_t learned_passes) {
@@ -79,7 +98,8 @@ uint32_t VcmLearning::remembered_paths(uint32_t pass, const VcmPlans& plans) {
 
 bool VcmLearning::wants_next() const {
   return learns_radii_ || (use_ && teaches_emission(passes_)) ||
-         wants_samples(passes_, *first_, settings_);
+         wants_samples(passes_, *first_, settings_) ||
+         tries_connections(passes_, *first_, settings_);
 }
 
 bool VcmLearning::expects(const Pass& pass) const {
@@ -95,13 +115,14 @@ void VcmLearning::begin(uint64_t seed) {
   sums_.assign(learns_radii_ ? first_->pixels.probes().size() : 0, {});
   use_ = first_->use ? std::make_unique<LightPathUse>(*first_->use) : nullptr;
   samples_ = no_samples_;
+  connections_ = no_connections_;
   passes_ = 0;
   epochs_ = {{0, first_}};
 }
 
-void VcmLearning::learn(const LightVertices& light,
-                        const std::vector<SampleLearning::Sums>& samples) {
-  samples_.learn(samples, passes_);
+void VcmLearning::learn(const LightVertices& light, const Samples& samples) {
+  samples_.learn(samples.spread, passes_);
+  if (tries_connections(passes_, *first_, settings_)) connections_.learn(samples.trial);
   if (learns_radii_) {
     const auto added = RadiusLearning::sums_of(first_->pixels, light, settings_.components);
     for (size_t i = 0; i < added.size(); ++i) sums_[i].add(added[i]);
@@ -122,6 +143,30 @@ void VcmLearning::spread_samples(VcmPlans& plans, uint32_t epoch) const {
   plans.pixels.set_spread(spread_of(epoch, std::move(found.of_block), before.get(), samples));
 }
 
+void VcmLearning::choose_connections(VcmPlans& plans, uint32_t epoch) const {
+  constexpr uint32_t end = ConnectionLearning::first_pass + ConnectionLearning::pass_count;
+  // In the trial light paths are to be kept for its samples, but none of the picture's is
+  // connected.
+  if (epoch == ConnectionLearning::first_pass) plans.techniques.connections = true;
+  if (epoch != end) return;
+  const double other_rays = rays_beside_camera_path(
+      plans.pilot->costs, double(plans.light_paths) / double(plans.pilot->light_paths));
+  const ConnectionLearning::Choice choice =
+      connections_.choice(plans.samples_per_pixel, other_rays);
+  plans.techniques.connections = !choice.connects.empty();
+  if (choice.connects.empty()) return;
+  const Vec2i blocks = plans.pixels.blocks();
+  for (int y = 0; y < blocks.y; ++y)
+    for (int x = 0; x < blocks.x; ++x)
+      plans.connects[size_t(y) * size_t(blocks.x) + size_t(x)] =
+          choice.connects[size_t(y / blocks_per_trial) * size_t(choice.blocks.x) +
+                          size_t(x / blocks_per_trial)];
+  plans.decisions.push_back(fmt::format(
+      "auto: camera paths are connected to light paths in {:.0f} % of the picture: {:.2g} times "
+      "less to do than without, by passes {} to {}",
+      100 * choice.share, choice.gain, ConnectionLearning::first_pass, end - 1));
+}
+
 std::shared_ptr<const VcmPlans> VcmLearning::plans_of(uint32_t epoch, const Scene& scene,
                                                       const std::stop_token& stop, uint64_t& rays) {
   const auto found = epochs_.find(epoch);
@@ -132,6 +177,7 @@ std::shared_ptr<const VcmPlans> VcmLearning::plans_of(uint32_t epoch, const Scen
     radii_ = std::move(made);
   }
   auto plans = std::make_shared<VcmPlans>(*epochs_.rbegin()->second);
+  if (learns_connections(*first_, settings_)) choose_connections(*plans, epoch);
   if (learns_radii_) {
     const float shrinkage = sqr(pass_radius(1, passes_));
     plans->settle(radii_->plans(first_->pixels, sums_, passes_, shrinkage), shrinkage);

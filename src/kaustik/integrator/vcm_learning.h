@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "kaustik/integrator/connection_learning.h"
 #include "kaustik/integrator/radius_learning.h"
 #include "kaustik/integrator/sample_learning.h"
 #include "kaustik/integrator/vcm_plans.h"
@@ -28,6 +29,8 @@ class VcmLearning {
   const std::shared_ptr<const VcmPlans>& first() const { return first_; }
   /// Whether the pass teaches how camera samples are spread: it is to take some for that.
   static bool wants_samples(uint32_t pass, const VcmPlans& first, const VcmSettings& settings);
+  /// Whether the pass is one of the trial of connections: it is to take samples for that.
+  static bool tries_connections(uint32_t pass, const VcmPlans& first, const VcmSettings& settings);
   /// Whether this is the pass to be learned from next.
   bool expects(const Pass& pass) const;
   uint64_t seed() const { return seed_; }
@@ -38,18 +41,25 @@ class VcmLearning {
   void begin(uint64_t seed);
   /// Whether the next pass has anything to teach; else learn() will do with no vertices.
   bool wants_next() const;
-  /// What takes the samples that wants_samples() speaks of.
+  /// What takes the samples that wants_samples() speaks of, and tries_connections().
   const SampleLearning& samples() const { return samples_; }
-  /// The next pass, with those samples if it wants any.
-  void learn(const LightVertices& light, const std::vector<SampleLearning::Sums>& samples);
+  const ConnectionLearning& connections() const { return connections_; }
+  /// What a pass has to teach beside its light paths, as far as it is wanted.
+  struct Samples {
+    std::vector<SampleLearning::Sums> spread;
+    std::vector<ConnectionLearning::Trial> trial;
+  };
+  /// The next pass.
+  void learn(const LightVertices& light, const Samples& samples);
   /// The plans of the epoch that begins with this pass, made before that is learned from; those of
   /// the first pass if it was stopped.
   std::shared_ptr<const VcmPlans> plans_of(uint32_t epoch, const Scene& scene,
                                            const std::stop_token& stop, uint64_t& rays);
 
  private:
-  /// Those of the epoch that begins, by the passes before.
+  /// Of the epoch that begins, by the passes before.
   void spread_samples(VcmPlans& plans, uint32_t epoch) const;
+  void choose_connections(VcmPlans& plans, uint32_t epoch) const;
 
   std::shared_ptr<const VcmPlans> first_;
   const VcmSettings& settings_;
@@ -60,6 +70,8 @@ class VcmLearning {
   std::vector<RadiusLearning::Sums> sums_;
   const SampleLearning no_samples_;  ///< nothing learned yet
   SampleLearning samples_;
+  const ConnectionLearning no_connections_;
+  ConnectionLearning connections_;
   uint32_t passes_ = 0;
   std::map<uint32_t, std::shared_ptr<const VcmPlans>> epochs_;  ///< by their first pass
 };

@@ -154,7 +154,9 @@ class Tracer {
     PathUnderWay& path = paths_[at.path - begin_];
     path.vertices.push_back(next_in_medium(path, at));
     path.last = {{}, mean_extinction(at.medium)};
-    if (!in_.weights.settings().techniques.connections || path.vertices.size() > 0xffff) return;
+    if (!in_.weights.settings().techniques.connections || path.vertices.size() > 0xffff ||
+        at.path >= LightVertices::most_connectible_paths)
+      return;
     path.kept = true;
     ConnectibleVertex vertex;
     vertex.ray = {at.position, -at.wo, infinity};
@@ -232,6 +234,7 @@ class Tracer {
     const PixelPlan plan = in_.plans.at(connection.raster, in_.shrinkage);
     halves.first_merge_area = plan.counted_area(in_.camera_samples);
     halves.first_survival = plan.counted_survival();
+    halves.connected = plan.connected;
     return halves;
   }
 
@@ -257,7 +260,7 @@ class Tracer {
       for (int lane = 0; lane < Spectrum::lane_count; ++lane)
         data.flux[size_t(lane)] = at.state.throughput[lane] * factor;
     };
-    if (techniques.connections && scatters) {
+    if (techniques.connections && scatters && at.path < LightVertices::most_connectible_paths) {
       path.kept = true;
       set_flux(1);
       block_.connectible.push_back({at.ray, at.hit, data, at.state.medium, false});

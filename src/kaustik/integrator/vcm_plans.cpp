@@ -103,7 +103,7 @@ void choose_light_paths(VcmPlans& plans) {
   const double gain = needs_merging ? std::numeric_limits<double>::infinity()
                                     : of_paths_alone.second.time() / best.second.time();
   plans = std::move(best.first);
-  plans.decision = described(plans, gain);
+  plans.decisions.push_back(described(plans, gain));
 }
 
 }  // namespace
@@ -118,6 +118,8 @@ Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
   }
   Efficiency result;
   if (chooses_survival) result = choose_survival(pilot->probes, pilot->costs, scales, disks);
+  if (!connects.empty())
+    for (size_t i = 0; i < disks.size(); ++i) disks[i].connected = connects[i] ? 1.0f : 0.0f;
   pixels = pixels.with(std::move(disks));
   return result;
 }
@@ -152,6 +154,7 @@ VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& sto
   plans.media =
       medium_disks(scene_, settings_, light.vertices, of_pass, plans.pixels.mean_distance());
   plans.pilot = std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass));
+  if (settings_.chooses_connections) plans.connects.assign(plans.pixels.probes().size(), false);
   if (settings_.chooses_light_paths)
     choose_light_paths(plans);
   else
@@ -192,7 +195,7 @@ VcmPlanner::PilotLight VcmPlanner::trace_pilot(std::shared_ptr<const LightPathEm
                                                const std::stop_token& stop) const {
   PathWeights::Settings pilot;
   pilot.techniques.merging = settings_.techniques.merging;
-  pilot.techniques.connections = settings_.techniques.connections;
+  pilot.techniques.connections = settings_.techniques.connections || settings_.chooses_connections;
   pilot.accepted_area = accepted_area(plans.pixels);
   const PathWeights weights(pilot);
   SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());

@@ -35,16 +35,19 @@ struct VcmPlans {
   MediumDisks media;                      ///< of the first pass
   std::shared_ptr<const VcmPilot> pilot;  ///< null: nothing merges
   uint64_t pilot_rays = 0;
-  std::string decision;  ///< what was chosen by itself, for the user; empty: nothing
+  std::vector<std::string> decisions;  ///< what was chosen by itself, for the user
   /// Vertices that may be connected, per light path: what the weights go by.
   float connectible_per_path = 1;
   /// Of the light paths of the pilot passes; null: emission is not guided.
   std::shared_ptr<const LightPathUse> use;
 
   bool chooses_survival = true;  ///< else camera paths always go on
+  /// Of each probe's block, whether camera paths are connected to light paths where that is one of
+  /// the techniques; empty: all are.
+  std::vector<bool> connects;
 
   /// Gives the probes these disks and, as the pilot tells if that is wanted, chances of going on,
-  /// for passes whose disks have `shrinkage` times the area.
+  /// for passes whose disks have `shrinkage` times the area; and connections.
   Efficiency settle(std::vector<PixelPlan> disks, float shrinkage);
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -69,7 +70,10 @@ struct LightVertices {
   std::vector<PathVertex> vertices;  ///< path by path, from the light's point on
   SidedTree<LightVertexData> tree;   ///< those that may be merged
   MediumVertices in_media;           ///< those in media that may be merged
+  /// Those of the first paths that may be connected: a choice of so many is large enough.
   std::vector<ConnectibleVertex> connectible;
+  static constexpr uint32_t most_connectible_paths = 1 << 18;
+  uint32_t connectible_paths() const { return std::min(path_count, most_connectible_paths); }
   uint32_t path_count = 0;
   /// Of the first paths, as many as were asked for, in their order.
   std::vector<LightPathBeginning> beginnings;

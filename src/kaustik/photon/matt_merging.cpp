@@ -110,10 +110,12 @@ HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Bl
       counts = hn::And(counts, hn::Ge(dot_with(disk.edges.edges[edge].inward, x, y, z),
                                       hn::Set(d, -disk.edges.edges[edge].distance)));
     const Vec kernel = hn::NegMulAdd(distance_sq, hn::Set(d, 1 / radius_sq), hn::Set(d, 1.0f));
-    const Vec others =
-        hn::MulAdd(hn::Load(d, block.connection + i), hn::Set(d, disk.weights.on_connection),
-                   hn::MulAdd(hn::Load(d, block.beyond + i), hn::Set(d, disk.weights.on_beyond),
-                              hn::Set(d, disk.weights.base)));
+    Vec others = hn::MulAdd(hn::Load(d, block.beyond + i), hn::Set(d, disk.weights.on_beyond),
+                            hn::Set(d, disk.weights.base));
+    if (disk.weights.on_connection > 0)
+      others = hn::MulAdd(hn::Load(d, block.connection + i), hn::Set(d, disk.weights.on_connection),
+                          hn::MulAdd(hn::Load(d, block.beyond_connected + i),
+                                     hn::Set(d, disk.weights.on_beyond_connected), others));
     Vec wide = hn::Mul(cosine, hn::Div(kernel, others));
     // 1 − a d² of what has 1 − d², as far as that is not negative.
     constexpr float areas = 1 / (narrow_radius * narrow_radius);
@@ -197,6 +199,7 @@ void fill_block(const LightVertices& light, const PathWeights& weights, size_t b
     block.most_before = std::max(block.most_before, data.before);
     block.connection[i] = merge.connection;
     block.beyond[i] = merge.beyond;
+    block.beyond_connected[i] = merge.beyond_connected;
     const int8_t side[3] = {data.side.x(), data.side.y(), data.side.z()};
     for (size_t axis = 0; axis < 3; ++axis) {
       block.side[axis][i] = side[axis];

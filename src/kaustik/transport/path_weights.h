@@ -49,6 +49,7 @@ struct PathHalves {
   float first_merge_area = 0;        ///< see PathWeights::Settings
   float first_survival = 1;          ///< chance with which camera paths go on from the first
                                      ///< vertex whose event is not delta
+  float connected = 1;               ///< share of Settings::connections that the pixel has
 };
 
 /// Multiple importance sampling over all ways of finding a path: how much the path counts where it
@@ -114,19 +115,21 @@ class PathWeights {
   /// densities relative to merging on an area of 1 m².
   struct MattMerge {
     float connection = 0;  ///< of connecting the camera's vertex to the one before
-    float beyond = 0;      ///< of all that is found by paths that go on from the camera's vertex
+    float beyond = 0;  ///< of all that is found by paths that go on from the camera's vertex …
+    float beyond_connected = 0;  ///< … but for this, by connecting them
   };
-  /// `path`: as for merge(), with any one vertex as the camera half and no roulette there;
+  /// `path`: as for merge(), with any one vertex as the camera half and no roulette there; what is
+  /// connected is that of a pixel which has all;
   /// pdf_camera_last by the surface that the light path met, as if the camera's vertex lay there.
   MattMerge matt_merge(const PathHalves& path) const;
-  /// What stands for the rest: 1/(base + connection · on_connection + beyond · on_beyond) is
-  /// merge() of a first vertex with a matt surface.
+  /// What stands for the rest: 1/(base + connection · on_connection + beyond · on_beyond +
+  /// beyond_connected · on_beyond_connected) is merge() of a first vertex with a matt surface.
   struct MattVertex {
-    float base = 1, on_connection = 0, on_beyond = 0;
+    float base = 1, on_connection = 0, on_beyond = 0, on_beyond_connected = 0;
   };
-  /// `camera`, `merge_area` and `survival` as in PathHalves.
-  MattVertex matt_vertex(std::span<const PathVertex> camera, float merge_area,
-                         float survival) const;
+  /// `camera`, `merge_area`, `survival` and `connected` as in PathHalves.
+  MattVertex matt_vertex(std::span<const PathVertex> camera, float merge_area, float survival,
+                         float connected) const;
 
   /// Whether vertices merge at the last of `camera`.
   bool merges_at(std::span<const PathVertex> camera) const;
