@@ -197,7 +197,16 @@ std::string ablation_table(const Results& results) {
   MarkdownTable table(header);
   std::vector<GeometricMean> means(results.variants().size());
   for (const std::string& scene : results.scenes()) {
-    const double time = results.last_time(scene);
+    // Devices may have been measured for less time than integrators.
+    std::vector<double> times = results.times(scene);
+    const auto has_variant = [&](double time) {
+      return std::any_of(
+          results.variants().begin(), results.variants().end(),
+          [&](const std::string& variant) { return results.relmse(scene, variant, time); });
+    };
+    while (!times.empty() && !has_variant(times.back())) times.pop_back();
+    if (times.empty()) continue;
+    const double time = times.back();
     std::vector<std::string> row{scene, fmt::format("{:g}", time)};
     bool is_measured = false;
     for (size_t i = 0; i < results.variants().size(); ++i) {
