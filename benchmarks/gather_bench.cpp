@@ -2,7 +2,10 @@
 // for merging, with the same loop over 16 points at a time. Ratios of medians of interleaved runs,
 // in processor time of one thread.
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstdlib>
 #include <ctime>
 #include <numbers>
 #include <numeric>
@@ -27,7 +30,7 @@ struct Sum {
   double total() const { return std::accumulate(of, of + lanes, 0.0); }
 };
 
-#if defined(__x86_64__)
+#if defined(__x86_64__) && defined(__linux__)
 __attribute__((target_clones("avx2", "default")))
 #endif
 void add_16(const float* x, const float* y, const float* z, const Vec3f& at, float radius_sq,
@@ -53,7 +56,7 @@ class HashGrid {
     }
     std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
     std::vector<uint32_t> next(begins_.begin(), begins_.end() - 1);
-    for (auto* axis : {&x_, &y_, &z_}) axis->assign(points.size() + lanes, infinity);
+    for (auto* axis : {&x_, &y_, &z_}) axis->resize(points.size());
     for (size_t i = 0; i < points.size(); ++i) {
       const uint32_t to = next[slots[i]]++;
       x_[to] = points[i].x, y_[to] = points[i].y, z_[to] = points[i].z;

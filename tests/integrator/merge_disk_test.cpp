@@ -64,6 +64,12 @@ class Disk {
         << what;
     EXPECT_GE(rays, uint64_t(held));
   }
+  /// MergeDisk::share of a point whose surface is turned by that angle, in degrees.
+  float share(double angle, const Vec3f& offset = {0.1f, 0.2f, 0}) const {
+    const double radians = angle * std::numbers::pi / 180;
+    return MergeDisk(vertex_, radius)
+        .share(offset, CoarseNormal(Vec3f(float(std::sin(radians)), 0, float(std::cos(radians)))));
+  }
   float clear_radius(float widest = radius) const {
     uint64_t rays = 0;
     return DiskCoverage(scene_.scene(), MergeDisk(vertex_, widest), rays).clear_radius();
@@ -88,6 +94,18 @@ TEST(MergeDisk, StraightEdgeCornerAndGap) {
       .expect_share("gap", 1 - beyond + share_beyond(0.3));
   Disk(rectangle(half) + rectangle(other_half + translate("0, 0, -0.2")))
       .expect_share("step down by more than counts", 1 - beyond);
+}
+
+/// A light vertex counts by what its surface covers of the disk.
+TEST(MergeDisk, SurfacesCountByWhatTheyCover) {
+  const Disk disk(rectangle(scale("2, 2, 1")));
+  for (const double angle : {0, 30, 45, 59, 121, 150, 180})
+    EXPECT_NEAR(disk.share(angle), std::fabs(std::cos(angle * std::numbers::pi / 180)), 0.005)
+        << angle;
+  for (const double angle : {61, 90, 119}) EXPECT_EQ(disk.share(angle), 0) << angle;
+  EXPECT_EQ(disk.share(0), 1);
+  EXPECT_EQ(disk.share(0, {0, 0, 0.29f * radius}), 1);
+  EXPECT_EQ(disk.share(0, {0, 0, -0.31f * radius}), 0);
 }
 
 /// Light vertices count by the side on which they arrive, however the surface is wound …

@@ -41,7 +41,7 @@ double estimated_bias_of(double within) {
   return albedo / std::numbers::pi * 2 * (merged(within) - merged(within / 2));
 }
 
-TEST(MergingBias, IsWhatItIsEstimatedToBe) {
+TEST(MergingBias, IsEstimatedAsIfItGrewByTheRadius) {
   const TestScene scene = floor_below_a_lamp();
   const Passes found =
       render(scene, "ppm", set("radius", radius) + set("light_paths", 400.0), {32, 5});

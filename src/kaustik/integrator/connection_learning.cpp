@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numeric>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/block_means.h"
@@ -13,31 +12,26 @@ namespace {
 
 /// Of the random numbers' addresses.
 constexpr uint64_t trial_element = uint64_t(6) << 40;
-/// Noise counts relative to the light around, and this share of the picture's mean light.
-constexpr double even_share_of_mean = 0.1;
-/// A connection is a ray, and finding both densities and what its ends reflect takes as long as so
-/// many rays in all.
-constexpr double rays_of_connection = 4;
-/// Blocks on either side that variances, light and rays are averaged with: few pairs of samples
-/// tell little of a single block.
+/// A connection that is traced takes as long as so many rays, with both densities and what its ends
+/// reflect; those that are tried in vain, and light paths that are kept for them, as so many more
+/// per sample: of the times that `ppm` takes with connections these constants tell within a tenth.
+constexpr double rays_of_connection = 3, rays_of_trying = 4;
+/// Blocks on either side that variances, light and rays are averaged with: single pairs of samples
+/// tell little.
 constexpr int reach = 4;
 /// Share of the blocks whose variance counts as that of the next one.
 constexpr double outliers = 0.001;
 /// Less is not worth it.
-constexpr double worth_connecting = 1.05;
+constexpr double worth_connecting = 1.1;
 constexpr int rounds = 6;
 
 using Way = ConnectionLearning::Way;
+using PassTrials = std::vector<ConnectionLearning::Trial>;  ///< of each block
 constexpr size_t ways = ConnectionLearning::way_count;
-constexpr size_t pairs = ConnectionLearning::pairs_per_block;
-using Trials = std::vector<std::vector<ConnectionLearning::Trial>>;
-
-double all_light(const SampleSink& sink) {
-  Spectrum sum;
-  for (int c = 0; c < component_count; ++c)
-    if (sink.radiance(Component(c)).is_finite()) sum += sink.radiance(Component(c));
-  return double(sum.sum());
-}
+constexpr size_t halves = 2;
+/// Of a half of the trial.
+constexpr size_t passes_per_half = 2;
+static_assert(halves * passes_per_half == ConnectionLearning::pass_count);
 
 /// Of each block, by way.
 using Values = std::array<std::vector<double>, ways>;
@@ -75,12 +69,13 @@ Noise Noise::smoothed(const Vec2i& blocks) const {
   return result;
 }
 
-Noise noise_of(const Trials& passes, size_t pair, const std::vector<double>& scale) {
+/// Of two passes.
+Noise noise_of(const PassTrials& first, const PassTrials& second,
+               const std::vector<double>& scale) {
   Noise result;
   for (size_t way = 0; way < ways; ++way) {
     for (size_t block = 0; block < scale.size(); ++block) {
-      const auto& a = passes[0][block][pair][way];
-      const auto& b = passes[1][block][pair][way];
+      const auto &a = first[block][way], &b = second[block][way];
       result.within[way].push_back((a.within + b.within) / 2 * scale[block]);
       result.between[way].push_back(sqr(a.light - b.light) / 2 * scale[block]);
     }
@@ -90,36 +85,26 @@ Noise noise_of(const Trials& passes, size_t pair, const std::vector<double>& sca
   return result;
 }
 
-Values rays_of(const Trials& passes, const Vec2i& blocks, double other_rays) {
-  Values result;
-  for (size_t way = 0; way < ways; ++way) {
-    std::vector<double> rays(passes[0].size());
-    for (const auto& pass : passes)
-      for (size_t block = 0; block < rays.size(); ++block)
-        for (size_t pair = 0; pair < pairs; ++pair)
-          rays[block] += pass[block][pair][way].rays / double(passes.size() * pairs);
-    result[way] = means_around(rays, blocks, reach);
-  }
-  for (size_t block = 0; block < result[0].size(); ++block) {
-    const double more = std::max(0.0, result[Way::connected][block] - result[Way::alone][block]);
-    result[Way::alone][block] += other_rays;
-    result[Way::connected][block] = result[Way::alone][block] + rays_of_connection * more;
-  }
+/// Means over passes of each block.
+template <typename Value>
+std::vector<double> mean_over(const std::vector<PassTrials>& passes, const Value& value) {
+  std::vector<double> result(passes[0].size());
+  for (const PassTrials& pass : passes)
+    for (size_t block = 0; block < result.size(); ++block)
+      result[block] += value(pass[block]) / double(passes.size());
   return result;
 }
 
-std::vector<double> scale_of(const Trials& passes, const Vec2i& blocks) {
-  std::vector<double> light(passes[0].size());
-  for (const auto& pass : passes)
-    for (size_t block = 0; block < light.size(); ++block)
-      for (const auto& pair : pass[block])
-        for (const auto& way : pair)
-          light[block] += way.light / double(passes.size() * pairs * ways);
-  const double mean = std::accumulate(light.begin(), light.end(), 0.0) / double(light.size());
-  std::vector<double> result = means_around(light, blocks, reach);
-  for (double& scale : result) {
-    const double square = sqr(scale) + sqr(even_share_of_mean * mean);
-    scale = square > 0 ? 1 / square : 0;
+Values rays_of(const std::vector<PassTrials>& passes, const Vec2i& blocks, double other_rays) {
+  Values result;
+  for (const Way way : {Way::alone, Way::connected})
+    result[way] = means_around(
+        mean_over(passes, [&](const auto& trial) { return trial[way].rays; }), blocks, reach);
+  for (size_t block = 0; block < result[0].size(); ++block) {
+    const double more = std::max(0.0, result[Way::connected][block] - result[Way::alone][block]);
+    result[Way::alone][block] += other_rays;
+    result[Way::connected][block] =
+        result[Way::alone][block] + rays_of_trying + rays_of_connection * more;
   }
   return result;
 }
@@ -138,6 +123,7 @@ Total total_of(const Noise& noise, const Values& rays, const std::vector<bool>& 
     between += noise.between[way][block];
     total.rays += rays[way][block];
   }
+  // Of a single block the light paths' part may come out negative; that is bounded for the sum.
   total.variance = Noise::of_pass(within, between, samples);
   return total;
 }
@@ -164,42 +150,28 @@ std::vector<bool> chosen_by(const Noise& single, const Values& rays, const Vec2i
 }  // namespace
 
 std::vector<ConnectionLearning::Trial> ConnectionLearning::take_samples(
-    const PixelFilter& filter, ComponentSet components, const Pass& pass, const TakeSample& take,
+    const PixelFilter& filter, ComponentSet components, const Pass& pass, const TakeSampleBy& take,
     const std::stop_token& stop, uint64_t& rays) const {
-  std::vector<Trial> result(size_t(blocks_.x) * size_t(blocks_.y));
-  const auto sample_pair = [&](size_t block, uint32_t number, Way way) {
-    const Vec2i first =
-        Vec2i(int(block % size_t(blocks_.x)), int(block / size_t(blocks_.x))) * block_size_;
-    const Vec2i size(std::min(block_size_, picture_.x - first.x),
-                     std::min(block_size_, picture_.y - first.y));
-    // The same pixel in both passes.
-    const Vec2f where =
-        Sampler::at(pass.seed, 0, Stream::training, trial_element + block, number).next_2d();
-    const Vec2i pixel = first + Vec2i(std::min(int(where.x * float(size.x)), size.x - 1),
-                                      std::min(int(where.y * float(size.y)), size.y - 1));
-    std::array<double, 2> light{};
-    uint64_t pair_rays = 0;
-    for (uint32_t i = 0; i < 2; ++i) {
-      const uint32_t scramble = 1 + 2 * (pass.index * uint32_t(pairs) + number) + i;
-      Sampler sampler =
-          Sampler::at(pass.seed, scramble, Stream::training, trial_element + block, 0);
-      const Vec2f offset = filter.sample(sampler.next_2d());
-      SampleSink sink(components);
-      take(way, {float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y}, sampler,
-           sink);
-      light[i] = all_light(sink);
-      pair_rays += sink.rays();
-    }
-    result[block][number][way] = {0.5 * sqr(light[0] - light[1]), (light[0] + light[1]) / 2,
-                                  double(pair_rays) / 2};
-    return pair_rays;
-  };
+  PassTrials result(size_t(blocks_.x) * size_t(blocks_.y));
   std::atomic<uint64_t> counted{0};
   parallel_blocks(result.size(), 16, [&](size_t begin, size_t end, size_t) {
     uint64_t sum = 0;
-    for (size_t block = begin; block < end && !stop.stop_requested(); ++block)
-      for (uint32_t pair = 0; pair < pairs; ++pair)
-        for (const Way way : {Way::alone, Way::connected}) sum += sample_pair(block, pair, way);
+    for (size_t block = begin; block < end && !stop.stop_requested(); ++block) {
+      const Vec2i first =
+          Vec2i(int(block % size_t(blocks_.x)), int(block / size_t(blocks_.x))) * block_size_;
+      for (const Way way : {Way::alone, Way::connected}) {
+        // The same pixel in both passes of a half.
+        const TrainingPair pair =
+            training_pair({picture_, first, Vec2i(block_size_), pass.seed, trial_element + block},
+                          (pass.index - first_pass) / uint32_t(passes_per_half), pass.index, filter,
+                          components, [&](const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
+                            take(way, raster, sampler, sink);
+                          });
+        const uint64_t pair_rays = pair.rays[0] + pair.rays[1];
+        result[block][way] = {pair.variance, pair.light, double(pair_rays) / 2};
+        sum += pair_rays;
+      }
+    }
     counted += sum;
   });
   rays += counted;
@@ -211,31 +183,45 @@ ConnectionLearning::Choice ConnectionLearning::choice(uint32_t samples_per_pixel
   return choice(trials_, blocks_, samples_per_pixel, other_rays);
 }
 
-ConnectionLearning::Choice ConnectionLearning::choice(const std::vector<std::vector<Trial>>& passes,
+ConnectionLearning::Choice ConnectionLearning::choice(const std::vector<PassTrials>& passes,
                                                       const Vec2i& blocks,
                                                       uint32_t samples_per_pixel,
                                                       double other_rays) {
-  if (passes.size() != pass_count || passes[0].empty()) return {};
-  const std::vector<double> scale = scale_of(passes, blocks);
+  Choice result;
+  result.blocks = blocks;
+  if (passes.size() != pass_count || passes[0].empty()) return result;
+  const std::vector<double> scale = relative_scale(
+      mean_over(
+          passes,
+          [](const Trial& trial) { return (trial[alone].light + trial[connected].light) / 2; }),
+      blocks, reach);
   const Values rays = rays_of(passes, blocks, other_rays);
-  std::array<Noise, pairs> single;
+  std::array<Noise, halves> of_half;
   Noise all;
-  for (size_t pair = 0; pair < pairs; ++pair) {
-    single[pair] = noise_of(passes, pair, scale);
-    all.add(single[pair], 1 / double(pairs));
+  for (size_t half = 0; half < halves; ++half) {
+    of_half[half] =
+        noise_of(passes[half * passes_per_half], passes[half * passes_per_half + 1], scale);
+    all.add(of_half[half], 1 / double(halves));
   }
-  const std::vector<bool> nowhere(scale.size(), false);
+  const std::vector<bool> nowhere(scale.size(), false), everywhere(scale.size(), true);
+  const Total without = total_of(all, rays, nowhere, samples_per_pixel);
+  const Total with = total_of(all, rays, everywhere, samples_per_pixel);
+  if (without.variance > 0) result.variance_left = with.variance / without.variance;
+  result.time_taken = with.rays / without.rays;
   double before = 0, after = 0;
-  for (size_t pair = 0; pair < pairs; ++pair) {
-    const std::vector<bool> by_other = chosen_by(single[1 - pair], rays, blocks, samples_per_pixel);
-    before += total_of(single[pair], rays, nowhere, samples_per_pixel).time();
-    after += total_of(single[pair], rays, by_other, samples_per_pixel).time();
+  for (size_t half = 0; half < halves; ++half) {
+    const std::vector<bool> by_other =
+        chosen_by(of_half[1 - half], rays, blocks, samples_per_pixel);
+    before += total_of(of_half[half], rays, nowhere, samples_per_pixel).time();
+    after += total_of(of_half[half], rays, by_other, samples_per_pixel).time();
   }
-  if (!(after > 0 && before > worth_connecting * after)) return {};
-  Choice result{chosen_by(all, rays, blocks, samples_per_pixel), blocks, 0, before / after};
-  result.share = double(std::count(result.connects.begin(), result.connects.end(), true)) /
-                 double(scale.size());
-  if (result.share == 0) return {};
+  if (!(after > 0 && before > worth_connecting * after)) return result;
+  const std::vector<bool> connects = chosen_by(all, rays, blocks, samples_per_pixel);
+  const auto count = std::count(connects.begin(), connects.end(), true);
+  if (count == 0) return result;
+  result.connects = connects;
+  result.share = double(count) / double(scale.size());
+  result.gain = before / after;
   return result;
 }
 

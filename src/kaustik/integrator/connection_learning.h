@@ -4,34 +4,30 @@
 #include <stop_token>
 #include <vector>
 
-#include "kaustik/base/sampler.h"
-#include "kaustik/base/vec.h"
-#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/training_samples.h"
 
 namespace kaustik {
 
-/// Where camera paths are worth connecting to light paths, learned from a trial: in two passes of
-/// their own light paths a few samples of each block of pixels are taken both ways, at the same
-/// pixels with the same random numbers. Their differences within a pass tell the noise of camera
-/// samples, those between the passes that of light paths as well. They are none of the picture's.
+/// Where camera paths are worth connecting to light paths, learned from a trial: in four passes,
+/// each with its own light paths, a pair of samples of each block of pixels is taken both ways, at
+/// the same pixel with the same random numbers. Their differences within a pass tell the noise of
+/// camera samples, those between two passes that of light paths as well. None is the picture's.
 class ConnectionLearning {
  public:
-  /// Passes of the trial, which are one epoch.
-  static constexpr uint32_t first_pass = 2, pass_count = 2;
+  /// Passes of the trial, which are one epoch. Two of them choose and the other two judge.
+  static constexpr uint32_t first_pass = 4, pass_count = 4;
   static bool tries_in(uint32_t pass) { return pass - first_pass < pass_count; }
 
   /// Without connections, and with them.
   enum Way : size_t { alone, connected };
   static constexpr size_t way_count = 2;
 
-  /// Two samples of one pixel in one pass.
+  /// Of a block in a pass.
   struct Pair {
-    double within = 0;           ///< half their squared difference: a variance
+    double within = 0;           ///< TrainingPair::variance
     double light = 0, rays = 0;  ///< means
   };
-  /// Pairs that stand for one another: what one chooses, the other one judges.
-  static constexpr size_t pairs_per_block = 2;
-  using Trial = std::array<std::array<Pair, way_count>, pairs_per_block>;
+  using Trial = std::array<Pair, way_count>;
 
   ConnectionLearning() = default;
   /// Blocks of `block_size`² pixels of a picture.
@@ -40,12 +36,12 @@ class ConnectionLearning {
         blocks_((picture + Vec2i(block_size - 1)) / block_size),
         block_size_(block_size) {}
 
-  /// Takes a sample of the pass at that place of the raster.
-  using TakeSample =
+  /// Takes a sample of the pass in one of the ways.
+  using TakeSampleBy =
       std::function<void(Way way, const Vec2f& raster, Sampler& sampler, SampleSink& sink)>;
   /// Those of one of the passes, for each block. Counts their rays.
   std::vector<Trial> take_samples(const PixelFilter& filter, ComponentSet components,
-                                  const Pass& pass, const TakeSample& take,
+                                  const Pass& pass, const TakeSampleBy& take,
                                   const std::stop_token& stop, uint64_t& rays) const;
   /// What they tell; pass by pass.
   void learn(const std::vector<Trial>& trial) { trials_.push_back(trial); }
@@ -54,9 +50,12 @@ class ConnectionLearning {
     std::vector<bool> connects;  ///< of each block, row by row; empty: none
     Vec2i blocks{0, 0};
     double share = 0;  ///< of the blocks that do
-    /// Mean squared error times rays without connections over that of this choice, as pairs tell
-    /// of the choice that the other ones made.
+    /// Variance times rays without connections over that of this choice, as passes tell of the
+    /// choice that the other ones made.
     double gain = 1;
+    /// What is left of the variance with connections everywhere, and how many times as long they
+    /// take, in rays.
+    double variance_left = 1, time_taken = 1;
   };
   /// For passes with so many samples per pixel, that take `other_rays` per sample beside those of
   /// the camera's paths.

@@ -51,13 +51,15 @@ double variance(const ProbeStatistics& probe, double kappa, const MergeScale& sc
   return sum;
 }
 
+double rays_to_merge(const ProbeStatistics& probe, const MergeScale& scale) {
+  if (!(scale.light_paths > 0)) return 0;
+  return rays_of_merging + rays_of_merged * probe.merged * scale.area * scale.light_paths;
+}
+
 Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, const MergeScale& scale,
                       double least_radiance) {
   Candidates result;
-  const double merging =
-      scale.light_paths > 0
-          ? rays_of_merging + rays_of_merged * probe.merged * scale.area * scale.light_paths
-          : 0;
+  const double merging = rays_to_merge(probe, scale);
   const double relative = 1 / (probe.radiance * probe.radiance + least_radiance * least_radiance);
   for (size_t i = 0; i < chances.size(); ++i) {
     Candidate& candidate = result[i];
@@ -84,8 +86,15 @@ void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   rays_beyond += weight * other.rays_beyond;
 }
 
-double rays_beside_camera_path(const PassCosts& costs, double light_paths) {
-  return rays_of_merging + rays_of_light_ray * costs.light_rays * light_paths;
+double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
+                                const std::vector<MergeScale>& scales) {
+  double merging = 0, light_paths = 0;
+  for (size_t p = 0; p < probes.size(); ++p) {
+    merging += rays_to_merge(probes[p], scales[p]);
+    light_paths = std::max(light_paths, scales[p].light_paths);
+  }
+  return merging / double(std::max<size_t>(1, probes.size())) +
+         rays_of_light_ray * costs.light_rays * light_paths;
 }
 
 Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,

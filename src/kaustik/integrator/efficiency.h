@@ -48,9 +48,10 @@ struct Efficiency {
   double time() const { return squared_error * rays; }
 };
 
-/// What a camera sample takes in rays beside those of its path, where light merges: its own work,
-/// and its part of the light paths.
-double rays_beside_camera_path(const PassCosts& costs, double light_paths);
+/// What a camera sample takes beside the rays of its path, in rays, on average: merging, and its
+/// part of the light paths. `scales` by probe.
+double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
+                                const std::vector<MergeScale>& scales);
 
 /// Chooses for every probe how often camera paths go on from its vertex, so that the product of the
 /// picture's variance and its cost is least (Grittmann et al. 2022 choose techniques that way).

@@ -13,7 +13,7 @@ constexpr int most_tries = 32;
 /// Points that are tried at most: slivers are left of hardly any disk.
 constexpr int most_points = 256;
 /// That rays are followed through.
-constexpr int most_layers = 8;
+constexpr int most_layers = 16;
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/block_means.h"
+#include "kaustik/integrator/training_samples.h"
 
 namespace kaustik {
 namespace {
@@ -19,8 +20,6 @@ constexpr uint32_t pairs_before(uint32_t pass) {
 }
 /// Of the random numbers' addresses.
 constexpr uint64_t training_element = uint64_t(5) << 40;
-/// Noise counts relative to a pixel's light, and this share of the picture's mean light.
-constexpr double even_share_of_mean = 0.1;
 /// Rays that take as long as what a sample does beside tracing rays.
 constexpr double rays_of_sample = 3;
 /// Blocks on either side that a block's light and rays are averaged with.
@@ -44,13 +43,6 @@ struct Rule {
 };
 constexpr std::array<Rule, 9> rules{
     {{4, 0.5}, {2, 0.5}, {1, 0.5}, {4, 0.75}, {2, 0.75}, {1, 0.75}, {4, 1}, {2, 1}, {1, 1}}};
-
-double all_light(const SampleSink& sink) {
-  Spectrum sum;
-  for (int c = 0; c < component_count; ++c)
-    if (sink.radiance(Component(c)).is_finite()) sum += sink.radiance(Component(c));
-  return double(sum.sum());
-}
 
 template <typename Value>
 std::vector<double> of_blocks(const std::vector<SampleLearning::Sums>& sums, const Value& value) {
@@ -78,14 +70,8 @@ Blocks blocks_of(const std::vector<SampleLearning::Sums>& all, const std::vector
   Blocks result{
       size, pixels,
       means_around(of_blocks(all, [](const auto& s) { return s.rays; }), size, light_reach),
-      means_around(of_blocks(all, [](const auto& s) { return s.light; }), size, light_reach)};
-  const double mean =
-      std::accumulate(result.scale.begin(), result.scale.end(), 0.0) / double(all.size());
+      relative_scale(of_blocks(all, [](const auto& s) { return s.light; }), size, light_reach)};
   for (double& rays : result.rays) rays += rays_of_sample;
-  for (double& scale : result.scale) {
-    const double square = sqr(scale) + sqr(even_share_of_mean * mean);
-    scale = square > 0 ? 1 / square : 0;
-  }
   return result;
 }
 
@@ -189,32 +175,19 @@ std::vector<SampleLearning::Sums> SampleLearning::take_samples(
     const std::stop_token& stop, uint64_t& rays) const {
   std::vector<Sums> result(sums_.size());
   const uint32_t pairs = pass.index < first_passes ? first_pairs : later_pairs;
+  const TakeSample take = [&](const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
+    integrator.sample(state, raster, sampler, sink);
+  };
   const auto add_pair = [&](size_t block, uint32_t pair) {
     const Vec2i first =
         Vec2i(int(block % size_t(blocks_.x)), int(block / size_t(blocks_.x))) * block_size_;
-    const Vec2i size(std::min(block_size_, picture_.x - first.x),
-                     std::min(block_size_, picture_.y - first.y));
     // Pixels of one block stratify one another over the passes.
     const uint32_t number = pairs_before(pass.index) + pair;
-    const Vec2f where =
-        Sampler::at(pass.seed, 0, Stream::training, training_element + block, number).next_2d();
-    const Vec2i pixel = first + Vec2i(std::min(int(where.x * float(size.x)), size.x - 1),
-                                      std::min(int(where.y * float(size.y)), size.y - 1));
-    std::array<double, 2> light{};
-    uint64_t pair_rays = 0;
-    for (uint32_t i = 0; i < 2; ++i) {
-      // Samples that stratify one another would differ too much, and passes are to be independent.
-      Sampler sampler =
-          Sampler::at(pass.seed, 1 + 2 * number + i, Stream::training, training_element + block, 0);
-      const Vec2f offset = scene.film().filter.sample(sampler.next_2d());
-      SampleSink sink(integrator.components());
-      integrator.sample(state, {float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y},
-                        sampler, sink);
-      light[i] = all_light(sink);
-      pair_rays += sink.rays();
-    }
-    result[block].add(
-        {1, 0.5 * sqr(light[0] - light[1]), (light[0] + light[1]) / 2, double(pair_rays) / 2});
+    const TrainingPair found =
+        training_pair({picture_, first, Vec2i(block_size_), pass.seed, training_element + block},
+                      number, number, scene.film().filter, integrator.components(), take);
+    const uint64_t pair_rays = found.rays[0] + found.rays[1];
+    result[block].add({1, found.variance, found.light, double(pair_rays) / 2});
     return pair_rays;
   };
   std::atomic<uint64_t> counted{0};

@@ -382,8 +382,8 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, const Visit& visit) con
                         [&](uint32_t index, float) {
                           const LightVertexData& photon = tree.data(index);
                           const Vec3f offset = tree.key(index) - vertex.position();
-                          const float share = disk.share(offset, photon.side);
-                          if (!(share > 0)) return;
+                          const float cover = disk.share(offset, photon.side);
+                          if (!(cover > 0)) return;
                           if (walk_.events() + int(photon.before) > in_.maximum_events) return;
                           const Vec3f wi = photon.direction.unpack();
                           const float pdf_forward = vertex.pdf(wi, Lobes::all);
@@ -395,7 +395,7 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, const Visit& visit) con
                           path.pdf_camera_last = pdf_forward * merged.to_previous;
                           path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
                           path.pdf_next_event = photon.pdf_next_event;
-                          visit(photon, photon.flux_spectrum() * share, offset, wi, path);
+                          visit(photon, photon.flux_spectrum() * cover, offset, wi, path);
                         });
 }
 

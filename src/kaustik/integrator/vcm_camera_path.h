@@ -83,7 +83,8 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
     bool is_zero() const;
     void scale(float factor);
   };
-  /// What a disk of merging weighs light vertices by: kernels for the disk and for half its area.
+  /// What a disk of merging weighs light vertices by: kernels for the disk and for the narrow one
+  /// in it.
   struct DiskWeights {
     PixelPlans::Surroundings surroundings;
     DiskKernel wide, narrow;

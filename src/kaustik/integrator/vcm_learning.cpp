@@ -143,18 +143,27 @@ void VcmLearning::spread_samples(VcmPlans& plans, uint32_t epoch) const {
   plans.pixels.set_spread(spread_of(epoch, std::move(found.of_block), before.get(), samples));
 }
 
-void VcmLearning::choose_connections(VcmPlans& plans, uint32_t epoch) const {
-  constexpr uint32_t end = ConnectionLearning::first_pass + ConnectionLearning::pass_count;
+void VcmLearning::choose_connections(VcmPlans& plans, uint32_t epoch) {
+  constexpr uint32_t first = ConnectionLearning::first_pass,
+                     end = first + ConnectionLearning::pass_count;
+  static_assert(std::has_single_bit(first) && std::has_single_bit(end), "a whole epoch");
   // In the trial light paths are to be kept for its samples, but none of the picture's is
   // connected.
-  if (epoch == ConnectionLearning::first_pass) plans.techniques.connections = true;
+  if (epoch == first) plans.techniques.connections = true;
   if (epoch != end) return;
-  const double other_rays = rays_beside_camera_path(
-      plans.pilot->costs, double(plans.light_paths) / double(plans.pilot->light_paths));
-  const ConnectionLearning::Choice choice =
-      connections_.choice(plans.samples_per_pixel, other_rays);
+  const auto scales = plans.merge_scales(plans.pixels.plans(), sqr(pass_radius(1, epoch)));
+  const ConnectionLearning::Choice choice = connections_.choice(
+      plans.samples_per_pixel,
+      rays_beside_camera_paths(plans.pilot->probes, plans.pilot->costs, scales));
+  connections_ = no_connections_;
   plans.techniques.connections = !choice.connects.empty();
-  if (choice.connects.empty()) return;
+  if (choice.connects.empty()) {
+    plans.decisions.push_back(fmt::format(
+        "auto: camera paths are not connected to light paths: everywhere, that would leave {:.2f} "
+        "of the variance and take {:.2f} times as long",
+        choice.variance_left, choice.time_taken));
+    return;
+  }
   const Vec2i blocks = plans.pixels.blocks();
   for (int y = 0; y < blocks.y; ++y)
     for (int x = 0; x < blocks.x; ++x)
@@ -163,8 +172,8 @@ void VcmLearning::choose_connections(VcmPlans& plans, uint32_t epoch) const {
                           size_t(x / blocks_per_trial)];
   plans.decisions.push_back(fmt::format(
       "auto: camera paths are connected to light paths in {:.0f} % of the picture: {:.2g} times "
-      "less to do than without, by passes {} to {}",
-      100 * choice.share, choice.gain, ConnectionLearning::first_pass, end - 1));
+      "less to do than without, by a trial",
+      100 * choice.share, choice.gain));
 }
 
 std::shared_ptr<const VcmPlans> VcmLearning::plans_of(uint32_t epoch, const Scene& scene,

@@ -59,7 +59,7 @@ class VcmLearning {
  private:
   /// Of the epoch that begins, by the passes before.
   void spread_samples(VcmPlans& plans, uint32_t epoch) const;
-  void choose_connections(VcmPlans& plans, uint32_t epoch) const;
+  void choose_connections(VcmPlans& plans, uint32_t epoch);
 
   std::shared_ptr<const VcmPlans> first_;
   const VcmSettings& settings_;

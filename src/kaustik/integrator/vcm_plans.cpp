@@ -108,7 +108,8 @@ void choose_light_paths(VcmPlans& plans) {
 
 }  // namespace
 
-Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
+std::vector<MergeScale> VcmPlans::merge_scales(const std::vector<PixelPlan>& disks,
+                                               float shrinkage) const {
   std::vector<MergeScale> scales(disks.size());
   for (size_t i = 0; i < disks.size(); ++i) {
     scales[i].light_paths =
@@ -116,8 +117,13 @@ Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
     if (pilot->areas[i] > 0)
       scales[i].area = double(disks[i].merge_area * shrinkage) / double(pilot->areas[i]);
   }
+  return scales;
+}
+
+Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
   Efficiency result;
-  if (chooses_survival) result = choose_survival(pilot->probes, pilot->costs, scales, disks);
+  if (chooses_survival)
+    result = choose_survival(pilot->probes, pilot->costs, merge_scales(disks, shrinkage), disks);
   if (!connects.empty())
     for (size_t i = 0; i < disks.size(); ++i) disks[i].connected = connects[i] ? 1.0f : 0.0f;
   pixels = pixels.with(std::move(disks));
@@ -148,7 +154,8 @@ VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& sto
   const uint32_t count = std::min(of_pass, most_pilot_paths);
   const PilotLight light = search_light(plans, count, stop);
   if (!light.vertices.connectible.empty())
-    plans.connectible_per_path = float(light.vertices.connectible.size()) / float(count);
+    plans.connectible_per_path =
+        float(light.vertices.connectible.size()) / float(light.vertices.connectible_paths());
   if (!settings_.techniques.merging || stop.stop_requested()) return plans;
   plans.pixels.choose_disks(light.vertices, of_pass, settings_.merge_neighbors, settings_.radius);
   plans.media =

@@ -49,6 +49,8 @@ struct VcmPlans {
   /// Gives the probes these disks and, as the pilot tells if that is wanted, chances of going on,
   /// for passes whose disks have `shrinkage` times the area; and connections.
   Efficiency settle(std::vector<PixelPlan> disks, float shrinkage);
+  /// How merging in such disks differs from the pilot's, by probe.
+  std::vector<MergeScale> merge_scales(const std::vector<PixelPlan>& disks, float shrinkage) const;
 };
 
 /// Light paths of a pass of a picture of that size, with so many per camera sample.

@@ -116,12 +116,12 @@ HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Bl
       others = hn::MulAdd(hn::Load(d, block.connection + i), hn::Set(d, disk.weights.on_connection),
                           hn::MulAdd(hn::Load(d, block.beyond_connected + i),
                                      hn::Set(d, disk.weights.on_beyond_connected), others));
-    Vec wide = hn::Mul(cosine, hn::Div(kernel, others));
-    // 1 − a d² of what has 1 − d², as far as that is not negative.
+    const Vec each = hn::Div(cosine, others);
+    Vec wide = hn::Mul(each, kernel);
+    // 1 − a d² by 1 − d², as far as that is not negative.
     constexpr float areas = 1 / (narrow_radius * narrow_radius);
-    const Vec share =
-        hn::Max(hn::Zero(d), hn::Sub(hn::Set(d, areas), hn::Div(hn::Set(d, areas - 1), kernel)));
-    Vec narrow = hn::Mul(wide, share);
+    Vec narrow = hn::Mul(
+        each, hn::Max(hn::Zero(d), hn::MulSub(hn::Set(d, areas), kernel, hn::Set(d, areas - 1))));
     if (disk.edges.count > 0) {
       wide = hn::MulAdd(wide, dot_with(disk.slope, x, y, z), wide);
       narrow = hn::MulAdd(narrow, dot_with(disk.narrow_slope, x, y, z), narrow);
@@ -178,8 +178,8 @@ PathWeights::MattMerge matt_merge(const LightVertices& light, const LightVertexD
   path.camera = {&seen, 1};
   path.light = before;
   path.pdf_light_last = vertex.pdf_light;
-  path.pdf_camera_last =
-      std::fabs(data.side.dot(data.direction.unpack())) / 127 * inv_pi * vertex.to_previous;
+  path.pdf_camera_last = std::fabs(data.side.dot(data.direction.unpack())) / data.side.length() *
+                         inv_pi * vertex.to_previous;
   path.pdf_camera_before_last = before[before.size() - 2].pdf_camera;
   path.pdf_next_event = data.pdf_next_event;
   return weights.matt_merge(path);

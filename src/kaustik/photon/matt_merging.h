@@ -53,12 +53,12 @@ class MattMerging {
     static constexpr size_t size = KdBuckets::bucket_size;
     float flux[Spectrum::lane_count][size];
     float connection[size], beyond[size], beyond_connected[size];  ///< PathWeights::MattMerge
-    int8_t side[3][size];                                          ///< LightVertexData::side
-    float side_length[size];                                       ///< of that
-    uint16_t before[size];                                         ///< LightVertexData::before
-    uint16_t most_before = 0;                                      ///< of all
-    uint16_t after_specular = 0;                                   ///< bit i: that of vertex i
-    bool same_side = false;                                        ///< all sides are alike
+    float side_length[size];      ///< of the sides; after floats alone, for vectors lie aligned
+    int8_t side[3][size];         ///< LightVertexData::side
+    uint16_t before[size];        ///< LightVertexData::before
+    uint16_t most_before = 0;     ///< of all
+    uint16_t after_specular = 0;  ///< bit i: that of vertex i
+    bool same_side = false;       ///< all sides are alike
   };
 
  private:

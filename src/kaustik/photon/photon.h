@@ -21,7 +21,7 @@ class CoarseNormal {
         z_(int8_t(nearest_integer(n.z * 127))) {}
   /// Dot product, times 127.
   float dot(const Vec3f& v) const { return float(x_) * v.x + float(y_) * v.y + float(z_) * v.z; }
-  /// About 127: how long it is in the units of dot(). By that, cosines are right within 1e-4.
+  /// About 127: how long it is in the units of dot(). Over that cosines are off by 0.005 × sine.
   float length() const { return std::sqrt(float(x_ * x_ + y_ * y_ + z_ * z_)); }
   int8_t x() const { return x_; }
   int8_t y() const { return y_; }

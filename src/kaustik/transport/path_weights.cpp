@@ -175,8 +175,9 @@ PathWeights::MattVertex PathWeights::matt_vertex(std::span<const PathVertex> cam
   if (settings_.techniques.splats && camera.size() == 1)
     result.base += sqr(1 / (camera[0].pdf_camera * merge_area));
   constexpr float most = 1e30f;  // infinite factors of what is zero would make no sense
-  result.on_connection = std::min(most, sqr(connected / merge_area));
   result.on_beyond = std::min(most, sqr(survival / merge_area));
+  if (!settings_.techniques.connections) return result;
+  result.on_connection = std::min(most, sqr(connected / merge_area));
   result.on_beyond_connected = std::min(most, sqr(connected * survival / merge_area));
   return result;
 }
