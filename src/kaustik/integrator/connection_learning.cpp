@@ -14,7 +14,8 @@ namespace {
 constexpr uint64_t trial_element = uint64_t(6) << 40;
 /// A connection that is traced takes as long as so many rays, with both densities and what its ends
 /// reflect; those that are tried in vain, and light paths that are kept for them, as so many more
-/// per sample: of the times that `ppm` takes with connections these constants tell within a tenth.
+/// per sample. Between the times that `ppm` takes without connections and with them, of scenes with
+/// few and with many of them.
 constexpr double rays_of_connection = 3, rays_of_trying = 4;
 /// Blocks on either side that variances, light and rays are averaged with: single pairs of samples
 /// tell little.
