@@ -231,27 +231,37 @@ void measure(const std::string& scene, const std::string& integrator,
 
 }  // namespace
 
-/// Scenes and integrators by name, all without.
+/// Scenes and integrators by name, all of a kind without.
 int main(int argc, char** argv) {
   const std::vector<std::string> wanted(argv + 1, argv + argc);
-  const std::vector<std::string> known = {"path", "auto", "vcm"};
+  const std::vector<std::string> integrators = {"path", "auto", "vcm"};
+  const auto is_scene = [](const std::string& name) {
+    return std::any_of(cases().begin(), cases().end(),
+                       [&](const Case& one) { return one.scene == name; });
+  };
+  const auto is_integrator = [&](const std::string& name) {
+    return std::find(integrators.begin(), integrators.end(), name) != integrators.end();
+  };
+  for (const std::string& name : wanted)
+    if (!is_scene(name) && !is_integrator(name)) {
+      fmt::print(stderr,
+                 "coverage_tool: '{}' is no scene whose truth is known, nor one of the "
+                 "integrators\n  remedy: name some of",
+                 name);
+      for (const Case& one : cases()) fmt::print(stderr, " {}", one.scene);
+      fmt::print(stderr, " {}\n", fmt::join(integrators, " "));
+      return 2;
+    }
   const auto is_wanted = [&](const std::string& name, const auto& same_kind) {
     return std::find(wanted.begin(), wanted.end(), name) != wanted.end() ||
            std::none_of(wanted.begin(), wanted.end(), same_kind);
   };
   try {
     for (const Case& one : cases()) {
-      if (!is_wanted(one.scene, [](const std::string& name) {
-            return std::any_of(cases().begin(), cases().end(),
-                               [&](const Case& other) { return other.scene == name; });
-          }))
-        continue;
+      if (!is_wanted(one.scene, is_scene)) continue;
       const std::vector<Known> truth = truth_of(one);
-      for (const std::string& integrator : known)
-        if (is_wanted(integrator, [&](const std::string& name) {
-              return std::find(known.begin(), known.end(), name) != known.end();
-            }))
-          measure(one.scene, integrator, truth);
+      for (const std::string& integrator : integrators)
+        if (is_wanted(integrator, is_integrator)) measure(one.scene, integrator, truth);
     }
   } catch (const Error& error) {
     fmt::print(stderr, "{}\n", error.what());
