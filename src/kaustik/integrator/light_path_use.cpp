@@ -101,9 +101,7 @@ std::vector<AimTarget> LightPathUse::targets() const {
 }
 
 std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& light) const {
-  std::vector<uint32_t> beginning_of(light.beginnings.back().path + 1);
-  for (size_t i = 0; i < light.beginnings.size(); ++i)
-    beginning_of[light.beginnings[i].path] = uint32_t(i);
+  const uint32_t last_path = light.beginnings.back().path;
   constexpr size_t per_block = 16;
   std::vector<std::vector<Arrival>> found((probes_.size() + per_block - 1) / per_block);
   parallel_blocks(probes_.size(), per_block, [&](size_t begin, size_t end, size_t block) {
@@ -115,11 +113,13 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
       light.tree.within(
           probe.vertex.position(), disk.side(), false, sqr(radius), [&](uint32_t index, float) {
             const LightVertexData& photon = light.tree.tree().data(index);
-            if (photon.path >= beginning_of.size()) return;
+            if (photon.path > last_path) return;
             const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
             const float value = probe.sent(photon, wanted_).sum() *
                                 disk.share(offset, photon.side) * inv_pi / sqr(radius);
-            if (value > 0) found[block].push_back({uint32_t(p), beginning_of[photon.path], value});
+            if (value > 0)
+              found[block].push_back(
+                  {uint32_t(p), photon.path, photon.path + photon.before, value});
           });
     }
   });
@@ -128,15 +128,60 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
   return result;
 }
 
-std::vector<double> LightPathUse::totals() const {
+std::vector<double> LightPathUse::totals(double floor) const {
   std::vector<double> result(probes_.size());
   double sum = 0, count = 0;
   for (size_t p = 0; p < probes_.size(); ++p) {
     result[p] = double(direct_[p]) + arrived_[p] / paths_;
     if (probes_[p].found) sum += result[p], ++count;
   }
-  for (double& total : result) total += count > 0 ? least_light * sum / count : 0.0;
+  for (double& total : result) total += count > 0 ? floor * sum / count : 0.0;
   return result;
+}
+
+double LightPathUse::use_of(const Arrival& arrival, const std::vector<double>& totals,
+                            double paths) {
+  const double total = totals[arrival.probe];
+  return total > 0 ? std::min(double(arrival.light) / total, paths) : 0.0;
+}
+
+std::vector<double> LightPathUse::squared_uses(const LightVertices& light,
+                                               const std::vector<Arrival>& arrivals) const {
+  const std::vector<double> total = totals(least_light);
+  std::vector<double> squares;
+  for (const Arrival& arrival : arrivals) {
+    if (squares.size() <= arrival.vertex) squares.resize(size_t(arrival.vertex) + 1);
+    squares[arrival.vertex] += sqr(use_of(arrival, total, double(light.remembered_paths)));
+  }
+  size_t end = squares.size();
+  for (size_t i = light.beginnings.size(); i-- > 0;) {
+    const size_t begin = light.beginnings[i].path;
+    for (size_t v = end; v-- > begin + 1;) squares[v - 1] += squares[v];
+    end = std::min(end, begin);
+  }
+  return squares;
+}
+
+LightPathUse::Noise LightPathUse::noise(const LightVertices& light) const {
+  if (light.beginnings.empty() || light.tree.empty()) return {};
+  // Density of each vertex over what it were if nothing was guided.
+  std::vector<float> ratio(size_t(light.beginnings.back().path) + 1, 1.0f);
+  for (const LightScattering& event : light.scatterings) {
+    const size_t next = size_t(event.path) + event.at + 1;
+    if (ratio.size() <= next) ratio.resize(next + 1, 1.0f);
+    ratio[next] = event.pdf / event.pdf_unguided;
+  }
+  const std::vector<double> total = totals(1);
+  Noise sum;
+  for (const Arrival& arrival : arrivals(light)) {
+    const double square = sqr(use_of(arrival, total, double(light.remembered_paths)));
+    sum.guided += square;
+    double unguided = square;
+    for (size_t v = arrival.path; v <= arrival.vertex && v < ratio.size(); ++v)
+      unguided *= double(ratio[v]);
+    sum.unguided += unguided;
+  }
+  return sum;
 }
 
 void LightPathUse::learn(const LightVertices& light) {
@@ -144,16 +189,20 @@ void LightPathUse::learn(const LightVertices& light) {
   if (light.beginnings.empty() || light.tree.empty()) return;
   const std::vector<Arrival> all = arrivals(light);
   for (const Arrival& arrival : all) arrived_[arrival.probe] += double(arrival.light);
-  const std::vector<double> total = totals();
-  std::vector<double> squares(light.beginnings.size());
-  for (const Arrival& arrival : all) {
-    const double of_all = total[arrival.probe];
-    if (!(of_all > 0)) continue;
-    const double use = std::min(double(arrival.light) / of_all, double(light.remembered_paths));
-    squares[arrival.beginning] += use * use;
-  }
-  for (size_t i = 0; i < squares.size(); ++i)
-    if (squares[i] > 0) emission_.add(light.beginnings[i].start, std::sqrt(squares[i]));
+  const std::vector<double> squares = squared_uses(light, all);
+  const auto use_from = [&](size_t vertex) {
+    return vertex < squares.size() ? std::sqrt(squares[vertex]) : 0.0;
+  };
+  for (const LightPathBeginning& beginning : light.beginnings)
+    if (const double use = use_from(beginning.path); use > 0) emission_.add(beginning.start, use);
+  constexpr size_t most = ScatterLearning::most_events_of_lesson;
+  std::vector<std::pair<const LightScattering*, double>> events;
+  for (const LightScattering& event : light.scatterings)
+    if (const double use = use_from(size_t(event.path) + event.at + 1); use > 0)
+      events.emplace_back(&event, use);
+  const size_t step = (events.size() + most - 1) / most;
+  for (size_t i = 0; i < events.size(); i += step)
+    scattering_.add(*events[i].first, events[i].second, double(step));
 }
 
 }  // namespace kaustik

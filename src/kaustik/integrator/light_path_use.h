@@ -5,10 +5,10 @@
 
 namespace kaustik {
 
-/// Of what use light paths are for the picture, and what that teaches emission. At one probe per
-/// block of pixels, a vertex of a light path nearby is of use by what it would bring, were its path
-/// the only one, over all the light that the probe sends to the camera; by no more than all paths
-/// of a pass together. The use of a path is the root of the sum of their squares.
+/// Of what use light paths are for the picture, and what that teaches emission and scattering. At
+/// one probe per block of pixels, a vertex of a light path nearby is of use by what it would bring,
+/// were its path the only one, over all the light that the probe sends to the camera; by no more
+/// than all paths of a pass together. The use of a path is the root of the sum of their squares.
 class LightPathUse {
  public:
   /// Paths that a pass remembers the beginnings of, at most.
@@ -23,17 +23,33 @@ class LightPathUse {
 
   /// Learns from the next pass: from its paths whose beginnings are remembered.
   void learn(const LightVertices& light);
+  /// Second moments of what light paths bring to the probes, relative to the light there and that
+  /// of the mean; up to a common factor.
+  struct Noise {
+    double guided = 0;    ///< of such paths
+    double unguided = 0;  ///< of paths that are scattered as if nothing had been learned
+  };
+  /// Told by the remembered paths of a pass: guided ones find what the others do not.
+  Noise noise(const LightVertices& light) const;
   const EmissionLearning& emission() const { return emission_; }
+  const ScatterLearning& scattering() const { return scattering_; }
 
  private:
   /// A vertex near a probe.
   struct Arrival {
-    uint32_t probe, beginning;
-    float light;  ///< that it would send to the camera, were its path the only one
+    uint32_t probe;
+    uint32_t path, vertex;  ///< its path's first vertex and itself, among those of the pass
+    float light;            ///< that it would send to the camera, were its path the only one
   };
   std::vector<Arrival> arrivals(const LightVertices& light) const;
-  /// Of each probe: all the light that it sends to the camera, with a floor.
-  std::vector<double> totals() const;
+  /// Of one of so many paths.
+  static double use_of(const Arrival& arrival, const std::vector<double>& totals, double paths);
+  /// Σ use² of what comes at and after each vertex of the paths that are remembered; none of use
+  /// follows the last.
+  std::vector<double> squared_uses(const LightVertices& light,
+                                   const std::vector<Arrival>& arrivals) const;
+  /// Of each probe: all the light that it sends to the camera, and `floor` times the mean.
+  std::vector<double> totals(double floor) const;
 
   ComponentSet wanted_;
   std::vector<PixelProbe> probes_;
@@ -42,6 +58,7 @@ class LightPathUse {
   double paths_ = 0;
   float reach_ = 1;  ///< of the probes, in widths of a pixel there
   EmissionLearning emission_;
+  ScatterLearning scattering_;
 };
 
 }  // namespace kaustik

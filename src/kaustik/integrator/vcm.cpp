@@ -182,7 +182,8 @@ LightVertices VcmIntegrator::trace(const VcmPlans& plans, const PathWeights& wei
       {scene_, *plans.emission, weights, settings_.components, settings_.maximum_events,
        light_path_count(scene_.film().crop_size, pass.samples_per_pixel, plans.light_paths),
        float(pass.samples_per_pixel), plans.pixels, shrinkage,
-       VcmLearning::remembered_paths(pass.index, plans), plans.media.shrunk(shrinkage)},
+       VcmLearning::remembered_paths(pass.index, plans), plans.media.shrunk(shrinkage),
+       plans.scattering.get()},
       pass, Stream::light_path, splats, stop, progress, report);
 }
 
@@ -247,7 +248,8 @@ void VcmIntegrator::trace_sample(const State& state, const Vec2f& raster, const 
                                state.connection_scale,
                                state.weights.settings().merge_area * inv_pi,
                                state.media,
-                               settings_.maximum_events};
+                               settings_.maximum_events,
+                               state.plans->scattering.get()};
   VcmCameraPath path(inputs, walk, plan);
   follow(state.plans->techniques, walk, path, {});
 }

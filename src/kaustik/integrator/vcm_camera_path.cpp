@@ -115,8 +115,7 @@ void VcmCameraPath::leave() {
   previous_ = here_.is_in_medium() ? LightQuery(here_.position()) : light_query(walk_.vertex());
   if (vertices_.size() < 2 || !in_.weights.settings().techniques.needs_light_paths()) return;
   vertices_[vertices_.size() - 2].pdf_light =
-      (vertex.delta ? 1.0f : here_.pdf_reverse(walk_.ray().direction, Lobes::all)) *
-      vertex.to_previous;
+      (vertex.delta ? 1.0f : pdf_back(walk_.ray().direction)) * vertex.to_previous;
 }
 
 bool VcmCameraPath::path_tracing_alone(size_t length) const {
@@ -136,7 +135,18 @@ PathHalves VcmCameraPath::halves() const {
 
 float VcmCameraPath::pdf_light_before(const Vec3f& wi) const {
   if (vertices_.size() < 2) return 0;
-  return here_.pdf_reverse(wi, Lobes::all) * vertices_.back().to_previous;
+  return pdf_back(wi) * vertices_.back().to_previous;
+}
+
+float VcmCameraPath::guided_pdf(const Scatterer& at, const Vec3f& from, const Vec3f& to,
+                                float plain) const {
+  if (!in_.scattering || !at.surface()) return plain;
+  return in_.scattering->place(*at.surface(), from).pdf(plain, to);
+}
+
+float VcmCameraPath::pdf_back(const Vec3f& wi) const {
+  const float plain = here_.pdf_reverse(wi, Lobes::all);
+  return in_.scattering ? guided_pdf(here_, wi, here_.wo(), plain) : plain;
 }
 
 float VcmCameraPath::sampled(const Scatterer& vertex, const DirectLight& light) const {
@@ -244,7 +254,8 @@ void VcmCameraPath::connect_to(const ConnectibleVertex& to) {
   PathHalves path = halves();
   path.light = {in_.light.vertices.data() + to.data.path, size_t(to.data.before) + 1};
   path.pdf_light_last =
-      other.pdf(-direction, Lobes::all) * vertex.facing().factor(direction) / distance_sq;
+      guided_pdf(other, other.wo(), -direction, other.pdf(-direction, Lobes::all)) *
+      vertex.facing().factor(direction) / distance_sq;
   path.pdf_light_before_last = pdf_light_before(direction);
   path.pdf_camera_last =
       vertex.pdf(direction, Lobes::all) * other.facing().factor(direction) / distance_sq;

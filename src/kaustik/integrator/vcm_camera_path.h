@@ -27,6 +27,7 @@ struct VcmCameraInputs {
   float merge_radius_sq;   ///< at vertices that the camera does not see
   MediumDisks media = {};
   int maximum_events = 1 << 20;
+  const ScatterGuide* scattering = nullptr;  ///< of light paths; null: not guided
 };
 
 /// A camera walk's vertices as multiple importance sampling sees them, and what light paths bring
@@ -109,7 +110,12 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
                             float phase_back) const;
   void connect_to(const ConnectibleVertex& to);
   PathHalves halves() const;
-  /// Of the last vertex from the camera's side, whose light comes from `wi`.
+  /// Density per solid angle with which light that comes to `at` from `from` goes on to `to`, where
+  /// `plain` is that of the bsdf.
+  float guided_pdf(const Scatterer& at, const Vec3f& from, const Vec3f& to, float plain) const;
+  /// The same of light that comes to the last vertex from `wi` and goes back along the walk.
+  float pdf_back(const Vec3f& wi) const;
+  /// Of the vertex before the last, if light comes to that from `wi`.
   float pdf_light_before(const Vec3f& wi) const;
   /// Whether light is only sampled and met by chance on paths of this many segments.
   bool path_tracing_alone(size_t length) const;

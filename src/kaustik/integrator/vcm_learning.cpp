@@ -192,8 +192,7 @@ std::shared_ptr<const VcmPlans> VcmLearning::plans_of(uint32_t epoch, const Scen
     plans->settle(radii_->plans(first_->pixels, sums_, passes_, shrinkage), shrinkage);
   }
   if (learns_samples(*first_, settings_)) spread_samples(*plans, epoch);
-  if (use_)
-    if (const auto learned = use_->emission().learned()) plans->emission = learned;
+  if (use_) plans->guide_by(*use_);
   if (passes_ >= most_guided_passes) use_.reset();
   return epochs_[epoch] = std::move(plans);
 }

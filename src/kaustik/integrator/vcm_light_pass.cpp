@@ -19,6 +19,8 @@ struct PathUnderWay {
   Facing last;  ///< of the last vertex; zero at a point without a surface
   float pdf_next_event = 0;
   bool kept = false;  ///< some vertex may be merged or connected
+  /// The last vertex as what is learned there; without a normal where nothing is.
+  LightScattering scattering;
 };
 
 /// What a block of light paths leaves.
@@ -30,6 +32,7 @@ struct Block {
   std::vector<DiscHierarchy::Disc> discs;  ///< of the following
   std::vector<MergeableMediumVertex> in_media;
   std::vector<LightPathBeginning> beginnings;
+  std::vector<LightScattering> scatterings;
   uint64_t rays = 0, splats = 0;
 };
 
@@ -57,6 +60,7 @@ class Tracer {
     LightPathLimits limits;
     limits.maximum_events = std::max(0, in_.maximum_events - 1);
     limits.needs_reverse_pdf = true;
+    limits.guide = in_.scattering;
     const auto emit = [this](uint32_t i) { return start(i); };
     const auto meet = Handlers{[this](const LightVertex& at) {
                                  add_vertex(at);
@@ -81,6 +85,7 @@ class Tracer {
     PathUnderWay& path = paths_[i - begin_];
     path.vertices.clear();
     path.kept = false;
+    path.scattering = {};
     Sampler sampler = Sampler::at(pass_.seed, pass_.index, stream_, 0, i);
     path.start = in_.emission.sample(sampler);
     const LightPathStart& start = path.start;
@@ -141,12 +146,30 @@ class Tracer {
     PathUnderWay& path = paths_[at.path - begin_];
     const SurfaceVertex& vertex = at.vertex;
     const Facing facing{vertex.point().ng, 0};
+    if (at.path < in_.remembered_paths) remember(at, path);
     path.vertices.push_back(
         next_vertex(path, light_query(vertex, 1), facing, at.state, vertex.wo(), at.distance));
     path.last = facing;
     const bool has_events = path.vertices.size() >= 3;
     if (has_events && in_.weights.settings().techniques.splats) splat(at, path);
     keep(at, path, has_events);
+  }
+
+  /// How the path came here from the vertex before, and what this one may teach.
+  void remember(const LightVertex& at, PathUnderWay& path) {
+    if (!path.scattering.normal.equalWithAbsError({0, 0, 0}, 0)) {
+      path.scattering.next = at.vertex.position();
+      path.scattering.pdf = at.state.pdf_forward;
+      path.scattering.pdf_unguided = at.state.pdf_unguided;
+      scatterings_.push_back(path.scattering);
+    }
+    path.scattering = {};
+    if (!ScatterGuide::guides(at.vertex.lobes())) return;
+    const Vec3f& ng = at.vertex.point().ng;
+    path.scattering.path = at.path - begin_;
+    path.scattering.at = uint32_t(path.vertices.size());
+    path.scattering.position = at.vertex.position();
+    path.scattering.normal = at.vertex.on_front() ? ng : -ng;
   }
 
   /// Where the path goes on from.
@@ -334,6 +357,11 @@ class Tracer {
       block_.positions.push_back(kept.position);
       block_.data.push_back(kept.data);
     }
+    for (LightScattering& event : scatterings_) {
+      if (!paths_[event.path].kept) continue;
+      event.path = begins[event.path];
+      block_.scatterings.push_back(event);
+    }
     for (MergeableMediumVertex& vertex : block_.in_media) vertex.path = begins[vertex.path];
     for (size_t i = 0; i < connectible_paths_.size(); ++i)
       block_.connectible[i].data.path = begins[connectible_paths_[i]];
@@ -346,6 +374,7 @@ class Tracer {
   uint32_t begin_ = 0;
   std::vector<PathUnderWay> paths_;
   std::vector<Kept> kept_;
+  std::vector<LightScattering> scatterings_;
   std::vector<uint32_t> connectible_paths_;
   Block block_;
 };
@@ -387,11 +416,13 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
   result.remembered_paths = std::min(inputs.remembered_paths, inputs.light_paths);
   std::vector<size_t> vertex_begin(count + 1), data_begin(count + 1), connectible_begin(count + 1);
   std::vector<size_t> beginning_begin(count + 1), medium_begin(count + 1);
+  std::vector<size_t> scattering_begin(count + 1);
   for (size_t i = 0; i < count; ++i) {
     vertex_begin[i + 1] = vertex_begin[i] + blocks[i].vertices.size();
     data_begin[i + 1] = data_begin[i] + blocks[i].data.size();
     connectible_begin[i + 1] = connectible_begin[i] + blocks[i].connectible.size();
     beginning_begin[i + 1] = beginning_begin[i] + blocks[i].beginnings.size();
+    scattering_begin[i + 1] = scattering_begin[i] + blocks[i].scatterings.size();
     medium_begin[i + 1] = medium_begin[i] + blocks[i].in_media.size();
     report.rays += blocks[i].rays;
     report.photons += blocks[i].splats;
@@ -399,6 +430,7 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
   result.vertices.resize(vertex_begin[count]);
   result.connectible.resize(connectible_begin[count]);
   result.beginnings.resize(beginning_begin[count]);
+  result.scatterings.resize(scattering_begin[count]);
   std::vector<Vec3f> positions(data_begin[count]);
   std::vector<LightVertexData> data(data_begin[count]);
   std::vector<DiscHierarchy::Disc> discs(medium_begin[count]);
@@ -410,6 +442,7 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
       for (ConnectibleVertex& c : block.connectible) c.data.path += uint32_t(vertex_begin[i]);
       for (MergeableMediumVertex& m : block.in_media) m.path += uint32_t(vertex_begin[i]);
       for (LightPathBeginning& b : block.beginnings) b.path += uint32_t(vertex_begin[i]);
+      for (LightScattering& s : block.scatterings) s.path += uint32_t(vertex_begin[i]);
       const auto copy = [](const auto& from, auto& to, size_t at) {
         std::copy(from.begin(), from.end(), to.begin() + std::ptrdiff_t(at));
       };
@@ -420,6 +453,7 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
       copy(block.discs, discs, medium_begin[i]);
       copy(block.in_media, in_media, medium_begin[i]);
       copy(block.beginnings, result.beginnings, beginning_begin[i]);
+      copy(block.scatterings, result.scatterings, scattering_begin[i]);
       block = {};
     }
   });

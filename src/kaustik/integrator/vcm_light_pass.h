@@ -22,6 +22,7 @@ struct VcmLightInputs {
   /// Paths whose beginnings are remembered; their vertices are kept as if merging were wanted.
   uint32_t remembered_paths = 0;
   MediumDisks media = {};
+  const ScatterGuide* scattering = nullptr;  ///< null: none is guided
 };
 
 /// Traces the light paths of a pass, keeps their vertices, and splats them where that is one of the

@@ -23,6 +23,9 @@ constexpr uint32_t most_pilots = 4;
 constexpr double worth_a_pilot = 0.7;
 /// Or where no more paths than that were of use.
 constexpr size_t few_paths = 1024;
+/// Light paths are guided where they are scattered if no more than this is left of noise times
+/// rays.
+constexpr double worth_guiding = 0.8;
 /// Light paths of a pass at most: their vertices take some gigabytes.
 constexpr double most_light_paths = 1 << 24;
 /// Light paths that are tried beside those that are asked for, relative to them.
@@ -108,6 +111,12 @@ void choose_light_paths(VcmPlans& plans) {
 
 }  // namespace
 
+void VcmPlans::guide_by(const LightPathUse& learned) {
+  if (const auto found = learned.emission().learned()) emission = found;
+  if (scattering)
+    if (const auto found = learned.scattering().learned()) scattering = found;
+}
+
 std::vector<MergeScale> VcmPlans::merge_scales(const std::vector<PixelPlan>& disks,
                                                float shrinkage) const {
   std::vector<MergeScale> scales(disks.size());
@@ -174,32 +183,61 @@ VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& sto
 
 VcmPlanner::PilotLight VcmPlanner::search_light(VcmPlans& plans, uint32_t count,
                                                 const std::stop_token& stop) const {
-  if (!settings_.guiding) return trace_pilot(plain_, 0, count, plans, stop);
+  if (!settings_.guiding) return trace_pilot({plain_, nullptr}, 0, count, plans, stop);
   const auto use = std::make_shared<LightPathUse>(scene_, *plain_, settings_.components);
   plans.use = use;
   const auto searching = std::make_shared<const LightPathEmission>(*plain_, use->targets());
   std::shared_ptr<const LightPathEmission> emission = searching;
   for (uint32_t pilots = 1;; ++pilots) {
-    PilotLight light = trace_pilot(emission, pilots - 1, count, plans, stop);
+    PilotLight light = trace_pilot({emission, nullptr}, pilots - 1, count, plans, stop);
     if (stop.stop_requested()) return light;
     use->learn(light.vertices);
     const EmissionLearning& learning = use->emission();
     const double before = learning.second_moment(*plans.emission);
-    if (const auto learned = learning.learned()) plans.emission = learned;
+    plans.guide_by(*use);
     const double after = learning.second_moment(*plans.emission);
     const bool searches = plans.emission == plain_ && learning.size() < few_paths;
     if (pilots == most_pilots || !(searches || after < worth_a_pilot * before)) {
       // All else is to be told by light as passes will have it.
-      if (emission != searching) return light;
-      return trace_pilot(plans.emission, pilots, count, plans, stop);
+      if (emission == searching) {
+        light = trace_pilot({plans.emission, nullptr}, pilots, count, plans, stop);
+        if (!stop.stop_requested()) use->learn(light.vertices);
+      }
+      return guide_scattering(plans, std::move(light), pilots + 1, count, stop);
     }
     emission = searches ? searching : plans.emission;
   }
 }
 
-VcmPlanner::PilotLight VcmPlanner::trace_pilot(std::shared_ptr<const LightPathEmission> emission,
-                                               uint32_t round, uint32_t count, VcmPlans& plans,
-                                               const std::stop_token& stop) const {
+VcmPlanner::PilotLight VcmPlanner::guide_scattering(VcmPlans& plans, PilotLight light,
+                                                    uint32_t round, uint32_t count,
+                                                    const std::stop_token& stop) const {
+  if (!settings_.guided_scattering) return light;
+  const auto unguided_rays = double(light.rays);
+  double left = worth_guiding;
+  for (uint32_t trials = 0; trials < most_pilots; ++trials) {
+    const auto learned = plans.use->scattering().learned();
+    if (!learned) break;
+    PilotLight trial = trace_pilot({plans.emission, learned}, round + trials, count, plans, stop);
+    if (stop.stop_requested()) break;
+    plans.use->learn(trial.vertices);
+    const LightPathUse::Noise noise = plans.use->noise(trial.vertices);
+    const double of_trial = noise.guided * double(trial.rays) / (noise.unguided * unguided_rays);
+    if (!(of_trial < left)) break;
+    left = of_trial;
+    plans.scattering = learned;
+    light = std::move(trial);
+  }
+  if (plans.scattering)
+    plans.decisions.push_back(fmt::format(
+        "light paths are guided where matt surfaces scatter them: {:.2g} times less to do for what "
+        "they bring, by a pilot's estimate",
+        1 / left));
+  return light;
+}
+
+VcmPlanner::PilotLight VcmPlanner::trace_pilot(const Guides& guides, uint32_t round, uint32_t count,
+                                               VcmPlans& plans, const std::stop_token& stop) const {
   PathWeights::Settings pilot;
   pilot.techniques.merging = settings_.techniques.merging;
   pilot.techniques.connections = settings_.techniques.connections || settings_.chooses_connections;
@@ -211,10 +249,11 @@ VcmPlanner::PilotLight VcmPlanner::trace_pilot(std::shared_ptr<const LightPathEm
   PassReport report;
   PilotLight light;
   light.vertices = trace_light_vertices(
-      {scene_, *emission, weights, settings_.components, settings_.maximum_events, count, 1,
-       PixelPlans(), 1, settings_.guiding ? LightPathUse::most_pilot_paths : 0},
+      {scene_, *guides.emission, weights, settings_.components, settings_.maximum_events, count, 1,
+       PixelPlans(), 1, settings_.guiding ? LightPathUse::most_pilot_paths : 0, MediumDisks(),
+       guides.scattering.get()},
       pass, Stream::training, nowhere, stop, {}, report);
-  light.emission = std::move(emission);
+  light.guides = guides;
   light.rays = report.rays;
   plans.pilot_rays += report.rays;
   return light;
@@ -232,7 +271,7 @@ VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light,
   const PathWeights weights(settings);
   const auto samples = double(plans.samples_per_pixel);
   const VcmCameraInputs inputs{scene_,
-                               *light.emission,
+                               *light.guides.emission,
                                weights,
                                light.vertices,
                                MattMerging(),
@@ -241,7 +280,8 @@ VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light,
                                0,
                                settings.merge_area * inv_pi,
                                plans.media,
-                               settings_.maximum_events};
+                               settings_.maximum_events,
+                               light.guides.scattering.get()};
   const double light_share = double(light.vertices.path_count) / double(light_paths);
   pilot.probes = probe_statistics(
       inputs, plans.pixels,

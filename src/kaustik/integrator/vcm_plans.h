@@ -29,6 +29,7 @@ struct VcmPilot {
 struct VcmPlans {
   uint32_t samples_per_pixel = 0;
   std::shared_ptr<const LightPathEmission> emission;
+  std::shared_ptr<const ScatterGuide> scattering;  ///< of light paths; null: not guided
   Techniques techniques;
   float light_paths = 0;  ///< per camera sample
   PixelPlans pixels;
@@ -39,13 +40,15 @@ struct VcmPlans {
   /// Vertices that may be connected, per light path: what the weights go by.
   float connectible_per_path = 1;
   /// Of the light paths of the pilot passes; null: emission is not guided.
-  std::shared_ptr<const LightPathUse> use;
+  std::shared_ptr<LightPathUse> use;
 
   bool chooses_survival = true;  ///< else camera paths always go on
   /// Of each probe's block, whether camera paths are connected to light paths where that is one of
   /// the techniques; empty: all are.
   std::vector<bool> connects;
 
+  /// Guides the light paths of passes to come by what was learned.
+  void guide_by(const LightPathUse& learned);
   /// Gives the probes these disks and, as the pilot tells if that is wanted, chances of going on,
   /// for passes whose disks have `shrinkage` times the area; and connections.
   Efficiency settle(std::vector<PixelPlan> disks, float shrinkage);
@@ -68,16 +71,24 @@ class VcmPlanner {
   VcmPlans make(uint32_t samples_per_pixel, const std::stop_token& stop) const;
 
  private:
+  struct Guides {
+    std::shared_ptr<const LightPathEmission> emission;
+    std::shared_ptr<const ScatterGuide> scattering;
+  };
   /// The light paths of a pilot pass.
   struct PilotLight {
-    std::shared_ptr<const LightPathEmission> emission;
+    Guides guides;
     LightVertices vertices;
     uint64_t rays = 0;
   };
-  /// Emission, and the light paths that tell all else, of pilot passes of so many paths.
+  /// Guides, and the light paths that tell all else, of pilot passes of so many paths.
   PilotLight search_light(VcmPlans& plans, uint32_t count, const std::stop_token& stop) const;
-  PilotLight trace_pilot(std::shared_ptr<const LightPathEmission> emission, uint32_t round,
-                         uint32_t count, VcmPlans& plans, const std::stop_token& stop) const;
+  /// Guides scattering, too, if that leaves less noise than `light`; the light of the plans then.
+  /// The pilot passes are numbered from `round` on.
+  PilotLight guide_scattering(VcmPlans& plans, PilotLight light, uint32_t round, uint32_t count,
+                              const std::stop_token& stop) const;
+  PilotLight trace_pilot(const Guides& guides, uint32_t round, uint32_t count, VcmPlans& plans,
+                         const std::stop_token& stop) const;
   VcmPilot make_pilot(VcmPlans& plans, const PilotLight& light, uint32_t light_paths) const;
 
   const Scene& scene_;

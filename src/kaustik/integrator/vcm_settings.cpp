@@ -23,6 +23,9 @@ std::vector<Parameter> parameters(const Techniques& preset) {
                         "Light paths are learned from those that reach what the camera sees: which "
                         "lights they begin at, and where they go. A share of them goes on as "
                         "without."),
+      boolean_parameter("guided_scattering", true,
+                        "Where light paths are learned, so is where they go on from matt "
+                        "surfaces."),
       boolean_parameter("unidirectional", preset.unidirectional,
                         "Light that the camera's paths meet by chance counts."),
       boolean_parameter("next_event", preset.next_event,
@@ -116,6 +119,7 @@ VcmSettings::VcmSettings(const Arguments& arguments)
   }
   aim = read_aim(arguments.text("aim"));
   guiding = arguments.boolean("guiding");
+  guided_scattering = arguments.boolean("guided_scattering");
   light_paths = float(arguments.number("light_paths"));
   connections = int(arguments.integer("connection_samples"));
   merge_neighbors = int(arguments.integer("merge_neighbors"));

@@ -13,9 +13,10 @@ struct VcmSettings {
   int roulette_depth = 5;
   Aim aim = default_aim;
   bool guiding = true;
-  float light_paths = 0.25f;    ///< per camera sample
-  int connections = 1;          ///< per vertex of the camera's path
-  int merge_neighbors = 30;     ///< light vertices that the first radius is made for
+  bool guided_scattering = true;  ///< beside emission
+  float light_paths = 0.25f;      ///< per camera sample
+  int connections = 1;            ///< per vertex of the camera's path
+  int merge_neighbors = 30;       ///< light vertices that the first radius is made for
   float radius = 0;             ///< of merging in pass 0, m; 0: from the pixels and the light paths
   bool correlation = true;      ///< see PathWeights
   bool learn_radii = true;      ///< from the passes before; else the first pass's shrink

@@ -7,6 +7,7 @@
 #include "kaustik/medium/medium.h"
 #include "kaustik/photon/disc_hierarchy.h"
 #include "kaustik/photon/light_path_emission.h"
+#include "kaustik/photon/scatter_learning.h"
 #include "kaustik/photon/sided_tree.h"
 #include "kaustik/transport/path_weights.h"
 
@@ -77,7 +78,8 @@ struct LightVertices {
   uint32_t path_count = 0;
   /// Of the first paths, as many as were asked for, in their order.
   std::vector<LightPathBeginning> beginnings;
-  uint32_t remembered_paths = 0;  ///< those of which that holds what has left vertices
+  std::vector<LightScattering> scatterings;  ///< of the same paths, those that may be guided
+  uint32_t remembered_paths = 0;             ///< those of which that holds what has left vertices
 
   /// The vertices before `data`'s, from the light's point on.
   std::span<const PathVertex> before(const LightVertexData& data) const {

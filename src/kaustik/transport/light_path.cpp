@@ -14,23 +14,44 @@ float survival_of(const LightPath& path, const Spectrum& event_weight) {
   return std::min(bound, (path.weight * event_weight).max_lane());
 }
 
+/// With the weight and the density of those that are not guided.
+BsdfSample sample_direction(const SurfaceVertex& vertex, Lobes follow,
+                            const ScatterGuide::Place& place, const Vec2f& u, float u_choice) {
+  const float guided = place.guided();
+  if (!(u_choice < guided))
+    return vertex.sample(std::min((u_choice - guided) / (1 - guided), one_minus_epsilon), u,
+                         follow);
+  BsdfSample sample;
+  sample.wi = place.sample(u_choice, u);
+  sample.pdf_solid_angle = vertex.pdf(sample.wi, follow);
+  if (!(sample.pdf_solid_angle > 0)) return {};
+  sample.weight = vertex.eval_cosine(sample.wi, follow) * (1 / sample.pdf_solid_angle);
+  sample.event = Lobes::diffuse;
+  return sample;
+}
+
 }  // namespace
 
 bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPathLimits& limits,
                         LightPath& path) {
   const Vec2f u = path.sampler.next_2d();
-  const Vec2f u_choice = path.sampler.next_2d();
-  const BsdfSample sample = vertex.sample(u_choice.x, u, follow);
+  Vec2f u_choice = path.sampler.next_2d();
+  const bool may_be_guided = limits.guide && follow == Lobes::all;
+  const ScatterGuide::Place place =
+      may_be_guided ? limits.guide->place(vertex, vertex.wo()) : ScatterGuide::Place();
+  const BsdfSample sample = sample_direction(vertex, follow, place, u, u_choice.x);
   const float survival = survival_of(path, sample.weight);
   if (sample.event == Lobes::none || !(u_choice.y < survival)) return false;
   path.attenuate(sample.weight * (1 / survival));
+  path.state.pdf_unguided = sample.event == Lobes::delta ? 0 : sample.pdf_solid_angle;
+  path.state.pdf_forward = place.pdf(path.state.pdf_unguided, sample.wi);
+  if (place.guided() > 0) path.state.throughput *= path.state.pdf_unguided / path.state.pdf_forward;
   if (const float weight = path.weight.max_lane(); weight > limits.largest_weight)
     path.attenuate(Spectrum(limits.largest_weight / weight));
-  path.state.pdf_forward = sample.event == Lobes::delta ? 0 : sample.pdf_solid_angle;
   if (limits.needs_reverse_pdf)
     path.state.pdf_reverse =
         sample.event == Lobes::delta ? 0 : vertex.pdf_reverse(sample.wi, follow);
-  path.state.footprint.scatter(sample.event, sample.pdf_solid_angle);
+  path.state.footprint.scatter(sample.event, path.state.pdf_forward);
   path.state.depth += 1;
   path.path_class.add_event(sample.event);
   path.state.medium = vertex.medium_toward(sample.wi, path.state.medium);
@@ -69,6 +90,7 @@ MediumFate scatter_in_medium(LightPath& path, const Medium::Flight& flight,
   const Vec3f wo = -path.ray.direction;
   const Vec3f wi = medium.phase().sample(wo, u);
   path.state.pdf_forward = path.state.pdf_reverse = medium.phase().eval(wo, wi);
+  path.state.pdf_unguided = path.state.pdf_forward;
   path.state.footprint.travel(flight.distance);
   path.state.footprint.scatter(Lobes::diffuse, path.state.pdf_forward);
   path.state.depth += 1;

@@ -8,6 +8,7 @@
 #include "kaustik/base/sampler.h"
 #include "kaustik/transport/path_class.h"
 #include "kaustik/transport/path_state.h"
+#include "kaustik/transport/scatter_guide.h"
 #include "kaustik/transport/vertex.h"
 
 namespace kaustik {
@@ -33,7 +34,8 @@ struct LightPath {
   PathState state;     ///< throughput: flux that arrives, W, before any attenuation there
   LightPathClass path_class;
   Sampler sampler;
-  Spectrum weight{1.0f};  ///< the throughput's share of what was emitted; roulette keeps it about 1
+  Spectrum weight{1.0f};  ///< the throughput's share of what was emitted, but for what guiding
+                          ///< makes of it; roulette keeps it about 1
   uint32_t segments = 0;  ///< traced so far: those across null boundaries count, each has a block
                           ///< of random numbers
   float distance = 0;     ///< from the last event to the origin of `ray`, m
@@ -87,6 +89,8 @@ struct LightPathLimits {
   /// of SurfaceVertex::eval_cosine): what is beyond this share of the emitted flux is cut off.
   float largest_weight = infinity;
   bool needs_reverse_pdf = false;  ///< PathState::pdf_reverse is to be found out
+  /// Where paths that may go on by all lobes do so; null: by the bsdf alone.
+  const ScatterGuide* guide = nullptr;
 };
 
 /// What became of light paths.

@@ -14,6 +14,7 @@ struct PathState {
   Footprint footprint;
   bool single_wavelength = false;  ///< dispersed: only the first lane is valid (spectral mode)
   float pdf_forward = 0;     ///< density per solid angle of the last direction as sampled; 0: delta
+  float pdf_unguided = 0;    ///< the same without a ScatterGuide
   float pdf_reverse = 0;     ///< density per solid angle with which the event before would send a
                              ///< path from the other end back; 0: delta or not asked for
   float roulette_scale = 1;  ///< what roulette multiplies the throughput by: the product of the

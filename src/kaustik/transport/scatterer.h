@@ -37,6 +37,7 @@ class Scatterer {
   bool is_in_medium() const { return medium_ != nullptr; }
   /// Null: in a medium.
   const SurfaceVertex* surface() const { return surface_; }
+  const Vec3f& wo() const { return medium_ ? wo_ : surface_->wo(); }
   /// Without normals in a medium.
   const SurfacePoint& point() const { return medium_ ? in_medium_ : surface_->point(); }
   const Vec3f& position() const { return point().position; }
