@@ -135,10 +135,16 @@ class ScatterLearning::Builder {
       groups.push_back({middle, group.end, bounds_of(middle, group.end, next)});
     }
     groups.insert(groups.end(), done.begin(), done.end());
+    // Points have cones too, wide enough for floats.
+    Bounds3f all = groups.front().box;
+    for (const Group& group : groups) all.extendBy(group.box);
+    for (const Event& event : events_) all.extendBy(event.position);
+    const float least_radius = 1e-3f * bounding_radius(all);
     for (const Group& group : groups) {
       // The vertices to come lie a little farther out than those that there are.
-      const auto count = float(group.end - group.begin);
-      parts_.balls.push_back({center(group.box), bounding_radius(group.box) * (1 + 1 / count)});
+      const float margin = 1 + 1 / float(group.end - group.begin);
+      parts_.balls.push_back(
+          {center(group.box), std::max(least_radius, margin * bounding_radius(group.box))});
     }
   }
 

@@ -22,7 +22,7 @@ struct LightScattering {
 /// guided so. (EmissionLearning asks for least noise by paths that go on as those did; of events
 /// one after the other that would teach each as if the next were not guided.) The balls hold the
 /// vertices that events of use went to, so that few events teach what lies in which direction from
-/// everywhere (after Fu et al. 2024, whose Gaussians stand for them); the shares of a cell are
+/// everywhere (after Huang et al. 2024, whose Gaussians stand for them); the shares of a cell are
 /// those by which its events are likeliest.
 class ScatterLearning {
  public:
