@@ -115,5 +115,21 @@ TEST(LightPathEmission, FluxIsThePowerOfTheLights) {
   }
 }
 
+/// Nothing is aimed at what a lamp can't shine at: such rays would carry nothing.
+TEST(LightPathEmission, NoRaysForWhatIsBehindTheLamp) {
+  const auto share_with_flux = [](const Vec3d& ball) {
+    const auto scene = make_scene({light("rectangle"), sphere(ball, 0.4, mirror())});
+    const LightPathEmission emission(*scene);
+    int count = 0;
+    for (int i = 0; i < 1000; ++i) {
+      Sampler sampler = independent(i);
+      count += emission.sample(sampler).light >= 0 ? 1 : 0;
+    }
+    return count / 1000.0;
+  };
+  EXPECT_EQ(share_with_flux(Vec3d(0, 0, 3)), 1);
+  EXPECT_GT(share_with_flux(Vec3d(0, 0, 0)), 0.95);
+}
+
 }  // namespace
 }  // namespace kaustik::test

@@ -23,6 +23,8 @@ constexpr uint32_t most_pilots = 4;
 constexpr double worth_a_pilot = 0.7;
 /// Or where no more paths than that were of use.
 constexpr size_t few_paths = 1024;
+/// Trials whether to guide scattering have so small a part of the pilot passes' paths.
+constexpr uint32_t trial_part = 4;
 /// Light paths are guided where they are scattered if no more than this is left of noise times
 /// rays.
 constexpr double worth_guiding = 0.8;
@@ -150,6 +152,16 @@ float accepted_area(const PixelPlans& pixels) {
 }
 
 VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& stop) const {
+  VcmPlans plans = plan(samples_per_pixel, stop);
+  if (plans.scattering && plans.techniques.needs_light_paths())
+    plans.decisions.push_back(fmt::format(
+        "light paths are guided where matt surfaces scatter them: {:.2g} times less to do for what "
+        "they bring, by a pilot's estimate",
+        1 / plans.noise_of_guided));
+  return plans;
+}
+
+VcmPlans VcmPlanner::plan(uint32_t samples_per_pixel, const std::stop_token& stop) const {
   VcmPlans plans;
   plans.samples_per_pixel = samples_per_pixel;
   plans.emission = plain_;
@@ -213,27 +225,23 @@ VcmPlanner::PilotLight VcmPlanner::guide_scattering(VcmPlans& plans, PilotLight 
                                                     uint32_t round, uint32_t count,
                                                     const std::stop_token& stop) const {
   if (!settings_.guided_scattering) return light;
-  const auto unguided_rays = double(light.rays);
-  double left = worth_guiding;
-  for (uint32_t trials = 0; trials < most_pilots; ++trials) {
+  const uint32_t of_trial = std::max(1u, count / trial_part);
+  const double unguided_rays = double(light.rays) / double(count) * double(of_trial);
+  for (const uint32_t end = round + most_pilots; round < end; ++round) {
     const auto learned = plans.use->scattering().learned();
     if (!learned) break;
-    PilotLight trial = trace_pilot({plans.emission, learned}, round + trials, count, plans, stop);
-    if (stop.stop_requested()) break;
+    const PilotLight trial = trace_pilot({plans.emission, learned}, round, of_trial, plans, stop);
+    if (stop.stop_requested()) return light;
     plans.use->learn(trial.vertices);
     const LightPathUse::Noise noise = plans.use->noise(trial.vertices);
-    const double of_trial = noise.guided * double(trial.rays) / (noise.unguided * unguided_rays);
-    if (!(of_trial < left)) break;
-    left = of_trial;
+    const double guided = noise.guided * double(trial.rays);
+    const double least = plans.scattering ? plans.noise_of_guided : worth_guiding;
+    if (!(guided < least * noise.unguided * unguided_rays)) break;
+    plans.noise_of_guided = guided / (noise.unguided * unguided_rays);
     plans.scattering = learned;
-    light = std::move(trial);
   }
-  if (plans.scattering)
-    plans.decisions.push_back(fmt::format(
-        "light paths are guided where matt surfaces scatter them: {:.2g} times less to do for what "
-        "they bring, by a pilot's estimate",
-        1 / left));
-  return light;
+  if (!plans.scattering) return light;
+  return trace_pilot({plans.emission, plans.scattering}, round + 1, count, plans, stop);
 }
 
 VcmPlanner::PilotLight VcmPlanner::trace_pilot(const Guides& guides, uint32_t round, uint32_t count,

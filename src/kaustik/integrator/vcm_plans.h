@@ -30,6 +30,7 @@ struct VcmPlans {
   uint32_t samples_per_pixel = 0;
   std::shared_ptr<const LightPathEmission> emission;
   std::shared_ptr<const ScatterGuide> scattering;  ///< of light paths; null: not guided
+  double noise_of_guided = 1;  ///< times rays, relative to that without, in the last pilot pass
   Techniques techniques;
   float light_paths = 0;  ///< per camera sample
   PixelPlans pixels;
@@ -75,6 +76,7 @@ class VcmPlanner {
     std::shared_ptr<const LightPathEmission> emission;
     std::shared_ptr<const ScatterGuide> scattering;
   };
+  VcmPlans plan(uint32_t samples_per_pixel, const std::stop_token& stop) const;
   /// The light paths of a pilot pass.
   struct PilotLight {
     Guides guides;

@@ -18,6 +18,11 @@ constexpr double even_share = 0.1;
 /// Before they are made to sum to 1.
 constexpr double least_chance = 0x1p-22;
 
+/// Aimed rays by which it is told whether a light has any.
+constexpr uint32_t aim_probes = 32;
+/// Of their random numbers' addresses.
+constexpr uint64_t aim_element = uint64_t(7) << 40;
+
 /// A number below `share`, or not: made uniform again.
 bool takes(float& u, float share) {
   const bool is_below = u < share;
@@ -32,8 +37,7 @@ LightPathEmission::LightPathEmission(const Scene& scene, Aim aim)
     : scene_(&scene),
       own_(std::make_shared<const EmissionSampler>(scene)),
       aimed_(std::make_shared<const EmissionSampler>(scene, Lobes::specular, default_target_budget,
-                                                     aim)),
-      aimed_share_(aimed_->aimed() && aimed_->target_count() > 0 ? share_for_caustics : 0.0f) {
+                                                     aim)) {
   double total = 0, emitting = 0;
   for (const auto& light : scene.lights()) {
     total += double(light->power().sum());
@@ -45,6 +49,20 @@ LightPathEmission::LightPathEmission(const Scene& scene, Aim aim)
     chances.push_back(power > 0 ? (1 - even_share) * power / total + even_share / emitting : 0.0);
   }
   set_chances(chances);
+  const bool aims = aimed_->aimed() && aimed_->target_count() > 0;
+  for (size_t i = 0; i < scene.lights().size(); ++i)
+    aimed_shares_.push_back(aims && has_aimed_rays(int(i)) ? share_for_caustics : 0.0f);
+}
+
+/// Bounds let a light aim at what it can't shine at, such as what is behind it.
+bool LightPathEmission::has_aimed_rays(int light) const {
+  for (uint32_t i = 0; i < aim_probes; ++i) {
+    Sampler sampler = Sampler::at(0, 0, Stream::training, aim_element + uint64_t(light), i);
+    const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
+    const float u_target = sampler.next_1d();
+    if (!aimed_->sample(light, u_position, u_direction, u_target).flux.is_zero()) return true;
+  }
+  return false;
 }
 
 LightPathEmission::LightPathEmission(const LightPathEmission& plain,
@@ -52,7 +70,7 @@ LightPathEmission::LightPathEmission(const LightPathEmission& plain,
     : scene_(plain.scene_),
       own_(plain.own_),
       aimed_(plain.aimed_),
-      aimed_share_(plain.aimed_share_),
+      aimed_shares_(plain.aimed_shares_),
       guides_(guides) {
   std::vector<double> chances;
   for (const Guide& guide : guides) chances.push_back(double(guide.chance));
@@ -82,7 +100,7 @@ EmittedRay LightPathEmission::sample_plain(int light, const Vec2f& u_position,
                                            const Vec2f& u_direction, float u_choice) const {
   if (searching_ && takes(u_choice, search_share))
     return searching_->sample(light, u_position, u_direction, u_choice);
-  const bool aims = takes(u_choice, aimed_share_);
+  const bool aims = takes(u_choice, aimed_shares_[size_t(light)]);
   return (aims ? *aimed_ : *own_).sample(light, u_position, u_direction, u_choice);
 }
 
@@ -116,8 +134,9 @@ EmissionDensity LightPathEmission::pdf(int light, const SurfacePoint& origin,
 
 float LightPathEmission::plain_pdf(int light, const SurfacePoint& origin,
                                    const Vec3f& direction) const {
-  float joint = (1 - aimed_share_) * own_->pdf(light, origin, direction);
-  if (aimed_share_ > 0) joint += aimed_share_ * aimed_->pdf(light, origin, direction);
+  const float aimed = aimed_shares_[size_t(light)];
+  float joint = (1 - aimed) * own_->pdf(light, origin, direction);
+  if (aimed > 0) joint += aimed * aimed_->pdf(light, origin, direction);
   if (searching_) joint += search_share * (searching_->pdf(light, origin, direction) - joint);
   return joint;
 }

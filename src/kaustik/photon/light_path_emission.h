@@ -62,6 +62,7 @@ class LightPathEmission {
   EmissionDensity density(int light, const SurfacePoint& origin, const Vec3f& direction) const;
   EmittedRay sample_plain(int light, const Vec2f& u_position, const Vec2f& u_direction,
                           float u_choice) const;
+  bool has_aimed_rays(int light) const;
   void set_chances(const std::vector<double>& chances);
 
   const Scene* scene_;
@@ -69,7 +70,7 @@ class LightPathEmission {
   std::vector<float> cumulative_;  ///< chances of the lights, summed up
   std::vector<float> chance_;
   std::shared_ptr<const EmissionSampler> aimed_;
-  float aimed_share_ = 0;
+  std::vector<float> aimed_shares_;                   ///< of each light's rays
   std::shared_ptr<const EmissionSampler> searching_;  ///< null: none
   /// Empty while nothing has been learned.
   std::vector<Guide> guides_;
