@@ -16,7 +16,7 @@ namespace {
 
 using namespace kaustik;
 
-constexpr int size = 96;
+constexpr int width = 96, height = 96;
 constexpr uint64_t seeds = 8;
 /// A pair is told to disagree by a chance of all pairs together of so much, …
 constexpr double level = 0.01;
@@ -42,27 +42,36 @@ double mean_of(const Image& image, int channel) {
   return sum / double(image.pixel_count());
 }
 
-Means measure(const std::string& scene_name, const std::string& integrator_name, double seconds) {
+/// A scene with one of the integrators.
+struct Setup {
+  Setup(const std::string& name, const std::string& type) {
+    Description description = bench::load_shipped(name);
+    override_integrator(description, type);
+    override_property(description, fmt::format("film.width={}", width));
+    override_property(description, fmt::format("film.height={}", height));
+    scene = build_scene(description);
+    std::vector<std::string> warnings;
+    integrator = make_integrator(description, *scene, warnings);
+  }
+  std::shared_ptr<const Scene> scene;
+  std::unique_ptr<Integrator> integrator;
+};
+
+Means measure(const std::string& scene, const std::string& integrator, double seconds) {
+  // Learning belongs to a seed, so each thread has its own.
+  std::vector<Setup> setups;
+  for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+    setups.emplace_back(scene, integrator);
   std::vector<std::map<std::string, double>> found(seeds);
   std::atomic<uint64_t> next{0};
-  const auto work = [&] {
-    // Learning belongs to a seed, so each thread has its own.
-    LoadOptions options;
-    options.definitions = {{"size", std::to_string(size)}};
-    Description description = load_mitsuba_xml(
-        std::string(KAUSTIK_SOURCE_DIR) + "/scenes/" + scene_name + "/" + scene_name + ".xml",
-        options);
-    override_integrator(description, integrator_name);
-    const auto scene = build_scene(description);
-    std::vector<std::string> warnings;
-    const auto integrator = make_integrator(description, *scene, warnings);
+  const auto work = [&](const Setup& setup) {
     for (uint64_t seed = next++; seed < seeds; seed = next++) {
       SessionSettings settings;
       // No two integrators share numbers.
-      settings.seed = 1 + seed + seeds * std::hash<std::string>()(integrator_name) % (1u << 20);
+      settings.seed = 1 + seed + seeds * std::hash<std::string>()(integrator) % (1u << 20);
       settings.threads = 1;
       settings.seconds = seconds;
-      Session session(*scene, *integrator, settings);
+      Session session(*setup.scene, *setup.integrator, settings);
       session.run();
       const Image image = session.film().image();
       for (const std::string_view component : component_names) {
@@ -73,8 +82,7 @@ Means measure(const std::string& scene_name, const std::string& integrator_name,
     }
   };
   std::vector<std::jthread> threads;
-  for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
-    threads.emplace_back(work);
+  for (const Setup& setup : setups) threads.emplace_back(work, std::cref(setup));
   threads.clear();
   Means result;
   for (const auto& of_seed : found)

@@ -1,8 +1,5 @@
 // Light paths that learn where to go on from surfaces: light from the next room.
 
-#include "kaustik/integrator/light_path_use.h"
-
-#include "kaustik/integrator/vcm_light_pass.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
 
@@ -28,10 +25,11 @@ std::string next_room(int size) {
               diffuse("0, 0, 0") + area_light("30"));
 }
 
+bool is_of_guides(const std::string& decision) {
+  return decision.find("are guided") != std::string::npos;
+}
 bool is_guided(const PassReport& report) {
-  return std::any_of(report.decisions.begin(), report.decisions.end(), [](const std::string& text) {
-    return text.find("are guided") != std::string::npos;
-  });
+  return std::any_of(report.decisions.begin(), report.decisions.end(), is_of_guides);
 }
 
 /// A ball and a block on a floor that scatters most light past them, and a lamp.
@@ -85,6 +83,33 @@ TEST(GuidedScattering, Pays) {
     std::printf("  %s: guided scattering leaves %.2f of the variance\n", type, share);
     EXPECT_LT(share, 0.7) << type;
   }
+}
+
+/// Any number of threads, and whoever renders a pass alone: the same bits.
+TEST(GuidedScattering, SameForThreadsAndPasses) {
+  const TestScene scene(next_room(16));
+  const std::string parameters = set("light_paths", 16.0);
+  const auto picture = [&](uint32_t first, uint32_t passes, int threads) {
+    const auto integrator = scene.integrator("vcm", parameters);
+    SessionSettings settings;
+    settings.first_pass = first;
+    settings.passes = passes;
+    settings.samples_per_pass = 8;
+    settings.threads = threads;
+    Session session(scene.scene(), *integrator, settings);
+    const SessionReport report = session.run();
+    EXPECT_TRUE(std::any_of(report.decisions.begin(), report.decisions.end(), is_of_guides));
+    return session.film().image();
+  };
+  const auto pixels = [](const Image& image) {
+    const auto values = image.channel(image.find_channel("indirect.G"));
+    return std::vector<float>(values.begin(), values.end());
+  };
+  const auto of_one = pixels(picture(0, 3, 1));
+  EXPECT_EQ(of_one, pixels(picture(0, 3, 4)));
+  const auto third = pixels(picture(2, 1, 2)), first_two = pixels(picture(0, 2, 2));
+  for (size_t i = 0; i < of_one.size(); ++i)
+    EXPECT_NEAR(of_one[i], (2 * first_two[i] + third[i]) / 3, 1e-5f * of_one[i]);
 }
 
 /// Between walls that are seen and lit everywhere there is nothing to guide, and it is left.

@@ -90,5 +90,44 @@ TEST(LightPathUse, MorePathsAreOfUse) {
   }
 }
 
+/// Guided paths tell the noise of paths that are not, as those do where they find enough.
+TEST(LightPathUse, NoiseOfUnguidedPaths) {
+  const TestScene test_scene(camera("0, -3, 2", "0, 0, 0.2", 45, 32) +
+                             flat("rectangle", scale("1, 1, 1"), diffuse("0.6, 0.5, 0.4")) +
+                             sphere("-0.4, 0, 0.35", 0.35, diffuse("0.7, 0.3, 0.3")) +
+                             block("0.25, 0.25, 0.4", "0.5, 0.3, 0.4") +
+                             point_light("0, 0.5, 2.5", 10));
+  const Scene& scene = test_scene.scene();
+  const LightPathEmission plain(scene);
+  PathWeights::Settings settings;
+  settings.techniques.merging = true;
+  const PathWeights weights(settings);
+  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  const auto paths = [&](const ScatterGuide* guide, uint32_t index) {
+    Pass pass;
+    pass.index = index;
+    PassReport report;
+    return trace_light_vertices(
+        {scene, plain, weights, ComponentSet::all(), 100, LightPathUse::most_pilot_paths, 1,
+         PixelPlans(), 1, LightPathUse::most_pilot_paths, MediumDisks(), guide, true},
+        pass, Stream::training, nowhere, {}, {}, report);
+  };
+  LightPathUse use(scene, plain, ComponentSet::all());
+  use.learn(paths(nullptr, 0));
+  const auto guide = use.scattering().learned();
+  ASSERT_TRUE(guide);
+  RunningStatistics unguided, by_guided, guided;
+  for (uint32_t i = 1; i <= 32; ++i) {
+    use.learn_scattering(paths(nullptr, i));
+    EXPECT_EQ(use.noise().guided, use.noise().unguided);
+    unguided.add(use.noise().guided);
+    use.learn_scattering(paths(guide.get(), i));
+    by_guided.add(use.noise().unguided);
+    guided.add(use.noise().guided);
+  }
+  expect_near_means("noise of unguided paths", Comparison(by_guided, unguided), 0.03, 0.03);
+  EXPECT_LT(guided.mean(), 0.9 * unguided.mean());
+}
+
 }  // namespace
 }  // namespace kaustik

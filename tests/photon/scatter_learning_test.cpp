@@ -12,9 +12,10 @@ namespace {
 
 constexpr float floor_size = 10;
 
-/// On a floor, toward `direction`.
-LightScattering event(const Vec3f& position, const Vec3f& next) {
+/// On a floor.
+LightScattering event(const Vec3f& position, const Vec3f& next, int path = 0) {
   LightScattering result;
+  result.path = uint32_t(path);
   result.position = position;
   result.normal = {0, 0, 1};
   result.next = next;
@@ -32,9 +33,9 @@ ScatterLearning learning(int count, double use_of_window) {
     const Vec2f u = sampler.next_2d(), v = sampler.next_2d();
     const Vec3f position(floor_size * u.x, floor_size * u.y, 0);
     if (i % 4 == 0)
-      result.add(event(position, {12, 4 + v.x, 1 + v.y}), use_of_window, 1);
+      result.add(event(position, {12, 4 + v.x, 1 + v.y}, i), use_of_window, 1);
     else
-      result.add(event(position, position + square_to_cosine_hemisphere(v) * 20.0f), 1, 1);
+      result.add(event(position, position + square_to_cosine_hemisphere(v) * 20.0f, i), 1, 1);
   }
   return result;
 }
@@ -65,7 +66,7 @@ TEST(ScatterLearning, KnowsWhereThereIsNothingToLearn) {
 /// Events in one point, to one point, or without use: nothing to divide.
 TEST(ScatterLearning, OddEvents) {
   ScatterLearning same;
-  for (int i = 0; i < 1000; ++i) same.add(event({1, 2, 0}, {3, 2, 4}), 1, 1);
+  for (int i = 0; i < 1000; ++i) same.add(event({1, 2, 0}, {3, 2, 4}, i), 1, 1);
   same.add(event({1, 2, 0}, {3, 2, 4}), 0, 1);
   same.add(event({1, 2, 0}, {3, 2, 4}), double(infinity), 1);
   EXPECT_EQ(same.size(), 1000u);

@@ -66,13 +66,34 @@ TEST(ScatterGuide, SamplesFollowTheDensity) {
   EXPECT_LT(chi_square(1.05), 1e-6);
 }
 
-/// Narrow cones too, whose cosine is 1 in floats.
+/// Narrow cones too, whose cosine is nearly 1 in floats.
 TEST(ScatterGuide, DensityOfAFarBall) {
-  const ScatterGuide::Ball ball{{3000, 4000, 0}, 1};
-  const double sine_sq = 1 / (5000.0 * 5000.0);
+  const ScatterGuide::Ball ball{{3000, 4000, 0}, 10};
+  const double sine_sq = 1 / (500.0 * 500.0);
   const double solid_angle = M_PI * sine_sq;  // to within its square
   EXPECT_NEAR(double(ScatterGuide::pdf(ball, {0, 0, 0}, {0.6f, 0.8f, 0})) * solid_angle, 1, 1e-5);
-  EXPECT_EQ(ScatterGuide::pdf(ball, {0, 0, 0}, normalize(Vec3f(0.6f, 0.8f, 3e-4f))), 0);
+  EXPECT_EQ(ScatterGuide::pdf(ball, {0, 0, 0}, normalize(Vec3f(0.6f, 0.8f, 2.2e-3f))), 0);
+}
+
+/// Whatever is drawn from a cone has its density, however narrow that is.
+TEST(ScatterGuide, WhatIsDrawnHasADensity) {
+  std::mt19937 numbers(2);
+  const auto next = [&] { return float(numbers() >> 8) * 0x1p-24f; };
+  for (const float radius : {0.3f, 1e-2f, 1e-3f, 1e-4f, 1e-6f}) {
+    int lost = 0;
+    for (int i = 0; i < 20'000; ++i) {
+      const ScatterGuide::Ball ball{square_to_sphere({next(), next()}), radius};
+      ScatterGuide::Parts parts;
+      parts.balls = {ball};
+      parts.shares = {{0, 0.3f}};
+      parts.cells = {{0.3f, 0, 1}};
+      parts.nodes.resize(ScatterGuide::side_count);
+      const ScatterGuide one(std::move(parts));
+      const Vec3f direction = one.place({0, 0, 0}, 0).sample(0.1f, {next(), next()});
+      lost += ScatterGuide::pdf(ball, {0, 0, 0}, direction) > 0 ? 0 : 1;
+    }
+    EXPECT_EQ(lost, 0) << radius;
+  }
 }
 
 TEST(ScatterGuide, PlacesHaveCellsOfTheirOwn) {

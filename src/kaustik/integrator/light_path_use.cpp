@@ -162,8 +162,8 @@ std::vector<double> LightPathUse::squared_uses(const LightVertices& light,
   return squares;
 }
 
-LightPathUse::Noise LightPathUse::noise(const LightVertices& light) const {
-  if (light.beginnings.empty() || light.tree.empty()) return {};
+LightPathUse::Noise LightPathUse::noise_of(const LightVertices& light,
+                                           const std::vector<Arrival>& arrivals) const {
   // Density of each vertex over what it were if nothing was guided.
   std::vector<float> ratio(size_t(light.beginnings.back().path) + 1, 1.0f);
   for (const LightScattering& event : light.scatterings) {
@@ -173,7 +173,7 @@ LightPathUse::Noise LightPathUse::noise(const LightVertices& light) const {
   }
   const std::vector<double> total = totals(1);
   Noise sum;
-  for (const Arrival& arrival : arrivals(light)) {
+  for (const Arrival& arrival : arrivals) {
     const double square = sqr(use_of(arrival, total, double(light.remembered_paths)));
     sum.guided += square;
     double unguided = square;
@@ -184,25 +184,39 @@ LightPathUse::Noise LightPathUse::noise(const LightVertices& light) const {
   return sum;
 }
 
-void LightPathUse::learn(const LightVertices& light) {
+std::vector<double> LightPathUse::look_at(const LightVertices& light) {
   paths_ += double(light.remembered_paths);
-  if (light.beginnings.empty() || light.tree.empty()) return;
+  noise_ = {};
+  if (light.beginnings.empty() || light.tree.empty()) return {};
   const std::vector<Arrival> all = arrivals(light);
   for (const Arrival& arrival : all) arrived_[arrival.probe] += double(arrival.light);
-  const std::vector<double> squares = squared_uses(light, all);
-  const auto use_from = [&](size_t vertex) {
-    return vertex < squares.size() ? std::sqrt(squares[vertex]) : 0.0;
-  };
-  for (const LightPathBeginning& beginning : light.beginnings)
-    if (const double use = use_from(beginning.path); use > 0) emission_.add(beginning.start, use);
-  constexpr size_t most = ScatterLearning::most_events_of_lesson;
+  noise_ = noise_of(light, all);
+  return squared_uses(light, all);
+}
+
+void LightPathUse::learn_scattering(const LightVertices& light) {
+  learn_scattering(light, look_at(light));
+}
+
+void LightPathUse::learn_scattering(const LightVertices& light,
+                                    const std::vector<double>& squares) {
   std::vector<std::pair<const LightScattering*, double>> events;
   for (const LightScattering& event : light.scatterings)
-    if (const double use = use_from(size_t(event.path) + event.at + 1); use > 0)
-      events.emplace_back(&event, use);
+    if (const size_t next = size_t(event.path) + event.at + 1;
+        next < squares.size() && squares[next] > 0)
+      events.emplace_back(&event, std::sqrt(squares[next]));
+  constexpr size_t most = ScatterLearning::most_events_of_lesson;
   const size_t step = (events.size() + most - 1) / most;
   for (size_t i = 0; i < events.size(); i += step)
     scattering_.add(*events[i].first, events[i].second, double(step));
+}
+
+void LightPathUse::learn(const LightVertices& light) {
+  const std::vector<double> squares = look_at(light);
+  for (const LightPathBeginning& beginning : light.beginnings)
+    if (beginning.path < squares.size() && squares[beginning.path] > 0)
+      emission_.add(beginning.start, std::sqrt(squares[beginning.path]));
+  learn_scattering(light, squares);
 }
 
 }  // namespace kaustik

@@ -23,14 +23,19 @@ class LightPathUse {
 
   /// Learns from the next pass: from its paths whose beginnings are remembered.
   void learn(const LightVertices& light);
+  /// The same, but for emission: of paths that are guided on trial.
+  void learn_scattering(const LightVertices& light);
+  /// Forgets what paths that were not guided taught of emission: it holds for such alone.
+  void forget_emission() { emission_.clear(); }
+
   /// Second moments of what light paths bring to the probes, relative to the light there and that
   /// of the mean; up to a common factor.
   struct Noise {
     double guided = 0;    ///< of such paths
     double unguided = 0;  ///< of paths that are scattered as if nothing had been learned
   };
-  /// Told by the remembered paths of a pass: guided ones find what the others do not.
-  Noise noise(const LightVertices& light) const;
+  /// Told by the paths of the last lesson: guided ones find what the others do not.
+  const Noise& noise() const { return noise_; }
   const EmissionLearning& emission() const { return emission_; }
   const ScatterLearning& scattering() const { return scattering_; }
 
@@ -42,6 +47,10 @@ class LightPathUse {
     float light;            ///< that it would send to the camera, were its path the only one
   };
   std::vector<Arrival> arrivals(const LightVertices& light) const;
+  Noise noise_of(const LightVertices& light, const std::vector<Arrival>& arrivals) const;
+  /// Σ use² at and after each vertex, as squared_uses(); empty if there is nothing to learn.
+  std::vector<double> look_at(const LightVertices& light);
+  void learn_scattering(const LightVertices& light, const std::vector<double>& squares);
   /// Of one of so many paths.
   static double use_of(const Arrival& arrival, const std::vector<double>& totals, double paths);
   /// Σ use² of what comes at and after each vertex of the paths that are remembered; none of use
@@ -59,6 +68,7 @@ class LightPathUse {
   float reach_ = 1;  ///< of the probes, in widths of a pixel there
   EmissionLearning emission_;
   ScatterLearning scattering_;
+  Noise noise_;
 };
 
 }  // namespace kaustik

@@ -183,7 +183,7 @@ LightVertices VcmIntegrator::trace(const VcmPlans& plans, const PathWeights& wei
        light_path_count(scene_.film().crop_size, pass.samples_per_pixel, plans.light_paths),
        float(pass.samples_per_pixel), plans.pixels, shrinkage,
        VcmLearning::remembered_paths(pass.index, plans), plans.media.shrunk(shrinkage),
-       plans.scattering.get()},
+       plans.scattering.get(), plans.scattering != nullptr},
       pass, Stream::light_path, splats, stop, progress, report);
 }
 

@@ -42,6 +42,7 @@ VcmCameraPath::VcmCameraPath(const VcmCameraPath& other, CameraWalk& branch)
       plan_(other.plan_),
       vertices_(other.vertices_),
       vertices_before_(vertices_.size()),
+      guided_(other.guided_),
       here_(branch.scatterer()),
       last_(other.last_),
       last_facing_(other.last_facing_),
@@ -103,6 +104,18 @@ void VcmCameraPath::arrive() {
                                            : next_vertex(point.position, facing));
   last_ = point;
   last_facing_ = facing;
+  find_guides();
+}
+
+void VcmCameraPath::find_guides() {
+  guided_ = {};
+  // What goes back along delta events alone nothing else finds.
+  if (!in_.scattering || all_delta_ || here_.is_in_medium()) return;
+  const SurfaceVertex& vertex = *here_.surface();
+  const Vec3f& ng = vertex.point().ng;
+  for (const bool front : {false, true})
+    if (front == vertex.on_front() || vertex.transmits())
+      guided_[front ? 1 : 0] = in_.scattering->place(vertex, front ? ng : -ng);
 }
 
 void VcmCameraPath::leave() {
@@ -138,15 +151,9 @@ float VcmCameraPath::pdf_light_before(const Vec3f& wi) const {
   return pdf_back(wi) * vertices_.back().to_previous;
 }
 
-float VcmCameraPath::guided_pdf(const Scatterer& at, const Vec3f& from, const Vec3f& to,
-                                float plain) const {
-  if (!in_.scattering || !at.surface()) return plain;
-  return in_.scattering->place(*at.surface(), from).pdf(plain, to);
-}
-
 float VcmCameraPath::pdf_back(const Vec3f& wi) const {
-  const float plain = here_.pdf_reverse(wi, Lobes::all);
-  return in_.scattering ? guided_pdf(here_, wi, here_.wo(), plain) : plain;
+  const bool from_front = dot(wi, last_.ng) >= 0;
+  return guided_[from_front ? 1 : 0].pdf(here_.pdf_reverse(wi, Lobes::all), here_.wo());
 }
 
 float VcmCameraPath::sampled(const Scatterer& vertex, const DirectLight& light) const {
@@ -238,6 +245,12 @@ void VcmCameraPath::connect(int count) {
   }
 }
 
+float VcmCameraPath::pdf_of_light(const Scatterer& at, const Vec3f& to) const {
+  const float plain = at.pdf(to, Lobes::all);
+  if (!in_.scattering || at.is_in_medium()) return plain;
+  return in_.scattering->place(*at.surface(), at.wo()).pdf(plain, to);
+}
+
 void VcmCameraPath::connect_to(const ConnectibleVertex& to) {
   // Events: those of the walk, at both vertices, and between the light and `to`.
   if (walk_.events() + 1 + int(to.data.before) > in_.maximum_events) return;
@@ -254,8 +267,7 @@ void VcmCameraPath::connect_to(const ConnectibleVertex& to) {
   PathHalves path = halves();
   path.light = {in_.light.vertices.data() + to.data.path, size_t(to.data.before) + 1};
   path.pdf_light_last =
-      guided_pdf(other, other.wo(), -direction, other.pdf(-direction, Lobes::all)) *
-      vertex.facing().factor(direction) / distance_sq;
+      pdf_of_light(other, -direction) * vertex.facing().factor(direction) / distance_sq;
   path.pdf_light_before_last = pdf_light_before(direction);
   path.pdf_camera_last =
       vertex.pdf(direction, Lobes::all) * other.facing().factor(direction) / distance_sq;

@@ -103,6 +103,9 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   PathVertex next_in_medium(const Vec3f& position, const Medium& medium) const;
   PathVertex infinitely_far() const;
   void arrive();
+  void find_guides();
+  /// Density per solid angle with which a light path goes on from its vertex `at`.
+  float pdf_of_light(const Scatterer& at, const Vec3f& to) const;
   /// How far from the last vertex segments in media merge, m.
   float merging_length() const;
   /// Weight of merging with `light`, which lies beside `at`, the last vertex.
@@ -110,10 +113,8 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
                             float phase_back) const;
   void connect_to(const ConnectibleVertex& to);
   PathHalves halves() const;
-  /// Density per solid angle with which light that comes to `at` from `from` goes on to `to`, where
-  /// `plain` is that of the bsdf.
-  float guided_pdf(const Scatterer& at, const Vec3f& from, const Vec3f& to, float plain) const;
-  /// The same of light that comes to the last vertex from `wi` and goes back along the walk.
+  /// Density per solid angle with which light that comes to the last vertex from `wi` goes back
+  /// along the walk.
   float pdf_back(const Vec3f& wi) const;
   /// Of the vertex before the last, if light comes to that from `wi`.
   float pdf_light_before(const Vec3f& wi) const;
@@ -140,11 +141,13 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   PixelPlan plan_;
   std::vector<PathVertex>& vertices_;  ///< those of branches come after those of their stem
   size_t vertices_before_;             ///< its size when this was made
-  Scatterer here_;                     ///< the walk's last vertex, until the walk goes on
-  SurfacePoint last_;                  ///< of that vertex, without normals in a medium
-  Facing last_facing_;                 ///< of that vertex
-  LightQuery previous_;                ///< of the last vertex
-  bool all_delta_ = true;              ///< events so far
+  /// What light that comes from the back (0) or the front (1) of that is guided by.
+  std::array<ScatterGuide::Place, 2> guided_;
+  Scatterer here_;         ///< the walk's last vertex, until the walk goes on
+  SurfacePoint last_;      ///< of that vertex, without normals in a medium
+  Facing last_facing_;     ///< of that vertex
+  LightQuery previous_;    ///< of the last vertex
+  bool all_delta_ = true;  ///< events so far
   bool no_light_paths_ = false;
   size_t first_ = 0;  ///< number of the first vertex whose event is not delta; 0: none yet
 };

@@ -12,7 +12,7 @@ namespace {
 
 /// Passes that are learned from at most.
 constexpr uint32_t most_learned_passes = 256;
-/// The same for emission; of each epoch the last pass.
+/// The same for what guides light paths; of each epoch the last pass.
 constexpr uint32_t most_guided_passes = 16;
 
 /// On a side: one block of the trial of connections has so many of the plans.

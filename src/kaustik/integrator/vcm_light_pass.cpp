@@ -146,7 +146,7 @@ class Tracer {
     PathUnderWay& path = paths_[at.path - begin_];
     const SurfaceVertex& vertex = at.vertex;
     const Facing facing{vertex.point().ng, 0};
-    if (at.path < in_.remembered_paths) remember(at, path);
+    if (in_.remembers_scattering && at.path < in_.remembered_paths) remember(at, path);
     path.vertices.push_back(
         next_vertex(path, light_query(vertex, 1), facing, at.state, vertex.wo(), at.distance));
     path.last = facing;
@@ -164,7 +164,7 @@ class Tracer {
       scatterings_.push_back(path.scattering);
     }
     path.scattering = {};
-    if (!ScatterGuide::guides(at.vertex.lobes())) return;
+    if (!ScatterGuide::guides(at.vertex)) return;
     const Vec3f& ng = at.vertex.point().ng;
     path.scattering.path = at.path - begin_;
     path.scattering.at = uint32_t(path.vertices.size());

@@ -23,6 +23,7 @@ struct VcmLightInputs {
   uint32_t remembered_paths = 0;
   MediumDisks media = {};
   const ScatterGuide* scattering = nullptr;  ///< null: none is guided
+  bool remembers_scattering = false;         ///< of the paths whose beginnings are remembered
 };
 
 /// Traces the light paths of a pass, keeps their vertices, and splats them where that is one of the

@@ -115,8 +115,10 @@ void choose_light_paths(VcmPlans& plans) {
 
 void VcmPlans::guide_by(const LightPathUse& learned) {
   if (const auto found = learned.emission().learned()) emission = found;
-  if (scattering)
-    if (const auto found = learned.scattering().learned()) scattering = found;
+  if (!scattering) return;
+  const LightPathUse::Noise& noise = learned.noise();
+  const bool pays = noise.guided < noise.unguided;
+  scattering = pays ? learned.scattering().learned() : nullptr;
 }
 
 std::vector<MergeScale> VcmPlans::merge_scales(const std::vector<PixelPlan>& disks,
@@ -211,29 +213,30 @@ VcmPlanner::PilotLight VcmPlanner::search_light(VcmPlans& plans, uint32_t count,
     const bool searches = plans.emission == plain_ && learning.size() < few_paths;
     if (pilots == most_pilots || !(searches || after < worth_a_pilot * before)) {
       // All else is to be told by light as passes will have it.
-      if (emission == searching) {
+      if (emission != plans.emission) {
         light = trace_pilot({plans.emission, nullptr}, pilots, count, plans, stop);
         if (!stop.stop_requested()) use->learn(light.vertices);
       }
-      return guide_scattering(plans, std::move(light), pilots + 1, count, stop);
+      return guide_scattering(plans, *use, std::move(light), pilots + 1, count, stop);
     }
     emission = searches ? searching : plans.emission;
   }
 }
 
-VcmPlanner::PilotLight VcmPlanner::guide_scattering(VcmPlans& plans, PilotLight light,
-                                                    uint32_t round, uint32_t count,
+VcmPlanner::PilotLight VcmPlanner::guide_scattering(VcmPlans& plans, LightPathUse& use,
+                                                    PilotLight light, uint32_t round,
+                                                    uint32_t count,
                                                     const std::stop_token& stop) const {
   if (!settings_.guided_scattering) return light;
   const uint32_t of_trial = std::max(1u, count / trial_part);
   const double unguided_rays = double(light.rays) / double(count) * double(of_trial);
   for (const uint32_t end = round + most_pilots; round < end; ++round) {
-    const auto learned = plans.use->scattering().learned();
+    const auto learned = use.scattering().learned();
     if (!learned) break;
     const PilotLight trial = trace_pilot({plans.emission, learned}, round, of_trial, plans, stop);
     if (stop.stop_requested()) return light;
-    plans.use->learn(trial.vertices);
-    const LightPathUse::Noise noise = plans.use->noise(trial.vertices);
+    use.learn_scattering(trial.vertices);
+    const LightPathUse::Noise& noise = use.noise();
     const double guided = noise.guided * double(trial.rays);
     const double least = plans.scattering ? plans.noise_of_guided : worth_guiding;
     if (!(guided < least * noise.unguided * unguided_rays)) break;
@@ -241,7 +244,10 @@ VcmPlanner::PilotLight VcmPlanner::guide_scattering(VcmPlans& plans, PilotLight 
     plans.scattering = learned;
   }
   if (!plans.scattering) return light;
-  return trace_pilot({plans.emission, plans.scattering}, round + 1, count, plans, stop);
+  light = trace_pilot({plans.emission, plans.scattering}, round + 1, count, plans, stop);
+  use.forget_emission();
+  if (!stop.stop_requested()) use.learn(light.vertices);
+  return light;
 }
 
 VcmPlanner::PilotLight VcmPlanner::trace_pilot(const Guides& guides, uint32_t round, uint32_t count,
@@ -259,7 +265,7 @@ VcmPlanner::PilotLight VcmPlanner::trace_pilot(const Guides& guides, uint32_t ro
   light.vertices = trace_light_vertices(
       {scene_, *guides.emission, weights, settings_.components, settings_.maximum_events, count, 1,
        PixelPlans(), 1, settings_.guiding ? LightPathUse::most_pilot_paths : 0, MediumDisks(),
-       guides.scattering.get()},
+       guides.scattering.get(), settings_.guided_scattering},
       pass, Stream::training, nowhere, stop, {}, report);
   light.guides = guides;
   light.rays = report.rays;

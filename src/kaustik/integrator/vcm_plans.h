@@ -30,7 +30,8 @@ struct VcmPlans {
   uint32_t samples_per_pixel = 0;
   std::shared_ptr<const LightPathEmission> emission;
   std::shared_ptr<const ScatterGuide> scattering;  ///< of light paths; null: not guided
-  double noise_of_guided = 1;  ///< times rays, relative to that without, in the last pilot pass
+  /// Its noise times rays, relative to that without, in the trial of the pilot's last guide.
+  double noise_of_guided = 1;
   Techniques techniques;
   float light_paths = 0;  ///< per camera sample
   PixelPlans pixels;
@@ -41,7 +42,7 @@ struct VcmPlans {
   /// Vertices that may be connected, per light path: what the weights go by.
   float connectible_per_path = 1;
   /// Of the light paths of the pilot passes; null: emission is not guided.
-  std::shared_ptr<LightPathUse> use;
+  std::shared_ptr<const LightPathUse> use;
 
   bool chooses_survival = true;  ///< else camera paths always go on
   /// Of each probe's block, whether camera paths are connected to light paths where that is one of
@@ -87,8 +88,8 @@ class VcmPlanner {
   PilotLight search_light(VcmPlans& plans, uint32_t count, const std::stop_token& stop) const;
   /// Guides scattering, too, if that leaves less noise than `light`; the light of the plans then.
   /// The pilot passes are numbered from `round` on.
-  PilotLight guide_scattering(VcmPlans& plans, PilotLight light, uint32_t round, uint32_t count,
-                              const std::stop_token& stop) const;
+  PilotLight guide_scattering(VcmPlans& plans, LightPathUse& use, PilotLight light, uint32_t round,
+                              uint32_t count, const std::stop_token& stop) const;
   PilotLight trace_pilot(const Guides& guides, uint32_t round, uint32_t count, VcmPlans& plans,
                          const std::stop_token& stop) const;
   VcmPilot make_pilot(VcmPlans& plans, const PilotLight& light, uint32_t light_paths) const;

@@ -21,6 +21,7 @@ class EmissionLearning {
   /// A path that began with `start` was of use `use`, in any unit.
   void add(const LightPathStart& start, double use);
   size_t size() const { return paths_.size(); }
+  void clear() { paths_.clear(); }
 
   /// What the paths so far teach. Null where it does not pay: of two halves of the paths, each
   /// would be worth about as much with what the other has taught.

@@ -18,8 +18,8 @@ constexpr double even_share = 0.1;
 /// Before they are made to sum to 1.
 constexpr double least_chance = 0x1p-22;
 
-/// Aimed rays by which it is told whether a light has any.
-constexpr uint32_t aim_probes = 32;
+/// Aimed rays by which it is told that a light has none: of so many.
+constexpr uint32_t aim_probes = 512;
 /// Of their random numbers' addresses.
 constexpr uint64_t aim_element = uint64_t(7) << 40;
 

@@ -1,7 +1,6 @@
 #include "kaustik/photon/scatter_learning.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "kaustik/base/parallel.h"
@@ -39,6 +38,7 @@ void ScatterLearning::add(const LightScattering& event, double use, double event
   added.unguided = event.pdf_unguided;
   added.weight = events * use;
   added.side = ScatterGuide::side_of(event.normal);
+  added.half = int(event.path * 0x9e3779b1u >> 31);
   if (added.weight > 0 && added.unguided > 0 && std::isfinite(added.weight))
     events_.push_back(added);
 }
@@ -62,7 +62,7 @@ class ScatterLearning::Builder {
     learn();
   }
 
-  /// Mean of log(p / unguided p), by use, of events that others have been learned from.
+  /// Mean of log(p / unguided p), by use, of events by what those of other paths taught.
   double mean_gain() const { return mean_gain_; }
   ScatterGuide::Parts take_parts() { return std::move(parts_); }
 
@@ -70,8 +70,13 @@ class ScatterLearning::Builder {
   /// Shares of the balls, and at the end of what is not guided; they sum to 1.
   using Shares = std::vector<double>;
   struct Range {
-    size_t begin, end, step;
+    size_t begin, end;
+    int half = both;  ///< of the events, Event::half
   };
+  static constexpr int both = -1;
+  bool is_in(const Range& range, const Event& event) const {
+    return range.half == both || range.half == event.half;
+  }
   /// The events of a cell.
   struct Leaf {
     size_t begin, end;
@@ -188,7 +193,8 @@ class ScatterLearning::Builder {
     for (int step = 0; step < steps; ++step) {
       std::fill(parts.begin(), parts.end(), 0.0);
       double sum = 0;
-      for (size_t i = range.begin; i < range.end; i += range.step) {
+      for (size_t i = range.begin; i < range.end; ++i) {
+        if (!is_in(range, events_[i])) continue;
         const double factor = events_[i].weight / density(i, shares);
         const float* of_event = densities_.data() + i * shares.size();
         for (size_t k = 0; k < shares.size(); ++k)
@@ -210,7 +216,8 @@ class ScatterLearning::Builder {
   /// Leaning on what is known of all.
   Shares fit_cell(const Range& range, const Shares& of_all) const {
     Shares shares = fit(range, of_all);
-    const double events = double((range.end - range.begin) / range.step);
+    double events = 0;
+    for (size_t i = range.begin; i < range.end; ++i) events += is_in(range, events_[i]) ? 1 : 0;
     for (size_t k = 0; k < shares.size(); ++k)
       shares[k] = (events * shares[k] + events_of_all * of_all[k]) / (events + events_of_all);
     return shares;
@@ -218,8 +225,9 @@ class ScatterLearning::Builder {
   /// Σ w log(p / unguided p).
   double gain(const Range& range, const Shares& shares) const {
     double sum = 0;
-    for (size_t i = range.begin; i < range.end; i += range.step)
-      sum += events_[i].weight * std::log(density(i, shares) / double(events_[i].unguided));
+    for (size_t i = range.begin; i < range.end; ++i)
+      if (is_in(range, events_[i]))
+        sum += events_[i].weight * std::log(density(i, shares) / double(events_[i].unguided));
     return sum;
   }
 
@@ -233,8 +241,7 @@ class ScatterLearning::Builder {
       }
     });
     const Shares even(kinds, 1 / double(kinds));
-    const size_t count = events_.size();
-    const Shares of_all[] = {fit({0, count, 2}, even), fit({1, count, 2}, even)};
+    const Shares of_all[] = {fit({0, events_.size(), 0}, even), fit({0, events_.size(), 1}, even)};
     Shares mean(kinds);
     for (size_t k = 0; k < kinds; ++k) mean[k] = 0.5 * (of_all[0][k] + of_all[1][k]);
     Shares plain(kinds, 0.0);
@@ -243,18 +250,13 @@ class ScatterLearning::Builder {
       for (size_t i = begin; i < end; ++i) {
         Leaf& leaf = leaves_[i];
         // Each half of the events tells how well the other has learned.
-        for (size_t half = 0; half < 2; ++half) {
-          // Every other event of all, whichever the cell begins with.
-          const size_t own = leaf.begin + (leaf.begin % 2 == half ? 0 : 1);
-          const size_t other = leaf.begin + (leaf.begin % 2 == half ? 1 : 0);
-          leaf.gain += gain({other, leaf.end, 2}, fit_cell({own, leaf.end, 2}, of_all[half]));
-        }
-        if (leaf.gain > 0) {
-          leaf.shares = fit_cell({leaf.begin, leaf.end, 1}, mean);
-        } else {
-          leaf.gain = 0;
-          leaf.shares = leaf.begin == leaf.end ? mean : plain;
-        }
+        for (int half = 0; half < 2; ++half)
+          leaf.gain += gain({leaf.begin, leaf.end, 1 - half},
+                            fit_cell({leaf.begin, leaf.end, half}, of_all[half]));
+        if (leaf.begin == leaf.end)
+          leaf.shares = mean;
+        else
+          leaf.shares = leaf.gain > 0 ? fit_cell({leaf.begin, leaf.end}, mean) : plain;
       }
     });
     double weight = 0;

@@ -41,6 +41,7 @@ class ScatterLearning {
     float unguided = 0;
     double weight = 0;  ///< use
     int side = 0;
+    int half = 0;  ///< of the events, that of its path: those of one path are much alike
   };
   class Builder;
 

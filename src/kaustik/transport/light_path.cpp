@@ -35,7 +35,7 @@ BsdfSample sample_direction(const SurfaceVertex& vertex, Lobes follow,
 bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPathLimits& limits,
                         LightPath& path) {
   const Vec2f u = path.sampler.next_2d();
-  Vec2f u_choice = path.sampler.next_2d();
+  const Vec2f u_choice = path.sampler.next_2d();
   const bool may_be_guided = limits.guide && follow == Lobes::all;
   const ScatterGuide::Place place =
       may_be_guided ? limits.guide->place(vertex, vertex.wo()) : ScatterGuide::Place();

@@ -18,7 +18,15 @@ struct Cone {
     if (!(distance_sq > radius_sq)) return;
     axis = to_center * (1 / std::sqrt(distance_sq));
     const float sine_sq = radius_sq / distance_sq;
-    one_minus_cos = sine_sq / (1 + std::sqrt(1 - sine_sq));
+    one_minus_cos = std::max(least, sine_sq / (1 + std::sqrt(1 - sine_sq)));
+  }
+  /// A thousandth of a radian on every side: narrower ones are lost in the rounding of directions.
+  static constexpr float least = 5e-7f;
+  bool holds(const Vec3f& direction) const {
+    // Exact for narrow cones: 1 − cos of the angle between unit vectors, which is off by the angle
+    // times their rounding. What is drawn within the cone must be found there.
+    const float rounding = 4e-7f * std::sqrt(one_minus_cos);
+    return 0.5f * length_sq(direction - axis) <= one_minus_cos + rounding;
   }
 };
 
@@ -33,9 +41,7 @@ int ScatterGuide::side_of(const Vec3f& normal) {
 
 float ScatterGuide::pdf(const Ball& ball, const Vec3f& position, const Vec3f& direction) {
   const Cone cone(ball, position);
-  // Exact for narrow cones: 1 − cos of the angle between unit vectors.
-  const bool within = 0.5f * length_sq(direction - cone.axis) <= cone.one_minus_cos;
-  return within ? cone_pdf(cone.one_minus_cos) : 0.0f;
+  return cone.holds(direction) ? cone_pdf(cone.one_minus_cos) : 0.0f;
 }
 
 Vec3f ScatterGuide::Place::sample(float u_ball, const Vec2f& u) const {
@@ -63,7 +69,7 @@ ScatterGuide::Place ScatterGuide::place(const Vec3f& position, int side) const {
 }
 
 ScatterGuide::Place ScatterGuide::place(const SurfaceVertex& vertex, const Vec3f& from) const {
-  if (!guides(vertex.lobes())) return {};
+  if (!guides(vertex)) return {};
   const Vec3f& normal = vertex.point().ng;
   return place(vertex.position(), side_of(dot(from, normal) < 0 ? -normal : normal));
 }

@@ -41,15 +41,17 @@ class ScatterGuide {
   static constexpr int side_count = 6;
   /// Of a surface whose normal, where the light arrives, is `normal`.
   static int side_of(const Vec3f& normal);
-  /// Density per solid angle of directions from `position` to `ball`, drawn evenly; within it of
-  /// all directions.
+  /// Density per solid angle of directions from `position` to `ball`, drawn evenly from the cone
+  /// around it, or one of a thousandth of a radian; within it of all directions.
   static float pdf(const Ball& ball, const Vec3f& position, const Vec3f& direction);
 
   explicit ScatterGuide(Parts parts) : parts_(std::move(parts)) {}
 
-  /// Whether light is guided where a surface has such lobes: where the event, and with it the class
-  /// of what follows, leaves no choice.
-  static bool guides(Lobes lobes) { return lobes == Lobes::diffuse; }
+  /// Whether light is guided at such a surface: where the event, and with it the class of what
+  /// follows, leaves no choice, and bent normals do not make flux grow at grazing incidence.
+  static bool guides(const SurfaceVertex& vertex) {
+    return vertex.lobes() == Lobes::diffuse && !vertex.has_relief();
+  }
 
   /// What was learned of a place.
   class Place {
