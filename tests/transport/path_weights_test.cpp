@@ -157,6 +157,28 @@ TEST(PathWeights, NoticeAnotherRadius) {
   EXPECT_GT(largest, 0.05);
 }
 
+/// Whether a path goes on is asked behind what it comes to from its first vertex that is not delta:
+/// a lamp there is met in any case.
+TEST(PathWeights, LampsAreMetRightBehindTheFirstVertex) {
+  std::mt19937 random(4);
+  double largest_behind = 0, largest_beyond = 0;
+  for (int i = 0; i < 200; ++i) {
+    const PathWeights weights(settings_of(31, random));
+    WholePath path = random_path(random, 4, 0);
+    const auto change = [&] {
+      path.first_survival = 1;
+      const float whole = weights.unidirectional(Halves(path, 4, weights).halves);
+      path.first_survival = 0.02f;
+      return std::fabs(double(weights.unidirectional(Halves(path, 4, weights).halves) - whole));
+    };
+    largest_beyond = std::max(largest_beyond, change());
+    path.vertices[0].delta = path.vertices[1].delta = true;
+    largest_behind = std::max(largest_behind, change());
+  }
+  EXPECT_LT(largest_behind, 1e-5);
+  EXPECT_GT(largest_beyond, 0.1);
+}
+
 /// What is stored with a light path's vertex and what the camera's vertex tells make up the weight
 /// of merging at a first vertex.
 TEST(PathWeights, OfMattSurfaces) {

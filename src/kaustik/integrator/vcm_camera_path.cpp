@@ -162,7 +162,7 @@ float VcmCameraPath::sampled(const Scatterer& vertex, const DirectLight& light) 
   const bool is_alone = path_tracing_alone(vertices_.size() + 1);
   if (is_alone) {
     if (light.pdf_solid_angle == 0 || !techniques.unidirectional) return 1;
-    return mis_weight(light.pdf_solid_angle, vertex.pdf(light.wi, Lobes::all) * survival_to_come());
+    return mis_weight(light.pdf_solid_angle, vertex.pdf(light.wi, Lobes::all));
   }
   const Light& of = *in_.scene.lights()[size_t(light.light)];
   const SurfacePoint origin = shining(of, light.on_light, -light.wi);
@@ -196,7 +196,7 @@ float VcmCameraPath::met(int light, const SurfaceVertex& vertex) const {
           ? 0.0f
           : direct_light_pdf(in_.scene, weighed_query(), LightChoice::one, light, point);
   if (path_tracing_alone(vertices_.size() + 1))
-    return next_event > 0 ? mis_weight(walk_.last_pdf() * survival_before(), next_event) : 1.0f;
+    return next_event > 0 ? mis_weight(walk_.last_pdf(), next_event) : 1.0f;
   const Vec3f direction = -vertex.wo();
   const float distance_sq = length_sq(point.position - last_.position);
   const SurfacePoint origin = shining(*in_.scene.lights()[size_t(light)], point, vertex.wo());
@@ -215,7 +215,7 @@ float VcmCameraPath::met(int light, const Ray& ray) const {
           ? 0.0f
           : direct_light_pdf(in_.scene, weighed_query(), LightChoice::one, light, ray.direction);
   if (path_tracing_alone(vertices_.size() + 1))
-    return next_event > 0 ? mis_weight(walk_.last_pdf() * survival_before(), next_event) : 1.0f;
+    return next_event > 0 ? mis_weight(walk_.last_pdf(), next_event) : 1.0f;
   const EmissionDensity emission = in_.emission.pdf(light, last_, -ray.direction);
   return met_weight(infinitely_far(), emission, last_facing_.factor(ray.direction), next_event);
 }
@@ -522,17 +522,10 @@ Spectrum VcmCameraPath::radiance(const Ray& ray, float length, const Medium& med
   return sum;
 }
 
-float VcmCameraPath::survival_before() const {
-  return first_ == vertices_.size() && !is_in_medium() ? plan_.survival : 1.0f;
-}
-
-float VcmCameraPath::survival_to_come() const {
-  return all_delta_ && !is_in_medium() ? plan_.survival : 1.0f;
-}
-
-bool VcmCameraPath::survives_first(float u) {
-  if (first_ != vertices_.size() || is_in_medium()) return true;
-  return plan_.survival >= 1 || walk_.survive_with(plan_.survival, u);
+bool VcmCameraPath::survives_first() {
+  if (first_ == 0 || first_ + 1 != vertices_.size()) return true;
+  if (vertices_[first_ - 1].mean_free_path > 0) return true;
+  return plan_.survival >= 1 || walk_.survive_with(plan_.survival, walk_.sampler().next_1d());
 }
 
 }  // namespace kaustik

@@ -65,9 +65,10 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   bool is_at_first() const { return all_delta_; }
   /// From now on, or no longer, light is weighed as if there were no light paths.
   void leave_out_light_paths(bool leave_out) { no_light_paths_ = leave_out; }
-  /// Roulette at the first vertex whose event is not delta: false if the path ends. To be asked
-  /// after leave().
-  bool survives_first(float u);
+  /// Roulette of paths that have gone on from the first vertex whose event is not delta: false if
+  /// the path ends. To be asked after go_on(): lamps that are met right there count always. Where
+  /// they are near, few paths that go on would find them, and count many times as much.
+  bool survives_first();
 
   float sampled(const Scatterer& vertex, const DirectLight& light) const override;
   float met(int light, const SurfaceVertex& vertex) const override;
@@ -126,10 +127,6 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
     query.level = vertices_.size() > 1 ? 1 : 0;
     return query;
   }
-  /// Chance of the roulette at the last vertex, if it is that of survives_first(): once it is left,
-  /// and before.
-  float survival_before() const;
-  float survival_to_come() const;
   bool is_in_medium() const { return vertices_.back().mean_free_path > 0; }
   /// Weight of meeting the light at `on_light`; `to_last` turns a density per solid angle there
   /// into that of the last vertex.

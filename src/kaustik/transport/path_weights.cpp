@@ -68,8 +68,10 @@ class PathWeights::View {
     if (!settings_.techniques.next_event || n_ < 2 || is_delta(n_ - 1)) return 0;
     return ratio * path_.pdf_next_event / pdf_light(n_);
   }
+  /// Whether paths end is asked at the vertex behind the first: lamps are met there for sure.
   float unidirectional(float ratio) const {
-    return settings_.techniques.unidirectional ? ratio : 0.0f;
+    if (!settings_.techniques.unidirectional) return 0;
+    return n_ == first_ + 1 ? ratio / first_survival_ : ratio;
   }
   /// The spreads are those up to x_i and from x_i+1 on.
   float merge(float ratio, size_t i, float camera_spread, float light_spread) const {

@@ -47,8 +47,8 @@ struct PathHalves {
   float pdf_camera_before_last = 0;  ///< of xₜ₊₂ from xₜ₊₁
   float pdf_next_event = 0;          ///< of sampling xₙ from xₙ₋₁; 0: never sampled there
   float first_merge_area = 0;        ///< see PathWeights::Settings
-  float first_survival = 1;          ///< chance with which camera paths go on from the first
-                                     ///< vertex whose event is not delta
+  float first_survival = 1;          ///< chance with which camera paths, once behind the first
+                                     ///< vertex whose event is not delta, do more than meet a lamp
   float connected = 1;               ///< share of Settings::connections that the pixel has
 };
 
