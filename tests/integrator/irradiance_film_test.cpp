@@ -129,7 +129,8 @@ TEST_F(IrradianceInFurnace, PhotonMapWithoutCache) {
 }
 
 TEST_F(IrradianceInFurnace, Ppm) {
-  check("ppm", render(scene(mirror()), "ppm", set("light_paths", 1.0), {100}));
+  check("ppm",
+        render(scene(mirror()), "ppm", set("light_paths", 16.0) + set("radius", 0.1), {100}));
 }
 TEST_F(IrradianceInFurnace, Auto) { check("auto", render(scene(mirror()), "auto", "", {64})); }
 
