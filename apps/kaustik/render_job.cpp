@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <optional>
 
 #include "checkpoint_keeper.h"
 #include "console.h"
@@ -32,6 +33,19 @@ std::exception_ptr write_last_checkpoint(CheckpointKeeper& keeper, const Film& f
 
 /// Meshes that take less are not worth a word.
 constexpr uint64_t much_memory = 500'000'000;
+
+/// In how many seconds photonmap is ahead on most scenes that ship (docs/comparisons.md, the first
+/// seconds).
+constexpr double first_seconds = 5;
+
+/// auto knows no irradiance cache: for who has no more time there is better.
+void tell_of_first_seconds(const std::string& integrator, std::optional<double> limit) {
+  if (integrator != "auto" || !limit || *limit > first_seconds) return;
+  note(
+      fmt::format("auto: in {} s or less photonmap is most often less noisy (--integrator "
+                  "photonmap), with a bias that stays",
+                  first_seconds));
+}
 
 }  // namespace
 
@@ -100,6 +114,7 @@ void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& s
   if (!options.quiet) print_errors(session.film());
   for (const std::string& decision : report.decisions)
     if (!options.quiet) note(decision);
+  if (!options.quiet) tell_of_first_seconds(job.view.integrator, settings.seconds);
   for (const std::string& warning : report.warnings) warn(warning);
   if (report.cancelled) warn("cancelled: writing what is finished");
   record.seconds += report.seconds;
