@@ -179,14 +179,29 @@ TEST(PathWeights, LampsAreMetRightBehindTheFirstVertex) {
   EXPECT_GT(largest_beyond, 0.1);
 }
 
+/// The same path and settings in a scene `scale` times as large.
+void rescale(float scale, WholePath& path, PathWeights::Settings& settings) {
+  const float area = scale * scale;
+  for (PathVertex& vertex : path.vertices) {
+    vertex.pdf_camera /= area;
+    vertex.pdf_light /= area;
+  }
+  path.pdf_next_event /= area;
+  path.first_merge_area *= area;
+  settings.merge_area *= area;
+  settings.accepted_area *= area;
+}
+
 /// What is stored with a light path's vertex and what the camera's vertex tells make up the weight
-/// of merging at a first vertex.
+/// of merging at a first vertex, in scenes of any size.
 TEST(PathWeights, OfMattSurfaces) {
   std::mt19937 random(3);
   int compared = 0;
   for (int i = 0; i < 5000; ++i) {
-    const PathWeights weights(settings_of(16 + random() % 16, random));
+    PathWeights::Settings settings = settings_of(16 + random() % 16, random);
     WholePath path = random_path(random, 3 + random() % 5, 0.3);
+    rescale(std::pow(10.0f, float(random() % 15) - 7), path, settings);
+    const PathWeights weights(settings);
     const size_t n = path.vertices.size(), t = 1 + random() % (n - 2);
     // The camera's path comes to x_t by delta events alone.
     for (size_t k = 1; k <= t; ++k) path.vertices[k - 1].delta = k < t;

@@ -89,6 +89,7 @@ CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
     ++rays_;
     const bool found = scene_.intersect(ray_, hit);
     if (state_.medium && !only_arrives && pass_medium(hit.t)) {
+      if (meets_lamps_only_) return Arrival::nothing;
       if (found && only_delta_)
         describe_what_is_seen(SurfaceVertex(scene_, ray_, hit, TransportMode::radiance),
                               distance_ + hit.t);
@@ -97,6 +98,10 @@ CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
     if (!found) {
       if (!only_arrives) add_background();
       return Arrival::nothing;
+    }
+    if (meets_lamps_only_) {
+      const Surface& surface = scene_.surface(hit.shape);
+      if (surface.light < 0 && !surface.is_null) return Arrival::nothing;
     }
     distance_ += hit.t;
     state_.footprint.travel(hit.t);
@@ -110,7 +115,7 @@ CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
     vertex_.paint_white();
   else if (vertex_.light() >= 0)
     add_emission();
-  return Arrival::surface;
+  return meets_lamps_only_ ? Arrival::nothing : Arrival::surface;
 }
 
 bool CameraWalk::advance(const VolumeLight* volume) {

@@ -56,6 +56,9 @@ class CameraWalk {
   /// is add_medium_light() and scatter_in_medium() instead of what there is for surfaces.
   enum class Arrival { nothing, surface, medium };
   Arrival fly(const VolumeLight* volume = nullptr);
+  /// On its next way the walk meets lamps alone: where there is none, as beyond what it finds, it
+  /// ends (Arrival::nothing), and nothing more is looked at. Media take their share as ever.
+  void meet_lamps_only() { meets_lamps_only_ = true; }
   const SurfaceVertex& vertex() const { return vertex_; }
   /// The surface, or the point of a medium, that the walk has come to: until it is scattered.
   Scatterer scatterer() const {
@@ -142,9 +145,13 @@ class CameraWalk {
   /// The same with a chance that does not come from the throughput.
   bool survive_with(float chance, float u) {
     if (!(u < chance)) return false;
+    has_survived(chance);
+    return true;
+  }
+  /// Such roulette, asked before, is over.
+  void has_survived(float chance) {
     state_.throughput *= 1 / chance;
     state_.roulette_scale *= chance;
-    return true;
   }
 
  private:
@@ -179,7 +186,8 @@ class CameraWalk {
   SurfaceVertex vertex_;
   Receiver in_medium_;         ///< the point where fly() came to in a medium
   bool is_in_medium_ = false;  ///< the walk is there
-  LightQuery previous_;        ///< of where the last event was
+  bool meets_lamps_only_ = false;
+  LightQuery previous_;  ///< of where the last event was
   float distance_ = 0;
   bool only_delta_ = true;  ///< every surface so far has delta lobes alone
   uint32_t segments_ = 0;   ///< traced so far: those across null boundaries count, each has a block

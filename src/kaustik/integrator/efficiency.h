@@ -18,11 +18,12 @@ struct ProbeStatistics {
   double merged_alone = 0;                         ///< ∫ f²/m where no camera path goes
   double path_mean_square = 0, path_variance = 0;  ///< of what a camera path finds, but for what
                                                    ///< merging finds far more often
-  double direct_variance = 0;                      ///< of one sample of the vertex's direct light
+  double direct_variance = 0;                      ///< of one sample of the vertex's direct light,
+                                                   ///< with the lamp that the path meets next
   double radiance = 0;                             ///< of everything
   double merged = 0;                               ///< light vertices of a pass within the disk
-  double rays = 0;                                 ///< per camera sample up to the vertex's end …
-  double rays_beyond = 0;                          ///< … and of a path that goes on from there
+  double rays = 0;         ///< per camera sample up to the lamp that the path may meet next …
+  double rays_beyond = 0;  ///< … and of a path that goes on there
 
   void add(const ProbeStatistics& other, double weight);
 };

@@ -65,7 +65,7 @@ class Recorder final : public LightWeights {
     even_ += light * most_merged * camera_samples_ / (most_merged * camera_samples_ + ratio_);
     result_.squares[size_t(bin_of(ratio_))] += light * light * share / paths_per_probe;
   }
-  /// The path has left the probed vertex, and found what is next.
+  /// The path has left the probed vertex, and found what every path looks for there.
   void go_on() {
     note();
     goes_on_ = true;
@@ -141,12 +141,14 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
     Recorder recorder(path, sink, in.camera_samples, result);
     walk.weigh_by(recorder);
     uint64_t rays_before = 0;
-    bool has_left = false;
+    bool is_behind = false;
+    const auto go_beyond = [&] {
+      recorder.go_on();
+      rays_before = walk.rays();
+      is_behind = false;
+    };
     while (path.go_on(false) != CameraWalk::Arrival::nothing) {
-      if (has_left && rays_before == 0) {
-        recorder.go_on();
-        rays_before = walk.rays();
-      }
+      if (is_behind) go_beyond();
       if (walk.events() >= limits.maximum_events) break;
       walk.add_direct_light(1, 1);
       const bool was_before = path.is_at_first();
@@ -156,7 +158,10 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
       const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
       if (!walk.scatter(Lobes::all, 1, u_choice.x, u)) break;
       path.leave();
-      if (was_before && !path.is_at_first()) has_left = true;
+      if (path.has_left_first()) {
+        is_behind = path.may_end_at_lamp();
+        if (!is_behind) go_beyond();
+      }
       if (!walk.may_find_more()) break;
       if (walk.events() > limits.roulette_depth && !walk.survive(u_choice.y)) break;
     }

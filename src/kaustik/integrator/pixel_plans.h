@@ -16,7 +16,7 @@ inline constexpr float least_survival = 0.02f;
 /// What is decided for the first vertex of a pixel's camera paths whose event is not delta.
 struct PixelPlan {
   float merge_area = 0;  ///< of the disk of merging, m²
-  float survival = 1;    ///< chance of going on from there
+  float survival = 1;    ///< chance of going on from there, but to look for lamps
   /// Mean square over variance of what a path that goes on finds: samples that hardly differ are
   /// worth more than their number (variance-aware weights, Grittmann et al. 2019).
   float evenness = 1;

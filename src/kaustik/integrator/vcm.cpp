@@ -260,7 +260,6 @@ void VcmIntegrator::follow(const Techniques& techniques, CameraWalk& walk, VcmCa
   for (;;) {
     const CameraWalk::Arrival arrival = path.go_on(scene_.has_scattering());
     if (arrival == CameraWalk::Arrival::nothing) return;
-    if (!path.survives_first()) return;
     // Lamps that a branch shows it shows always; all else as often as it is worth.
     if (branch.survival < 1) {
       if (!walk.survive_with(branch.survival, sampler.next_1d())) return;
@@ -282,6 +281,7 @@ void VcmIntegrator::follow(const Techniques& techniques, CameraWalk& walk, VcmCa
     }
     path.leave();
     if (!walk.may_find_more()) return;
+    if (!path.survives_first(sampler.next_1d())) return;
     if (walk.events() > settings_.roulette_depth && !walk.survive(u_choice.y)) return;
   }
 }

@@ -42,7 +42,7 @@ VcmCameraPath::VcmCameraPath(const VcmCameraPath& other, CameraWalk& branch)
       plan_(other.plan_),
       vertices_(other.vertices_),
       vertices_before_(vertices_.size()),
-      guided_(other.guided_),
+      back_(other.back_),
       here_(branch.scatterer()),
       last_(other.last_),
       last_facing_(other.last_facing_),
@@ -87,12 +87,15 @@ PathVertex VcmCameraPath::infinitely_far() const {
 }
 
 CameraWalk::Arrival VcmCameraPath::go_on(bool scatters_in_media) {
+  const bool had_roulette = has_roulette_at_first();
   CameraWalk::Arrival arrival = CameraWalk::Arrival::nothing;
   if (scatters_in_media)
     arrival = walk_.fly(in_.weights.settings().techniques.merging ? this : nullptr);
   else if (walk_.advance())
     arrival = CameraWalk::Arrival::surface;
-  if (arrival != CameraWalk::Arrival::nothing) arrive();
+  if (arrival == CameraWalk::Arrival::nothing) return arrival;
+  if (had_roulette) walk_.has_survived(plan_.survival);
+  arrive();
   return arrival;
 }
 
@@ -108,14 +111,17 @@ void VcmCameraPath::arrive() {
 }
 
 void VcmCameraPath::find_guides() {
-  guided_ = {};
+  back_ = {};
   // What goes back along delta events alone nothing else finds.
   if (!in_.scattering || all_delta_ || here_.is_in_medium()) return;
+  if (!in_.weights.settings().techniques.needs_light_paths()) return;
   const SurfaceVertex& vertex = *here_.surface();
   const Vec3f& ng = vertex.point().ng;
-  for (const bool front : {false, true})
-    if (front == vertex.on_front() || vertex.transmits())
-      guided_[front ? 1 : 0] = in_.scattering->place(vertex, front ? ng : -ng);
+  for (const bool front : {false, true}) {
+    if (front != vertex.on_front() && !vertex.transmits()) continue;
+    const ScatterGuide::Place place = in_.scattering->place(vertex, front ? ng : -ng);
+    back_[front ? 1 : 0] = {1 - place.guided(), place.pdf(0, here_.wo())};
+  }
 }
 
 void VcmCameraPath::leave() {
@@ -152,8 +158,8 @@ float VcmCameraPath::pdf_light_before(const Vec3f& wi) const {
 }
 
 float VcmCameraPath::pdf_back(const Vec3f& wi) const {
-  const bool from_front = dot(wi, last_.ng) >= 0;
-  return guided_[from_front ? 1 : 0].pdf(here_.pdf_reverse(wi, Lobes::all), here_.wo());
+  const GuidedBack& back = back_[dot(wi, last_.ng) >= 0 ? 1 : 0];
+  return back.unguided * here_.pdf_reverse(wi, Lobes::all) + back.guided;
 }
 
 float VcmCameraPath::sampled(const Scatterer& vertex, const DirectLight& light) const {
@@ -522,10 +528,10 @@ Spectrum VcmCameraPath::radiance(const Ray& ray, float length, const Medium& med
   return sum;
 }
 
-bool VcmCameraPath::survives_first() {
-  if (first_ == 0 || first_ + 1 != vertices_.size()) return true;
-  if (vertices_[first_ - 1].mean_free_path > 0) return true;
-  return plan_.survival >= 1 || walk_.survive_with(plan_.survival, walk_.sampler().next_1d());
+bool VcmCameraPath::survives_first(float u) {
+  if (!has_roulette_at_first() || u < plan_.survival) return true;
+  walk_.meet_lamps_only();
+  return may_end_at_lamp();
 }
 
 }  // namespace kaustik

@@ -65,10 +65,18 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   bool is_at_first() const { return all_delta_; }
   /// From now on, or no longer, light is weighed as if there were no light paths.
   void leave_out_light_paths(bool leave_out) { no_light_paths_ = leave_out; }
-  /// Roulette of paths that have gone on from the first vertex whose event is not delta: false if
-  /// the path ends. To be asked after go_on(): lamps that are met right there count always. Where
-  /// they are near, few paths that go on would find them, and count many times as much.
-  bool survives_first();
+  /// Whether the path has left the first vertex whose event is not delta, and gone no further.
+  bool has_left_first() const { return first_ > 0 && first_ == vertices_.size(); }
+  /// Whether a path that ends behind the vertex that it has left must look for lamps there.
+  bool may_end_at_lamp() const {
+    return in_.scene.has_scattering() ||
+           (in_.weights.settings().techniques.unidirectional && in_.scene.has_lights_to_meet());
+  }
+  /// Roulette of paths that have left the first vertex whose event is not delta. Those that it ends
+  /// still meet the lamp that comes next, and no path's light from there counts more for it: where
+  /// lamps are near, few paths that go on would find them, and count many times as much. False if
+  /// there is nothing to go to.
+  bool survives_first(float u);
 
   float sampled(const Scatterer& vertex, const DirectLight& light) const override;
   float met(int light, const SurfaceVertex& vertex) const override;
@@ -105,6 +113,9 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   PathVertex infinitely_far() const;
   void arrive();
   void find_guides();
+  bool has_roulette_at_first() const {
+    return has_left_first() && !is_in_medium() && plan_.survival < 1;
+  }
   /// Density per solid angle with which a light path goes on from its vertex `at`.
   float pdf_of_light(const Scatterer& at, const Vec3f& to) const;
   /// How far from the last vertex segments in media merge, m.
@@ -138,8 +149,13 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   PixelPlan plan_;
   std::vector<PathVertex>& vertices_;  ///< those of branches come after those of their stem
   size_t vertices_before_;             ///< its size when this was made
-  /// What light that comes from the back (0) or the front (1) of that is guided by.
-  std::array<ScatterGuide::Place, 2> guided_;
+  /// Density per solid angle with which light paths go back along the walk.
+  struct GuidedBack {
+    float unguided = 1;  ///< share of those that the bsdf sends …
+    float guided = 0;    ///< … and density of the others
+  };
+  /// Of light that comes to the last vertex from the back (0) or the front (1).
+  std::array<GuidedBack, 2> back_;
   Scatterer here_;         ///< the walk's last vertex, until the walk goes on
   SurfacePoint last_;      ///< of that vertex, without normals in a medium
   Facing last_facing_;     ///< of that vertex

@@ -167,6 +167,7 @@ class Tracer {
     if (!ScatterGuide::guides(at.vertex)) return;
     const Vec3f& ng = at.vertex.point().ng;
     path.scattering.path = at.path - begin_;
+    path.scattering.number = at.path;
     path.scattering.at = uint32_t(path.vertices.size());
     path.scattering.position = at.vertex.position();
     path.scattering.normal = at.vertex.on_front() ? ng : -ng;

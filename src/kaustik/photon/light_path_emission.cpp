@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kaustik/base/parallel.h"
+
 namespace kaustik {
 namespace {
 
@@ -50,8 +52,12 @@ LightPathEmission::LightPathEmission(const Scene& scene, Aim aim)
   }
   set_chances(chances);
   const bool aims = aimed_->aimed() && aimed_->target_count() > 0;
-  for (size_t i = 0; i < scene.lights().size(); ++i)
-    aimed_shares_.push_back(aims && has_aimed_rays(int(i)) ? share_for_caustics : 0.0f);
+  aimed_shares_.resize(scene.lights().size());
+  if (!aims) return;
+  parallel_blocks(aimed_shares_.size(), 16, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i)
+      aimed_shares_[i] = has_aimed_rays(int(i)) ? share_for_caustics : 0.0f;
+  });
 }
 
 /// Bounds let a light aim at what it can't shine at, such as what is behind it.

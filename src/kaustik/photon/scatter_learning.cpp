@@ -38,7 +38,7 @@ void ScatterLearning::add(const LightScattering& event, double use, double event
   added.unguided = event.pdf_unguided;
   added.weight = events * use;
   added.side = ScatterGuide::side_of(event.normal);
-  added.half = int(event.path * 0x9e3779b1u >> 31);
+  added.half = int(event.number * 0x9e3779b1u >> 31);
   if (added.weight > 0 && added.unguided > 0 && std::isfinite(added.weight))
     events_.push_back(added);
 }
@@ -240,7 +240,8 @@ class ScatterLearning::Builder {
         std::copy(of_event.begin(), of_event.end(), densities_.begin() + std::ptrdiff_t(i * kinds));
       }
     });
-    const Shares even(kinds, 1 / double(kinds));
+    Shares even(kinds, 1 / double(kinds));
+    keep_unguided(even);  // a half may have no events
     const Shares of_all[] = {fit({0, events_.size(), 0}, even), fit({0, events_.size(), 1}, even)};
     Shares mean(kinds);
     for (size_t k = 0; k < kinds; ++k) mean[k] = 0.5 * (of_all[0][k] + of_all[1][k]);

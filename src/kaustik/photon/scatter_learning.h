@@ -8,8 +8,9 @@ namespace kaustik {
 
 /// An event of a light path that may be guided, for who learns from it.
 struct LightScattering {
-  uint32_t path = 0;  ///< where the path's vertices begin …
-  uint32_t at = 0;    ///< … and how many of them come before that of the event
+  uint32_t path = 0;    ///< where the path's vertices begin …
+  uint32_t at = 0;      ///< … and how many of them come before that of the event
+  uint32_t number = 0;  ///< of the path among those of the pass, whatever else is kept of them
   Vec3f position;
   Vec3f normal{0, 0, 0};   ///< geometric, on the side on which the path arrived
   Vec3f next;              ///< the position of the next vertex
@@ -41,7 +42,7 @@ class ScatterLearning {
     float unguided = 0;
     double weight = 0;  ///< use
     int side = 0;
-    int half = 0;  ///< of the events, that of its path: those of one path are much alike
+    int half = 0;  ///< of the events, by its path: those of one path are much alike
   };
   class Builder;
 

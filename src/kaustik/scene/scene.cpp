@@ -1,5 +1,7 @@
 #include "kaustik/scene/scene.h"
 
+#include <algorithm>
+
 #include "kaustik/scene/light_probes.h"
 #include "kaustik/scene/media.h"
 
@@ -9,6 +11,11 @@ Scene::Scene(Parts parts) : parts_(std::move(parts)) {
   light_selector_ = std::make_unique<LightSelector>(parts_.lights);
   for (size_t i = 0; i < parts_.lights.size(); ++i)
     if (parts_.lights[i]->is_infinite()) environment_lights_.push_back(int(i));
+  has_lights_to_meet_ = std::any_of(
+      parts_.lights.begin(), parts_.lights.end(), [](const std::unique_ptr<Light>& light) {
+        return light->is_infinite() ? !light->is_delta() && !light->is_only_seen()
+                                    : light->shape() >= 0;
+      });
   find_media();
   if (parts_.camera) light_selector_->learn(probe_lights(*this));
 }

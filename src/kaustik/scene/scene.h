@@ -92,6 +92,8 @@ class Scene {
   const LightSelector& light_selector() const { return *light_selector_; }
   /// Indices of the lights that rays meet at infinity.
   const std::vector<int>& environment_lights() const { return environment_lights_; }
+  /// Whether there is any light that a ray which has been scattered may meet.
+  bool has_lights_to_meet() const { return has_lights_to_meet_; }
   const Camera& camera() const { return *parts_.camera; }
   const FilmSettings& film() const { return parts_.film; }
 
@@ -113,7 +115,7 @@ class Scene {
   Parts parts_;
   std::unique_ptr<LightSelector> light_selector_;
   std::vector<int> environment_lights_;
-  bool has_media_ = false, has_scattering_ = false;
+  bool has_media_ = false, has_scattering_ = false, has_lights_to_meet_ = false;
   std::vector<const Medium*> light_media_;  ///< parallel to the lights
 };
 

@@ -153,7 +153,7 @@ float PathWeights::weight(const View& path, float own_density) const {
 
 PathWeights::MattMerge PathWeights::matt_merge(const PathHalves& path) const {
   const View view(settings_, path, View::Meeting::at_last);
-  const float density = view.pdf_light(view.t()) * settings_.light_paths;
+  const float density = view.pdf_light(view.t()) * settings_.light_paths * unit_area();
   if (!(density > 0)) return {1e30f, 1e30f, 0};
   MattMerge result;
   result.connection = sqr(view.connection(1 / density, view.t()));
@@ -177,10 +177,11 @@ PathWeights::MattVertex PathWeights::matt_vertex(std::span<const PathVertex> cam
   if (settings_.techniques.splats && camera.size() == 1)
     result.base += sqr(1 / (camera[0].pdf_camera * merge_area));
   constexpr float most = 1e30f;  // infinite factors of what is zero would make no sense
-  result.on_beyond = std::min(most, sqr(survival / merge_area));
+  const float units = unit_area() / merge_area;
+  result.on_beyond = std::min(most, sqr(survival * units));
   if (!settings_.techniques.connections) return result;
-  result.on_connection = std::min(most, sqr(connected / merge_area));
-  result.on_beyond_connected = std::min(most, sqr(connected * survival / merge_area));
+  result.on_connection = std::min(most, sqr(connected * units));
+  result.on_beyond_connected = std::min(most, sqr(connected * survival * units));
   return result;
 }
 

@@ -49,6 +49,7 @@ struct PathHalves {
   float first_merge_area = 0;        ///< see PathWeights::Settings
   float first_survival = 1;          ///< chance with which camera paths, once behind the first
                                      ///< vertex whose event is not delta, do more than meet a lamp
+                                     ///< or the sky, and what merges in a medium on the way
   float connected = 1;               ///< share of Settings::connections that the pixel has
 };
 
@@ -112,7 +113,7 @@ class PathWeights {
   float beyond_merge(const PathHalves& path) const;
 
   /// What the weight of merging at a matt first vertex takes from the light path alone: squared
-  /// densities relative to merging on an area of 1 m².
+  /// densities relative to merging on unit_area(), so that they are of no scale.
   struct MattMerge {
     float connection = 0;  ///< of connecting the camera's vertex to the one before
     float beyond = 0;  ///< of all that is found by paths that go on from the camera's vertex …
@@ -142,6 +143,8 @@ class PathWeights {
   }
 
  private:
+  /// Settings::merge_area, m²; 1 if there is none.
+  float unit_area() const { return settings_.merge_area > 0 ? settings_.merge_area : 1.0f; }
   float accepted(float pdf) const {
     const float chance = pdf * settings_.accepted_area;
     return chance < 1 ? chance : 1.0f;
