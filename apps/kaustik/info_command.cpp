@@ -4,6 +4,7 @@
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/scene/scene_report.h"
 #include "render_job.h"
+#include "scene_warnings.h"
 
 namespace kaustik::app {
 namespace {
@@ -14,7 +15,9 @@ void info(const std::string& path, const std::vector<std::string>& definitions) 
   const Description description = load_mitsuba_xml(path, load);
   tell_of_memory(description);
   const auto scene = build_scene(description);
-  const SceneReport report = describe_scene(*scene);
+  SceneReport report = describe_scene(*scene);
+  if (const std::string coarse = coordinates_warning(*scene); !coarse.empty())
+    report.warnings.push_back(coarse);
   for (const std::string& line : report.lines) fmt::print("{}\n", line);
   for (const std::string& warning : report.warnings) fmt::print("warning: {}\n", warning);
 }

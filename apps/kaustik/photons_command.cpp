@@ -11,6 +11,7 @@
 #include "kaustik/render/photon_tracing.h"
 #include "kaustik/scene/overrides.h"
 #include "render_job.h"
+#include "scene_warnings.h"
 #include "thesis_settings.h"
 
 namespace kaustik::app {
@@ -82,7 +83,7 @@ void trace_photons(const PhotonsOptions& options) {
   apply_settings(description, options.levels, options.settings);
   tell_of_memory(description);
   const auto scene = build_scene(description);
-  for (const std::string& warning : scene->warnings()) warn(warning);
+  for (const std::string& warning : scene_warnings(*scene)) warn(warning);
 
   const InterruptGuard interrupt;
   fmt::print(stderr, "tracing photons of {}\n", options.scene);

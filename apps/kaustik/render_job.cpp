@@ -11,6 +11,7 @@
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/scene/mesh_memory.h"
 #include "picture_output.h"
+#include "scene_warnings.h"
 
 namespace kaustik::app {
 namespace {
@@ -69,6 +70,7 @@ Description load_description(const RenderRecipe& recipe) {
 
 RenderJob make_job(Description description, const RenderRecipe& recipe, bool with_digest) {
   for (const Setting& setting : recipe.settings) override_property(description, setting);
+  tell_of_memory(description);
   RenderJob job;
   std::exception_ptr unreadable;
   if (with_digest) {
@@ -78,15 +80,13 @@ RenderJob make_job(Description description, const RenderRecipe& recipe, bool wit
       unreadable = std::current_exception();
     }
   }
-  tell_of_memory(description);
   // Tells of a file that cannot be read where it is named.
   job.scene = build_scene(description);
   if (unreadable) std::rethrow_exception(unreadable);
-  std::vector<std::string> warnings = job.scene->warnings();
+  std::vector<std::string> warnings = scene_warnings(*job.scene);
   job.integrator = make_integrator(description, *job.scene, warnings);
   for (const std::string& warning : warnings) warn(warning);
-  if (job.scene->lights().empty())
-    warn("the scene has no light: the picture will be black; add an <emitter> to it");
+  if (const std::string dark = darkness_warning(*job.scene); !dark.empty()) warn(dark);
   job.view = {integrator_type(description, *job.scene),
               double(job.scene->camera().horizontal_fov()),
               double(job.scene->camera().vertical_fov()), job.scene->film().quantity};

@@ -54,16 +54,20 @@ class Capture {
   bool is_open_ = true;
 };
 
+void limit(__rlimit_resource resource, std::optional<rlim_t> most) {
+  if (!most) return;
+  const rlimit both{*most, *most};
+  ::setrlimit(resource, &both);
+}
+
 [[noreturn]] void become_kaustik(std::vector<char*> argv, const RunOptions& options,
                                  const Capture& out, const Capture& err) {
   ::dup2(out.writing_end(), STDOUT_FILENO);
   ::dup2(err.writing_end(), STDERR_FILENO);
   const int nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, STDIN_FILENO);
-  if (options.file_size_limit) {
-    const rlimit limit{*options.file_size_limit, *options.file_size_limit};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
+  limit(RLIMIT_FSIZE, options.file_size_limit);
+  limit(RLIMIT_AS, options.memory_limit);
   if (!options.folder.empty() && ::chdir(options.folder.c_str()) != 0) ::_exit(126);
   for (const std::string& variable : options.environment)
     ::putenv(const_cast<char*>(variable.c_str()));

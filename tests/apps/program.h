@@ -22,6 +22,8 @@ struct RunOptions {
   std::vector<std::string> environment;  ///< "name=value", added to this program's own
   double timeout_s = patience_s;
   std::optional<rlim_t> file_size_limit;  ///< bytes that a file may have (RLIMIT_FSIZE)
+  /// Bytes of address space (RLIMIT_AS); not for programs with sanitizers, which take terabytes.
+  std::optional<rlim_t> memory_limit;
   /// Sends SIGINT this long after standard error holds this text.
   std::string interrupt_at;
   double interrupt_delay_s = 0;
