@@ -1,5 +1,7 @@
 // How often the intervals that the film gives hold the truth.
 
+#include <map>
+
 #include "kaustik/render/film_errors.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
@@ -10,6 +12,7 @@ namespace {
 using namespace test;
 
 constexpr int side = 8;
+constexpr uint64_t least_seeds = 64;
 constexpr uint64_t seeds = slow_build ? 8 : 96;
 
 /// A picture that is known pixel by pixel.
@@ -49,27 +52,40 @@ void add(const Film& film, const KnownScene& known, Coverage& coverage) {
     }
 }
 
-Coverage coverage_of(const KnownScene& known, uint32_t passes) {
-  const TestScene scene(camera("0, 0, 0.4", "0, 0, 0", 90, side, "0, 1, 0") + known.text);
-  const auto integrator = scene.integrator("path");
-  Coverage coverage;
-  for (uint64_t seed = 1; seed <= seeds; ++seed) {
-    SessionSettings settings;
-    settings.seed = seed;
-    settings.passes = passes;
-    settings.samples_per_pass = 4;
-    Session session(scene.scene(), *integrator, settings);
-    session.run();
-    add(session.film(), known, coverage);
-  }
+void print(const char* type, uint32_t passes, const Coverage& coverage) {
   std::printf(
-      "  %2u passes: of %d intervals %.2f %% hold the truth (%.2f %% if passes were independent); "
-      "estimated over true variance %.3f (%.3f)\n",
-      passes, coverage.all, 100 * coverage.share(),
+      "  %s, %2u passes: of %d intervals %.2f %% hold the truth (%.2f %% if passes were "
+      "independent); estimated over true variance %.3f (%.3f)\n",
+      type, passes, coverage.all, 100 * coverage.share(),
       100.0 * coverage.held_over_passes / coverage.all,
       coverage.by_replicates / coverage.squared_errors,
       coverage.over_passes / coverage.squared_errors);
-  return coverage;
+}
+
+/// After each of these numbers of passes, the last one the largest.
+std::map<uint32_t, Coverage> coverage_of(const KnownScene& known, const char* type,
+                                         const std::vector<uint32_t>& passes,
+                                         uint64_t seed_count = seeds) {
+  const TestScene scene(camera("0, 0, 0.4", "0, 0, 0", 90, side, "0, 1, 0") + known.text);
+  const auto integrator = scene.integrator(type);
+  std::map<uint32_t, Coverage> result;
+  for (uint64_t seed = 1; seed <= seed_count; ++seed) {
+    SessionSettings settings;
+    settings.seed = seed;
+    settings.passes = passes.back();
+    settings.samples_per_pass = 4;
+    Session session(scene.scene(), *integrator, settings);
+    session.run({}, {}, [&] {
+      const uint32_t done = session.film().pass_count();
+      if (std::find(passes.begin(), passes.end(), done) != passes.end())
+        add(session.film(), known, result[done]);
+    });
+  }
+  for (const auto& [done, coverage] : result) print(type, done, coverage);
+  return result;
+}
+Coverage coverage_of(const KnownScene& known, uint32_t passes) {
+  return coverage_of(known, "path", {passes}).at(passes);
 }
 
 /// A disk that shines on a floor, as in analytic_test.cpp: the noise of light sampling.
@@ -101,9 +117,16 @@ KnownScene furnace() {
           [](int, int) { return 1 / (1 - 0.6); }};
 }
 
+/// A lamp of intensity I in the middle of a diffuse sphere: E = I/(R² (1 − ρ)). All of it but what
+/// comes straight from the lamp is merged.
+KnownScene diffuse_sphere() {
+  return {sphere("0, 0, 0", 1, diffuse("0.6, 0.6, 0.6"), true) + point_light("0, 0, 0", 1),
+          [](int, int) { return 0.6 / std::numbers::pi / (1 - 0.6); }};
+}
+
 void expect_covered(const Coverage& coverage) {
   if (slow_build) return;
-  EXPECT_GE(coverage.all, 64 * side * side);
+  EXPECT_GE(coverage.all, int(least_seeds) * side * side);
   EXPECT_GT(coverage.share(), 0.93);
   EXPECT_LT(coverage.share(), 0.97);
 }
@@ -127,6 +150,13 @@ TEST(Coverage, TheVarianceIsRightWhateverTheNoise) {
   const Coverage coverage = coverage_of(furnace(), 16);
   if (slow_build) return;
   EXPECT_NEAR(coverage.by_replicates / coverage.squared_errors, 1, 0.1);
+}
+
+/// Intervals of what is merged, widened by what its bias is told to be.
+TEST(Coverage, MergedLight) {
+  const auto coverages =
+      coverage_of(diffuse_sphere(), "ppm", {16, 32}, slow_build ? seeds : least_seeds);
+  for (const auto& [passes, coverage] : coverages) expect_covered(coverage);
 }
 
 /// The twin: a truth that is off by 1 % is found out.

@@ -67,6 +67,17 @@ TEST_P(WhiteFurnace, IsOneEverywhere) {
                 passes.mean({""}, {}, channel), 1);
 }
 
+/// So it does by paths from both ends, in the channels whose noise is low.
+TEST_P(WhiteFurnace, IsOneFromBothEnds) {
+  const TestScene scene(text("1, 1, 1"));
+  for (const char* type : {"bdpt", "vcm", "ppm", "auto"}) {
+    const Passes passes = render(scene, type, "", {80});
+    for (int channel = 0; channel < 2; ++channel)
+      expect_mean(fmt::format("{}, white furnace, g = {}, {}", type, GetParam(), "RGB"[channel]),
+                  passes.mean({""}, {}, channel), 1);
+  }
+}
+
 // Slow builds take too few samples to tell.
 #ifndef KAUSTIK_SLOW_BUILD
 /// What is absorbed is missing: the twin that must fail.

@@ -161,8 +161,9 @@ SampleLearning::Sums SampleLearning::BlockSums::all() const {
   return result;
 }
 
-SampleLearning::SampleLearning(const Vec2i& picture, const Vec2i& blocks, int block_size)
-    : picture_(picture), blocks_(blocks), block_size_(block_size) {
+SampleLearning::SampleLearning(const Vec2i& picture, const Vec2i& blocks, int block_size,
+                               bool is_sparing)
+    : picture_(picture), blocks_(blocks), block_size_(block_size), is_sparing_(is_sparing) {
   for (int y = 0; y < blocks.y; ++y)
     for (int x = 0; x < blocks.x; ++x)
       pixels_.push_back(uint32_t(std::min(block_size, picture.x - x * block_size) *
@@ -174,7 +175,13 @@ std::vector<SampleLearning::Sums> SampleLearning::take_samples(
     const Scene& scene, const Integrator& integrator, const PassState& state, const Pass& pass,
     const std::stop_token& stop, uint64_t& rays) const {
   std::vector<Sums> result(sums_.size());
-  const uint32_t pairs = pass.index < first_passes ? first_pairs : later_pairs;
+  const uint32_t pairs = pass.index < first_passes && !is_sparing_ ? first_pairs : later_pairs;
+  // Two passes, an even and an odd one, look at the same blocks, the next two at the others.
+  const auto is_left_out = [&](size_t block) {
+    if (!is_sparing_ || pass.index < first_passes) return false;
+    const size_t x = block % size_t(blocks_.x), y = block / size_t(blocks_.x);
+    return (x + y + pass.index / 2) % 2 == 1;
+  };
   const TakeSample take = [&](const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
     integrator.sample(state, raster, sampler, sink);
   };
@@ -194,7 +201,8 @@ std::vector<SampleLearning::Sums> SampleLearning::take_samples(
   parallel_blocks(result.size(), 16, [&](size_t begin, size_t end, size_t) {
     uint64_t sum = 0;
     for (size_t block = begin; block < end && !stop.stop_requested(); ++block)
-      for (uint32_t pair = 0; pair < pairs; ++pair) sum += add_pair(block, pair);
+      for (uint32_t pair = 0; pair < pairs && !is_left_out(block); ++pair)
+        sum += add_pair(block, pair);
     counted += sum;
   });
   rays += counted;

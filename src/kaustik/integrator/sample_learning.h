@@ -29,8 +29,10 @@ class SampleLearning {
   };
 
   SampleLearning() = default;
-  /// Blocks of `block_size`² pixels of a picture, row by row.
-  SampleLearning(const Vec2i& picture, const Vec2i& blocks, int block_size);
+  /// Blocks of `block_size`² pixels of a picture, row by row. `is_sparing`: with half of the
+  /// samples and less, where all that they cost is on top of a plain path tracer's.
+  SampleLearning(const Vec2i& picture, const Vec2i& blocks, int block_size,
+                 bool is_sparing = false);
 
   /// A few samples of `integrator` in every block, for the pass of that state alone: they are none
   /// of the picture's. Counts their rays.
@@ -59,6 +61,7 @@ class SampleLearning {
  private:
   Vec2i picture_{0, 0}, blocks_{0, 0};
   int block_size_ = 1;
+  bool is_sparing_ = false;
   std::vector<uint32_t> pixels_;  ///< of each block
   std::vector<BlockSums> sums_;
 };

@@ -64,7 +64,8 @@ VcmLearning::VcmLearning(std::shared_ptr<const VcmPlans> first, const VcmSetting
       settings_(settings),
       learns_radii_(learns_radii(*first_, settings)),
       no_samples_(learns_samples(*first_, settings)
-                      ? SampleLearning(picture, first_->pixels.blocks(), PixelPlans::block_size)
+                      ? SampleLearning(picture, first_->pixels.blocks(), PixelPlans::block_size,
+                                       !first_->techniques.needs_light_paths())
                       : SampleLearning()),
       no_connections_(learns_connections(*first_, settings)
                           ? ConnectionLearning(picture, blocks_per_trial * PixelPlans::block_size)

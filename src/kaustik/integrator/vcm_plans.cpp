@@ -15,8 +15,8 @@
 namespace kaustik {
 namespace {
 
-/// Light paths that the pilot pass has at most.
-constexpr uint32_t most_pilot_paths = 1 << 18;
+/// Light paths of a pilot pass: half of a pass's, within these bounds.
+constexpr uint32_t fewest_pilot_paths = 1 << 13, most_pilot_paths = 1 << 18;
 /// Pilot passes, each guided by those before, that there are at most; another one is traced where
 /// what was learned takes off so much of the second moment.
 constexpr uint32_t most_pilots = 4;
@@ -174,7 +174,8 @@ VcmPlans VcmPlanner::plan(uint32_t samples_per_pixel, const std::stop_token& sto
   if (settings_.techniques.merging) plans.pixels = PixelPlans(scene_);
   const uint32_t of_pass =
       light_path_count(scene_.film().crop_size, samples_per_pixel, settings_.light_paths);
-  const uint32_t count = std::min(of_pass, most_pilot_paths);
+  const uint32_t count =
+      std::min({of_pass, most_pilot_paths, std::max(fewest_pilot_paths, of_pass / 2)});
   const PilotLight light = search_light(plans, count, stop);
   if (!light.vertices.connectible.empty())
     plans.connectible_per_path =
