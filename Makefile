@@ -7,12 +7,13 @@ program = $(BUILD)/kaustik
 scene = scenes/cornell_box/cornell_box.xml
 comparisons = $(BUILD)/benchmarks/comparisons
 RESULTS ?= out/bench_scenes.jsonl
+PEER_RESULTS ?= out/bench_peers.jsonl
 bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--integrators $(INTEGRATORS)) \
   $(if $(SECONDS),--seconds $(SECONDS)) $(if $(SEEDS),--seeds $(SEEDS)) $(if $(REFERENCES),--references $(REFERENCES))
 comma = ,
 ablation_scenes = peer_cornell,peer_cornell_glass,peer_ring,peer_pool_above,peer_pool_below,peer_hidden_light
-ablation_integrators = auto,ppm,ppm:guiding=false,ppm:aim=none,ppm:choose_survival=false,ppm:learn_radii=false,ppm:edges=false,$\
-  ppm:correlation=false,ppm:merging=false,ppm:splats=true,ppm:splats=true:connections=true
+ablation_integrators = auto,auto:adaptive=false,ppm,ppm:adaptive=false,ppm:guiding=false,ppm:guided_scattering=false,$\
+  ppm:aim=none,ppm:choose_survival=false,ppm:learn_radii=false,ppm:edges=false,ppm:correlation=false,ppm:merging=false,ppm:splats=true,ppm:splats=true:connections=true
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
 .PHONY: all setup configure build render test thesis bench bench-scenes bench-peers ablation comparisons references install package docs format clean
@@ -50,26 +51,29 @@ bench: build
 bench-scenes: configure
 	@cmake --build --preset release --target bench_scenes comparisons_page
 	$(comparisons)/bench_scenes --results $(RESULTS) $(bench_scenes_options)
-	$(comparisons)/comparisons_page $(RESULTS)
+	$(comparisons)/comparisons_page $(RESULTS) --peers $(PEER_RESULTS)
 
 # What each device of ppm and auto is worth: the error without it, on six scenes.
 ablation: configure
 	@cmake --build --preset release --target bench_scenes comparisons_page
 	$(comparisons)/bench_scenes --results $(RESULTS) --scenes $(or $(SCENES),$(ablation_scenes)) --seconds $(or $(SECONDS),5$(comma)20) \
 	  --seeds $(or $(SEEDS),1) --integrators $(or $(INTEGRATORS),$(ablation_integrators))
-	$(comparisons)/comparisons_page $(RESULTS)
+	$(comparisons)/comparisons_page $(RESULTS) --peers $(PEER_RESULTS)
 
-# Beside Blender Cycles and POV-Ray at equal time: make bench-peers TIME=60 SCENES=metal_ring INTEGRATOR=vcm
+# Beside Blender Cycles and POV-Ray at equal time; fails unless every bar is kept:
+# make bench-peers TIME=60 SCENES=metal_ring INTEGRATOR=vcm
 bench-peers: configure
 	@scripts/install_packages.sh bench
 	@cmake --build --preset release --target bench_peers
 	$(BUILD)/benchmarks/peers/bench_peers $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATOR),--integrator $(INTEGRATOR)) \
-	  $(if $(TIME),--seconds $(TIME)) $(if $(REFERENCES),--references $(REFERENCES))
+	  $(if $(TIME),--seconds $(TIME)) $(if $(REFERENCES),--references $(REFERENCES)) --results $(PEER_RESULTS)
 
-# docs/comparisons.md, of what bench-scenes has measured.
+# docs/comparisons.md, of what bench-scenes and bench-peers have measured, which goes with it.
 comparisons: configure
 	@cmake --build --preset release --target comparisons_page
-	$(comparisons)/comparisons_page $(RESULTS) --docs docs
+	$(comparisons)/comparisons_page $(RESULTS) --peers $(PEER_RESULTS) --docs docs
+	cmp -s $(RESULTS) docs/comparisons/measurements.jsonl || cp $(RESULTS) docs/comparisons/measurements.jsonl
+	test ! -e $(PEER_RESULTS) || cmp -s $(PEER_RESULTS) docs/comparisons/peers.jsonl || cp $(PEER_RESULTS) docs/comparisons/peers.jsonl
 
 # References that the scenes are compared with, hours; SCENES="atrium museum" makes those, anew.
 references: configure

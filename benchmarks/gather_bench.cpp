@@ -1,6 +1,7 @@
 // What lies within a radius: the kd-tree of buckets against a sorted hash grid, the usual structure
 // for merging, with the same loop over 16 points at a time. Ratios of medians of interleaved runs,
-// in processor time of one thread.
+// in processor time of one thread; for disks of a given size, and for those of the first pass of
+// `ppm` on scenes that ship, whose size is printed.
 
 #include <algorithm>
 #include <bit>
@@ -14,6 +15,10 @@
 
 #include "benchmarks/report.h"
 #include "benchmarks/shipped_scenes.h"
+#include "kaustik/integrator/camera_walk.h"
+#include "kaustik/integrator/merge_disk.h"
+#include "kaustik/integrator/vcm_light_pass.h"
+#include "kaustik/integrator/vcm_plans.h"
 
 namespace {
 
@@ -131,6 +136,101 @@ Case room(size_t count, double per_disk, bool uneven) {
   return result;
 }
 
+/// A pass of `ppm` before anything but its pilots has been learned.
+struct FirstPass {
+  VcmPlans plans;
+  LightVertices light;
+};
+
+FirstPass first_pass(const Scene& scene) {
+  Problems problems;
+  const VcmSettings settings(Arguments(ppm_info(), {}, {}, problems));
+  const auto plain = std::make_shared<const LightPathEmission>(scene, settings.aim);
+  const uint32_t samples = settings.samples_per_pass;
+  FirstPass pass;
+  pass.plans = VcmPlanner(scene, settings, plain).make(samples, {});
+  PathWeights::Settings weights;
+  weights.techniques = pass.plans.techniques;
+  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  PassReport report;
+  pass.light = trace_light_vertices(
+      {scene, *pass.plans.emission, PathWeights(weights), settings.components,
+       settings.maximum_events,
+       light_path_count(scene.film().crop_size, samples, pass.plans.light_paths), float(samples),
+       pass.plans.pixels, 1, 0, pass.plans.media, pass.plans.scattering.get(), false},
+      {1, 0, samples}, Stream::light_path, nowhere, {}, {}, report);
+  return pass;
+}
+
+/// The first vertex, behind mirrors and clear glass, that light merges with; false: there is none.
+bool go_to_merging(CameraWalk& walk, Sampler& sampler) {
+  constexpr int most_events = 16;
+  while (walk.events() < most_events && walk.advance()) {
+    if (any(walk.vertex().lobes() & (Lobes::diffuse | Lobes::glossy))) return true;
+    const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
+    if (!walk.scatter(Lobes::all, 1, u_choice.x, u)) return false;
+  }
+  return false;
+}
+
+/// Radius of its disk, as a pass chooses it.
+float merge_radius(const Scene& scene, const VcmPlans& plans, CameraWalk& walk) {
+  const float widest =
+      std::sqrt(plans.pixels.at(walk.raster(), 1).merge_area / std::numbers::pi_v<float>);
+  const DiskCoverage covered(scene, MergeDisk(walk.vertex(), widest), walk.rays());
+  return std::min(widest, std::max(covered.clear_radius(), walk.footprint().width));
+}
+
+/// Mean, and shares of the disks that hold no more.
+void report_sizes(const std::string& name, std::vector<double> counts) {
+  std::sort(counts.begin(), counts.end());
+  const auto at = [&](double share) { return counts[size_t(share * double(counts.size() - 1))]; };
+  bench::report("disks_of_" + name,
+                std::accumulate(counts.begin(), counts.end(), 0.0) / double(counts.size()),
+                "vertices of light paths that merge in a disk of the first pass of ppm, on average",
+                fmt::format("{} disks; a tenth of them hold up to {:.0f}, a half {:.0f}, nine "
+                            "tenths {:.0f}, all {:.0f}",
+                            counts.size(), at(0.1), at(0.5), at(0.9), at(1)));
+}
+
+/// The disks of one camera sample per pixel, tile by tile as they are rendered, among the vertices
+/// of the pass's light paths.
+Case rendered(const std::string& name) {
+  const auto scene = build_scene(bench::load_shipped(name));
+  const FirstPass pass = first_pass(*scene);
+  Case result;
+  result.name = "gather_" + name;
+  const auto& tree = pass.light.tree.tree();
+  for (uint32_t i = 0; i < tree.size(); ++i) result.points.push_back(tree.key(i));
+  // Not in the tree's own order.
+  std::shuffle(result.points.begin(), result.points.end(), std::mt19937(1));
+  constexpr int tile = 16;
+  const Vec2i size = scene->film().crop_size;
+  std::vector<double> counts;
+  const auto look = [&](int x, int y) {
+    Sampler sampler =
+        Sampler::at(1, 0, Stream::camera, uint64_t(y) * uint64_t(size.x) + uint64_t(x), 0);
+    SampleSink sink(ComponentSet::all());
+    CameraWalk walk(*scene, {float(x) + 0.5f, float(y) + 0.5f}, sampler, sink);
+    if (!go_to_merging(walk, sampler)) return;
+    const float radius = merge_radius(*scene, pass.plans, walk);
+    if (!(radius > 0)) return;
+    const SurfaceVertex& vertex = walk.vertex();
+    const MergeDisk disk(vertex, radius);
+    result.queries.push_back({vertex.position(), radius});
+    double count = 0;
+    pass.light.tree.within(vertex.position(), disk.both_sides() ? vertex.point().ng : disk.side(),
+                           disk.both_sides(), sqr(radius), [&](uint32_t, float) { ++count; });
+    counts.push_back(count);
+  };
+  for (int y0 = 0; y0 < size.y; y0 += tile)
+    for (int x0 = 0; x0 < size.x; x0 += tile)
+      for (int y = y0; y < std::min(y0 + tile, size.y); ++y)
+        for (int x = x0; x < std::min(x0 + tile, size.x); ++x) look(x, y);
+  report_sizes(name, counts);
+  return result;
+}
+
 double cpu_seconds_of(const auto& work) {
   const std::clock_t start = std::clock();
   work();
@@ -192,9 +292,19 @@ void measure(const Case& one) {
 }  // namespace
 
 int main() {
-  kaustik::with_threads(1, [] {
-    for (const double per_disk : {10.0, 30.0, 300.0})
-      for (const bool uneven : {false, true}) measure(room(500'000, per_disk, uneven));
-  });
+  using namespace kaustik;
+  try {
+    with_threads(1, [] {
+      for (const double per_disk : {10.0, 30.0, 300.0})
+        for (const bool uneven : {false, true}) measure(room(500'000, per_disk, uneven));
+    });
+    for (const char* scene : {"cornell_spheres", "metal_ring"}) {
+      const Case one = rendered(scene);
+      with_threads(1, [&] { measure(one); });
+    }
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
   return 0;
 }

@@ -1,6 +1,7 @@
 // What many lights cost: a hall under 1, 100 and 10 000 lamps of the same power together, each of
-// them a rectangle or a spot, lit directly and by whole paths. Prints processor time and error of a
-// picture with the same samples, beside one lamp. `many_lights_bench [samples per pixel]`.
+// them a rectangle or a spot, lit directly, by whole paths, and by what `auto` makes of it. Prints
+// processor time and error of a picture with the same samples, beside one lamp. `many_lights_bench
+// [samples per pixel]`.
 #include <cstdlib>
 #include <ctime>
 
@@ -82,16 +83,29 @@ struct Measured {
   double seconds = 1e30, error = 0;
 };
 
-Measured measure(const Scene& scene, const std::string& parameters, int samples) {
-  const Description description = parse_mitsuba_xml(
-      "<scene version=\"3.0.0\"><integrator type=\"path\">" + parameters + "</integrator></scene>",
-      "benchmark", "");
+std::unique_ptr<Integrator> method_of(const Scene& scene, const std::string& type,
+                                      const std::string& parameters) {
+  const Description description =
+      parse_mitsuba_xml("<scene version=\"3.0.0\"><integrator type=\"" + type + "\">" + parameters +
+                            "</integrator></scene>",
+                        "benchmark", "");
   std::vector<std::string> warnings;
-  const auto method = make_integrator(description, scene, warnings);
-  const Image reference =
-      render(scene, *method, 1, reference_factor * samples, bench::picture_threads).picture;
+  return make_integrator(description, scene, warnings);
+}
+
+/// By path tracing.
+Image reference_of(const Scene& scene, const std::string& parameters, int samples) {
+  return render(scene, *method_of(scene, "path", parameters), 1, reference_factor * samples,
+                bench::picture_threads)
+      .picture;
+}
+
+/// An integrator is made anew for each run: what it learns is part of the picture's cost.
+Measured measure(const Scene& scene, const std::string& type, const std::string& parameters,
+                 int samples, const Image& reference) {
   Measured measured;
   for (int i = 0; i < runs; ++i) {
+    const auto method = method_of(scene, type, parameters);
     const Rendered rendered = render(scene, *method, 2, samples, 1);
     measured.seconds = std::min(measured.seconds, rendered.seconds);
     measured.error = bench::error_of(rendered.picture, reference);
@@ -104,35 +118,49 @@ std::string components(const std::string& names) {
   return "<string name=\"components\" value=\"" + names + "\"/>";
 }
 
-std::string relative_to(double value, double one) { return fmt::format("{:.2f}", value / one); }
+/// Time, what it is beside one lamp's, and error, as cells of a table.
+void add_cells(const Measured& measured, const Measured& one, std::vector<std::string>& row) {
+  row.push_back(fmt::format("{:.3f}", measured.seconds));
+  row.push_back(fmt::format("{:.2f}", measured.seconds / one.seconds));
+  row.push_back(fmt::format("{:.3f}", std::sqrt(measured.error)));
+}
+
+void report_cost(const std::string& name, const Measured& measured, const Measured& one,
+                 const std::string& how) {
+  bench::report(name, measured.seconds / one.seconds,
+                "ratio of processor time of a picture by " + how,
+                fmt::format("one lamp of the same power: {:.3f} and {:.3f} s", measured.seconds,
+                            one.seconds));
+}
 
 void run(Lamp kind, int samples, bench::MarkdownTable& table) {
   const std::string name = kind == Lamp::spot ? "spots" : "rectangles";
-  Measured one_direct, one_path;
+  const std::string whole =
+      components("direct,indirect") + "<integer name=\"max_depth\" value=\"6\"/>";
+  Measured one_direct, one_path, one_auto;
   for (const int columns : {1, 10, 100}) {
     const Description description = parse_mitsuba_xml(hall(kind, columns), "benchmark", "");
     const std::clock_t start = std::clock();
     const auto scene = build_scene(description);
     const double built = double(std::clock() - start) / CLOCKS_PER_SEC;
-    const Measured direct = measure(*scene, components("direct"), samples);
-    const Measured path =
-        measure(*scene, components("direct,indirect") + "<integer name=\"max_depth\" value=\"6\"/>",
-                samples);
+    const Image lit_directly = reference_of(*scene, components("direct"), samples),
+                lit = reference_of(*scene, whole, samples);
+    const Measured direct = measure(*scene, "path", components("direct"), samples, lit_directly),
+                   path = measure(*scene, "path", whole, samples, lit),
+                   chosen = measure(*scene, "auto", whole, samples, lit);
     if (columns == 1) {
       one_direct = direct;
       one_path = path;
+      one_auto = chosen;
     }
     const int lamps = columns * columns;
-    table.add({fmt::format("{} {}", lamps, name), fmt::format("{:.2f}", built),
-               fmt::format("{:.3f}", direct.seconds),
-               relative_to(direct.seconds, one_direct.seconds),
-               fmt::format("{:.3f}", std::sqrt(direct.error)), fmt::format("{:.3f}", path.seconds),
-               relative_to(path.seconds, one_path.seconds),
-               fmt::format("{:.3f}", std::sqrt(path.error))});
-    bench::report(fmt::format("cost_of_{}_{}", lamps, name), path.seconds / one_path.seconds,
-                  "ratio of processor time of a picture by paths",
-                  fmt::format("one lamp of the same power: {:.3f} and {:.3f} s", path.seconds,
-                              one_path.seconds));
+    std::vector<std::string> row{fmt::format("{} {}", lamps, name), fmt::format("{:.2f}", built)};
+    add_cells(direct, one_direct, row);
+    add_cells(path, one_path, row);
+    add_cells(chosen, one_auto, row);
+    table.add(row);
+    report_cost(fmt::format("cost_of_{}_{}", lamps, name), path, one_path, "paths");
+    report_cost(fmt::format("cost_of_{}_{}_auto", lamps, name), chosen, one_auto, "auto");
   }
 }
 
@@ -141,7 +169,8 @@ void run(Lamp kind, int samples, bench::MarkdownTable& table) {
 int main(int argc, char** argv) {
   const int samples = argc > 1 ? std::max(1, std::atoi(argv[1])) : 16;
   bench::MarkdownTable table({"lamps", "building, s", "direct light, s", "beside one lamp",
-                              "relative error", "paths, s", "beside one lamp", "relative error"});
+                              "relative error", "paths, s", "beside one lamp", "relative error",
+                              "auto, s", "beside one lamp", "relative error"});
   try {
     for (const Lamp kind : {Lamp::rectangle, Lamp::spot}) run(kind, samples, table);
   } catch (const Error& error) {

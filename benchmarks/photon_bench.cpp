@@ -1,9 +1,11 @@
-// What a photon costs: memory, and a radiance estimate beside the bare search of the tree.
+// What a photon costs: memory, a radiance estimate beside the bare search of the tree, and merging
+// at matt and at glossy surfaces.
 #include <ctime>
 #include <random>
 
 #include "benchmarks/report.h"
 #include "benchmarks/shipped_scenes.h"
+#include "kaustik/integrator/vcm_camera_path.h"
 #include "kaustik/photon/matt_merging.h"
 
 namespace {
@@ -13,6 +15,8 @@ using namespace kaustik;
 constexpr int neighbors = 50;
 constexpr size_t query_count = 50000;
 constexpr int repeats = 9;
+/// Million contributions per second and core, bsdf and weight included, at matt surfaces.
+constexpr bench::Bar merging_bar{8};
 
 double cpu_seconds_of(const auto& work) {
   const std::clock_t start = std::clock();
@@ -107,8 +111,72 @@ void measure_merging(const LightVertices& light, double per_point) {
   }
   bench::report(fmt::format("merging_{:.0f}", per_point),
                 per_point * query_count / bench::median(times) / 1e6,
-                "million contributions per second and core (at least 8)",
+                "million contributions per second and core",
                 fmt::format("{} light vertices, {:.0f} near each point (checksum {:.3g})",
+                            light.path_count, per_point, sum),
+                merging_bar);
+}
+
+constexpr float picture_size = 256;
+/// Of vertices that take many times as long as matt ones.
+constexpr size_t glossy_queries = 5000;
+
+/// The square over which light vertices are strewn, of that material, as a camera above sees it.
+std::shared_ptr<const Scene> glossy_square(const std::string& bsdf) {
+  return build_scene(parse_mitsuba_xml(
+      "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"20\"/>"
+      "<transform name=\"to_world\"><lookat origin=\"0.5, 0.3, 2\" target=\"0.5, 0.5, 0\" "
+      "up=\"0, 1, 0\"/></transform><film type=\"hdrfilm\"><integer name=\"width\" value=\"256\"/>"
+      "<integer name=\"height\" value=\"256\"/></film></sensor>"
+      "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"0\" z=\"3\"/></emitter>"
+      "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.5\"/>"
+      "<translate x=\"0.5\" y=\"0.5\"/></transform>" +
+          bsdf + "</shape></scene>",
+      "benchmark", ""));
+}
+
+/// Merges at the first vertices of camera paths or, to know what that takes alone, only goes there;
+/// returns the sum of what was found.
+double merge_along(const VcmCameraInputs& inputs, const PixelPlan& plan, bool merges) {
+  double sum = 0;
+  for (size_t q = 0; q < glossy_queries; ++q) {
+    Sampler sampler = Sampler::at(1, 0, Stream::camera, q, 0);
+    SampleSink sink(ComponentSet::all());
+    CameraWalk walk(inputs.scene, sampler.next_2d() * picture_size, sampler, sink);
+    VcmCameraPath path(inputs, walk, plan);
+    if (path.go_on(false) != CameraWalk::Arrival::surface) continue;
+    if (merges) path.merge();
+    for (int c = 0; c < component_count; ++c) sum += double(sink.radiance(Component(c)).sum());
+  }
+  return sum;
+}
+
+/// The same as measure_merging() where bsdfs and weights are found vertex by vertex: with the rays
+/// that tell how much of each disk is surface.
+void measure_glossy_merging(const LightVertices& light, const std::string& name,
+                            const std::string& bsdf, double per_point) {
+  const auto scene = glossy_square(bsdf);
+  const LightPathEmission emission(*scene);
+  PathWeights::Settings settings;
+  settings.techniques = {true, true, true, true, true};
+  settings.light_paths = float(light.path_count);
+  const PathWeights weights(settings);
+  const MattMerging no_matt;
+  const PixelPlans pixels;
+  PixelPlan plan;
+  plan.merge_area = float(per_point / double(light.path_count));
+  const VcmCameraInputs inputs{*scene, emission, weights, light, no_matt, pixels, 1, 1, 0};
+  double sum = 0;
+  std::vector<double> times;
+  for (int i = 0; i < repeats; ++i) {
+    const double going = cpu_seconds_of([&] { merge_along(inputs, plan, false); });
+    times.push_back(cpu_seconds_of([&] { sum += merge_along(inputs, plan, true); }) - going);
+  }
+  bench::report(fmt::format("merging_{}_{:.0f}", name, per_point),
+                per_point * glossy_queries / bench::median(times) / 1e6,
+                "million contributions per second and core",
+                fmt::format("{} light vertices, {:.0f} near each point, with the rays that find "
+                            "how much of a disk is covered (checksum {:.3g})",
                             light.path_count, per_point, sum));
 }
 
@@ -124,5 +192,13 @@ int main() {
   measure_estimate(map);
   const LightVertices light = strewn_vertices(1000000);
   for (const double per_point : {30.0, 300.0}) measure_merging(light, per_point);
+  for (const double per_point : {30.0, 300.0}) {
+    measure_glossy_merging(light, "phong",
+                           "<bsdf type=\"phong\"><float name=\"exponent\" value=\"30\"/></bsdf>",
+                           per_point);
+    measure_glossy_merging(
+        light, "roughconductor",
+        "<bsdf type=\"roughconductor\"><float name=\"alpha\" value=\"0.2\"/></bsdf>", per_point);
+  }
   return 0;
 }

@@ -8,12 +8,25 @@
 
 namespace kaustik::bench {
 
-/// One measured claim as a line of JSON on standard output.
+/// What a claim has to reach at least, and should; 0: nothing is asked.
+struct Bar {
+  double bar = 0, aim = 0;
+};
+
+/// One measured claim as a line of JSON on standard output, with what becomes of its bar.
 inline void report(const std::string& name, double value, const std::string& unit,
-                   const std::string& compared_with) {
+                   const std::string& compared_with, const Bar& asked = {}) {
+  std::string outcome;
+  const auto add = [&](const char* what, double least) {
+    if (least > 0)
+      outcome += fmt::format(", \"{0}\": {1:g}, \"{0}_is\": \"{2}\"", what, least,
+                             value >= least ? "kept" : "missed");
+  };
+  add("bar", asked.bar);
+  add("aim", asked.aim);
   fmt::print(
-      "{{\"name\": \"{}\", \"value\": {:.4g}, \"unit\": \"{}\", \"compared_with\": \"{}\"}}\n",
-      name, value, unit, compared_with);
+      "{{\"name\": \"{}\", \"value\": {:.4g}, \"unit\": \"{}\", \"compared_with\": \"{}\"{}}}\n",
+      name, value, unit, compared_with, outcome);
   std::fflush(stdout);
 }
 

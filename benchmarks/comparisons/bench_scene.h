@@ -7,6 +7,9 @@ namespace kaustik::bench {
 
 /// The time that other renderers had for their figures.
 inline constexpr double peer_seconds = 20;
+/// When the scenes that ship have to keep their bars, by how many seeds at least.
+inline constexpr double bar_seconds = 60;
+inline constexpr int bar_seeds = 2;
 
 /// Relative MSE that another renderer reaches in that time.
 struct PeerFigure {
@@ -22,6 +25,9 @@ struct BenchScene {
   std::vector<double> seconds;    ///< when the picture is looked at, unless one asks for others
   std::vector<uint64_t> seeds;    ///< likewise
   std::vector<PeerFigure> peers;  ///< only of scenes whose reference others made
+  /// How many times less than path tracing's, or than the least of the peers', our error has to be,
+  /// and should be; 0: nothing is asked.
+  double bar = 0, aim = 0;
   bool is_peer() const { return !peers.empty(); }
 };
 

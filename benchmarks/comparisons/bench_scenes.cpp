@@ -60,22 +60,31 @@ std::vector<std::string> known_integrators(const std::vector<std::string>& names
   return known;
 }
 
+/// What a scene is compared with.
+struct ChosenReference {
+  std::string path;
+  double mean_ratio = std::nan("");  ///< Measurement::reference_mean_ratio
+};
+
 /// The folder's file of the scene's name, and says how bright it is beside the one that came with
-/// the scene; else that one; "" and says so if there is neither.
-std::string reference_path(const BenchScene& scene, const std::string& folder) {
-  const std::string own = folder + "/" + scene.name + ".exr";
+/// the scene; else that one; nothing and says so if there is neither.
+std::optional<ChosenReference> choose_reference(const BenchScene& scene,
+                                                const std::string& folder) {
+  ChosenReference own{folder + "/" + scene.name + ".exr"};
   const bool has_other = std::filesystem::exists(scene.reference);
-  if (std::filesystem::exists(own)) {
-    if (has_other && !std::filesystem::equivalent(own, scene.reference))
-      say(fmt::format("{}: {} has {:.4f} of the light of {}", scene.name, own,
-                      ratio_of_means(compare_images(read_image(own), read_image(scene.reference))),
+  if (std::filesystem::exists(own.path)) {
+    if (has_other && !std::filesystem::equivalent(own.path, scene.reference)) {
+      own.mean_ratio =
+          ratio_of_means(compare_images(read_image(own.path), read_image(scene.reference)));
+      say(fmt::format("{}: {} has {:.4f} of the light of {}", scene.name, own.path, own.mean_ratio,
                       scene.reference));
+    }
     return own;
   }
-  if (has_other) return scene.reference;
+  if (has_other) return ChosenReference{scene.reference};
   say(fmt::format("{}: left out, there is no {}; make it: make references SCENES={}", scene.name,
                   scene.reference, scene.name));
-  return {};
+  return std::nullopt;
 }
 
 /// The scene's description in the size of its reference.
@@ -118,12 +127,13 @@ Image measure(const BenchScene& scene, const Image& reference, Measurement& m) {
 /// The measurements that are wanted of one scene, and those that there are.
 class SceneBench {
  public:
-  SceneBench(const Options& options, const BenchScene& scene, std::string reference_file)
+  SceneBench(const Options& options, const BenchScene& scene, const ChosenReference& reference)
       : options_(options),
         scene_(scene),
-        reference_(read_image(reference_file)),
+        reference_(read_image(reference.path)),
+        reference_mean_ratio_(reference.mean_ratio),
         program_(checksum_of_file("/proc/self/exe")),
-        reference_checksum_(checksum_of_file(reference_file)),
+        reference_checksum_(checksum_of_file(reference.path)),
         done_(read_measurements(options.results)) {}
 
   void run(const std::vector<std::string>& integrators) const {
@@ -140,6 +150,7 @@ class SceneBench {
     m.seconds = options_.seconds.empty() ? scene_.seconds : options_.seconds;
     m.threads = options_.threads;
     m.program = program_;
+    m.reference_mean_ratio = reference_mean_ratio_;
     const DescriptionDigest digest = description_digest(describe(scene_, integrator, reference_));
     m.inputs =
         fmt::format("{:016x} {:016x} {}", digest.scene, digest.integrator, reference_checksum_);
@@ -167,7 +178,7 @@ class SceneBench {
       say(fmt::format("{}, {}: left out: {}", m.scene, m.integrator, error.what()));
       return;
     }
-    append_measurement(options_.results, m);
+    append_line(options_.results, m.to_json_line());
     fmt::print("{}\n", m.to_json_line());
     std::fflush(stdout);
   }
@@ -184,6 +195,7 @@ class SceneBench {
   const Options& options_;
   const BenchScene& scene_;
   Image reference_;
+  double reference_mean_ratio_;
   std::string program_, reference_checksum_;
   std::vector<Measurement> done_;
 };
@@ -200,7 +212,7 @@ void add_options(CLI::App& app, Options& options) {
                  "When to look; the last ends the run [5,10,20,40,60; of peer_NAME 5,10,20]")
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
-  app.add_option("--seeds", options.seeds, "One run per seed [1; of peer_NAME 1,2,3]")
+  app.add_option("--seeds", options.seeds, "One run per seed [1,2; of peer_NAME 1,2,3]")
       ->delimiter(',');
   app.add_option("--threads", options.threads, "Threads [all]")->check(CLI::Range(1, 4096));
   app.add_option(
@@ -225,8 +237,8 @@ int run_all(int argc, char** argv) {
   for (const std::string& name : options.scenes) scenes.push_back(bench_scene(name));
   const std::vector<std::string> integrators = known_integrators(options.integrators);
   for (const BenchScene& scene : scenes) {
-    const std::string reference = reference_path(scene, options.references);
-    if (!reference.empty()) SceneBench(options, scene, reference).run(integrators);
+    if (const auto reference = choose_reference(scene, options.references))
+      SceneBench(options, scene, *reference).run(integrators);
   }
   return 0;
 }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "benchmarks/comparisons/bench_scene.h"
+#include "benchmarks/comparisons/peer_result.h"
 #include "benchmarks/comparisons/picture_strip.h"
 #include "benchmarks/comparisons/tables.h"
 #include "kaustik/base/error.h"
@@ -19,6 +20,8 @@ namespace {
 /// Less than this share of the processors' time: somebody else had the rest, or the method leaves
 /// processors idle.
 constexpr double quiet_share = 0.9;
+/// A reference whose own noise is more than this share of the least error compared is told of.
+constexpr double low_noise_share = 0.1;
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
   std::filesystem::create_directories(path.parent_path());
@@ -26,53 +29,132 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
                         {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
+std::string list_of(const std::vector<std::string>& items) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
+  return text;
+}
+
+/// Who has measured: which builds, if there are several.
+std::string builds(const Results& results) {
+  if (results.builds().size() <= 1) return "one build of the program";
+  std::vector<std::string> names;
+  for (size_t i = 0; i < results.builds().size(); ++i)
+    names.push_back(fmt::format("{}: {}", letter_of(i), results.builds()[i]));
+  return fmt::format("{} builds of the program ({})", names.size(), list_of(names));
+}
+
+/// Scenes whose reference is noisy beside the errors, or not the same for all.
+std::string about_references(const Results& results) {
+  std::vector<std::string> noisy, several, untold;
+  for (const std::string& scene : results.scenes()) {
+    std::optional<double> least;
+    for (const std::string& integrator : results.integrators())
+      if (const auto error = results.relmse(scene, integrator, results.last_time(scene)))
+        least = std::min(error.value(), least.value_or(*error));
+    const std::optional<double> own = results.reference_relmse(scene);
+    if (!own) untold.push_back(scene);
+    if (own && least && *own > low_noise_share * *least)
+      noisy.push_back(fmt::format("{} ({:.0f} %)", scene, 100 * *own / *least));
+    if (!results.has_one_reference(scene)) several.push_back(scene);
+  }
+  std::string text;
+  if (!noisy.empty())
+    text += fmt::format(
+        "\nThe reference's own noise is more than a tenth of the least error in the table for "
+        "{}.\n",
+        list_of(noisy));
+  if (!untold.empty())
+    text += fmt::format("\nReferences that don't tell their noise: {}.\n", list_of(untold));
+  if (!several.empty())
+    text += fmt::format("\nNot all was compared with the same reference: {}.\n", list_of(several));
+  return text;
+}
+
 /// What bears on how far the figures can be trusted.
 std::string circumstances(const Results& results) {
-  std::set<std::string> programs;
   std::set<int> threads;
   int disturbed = 0;
   double least_share = 1;
   for (const Measurement& m : results.all()) {
-    programs.insert(m.program);
     threads.insert(m.threads);
     if (m.cpu_share < quiet_share) ++disturbed;
     least_share = std::min(least_share, m.cpu_share);
   }
   std::string text = fmt::format("{} runs on {} threads", results.all().size(), *threads.begin());
   if (threads.size() > 1) text += fmt::format(" to {}", *threads.rbegin());
-  text +=
-      fmt::format(", by {} of the program.",
-                  programs.size() == 1 ? "one build" : fmt::format("{} builds", programs.size()));
+  text += fmt::format(", by {}.", builds(results));
   if (disturbed > 0)
     text += fmt::format(
         " {} of them had less than {:.0f} % of the processors' time, the worst {:.0f} %: others "
-        "ran "
-        "beside them, or the method leaves processors idle.",
+        "ran beside them, or the method leaves processors idle.",
         disturbed, 100 * quiet_share, 100 * least_share);
   return text;
 }
 
-std::string tables(const Results& results) {
-  std::string text = "## Error\n\n" + error_table(results);
+std::string error_tables(const Results& results) {
+  const std::string headline = headline_of(results);
+  std::string text =
+      "## Error\n\n" + error_table(results) + about_references(results) +
+      "\nEach error has the reference's own noise in it. The ratios below are told as measured "
+      "and without that noise: it is\nsubtracted from both errors. Where it is more than half of "
+      "one of them, what is left would tell little; then the ratio\nas measured stands there as a "
+      "bound (>, <), since without the noise it is farther from 1. Bars are applied to ratios\n"
+      "without the noise; what a bound does not decide can't be told.\n";
+  text += fmt::format(
+              "\n## Beside the best of the others\n\nThe error of `{0}` over the least of `path`, "
+              "`bdpt`, `ppm` and `vcm`, where all four were measured. On the scenes that ship,\n"
+              "after a minute, it has to be at most 1.1 on average and 1.3 on each.\n\n",
+              headline) +
+          best_table(results);
+  return text +
+         fmt::format("\n## Beside path tracing\n\nThe error of `path` over that of `{}`.\n\n",
+                     headline) +
+         path_table(results);
+}
+
+std::string tables_beside_others(const Results& results,
+                                 const std::vector<PeerResult>& peer_results) {
+  std::string text;
   const std::string peers = peer_table(results);
   if (!peers.empty())
     text +=
         "\n## Beside other renderers\n\nThe scenes and the others' figures are those of "
         "[benchmarks/peer_scenes](../benchmarks/peer_scenes/README.md), which were measured\n"
-        "on 2 cores of one machine at 20 s; ours are measured where this page was made.\n\n" +
+        "on 2 cores of one machine at 20 s; ours are measured where this page was made. Theirs "
+        "have the noise and bias of those\nreferences in them, ours the noise of our references: "
+        "nothing is subtracted. A bar of 3: at most a third of the best error.\n\n" +
         peers;
-  const std::string early = early_table(results);
-  if (!early.empty())
+  if (!peer_results.empty())
     text +=
-        "\n## The first seconds\n\n`photonmap` gathers from maps through an irradiance cache: a "
-        "smooth picture soon, with a bias that stays visible longer.\nWhere it is ahead it is told "
-        "here.\n\n" +
-        early;
+        "\n## At equal time beside Blender Cycles and POV-Ray\n\n`make bench-peers`: the same "
+        "geometry and light on the same cores for the same time, each one's start-up excluded. "
+        "POV-Ray is not\ncalibrated and has no bar.\n\n" +
+        peer_result_table(peer_results);
+  return text;
+}
+
+std::string early_tables(const Results& results) {
+  const std::string early = early_table(results);
+  if (early.empty()) return {};
+  const std::vector<std::string> behind = scenes_that_photonmap_wins(results);
+  return "\n## The first seconds\n\n`photonmap` gathers from maps through an irradiance cache: a "
+         "smooth picture soon, with a bias that stays visible longer.\nIts error at the first time "
+         "and at the last, and the ratio without the reference's noise. " +
+         (behind.empty() ? std::string("At the end it is ahead nowhere.")
+                         : fmt::format("At the end it is still ahead in {}.", list_of(behind))) +
+         "\n\n" + early;
+}
+
+std::string tables(const Results& results, const std::vector<PeerResult>& peer_results) {
+  std::string text =
+      error_tables(results) + tables_beside_others(results, peer_results) + early_tables(results);
   const std::string ablation = ablation_table(results);
   if (!ablation.empty())
     text +=
         "\n## Each device off\n\nThe error with a setting changed over that without at equal "
-        "time, in parentheses the same of the time that a pass takes\n(`make ablation`).\n\n" +
+        "time, without the reference's noise, in parentheses the same of the time that a\npass "
+        "takes (`make ablation`).\n\n" +
         ablation;
   return text + "\n## Means\n\nMean of the picture over that of the reference.\n\n" +
          mean_table(results);
@@ -101,8 +183,8 @@ std::string picture_of(const std::string& scene, const std::string& results_file
   return fmt::format("{}reference:\n\n![pictures of {}]({})\n\n", shown, scene, file);
 }
 
-std::string page(const Results& results, const std::string& results_file,
-                 const std::filesystem::path& docs) {
+std::string page(const Results& results, const std::vector<PeerResult>& peer_results,
+                 const std::string& results_file, const std::filesystem::path& docs) {
   std::string text = fmt::format(
       "# Methods compared over time\n\n"
       "`make bench-scenes` measures this, `make comparisons` writes the page. Relative MSE is the "
@@ -112,11 +194,10 @@ std::string page(const Results& results, const std::string& results_file,
       "focused light is by `auto`\nitself, of long runs; see benchmarks/README.md. Time counts "
       "from the start of rendering; a "
       "picture counts from the end of its "
-      "last pass.\nWhere there are several seeds, errors are means over them. Ratios above 1 say "
-      "how many times less the error of `{}` is.\n\n{}\n\n",
-      headline_of(results), circumstances(results));
+      "last pass.\nWhere there are several seeds, errors are means over them.\n\n{}\n\n",
+      circumstances(results));
   text +=
-      tables(results) +
+      tables(results, peer_results) +
       "\n## Scene by scene\n\nThe error over time; the pictures at the end of it, all brought to "
       "the display by the same factor, and below each the relative\nsquared error of its "
       "pixels, from 10⁻⁶ (dark blue) to 1 (yellow).\n\n";
@@ -130,18 +211,20 @@ std::string page(const Results& results, const std::string& results_file,
 }
 
 int run(int argc, char** argv) {
-  std::string path = "out/bench_scenes.jsonl", docs;
+  std::string path = "out/bench_scenes.jsonl", peers_path = "out/bench_peers.jsonl", docs;
   CLI::App app("Tables, and a page with --docs, of what bench_scenes has measured.");
   app.add_option("results", path, "What bench_scenes wrote")->capture_default_str();
+  app.add_option("--peers", peers_path, "What bench_peers wrote, if it did")->capture_default_str();
   app.add_option("--docs", docs, "Folder that comparisons.md and its plots go into [only print]");
   CLI11_PARSE(app, argc, argv);
   const Results results(read_measurements(path));
   if (results.all().empty())
     throw Error(ErrorKind::input, path + " holds no results", "make some: make bench-scenes");
-  fmt::print("{}\n\n{}", circumstances(results), tables(results));
+  const std::vector<PeerResult> peer_results = read_peer_results(peers_path);
+  fmt::print("{}\n\n{}", circumstances(results), tables(results, peer_results));
   if (docs.empty()) return 0;
   const std::filesystem::path page_path = std::filesystem::path(docs) / "comparisons.md";
-  write_text(page_path, page(results, path, docs));
+  write_text(page_path, page(results, peer_results, path, docs));
   fmt::print("\nwritten: {}\n", page_path.string());
   return 0;
 }

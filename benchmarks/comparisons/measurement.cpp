@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 
+#include "benchmarks/comparisons/result_lines.h"
 #include "kaustik/base/checksum.h"
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
@@ -16,11 +17,6 @@ namespace {
 
 constexpr const char* line_name = "bench-scenes";
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-/// JSON has no NaN: what there is none of is null.
-double number_of(const nlohmann::json& value) {
-  return value.is_number() ? value.get<double>() : not_a_number;
-}
 
 std::vector<double> numbers_of(const nlohmann::json& values) {
   std::vector<double> numbers;
@@ -43,6 +39,7 @@ Measurement measurement_of(const nlohmann::json& line) {
   m.load_seconds = number_of(line.at("load_seconds"));
   m.cpu_share = number_of(line.at("cpu_share"));
   m.reference_relmse = number_of(line.at("reference_relmse"));
+  m.reference_mean_ratio = number_of(line.value("reference_mean_ratio", nlohmann::json()));
   m.program = line.at("program");
   m.inputs = line.at("inputs");
   return m;
@@ -70,6 +67,7 @@ std::string Measurement::to_json_line() const {
                                     {"load_seconds", load_seconds},
                                     {"cpu_share", cpu_share},
                                     {"reference_relmse", reference_relmse},
+                                    {"reference_mean_ratio", reference_mean_ratio},
                                     {"program", program},
                                     {"inputs", inputs}};
   return line.dump();
@@ -77,27 +75,16 @@ std::string Measurement::to_json_line() const {
 
 std::vector<Measurement> read_measurements(const std::string& path) {
   std::vector<Measurement> all;
-  std::ifstream file(path);
-  std::string text;
-  for (int number = 1; std::getline(file, text); ++number) {
-    if (text.empty()) continue;
-    try {
-      const nlohmann::json line = nlohmann::json::parse(text);
-      if (line.value("name", "") == line_name) all.push_back(measurement_of(line));
-    } catch (const nlohmann::json::exception& problem) {
-      throw Error(ErrorKind::input,
-                  fmt::format("{}:{}: not a result: {}", path, number, problem.what()),
-                  "remove the line; a run that was cut short may have left a part of one");
-    }
-  }
+  for_each_line(path, line_name,
+                [&](const nlohmann::json& line) { all.push_back(measurement_of(line)); });
   return all;
 }
 
-void append_measurement(const std::string& path, const Measurement& measurement) {
+void append_line(const std::string& path, const std::string& line) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) std::filesystem::create_directories(folder);
   std::ofstream file(path, std::ios::app);
-  file << measurement.to_json_line() << std::endl;
+  file << line << std::endl;
   if (!file) throw Error(ErrorKind::system, path + " cannot be written");
 }
 

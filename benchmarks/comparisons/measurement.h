@@ -28,8 +28,10 @@ struct Measurement {
   /// method does not use them all.
   double cpu_share = 0;
   double reference_relmse = 0;  ///< of the reference's own noise; NaN: it does not tell
-  std::string program;          ///< checksum of the program that measured
-  std::string inputs;  ///< digests of the scene and the integrator, checksum of the reference
+  /// Of its mean to that of the reference that came with the scene; NaN: there is no other.
+  double reference_mean_ratio = 0;
+  std::string program;  ///< checksum of the program that measured
+  std::string inputs;   ///< digests of the scene and the integrator, checksum of the reference
 
   /// The error at one of `seconds`; nothing if it was not looked at then.
   std::optional<double> relmse_at(double time) const;
@@ -40,7 +42,7 @@ struct Measurement {
 /// Throws Error(input) for lines that are no JSON.
 std::vector<Measurement> read_measurements(const std::string& path);
 /// Adds a line at the end of a results file, which is made with its folder if it is missing.
-void append_measurement(const std::string& path, const Measurement& measurement);
+void append_line(const std::string& path, const std::string& line);
 
 /// Where the last picture of a run is kept, beside the results.
 std::string picture_path(const std::string& results, const std::string& scene,

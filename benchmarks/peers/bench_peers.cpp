@@ -1,14 +1,17 @@
 // Kaustik beside Blender Cycles and POV-Ray: `bench_peers` renders three scenes that ship with each
 // of them for the same time on the same threads, start-up excluded, and prints the errors against
-// the stored references, one line of JSON per pair, then a table. The peers get the scene as
-// Kaustik has loaded it. Cycles' picture has to have our mean; POV-Ray is not calibrated.
+// the stored references, one line of JSON per pair, which it also appends to a results file, then a
+// table; comparisons_page makes a page of the file. Exit status 1: a bar is not kept, or cannot be
+// told. The peers get the scene as Kaustik has loaded it. Cycles' picture has to have our mean;
+// POV-Ray is not calibrated.
 #include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <thread>
 
+#include "benchmarks/comparisons/measurement.h"
+#include "benchmarks/comparisons/peer_result.h"
 #include "benchmarks/comparisons/snapshots.h"
-#include "benchmarks/markdown_table.h"
 #include "benchmarks/peers/cycles.h"
 #include "benchmarks/peers/povray.h"
 
@@ -34,6 +37,7 @@ struct Options {
   int threads = 0;
   uint64_t seed = 1;
   std::string references;  ///< a folder whose references go before the stored ones
+  std::string results = "out/bench_peers.jsonl";
 };
 
 std::string default_integrator() {
@@ -61,23 +65,28 @@ class PeerComparison {
     load_seconds_ = seconds_since(start);
   }
 
-  void with_cycles(MarkdownTable& table) const {
-    const PeerPicture picture = render_with_cycles(peer_scene_of(*scene_), options_.seconds,
-                                                   options_.threads, int(options_.seed));
-    compare("cycles", picture, picture.image,
-            fmt::format("bar: {:g} times, aim: {:g}", bench_.bar, bench_.aim), table);
+  PeerResult with_cycles() const {
+    PeerResult result =
+        compare("cycles", render_with_cycles(peer_scene_of(*scene_), options_.seconds,
+                                             options_.threads, int(options_.seed)));
+    result.bar = bench_.bar;
+    result.aim = bench_.aim;
+    if (std::abs(result.mean_ratio - 1) > mean_tolerance)
+      fmt::print(stderr,
+                 "# {}: the mean of Cycles' picture is {:.3f} of ours: too few samples of what it "
+                 "finds by chance, or not the same scene\n",
+                 bench_.scene, result.mean_ratio);
+    return result;
   }
 
-  void with_povray(MarkdownTable& table) const {
-    const PeerPicture picture =
-        render_with_povray(peer_scene_of(*scene_), options_.seconds, options_.threads);
-    compare("povray", picture, picture.image, "not calibrated, no bar", table);
+  PeerResult with_povray() const {
+    return compare("povray",
+                   render_with_povray(peer_scene_of(*scene_), options_.seconds, options_.threads));
   }
 
  private:
-  /// Renders as long as the peer has, and tells how both stand.
-  void compare(const std::string& peer, const PeerPicture& theirs, const Image& image,
-               const std::string& bar, MarkdownTable& table) const {
+  /// Renders as long as the peer has, and tells how both stand; no bar yet.
+  PeerResult compare(const std::string& peer, const PeerPicture& theirs) const {
     SessionSettings settings;
     settings.seed = options_.seed;
     settings.threads = options_.threads;
@@ -86,29 +95,24 @@ class PeerComparison {
     if (!ours.pictures.back())
       throw Error(ErrorKind::system, "no pass has ended in time", "ask for more seconds");
     const ImageComparison& our_picture = *ours.pictures.back();
-    const ImageComparison their_picture = compare_images(image, reference_);
-    const double ratio = error_of(their_picture) / error_of(our_picture);
-    const double means = ratio_of_means(their_picture) / ratio_of_means(our_picture);
-    report(fmt::format("{}_vs_{}", bench_.scene, peer), ratio, "ratio of relative MSE",
-           fmt::format(
-               "{}: {:.3g} ({}, {:.2f} s after {:.2f} s of start-up), {}: {:.3g} ({} passes "
-               "after {:.2f} s of loading), mean {:.4f} of ours, {} threads; {}; the "
-               "reference itself: {:.2g}",
-               peer, error_of(their_picture), theirs.effort, theirs.seconds,
-               theirs.start_up_seconds, options_.integrator, error_of(our_picture), ours.passes,
-               load_seconds_, means, options_.threads, bar, own_relative_mse(reference_)));
-    if (peer == "cycles" && std::abs(means - 1) > mean_tolerance)
-      fmt::print(stderr,
-                 "# {}: the mean of Cycles' picture is {:.3f} of ours: too few samples of what it "
-                 "finds by chance, or not the same scene\n",
-                 bench_.scene, means);
-    table.add({bench_.scene, peer, fmt::format("{:.1f}", theirs.seconds),
-               fmt::format("{:.2g}", error_of(their_picture)),
-               fmt::format("{:.2g}", error_of(our_picture)), fmt::format("{:.3g}", ratio),
-               peer == "cycles"
-                   ? fmt::format("{:g}: {}", bench_.bar, ratio >= bench_.bar ? "kept" : "missed")
-                   : "–",
-               fmt::format("{:.4f}", means)});
+    const ImageComparison their_picture = compare_images(theirs.image, reference_);
+    PeerResult result;
+    result.scene = bench_.scene;
+    result.peer = peer;
+    result.seconds = theirs.seconds;
+    result.start_up_seconds = theirs.start_up_seconds;
+    result.effort = theirs.effort;
+    result.relmse = error_of(their_picture);
+    result.integrator = options_.integrator;
+    result.our_relmse = error_of(our_picture);
+    result.our_passes = ours.passes;
+    result.our_load_seconds = load_seconds_;
+    result.mean_ratio = ratio_of_means(their_picture) / ratio_of_means(our_picture);
+    result.reference_relmse = own_relative_mse(reference_);
+    result.threads = options_.threads;
+    result.seed = options_.seed;
+    result.program = checksum_of_file("/proc/self/exe");
+    return result;
   }
 
   const PeerBench& bench_;
@@ -128,6 +132,14 @@ std::optional<Image> find_reference(const std::string& scene, const Options& opt
 
 bool wants(const std::vector<std::string>& names, const std::string& name) {
   return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Adds a result to the file and to those of this run.
+void keep(const Options& options, const PeerResult& result, std::vector<PeerResult>& results) {
+  append_line(options.results, result.to_json_line());
+  fmt::print("{}\n", result.to_json_line());
+  std::fflush(stdout);
+  results.push_back(result);
 }
 
 /// Whether a peer is asked for and there; says so if it is only asked for.
@@ -155,6 +167,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--references", options.references,
                  "Folder whose SCENE.exr are compared with instead of the stored references")
       ->check(CLI::ExistingDirectory);
+  app.add_option("--results", options.results, "File that results are appended to")
+      ->capture_default_str();
 }
 
 int run_all(int argc, char** argv) {
@@ -166,18 +180,18 @@ int run_all(int argc, char** argv) {
   if (options.threads == 0) options.threads = int(std::thread::hardware_concurrency());
   const bool cycles = has_peer(options, "cycles", "blender");
   const bool povray = has_peer(options, "povray", "povray");
-  MarkdownTable table({"scene", "beside", "s", "its relative MSE", options.integrator, "ratio",
-                       "bar", "its mean / ours"});
+  std::vector<PeerResult> results;
   for (const PeerBench& bench : peer_benches) {
     if (!wants(options.scenes, bench.scene)) continue;
     const std::optional<Image> reference = find_reference(bench.scene, options);
     if (!reference) continue;
     const PeerComparison comparison(bench, options, *reference);
-    if (cycles) comparison.with_cycles(table);
-    if (povray) comparison.with_povray(table);
+    if (cycles) keep(options, comparison.with_cycles(), results);
+    if (povray) keep(options, comparison.with_povray(), results);
   }
-  fmt::print("\n{}", table.text());
-  return 0;
+  fmt::print("\n{}", peer_result_table(results));
+  const bool cycles_is_missing = wants(options.peers, "cycles") && !cycles;
+  return all_bars_kept(results) && !cycles_is_missing ? 0 : 1;
 }
 
 }  // namespace
@@ -188,6 +202,6 @@ int main(int argc, char** argv) {
     return kaustik::bench::run_all(argc, argv);
   } catch (const kaustik::Error& error) {
     fmt::print(stderr, "{}\n", error.what());
-    return 1;
+    return 2;
   }
 }

@@ -181,8 +181,8 @@ std::string povray_text(const PeerScene& scene, double effort) {
       "error_bound {:.4f} recursion_limit 4 gray_threshold 0 minimum_reuse 0.005 brightness 1 }} "
       "}}\n"
       "background {{ rgb 0 }}\n",
-      int(50000 * effort), 0.02 / std::sqrt(effort), std::clamp(int(100 * effort), 20, 1600),
-      std::clamp(0.6 / std::pow(effort, 0.25), 0.1, 1.8));
+      int(50000 * effort), std::min(0.02 / std::sqrt(effort), 0.08),
+      std::clamp(int(100 * effort), 20, 1600), std::clamp(0.6 / std::pow(effort, 0.25), 0.1, 1.8));
   text += camera_text(scene);
   for (const PeerSurface& surface : scene.surfaces) {
     text += shape_text(surface) + material_text(surface) + "}\n";
