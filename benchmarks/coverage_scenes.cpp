@@ -203,7 +203,6 @@ CoverageSetup::CoverageSetup(const CoverageScene& of, const std::string& type,
 
 std::vector<KnownPixel> truth_of(const CoverageScene& of) {
   if (of.is_analytic()) return closed_form(of);
-  const double t = student_t_quantile(0.975, replicate_count - 1);
   std::vector<KnownPixel> result(of.pixel_count());
   for (const TruthPart& part : of.truth) {
     const CoverageSetup setup(of, part.integrator, part.components);
@@ -214,6 +213,7 @@ std::vector<KnownPixel> truth_of(const CoverageScene& of) {
     Session session(*setup.scene, *setup.integrator, settings);
     session.run();
     const FilmErrors errors(session.film());
+    const double t = student_t_quantile(0.975, errors.freedom());
     for (size_t i = 0; i < result.size(); ++i) {
       const ConfidenceInterval found = errors.luminance(i);
       result[i].mean += found.mean;

@@ -45,7 +45,7 @@ bool is_asked(const CoverageScene& scene, const std::string& integrator) {
 
 /// A seed's picture after some passes.
 struct Look {
-  double picture_error = 0;
+  double picture_error = 0, freedom = 1;  ///< of all pixels' noise
   std::vector<ConfidenceInterval> pixels;
   std::vector<bool> has_noise;
 };
@@ -58,6 +58,7 @@ Look look_at(const Film& film) {
   const FilmErrors errors(film);
   Look result;
   result.picture_error = errors.of_picture();
+  result.freedom = errors.freedom();
   const double n = film.pass_count();
   for (size_t i = 0; i < film.pixel_count(); ++i) {
     result.pixels.push_back(errors.luminance(i));
@@ -141,7 +142,7 @@ struct Coverage {
 
 /// One look per seed.
 Coverage coverage_of(const std::vector<const Look*>& looks, const std::vector<KnownPixel>& truth) {
-  const double t = student_t_quantile(0.975, replicate_count - 1);
+  const double t = student_t_quantile(0.975, looks.front()->freedom);
   Coverage result;
   std::vector<uint64_t> held_by_seed(looks.size()), all_by_seed(looks.size());
   for (size_t i = 0; i < truth.size(); ++i) {

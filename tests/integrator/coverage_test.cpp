@@ -32,7 +32,7 @@ struct Coverage {
 void add(const Film& film, const KnownScene& known, Coverage& coverage) {
   const FilmErrors errors(film);
   const double n = film.pass_count();
-  const double t_replicates = student_t_quantile(0.975, replicate_count - 1);
+  const double t_replicates = student_t_quantile(0.975, errors.freedom());
   const double t_passes = student_t_quantile(0.975, n - 1);
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
@@ -124,11 +124,11 @@ KnownScene diffuse_sphere() {
           [](int, int) { return 0.6 / std::numbers::pi / (1 - 0.6); }};
 }
 
-void expect_covered(const Coverage& coverage) {
+void expect_covered(const Coverage& coverage, double most = 0.97) {
   if (slow_build) return;
   EXPECT_GE(coverage.all, int(least_seeds) * side * side);
   EXPECT_GT(coverage.share(), 0.93);
-  EXPECT_LT(coverage.share(), 0.97);
+  EXPECT_LT(coverage.share(), most);
 }
 
 TEST(Coverage, OnePassPerReplicate) { expect_covered(coverage_of(disk_over_plane(), 16)); }
@@ -145,18 +145,21 @@ TEST(Coverage, TwoPassesPerReplicate) {
 }
 
 /// Intervals are by Student's t, which takes means for normal. Where the noise is that of rare
-/// events the variance is right on average, but few samples often see none of these.
-TEST(Coverage, TheVarianceIsRightWhateverTheNoise) {
+/// events few samples often see none of these: what neighbours have seen makes up for it.
+TEST(Coverage, RareEvents) {
   const Coverage coverage = coverage_of(furnace(), 16);
+  expect_covered(coverage);
   if (slow_build) return;
   EXPECT_NEAR(coverage.by_replicates / coverage.squared_errors, 1, 0.1);
 }
 
-/// Intervals of what is merged, widened by what its bias is told to be.
+/// Intervals of what is merged, widened by what its bias is told to be. Of two halves of 8 passes
+/// that is known so badly that intervals are a little too wide.
 TEST(Coverage, MergedLight) {
   const auto coverages =
       coverage_of(diffuse_sphere(), "ppm", {16, 32}, slow_build ? seeds : least_seeds);
-  for (const auto& [passes, coverage] : coverages) expect_covered(coverage);
+  for (const auto& [passes, coverage] : coverages)
+    expect_covered(coverage, passes == 16 ? 0.975 : 0.97);
 }
 
 /// The twin: a truth that is off by 1 % is found out.

@@ -117,7 +117,7 @@ TEST(LightPathUse, NoiseOfUnguidedPaths) {
   const auto guide = use.scattering().learned();
   ASSERT_TRUE(guide);
   RunningStatistics unguided, by_guided, guided;
-  for (uint32_t i = 1; i <= 32; ++i) {
+  for (uint32_t i = 1; i <= 48; ++i) {
     use.learn_scattering(paths(nullptr, i));
     EXPECT_EQ(use.noise().guided, use.noise().unguided);
     unguided.add(use.noise().guided);

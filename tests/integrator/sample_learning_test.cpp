@@ -183,7 +183,7 @@ Measured measure(double planted, bool adaptive = true) {
       ++result.all;
       result.squared_errors += std::pow(interval.mean - truth, 2);
       result.estimated +=
-          std::pow(interval.half_width / student_t_quantile(0.975, film.pass_count() - 1), 2);
+          std::pow(interval.half_width / student_t_quantile(0.975, errors.freedom()), 2);
     }
   }
   // The square of Student's t is that of F(1, ν).

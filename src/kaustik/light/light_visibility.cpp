@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "kaustik/base/gap_split.h"
 
 namespace kaustik {
 namespace {
@@ -49,7 +52,7 @@ LightVisibility::LightVisibility(const std::vector<Probe>& probes, size_t lights
   }
 }
 
-/// Halves the probes across their widest side until few are left.
+/// Divides the probes across their widest side until few are left.
 void LightVisibility::build(const Learning& from, uint32_t node, std::vector<uint32_t>& probes,
                             size_t begin, size_t end) {
   const auto at = [&](size_t i) { return probes.begin() + std::ptrdiff_t(i); };
@@ -57,19 +60,24 @@ void LightVisibility::build(const Learning& from, uint32_t node, std::vector<uin
   for (size_t i = begin; i < end; ++i) bounds.extendBy(from.probes[probes[i]].position);
   const Vec3f size = bounds.max - bounds.min;
   const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
-  if (end - begin <= largest_leaf || !(size[axis] > 0)) {
+  const auto place = [&](uint32_t probe) { return from.probes[probe].position[axis]; };
+  std::optional<float> split;
+  if (end - begin > largest_leaf) {
+    std::vector<float> places;
+    for (size_t i = begin; i < end; ++i) places.push_back(place(probes[i]));
+    // Paths from both ends must find the same region for points of a wall.
+    split = split_in_gap(std::move(places), least_relative_gap * size[axis]);
+  }
+  if (!split) {
     add_leaf(from, nodes_[node], probes.data() + begin, probes.data() + end);
     return;
   }
-  const size_t middle = (begin + end) / 2;
-  // Ties are told apart by their numbers: the same tree whatever the library's selection does.
-  std::nth_element(at(begin), at(middle), at(end), [&](uint32_t a, uint32_t b) {
-    const float p = from.probes[a].position[axis], q = from.probes[b].position[axis];
-    return p != q ? p < q : a < b;
-  });
+  const auto second = std::stable_partition(at(begin), at(end),
+                                            [&](uint32_t probe) { return place(probe) < *split; });
+  const auto middle = size_t(second - probes.begin());
   const auto first = uint32_t(nodes_.size());
   nodes_.resize(first + 2);
-  nodes_[node] = {from.probes[probes[middle]].position[axis], axis, first};
+  nodes_[node] = {*split, axis, first};
   build(from, first, probes, begin, middle);
   build(from, first + 1, probes, middle, end);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kaustik/base/gap_split.h"
 #include "kaustik/base/parallel.h"
 
 namespace kaustik {
@@ -92,7 +93,7 @@ class ScatterLearning::Builder {
     return bounds;
   }
   /// Puts about half of the events, those on one side along the longest axis of their places,
-  /// first; where the other half begins.
+  /// first; where the other half begins, `begin` if they can't be told apart.
   struct Halves {
     int axis;
     float split;
@@ -104,10 +105,9 @@ class ScatterLearning::Builder {
     const int axis = int(bounds.majorAxis());
     std::vector<float> places;
     for (size_t i = begin; i < end; ++i) places.push_back(place(events_[i])[axis]);
-    const auto median = places.begin() + std::ptrdiff_t(places.size() / 2);
-    std::nth_element(places.begin(), median, places.end());
-    // Where half of them lie in one plane, at the end of the box, there is nothing below it.
-    const float split = *median > bounds.min[axis] ? *median : center(bounds)[axis];
+    const auto gap = split_in_gap(std::move(places), least_relative_gap * bounds.size()[axis]);
+    if (!gap) return {axis, 0, begin};
+    const float split = *gap;
     const auto second = std::stable_partition(
         at(begin), at(end), [&](const Event& event) { return place(event)[axis] < split; });
     return {axis, split, size_t(second - events_.begin())};

@@ -2,12 +2,24 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/photometry.h"
+#include "kaustik/integrator/block_means.h"
 
 namespace kaustik {
 namespace {
 
 /// Pixels on either side that the square of a pixel's bias is averaged with.
 constexpr int bias_reach = 2;
+/// The same of its variance, of which they tell this share: few samples of rare events have often
+/// met none of them, and are too sure of too low a mean. Never more than so many times the pixel's
+/// own, which beside edges is another.
+constexpr int pool_reach = 2;
+constexpr double share_around = 0.4, most_around = 10;
+/// Degrees of freedom of such a variance over those of one pixel, were neighbours independent
+/// (Satterthwaite 1946).
+constexpr double freedom_of_pool = [] {
+  constexpr double pixels = sqr(2 * pool_reach + 1), own = 1 - share_around * (1 - 1 / pixels);
+  return 1 / (sqr(own) + sqr(1 - own) / (pixels - 1));
+}();
 /// Share of the picture's mean luminance under which a pixel's own counts less and less.
 constexpr double dark_share = 0.01;
 
@@ -26,6 +38,23 @@ void smooth_line(const Squares* values, int count, size_t step, Squares* smoothe
   }
 }
 
+/// Of an interval that holds the truth with this chance if what is estimated is a bias away from it
+/// and its deviation is known with so many degrees of freedom: t of both sides where there is no
+/// bias, of one side alone where there is much.
+double half_width_with_bias(double deviation, double bias, double confidence, double freedom) {
+  const double most = student_t_quantile(0.5 + confidence / 2, freedom);
+  if (!(deviation > 0)) return bias;
+  const double least = student_t_quantile(confidence, freedom), shift = bias / deviation;
+  double low = least + shift, high = most + shift;
+  for (int step = 0; step < 20; ++step) {
+    const double middle = 0.5 * (low + high);
+    const double held =
+        student_t_cdf(middle - shift, freedom) - student_t_cdf(-middle - shift, freedom);
+    (held < confidence ? low : high) = middle;
+  }
+  return deviation * high;
+}
+
 Squares product(const Vec3f& a, const Vec3f& b) {
   return {a.x * b.x, a.y * b.y, a.z * b.z, photopic(a) * photopic(b)};
 }
@@ -37,7 +66,16 @@ FilmErrors::FilmErrors(const Film& film) : film_(film) {
     replicate_passes_[r] = film.passes().count_of_remainder(r, replicate_count);
     replicates_ += replicate_passes_[r] > 0 ? 1 : 0;
   }
+  if (is_known()) pool_variances();
   if (film.holds_bias()) square_bias();
+}
+
+void FilmErrors::pool_variances() {
+  std::vector<double> variances(film_.pixel_count());
+  parallel_blocks(variances.size(), 4096, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) variances[i] = luminance_variance(i);
+  });
+  variances_around_ = means_around(variances, {film_.width(), film_.height()}, pool_reach);
 }
 
 void FilmErrors::square_bias() {
@@ -83,6 +121,13 @@ double FilmErrors::luminance_variance(size_t pixel) const {
   return is_known() ? variance_by_replicates(film_.replicate_luminances(pixel)) : 0;
 }
 
+double FilmErrors::pooled_variance(size_t pixel) const {
+  if (!is_known()) return 0;
+  const double own = luminance_variance(pixel);
+  return (1 - share_around) * own +
+         share_around * std::min(most_around * own, variances_around_[pixel]);
+}
+
 double FilmErrors::variance_over_passes(double sum, double sum_of_squares) const {
   const double n = passes(), mean = sum / n;
   return std::max(0.0, sum_of_squares / n - mean * mean) / (n - 1);
@@ -101,7 +146,7 @@ Vec3f FilmErrors::of_pixel(size_t pixel) const {
     const double luminance_over_passes =
         variance_over_passes(luminance_sum(pixel), film_.luminance_squares(pixel));
     if (is_known() && luminance_over_passes > 0)
-      variance *= float(luminance_variance(pixel) / luminance_over_passes);
+      variance *= float(pooled_variance(pixel) / luminance_over_passes);
   }
   Vec3f error;
   for (int lane = 0; lane < 3; ++lane)
@@ -113,10 +158,12 @@ Vec3f FilmErrors::of_pixel(size_t pixel) const {
 ConfidenceInterval FilmErrors::luminance(size_t pixel, double confidence) const {
   const double mean = luminance_sum(pixel) / std::max(1.0, passes());
   if (!is_known()) return {mean, std::numeric_limits<double>::infinity()};
-  const double t = student_t_quantile(0.5 + confidence / 2, replicates_ - 1);
-  return {mean, t * std::sqrt(luminance_variance(pixel)) +
-                    std::sqrt(std::max(0.0, bias_luminance_sq(pixel)))};
+  const double deviation = std::sqrt(pooled_variance(pixel));
+  const double bias = std::sqrt(std::max(0.0, bias_luminance_sq(pixel)));
+  return {mean, half_width_with_bias(deviation, bias, confidence, freedom())};
 }
+
+double FilmErrors::freedom() const { return freedom_of_pool * (replicates_ - 1); }
 
 double FilmErrors::of_picture() const {
   if (!is_known()) return std::numeric_limits<double>::infinity();

@@ -11,8 +11,10 @@ namespace kaustik {
 ///
 /// Noise: passes of one replicate stratify one another, so they are not independent; the replicates
 /// are (Owen 1995). The standard error of a mean is that of the means of up to 16 replicates,
-/// weighted by their passes. Only their luminances are kept; a channel's error is that over passes,
-/// times what replicates make of that of the luminance.
+/// weighted by their passes. Of a single pixel two fifths of the variance are the mean over 5 × 5
+/// pixels: where noise is that of rare events, a pixel whose samples have met none would know
+/// neither that its mean is too low nor that its error is larger. Only their luminances are kept; a
+/// channel's error is that over passes, times what replicates make of that of the luminance.
 ///
 /// Bias: its estimates are as noisy as the picture, and the square of noise is not zero. But the
 /// product of two independent estimates has the mean of the bias squared: that of even replicates
@@ -27,9 +29,11 @@ class FilmErrors {
   /// Standard error of the pixel's mean per channel, √(noise² + bias²); the noise counts as zero
   /// with fewer than two passes.
   Vec3f of_pixel(size_t pixel) const;
-  /// The interval of the pixel's luminance by Student's t, widened by the bias; infinite with fewer
-  /// than two replicates.
+  /// The interval of the pixel's luminance by Student's t, widened by the bias (which is on one
+  /// side of the truth alone); infinite with fewer than two replicates.
   ConfidenceInterval luminance(size_t pixel, double confidence = 0.95) const;
+  /// Degrees of freedom of the noise that a pixel's interval has.
+  double freedom() const;
   /// Square root of the mean over pixels of (e/(|L| + 0.01 M))², where e is the standard error of
   /// the pixel's luminance L (noise and bias), M the picture's mean luminance. Infinite with fewer
   /// than two replicates, 0 for a black picture.
@@ -45,15 +49,19 @@ class FilmErrors {
   double variance_by_replicates(const Fixed* sums) const;
   double luminance_sum(size_t pixel) const;
   double luminance_variance(size_t pixel) const;
+  /// The same, as neighbours tell of it too.
+  double pooled_variance(size_t pixel) const;
   /// Of a mean over passes as if they were independent.
   double variance_over_passes(double sum, double sum_of_squares) const;
   /// Squared; may be negative, which over many pixels cancels what is too large elsewhere.
   double bias_luminance_sq(size_t pixel) const;
   void square_bias();
+  void pool_variances();
 
   const Film& film_;
   std::array<uint32_t, replicate_count> replicate_passes_{};
-  int replicates_ = 0;  ///< that have passes
+  int replicates_ = 0;                    ///< that have passes
+  std::vector<double> variances_around_;  ///< of the luminance: means over neighbours
   /// Squared, of R, G, B and the luminance, averaged over neighbours; empty: none is known.
   std::vector<std::array<float, 4>> bias_sq_;
 };
