@@ -86,11 +86,11 @@ TEST(GuidedScattering, Pays) {
 }
 
 /// Any number of threads, and whoever renders a pass alone: the same bits.
-TEST(GuidedScattering, SameForThreadsAndPasses) {
+void expect_same_for_threads_and_passes(const char* type, const std::string& parameters) {
+  SCOPED_TRACE(type);
   const TestScene scene(next_room(16));
-  const std::string parameters = set("light_paths", 16.0);
   const auto picture = [&](uint32_t first, uint32_t passes, int threads) {
-    const auto integrator = scene.integrator("vcm", parameters);
+    const auto integrator = scene.integrator(type, parameters);
     SessionSettings settings;
     settings.first_pass = first;
     settings.passes = passes;
@@ -110,6 +110,12 @@ TEST(GuidedScattering, SameForThreadsAndPasses) {
   const auto third = pixels(picture(2, 1, 2)), first_two = pixels(picture(0, 2, 2));
   for (size_t i = 0; i < of_one.size(); ++i)
     EXPECT_NEAR(of_one[i], (2 * first_two[i] + third[i]) / 3, 1e-5f * of_one[i]);
+}
+
+TEST(GuidedScattering, SameForThreadsAndPasses) {
+  expect_same_for_threads_and_passes("vcm", set("light_paths", 16.0));
+  // Passes that are made up for have no connections here, and so keep other vertices.
+  expect_same_for_threads_and_passes("bdpt", set("light_paths", 16.0));
 }
 
 /// Between walls that are seen and lit everywhere there is nothing to guide, and it is left.
