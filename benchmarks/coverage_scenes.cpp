@@ -25,18 +25,25 @@ double distance_sq_from_axis(const Ray& ray) {
          sqr(double(ray.origin.y) + t * double(ray.direction.y));
 }
 
+/// Begins the text of a scene.
+std::string floor_seen_from_above(double reflectance) {
+  return fmt::format(R"(<scene version="3.0.0">
+  <sensor type="perspective"><float name="fov" value="90"/>
+    <transform name="to_world"><lookat origin="0, 0, 0.4" target="0, 0, 0" up="0, 1, 0"/></transform>
+    <film type="hdrfilm"><rfilter type="box"/></film></sensor>
+  <shape type="rectangle"><transform name="to_world"><scale value="2, 2, 1"/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="{}"/></bsdf></shape>
+)",
+                     reflectance);
+}
+
 /// A Lambertian disk of radius a and radiance L at height h over a floor: at distance d from the
 /// axis E = πL/2 (1 − (d² + h² − a²)/√((d² + h² + a²)² − 4a²d²)). The noise of light sampling.
 CoverageScene disk_over_plane() {
   return {"disk_over_plane",
           16,
-          R"(<scene version="3.0.0">
-  <sensor type="perspective"><float name="fov" value="90"/>
-    <transform name="to_world"><lookat origin="0, 0, 0.4" target="0, 0, 0" up="0, 1, 0"/></transform>
-    <film type="hdrfilm"><rfilter type="box"/></film></sensor>
-  <shape type="rectangle"><transform name="to_world"><scale value="2, 2, 1"/></transform>
-    <bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.7, 0.7"/></bsdf></shape>
-  <shape type="disk"><transform name="to_world"><scale value="0.5, 0.5, 1"/>
+          floor_seen_from_above(0.7) +
+              R"(  <shape type="disk"><transform name="to_world"><scale value="0.5, 0.5, 1"/>
       <rotate value="1, 0, 0" angle="180"/><translate value="0, 0, 1"/></transform>
     <bsdf type="diffuse"><rgb name="reflectance" value="0, 0, 0"/></bsdf>
     <emitter type="area"><rgb name="radiance" value="4, 4, 4"/></emitter></shape>
@@ -129,13 +136,8 @@ CoverageScene pane() {
   return {
       "pane",
       16,
-      R"(<scene version="3.0.0">
-  <sensor type="perspective"><float name="fov" value="90"/>
-    <transform name="to_world"><lookat origin="0, 0, 0.4" target="0, 0, 0" up="0, 1, 0"/></transform>
-    <film type="hdrfilm"><rfilter type="box"/></film></sensor>
-  <shape type="rectangle"><transform name="to_world"><scale value="2, 2, 1"/></transform>
-    <bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.5, 0.5"/></bsdf></shape>
-  <shape type="rectangle"><transform name="to_world"><scale value="9, 9, 1"/>
+      floor_seen_from_above(0.5) +
+          R"(  <shape type="rectangle"><transform name="to_world"><scale value="9, 9, 1"/>
       <translate value="0, 0, 0.5"/></transform>
     <bsdf type="dielectric"><float name="int_ior" value="1.00001"/><float name="ext_ior" value="1"/></bsdf></shape>
   <emitter type="point"><point name="position" value="0, 0, 1"/>

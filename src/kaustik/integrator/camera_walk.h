@@ -184,10 +184,10 @@ class CameraWalk {
   Vec2f raster_;                                 ///< where it began
   Ray ray_;
   SurfaceVertex vertex_;
-  Receiver in_medium_;         ///< the point where fly() came to in a medium
-  bool is_in_medium_ = false;  ///< the walk is there
-  bool meets_lamps_only_ = false;
-  LightQuery previous_;  ///< of where the last event was
+  Receiver in_medium_;             ///< the point where fly() came to in a medium
+  bool is_in_medium_ = false;      ///< the walk is there
+  bool meets_lamps_only_ = false;  ///< meet_lamps_only()
+  LightQuery previous_;            ///< of where the last event was
   float distance_ = 0;
   bool only_delta_ = true;  ///< every surface so far has delta lobes alone
   uint32_t segments_ = 0;   ///< traced so far: those across null boundaries count, each has a block

@@ -66,11 +66,10 @@ FilmErrors::FilmErrors(const Film& film) : film_(film) {
     replicate_passes_[r] = film.passes().count_of_remainder(r, replicate_count);
     replicates_ += replicate_passes_[r] > 0 ? 1 : 0;
   }
-  if (is_known()) pool_variances();
   if (film.holds_bias()) square_bias();
 }
 
-void FilmErrors::pool_variances() {
+void FilmErrors::pool_variances() const {
   std::vector<double> variances(film_.pixel_count());
   parallel_blocks(variances.size(), 4096, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) variances[i] = luminance_variance(i);
@@ -123,6 +122,7 @@ double FilmErrors::luminance_variance(size_t pixel) const {
 
 double FilmErrors::pooled_variance(size_t pixel) const {
   if (!is_known()) return 0;
+  std::call_once(is_pooled_, [this] { isolated([this] { pool_variances(); }); });
   const double own = luminance_variance(pixel);
   return (1 - share_around) * own +
          share_around * std::min(most_around * own, variances_around_[pixel]);

@@ -1,4 +1,5 @@
 #pragma once
+#include <mutex>
 #include <vector>
 
 #include "kaustik/base/statistics.h"
@@ -56,12 +57,14 @@ class FilmErrors {
   /// Squared; may be negative, which over many pixels cancels what is too large elsewhere.
   double bias_luminance_sq(size_t pixel) const;
   void square_bias();
-  void pool_variances();
+  /// Only once a single pixel is asked for: the picture's error is looked at after every pass.
+  void pool_variances() const;
 
   const Film& film_;
   std::array<uint32_t, replicate_count> replicate_passes_{};
-  int replicates_ = 0;                    ///< that have passes
-  std::vector<double> variances_around_;  ///< of the luminance: means over neighbours
+  int replicates_ = 0;  ///< that have passes
+  mutable std::once_flag is_pooled_;
+  mutable std::vector<double> variances_around_;  ///< of the luminance: means over neighbours
   /// Squared, of R, G, B and the luminance, averaged over neighbours; empty: none is known.
   std::vector<std::array<float, 4>> bias_sq_;
 };
