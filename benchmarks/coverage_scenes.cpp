@@ -78,7 +78,7 @@ CoverageScene furnace() {
 /// reflected before, wherever the lamp is.
 CoverageScene diffuse_sphere() {
   return {"diffuse_sphere",
-          16,
+          32,
           R"(<scene version="3.0.0">
   <sensor type="perspective"><float name="fov" value="80"/>
     <transform name="to_world"><lookat origin="0.5, 0.2, -0.3" target="2, 0.3, 0.2" up="0, 0, 1"/></transform>
