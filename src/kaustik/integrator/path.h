@@ -14,7 +14,7 @@ class PathIntegrator final : public IlluminationModel {
   bool advance(const PassState& state, CameraWalk& walk) const override;
   bool reflect(const PassState& state, CameraWalk& walk,
                const RadianceTracer& tracer) const override;
-  /// Passes are independent replicates: only samples of one pass stratify one another.
+  /// Samples of one pass stratify one another best.
   uint32_t default_samples_per_pass() const override { return 16; }
   ComponentSet components() const override { return components_; }
 
