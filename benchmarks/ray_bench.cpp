@@ -1,5 +1,6 @@
 // How much of bare Embree's speed is left in a light pass and in path tracing: their rays are
 // recorded, then traced again by a bare loop of rtcIntersect1 and rtcOccluded1 on as many threads.
+// And what the camera's rays would gain if they were traced in packets.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -135,22 +136,69 @@ void compare_photons(const std::string& name, const Description& description,
   });
 }
 
+std::unique_ptr<Integrator> path_tracer(Description description, const Scene& scene,
+                                        const std::vector<std::string>& settings = {}) {
+  override_integrator(description, "path");
+  for (const std::string& setting : settings) override_property(description, setting);
+  std::vector<std::string> warnings;
+  return make_integrator(description, scene, warnings);
+}
+
+double pass_seconds(const Scene& scene, const Integrator& integrator) {
+  SessionSettings settings;
+  settings.threads = threads;
+  settings.passes = 1;
+  settings.samples_per_pixel = 4;
+  return Session(scene, integrator, settings).run().seconds;
+}
+
 /// All rays of path tracing: from the camera, scattered, and to lights.
 void compare_path(const std::string& name, const Description& description,
                   const bench::Bar& bar = {}) {
   Recorder recorder;
   const auto scene = build_scene(description, {&recorder});
-  std::vector<std::string> warnings;
-  Description with_path = description;
-  override_integrator(with_path, "path");
-  const auto integrator = make_integrator(with_path, *scene, warnings);
-  SessionSettings settings;
-  settings.threads = threads;
-  settings.passes = 1;
-  settings.samples_per_pixel = 4;
+  const auto integrator = path_tracer(description, *scene);
   compare(
-      name, *scene, recorder, [&] { return Session(*scene, *integrator, settings).run().seconds; },
-      bar);
+      name, *scene, recorder, [&] { return pass_seconds(*scene, *integrator); }, bar);
+}
+
+/// Seconds of one thread for the closest hits of all rays, so many at once.
+double closest_hit_seconds(const Scene& scene, const std::vector<Ray>& rays, size_t at_once) {
+  std::vector<Hit> hits(at_once);
+  return bench::seconds_of([&] {
+    for (size_t i = 0; i < rays.size(); i += at_once) {
+      const std::span<const Ray> group(&rays[i], std::min(at_once, rays.size() - i));
+      if (at_once == 1)
+        scene.tracer().intersect(group[0], hits[0]);
+      else
+        scene.tracer().intersect(group, hits);
+    }
+  });
+}
+
+/// What the camera's rays in packets, as coherent as they are, would take off path tracing's time.
+void compare_camera_packets(const std::string& name, const Description& description) {
+  Recorder recorder;
+  const auto scene = build_scene(description, {&recorder});
+  recorder.enabled = true;
+  pass_seconds(*scene, *path_tracer(description, *scene, {"integrator.max_depth=1"}));
+  recorder.enabled = false;
+  std::vector<Ray> rays;
+  for (const auto& list : recorder.take())
+    for (const RecordedRay& recorded : list)
+      if (!recorded.shadow) rays.push_back(recorded.ray);
+  const auto integrator = path_tracer(description, *scene);
+  std::vector<double> gains, shares;
+  for (int i = 0; i < repeats; ++i) {
+    const double single = closest_hit_seconds(*scene, rays, 1);
+    const double packets = closest_hit_seconds(*scene, rays, 64);
+    gains.push_back(single / packets);
+    shares.push_back((single - packets) / threads / pass_seconds(*scene, *integrator));
+  }
+  bench::report(name, bench::median(gains), "times less time for the camera's rays in packets",
+                fmt::format("{} rays one by one; of a pass of path tracing, 4 samples per pixel, "
+                            "that takes {:.1f} %",
+                            rays.size(), 100 * bench::median(shares)));
 }
 
 /// A glass ball of 1.3 million triangles, wavy, in a box.
@@ -208,5 +256,6 @@ int main() {
   std::filesystem::remove_all(folder);
   compare_path("path_rays_vs_embree", bench::load_shipped("cornell_box"), path_bar);
   compare_path("path_rays_vs_embree_spheres", spheres);
+  compare_camera_packets("camera_rays_in_packets", bench::load_shipped("cornell_box"));
   return 0;
 }

@@ -132,6 +132,22 @@ TEST(Vcm, Merging) {
   }
 }
 
+/// Hundreds of vertices in each disk on a floor that is not matt: the eight samples of a pixel
+/// share them out. A lamp shines at the ceiling.
+TEST(Vcm, MergingInParts) {
+  const TestScene scene(
+      camera("0, -1.5, 0.5", "0, 0, 0", 40, 16) + wall("", phong(0.4, 0.3, 8)) +
+      wall(rotate("1, 0, 0", 180) + translate("0, 0, 1"), diffuse("0.8, 0.8, 0.8")) +
+      flat("rectangle", scale("0.2, 0.2, 1") + translate("0, 0.3, 0.6"),
+           diffuse("0, 0, 0") + area_light("10")));
+  const Passes path = render(scene, "path", "", {800, 7});
+  for (const char* type : {"vcm", "ppm"}) {
+    const Passes found = render(scene, type, set("radius", 0.1) + set("light_paths", 32.0), {8, 8});
+    expect_near_means(fmt::format("{} in parts", type), found.mean({"indirect"}),
+                      path.mean({"indirect"}), 0.01);
+  }
+}
+
 /// Where a small lamp shines through glass only light paths know it.
 TEST(Vcm, CausticOfASmallLamp) {
   const TestScene scene(camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 16) +

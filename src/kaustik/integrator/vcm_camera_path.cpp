@@ -14,8 +14,20 @@ std::vector<PathVertex>& empty_list() {
   return list;
 }
 
-/// Of the sampler's forks for the coverage of the disk of merging, and for the bias of merging.
-constexpr uint32_t coverage_key = 1, bias_key = 2;
+/// Where many light vertices merge one by one, the samples of a pixel share them out, in parts that
+/// are no smaller: all samples merge with the same vertices, and a part costs about as much as the
+/// way there.
+constexpr size_t least_in_part = 64;
+
+std::vector<uint32_t>& empty_indices() {
+  static thread_local std::vector<uint32_t> indices;
+  indices.clear();
+  return indices;
+}
+
+/// Of the sampler's forks for the coverage of the disk of merging, for the bias of merging (two),
+/// and for the part of what merges.
+constexpr uint32_t coverage_key = 1, bias_key = 2, part_key = 4;
 
 /// Chance with which that is estimated: it takes rays.
 constexpr float bias_chance = 0.25f;
@@ -400,32 +412,41 @@ float VcmCameraPath::merge_radius() const {
 }
 
 template <typename Visit>
-void VcmCameraPath::visit_merging(const MergeDisk& disk, const Visit& visit) const {
+void VcmCameraPath::visit_merging(const MergeDisk& disk, uint32_t most_parts,
+                                  const Visit& visit) const {
   const SurfaceVertex& vertex = walk_.vertex();
   const bool both_sides = disk.both_sides();
   const Vec3f& ng = vertex.point().ng;
   const Vec3f side = both_sides || vertex.on_front() ? ng : -ng;
-  PathHalves path = halves();
   const auto& tree = in_.light.tree.tree();
+  std::vector<uint32_t>& near = empty_indices();
   in_.light.tree.within(vertex.position(), side, both_sides, sqr(disk.radius()),
-                        [&](uint32_t index, float) {
-                          const LightVertexData& photon = tree.data(index);
-                          const Vec3f offset = tree.key(index) - vertex.position();
-                          const float cover = disk.share(offset, photon.side);
-                          if (!(cover > 0)) return;
-                          if (walk_.events() + int(photon.before) > in_.maximum_events) return;
-                          const Vec3f wi = photon.direction.unpack();
-                          const float pdf_forward = vertex.pdf(wi, Lobes::all);
-                          const PathVertex* before = in_.light.vertices.data() + photon.path;
-                          const PathVertex& merged = before[photon.before];
-                          path.light = {before, photon.before};
-                          path.pdf_light_last = merged.pdf_light;
-                          path.pdf_light_before_last = pdf_light_before(wi);
-                          path.pdf_camera_last = pdf_forward * merged.to_previous;
-                          path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
-                          path.pdf_next_event = photon.pdf_next_event;
-                          visit(photon, photon.flux_spectrum() * cover, offset, wi, path);
-                        });
+                        [&](uint32_t index, float) { near.push_back(index); });
+  // Neighbours in the tree are neighbours in the disk: one in so many is spread over it.
+  const size_t parts = std::clamp(near.size() / least_in_part, size_t(1), size_t(most_parts));
+  size_t first = 0;
+  if (parts > 1)
+    first = std::min(size_t(walk_.sampler().fork(part_key).next_1d() * float(parts)), parts - 1);
+  PathHalves path = halves();
+  for (size_t i = first; i < near.size(); i += parts) {
+    const uint32_t index = near[i];
+    const LightVertexData& photon = tree.data(index);
+    const Vec3f offset = tree.key(index) - vertex.position();
+    const float cover = disk.share(offset, photon.side);
+    if (!(cover > 0)) continue;
+    if (walk_.events() + int(photon.before) > in_.maximum_events) continue;
+    const Vec3f wi = photon.direction.unpack();
+    const float pdf_forward = vertex.pdf(wi, Lobes::all);
+    const PathVertex* before = in_.light.vertices.data() + photon.path;
+    const PathVertex& merged = before[photon.before];
+    path.light = {before, photon.before};
+    path.pdf_light_last = merged.pdf_light;
+    path.pdf_light_before_last = pdf_light_before(wi);
+    path.pdf_camera_last = pdf_forward * merged.to_previous;
+    path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
+    path.pdf_next_event = photon.pdf_next_event;
+    visit(photon, photon.flux_spectrum() * (cover * float(parts)), offset, wi, path);
+  }
 }
 
 VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, const DiskWeights& weights,
@@ -433,26 +454,29 @@ VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, const Di
   const SurfaceVertex& vertex = walk_.vertex();
   const float radius_sq = sqr(disk.radius());
   MergedLight result;
-  visit_merging(disk, [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset,
-                          const Vec3f& wi, const PathHalves& path) {
-    if (!weights.surroundings.edges.hold(offset)) return;
-    const float weight = in_.weights.merge(path);
-    if (!(weight > 0)) return;
-    const Spectrum arriving =
-        flux * (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
-    const float share = length_sq(offset) / radius_sq;
-    const float kernel = (1 - share) * weights.wide.factor(offset);
-    const float narrow_kernel =
-        std::max(0.0f, 1 - share / sqr(narrow_radius)) * weights.narrow.factor(offset);
-    for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
-      if (!any(lobes & lobe)) continue;
-      const Component component = walk_.component_of(lobe, photon.specular);
-      if (!walk_.wants(component)) continue;
-      const Spectrum reflected = arriving * vertex.eval(wi, lobe);
-      result.of[size_t(component)] += reflected * kernel;
-      result.narrow += reflected * narrow_kernel;
-    }
-  });
+  // Farther on every sample is somewhere else.
+  const uint32_t most_parts = all_delta_ ? uint32_t(std::max(1.0f, in_.camera_samples)) : 1;
+  visit_merging(disk, most_parts,
+                [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset,
+                    const Vec3f& wi, const PathHalves& path) {
+                  if (!weights.surroundings.edges.hold(offset)) return;
+                  const float weight = in_.weights.merge(path);
+                  if (!(weight > 0)) return;
+                  const Spectrum arriving =
+                      flux * (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
+                  const float share = length_sq(offset) / radius_sq;
+                  const float kernel = (1 - share) * weights.wide.factor(offset);
+                  const float narrow_kernel = std::max(0.0f, 1 - share / sqr(narrow_radius)) *
+                                              weights.narrow.factor(offset);
+                  for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
+                    if (!any(lobes & lobe)) continue;
+                    const Component component = walk_.component_of(lobe, photon.specular);
+                    if (!walk_.wants(component)) continue;
+                    const Spectrum reflected = arriving * vertex.eval(wi, lobe);
+                    result.of[size_t(component)] += reflected * kernel;
+                    result.narrow += reflected * narrow_kernel;
+                  }
+                });
   return result;
 }
 
@@ -462,19 +486,21 @@ std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices() const 
   std::vector<MergedVertex> result;
   if (!(radius > 0)) return result;
   const MergeDisk disk(vertex, radius);
-  visit_merging(disk, [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset,
-                          const Vec3f& wi, const PathHalves& path) {
-    const float distance_sq = length_sq(offset);
-    const float kernel =
-        2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
-    const float factor = vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
-    Spectrum reflected;
-    for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
-      if (any(vertex.lobes() & lobe) && walk_.wants(walk_.component_of(lobe, photon.specular)))
-        reflected += vertex.eval(wi, lobe);
-    result.push_back(
-        {in_.weights.beyond_merge(path), walk_.throughput() * reflected * flux * factor});
-  });
+  visit_merging(
+      disk, 1,
+      [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset, const Vec3f& wi,
+          const PathHalves& path) {
+        const float distance_sq = length_sq(offset);
+        const float kernel =
+            2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
+        const float factor = vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
+        Spectrum reflected;
+        for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
+          if (any(vertex.lobes() & lobe) && walk_.wants(walk_.component_of(lobe, photon.specular)))
+            reflected += vertex.eval(wi, lobe);
+        result.push_back(
+            {in_.weights.beyond_merge(path), walk_.throughput() * reflected * flux * factor});
+      });
   return result;
 }
 

@@ -103,9 +103,10 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights) const;
   MergedLight merged(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes) const;
   /// visit(vertex, its flux as far as it counts, how far it lies from the disk's, direction to
-  /// where it comes from, path) for all that merge.
+  /// where it comes from, path) for all that merge; where they are many, for one of `most_parts`
+  /// parts of them at most, which is drawn and counts for all.
   template <typename Visit>
-  void visit_merging(const MergeDisk& disk, const Visit& visit) const;
+  void visit_merging(const MergeDisk& disk, uint32_t most_parts, const Visit& visit) const;
   float merge_radius() const;
   /// Of what follows the last vertex, along the walk's ray.
   PathVertex next_vertex(const Vec3f& position, const Facing& facing) const;
