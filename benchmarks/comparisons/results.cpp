@@ -91,9 +91,12 @@ std::optional<double> Results::mean_ratio(const std::string& scene,
   return mean_over_seeds(scene, integrator, [](const Measurement& m) { return m.mean_ratio; });
 }
 
-std::optional<double> Results::passes(const std::string& scene,
-                                      const std::string& integrator) const {
-  return mean_over_seeds(scene, integrator, [](const Measurement& m) { return double(m.passes); });
+std::optional<double> Results::seconds_per_pass(const std::string& scene,
+                                                const std::string& integrator) const {
+  return mean_over_seeds(scene, integrator, [](const Measurement& m) -> std::optional<double> {
+    if (m.passes == 0) return std::nullopt;
+    return m.seconds.back() / m.passes;
+  });
 }
 
 std::optional<double> Results::newest_of(

@@ -34,8 +34,9 @@ class Results {
   std::optional<double> relmse_beside(const std::string& other, const std::string& scene,
                                       const std::string& integrator, double time) const;
   std::optional<double> mean_ratio(const std::string& scene, const std::string& integrator) const;
-  /// The passes in all of the time.
-  std::optional<double> passes(const std::string& scene, const std::string& integrator) const;
+  /// Of whole runs, which may be of different lengths.
+  std::optional<double> seconds_per_pass(const std::string& scene,
+                                         const std::string& integrator) const;
   /// Of the reference's own noise, where it tells.
   std::optional<double> reference_relmse(const std::string& scene) const;
   /// Measurement::reference_mean_ratio, where there is another.

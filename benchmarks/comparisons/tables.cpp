@@ -123,8 +123,8 @@ std::string ablation_table(const Results& results) {
       const std::optional<ErrorRatio> error = noiseless_ratio(
           results.relmse(scene, variant, *time),
           results.relmse_beside(variant, scene, whole, *time), results.reference_relmse(scene));
-      const std::optional<ErrorRatio> cost =
-          measured_ratio(results.passes(scene, whole), results.passes(scene, variant));
+      const std::optional<ErrorRatio> cost = measured_ratio(
+          results.seconds_per_pass(scene, variant), results.seconds_per_pass(scene, whole));
       means[i].add(error);
       row.push_back(
           fmt::format("{} ({})", cell(error), cost ? fmt::format("{:.2g}", cost->value) : "–"));
