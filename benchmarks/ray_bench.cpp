@@ -177,9 +177,11 @@ double closest_hit_seconds(const Scene& scene, const std::vector<Ray>& rays, siz
 }
 
 /// What the camera's rays in packets, as coherent as they are, would take off path tracing's time.
+/// `description` is left with another integrator.
 void compare_camera_packets(const std::string& name, const Description& description) {
   Recorder recorder;
   const auto scene = build_scene(description, {&recorder});
+  const auto integrator = path_tracer(description, *scene);
   recorder.enabled = true;
   pass_seconds(*scene, *path_tracer(description, *scene, {"integrator.max_depth=1"}));
   recorder.enabled = false;
@@ -187,7 +189,6 @@ void compare_camera_packets(const std::string& name, const Description& descript
   for (const auto& list : recorder.take())
     for (const RecordedRay& recorded : list)
       if (!recorded.shadow) rays.push_back(recorded.ray);
-  const auto integrator = path_tracer(description, *scene);
   std::vector<double> gains, shares;
   for (int i = 0; i < repeats; ++i) {
     const double single = closest_hit_seconds(*scene, rays, 1);

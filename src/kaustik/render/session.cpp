@@ -115,6 +115,7 @@ class Session::Monitor {
     tell(Progress::Stage::picture, false);
   }
   void pass_done() {
+    last_pass_seconds_ = seconds_since(pass_start_);
     ++passes_done_;
     tiles_done_ = 0;
     light_done_ = 0;
@@ -125,7 +126,8 @@ class Session::Monitor {
   uint32_t passes_done() const { return passes_done_; }
   double error() const { return error_; }
   double elapsed() const { return seconds_since(start_); }
-  double seconds_per_pass() const { return elapsed() / std::max(1u, passes_done_.load()); }
+  /// Of the last pass: the first may hold plans that are made once, the mean would too.
+  double last_pass_seconds() const { return last_pass_seconds_; }
 
   void tell(Progress::Stage stage, bool force) {
     if (!listener_) return;
@@ -174,6 +176,7 @@ class Session::Monitor {
   const Session& session_;
   const std::function<void(const Progress&)>& listener_;
   Clock::time_point start_, pass_start_, last_;
+  double last_pass_seconds_ = 0;
   bool told_ = false;
   std::mutex mutex_;
   uint32_t passes_at_start_;
@@ -242,7 +245,7 @@ bool Session::goes_on(uint32_t index, const std::stop_token& stop, const Monitor
   if (stop.stop_requested() && film_.pass_count() > 0) return false;
   if (is_good_enough(monitor.error())) return false;
   return !settings_.seconds || monitor.passes_done() == 0 ||
-         monitor.elapsed() + monitor.seconds_per_pass() <= *settings_.seconds;
+         monitor.elapsed() + monitor.last_pass_seconds() <= *settings_.seconds;
 }
 
 SessionReport Session::run(std::stop_token stop,
