@@ -246,7 +246,7 @@ TEST(Film, BiasIsPartOfTheError) {
   Film film(film_settings(), {ComponentSet::all(), true});
   for (uint32_t pass = 0; pass < 2; ++pass) {
     std::vector<PassPixel> pixels = grey_pass(2);
-    for (PassPixel& pixel : pixels) pixel.bias = {0.3f, -0.4f, pass == 0 ? 1.0f : -1.0f, 0};
+    for (PassPixel& pixel : pixels) pixel.bias = {0.3f, -0.4f, pass == 0 ? 1.2f : -1.2f, 0};
     film.add_pass(pixels, pass);
   }
   const Image image = film.image();
@@ -255,7 +255,7 @@ TEST(Film, BiasIsPartOfTheError) {
   EXPECT_FLOAT_EQ(value_at(image, 1, 2, "error.G"), 0.4f);
   EXPECT_FLOAT_EQ(value_at(image, 1, 2, "error.B"), 0);
   const double mean = std::fabs(double(photopic({0.3f, -0.4f, 0})));
-  const double bias = std::sqrt(mean * mean - std::pow(double(photopic({0, 0, 1})), 2));
+  const double bias = std::sqrt(mean * mean - std::pow(double(photopic({0, 0, 1.2f})), 2));
   EXPECT_NEAR(film.picture_error(), bias / 2.02, 1e-6);
   EXPECT_NEAR(film.mean_error(), mean / 2, 1e-6);
   EXPECT_NEAR(FilmErrors(film).luminance(3).half_width, bias, 1e-6);
@@ -289,6 +289,23 @@ TEST(Film, BiasOfOppositeSignsDoesNotCancel) {
   }
   EXPECT_FLOAT_EQ(value_at(film.image(), 4, 2, "bias.R"), -0.5f);
   EXPECT_NEAR(film.picture_error(), 0.5 / 2.02, 1e-6);
+}
+
+/// A line of bias that is sure keeps its bias where 5 × 5 pixels would thin it out; beside it, and
+/// in the picture, their mean counts.
+TEST(Film, BiasOfALineIsNotThinnedOut) {
+  Film film(film_settings(9, 9), {ComponentSet::all(), true});
+  for (uint32_t pass = 0; pass < 4; ++pass) {
+    std::vector<PassPixel> pixels = grey_pass(2, 81);
+    for (size_t y = 0; y < 9; ++y) pixels[9 * y + 4].bias = Spectrum(0.5f);
+    film.add_pass(pixels, pass);
+  }
+  const Image image = film.image();
+  EXPECT_NEAR(value_at(image, 4, 4, "error.R"), 0.5, 1e-6);
+  EXPECT_NEAR(value_at(image, 3, 4, "error.R"), 0.5 * std::sqrt(0.2), 1e-6);
+  EXPECT_EQ(value_at(image, 1, 4, "error.R"), 0);
+  // Five of nine columns have a fifth of the square.
+  EXPECT_NEAR(film.picture_error(), 0.5 * std::sqrt(0.2 * 5 / 9) / 2.02, 1e-6);
 }
 
 /// Estimates that are noise alone make the error of the picture no larger.

@@ -22,7 +22,8 @@ constexpr uint32_t most_points = 256;
 constexpr double tolerated = 2.5;
 /// The light of a disk, and its variance, are known from this many directions on.
 constexpr double least_directions = 12;
-/// Kinds of light with a smaller share don't count.
+/// A kind of light with a smaller share of both disks doesn't count. (Of the widest one alone a line
+/// of light is little, and was blurred by what little else there was to see.)
 constexpr double least_share = 0.05;
 /// Disks of which edges leave less tell nothing of those that the block's other vertices have.
 constexpr double least_left = 0.125;
@@ -104,12 +105,17 @@ RadiusLearning::Disagreement::Pairs RadiusLearning::disagreement_of(const KindSu
 }
 
 RadiusLearning::Disagreement RadiusLearning::disagreement_of(const Sums& sums, const Levels& of) {
-  double all = 0;
-  for (const auto& kind : sums.of) all += kind.light[levels - 1];
+  std::array<double, levels> all{};
+  for (const KindSums& kind : sums.of)
+    for (size_t i = 0; i < levels; ++i) all[i] += kind.light[i];
   Disagreement result;
-  for (size_t k = 0; k < kind_count; ++k)
-    if (sums.of[k].light[levels - 1] > least_share * all)
-      result.of[k] = disagreement_of(sums.of[k], of);
+  for (size_t k = 0; k < kind_count; ++k) {
+    const auto counts = [&](size_t i) { return sums.of[k].light[i] > least_share * all[i]; };
+    Disagreement::Pairs& pairs = result.of[k] = disagreement_of(sums.of[k], of);
+    for (size_t i = 1; i < levels; ++i)
+      for (size_t j = 0; j < i; ++j)
+        if (!counts(i) && !counts(j)) pairs[i][j] = 0;
+  }
   return result;
 }
 

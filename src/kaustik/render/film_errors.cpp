@@ -7,8 +7,10 @@
 namespace kaustik {
 namespace {
 
-/// Pixels on either side that the square of a pixel's bias is averaged with.
+/// Pixels on either side that the square of a pixel's bias is averaged with. Its own counts where it
+/// is larger, and larger than so many of its standard errors.
 constexpr int bias_reach = 2;
+constexpr float least_bias_errors = 3;
 /// The same of its variance, of which they tell this share: few samples of rare events have often
 /// met none of them, and are too sure of too low a mean. Never more than so many times the pixel's
 /// own, which beside edges is another.
@@ -23,19 +25,44 @@ constexpr double freedom_of_pool = [] {
 /// Share of the picture's mean luminance under which a pixel's own counts less and less.
 constexpr double dark_share = 0.01;
 
+/// Of R, G, B and the luminance.
 using Squares = std::array<float, 4>;
+Squares squares(const Vec3f& a, const Vec3f& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z, photopic(a) * photopic(b)};
+}
+
+/// Of a pixel's bias, or of those around it.
+struct BiasSquares {
+  Squares products{};   ///< of the two halves' estimates: the mean is the bias squared
+  Squares variances{};  ///< of the mean of the two
+};
 
 /// Means of each value with its neighbours in a line of `count` values that are `step` apart; at
-/// the ends of those that are there.
-void smooth_line(const Squares* values, int count, size_t step, Squares* smoothed) {
+/// the ends of those that are there. Calls take(i, mean).
+template <typename Take>
+void smooth_line(const BiasSquares* values, int count, size_t step, const Take& take) {
   for (int i = 0; i < count; ++i) {
     const int first = std::max(0, i - bias_reach), last = std::min(count - 1, i + bias_reach);
-    Squares sum{};
+    const float share = 1 / float(last - first + 1);
+    BiasSquares mean;
     for (int k = first; k <= last; ++k)
-      for (size_t c = 0; c < sum.size(); ++c) sum[c] += values[size_t(k) * step][c];
-    for (size_t c = 0; c < sum.size(); ++c)
-      smoothed[size_t(i) * step][c] = sum[c] / float(last - first + 1);
+      for (size_t c = 0; c < mean.products.size(); ++c) {
+        mean.products[c] += values[size_t(k) * step].products[c] * share;
+        mean.variances[c] += values[size_t(k) * step].variances[c] * share;
+      }
+    take(size_t(i), mean);
   }
+}
+
+/// What a pixel's bias counts for, by the means of its two halves' estimates and by those around.
+Squares pixel_bias(const Vec3f& even, const Vec3f& odd, const BiasSquares& around) {
+  const Vec3f mean = (even + odd) * 0.5f, off = (even - odd) * 0.5f;
+  const Squares own = squares(mean, mean), own_variance = squares(off, off);
+  Squares result = around.products;
+  for (size_t c = 0; c < result.size(); ++c)
+    if (own[c] > sqr(least_bias_errors) * std::max(own_variance[c], around.variances[c]))
+      result[c] = std::max(result[c], own[c]);
+  return result;
 }
 
 /// Of an interval that holds the truth with this chance if what is estimated is a bias away from it
@@ -53,10 +80,6 @@ double half_width_with_bias(double deviation, double bias, double confidence, do
     (held < confidence ? low : high) = middle;
   }
   return deviation * high;
-}
-
-Squares product(const Vec3f& a, const Vec3f& b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z, photopic(a) * photopic(b)};
 }
 
 }  // namespace
@@ -83,19 +106,29 @@ void FilmErrors::square_bias() {
     half_passes[half] = float(film_.passes().count_of_remainder(half, bias_halves));
   if (!(half_passes[0] > 0 && half_passes[1] > 0)) return;
   const int width = film_.width(), height = film_.height();
-  std::vector<Squares> rows(film_.pixel_count());
-  bias_sq_.resize(film_.pixel_count());
+  const auto estimate = [&](size_t pixel, size_t half) {
+    return film_.bias_sum(pixel, half) / half_passes[half];
+  };
+  std::vector<BiasSquares> rows(film_.pixel_count());
   parallel_blocks(size_t(height), 1, [&](size_t y, size_t, size_t) {
-    std::vector<Squares> row(static_cast<size_t>(width));
+    std::vector<BiasSquares> row(static_cast<size_t>(width));
+    const size_t begin = y * row.size();
     for (size_t x = 0; x < row.size(); ++x) {
-      const size_t pixel = y * row.size() + x;
-      row[x] = product(film_.bias_sum(pixel, 0) / half_passes[0],
-                       film_.bias_sum(pixel, 1) / half_passes[1]);
+      const Vec3f even = estimate(begin + x, 0), odd = estimate(begin + x, 1);
+      const Vec3f off = (even - odd) * 0.5f;
+      row[x] = {squares(even, odd), squares(off, off)};
     }
-    smooth_line(row.data(), width, 1, rows.data() + y * row.size());
+    smooth_line(row.data(), width, 1,
+                [&](size_t x, const BiasSquares& mean) { rows[begin + x] = mean; });
   });
+  bias_sq_.resize(film_.pixel_count());
+  luminance_bias_sq_around_.resize(film_.pixel_count());
   parallel_blocks(size_t(width), 1, [&](size_t x, size_t, size_t) {
-    smooth_line(rows.data() + x, height, size_t(width), bias_sq_.data() + x);
+    smooth_line(rows.data() + x, height, size_t(width), [&](size_t y, const BiasSquares& around) {
+      const size_t pixel = y * size_t(width) + x;
+      bias_sq_[pixel] = pixel_bias(estimate(pixel, 0), estimate(pixel, 1), around);
+      luminance_bias_sq_around_[pixel] = around.products[3];
+    });
   });
 }
 
@@ -133,8 +166,8 @@ double FilmErrors::variance_over_passes(double sum, double sum_of_squares) const
   return std::max(0.0, sum_of_squares / n - mean * mean) / (n - 1);
 }
 
-double FilmErrors::bias_luminance_sq(size_t pixel) const {
-  return bias_sq_.empty() ? 0 : double(bias_sq_[pixel][3]);
+double FilmErrors::luminance_bias_sq_around(size_t pixel) const {
+  return luminance_bias_sq_around_.empty() ? 0 : double(luminance_bias_sq_around_[pixel]);
 }
 
 Vec3f FilmErrors::of_pixel(size_t pixel) const {
@@ -159,7 +192,8 @@ ConfidenceInterval FilmErrors::luminance(size_t pixel, double confidence) const 
   const double mean = luminance_sum(pixel) / std::max(1.0, passes());
   if (!is_known()) return {mean, std::numeric_limits<double>::infinity()};
   const double deviation = std::sqrt(pooled_variance(pixel));
-  const double bias = std::sqrt(std::max(0.0, bias_luminance_sq(pixel)));
+  const double bias =
+      bias_sq_.empty() ? 0 : std::sqrt(std::max(0.0, double(bias_sq_[pixel][3])));
   return {mean, half_width_with_bias(deviation, bias, confidence, freedom())};
 }
 
@@ -182,7 +216,7 @@ double FilmErrors::of_picture() const {
   };
   // Single products may be negative, and some do not make up for noise.
   const double noise = sum_of([this](size_t i) { return luminance_variance(i); });
-  const double bias = sum_of([this](size_t i) { return bias_luminance_sq(i); });
+  const double bias = sum_of([this](size_t i) { return luminance_bias_sq_around(i); });
   return std::sqrt((noise + std::max(0.0, bias)) / double(pixels));
 }
 

@@ -21,7 +21,9 @@ namespace kaustik {
 /// product of two independent estimates has the mean of the bias squared: that of even replicates
 /// times that of odd ones, averaged over 5 × 5 pixels, is what counts, and nothing where that is
 /// negative. (Averaged themselves they would cancel where light has an edge: the bias is of
-/// opposite signs on its two sides.) With passes of one half alone the bias counts as zero.
+/// opposite signs on its two sides.) Where a pixel's own estimate is larger, and more than three
+/// times its standard error, that counts: a line of light is narrower than 5 × 5 pixels. With passes
+/// of one half alone the bias counts as zero.
 class FilmErrors {
  public:
   /// `film` must outlive this and not change.
@@ -54,8 +56,9 @@ class FilmErrors {
   double pooled_variance(size_t pixel) const;
   /// Of a mean over passes as if they were independent.
   double variance_over_passes(double sum, double sum_of_squares) const;
-  /// Squared; may be negative, which over many pixels cancels what is too large elsewhere.
-  double bias_luminance_sq(size_t pixel) const;
+  /// Averaged over neighbours; may be negative, which over many pixels cancels what is too large
+  /// elsewhere.
+  double luminance_bias_sq_around(size_t pixel) const;
   void square_bias();
   /// Only once a single pixel is asked for: the picture's error is looked at after every pass.
   void pool_variances() const;
@@ -65,8 +68,9 @@ class FilmErrors {
   int replicates_ = 0;  ///< that have passes
   mutable std::once_flag is_pooled_;
   mutable std::vector<double> variances_around_;  ///< of the luminance: means over neighbours
-  /// Squared, of R, G, B and the luminance, averaged over neighbours; empty: none is known.
+  /// Squared, of R, G, B and the luminance, as it counts in a pixel; empty: none is known.
   std::vector<std::array<float, 4>> bias_sq_;
+  std::vector<float> luminance_bias_sq_around_;  ///< parallel to these
 };
 
 }  // namespace kaustik
