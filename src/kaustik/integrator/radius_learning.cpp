@@ -22,8 +22,8 @@ constexpr uint32_t most_points = 256;
 constexpr double tolerated = 2.5;
 /// The light of a disk, and its variance, are known from this many directions on.
 constexpr double least_directions = 12;
-/// A kind of light with a smaller share of both disks doesn't count. (Of the widest one alone a line
-/// of light is little, and was blurred by what little else there was to see.)
+/// A kind of light with a smaller share of both disks doesn't count. (Of the widest one alone a
+/// line of light is little, and was blurred by what little else there was to see.)
 constexpr double least_share = 0.05;
 /// Disks of which edges leave less tell nothing of those that the block's other vertices have.
 constexpr double least_left = 0.125;
