@@ -160,8 +160,8 @@ std::string tables(const Results& results, const std::vector<PeerResult>& peer_r
          mean_table(results);
 }
 
-/// Of path tracing and of the headline beside the reference, as far as pictures were kept; "":
-/// none.
+/// Of path tracing and of the headline beside the reference, as far as pictures were kept; else
+/// what an earlier page has, or "".
 std::string picture_of(const std::string& scene, const std::string& results_file,
                        const std::string& headline, const std::filesystem::path& docs) {
   std::vector<Image> pictures;
@@ -176,8 +176,11 @@ std::string picture_of(const std::string& scene, const std::string& results_file
     pictures.push_back(read_image(path));
     shown += "`" + integrator + "`, ";
   }
-  if (pictures.empty() || !std::filesystem::exists(reference)) return {};
   const std::string file = "comparisons/" + scene + ".jpg";
+  if (pictures.empty() || !std::filesystem::exists(reference))
+    return std::filesystem::exists(docs / file)
+               ? fmt::format("Of an earlier page:\n\n![pictures of {}]({})\n\n", scene, file)
+               : std::string();
   std::filesystem::create_directories((docs / file).parent_path());
   write_shown_image(picture_strip(pictures, read_image(reference)), (docs / file).string(), 90);
   return fmt::format("{}reference:\n\n![pictures of {}]({})\n\n", shown, scene, file);
