@@ -7,13 +7,14 @@
 namespace kaustik {
 namespace {
 
-/// Pixels on either side that the square of a pixel's bias is averaged with. Its own counts where it
-/// is larger, and larger than so many of its standard errors.
+/// Pixels on either side that the square of a pixel's bias is averaged with.
 constexpr int bias_reach = 2;
+/// The pixel's own counts where it is larger, and its root more than so many of its standard
+/// errors.
 constexpr float least_bias_errors = 3;
-/// The same of its variance, of which they tell this share: few samples of rare events have often
-/// met none of them, and are too sure of too low a mean. Never more than so many times the pixel's
-/// own, which beside edges is another.
+/// Pixels on either side that a variance is averaged with, of which they tell this share: few
+/// samples of rare events have often met none of them, and are too sure of too low a mean. Never
+/// more than so many times the pixel's own, which beside edges is another.
 constexpr int pool_reach = 2;
 constexpr double share_around = 0.4, most_around = 10;
 /// Degrees of freedom of such a variance over those of one pixel, were neighbours independent
@@ -192,8 +193,7 @@ ConfidenceInterval FilmErrors::luminance(size_t pixel, double confidence) const 
   const double mean = luminance_sum(pixel) / std::max(1.0, passes());
   if (!is_known()) return {mean, std::numeric_limits<double>::infinity()};
   const double deviation = std::sqrt(pooled_variance(pixel));
-  const double bias =
-      bias_sq_.empty() ? 0 : std::sqrt(std::max(0.0, double(bias_sq_[pixel][3])));
+  const double bias = bias_sq_.empty() ? 0 : std::sqrt(std::max(0.0, double(bias_sq_[pixel][3])));
   return {mean, half_width_with_bias(deviation, bias, confidence, freedom())};
 }
 

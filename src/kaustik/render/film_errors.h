@@ -22,8 +22,8 @@ namespace kaustik {
 /// times that of odd ones, averaged over 5 × 5 pixels, is what counts, and nothing where that is
 /// negative. (Averaged themselves they would cancel where light has an edge: the bias is of
 /// opposite signs on its two sides.) Where a pixel's own estimate is larger, and more than three
-/// times its standard error, that counts: a line of light is narrower than 5 × 5 pixels. With passes
-/// of one half alone the bias counts as zero.
+/// times its standard error, that counts: a line of light is narrower than 5 × 5 pixels. With
+/// passes of one half alone the bias counts as zero.
 class FilmErrors {
  public:
   /// `film` must outlive this and not change.
