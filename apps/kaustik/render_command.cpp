@@ -21,7 +21,8 @@ struct RenderOptions {
   RenderRecipe recipe;
   OutputPlan outputs;
   std::vector<std::string> definitions, settings;
-  std::string time, error, checkpoint, every = "30s";
+  std::optional<std::string> time, error, checkpoint;
+  std::string every = "30s";
   std::optional<uint32_t> passes, spp;
   uint32_t first_pass = 0;
   LevelOptions levels;
@@ -49,18 +50,18 @@ void render(RenderOptions options) {
     options.outputs.files.push_back(std::filesystem::path(recipe.scene).stem().string() + ".exr");
   sort_settings(options);
   check_outputs(options.outputs);
-  if (!options.checkpoint.empty()) check_output_path(options.checkpoint);
+  if (options.checkpoint) check_output_path(*options.checkpoint);
   SessionSettings settings;
   settings.seed = recipe.seed;
   settings.threads = usable_threads(options.threads);
   settings.first_pass = options.first_pass;
   settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;
-  if (!options.time.empty()) settings.seconds = parse_duration(options.time, "--time");
-  if (!options.error.empty()) settings.error = parse_error_bound(options.error);
+  if (options.time) settings.seconds = parse_duration(*options.time, "--time");
+  if (options.error) settings.error = parse_error_bound(*options.error);
   JobOptions job_options;
   job_options.quiet = options.quiet;
-  job_options.checkpoint = options.checkpoint;
+  job_options.checkpoint = options.checkpoint.value_or("");
   job_options.every_s = parse_duration(options.every, "--every");
 
   recipe.folder = std::filesystem::current_path().string();
@@ -72,7 +73,7 @@ void render(RenderOptions options) {
     override_integrator(description, recipe.integrator);
   }
   recipe.settings = collected_settings(description, options.levels, options.settings);
-  const RenderJob job = make_job(std::move(description), recipe, !options.checkpoint.empty());
+  const RenderJob job = make_job(std::move(description), recipe, options.checkpoint.has_value());
   RenderRecord record;
   record.recipe = recipe;
   record.plan = {options.first_pass, 0, settings.seconds, settings.error};

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "commands.h"
 #include "console.h"
@@ -12,7 +13,8 @@ namespace kaustik::app {
 namespace {
 
 struct ResumeOptions {
-  std::string checkpoint, scene, time, error, every = "30s";
+  std::string checkpoint, scene, every = "30s";
+  std::optional<std::string> time, error;
   std::vector<std::string> outputs;
   std::optional<uint32_t> passes, spp;
   int threads = 0;
@@ -55,8 +57,8 @@ SessionSettings session_settings(const ResumeOptions& options, const Checkpoint&
   settings.first_pass = record.plan.first_pass;
   settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;
-  if (!options.time.empty()) settings.seconds = parse_duration(options.time, "--time");
-  if (!options.error.empty()) settings.error = parse_error_bound(options.error);
+  if (options.time) settings.seconds = parse_duration(*options.time, "--time");
+  if (options.error) settings.error = parse_error_bound(*options.error);
   if (settings.passes || settings.samples_per_pixel || settings.seconds || settings.error)
     return settings;
   settings.error = record.plan.error;
@@ -87,7 +89,7 @@ void resume(const ResumeOptions& options) {
   record.plan.error = settings.error;
   if (!settings.seconds)
     record.plan.seconds.reset();
-  else if (!options.time.empty())
+  else if (options.time)
     record.plan.seconds = record.seconds + *settings.seconds;
   if (!options.quiet)
     fmt::print(stderr, "{} goes on: passes {} are there\n", record.recipe.scene,

@@ -245,6 +245,10 @@ TEST_F(BadInput, SettingsFromTheCommandLine) {
   refused({"-D", "size"}, "command line: -D: cannot read the definition 'size'", "-D name=value");
   refused({"--time", "soon"}, "command line: --time: cannot read the time 'soon'", "60s");
   refused({"--time", "-5s"}, "cannot read the time '-5s'", "60s");
+  // What an unset variable of a script leaves.
+  refused({"--time", ""}, "cannot read the time ''", "60s");
+  refused({"--error", ""}, "cannot read the error ''", "2%");
+  refused({"--checkpoint", ""}, "the name of the output file is empty", "give a file name");
   refused({"--error", "abc"}, "command line: --error: cannot read the error 'abc'", "2%");
   refused({"--checkpoint", "a.kpt", "--every", "often"},
           "command line: --every: cannot read the time 'often'", "60s");
