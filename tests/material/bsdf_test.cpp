@@ -10,6 +10,7 @@
 
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/statistics.h"
+#include "kaustik/base/warp.h"
 #include "tests/material/bsdf_support.h"
 
 namespace kaustik {
@@ -264,6 +265,34 @@ TEST_P(EveryBsdf, is_reciprocal) {
       }
     }
   }
+}
+
+/// In places where a lobe is, and anywhere on the sphere.
+TEST_P(EveryBsdf, values_are_what_is_asked_for_one_by_one) {
+  const auto near = [](float value, float expected) {
+    return std::fabs(value - expected) <= 1e-4f * expected + 1e-12f;
+  };
+  int asked = 0;
+  for (const Case& c : cases_of(bsdf()))
+    for (int i = 0; i < 200; ++i) {
+      Sampler sampler = sampler_of(6, i);
+      const Vec3f anywhere = square_to_sphere(sampler.next_2d());
+      const BsdfSample s = draw(bsdf(), {}, c, sampler);
+      for (const Vec3f& wi : {anywhere, s.event == Lobes::none ? anywhere : s.wi}) {
+        const BsdfValues values = bsdf().values({}, c.wo, wi);
+        const Spectrum diffuse = bsdf().eval({}, c.wo, wi, Lobes::diffuse);
+        const Spectrum glossy = bsdf().eval({}, c.wo, wi, Lobes::glossy);
+        for (int lane = 0; lane < 4; ++lane) {
+          ASSERT_PRED2(near, values.diffuse[lane], diffuse[lane]);
+          ASSERT_PRED2(near, values.glossy[lane], glossy[lane]);
+        }
+        const float pdf = bsdf().pdf({}, c.wo, wi, Lobes::all);
+        ASSERT_PRED2(near, values.pdf, pdf);
+        ASSERT_PRED2(near, values.pdf_reverse, bsdf().pdf({}, wi, c.wo, Lobes::all));
+        asked += pdf > 0;
+      }
+    }
+  EXPECT_EQ(asked > 0, has_density());
 }
 
 TEST_P(EveryBsdf, lobes_add_up) {

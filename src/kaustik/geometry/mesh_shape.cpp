@@ -1,5 +1,6 @@
 #include "kaustik/geometry/mesh_shape.h"
 
+#include "kaustik/base/prefetch.h"
 #include "kaustik/base/warp.h"
 #include "kaustik/geometry/mesh_surface.h"
 #include "kaustik/geometry/shape_support.h"
@@ -88,9 +89,9 @@ ShapeSample MeshShape::sample_area(const Vec2f& u) const {
 ShapeSample MeshShape::sample_toward(const Vec3f& reference, const Vec2f& u,
                                      float& pdf_solid_angle) const {
   // Of thousands of small lamps none is in a cache: fetched together instead of one by one.
-  __builtin_prefetch(cumulative_area_.data());
-  __builtin_prefetch(mesh_.triangles.data());
-  __builtin_prefetch(mesh_.positions.data());
+  prefetch(cumulative_area_.data());
+  prefetch(mesh_.triangles.data());
+  prefetch(mesh_.positions.data());
   const auto view = rectangle_ ? rectangle_->seen_near(reference) : std::nullopt;
   if (!view) return Shape::sample_toward(reference, u, pdf_solid_angle);
   pdf_solid_angle = view->pdf();

@@ -14,6 +14,7 @@
 #include <limits>
 #include <mutex>
 
+#include "kaustik/base/prefetch.h"
 #include "kaustik/geometry/mesh_surface.h"
 
 namespace kaustik {
@@ -65,13 +66,13 @@ InstanceRecord make_instance(const Transform& world_from_group, uint32_t first_s
 /// Where a mesh is read at a hit of it; asked for early, for several hits at once, since in large
 /// meshes each is a cache miss.
 inline void prefetch_triangle(const ShapeRecord& record, const Hit& hit) {
-  if (record.mesh) __builtin_prefetch(&record.mesh->triangles[hit.primitive]);
+  if (record.mesh) prefetch(&record.mesh->triangles[hit.primitive]);
 }
 inline void prefetch_corners(const ShapeRecord& record, const Hit& hit) {
   if (!record.mesh) return;
   for (const uint32_t corner : record.mesh->triangles[hit.primitive]) {
-    __builtin_prefetch(&record.mesh->positions[corner]);
-    if (!record.mesh->normals.empty()) __builtin_prefetch(&record.mesh->normals[corner]);
+    prefetch(&record.mesh->positions[corner]);
+    if (!record.mesh->normals.empty()) prefetch(&record.mesh->normals[corner]);
   }
 }
 

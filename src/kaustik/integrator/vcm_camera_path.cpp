@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kaustik/base/prefetch.h"
 #include "kaustik/integrator/merge_disk.h"
 
 namespace kaustik {
@@ -146,7 +147,7 @@ void VcmCameraPath::leave() {
   previous_ = here_.is_in_medium() ? LightQuery(here_.position()) : light_query(walk_.vertex());
   if (vertices_.size() < 2 || !in_.weights.settings().techniques.needs_light_paths()) return;
   vertices_[vertices_.size() - 2].pdf_light =
-      (vertex.delta ? 1.0f : pdf_back(walk_.ray().direction)) * vertex.to_previous;
+      vertex.delta ? vertex.to_previous : pdf_light_before(walk_.ray().direction);
 }
 
 bool VcmCameraPath::path_tracing_alone(size_t length) const {
@@ -166,12 +167,12 @@ PathHalves VcmCameraPath::halves() const {
 
 float VcmCameraPath::pdf_light_before(const Vec3f& wi) const {
   if (vertices_.size() < 2) return 0;
-  return pdf_back(wi) * vertices_.back().to_previous;
+  return pdf_back(wi, here_.pdf_reverse(wi, Lobes::all)) * vertices_.back().to_previous;
 }
 
-float VcmCameraPath::pdf_back(const Vec3f& wi) const {
+float VcmCameraPath::pdf_back(const Vec3f& wi, float pdf_reverse) const {
   const GuidedBack& back = back_[dot(wi, last_.ng) >= 0 ? 1 : 0];
-  return back.unguided * here_.pdf_reverse(wi, Lobes::all) + back.guided;
+  return back.unguided * pdf_reverse + back.guided;
 }
 
 float VcmCameraPath::sampled(const Scatterer& vertex, const DirectLight& light) const {
@@ -421,7 +422,14 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, uint32_t most_parts,
   const auto& tree = in_.light.tree.tree();
   std::vector<uint32_t>& near = empty_indices();
   in_.light.tree.within(vertex.position(), side, both_sides, sqr(disk.radius()),
-                        [&](uint32_t index, float) { near.push_back(index); });
+                        [&](uint32_t index, float) {
+                          // Paths lie anywhere in memory: waiting for each took half the time.
+                          const LightVertexData& photon = tree.data(index);
+                          const PathVertex* before = in_.light.vertices.data() + photon.path;
+                          prefetch(before);
+                          prefetch(before + photon.before);
+                          near.push_back(index);
+                        });
   // Neighbours in the tree are neighbours in the disk: one in so many is spread over it.
   const size_t parts = std::clamp(near.size() / least_in_part, size_t(1), size_t(most_parts));
   size_t first = 0;
@@ -436,16 +444,17 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, uint32_t most_parts,
     if (!(cover > 0)) continue;
     if (walk_.events() + int(photon.before) > in_.maximum_events) continue;
     const Vec3f wi = photon.direction.unpack();
-    const float pdf_forward = vertex.pdf(wi, Lobes::all);
+    const BsdfValues bsdf = vertex.values(wi);
     const PathVertex* before = in_.light.vertices.data() + photon.path;
     const PathVertex& merged = before[photon.before];
     path.light = {before, photon.before};
     path.pdf_light_last = merged.pdf_light;
-    path.pdf_light_before_last = pdf_light_before(wi);
-    path.pdf_camera_last = pdf_forward * merged.to_previous;
+    if (vertices_.size() >= 2)
+      path.pdf_light_before_last = pdf_back(wi, bsdf.pdf_reverse) * vertices_.back().to_previous;
+    path.pdf_camera_last = bsdf.pdf * merged.to_previous;
     path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
     path.pdf_next_event = photon.pdf_next_event;
-    visit(photon, photon.flux_spectrum() * (cover * float(parts)), offset, wi, path);
+    visit(photon, photon.flux_spectrum() * (cover * float(parts)), offset, wi, bsdf, path);
   }
 }
 
@@ -458,7 +467,7 @@ VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, const Di
   const uint32_t most_parts = all_delta_ ? uint32_t(std::max(1.0f, in_.camera_samples)) : 1;
   visit_merging(disk, most_parts,
                 [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset,
-                    const Vec3f& wi, const PathHalves& path) {
+                    const Vec3f& wi, const BsdfValues& bsdf, const PathHalves& path) {
                   if (!weights.surroundings.edges.hold(offset)) return;
                   const float weight = in_.weights.merge(path);
                   if (!(weight > 0)) return;
@@ -472,7 +481,7 @@ VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, const Di
                     if (!any(lobes & lobe)) continue;
                     const Component component = walk_.component_of(lobe, photon.specular);
                     if (!walk_.wants(component)) continue;
-                    const Spectrum reflected = arriving * vertex.eval(wi, lobe);
+                    const Spectrum reflected = arriving * bsdf.of(lobe);
                     result.of[size_t(component)] += reflected * kernel;
                     result.narrow += reflected * narrow_kernel;
                   }
@@ -489,7 +498,7 @@ std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices() const 
   visit_merging(
       disk, 1,
       [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset, const Vec3f& wi,
-          const PathHalves& path) {
+          const BsdfValues& bsdf, const PathHalves& path) {
         const float distance_sq = length_sq(offset);
         const float kernel =
             2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
@@ -497,7 +506,7 @@ std::vector<VcmCameraPath::MergedVertex> VcmCameraPath::merged_vertices() const 
         Spectrum reflected;
         for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
           if (any(vertex.lobes() & lobe) && walk_.wants(walk_.component_of(lobe, photon.specular)))
-            reflected += vertex.eval(wi, lobe);
+            reflected += bsdf.of(lobe);
         result.push_back(
             {in_.weights.beyond_merge(path), walk_.throughput() * reflected * flux * factor});
       });

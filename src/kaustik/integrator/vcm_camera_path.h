@@ -103,8 +103,8 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights) const;
   MergedLight merged(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes) const;
   /// visit(vertex, its flux as far as it counts, how far it lies from the disk's, direction to
-  /// where it comes from, path) for all that merge; where they are many, for one of `most_parts`
-  /// parts of them at most, which is drawn and counts for all.
+  /// where it comes from, bsdf, path) for all that merge; where they are many, for one of
+  /// `most_parts` parts of them at most, which is drawn and counts for all.
   template <typename Visit>
   void visit_merging(const MergeDisk& disk, uint32_t most_parts, const Visit& visit) const;
   float merge_radius() const;
@@ -127,8 +127,8 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   void connect_to(const ConnectibleVertex& to);
   PathHalves halves() const;
   /// Density per solid angle with which light that comes to the last vertex from `wi` goes back
-  /// along the walk.
-  float pdf_back(const Vec3f& wi) const;
+  /// along the walk; `pdf_reverse` is that of the vertex.
+  float pdf_back(const Vec3f& wi, float pdf_reverse) const;
   /// Of the vertex before the last, if light comes to that from `wi`.
   float pdf_light_before(const Vec3f& wi) const;
   /// Whether light is only sampled and met by chance on paths of this many segments.

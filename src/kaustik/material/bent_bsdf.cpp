@@ -24,6 +24,9 @@ class BentBsdf final : public Bsdf {
             Lobes lobes) const override {
     return nested_->pdf(context, wo, wi, lobes);
   }
+  BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
+    return nested_->values(context, wo, wi);
+  }
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
                     Lobes lobes) const override {
     return nested_->sample(context, wo, u_lobe, u, lobes);

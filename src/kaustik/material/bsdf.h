@@ -92,6 +92,16 @@ struct BsdfSample {
   float eta = 1;  ///< n_transmitted/n_incident across the event; 1 for reflection
 };
 
+/// What paths ask that are completed at a point: f of both lobes without the cosine, 1/sr, and the
+/// densities per solid angle with which sample() finds wi, given wo, and wo, given wi.
+struct BsdfValues {
+  Spectrum diffuse, glossy;
+  float pdf = 0, pdf_reverse = 0;
+
+  /// Of one of the two lobes.
+  const Spectrum& of(Lobes lobe) const { return lobe == Lobes::diffuse ? diffuse : glossy; }
+};
+
 /// How light scatters at a point of a surface. Local frame: z is the shading normal; wo (known) and
 /// wi (asked for) point away from the surface. Immutable, thread-safe. `lobes` restricts every
 /// answer to those parts; delta lobes are sampled, never evaluated (eval and pdf give zero).
@@ -119,6 +129,12 @@ class Bsdf {
   /// Density per solid angle with which sample() finds wi.
   virtual float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                     Lobes lobes) const = 0;
+  /// What eval() and pdf() tell of all lobes, both ways, at once: merging asks for it millions of
+  /// times. Worth its own code where the parts have much in common.
+  virtual BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const {
+    return {eval(context, wo, wi, Lobes::diffuse), eval(context, wo, wi, Lobes::glossy),
+            pdf(context, wo, wi, Lobes::all), pdf(context, wi, wo, Lobes::all)};
+  }
   /// `u_lobe` chooses the lobe, `u` the direction. A weight of zero means absorbed.
   virtual BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe,
                             const Vec2f& u, Lobes lobes) const = 0;

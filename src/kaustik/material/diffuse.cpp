@@ -24,6 +24,14 @@ class Diffuse final : public Bsdf {
     return cosine_hemisphere_pdf(wi.z);
   }
 
+  BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
+    if (wo.z <= 0 || wi.z <= 0) return {};
+    return {context.value_of(*reflectance_) * inv_pi,
+            {},
+            cosine_hemisphere_pdf(wi.z),
+            cosine_hemisphere_pdf(wo.z)};
+  }
+
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float, const Vec2f& u,
                     Lobes lobes) const override {
     BsdfSample sample;

@@ -23,29 +23,21 @@ DielectricFresnel fresnel_dielectric(float cos_incident, float interior_over_ext
   return result;
 }
 
-namespace {
-
-float fresnel_conductor_lane(float cos_incident, float eta, float k) {
-  const float cos_sq = cos_incident * cos_incident, sin_sq = 1 - cos_sq;
-  const float difference = eta * eta - k * k - sin_sq;
-  const float norm = std::sqrt(sqr(difference) + sqr(2 * eta * k));  // a² + b²
-  // a² = (norm + difference)/2 cancels for good metals; there a = η k / b.
-  const float a = difference > 0 ? std::sqrt(0.5f * (norm + difference))
-                                 : eta * k / std::sqrt(0.5f * (norm - difference));
-  const float s_sum = norm + cos_sq, s_term = 2 * cos_incident * a;
-  const float s = (s_sum - s_term) / (s_sum + s_term);
-  const float p_sum = cos_sq * norm + sin_sq * sin_sq, p_term = s_term * sin_sq;
-  const float p = s * (p_sum - p_term) / (p_sum + p_term);
-  return 0.5f * (s + p);
-}
-
-}  // namespace
-
 Spectrum fresnel_conductor(float cos_incident, const ComplexIor& ior) {
-  return {fresnel_conductor_lane(cos_incident, ior.eta[0], ior.k[0]),
-          fresnel_conductor_lane(cos_incident, ior.eta[1], ior.k[1]),
-          fresnel_conductor_lane(cos_incident, ior.eta[2], ior.k[2]),
-          fresnel_conductor_lane(cos_incident, ior.eta[3], ior.k[3])};
+  const Spectrum &eta = ior.eta, &k = ior.k;
+  const float cos_sq = cos_incident * cos_incident, sin_sq = 1 - cos_sq;
+  const Spectrum difference = eta * eta - k * k - Spectrum(sin_sq);
+  const Spectrum twice = 2 * eta * k;
+  const Spectrum norm = sqrt(difference * difference + twice * twice);  // a² + b²
+  // a² = (norm + difference)/2 cancels for good metals; there a = η k / b.
+  const Spectrum::Register d = difference.lanes();
+  const Spectrum larger = sqrt(0.5f * (norm + Spectrum(d > 0 ? d : -d)));
+  const Spectrum a(d > 0 ? larger.lanes() : (eta * k / larger).lanes());
+  const Spectrum s_sum = norm + Spectrum(cos_sq), s_term = 2 * cos_incident * a;
+  const Spectrum s = (s_sum - s_term) / (s_sum + s_term);
+  const Spectrum p_sum = cos_sq * norm + Spectrum(sin_sq * sin_sq), p_term = s_term * sin_sq;
+  const Spectrum p = s * (p_sum - p_term) / (p_sum + p_term);
+  return 0.5f * (s + p);
 }
 
 namespace {

@@ -74,11 +74,6 @@ Vec3f MicrofacetDistribution::sample(const Vec3f& w, const Vec2f& u) const {
   return kind_ == Kind::ggx ? sample_visible_ggx(w, u) : sample_visible_beckmann(w, u);
 }
 
-float MicrofacetDistribution::pdf(const Vec3f& w, const Vec3f& m) const {
-  if (!sample_visible_) return density(m) * m.z;
-  return density(m) * masking(w) * dot(w, m) / w.z;
-}
-
 Vec3f MicrofacetDistribution::sample_all(const Vec2f& u) const {
   const float phi = 2 * pi * u.y, rest = 1 - u.x;
   const float slope = std::sqrt(kind_ == Kind::ggx ? u.x / rest : -std::log(rest));

@@ -24,7 +24,11 @@ class MicrofacetDistribution {
   /// (2014).
   Vec3f sample(const Vec3f& w, const Vec2f& u) const;
   /// Density per solid angle of the normals with which sample() finds m; dot(w, m) > 0.
-  float pdf(const Vec3f& w, const Vec3f& m) const;
+  float pdf(const Vec3f& w, const Vec3f& m) const { return pdf(w, m, density(m), masking(w)); }
+  /// The same where density(m) and masking(w) are known.
+  float pdf(const Vec3f& w, const Vec3f& m, float density, float masking) const {
+    return sample_visible_ ? density * masking * dot(w, m) / w.z : density * m.z;
+  }
 
  private:
   Vec3f sample_all(const Vec2f& u) const;

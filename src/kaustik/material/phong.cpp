@@ -88,6 +88,18 @@ class Phong final : public Bsdf {
     return is_possible(wo, wi) ? pdf_of(factors(context, lobes), wo, wi) : 0.0f;
   }
 
+  BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
+    if (!is_possible(wo, wi)) return {};
+    const Factors k = factors(context, Lobes::all);
+    const size_t diffuse = wo.z * wi.z < 0 ? 2 : 0, glossy = diffuse + 1;
+    const float power = power_of(k, wo, wi);
+    const float sent = k.chance[glossy] * (k.exponent + 1) * 0.5f * inv_pi * power;
+    return {k.factor[diffuse] * inv_pi,
+            k.factor[glossy] * ((k.exponent + 2) * 0.5f * inv_pi * power),
+            k.chance[diffuse] * std::fabs(wi.z) * inv_pi + sent,
+            k.chance[diffuse] * std::fabs(wo.z) * inv_pi + sent};
+  }
+
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
                     Lobes lobes) const override {
     BsdfSample sample;
@@ -173,18 +185,23 @@ class Phong final : public Bsdf {
     return (wo.z > 0) == (proposal == 0) ? wi : Vec3f(wi.x, wi.y, -wi.z);
   }
 
-  Parts parts_of(const Factors& k, const Vec3f& wo, const Vec3f& wi) const {
+  /// cosⁿα; 0 where there is no glossy lobe.
+  static float power_of(const Factors& k, const Vec3f& wo, const Vec3f& wi) {
     const bool through = wo.z * wi.z < 0;
-    const float power = cos_power(through ? -wo : mirrored(wo), wi, k.exponent);
-    return {k.factor[through ? 2 : 0] * inv_pi,
-            k.factor[through ? 3 : 1] * ((k.exponent + 2) * 0.5f * inv_pi * power)};
+    if (!(k.chance[through ? 3 : 1] > 0)) return 0;
+    return cos_power(through ? -wo : mirrored(wo), wi, k.exponent);
   }
 
-  float pdf_of(const Factors& k, const Vec3f& wo, const Vec3f& wi) const {
+  static Parts parts_of(const Factors& k, const Vec3f& wo, const Vec3f& wi) {
     const bool through = wo.z * wi.z < 0;
-    const float power = cos_power(through ? -wo : mirrored(wo), wi, k.exponent);
+    return {k.factor[through ? 2 : 0] * inv_pi,
+            k.factor[through ? 3 : 1] * ((k.exponent + 2) * 0.5f * inv_pi * power_of(k, wo, wi))};
+  }
+
+  static float pdf_of(const Factors& k, const Vec3f& wo, const Vec3f& wi) {
+    const bool through = wo.z * wi.z < 0;
     return k.chance[through ? 2 : 0] * std::fabs(wi.z) * inv_pi +
-           k.chance[through ? 3 : 1] * (k.exponent + 1) * 0.5f * inv_pi * power;
+           k.chance[through ? 3 : 1] * (k.exponent + 1) * 0.5f * inv_pi * power_of(k, wo, wi);
   }
 
   PhongTextures textures_;

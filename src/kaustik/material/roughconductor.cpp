@@ -88,6 +88,22 @@ class RoughConductor final : public Bsdf {
     return pdf_of_reflection(facets_.at(context), wo, normalize(wo + wi));
   }
 
+  BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
+    if (wo.z <= 0 || wi.z <= 0) return {};
+    const Vec3f m = normalize(wo + wi);
+    const MicrofacetDistribution facets = facets_.at(context);
+    const float density = facets.density(m);
+    const float seen = facets.masking(wo), lit = facets.masking(wi);
+    BsdfValues values;
+    values.glossy = context.value_of(*reflectance_) * fresnel(wo, m) *
+                    (density * seen * lit / (4 * wo.z * wi.z));
+    const float cos_facet = dot(wo, m);
+    if (!(cos_facet > 0)) return values;
+    values.pdf = facets.pdf(wo, m, density, seen) / (4 * cos_facet);
+    values.pdf_reverse = facets.pdf(wi, m, density, lit) / (4 * cos_facet);
+    return values;
+  }
+
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float, const Vec2f& u,
                     Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0) return {};

@@ -46,6 +46,11 @@ class Twosided final : public Bsdf {
                      : back_->pdf(context, mirrored(wo), mirrored(wi), lobes);
   }
 
+  BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
+    return wo.z >= 0 ? front_->values(context, wo, wi)
+                     : back_->values(context, mirrored(wo), mirrored(wi));
+  }
+
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
                     Lobes lobes) const override {
     if (wo.z >= 0) return front_->sample(context, wo, u_lobe, u, lobes);

@@ -142,6 +142,12 @@ float SurfaceVertex::pdf_reverse(const Vec3f& wi, Lobes lobes) const {
   return bsdf_->pdf(context_, wi_local, wo_local_, lobes);
 }
 
+BsdfValues SurfaceVertex::values(const Vec3f& wi) const {
+  const Vec3f wi_local = frame_.to_local(wi);
+  if (!sides_agree(wi, wi_local)) return {};
+  return bsdf_->values(context_, wo_local_, wi_local);
+}
+
 BsdfSample SurfaceVertex::sample(float u_lobe, const Vec2f& u, Lobes lobes) const {
   BsdfSample result = bsdf_->sample(context_, wo_local_, u_lobe, u, lobes);
   if (result.event == Lobes::none) return result;

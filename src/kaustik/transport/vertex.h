@@ -69,6 +69,8 @@ class SurfaceVertex {
   float pdf(const Vec3f& wi, Lobes lobes) const;
   /// Density with which a path that comes from wi would be sent to wo.
   float pdf_reverse(const Vec3f& wi, Lobes lobes) const;
+  /// eval() of both lobes, pdf() and pdf_reverse() at once.
+  BsdfValues values(const Vec3f& wi) const;
   /// wi of the result is in world space; the weight holds the same factors as eval_cosine.
   BsdfSample sample(float u_lobe, const Vec2f& u, Lobes lobes) const;
   Spectrum albedo(Lobes lobes) const { return bsdf_->albedo(context_, wo_local_, lobes); }
