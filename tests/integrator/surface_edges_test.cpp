@@ -102,6 +102,19 @@ TEST(SurfaceEdges, BodiesOnTheFloor) {
   on_top.expect_edge(0, -1, 0.5);
 }
 
+/// Light that passes under a door lies in a line: disks that reach under it would blur that. What
+/// hangs higher shades more softly.
+TEST(SurfaceEdges, BodiesThatHangLow) {
+  const auto door = [](double slit) {
+    return flat("cube", scale("0.02, 1, 1") + translate(fmt::format("0.2, 0, {}", 1 + slit)), grey);
+  };
+  const Seen low(floor_ + door(0.02));
+  EXPECT_EQ(low.around().count, 1u);
+  low.expect_edge(1, 0, 0.18);
+  EXPECT_TRUE(low.is_complete());
+  EXPECT_EQ(Seen(floor_ + door(0.2)).around().count, 0u);
+}
+
 /// What bends by and by is no edge: disks there are looked at point by point.
 TEST(SurfaceEdges, CurvesAreNone) {
   const Seen ball(sphere("0, 0, -2", 2, grey));

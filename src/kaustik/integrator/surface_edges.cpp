@@ -14,6 +14,9 @@ constexpr int bisections = 14;
 /// Shares of the reach: height of the rays that look for walls, and of the plane how far from it
 /// points of the surface may lie.
 constexpr float wall_height = 0.01f, same_height = 1e-3f;
+/// The same, of those that look for what hangs so low over the surface that its shadow ends as
+/// sharply as at a wall, such as a door.
+constexpr float low_height = 0.1f;
 /// Cosine between normals of one plane.
 constexpr float same_normal = 0.9998f;
 /// A surface goes on where it rises or falls by no more than this share of the way.
@@ -76,6 +79,8 @@ class Search {
     const auto wall = coverage_.obstacle(wall_height * reach_, angle, at_wall);
     if (wall) at_wall = along(*wall);
     if (wall || interface) add_wall(i, wall ? *wall : *interface);
+    const auto low = coverage_.obstacle(low_height * reach_, angle, at_wall / same_distance);
+    if (low && stands_across(*low) && !coverage_.merges_at(*low)) add_wall(i, *low);
     const auto end = end_at(angle, at_wall / same_distance);
     if (!end) return;
     if (goes_on(angle, *end))
