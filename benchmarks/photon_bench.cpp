@@ -15,7 +15,7 @@ using namespace kaustik;
 constexpr int neighbors = 50;
 constexpr size_t query_count = 50000;
 constexpr int repeats = 9;
-/// Million contributions per second and core, bsdf and weight included, at matt surfaces.
+/// Million contributions per second and core, bsdf and weight included.
 constexpr bench::Bar merging_bar{8};
 
 double cpu_seconds_of(const auto& work) {
@@ -177,7 +177,8 @@ void measure_glossy_merging(const LightVertices& light, const std::string& name,
                 "million contributions per second and core",
                 fmt::format("{} light vertices, {:.0f} near each point, with the rays that find "
                             "how much of a disk is covered (checksum {:.3g})",
-                            light.path_count, per_point, sum));
+                            light.path_count, per_point, sum),
+                merging_bar);
 }
 
 }  // namespace
