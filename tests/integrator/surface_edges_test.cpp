@@ -113,6 +113,11 @@ TEST(SurfaceEdges, BodiesThatHangLow) {
   low.expect_edge(1, 0, 0.18);
   EXPECT_TRUE(low.is_complete());
   EXPECT_EQ(Seen(floor_ + door(0.2)).around().count, 0u);
+  // What lies on the floor has been met below, and what is round ends no light there.
+  for (const double radius : {0.05, 0.075, 0.25, 0.5})
+    EXPECT_EQ(Seen(floor_ + sphere(fmt::format("0.3, 0, {}", radius), radius, grey)).around().count,
+              0u)
+        << radius;
 }
 
 /// What bends by and by is no edge: disks there are looked at point by point.

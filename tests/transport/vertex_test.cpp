@@ -189,6 +189,33 @@ TEST(SurfaceVertex, NoLightLeaksWhereTheNormalsDisagree) {
   }
 }
 
+TEST(SurfaceVertex, ValuesAreWhatIsAskedForOneByOne) {
+  const Leaning leaning;
+  const std::string bumpy =
+      "<bsdf type=\"bumpmap\"><texture type=\"waves\" name=\"texture\">"
+      "<float name=\"amplitude\" value=\"0.3\"/></texture>" +
+      mixed_phong + "</bsdf>";
+  for (const std::string& shape : {leaning.shape(mixed_phong), flat(bumpy)}) {
+    const auto scene = scene_of(shape + "<emitter type=\"point\"/>");
+    int not_black = 0, black = 0;
+    for (int i = 0; i < 500; ++i) {
+      Sampler sampler(17, uint64_t(i));
+      const SurfaceVertex vertex =
+          vertex_seen_from(*scene, upward(sampler), TransportMode::radiance);
+      const Vec3f wi = square_to_sphere(sampler.next_2d());
+      const BsdfValues values = vertex.values(wi);
+      for (int lane = 0; lane < 4; ++lane)
+        for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
+          EXPECT_NEAR(values.of(lobe)[lane], vertex.eval(wi, lobe)[lane], 1e-6);
+      EXPECT_NEAR(values.pdf, vertex.pdf(wi, Lobes::all), 1e-6);
+      EXPECT_NEAR(values.pdf_reverse, vertex.pdf_reverse(wi, Lobes::all), 1e-6);
+      ++(values.pdf > 0 ? not_black : black);
+    }
+    EXPECT_GT(not_black, 100);
+    EXPECT_GT(black, 100);
+  }
+}
+
 TEST(SurfaceVertex, SilhouettesFallBackToTheGeometricNormal) {
   const Leaning leaning;
   const auto scene = scene_of(leaning.shape("<bsdf type=\"diffuse\"/>"));

@@ -14,9 +14,10 @@ constexpr int bisections = 14;
 /// Shares of the reach: height of the rays that look for walls, and of the plane how far from it
 /// points of the surface may lie.
 constexpr float wall_height = 0.01f, same_height = 1e-3f;
-/// The same, of those that look for what hangs so low over the surface that its shadow ends as
-/// sharply as at a wall, such as a door.
+/// The same height, of those that look for what hangs low over the surface, such as a door, …
 constexpr float low_height = 0.1f;
+/// … and the sine of its angle to the surface from which on light ends below it as at a wall.
+constexpr float upright_sine = 0.95f;
 /// Cosine between normals of one plane.
 constexpr float same_normal = 0.9998f;
 /// A surface goes on where it rises or falls by no more than this share of the way.
@@ -78,9 +79,13 @@ class Search {
     float at_wall = interface ? along(*interface) : reach_;
     const auto wall = coverage_.obstacle(wall_height * reach_, angle, at_wall);
     if (wall) at_wall = along(*wall);
-    if (wall || interface) add_wall(i, wall ? *wall : *interface);
     const auto low = coverage_.obstacle(low_height * reach_, angle, at_wall / same_distance);
-    if (low && stands_across(*low) && !coverage_.merges_at(*low)) add_wall(i, *low);
+    if (low && ends_above(*low) && !(wall && wall->shape == low->shape)) {
+      at_wall = along(*low);
+      add_wall(i, *low);
+    } else if (wall || interface) {
+      add_wall(i, wall ? *wall : *interface);
+    }
     const auto end = end_at(angle, at_wall / same_distance);
     if (!end) return;
     if (goes_on(angle, *end))
@@ -124,6 +129,10 @@ class Search {
   Vec3f in_plane_of(const Vec3f& normal) const { return normal - frame_.z * dot(normal, frame_.z); }
   bool stands_across(const SurfacePoint& wall) const {
     return length(in_plane_of(wall.ng)) >= least_sine;
+  }
+  /// Whether light below it ends at the line where it would meet the surface.
+  bool ends_above(const SurfacePoint& low) const {
+    return length(in_plane_of(low.ng)) >= upright_sine && !coverage_.merges_at(low);
   }
   void add_wall(size_t i, const SurfacePoint& wall) {
     const Vec3f in_plane = in_plane_of(wall.ng);

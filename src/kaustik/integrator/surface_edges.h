@@ -6,8 +6,9 @@
 
 namespace kaustik {
 
-/// Where the flat surface around a point ends or meets another, by rays in some directions: the
-/// straight lines that bound what can be seen of its plane from the point, the nearest few.
+/// Where the flat surface around a point ends, meets another or is overhung by one that stands
+/// upright close above it, by rays in some directions: the straight lines that bound what can be
+/// seen of its plane from the point, the nearest few.
 class SurfaceEdges {
  public:
   SurfaceEdges() = default;

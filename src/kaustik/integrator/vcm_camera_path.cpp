@@ -422,19 +422,19 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, uint32_t most_parts,
   const auto& tree = in_.light.tree.tree();
   std::vector<uint32_t>& near = empty_indices();
   in_.light.tree.within(vertex.position(), side, both_sides, sqr(disk.radius()),
-                        [&](uint32_t index, float) {
-                          // Paths lie anywhere in memory: waiting for each took half the time.
-                          const LightVertexData& photon = tree.data(index);
-                          const PathVertex* before = in_.light.vertices.data() + photon.path;
-                          prefetch(before);
-                          prefetch(before + photon.before);
-                          near.push_back(index);
-                        });
+                        [&](uint32_t index, float) { near.push_back(index); });
   // Neighbours in the tree are neighbours in the disk: one in so many is spread over it.
   const size_t parts = std::clamp(near.size() / least_in_part, size_t(1), size_t(most_parts));
   size_t first = 0;
   if (parts > 1)
     first = std::min(size_t(walk_.sampler().fork(part_key).next_1d() * float(parts)), parts - 1);
+  // Paths lie anywhere in memory: waiting for one after the other took half the time.
+  for (size_t i = first; i < near.size(); i += parts) {
+    const LightVertexData& photon = tree.data(near[i]);
+    const PathVertex* before = in_.light.vertices.data() + photon.path;
+    prefetch(before);
+    prefetch(before + photon.before);
+  }
   PathHalves path = halves();
   for (size_t i = first; i < near.size(); i += parts) {
     const uint32_t index = near[i];

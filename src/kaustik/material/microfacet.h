@@ -24,7 +24,9 @@ class MicrofacetDistribution {
   /// (2014).
   Vec3f sample(const Vec3f& w, const Vec2f& u) const;
   /// Density per solid angle of the normals with which sample() finds m; dot(w, m) > 0.
-  float pdf(const Vec3f& w, const Vec3f& m) const { return pdf(w, m, density(m), masking(w)); }
+  float pdf(const Vec3f& w, const Vec3f& m) const {
+    return pdf(w, m, density(m), sample_visible_ ? masking(w) : 1.0f);
+  }
   /// The same where density(m) and masking(w) are known.
   float pdf(const Vec3f& w, const Vec3f& m, float density, float masking) const {
     return sample_visible_ ? density * masking * dot(w, m) / w.z : density * m.z;
