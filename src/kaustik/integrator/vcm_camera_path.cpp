@@ -167,12 +167,13 @@ PathHalves VcmCameraPath::halves() const {
 
 float VcmCameraPath::pdf_light_before(const Vec3f& wi) const {
   if (vertices_.size() < 2) return 0;
-  return pdf_back(wi, here_.pdf_reverse(wi, Lobes::all)) * vertices_.back().to_previous;
+  return pdf_light_before(wi, here_.pdf_reverse(wi, Lobes::all));
 }
 
-float VcmCameraPath::pdf_back(const Vec3f& wi, float pdf_reverse) const {
+float VcmCameraPath::pdf_light_before(const Vec3f& wi, float pdf_reverse) const {
+  if (vertices_.size() < 2) return 0;
   const GuidedBack& back = back_[dot(wi, last_.ng) >= 0 ? 1 : 0];
-  return back.unguided * pdf_reverse + back.guided;
+  return (back.unguided * pdf_reverse + back.guided) * vertices_.back().to_previous;
 }
 
 float VcmCameraPath::sampled(const Scatterer& vertex, const DirectLight& light) const {
@@ -449,8 +450,7 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, uint32_t most_parts,
     const PathVertex& merged = before[photon.before];
     path.light = {before, photon.before};
     path.pdf_light_last = merged.pdf_light;
-    if (vertices_.size() >= 2)
-      path.pdf_light_before_last = pdf_back(wi, bsdf.pdf_reverse) * vertices_.back().to_previous;
+    path.pdf_light_before_last = pdf_light_before(wi, bsdf.pdf_reverse);
     path.pdf_camera_last = bsdf.pdf * merged.to_previous;
     path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
     path.pdf_next_event = photon.pdf_next_event;

@@ -126,11 +126,11 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
                             float phase_back) const;
   void connect_to(const ConnectibleVertex& to);
   PathHalves halves() const;
-  /// Density per solid angle with which light that comes to the last vertex from `wi` goes back
-  /// along the walk; `pdf_reverse` is that of the vertex.
-  float pdf_back(const Vec3f& wi, float pdf_reverse) const;
-  /// Of the vertex before the last, if light comes to that from `wi`.
+  /// See PathVertex::pdf_light, of the vertex before the last, if light comes to the last one from
+  /// `wi`; 0: there is no such vertex.
   float pdf_light_before(const Vec3f& wi) const;
+  /// The same where Scatterer::pdf_reverse() of the last vertex is known.
+  float pdf_light_before(const Vec3f& wi, float pdf_reverse) const;
   /// Whether light is only sampled and met by chance on paths of this many segments.
   bool path_tracing_alone(size_t length) const;
   /// The last vertex as it asked for light.

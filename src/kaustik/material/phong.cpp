@@ -79,25 +79,24 @@ class Phong final : public Bsdf {
                 Lobes lobes) const override {
     if (!is_possible(wo, wi)) return Spectrum();
     const Factors k = factors(context, lobes);
-    const Parts f = parts_of(k, wo, wi);
+    const Parts f = parts_of(k, wo.z * wi.z < 0, power_of(k, wo, wi));
     return f.diffuse + f.glossy;
   }
 
   float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
             Lobes lobes) const override {
-    return is_possible(wo, wi) ? pdf_of(factors(context, lobes), wo, wi) : 0.0f;
+    if (!is_possible(wo, wi)) return 0;
+    const Factors k = factors(context, lobes);
+    return pdf_of(k, wo.z * wi.z < 0, wi.z, power_of(k, wo, wi));
   }
 
   BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
     if (!is_possible(wo, wi)) return {};
     const Factors k = factors(context, Lobes::all);
-    const size_t diffuse = wo.z * wi.z < 0 ? 2 : 0, glossy = diffuse + 1;
-    const float power = power_of(k, wo, wi);
-    const float sent = k.chance[glossy] * (k.exponent + 1) * 0.5f * inv_pi * power;
-    return {k.factor[diffuse] * inv_pi,
-            k.factor[glossy] * ((k.exponent + 2) * 0.5f * inv_pi * power),
-            k.chance[diffuse] * std::fabs(wi.z) * inv_pi + sent,
-            k.chance[diffuse] * std::fabs(wo.z) * inv_pi + sent};
+    const bool through = wo.z * wi.z < 0;
+    const float power = power_of(k, wo, wi);  // the same both ways
+    const Parts f = parts_of(k, through, power);
+    return {f.diffuse, f.glossy, pdf_of(k, through, wi.z, power), pdf_of(k, through, wo.z, power)};
   }
 
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
@@ -116,11 +115,12 @@ class Phong final : public Bsdf {
     const Vec3f wi = propose(proposal, wo, k.exponent, u);
     const bool transmission = wi.z * wo.z < 0;
     if (wi.z == 0 || transmission != (proposal >= 2)) return sample;
-    const float pdf = pdf_of(k, wo, wi);
+    const float power = power_of(k, wo, wi);
+    const float pdf = pdf_of(k, transmission, wi.z, power);
     if (!(pdf > 0)) return sample;
     // What is left of u_lobe is uniform again and tells the event by the shares in f.
     const float rest = std::min(u_lobe / k.chance[size_t(proposal)], one_minus_epsilon);
-    const Parts f = parts_of(k, wo, wi);
+    const Parts f = parts_of(k, transmission, power);
     const float diffuse_share = f.diffuse.sum() / (f.diffuse.sum() + f.glossy.sum());
     const bool is_diffuse = rest < diffuse_share;
     sample.wi = wi;
@@ -192,16 +192,15 @@ class Phong final : public Bsdf {
     return cos_power(through ? -wo : mirrored(wo), wi, k.exponent);
   }
 
-  static Parts parts_of(const Factors& k, const Vec3f& wo, const Vec3f& wi) {
-    const bool through = wo.z * wi.z < 0;
+  static Parts parts_of(const Factors& k, bool through, float power) {
     return {k.factor[through ? 2 : 0] * inv_pi,
-            k.factor[through ? 3 : 1] * ((k.exponent + 2) * 0.5f * inv_pi * power_of(k, wo, wi))};
+            k.factor[through ? 3 : 1] * ((k.exponent + 2) * 0.5f * inv_pi * power)};
   }
 
-  static float pdf_of(const Factors& k, const Vec3f& wo, const Vec3f& wi) {
-    const bool through = wo.z * wi.z < 0;
-    return k.chance[through ? 2 : 0] * std::fabs(wi.z) * inv_pi +
-           k.chance[through ? 3 : 1] * (k.exponent + 1) * 0.5f * inv_pi * power_of(k, wo, wi);
+  /// Density of a direction with that cosine to the normal.
+  static float pdf_of(const Factors& k, bool through, float cosine, float power) {
+    return k.chance[through ? 2 : 0] * std::fabs(cosine) * inv_pi +
+           k.chance[through ? 3 : 1] * (k.exponent + 1) * 0.5f * inv_pi * power;
   }
 
   PhongTextures textures_;

@@ -78,14 +78,15 @@ class RoughConductor final : public Bsdf {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0 || wi.z <= 0) return Spectrum();
     const Vec3f m = normalize(wo + wi);
     const MicrofacetDistribution facets = facets_.at(context);
-    const float geometry = facets.density(m) * facets.masking(wo) * facets.masking(wi);
-    return context.value_of(*reflectance_) * fresnel(wo, m) * (geometry / (4 * wo.z * wi.z));
+    return value_of(context, wo, wi, m,
+                    facets.density(m) * facets.masking(wo) * facets.masking(wi));
   }
 
   float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
             Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0 || wi.z <= 0) return 0;
-    return pdf_of_reflection(facets_.at(context), wo, normalize(wo + wi));
+    const Vec3f m = normalize(wo + wi);
+    return pdf_of_reflection(facets_.at(context).pdf(wo, m), dot(wo, m));
   }
 
   BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
@@ -94,14 +95,10 @@ class RoughConductor final : public Bsdf {
     const MicrofacetDistribution facets = facets_.at(context);
     const float density = facets.density(m);
     const float seen = facets.masking(wo), lit = facets.masking(wi);
-    BsdfValues values;
-    values.glossy = context.value_of(*reflectance_) * fresnel(wo, m) *
-                    (density * seen * lit / (4 * wo.z * wi.z));
-    const float cos_facet = dot(wo, m);
-    if (!(cos_facet > 0)) return values;
-    values.pdf = facets.pdf(wo, m, density, seen) / (4 * cos_facet);
-    values.pdf_reverse = facets.pdf(wi, m, density, lit) / (4 * cos_facet);
-    return values;
+    return {{},
+            value_of(context, wo, wi, m, density * seen * lit),
+            pdf_of_reflection(facets.pdf(wo, m, density, seen), dot(wo, m)),
+            pdf_of_reflection(facets.pdf(wi, m, density, lit), dot(wi, m))};
   }
 
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float, const Vec2f& u,
@@ -122,10 +119,15 @@ class RoughConductor final : public Bsdf {
     return fresnel_conductor(std::clamp(dot(wo, m), 0.0f, 1.0f), ior_);
   }
 
-  static float pdf_of_reflection(const MicrofacetDistribution& facets, const Vec3f& wo,
-                                 const Vec3f& m) {
-    const float cos_facet = dot(wo, m);
-    return cos_facet > 0 ? facets.pdf(wo, m) / (4 * cos_facet) : 0.0f;
+  /// f; `visible` is the density of facets with normal m that neither way is hidden.
+  Spectrum value_of(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi, const Vec3f& m,
+                    float visible) const {
+    return context.value_of(*reflectance_) * fresnel(wo, m) * (visible / (4 * wo.z * wi.z));
+  }
+
+  /// By the density of the facet's normal; the cosine is that of the angle to it.
+  static float pdf_of_reflection(float pdf_of_facet, float cos_facet) {
+    return cos_facet > 0 ? pdf_of_facet / (4 * cos_facet) : 0.0f;
   }
 
   /// Without the texture. Light that a facet sends below the horizon is lost.
@@ -134,7 +136,7 @@ class RoughConductor final : public Bsdf {
     BsdfSample sample;
     const Vec3f m = facets.sample(wo, u);
     sample.wi = reflect(wo, m);
-    sample.pdf_solid_angle = pdf_of_reflection(facets, wo, m);
+    sample.pdf_solid_angle = pdf_of_reflection(facets.pdf(wo, m), dot(wo, m));
     if (sample.wi.z <= 0 || !(sample.pdf_solid_angle > 0)) return {};
     // f·cosθ_i/pdf; D cancels.
     const float cos_facet = dot(wo, m);
