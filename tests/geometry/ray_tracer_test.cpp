@@ -56,6 +56,51 @@ TEST(RayTracer, EmptySceneIsNeverHit) {
   EXPECT_TRUE(tracer->bounds().isEmpty());
 }
 
+/// A search for the pieces near a point, which ends after `most`.
+std::vector<SurfacePiece> pieces_near(const RayTracer& tracer, const Vec3f& center, float radius,
+                                      size_t most = 1000) {
+  struct Found {
+    std::vector<SurfacePiece> pieces;
+    size_t most;
+  } found{{}, most};
+  const auto take = [](void* context, const SurfacePiece& piece) {
+    Found& to = *static_cast<Found*>(context);
+    to.pieces.push_back(piece);
+    return to.pieces.size() < to.most;
+  };
+  tracer.pieces_near(center, radius, {take, &found});
+  return found.pieces;
+}
+
+TEST(RayTracer, PiecesNearAPoint) {
+  Geometry geometry;
+  geometry.shapes = {make_shape("rectangle"),
+                     make_shape("sphere", {{"center", Vec3d(0, 0, 3), {}}})};
+  geometry.groups = {{make_shape("rectangle")}};
+  geometry.instances = {{0, Transform::translate({0, 0, -9}) * Transform::scale({2, 2, 2})}};
+  const RayTracer tracer(std::move(geometry));
+  EXPECT_TRUE(pieces_near(tracer, {0, 0, 1.5f}, 0.4f).empty());
+  const auto flat = pieces_near(tracer, {0.1f, -0.2f, 0.1f}, 0.3f);
+  ASSERT_EQ(flat.size(), 2u);
+  for (const SurfacePiece& piece : flat) {
+    EXPECT_FALSE(piece.is_box);
+    for (size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(std::fabs(piece.corners[i].x), 1);
+      EXPECT_EQ(piece.corners[i].z, 0);
+    }
+  }
+  EXPECT_EQ(pieces_near(tracer, {0.1f, -0.2f, 0.1f}, 0.3f, 1).size(), 1u);
+  const auto ball = pieces_near(tracer, {0, 0, 4.5f}, 0.6f);
+  ASSERT_EQ(ball.size(), 1u);
+  EXPECT_TRUE(ball[0].is_box);
+  for (const Vec3f& corner : ball[0].corners) EXPECT_EQ(length_sq(corner - Vec3f(0, 0, 3)), 3);
+  // In the world, twice as large.
+  const auto placed = pieces_near(tracer, {1.5f, 1.5f, -9}, 0.1f);
+  ASSERT_GE(placed.size(), 1u);
+  for (const SurfacePiece& piece : placed)
+    for (size_t i = 0; i < 3; ++i) EXPECT_EQ(piece.corners[i].z, -9);
+}
+
 TEST(RayTracer, MeshPointsInterpolateTheirVertices) {
   const auto shape = bumpy_ball(4);
   const auto tracer = tracer_of({shape});

@@ -70,6 +70,10 @@ class Disk {
     return MergeDisk(vertex_, radius)
         .share(offset, CoarseNormal(Vec3f(float(std::sin(radians)), 0, float(std::cos(radians)))));
   }
+  bool reaches(const Vec3f& offset) const {
+    uint64_t rays = 0;
+    return DiskCoverage(scene_.scene(), MergeDisk(vertex_, radius), rays).reaches(radius, offset);
+  }
   float clear_radius(float widest = radius) const {
     uint64_t rays = 0;
     return DiskCoverage(scene_.scene(), MergeDisk(vertex_, widest), rays).clear_radius();
@@ -134,8 +138,8 @@ TEST(MergeDisk, NeighboursWithoutLight) {
       .expect_share("below glass", 1);
 }
 
-/// A wall ends the disk; so does a solid that stands on the floor, whose inside has no light, but
-/// not what lies beyond a solid.
+/// A wall ends the disk, and so does a solid that stands on the floor: what lies beyond is not
+/// reached.
 TEST(MergeDisk, WallsAndSolids) {
   const double beyond = share_beyond(0.1);
   const std::string floor = rectangle(scale("2, 2, 1"));
@@ -149,7 +153,29 @@ TEST(MergeDisk, WallsAndSolids) {
   Disk(floor + fmt::format(R"(<shape type="cube"><transform name="to_world">
       <scale value="0.05, 2, 1"/><translate value="0.15, 0, 0"/></transform>{}</shape>)",
                            diffuse("0.5, 0.5, 0.5")))
-      .expect_share("rib", 1 - beyond + share_beyond(0.2));
+      .expect_share("rib", 1 - beyond);
+}
+
+/// Light vertices count where they are reached: not beyond a wall, in what stands on the floor, or
+/// below what hangs low.
+TEST(MergeDisk, ReachesWhatIsNotHidden) {
+  const std::string floor = rectangle(scale("2, 2, 1"));
+  const Disk wall(floor + rectangle(rotate("0, 1, 0", -90) + translate("0.1, 0, 0.5")));
+  EXPECT_TRUE(wall.reaches({0.099f, 0.2f, 0}));
+  EXPECT_FALSE(wall.reaches({0.101f, 0.2f, 0}));
+  EXPECT_TRUE(wall.reaches({-0.3f, 0, 0.05f}));
+  const Disk shelf(floor + rectangle(scale("0.1, 2, 1") + translate("0.2, 0, 0.05")));
+  EXPECT_FALSE(shelf.reaches({0.2f, 0, 0}));
+  EXPECT_TRUE(shelf.reaches({0.2f, 0, 0.05f}));
+  EXPECT_TRUE(shelf.reaches({0.31f, 0, 0}));
+  // A bowl and a ball do not stand in their own way.
+  EXPECT_TRUE(Disk(sphere("0, 0, 1", 1, diffuse("0.5, 0.5, 0.5"), true), 0.5)
+                  .reaches({0.3f, 0, 1 - std::sqrt(1 - 0.09f)}));
+  EXPECT_TRUE(Disk(sphere("0, 0, -1", 1, diffuse("0.5, 0.5, 0.5")))
+                  .reaches({0.3f, 0, std::sqrt(1 - 0.09f) - 1}));
+  // What light passes through hides nothing.
+  EXPECT_TRUE(Disk(floor + rectangle(rotate("0, 1, 0", -90) + translate("0.1, 0, 0.5"), glass()))
+                  .reaches({0.2f, 0, 0}));
 }
 
 /// The disk lies in a gap below a solid: what is above the solid's lower face is its inside.

@@ -33,6 +33,13 @@ class Seen {
   }
   const SurfaceEdges& edges() const { return edges_; }
   const DiskEdges& around() const { return around_; }
+  /// The widest disk around (x, y, 0) that is clear, to a thousandth of its reach.
+  float clear() const {
+    float radius = 0;
+    while (radius < reach_ && edges_.are_clear(vertex_.position(), radius + 0.001f * reach_))
+      radius += 0.001f * reach_;
+    return radius;
+  }
   bool is_complete() const { return edges_.are_complete(vertex_.position(), reach_); }
   /// That there is an edge there, on the side of (x, y).
   void expect_edge(double x, double y, double distance) const {
@@ -125,6 +132,33 @@ TEST(SurfaceEdges, CurvesAreNone) {
   const Seen ball(sphere("0, 0, -2", 2, grey));
   EXPECT_EQ(ball.around().count, 0u);
   EXPECT_FALSE(ball.is_complete());
+}
+
+/// Nothing hides points of a clear disk from one another: what stands on the floor or hangs low
+/// over it ends it, whether rays meet it or not, but not what lies behind edges, below, or high.
+TEST(SurfaceEdges, ClearDisks) {
+  const auto clear = [](const std::string& inside) { return Seen(floor_ + inside).clear(); };
+  EXPECT_NEAR(clear(""), 0.5, 0.002);
+  const std::string wall = flat("rectangle", rotate("0, 1, 0", -90) + translate("0.2, 0, 1"), grey);
+  EXPECT_NEAR(clear(wall), 0.5, 0.002);
+  // Between the rays that look for edges.
+  const auto post = [](double angle, double bottom) {
+    return flat("cube",
+                scale("0.001, 0.001, 0.5") + translate(fmt::format("0.3, 0, {}", bottom + 0.5)) +
+                    rotate("0, 0, 1", angle),
+                grey);
+  };
+  EXPECT_NEAR(clear(post(10, 0)), 0.299, 0.002);
+  EXPECT_NEAR(clear(post(10, 0.2)), 0.299, 0.002);
+  EXPECT_NEAR(clear(post(10, 0.3)), 0.5, 0.002);
+  EXPECT_NEAR(clear(post(10, -1.1)), 0.5, 0.002);
+  EXPECT_NEAR(clear(wall + post(10, 0)), 0.5, 0.002);  // behind the wall
+  EXPECT_NEAR(clear(wall + post(100, 0)), 0.299, 0.002);
+  // Over the whole disk, with no corner in it.
+  EXPECT_EQ(clear(flat("rectangle", scale("4, 4, 1") + translate("0.1, 0.1, 0.2"), grey)), 0);
+  // Of round bodies the box.
+  EXPECT_GT(clear(sphere("0.5, 0, 0.2", 0.2, grey)), 0.15);
+  EXPECT_LT(clear(sphere("0.5, 0, 0.2", 0.2, grey)), 0.301);
 }
 
 /// A mirror in the floor keeps no light.

@@ -142,6 +142,21 @@ void occluded_by_shape(const RTCOccludedFunctionNArguments* arguments) {
       RTCRayN_tfar(arguments->ray, n, i) = -infinity;
 }
 
+SurfacePiece piece_of(const ShapeRecord& record, uint32_t primitive) {
+  SurfacePiece piece;
+  if (record.mesh) {
+    for (size_t i = 0; i < 3; ++i)
+      piece.corners[i] = record.mesh->positions[record.mesh->triangles[primitive][i]];
+    return piece;
+  }
+  const Bounds3f box = record.shape->bounds();
+  piece.is_box = true;
+  for (size_t i = 0; i < 8; ++i)
+    piece.corners[i] = {(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                        (i & 4) != 0 ? box.max.z : box.min.z};
+  return piece;
+}
+
 constexpr size_t packet_size = 8;
 
 void fill(RTCRayHit8& out, size_t i, const Ray& ray) {
@@ -459,6 +474,33 @@ bool RayTracer::occluded(const Ray& ray) const {
   fill(r, ray);
   trace_any(impl_->scene, r);
   return r.tfar < 0;
+}
+
+void RayTracer::pieces_near(const Vec3f& center, float radius, const PieceSink& sink) const {
+  struct Search {
+    const Impl& impl;
+    const PieceSink& sink;
+  } search{*impl_, sink};
+  const auto visit = [](RTCPointQueryFunctionArguments* arguments) {
+    const Search& in = *static_cast<const Search*>(arguments->userPtr);
+    const bool is_placed = arguments->context->instStackSize > 0;
+    Hit at;
+    in.impl.place_hit(arguments->geomID,
+                      is_placed ? arguments->context->instID[0] : RTC_INVALID_GEOMETRY_ID, at);
+    SurfacePiece piece = piece_of(in.impl.records[at.shape], arguments->primID);
+    if (is_placed) {
+      const InstanceRecord& instance = in.impl.instances[at.instance];
+      for (Vec3f& corner : piece.corners)
+        corner = combine(instance.columns, corner) + instance.translation;
+    }
+    if (in.sink.take(in.sink.context, piece)) return false;
+    arguments->query->radius = 0;  // nothing is near any more
+    return true;
+  };
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  RTCPointQuery query{center.x, center.y, center.z, 0, radius};
+  rtcPointQuery(impl_->scene, &query, &context, visit, &search);
 }
 
 SurfacePoint RayTracer::surface_point(const Ray& ray, const Hit& hit) const {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -23,6 +24,18 @@ struct Geometry {
   std::vector<Instance> instances;
 };
 
+/// A piece of a surface, in the world: a triangle, or the box around a shape without a mesh.
+struct SurfacePiece {
+  std::array<Vec3f, 8> corners;  ///< of a triangle the first three
+  bool is_box = false;
+};
+
+/// Gets pieces, one by one; false: no more are wanted.
+struct PieceSink {
+  bool (*take)(void* context, const SurfacePiece& piece);
+  void* context;
+};
+
 /// The acceleration structure (Embree; the meshes' own arrays are shared with it). Immutable after
 /// construction and shared by all threads. The build is deterministic.
 class RayTracer {
@@ -41,6 +54,9 @@ class RayTracer {
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const;
   /// Whether anything lies in (0, ray.t_max).
   bool occluded(const Ray& ray) const;
+  /// All pieces of surfaces that meet the ball, and maybe others nearby, in an order that is the
+  /// same for the same scene.
+  void pieces_near(const Vec3f& center, float radius, const PieceSink& sink) const;
   /// World-space geometry of a hit.
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 

@@ -8,6 +8,8 @@ namespace {
 constexpr float height_share = 0.25f;
 /// Of the radius: what hangs no higher than that makes disks smaller.
 constexpr float per_clearance = 2;
+/// Of the radius: what lies so close over a light vertex is its own surface.
+constexpr float own_surface = 1e-3f;
 /// Disks are hardly ever covered by less than one over this.
 constexpr int most_tries = 32;
 /// Points that are tried at most: slivers are left of hardly any disk.
@@ -33,17 +35,24 @@ float DiskCoverage::distance_to(Ray ray, const Stops& stops) const {
   return infinity;
 }
 
-DiskCoverage::DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t& rays)
+DiskCoverage::DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t& rays,
+                           bool is_clear)
     : scene_(scene),
       vertex_(widest.vertex()),
       frame_(widest.side()),
       both_sides_(widest.both_sides()),
-      rays_(rays) {
+      rays_(rays),
+      is_clear_(is_clear) {
+  if (is_clear) return;
   // From off the surface, by what its position may be wrong.
   Ray up = spawn_ray(vertex_.point(), frame_.z);
   const float least = std::max(dot(up.origin - vertex_.position(), frame_.z), 0.0f);
   up.t_max = widest.radius() / per_clearance - least;
   free_ = least + distance_to(up, [&](const SurfacePoint& point) { return hides(point); });
+}
+
+float DiskCoverage::highest(float radius) {
+  return std::max(height_share, 1 / per_clearance) * radius;
 }
 
 float DiskCoverage::clear_radius() const { return per_clearance * free_; }
@@ -61,10 +70,10 @@ bool DiskCoverage::hides(const SurfacePoint& point) const {
 }
 
 template <typename Stops>
-std::optional<SurfacePoint> DiskCoverage::first_on_way(float height, float angle, float reach,
-                                                       const Stops& stops) const {
+std::optional<SurfacePoint> DiskCoverage::first_on_way(float height, const Vec3f& direction,
+                                                       float reach, const Stops& stops) const {
   std::optional<SurfacePoint> result;
-  distance_to({vertex_.position() + frame_.z * free_height(height), across(angle), reach},
+  distance_to({vertex_.position() + frame_.z * free_height(height), direction, reach},
               [&](const SurfacePoint& point) {
                 if (stops(point)) result = point;
                 return result.has_value();
@@ -73,12 +82,12 @@ std::optional<SurfacePoint> DiskCoverage::first_on_way(float height, float angle
 }
 
 std::optional<SurfacePoint> DiskCoverage::obstacle(float height, float angle, float reach) const {
-  return first_on_way(height, angle, reach,
+  return first_on_way(height, across(angle), reach,
                       [&](const SurfacePoint& point) { return hides(point); });
 }
 
 std::optional<SurfacePoint> DiskCoverage::interface(float height, float angle, float reach) const {
-  return first_on_way(height, angle, reach, [&](const SurfacePoint& point) {
+  return first_on_way(height, across(angle), reach, [&](const SurfacePoint& point) {
     const Surface& surface = scene_.surface(point.shape);
     return surface.transmits && surface.lobes == Lobes::delta;
   });
@@ -96,17 +105,32 @@ std::optional<SurfacePoint> DiskCoverage::surface_at(float wanted_height, float 
   return result;
 }
 
+bool DiskCoverage::is_way_free(float height, const Vec3f& direction, float distance) const {
+  if (is_clear_ || !(distance > 0)) return true;
+  return !first_on_way(height, direction, distance,
+                       [&](const SurfacePoint& point) { return hides(point); });
+}
+
 bool DiskCoverage::holds(float radius, float distance, float angle) const {
   const float height = height_share * radius;
   const auto surface = surface_at(height, MergeDisk(vertex_, radius).flatness(), distance, angle);
-  if (!surface || !merges_at(*surface)) return false;
-  if (!(distance > 0)) return true;
-  bool inside = false;
-  first_on_way(height, angle, distance, [&](const SurfacePoint& point) {
-    inside = inside != hides(point);
+  return surface && merges_at(*surface) && is_way_free(height, across(angle), distance);
+}
+
+bool DiskCoverage::reaches(float radius, const Vec3f& offset) const {
+  if (is_clear_) return true;
+  const float height = height_share * radius;
+  const float rise = dot(offset, frame_.z);
+  const Vec3f along = offset - frame_.z * rise;
+  const float distance = length(along);
+  if (!is_way_free(height, distance > 0 ? along * (1 / distance) : frame_.x, distance))
     return false;
-  });
-  return !inside;
+  // Its own surface is not in the way.
+  const float over = free_height(height);
+  const float down = over - rise;
+  const Ray ray{vertex_.position() + along + frame_.z * over, frame_.z * (down < 0 ? 1.0f : -1.0f),
+                std::fabs(down) - own_surface * radius};
+  return distance_to(ray, [&](const SurfacePoint& point) { return hides(point); }) == infinity;
 }
 
 float DiskCoverage::inverse_share(float radius, const DiskEdges& edges, Sampler numbers) const {

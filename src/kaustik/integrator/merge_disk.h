@@ -50,15 +50,17 @@ class MergeDisk {
   float radius_;
 };
 
-/// How much of the disks around a vertex is surface on which light vertices merge: where that ends
-/// within a disk, the disk's light would else be too dark. It is looked for from points over the
-/// tangent plane, from none that lie inside a solid or behind a wall: what stands across the way
-/// there has been entered, and left, and entered again, as often as it was met.
+/// What is reached of the disks around a vertex: from a height over the vertex along the tangent
+/// plane, and from there straight down. Light vertices merge where they are reached, so that none
+/// comes from behind what is opaque; and their light is divided by the share of the disk where a
+/// surface on which light vertices merge is reached, or it would be too dark.
 class DiskCoverage {
  public:
   /// For disks up to the size of `widest`, whose vertex must outlive this. Counts its rays; one is
-  /// traced here.
-  DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t& rays);
+  /// traced here, but where it is known that nothing stands in the way (`is_clear`: SurfaceEdges).
+  DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t& rays, bool is_clear = false);
+  /// No ray sets out from higher over the vertex, m.
+  static float highest(float radius);
 
   /// What hangs so low over the vertex shades it as sharply as that: wider disks, of those that
   /// this was made for, would blur it, m.
@@ -67,6 +69,8 @@ class DiskCoverage {
   /// Whether a light vertex at a point of the tangent plane, `distance` away in the direction
   /// `angle`, would merge in the disk of that radius.
   bool holds(float radius, float distance, float angle) const;
+  /// Whether the light vertex that lies so far from the vertex is reached.
+  bool reaches(float radius, const Vec3f& offset) const;
   /// An estimate of one over the share that is covered of what edges leave of the disk, by the
   /// weights 1 − distance²/radius² of the kernel; unbiased but for shares of a few percent.
   float inverse_share(float radius, const DiskEdges& edges, Sampler numbers) const;
@@ -91,8 +95,9 @@ class DiskCoverage {
   /// What light passes through hides nothing, but for the vertex's own shape.
   bool hides(const SurfacePoint& point) const;
   template <typename Stops>
-  std::optional<SurfacePoint> first_on_way(float height, float angle, float reach,
+  std::optional<SurfacePoint> first_on_way(float height, const Vec3f& direction, float reach,
                                            const Stops& stops) const;
+  bool is_way_free(float height, const Vec3f& direction, float distance) const;
   /// How far away the ray meets a point where stops(point) holds; infinite: nowhere.
   template <typename Stops>
   float distance_to(Ray ray, const Stops& stops) const;
@@ -102,6 +107,7 @@ class DiskCoverage {
   const Frame frame_;  ///< z: the side that is seen
   const bool both_sides_;
   uint64_t& rays_;
+  const bool is_clear_;
   float free_ = infinity;  ///< height over the vertex up to which nothing hangs, m
 };
 

@@ -82,7 +82,8 @@ PixelPlans::Surroundings PixelPlans::surroundings(const Vec2f& raster, const Sur
   if (!edges_) return {};
   const auto known = [&](const SurfaceEdges& edges) {
     return Surroundings{edges.around(vertex.position(), radius),
-                        edges.are_complete(vertex.position(), radius)};
+                        edges.are_complete(vertex.position(), radius),
+                        edges.are_clear(vertex.position(), radius)};
   };
   const Vec2i block = block_at(raster);
   const SurfaceEdges& own = (*edges_)[index_of(block)];
@@ -99,7 +100,8 @@ PixelPlans::Surroundings PixelPlans::surroundings(size_t probe, float radius) co
   if (!edges_) return {};
   const Vec3f position = (*probes_)[probe].vertex.position();
   const SurfaceEdges& edges = (*edges_)[probe];
-  return {edges.around(position, radius), edges.are_complete(position, radius)};
+  return {edges.around(position, radius), edges.are_complete(position, radius),
+          edges.are_clear(position, radius)};
 }
 
 PixelPlans PixelPlans::with(std::vector<PixelPlan> plans) const {

@@ -58,6 +58,7 @@ class PixelPlans {
   struct Surroundings {
     DiskEdges edges;
     bool are_complete = false;  ///< nothing else was seen to end the surface
+    bool are_clear = false;     ///< nothing hides points of what edges leave from one another
   };
   /// Of a disk around a vertex that a pixel shows, by the probes around.
   Surroundings surroundings(const Vec2f& raster, const SurfaceVertex& vertex, float radius) const;

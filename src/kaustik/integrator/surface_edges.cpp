@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "kaustik/integrator/clear_distance.h"
 #include "kaustik/integrator/merge_disk.h"
 
 namespace kaustik {
@@ -182,7 +183,15 @@ class Search {
 SurfaceEdges::SurfaceEdges(const Scene& scene, const SurfaceVertex& vertex, float reach,
                            uint64_t& rays)
     : position_(vertex.position()), normal_(side_of(vertex)), reach_(reach) {
-  Search search(scene, vertex, reach, rays);
+  find_lines(scene, vertex, rays);
+  // Rays over the surface start no higher than that (DiskCoverage).
+  clear_ =
+      clear_distance(scene, {position_, normal_, same_height * reach, DiskCoverage::highest(reach)},
+                     around(position_, infinity), reach);
+}
+
+void SurfaceEdges::find_lines(const Scene& scene, const SurfaceVertex& vertex, uint64_t& rays) {
+  Search search(scene, vertex, reach_, rays);
   for (const Candidate& candidate : search.candidates()) {
     float known = infinity;
     for (const Line& line : lines_) {

@@ -24,8 +24,15 @@ class SurfaceEdges {
   bool are_complete(const Vec3f& position, float radius) const {
     return length(position - position_) + radius <= complete_;
   }
+  /// Whether nothing at all hides points of such a disk from one another, as far as the edges leave
+  /// it. That is sure; what rays have not met may be there all the same.
+  bool are_clear(const Vec3f& position, float radius) const {
+    return length(position - position_) + radius <= clear_;
+  }
 
  private:
+  void find_lines(const Scene& scene, const SurfaceVertex& vertex, uint64_t& rays);
+
   struct Line {
     Vec3f inward;
     float distance;  ///< from position_
@@ -35,6 +42,7 @@ class SurfaceEdges {
       normal_{0, 0, 0};  ///< on the side that is seen; zero: looked at nothing
   float reach_ = 0;
   float complete_ = 0;  ///< how far nothing else was seen to end the surface, m
+  float clear_ = 0;     ///< how far nothing else stands over the surface, m
 };
 
 }  // namespace kaustik

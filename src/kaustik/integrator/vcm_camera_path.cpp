@@ -27,8 +27,14 @@ std::vector<uint32_t>& empty_indices() {
 }
 
 /// Of the sampler's forks for the coverage of the disk of merging, for the bias of merging (two),
-/// and for the part of what merges.
-constexpr uint32_t coverage_key = 1, bias_key = 2, part_key = 4;
+/// for the part of what merges, and for that which tells what is reached.
+constexpr uint32_t coverage_key = 1, bias_key = 2, part_key = 4, reached_key = 5;
+
+std::vector<MattMerging::Factors>& empty_factors() {
+  static thread_local std::vector<MattMerging::Factors> factors;
+  factors.clear();
+  return factors;
+}
 
 /// Chance with which that is estimated: it takes rays.
 constexpr float bias_chance = 0.25f;
@@ -334,13 +340,17 @@ void VcmCameraPath::merge() {
   if (!wanted(Lobes::diffuse) && !wanted(Lobes::glossy)) return;
   const float widest = merge_radius();
   if (!(widest > 0)) return;
-  const DiskCoverage covered(in_.scene, MergeDisk(vertex, widest), walk_.rays());
+  const DiskCoverage covered(in_.scene, MergeDisk(vertex, widest), walk_.rays(),
+                             surroundings(widest).are_clear);
   const float radius = std::min(widest, std::max(covered.clear_radius(), walk_.footprint().width));
   const MergeDisk disk(vertex, radius);
   const DiskWeights weights = disk_weights(disk);
   const bool is_matt =
       all_delta_ && lobes == Lobes::diffuse && !vertex.transmits() && !vertex.has_relief();
-  MergedLight light = is_matt ? merged_matt(disk, weights) : merged(disk, weights, lobes);
+  std::vector<MergedPart>* const each = weights.surroundings.are_clear ? nullptr : &empty_parts();
+  MergedLight light =
+      is_matt ? merged_matt(disk, weights, each) : merged(disk, weights, lobes, each);
+  if (each) leave_reached(covered, radius, *each, light);
   if (light.is_zero()) return;
   const auto paths = float(in_.light.path_count);
   // Numbers of their own: how many there are is not known beforehand.
@@ -363,25 +373,75 @@ void VcmCameraPath::merge() {
   walk_.add_bias((total - narrow) * (1 / ((1 - narrow_radius) * bias_chance)));
 }
 
+std::vector<VcmCameraPath::MergedPart>& VcmCameraPath::empty_parts() {
+  static thread_local std::vector<MergedPart> parts;
+  parts.clear();
+  return parts;
+}
+
 bool VcmCameraPath::MergedLight::is_zero() const {
   return std::all_of(of.begin(), of.end(), [](const Spectrum& sum) { return sum.is_zero(); });
+}
+
+/// Of each component and lane one part is drawn, in proportion to its light, and stands for all:
+/// if it is reached, all are. So nothing comes from where nothing is reached, and it is no noise
+/// where all is.
+void VcmCameraPath::leave_reached(const DiskCoverage& covered, float radius,
+                                  const std::vector<MergedPart>& each, MergedLight& light) const {
+  const double u = double(walk_.sampler().fork(reached_key).next_1d());
+  // Most often they draw the same part.
+  constexpr size_t none = ~size_t(0);
+  size_t last = none;
+  bool is_reached = false;
+  const auto reaches = [&](size_t part) {
+    if (part != last)
+      is_reached = covered.reaches(radius, each[part].position - walk_.vertex().position());
+    last = part;
+    return is_reached;
+  };
+  Spectrum before, after;
+  for (int c = 0; c < component_count; ++c) {
+    Spectrum& sum = light.of[size_t(c)];
+    before += sum;
+    if (sum.is_zero()) continue;
+    for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
+      double left = 0;
+      for (const MergedPart& part : each)
+        if (int(part.component) == c) left += double(part.light[lane]);
+      left *= u;
+      size_t drawn = none;
+      for (size_t i = 0; i < each.size() && left >= 0; ++i) {
+        if (int(each[i].component) != c || !(each[i].light[lane] > 0)) continue;
+        left -= double(each[i].light[lane]);
+        drawn = i;
+      }
+      if (drawn == none || !reaches(drawn)) sum.set(lane, 0);
+    }
+    after += sum;
+  }
+  for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+    light.narrow.set(lane,
+                     before[lane] > 0 ? light.narrow[lane] * (after[lane] / before[lane]) : 0.0f);
 }
 
 void VcmCameraPath::MergedLight::scale(float factor) {
   for (Spectrum& sum : of) sum *= factor;
 }
 
+PixelPlans::Surroundings VcmCameraPath::surroundings(float radius) const {
+  if (!all_delta_) return {};
+  return in_.pixels.surroundings(walk_.raster(), walk_.vertex(), radius);
+}
+
 VcmCameraPath::DiskWeights VcmCameraPath::disk_weights(const MergeDisk& disk) const {
-  PixelPlans::Surroundings surroundings;
-  if (all_delta_)
-    surroundings = in_.pixels.surroundings(walk_.raster(), disk.vertex(), disk.radius());
-  const DiskEdges& edges = surroundings.edges;
+  const PixelPlans::Surroundings around = surroundings(disk.radius());
+  const DiskEdges& edges = around.edges;
   const Frame frame(disk.side());
   DiskWeights weights{
-      surroundings, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
+      around, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
       DiskKernel(frame, disk.radius() * narrow_radius, edges, KernelShape::parabolic)};
   // Slopes are for all of what edges leave, not for a part of it that is covered.
-  if (!surroundings.are_complete) {
+  if (!around.are_complete || !around.are_clear) {
     weights.wide.level();
     weights.narrow.level();
   }
@@ -389,14 +449,17 @@ VcmCameraPath::DiskWeights VcmCameraPath::disk_weights(const MergeDisk& disk) co
 }
 
 VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk,
-                                                      const DiskWeights& weights) const {
+                                                      const DiskWeights& weights,
+                                                      std::vector<MergedPart>* each) const {
   const SurfaceVertex& vertex = walk_.vertex();
+  std::vector<MattMerging::Factors>* const factors = each ? &empty_factors() : nullptr;
   const MattLight light =
       in_.matt.merge({vertex.position(), disk.side(), disk.radius(), disk.flatness(),
                       disk.least_cosine(), in_.maximum_events - walk_.events(),
                       weights.surroundings.edges, weights.wide.slope, weights.narrow.slope,
                       in_.weights.matt_vertex(vertices_, plan_.counted_area(in_.camera_samples),
-                                              plan_.counted_survival(), plan_.connected)});
+                                              plan_.counted_survival(), plan_.connected)},
+                     factors);
   const Spectrum reflected = vertex.diffuse_value();
   MergedLight result;
   const auto add = [&](Component component, const MattLight::Sum& sum) {
@@ -404,8 +467,15 @@ VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk,
     result.of[size_t(component)] += sum.wide * reflected;
     result.narrow += sum.narrow * reflected;
   };
-  add(walk_.component_of(Lobes::diffuse, true), light.after_specular);
-  add(walk_.component_of(Lobes::diffuse, false), light.other);
+  const Component after_specular = walk_.component_of(Lobes::diffuse, true),
+                  other = walk_.component_of(Lobes::diffuse, false);
+  add(after_specular, light.after_specular);
+  add(other, light.other);
+  if (each)
+    in_.matt.visit(*factors, [&](const Vec3f& position, const Spectrum& flux, bool specular) {
+      const Component component = specular ? after_specular : other;
+      if (walk_.wants(component)) each->push_back({position, component, flux * reflected});
+    });
   return result;
 }
 
@@ -459,7 +529,7 @@ void VcmCameraPath::visit_merging(const MergeDisk& disk, uint32_t most_parts,
 }
 
 VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, const DiskWeights& weights,
-                                                 Lobes lobes) const {
+                                                 Lobes lobes, std::vector<MergedPart>* each) const {
   const SurfaceVertex& vertex = walk_.vertex();
   const float radius_sq = sqr(disk.radius());
   MergedLight result;
@@ -484,6 +554,8 @@ VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, const Di
                     const Spectrum reflected = arriving * bsdf.of(lobe);
                     result.of[size_t(component)] += reflected * kernel;
                     result.narrow += reflected * narrow_kernel;
+                    if (each)
+                      each->push_back({vertex.position() + offset, component, reflected * kernel});
                   }
                 });
   return result;

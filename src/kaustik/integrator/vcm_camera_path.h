@@ -93,15 +93,30 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
     bool is_zero() const;
     void scale(float factor);
   };
+  /// What one light vertex adds to that.
+  struct MergedPart {
+    Vec3f position;
+    Component component;
+    Spectrum light;
+  };
   /// What a disk of merging weighs light vertices by: kernels for the disk and for the narrow one
   /// in it.
   struct DiskWeights {
     PixelPlans::Surroundings surroundings;
     DiskKernel wide, narrow;
   };
+  static std::vector<MergedPart>& empty_parts();
+  /// Of a disk around the vertex.
+  PixelPlans::Surroundings surroundings(float radius) const;
   DiskWeights disk_weights(const MergeDisk& disk) const;
-  MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights) const;
-  MergedLight merged(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes) const;
+  /// Both add to `each`, if there is one, what makes up MergedLight::of.
+  MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights,
+                          std::vector<MergedPart>* each) const;
+  MergedLight merged(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes,
+                     std::vector<MergedPart>* each) const;
+  /// Leaves of the light of these parts what is not hidden from the vertex.
+  void leave_reached(const DiskCoverage& covered, float radius, const std::vector<MergedPart>& each,
+                     MergedLight& light) const;
   /// visit(vertex, its flux as far as it counts, how far it lies from the disk's, direction to
   /// where it comes from, bsdf, path) for all that merge; where they are many, for one of
   /// `most_parts` parts of them at most, which is drawn and counts for all.

@@ -36,6 +36,8 @@ HWY_INLINE Vec load_counts(const uint16_t* counts) {
   return hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(d16, counts)));
 }
 
+using EachFactors = std::vector<MattMerging::Factors>;
+
 /// MattLight::Sum, lane by lane.
 class Sum {
  public:
@@ -71,7 +73,7 @@ struct Sums {
 };
 
 HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Block& block,
-                          const MattDisk& disk, Sums& sums) {
+                          const MattDisk& disk, Sums& sums, float* factors) {
   const Tag d;
   const auto dot_with = [&](const Vec3f& v, Vec x, Vec y, Vec z) HWY_ATTR {
     return hn::MulAdd(x, hn::Set(d, v.x),
@@ -129,6 +131,7 @@ HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Bl
     // Last, since points that fill up a bucket are infinitely far away.
     wide = hn::IfThenElseZero(counts, wide);
     narrow = hn::IfThenElseZero(counts, narrow);
+    if (factors) hn::StoreU(wide, d, factors + i);
     // Buckets hold what is near one another, which often came alike.
     const uint32_t specular = uint32_t(block.after_specular) >> i;
     uint8_t bits[8] = {uint8_t(specular), uint8_t(specular >> 8)};
@@ -145,15 +148,20 @@ struct Search {
   const KdBuckets& buckets;
   const MattMerging::Block* blocks;
   const MattDisk& disk;
+  EachFactors* each;
   Sums sums;
 };
 
-MattLight Merge(const KdBuckets& buckets, const MattMerging::Block* blocks, const MattDisk& disk) {
-  Search search{buckets, blocks, disk, Sums()};
+MattLight Merge(const KdBuckets& buckets, const MattMerging::Block* blocks, const MattDisk& disk,
+                EachFactors* each) {
+  Search search{buckets, blocks, disk, each, Sums()};
   const auto take = [](void* context, const uint32_t* numbers, size_t count) HWY_ATTR {
     Search& in = *static_cast<Search*>(context);
-    for (size_t i = 0; i < count; ++i)
-      add_block(in.buckets.bucket(numbers[i]), in.blocks[numbers[i]], in.disk, in.sums);
+    for (size_t i = 0; i < count; ++i) {
+      float* factors = nullptr;
+      if (in.each) factors = in.each->emplace_back(MattMerging::Factors{numbers[i], {}}).wide;
+      add_block(in.buckets.bucket(numbers[i]), in.blocks[numbers[i]], in.disk, in.sums, factors);
+    }
   };
   buckets.overlapping(disk.center, sqr(disk.radius), {take, &search});
   return {search.sums.after_specular.total(), search.sums.other.total()};
@@ -219,9 +227,9 @@ MattMerging::MattMerging(const LightVertices& light, const PathWeights& weights)
   });
 }
 
-MattLight MattMerging::merge(const MattDisk& disk) const {
+MattLight MattMerging::merge(const MattDisk& disk, std::vector<Factors>* each) const {
   if (blocks_.empty()) return {};
-  return HWY_DYNAMIC_DISPATCH(Merge)(*buckets_, blocks_.data(), disk);
+  return HWY_DYNAMIC_DISPATCH(Merge)(*buckets_, blocks_.data(), disk, each);
 }
 
 }  // namespace kaustik

@@ -46,7 +46,28 @@ class MattMerging {
   /// `light` must outlive this.
   MattMerging(const LightVertices& light, const PathWeights& weights);
 
-  MattLight merge(const MattDisk& disk) const;
+  /// The factors of flux in MattLight::Sum::wide of the vertices of a bucket.
+  struct Factors {
+    uint32_t bucket;
+    float wide[KdBuckets::bucket_size];
+  };
+  /// Adds to `each`, if there is one, the factors of all vertices that count.
+  MattLight merge(const MattDisk& disk, std::vector<Factors>* each = nullptr) const;
+  /// visit(position, flux, whether it came by specular events only) for all of which merge() told
+  /// the factors; flux times factor.
+  template <typename Visit>
+  void visit(const std::vector<Factors>& each, const Visit& visit) const {
+    for (const Factors& factors : each)
+      for (uint32_t i = 0; i < KdBuckets::bucket_size; ++i) {
+        if (factors.wide[i] == 0) continue;
+        const Block& block = blocks_[factors.bucket];
+        Spectrum flux;
+        for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+          flux.set(lane, block.flux[lane][i] * factors.wide[i]);
+        visit(buckets_->position(factors.bucket * KdBuckets::bucket_size + i), flux,
+              (block.after_specular >> i & 1) != 0);
+      }
+  }
 
   /// Of 16 vertices, those of one bucket of the tree.
   struct alignas(64) Block {

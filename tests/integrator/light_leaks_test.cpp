@@ -1,0 +1,80 @@
+// No light comes from behind what is opaque: rooms without light beside bright ones, whose walls
+// stand within the disks of merging.
+
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+const std::string grey = diffuse("0.7, 0.7, 0.7");
+
+/// Two rooms of 2 m under one ceiling, with a lamp in the left one; seen from the right one along
+/// the wall between them, where disks of some pixels are decimetres long.
+class Rooms {
+ public:
+  /// `wall` stands at x = 0.
+  Rooms(const std::string& wall, const std::string& floor, int pixels)
+      : scene_(camera("1.9, -0.9, 0.2", "0, -0.2, 0.6", 60, pixels, "0, 0, 1") +
+               flat("cube", scale("2, 1, 1"), set("flip_normals", true) + floor) + wall + lamp()) {}
+
+  /// Mean radiance of the picture.
+  double light(const std::string& type) const {
+    RenderOptions options;
+    options.samples = 4;
+    options.passes = 2;
+    return render(scene_, type, "", options).mean({""}).mean();
+  }
+
+ private:
+  static std::string lamp() {
+    return flat("rectangle",
+                scale("0.3, 0.3, 1") + rotate("1, 0, 0", 180) + translate("-1, 0, 0.99"),
+                diffuse("0, 0, 0") + area_light("50, 50, 50"));
+  }
+  TestScene scene_;
+};
+
+/// As high as the rooms but for `gap`.
+std::string slab(double thickness, double gap = 0) {
+  return flat("cube",
+              scale(fmt::format("{}, 1, {}", thickness / 2, 1 - gap / 2)) +
+                  translate(fmt::format("0, 0, {}", -gap / 2)),
+              grey);
+}
+
+constexpr const char* merging[] = {"auto", "vcm", "ppm"};
+
+void expect_dark(const std::string& what, const Rooms& rooms) {
+  for (const char* type : merging) EXPECT_EQ(rooms.light(type), 0) << what << " by " << type;
+}
+
+TEST(LightLeaks, WallsOfAnyThickness) {
+  for (const double thickness : {0.001, 0.01, 0.04, 0.2})
+    expect_dark(fmt::format("{} m", thickness), Rooms(slab(thickness), grey, 48));
+}
+
+/// Disks of few pixels are the widest.
+TEST(LightLeaks, PicturesOfAnySize) {
+  for (const int pixels : {16, 64, 128})
+    expect_dark(fmt::format("{} pixels", pixels), Rooms(slab(0.01), grey, pixels));
+}
+
+TEST(LightLeaks, GlossyAndRoundWalls) {
+  const std::string shiny = phong(0.3, 0.5, 20), rough = ggx(0.3);
+  expect_dark("glossy floor", Rooms(slab(0.01), shiny, 48));
+  expect_dark("rough metal", Rooms(slab(0.01), rough, 48));
+  // A drum over the whole width, whose lower side comes close to the floor by and by.
+  expect_dark("drum", Rooms(cylinder("0, -1.01, 0", "0, 1.01, 0", 1.001, grey), grey, 48));
+}
+
+/// What the tests above would see if there were a way for light.
+TEST(LightLeaks, AGapIsSeen) {
+  for (const char* type : merging)
+    EXPECT_GT(Rooms(slab(0.01, 0.02), grey, 48).light(type), 0) << type;
+}
+
+}  // namespace
+}  // namespace kaustik
