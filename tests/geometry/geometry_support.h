@@ -1,6 +1,9 @@
 #pragma once
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <random>
 
@@ -38,6 +41,21 @@ class Random {
 
  private:
   std::mt19937_64 engine_;
+};
+
+/// A file that lives as long as this.
+class MeshFile {
+ public:
+  explicit MeshFile(const std::string& bytes) : MeshFile(bytes, "mesh") {}
+  MeshFile(const std::string& bytes, const std::string& name)
+      : path_(testing::TempDir() + "kaustik_" + std::to_string(::getpid()) + "_" + name) {
+    std::ofstream(path_, std::ios::binary) << bytes;
+  }
+  ~MeshFile() { std::filesystem::remove(path_); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
 };
 
 inline std::shared_ptr<const Shape> make_shape(const std::string& type,

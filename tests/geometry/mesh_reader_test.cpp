@@ -2,31 +2,13 @@
 
 #include "kaustik/geometry/mesh_reader.h"
 
-#include <unistd.h>
-
 #include <bit>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "geometry_support.h"
 
 namespace kaustik::test {
 namespace {
-
-class MeshFile {
- public:
-  explicit MeshFile(const std::string& bytes) : MeshFile(bytes, "mesh") {}
-  MeshFile(const std::string& bytes, const std::string& name)
-      : path_(testing::TempDir() + "kaustik_" + std::to_string(::getpid()) + "_" + name) {
-    std::ofstream(path_, std::ios::binary) << bytes;
-  }
-  ~MeshFile() { std::filesystem::remove(path_); }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 TriangleMesh ply(const std::string& bytes) { return read_ply(MeshFile(bytes).path()); }
 TriangleMesh obj(const std::string& bytes) { return read_obj(MeshFile(bytes).path()); }

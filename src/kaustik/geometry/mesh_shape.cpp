@@ -15,6 +15,10 @@ double triangle_area(const TriangleMesh& mesh, const std::array<uint32_t, 3>& co
                    .length();
 }
 
+void turn_round(TriangleMesh& mesh) {
+  for (auto& corner : mesh.triangles) std::swap(corner[1], corner[2]);
+}
+
 /// Turns triangles round whose vertex normals point to their back.
 void wind_by_normals(TriangleMesh& mesh) {
   if (mesh.normals.empty()) return;
@@ -149,6 +153,8 @@ TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const s
                   "vertex " + std::to_string(i) + " is too far away once placed by 'to_world'",
                   "coordinates must stay below 1e18", place_in(file));
   }
+  // Mirrored, what ran anticlockwise round the front runs clockwise.
+  if (options.to_world.determinant3() < 0) turn_round(mesh);
   if (options.face_normals) mesh.normals.clear();
   for (Vec3f& n : mesh.normals) {
     n = options.to_world.normal(n);
@@ -158,7 +164,7 @@ TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const s
   if (mesh.normals.empty() && !options.face_normals) mesh.normals = smooth_normals(mesh);
   if (options.flip_normals) {
     for (Vec3f& n : mesh.normals) n = -n;
-    for (auto& corner : mesh.triangles) std::swap(corner[1], corner[2]);
+    turn_round(mesh);
   }
   if (options.flip_tex_coords)
     for (Vec2f& uv : mesh.uvs) uv.y = 1.0f - uv.y;

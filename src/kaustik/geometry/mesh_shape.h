@@ -51,8 +51,9 @@ struct MeshOptions {
   bool flip_tex_coords = false;  ///< v becomes 1 − v
 };
 
-/// `mesh` placed in the world. A mesh without normals gets smooth ones unless `face_normals`, as in
-/// Mitsuba 3. Throws Error(input) naming `file` if a vertex becomes infinite.
+/// `mesh` placed in the world. Its front stays the front under mirroring transforms, too: Mitsuba
+/// transforms normals, not the winding. A mesh without normals gets smooth ones unless
+/// `face_normals`, as in Mitsuba 3. Throws Error(input) naming `file` if a vertex becomes infinite.
 TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const std::string& file);
 
 /// Unit vertex normals: the face normals weighted by the angle at the vertex (Thürmer and Wüthrich,

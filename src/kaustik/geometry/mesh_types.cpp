@@ -32,13 +32,11 @@ std::unique_ptr<Shape> create_from_file(const Arguments& arguments,
   return std::make_unique<MeshShape>(prepare_mesh(read(path), options, path));
 }
 
-/// `mesh` placed in the world. Its front stays the front under mirroring transforms, too: Mitsuba
-/// transforms normals, not the winding.
 std::unique_ptr<Shape> create_built_in(const Arguments& arguments, TriangleMesh mesh) {
   MeshOptions options;
   options.to_world = affine_to_world(arguments);
   options.face_normals = true;
-  options.flip_normals = arguments.boolean("flip_normals") != (options.to_world.determinant3() < 0);
+  options.flip_normals = arguments.boolean("flip_normals");
   return std::make_unique<MeshShape>(prepare_mesh(std::move(mesh), options, arguments.info().name));
 }
 

@@ -88,7 +88,9 @@ namespace {
 
 const Transform& affine_to_world(const Arguments& arguments) {
   const Transform& t = arguments.transform("to_world");
-  if (t.at(3, 0) != 0 || t.at(3, 1) != 0 || t.at(3, 2) != 0 || t.at(3, 3) == 0)
+  // Shapes take apart what stands above the last row: another factor than 1 there would be lost, or
+  // mirror the shape unnoticed.
+  if (t.at(3, 0) != 0 || t.at(3, 1) != 0 || t.at(3, 2) != 0 || std::fabs(t.at(3, 3) - 1) > 1e-6)
     throw_at_to_world(arguments, "'to_world' is a projection",
                       "the last row of the matrix has to be 0 0 0 1");
   return t;
