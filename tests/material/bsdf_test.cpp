@@ -364,6 +364,45 @@ INSTANTIATE_TEST_SUITE_P(Instances, EveryBsdf, testing::ValuesIn(bsdf_instances(
                            return name;
                          });
 
+/// Counts how often it is asked.
+class Counting final : public Bsdf {
+ public:
+  Lobes lobes() const override { return ++asked, Lobes::diffuse; }
+  SurfaceNeeds needs() const override { return ++asked, SurfaceNeeds::none; }
+  bool transmits() const override { return ++asked, false; }
+  Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override {
+    return ++asked, Spectrum(inv_pi);
+  }
+  float pdf(const BsdfContext&, const Vec3f&, const Vec3f& wi, Lobes) const override {
+    return ++asked, wi.z * inv_pi;
+  }
+  BsdfSample sample(const BsdfContext&, const Vec3f&, float, const Vec2f&, Lobes) const override {
+    ++asked;
+    return {{0, 0, 1}, Spectrum(1), inv_pi, Lobes::diffuse};
+  }
+  Spectrum albedo(const BsdfContext&, const Vec3f&, Lobes) const override {
+    return ++asked, Spectrum(1);
+  }
+  mutable int64_t asked = 0;
+};
+
+/// Wrappers know their traits, and a sample of a chain of blends asks each bsdf a few times,
+/// however deep the chain is.
+TEST(blendbsdf, a_chain_asks_each_bsdf_a_few_times) {
+  const auto leaf = std::make_shared<Counting>();
+  std::shared_ptr<const Bsdf> chain = leaf;
+  for (int i = 0; i < 60; ++i) chain = make_bsdf("blendbsdf", {}, {chain, leaf});
+  EXPECT_EQ(chain->size(), 121);
+  leaf->asked = 0;
+  chain->lobes(), chain->needs(), chain->transmits();
+  EXPECT_EQ(leaf->asked, 0);
+  for (const float u : {0.0f, 0.3f, 0.999f}) {  // by the leaf at the bottom, and by outer ones
+    leaf->asked = 0;
+    EXPECT_EQ(chain->sample({}, {0, 0, 1}, u, {0.5f, 0.5f}, Lobes::all).event, Lobes::diffuse);
+    EXPECT_LE(leaf->asked, 61 * 8) << u;
+  }
+}
+
 /// All but "null", which has nothing to test here.
 TEST(bsdf_types, are_all_in_the_table_of_instances) {
   std::vector<std::string> names;

@@ -233,6 +233,32 @@ TEST(BuildScene, ParametersWithoutEffectAreReportedOnce) {
   EXPECT_EQ(scene->warnings()[0], "'near_clip' of sensor 'perspective' has no effect here");
 }
 
+/// `levels` bsdfs, a line each, every one made of the one before, twice if `twice`.
+std::string nested_bsdfs(const std::string& type, int levels, bool twice) {
+  std::string text = "<bsdf type=\"diffuse\" id=\"b0\"/>\n";
+  for (int i = 1; i <= levels; ++i) {
+    const std::string nested = "<ref id=\"b" + std::to_string(i - 1) + "\"/>";
+    text += "<bsdf type=\"" + type + "\" id=\"b" + std::to_string(i) + "\">" + nested +
+            (twice ? nested : "") + "</bsdf>\n";
+  }
+  return text;
+}
+
+/// Two to the power of 60 answers for each question otherwise, while the scene is built, too.
+TEST(BuildScene, BsdfsThatShareNestedOnesStayFew) {
+  const std::string shape = "<shape type=\"sphere\"><ref id=\"b60\"/></shape>";
+  expect_problem(camera + shape + "\n" + nested_bsdfs("blendbsdf", 60, true), "11:1",
+                 "nests 510 bsdfs", "at most 255");
+  // What asks one of its nested bsdfs at a time may share them.
+  EXPECT_EQ(scene_of(camera + nested_bsdfs("twosided", 60, true) + shape)->surface(0).bsdf->size(),
+            61);
+  EXPECT_EQ(scene_of(camera + nested_bsdfs("mask", 60, false) + shape)->surface(0).bsdf->size(),
+            61);
+  const std::string seven = "<shape type=\"sphere\"><ref id=\"b7\"/></shape>";
+  EXPECT_EQ(scene_of(camera + nested_bsdfs("blendbsdf", 7, true) + seven)->surface(0).bsdf->size(),
+            255);
+}
+
 TEST(BuildScene, ErrorsWithoutAPlaceGetThatOfTheFileName) {
   expect_problem(
       camera + "<shape type=\"ply\">\n <string name=\"filename\" value=\"no.ply\"/></shape>", "3:2",

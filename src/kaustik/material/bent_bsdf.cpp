@@ -1,19 +1,17 @@
 #include "kaustik/material/bent_bsdf.h"
 
+#include "kaustik/material/compound_bsdf.h"
+
 namespace kaustik {
 namespace {
 
-class BentBsdf final : public Bsdf {
+class BentBsdf final : public CompoundBsdf {
  public:
   BentBsdf(std::shared_ptr<const Bsdf> nested, std::unique_ptr<const Relief> relief)
-      : nested_(std::move(nested)), relief_(std::move(relief)) {}
+      : CompoundBsdf(bent(traits_of(*nested))),
+        nested_(std::move(nested)),
+        relief_(std::move(relief)) {}
 
-  Lobes lobes() const override { return nested_->lobes(); }
-  bool transmits() const override { return nested_->transmits(); }
-  bool is_null() const override { return nested_->is_null(); }
-  SurfaceNeeds needs() const override {
-    return nested_->needs() | SurfaceNeeds::texture | SurfaceNeeds::relief;
-  }
   const Relief* relief(bool) const override { return relief_.get(); }
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
@@ -36,6 +34,12 @@ class BentBsdf final : public Bsdf {
   }
 
  private:
+  static BsdfTraits bent(BsdfTraits traits) {
+    traits.needs = traits.needs | SurfaceNeeds::texture | SurfaceNeeds::relief;
+    ++traits.size;
+    return traits;
+  }
+
   std::shared_ptr<const Bsdf> nested_;
   std::unique_ptr<const Relief> relief_;
 };

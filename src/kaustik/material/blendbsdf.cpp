@@ -1,20 +1,23 @@
 #include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/compound_bsdf.h"
 
 namespace kaustik {
 namespace {
 
 /// Two bsdfs mixed: f = (1 − w) f_0 + w f_1.
-class BlendBsdf final : public Bsdf {
+class BlendBsdf final : public CompoundBsdf {
  public:
   BlendBsdf(std::shared_ptr<const Bsdf> first, std::shared_ptr<const Bsdf> second,
             std::shared_ptr<const Texture> weight)
-      : first_(std::move(first)), second_(std::move(second)), weight_(std::move(weight)) {}
-
-  Lobes lobes() const override { return first_->lobes() | second_->lobes(); }
-  bool transmits() const override { return first_->transmits() || second_->transmits(); }
-  SurfaceNeeds needs() const override {
-    return first_->needs() | second_->needs() | texture_needs({weight_.get()});
-  }
+      : CompoundBsdf({.lobes = first->lobes() | second->lobes(),
+                      .transmits = first->transmits() || second->transmits(),
+                      .needs = first->needs() | second->needs() | texture_needs({weight.get()}),
+                      .size = first->size() + second->size() + 1}),
+        first_(std::move(first)),
+        second_(std::move(second)),
+        weight_(std::move(weight)),
+        first_blend_(dynamic_cast<const BlendBsdf*>(first_.get())),
+        second_blend_(dynamic_cast<const BlendBsdf*>(second_.get())) {}
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                 Lobes lobes) const override {
@@ -32,20 +35,7 @@ class BlendBsdf final : public Bsdf {
 
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
                     Lobes lobes) const override {
-    const float chance = second_chance(context, lobes), w = weight(context);
-    const bool by_second = u_lobe < chance;
-    const Bsdf& chosen = by_second ? *second_ : *first_;
-    const float rest = by_second ? u_lobe / chance : (u_lobe - chance) / (1 - chance);
-    BsdfSample sample = chosen.sample(context, wo, std::min(rest, one_minus_epsilon), u, lobes);
-    if (sample.event == Lobes::none) return {};
-    const float chosen_chance = by_second ? chance : 1 - chance;
-    if (sample.event == Lobes::delta) {
-      sample.weight *= (by_second ? w : 1 - w) / chosen_chance;
-      sample.pdf_solid_angle *= chosen_chance;
-      return sample;
-    }
-    sample.pdf_solid_angle = pdf(context, wo, sample.wi, lobes);
-    return with_event(sample, context, wo, rest, lobes);
+    return choose(context, wo, u_lobe, u, lobes).sample;
   }
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
@@ -54,12 +44,60 @@ class BlendBsdf final : public Bsdf {
   }
 
  private:
+  /// A sample with what has been found out of its direction; of delta events nothing.
+  struct Choice {
+    BsdfSample sample;
+    Spectrum diffuse, glossy;
+    float pdf = 0;
+  };
+
+  /// sample(). Blends in this blend tell their values with their samples: asked for them by each
+  /// one around them, they would be asked as often as they are deep.
+  Choice choose(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
+                Lobes lobes) const {
+    const float chance = second_chance(context, lobes), w = weight(context);
+    const bool by_second = u_lobe < chance;
+    const Bsdf& chosen = by_second ? *second_ : *first_;
+    const BlendBsdf* chosen_blend = by_second ? second_blend_ : first_blend_;
+    const float rest = by_second ? u_lobe / chance : (u_lobe - chance) / (1 - chance);
+    const float u_nested = std::min(rest, one_minus_epsilon);
+    Choice choice;
+    if (chosen_blend)
+      choice = chosen_blend->choose(context, wo, u_nested, u, lobes);
+    else
+      choice.sample = chosen.sample(context, wo, u_nested, u, lobes);
+    BsdfSample& sample = choice.sample;
+    if (sample.event == Lobes::none) return {};
+    const float chosen_chance = by_second ? chance : 1 - chance;
+    if (sample.event == Lobes::delta) {
+      sample.weight *= (by_second ? w : 1 - w) / chosen_chance;
+      sample.pdf_solid_angle *= chosen_chance;
+      return choice;
+    }
+    if (!chosen_blend) find_values(chosen, context, wo, lobes, choice);
+    Choice other{sample, {}, {}, 0};
+    find_values(by_second ? *first_ : *second_, context, wo, lobes, other);
+    const Choice& first = by_second ? other : choice;
+    const Choice& second = by_second ? choice : other;
+    const Spectrum diffuse = first.diffuse * (1 - w) + second.diffuse * w;
+    const Spectrum glossy = first.glossy * (1 - w) + second.glossy * w;
+    const float pdf = first.pdf * (1 - chance) + second.pdf * chance;
+    sample.pdf_solid_angle = pdf;
+    return {with_event(sample, diffuse, glossy, rest), diffuse, glossy, pdf};
+  }
+
+  static void find_values(const Bsdf& bsdf, const BsdfContext& context, const Vec3f& wo,
+                          Lobes lobes, Choice& choice) {
+    const Vec3f& wi = choice.sample.wi;
+    choice.pdf = bsdf.pdf(context, wo, wi, lobes);
+    choice.diffuse = bsdf.eval(context, wo, wi, lobes & Lobes::diffuse);
+    choice.glossy = bsdf.eval(context, wo, wi, lobes & Lobes::glossy);
+  }
+
   /// The event, diffuse or glossy, drawn by the shares of the two in f, with its weight. What the
   /// choice of the lobe has left of `u` are its lower digits.
-  BsdfSample with_event(BsdfSample sample, const BsdfContext& context, const Vec3f& wo, float u,
-                        Lobes lobes) const {
-    const Spectrum diffuse = eval(context, wo, sample.wi, lobes & Lobes::diffuse);
-    const Spectrum glossy = eval(context, wo, sample.wi, lobes & Lobes::glossy);
+  static BsdfSample with_event(BsdfSample sample, const Spectrum& diffuse, const Spectrum& glossy,
+                               float u) {
     const float total = diffuse.sum() + glossy.sum();
     if (!(total > 0) || !(sample.pdf_solid_angle > 0)) return {};
     const float diffuse_share = diffuse.sum() / total;
@@ -85,6 +123,7 @@ class BlendBsdf final : public Bsdf {
 
   std::shared_ptr<const Bsdf> first_, second_;
   std::shared_ptr<const Texture> weight_;
+  const BlendBsdf *first_blend_, *second_blend_;  ///< the two as blends; null: they are none
 };
 
 const TypeInfo& info() {

@@ -118,6 +118,9 @@ class Bsdf {
   /// f, 1/sr, without the cosine.
   virtual Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                         Lobes lobes) const = 0;
+  /// How many bsdfs an answer of eval() asks at most, itself included; one that is nested in
+  /// several places counts for each of them.
+  virtual int size() const { return 1; }
   /// What it asks of the surface beside directions.
   virtual SurfaceNeeds needs() const { return SurfaceNeeds::none; }
   /// What bends the normal of the side that is seen (`front`: the one that the geometric normal
@@ -143,6 +146,10 @@ class Bsdf {
   /// over 1; an energy, so the transport mode makes no difference.
   virtual Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const = 0;
 };
+
+/// The largest size() that a scene may use. Bsdfs that share nested ones double it at each level,
+/// so a few lines of a scene file could ask for more than ever ends.
+inline constexpr int maximum_bsdf_size = 256;
 
 /// Ideally matt on its outer side and white: f = 1/π.
 const Bsdf& white_diffuse();

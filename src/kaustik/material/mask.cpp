@@ -1,18 +1,21 @@
 #include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/compound_bsdf.h"
 
 namespace kaustik {
 namespace {
 
 /// A surface with holes: light meets the nested bsdf by the chance `opacity` and goes straight on
 /// otherwise, a delta event.
-class Mask final : public Bsdf {
+class Mask final : public CompoundBsdf {
  public:
   Mask(std::shared_ptr<const Bsdf> nested, std::shared_ptr<const Texture> opacity)
-      : nested_(std::move(nested)), opacity_(std::move(opacity)) {}
+      : CompoundBsdf({.lobes = nested->lobes() | Lobes::delta,
+                      .transmits = true,
+                      .needs = nested->needs() | texture_needs({opacity.get()}),
+                      .size = nested->size() + 1}),
+        nested_(std::move(nested)),
+        opacity_(std::move(opacity)) {}
 
-  Lobes lobes() const override { return nested_->lobes() | Lobes::delta; }
-  bool transmits() const override { return true; }
-  SurfaceNeeds needs() const override { return nested_->needs() | texture_needs({opacity_.get()}); }
   const Relief* relief(bool front) const override { return nested_->relief(front); }
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,

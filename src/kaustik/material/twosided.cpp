@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/compound_bsdf.h"
 
 namespace kaustik {
 namespace {
@@ -20,15 +21,17 @@ class BackRelief final : public Relief {
 };
 
 /// A bsdf on each side; on the back in a frame whose z axis is turned round.
-class Twosided final : public Bsdf {
+class Twosided final : public CompoundBsdf {
  public:
   Twosided(std::shared_ptr<const Bsdf> front, std::shared_ptr<const Bsdf> back)
-      : front_(std::move(front)), back_(std::move(back)) {
+      : CompoundBsdf({.lobes = front->lobes() | back->lobes(),
+                      .needs = front->needs() | back->needs(),
+                      .size = std::max(front->size(), back->size()) + 1}),
+        front_(std::move(front)),
+        back_(std::move(back)) {
     if (const Relief* relief = back_->relief(true)) back_relief_.emplace(*relief);
   }
 
-  Lobes lobes() const override { return front_->lobes() | back_->lobes(); }
-  SurfaceNeeds needs() const override { return front_->needs() | back_->needs(); }
   const Relief* relief(bool front) const override {
     if (front) return front_->relief(true);
     return back_relief_ ? &*back_relief_ : nullptr;

@@ -349,6 +349,15 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
   };
   std::shared_ptr<const Bsdf> bsdf;
   collecting(object.place, [&] { bsdf = type->create({arguments, nested, texture}); });
+  if (bsdf && bsdf->size() > maximum_bsdf_size) {
+    problems_.add(fmt::format("bsdf '{}' nests {} bsdfs, each counted for every place it is used "
+                              "in: rendering it would take too long",
+                              object.type, bsdf->size() - 1),
+                  fmt::format("nest fewer, and blend the same one only once: at most {} in all",
+                              maximum_bsdf_size - 1),
+                  object.place);
+    return nullptr;
+  }
   return bsdf;
 }
 
