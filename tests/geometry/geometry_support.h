@@ -44,14 +44,14 @@ class Random {
 };
 
 /// A file that lives as long as this.
-class MeshFile {
+class TemporaryFile {
  public:
-  explicit MeshFile(const std::string& bytes) : MeshFile(bytes, "mesh") {}
-  MeshFile(const std::string& bytes, const std::string& name)
+  explicit TemporaryFile(const std::string& bytes) : TemporaryFile(bytes, "mesh") {}
+  TemporaryFile(const std::string& bytes, const std::string& name)
       : path_(testing::TempDir() + "kaustik_" + std::to_string(::getpid()) + "_" + name) {
     std::ofstream(path_, std::ios::binary) << bytes;
   }
-  ~MeshFile() { std::filesystem::remove(path_); }
+  ~TemporaryFile() { std::filesystem::remove(path_); }
   const std::string& path() const { return path_; }
 
  private:

@@ -3,6 +3,7 @@
 #include "kaustik/geometry/mesh_reader.h"
 
 #include <bit>
+#include <chrono>
 #include <cstring>
 
 #include "geometry_support.h"
@@ -10,8 +11,8 @@
 namespace kaustik::test {
 namespace {
 
-TriangleMesh ply(const std::string& bytes) { return read_ply(MeshFile(bytes).path()); }
-TriangleMesh obj(const std::string& bytes) { return read_obj(MeshFile(bytes).path()); }
+TriangleMesh ply(const std::string& bytes) { return read_ply(TemporaryFile(bytes).path()).mesh; }
+TriangleMesh obj(const std::string& bytes) { return read_obj(TemporaryFile(bytes).path()).mesh; }
 
 /// The message of the Error(input) that `read` throws; "" if it throws none.
 template <typename Read>
@@ -210,7 +211,6 @@ TEST(ObjReader, SaysWhatIsWrongAndWhere) {
   };
   expect("", "no faces");
   expect(start, "no faces");
-  expect(start + "f 1 2\n", "face 1 has 2 corners");
   expect(start + "f 1 2 4\n", "face 1 refers to vertex 4 of 3");
   expect(start + "f 1 2 4\n", ":4: ");
   expect(start + "f 1 2 0\n", "face 1 refers to vertex 0 of 3");
@@ -225,13 +225,113 @@ TEST(ObjReader, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(error_of([] { read_obj("/nonexistent/mesh.obj"); }), "");
 }
 
+/// Read as it should be, whatever program wrote it.
+TEST(ObjReader, MarksLineEndsCapitalsAndContinuedLines) {
+  const auto with_line_ends = [](std::string text, const std::string& end) {
+    for (size_t i = 0; (i = text.find('\n', i)) != text.npos; i += end.size())
+      text.replace(i, 1, end);
+    return text;
+  };
+  expect_quad(obj("\xef\xbb\xbf" + text_obj.substr(text_obj.find('v'))));
+  expect_quad(obj(with_line_ends(text_obj, "\r")));
+  expect_quad(obj(with_line_ends(text_obj, "\r\n")));
+  std::string capitals = text_obj;
+  for (char& c : capitals) c = char(std::toupper(c));
+  expect_quad(obj(capitals));
+  for (const std::string end : {"\n", "\r", "\r\n"}) {
+    std::string continued = text_obj;
+    continued.replace(continued.find(" 3/3"), 1, " \\\n \\\n");
+    continued.replace(continued.find("1 0 2.5"), 2, "1 \\\n");
+    expect_quad(obj(with_line_ends(continued, end)));
+    // Lines count as they stand in the file.
+    const std::string message =
+        error_of([&] { obj(with_line_ends("v 0 0 0 \\\n\nv 0 \\\n0 x\n", end)); });
+    EXPECT_NE(message.find(":3: "), std::string::npos) << message;
+  }
+  EXPECT_NE(error_of([] { obj("\xff\xfev\0 \0"); }).find("UTF-16"), std::string::npos);
+  EXPECT_THROW(obj("v 0 0 0\nv 1 0 0\nv 0 1 0\n\\\nf 1 2\\"), Error);
+}
+
+TEST(ObjReader, TellsWhatItLeavesOutOnce) {
+  const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto remarks = [&](const std::string& more) {
+    return read_obj(TemporaryFile(start + more).path()).remarks;
+  };
+  EXPECT_TRUE(remarks("# l\ng a\no b\ns 1\nusemtl m\nmtllib m.mtl\nl 1 2\np 1\nvp 0\n\n").empty());
+  const auto unknown = remarks("vertex 1 2 3\nvertex 2 3 4\ncurv 0 1 2\n");
+  ASSERT_EQ(unknown.size(), 2u);
+  EXPECT_NE(unknown[0].find(":5: lines that begin with 'vertex'"), std::string::npos) << unknown[0];
+  EXPECT_NE(unknown[1].find("'curv'"), std::string::npos) << unknown[1];
+  EXPECT_EQ(remarks("a\nb\nc\nd\ne\nf 1 2 3\nh\ni\n").size(), 5u);
+  const auto small = remarks("f 1 2\nf 1\nf\n");
+  ASSERT_EQ(small.size(), 1u);
+  EXPECT_NE(small[0].find("3 faces were left out"), std::string::npos) << small[0];
+  EXPECT_NE(error_of([&] { obj("v 0 0 0\nv 1 0 0\nf 1 2\n"); }).find("no faces"),
+            std::string::npos);
+}
+
+TEST(PlyReader, MarksAndLineEnds) {
+  expect_quad(ply("\xef\xbb\xbf" + text_ply));
+  std::string old = text_ply;
+  std::replace(old.begin(), old.end(), '\n', '\r');
+  expect_quad(ply(old));
+  EXPECT_NE(error_of([&] { ply(old.substr(0, old.size() - 3)); }).find(":19: "), std::string::npos);
+  std::string binary = binary_ply(false);
+  std::replace(binary.begin(), binary.begin() + std::ptrdiff_t(binary.find("end_header") + 11),
+               '\n', '\r');
+  expect_quad(ply(binary));
+}
+
+TEST(PlyReader, TellsSmallFaces) {
+  const MeshFile file = read_ply(TemporaryFile(with("face 1", "face 2") + "2 0 1\n").path());
+  expect_quad(file.mesh);
+  ASSERT_EQ(file.remarks.size(), 1u);
+  EXPECT_NE(file.remarks[0].find("1 face was left out"), std::string::npos) << file.remarks[0];
+}
+
+/// Both readers cut as PolygonCutter does.
+TEST(MeshShape, ConcaveFacesCoverTheirArea) {
+  const TemporaryFile as_obj("v 0 -0.5 0\nv 0.5 0.5 0\nv 0 0 0\nv -0.5 0.5 0\nf 2 3 4 1\n",
+                             "a.obj");
+  const TemporaryFile as_ply(
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
+      "0 -0.5 0\n0.5 0.5 0\n0 0 0\n-0.5 0.5 0\n4 1 2 3 0\n",
+      "a.ply");
+  EXPECT_FLOAT_EQ(make_shape("obj", {{"filename", as_obj.path(), {}}})->area(), 0.25f);
+  EXPECT_FLOAT_EQ(make_shape("ply", {{"filename", as_ply.path(), {}}})->area(), 0.25f);
+}
+
+/// Files of a megabyte that once took time with the square of what they repeat.
+TEST(MeshFiles, TakeTimeInProportionToTheirSize) {
+  std::string elements = "ply\nformat ascii 1.0\n";
+  for (int i = 0; i < 60000; ++i) elements += "element e" + std::to_string(i) + " 0\n";
+  // One face of all the corners that a byte each can name, over and over.
+  std::string corners =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 200\nproperty char x\n"
+      "property char y\nproperty char z\nelement face 1\n"
+      "property list uint uchar vertex_index\nend_header\n";
+  Random random(3);
+  for (int i = 0; i < 600; ++i) corners += char(random.uniform() * 100);
+  put(corners, uint32_t(1000000), false);
+  for (int i = 0; i < 1000000; ++i) corners += char(random.uniform() * 200);
+  std::string joined = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 ";
+  for (int i = 0; i < 300000; ++i) joined += "\\\n";
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_NE(error_of([&] { ply(elements); }), "");
+  EXPECT_THROW(ply(corners), Error);
+  EXPECT_EQ(obj(joined).triangles.size(), 1u);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(taken.count(), 6.0 * samples_divisor);
+}
+
 TEST(ObjReader, SurvivesDamage) { survive_damage(text_obj, obj, 200); }
 
 // What `obj` and `ply` do with the file -----------------------------------------------------------
 
 TEST(MeshShape, NormalsFollowMitsuba) {
   // A roof without normals: smooth by default, flat on request.
-  const MeshFile file(
+  const TemporaryFile file(
       "v 0 0 0\nv 0 1 0\nv 1 0 1\nv 1 1 1\nv 2 0 0\nv 2 1 0\n"
       "f 1 3 4 2\nf 3 5 6 4\n",
       "roof.obj");
@@ -252,14 +352,15 @@ TEST(MeshShape, NormalsFollowMitsuba) {
 }
 
 TEST(MeshShape, WindingFollowsVertexNormals) {
-  const MeshFile file("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n", "down.obj");
+  const TemporaryFile file("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n", "down.obj");
   const auto shape = make_shape("obj", {{"filename", file.path(), {}}});
   EXPECT_LT(shape->sample_area({0.5f, 0.5f}).point.ng.z, 0);
 }
 
 TEST(MeshShape, TextureCoordinatesFlip) {
-  const MeshFile as_obj(text_obj, "quad.obj"), as_ply(text_ply, "quad.ply");
-  const auto v_of_second = [](const char* type, const MeshFile& file, std::vector<Property> extra) {
+  const TemporaryFile as_obj(text_obj, "quad.obj"), as_ply(text_ply, "quad.ply");
+  const auto v_of_second = [](const char* type, const TemporaryFile& file,
+                              std::vector<Property> extra) {
     extra.push_back({"filename", file.path(), {}});
     return make_shape(type, extra)->mesh()->uvs[1].y;
   };
@@ -270,7 +371,7 @@ TEST(MeshShape, TextureCoordinatesFlip) {
 }
 
 TEST(MeshShape, TooFarIsAnError) {
-  const MeshFile file(text_ply, "far.ply");
+  const TemporaryFile file(text_ply, "far.ply");
   EXPECT_THROW(make_shape("ply", {{"filename", file.path(), {}},
                                   {"to_world", Transform::scale({1e20, 1, 1}), {}}}),
                Error);

@@ -48,7 +48,7 @@ class Cases {
         {"cube", "cube", {}},         {"rectangle", "rectangle", {}},
         {"disk", "disk", {}},         {"sphere", "sphere", {}},
         {"cylinder", "cylinder", {}}, {"sdf", "sdf", {{"iterations", int64_t(2), {}}}}};
-    for (const MeshFile* file : {&flat_, &smooth_, &inward_, &partly_, &ply_})
+    for (const TemporaryFile* file : {&flat_, &smooth_, &inward_, &partly_, &ply_})
       for (const bool face_normals : {false, true})
         cases.push_back({file->path(),
                          file == &ply_ ? "ply" : "obj",
@@ -65,13 +65,13 @@ class Cases {
   }
 
  private:
-  MeshFile flat_{cube_vertices + cube_faces(""), "flat.obj"};
-  MeshFile smooth_{cube_vertices + cube_normals(1, 8) + cube_faces("n"), "smooth.obj"};
+  TemporaryFile flat_{cube_vertices + cube_faces(""), "flat.obj"};
+  TemporaryFile smooth_{cube_vertices + cube_normals(1, 8) + cube_faces("n"), "smooth.obj"};
   /// Its normals contradict the order of the corners.
-  MeshFile inward_{cube_vertices + cube_normals(-1, 8) + cube_faces("n"), "inward.obj"};
+  TemporaryFile inward_{cube_vertices + cube_normals(-1, 8) + cube_faces("n"), "inward.obj"};
   /// Some faces have no normals.
-  MeshFile partly_{cube_vertices + cube_normals(1, 4) + cube_faces("n"), "partly.obj"};
-  MeshFile ply_{
+  TemporaryFile partly_{cube_vertices + cube_normals(1, 4) + cube_faces("n"), "partly.obj"};
+  TemporaryFile ply_{
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
       "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
       "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n",

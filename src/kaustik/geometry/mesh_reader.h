@@ -1,15 +1,32 @@
 #pragma once
+#include <span>
+
 #include "kaustik/geometry/shape.h"
 
 namespace kaustik {
 
-/// Reads a mesh file in its own space. Polygons become fans of triangles; normals are as in the
-/// file (any length, zero where the file gives none). Whatever the bytes are, the result is a mesh
-/// with consistent sizes, indices in range and finite coordinates, or Error(input) is thrown that
-/// names the file, the place and what to do.
-TriangleMesh read_ply(const std::string& path);
-/// Wavefront OBJ: v, vt, vn and f; groups, materials and smoothing are skipped. Vertices are split
-/// where texture coordinates or normals differ.
-TriangleMesh read_obj(const std::string& path);
+/// What a mesh file holds.
+struct MeshFile {
+  TriangleMesh mesh;
+  /// What was left out, for the user: a sentence each, with the file's name.
+  std::vector<std::string> remarks;
+};
+
+/// Reads a mesh file in its own space. Polygons are cut by PolygonCutter; normals are as in the
+/// file (any length, zero where the file gives none). Faces with fewer than three corners are left
+/// out. Whatever the bytes are, the result is a mesh with consistent sizes, indices in range and
+/// finite coordinates, or Error(input) is thrown that names the file, the place and what to do; it
+/// takes time in proportion to their number.
+MeshFile read_ply(const std::string& path);
+/// Wavefront OBJ: v, vt, vn and f, in small or capital letters; groups, materials, smoothing,
+/// points and lines are skipped, what it does not know is remarked. Vertices are split where
+/// texture coordinates or normals differ.
+MeshFile read_obj(const std::string& path);
+
+/// How many bytes of `bytes` are a mark that it is UTF-8 text. Throws Error(input) naming `file`
+/// where the mark of another encoding stands.
+size_t byte_order_mark(std::span<const uint8_t> bytes, const std::string& file);
+/// The remark on faces with fewer than three corners.
+std::string remark_on_small_faces(size_t count, const std::string& file);
 
 }  // namespace kaustik

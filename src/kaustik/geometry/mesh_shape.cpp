@@ -47,7 +47,8 @@ std::optional<SphericalRectangle> rectangle_of(const TriangleMesh& mesh) {
 
 }  // namespace
 
-MeshShape::MeshShape(TriangleMesh mesh) : mesh_(std::move(mesh)) {
+MeshShape::MeshShape(TriangleMesh mesh, std::vector<std::string> remarks)
+    : mesh_(std::move(mesh)), remarks_(std::move(remarks)) {
   // Embree reads vertices by 16 bytes: room behind the last one.
   mesh_.positions.reserve(mesh_.positions.size() + 1);
   wind_by_normals(mesh_);

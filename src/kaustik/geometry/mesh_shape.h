@@ -12,11 +12,13 @@ namespace kaustik {
 class MeshShape : public Shape {
  public:
   /// Sizes and indices of `mesh` must be consistent and its positions finite.
-  explicit MeshShape(TriangleMesh mesh);
+  explicit MeshShape(TriangleMesh mesh, std::vector<std::string> remarks = {});
 
   Bounds3f bounds() const override { return bounds_; }
   float area() const override { return area_; }
   const TriangleMesh* mesh() const override { return &mesh_; }
+  /// What its file has that was left out, a sentence each.
+  const std::vector<std::string>& remarks() const { return remarks_; }
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
   UvDerivatives uv_derivatives(const SurfacePoint& at) const override;
   ShapeSample sample_area(const Vec2f& u) const override;
@@ -33,6 +35,7 @@ class MeshShape : public Shape {
   SurfacePoint rectangle_point(const Vec2f& at) const;
 
   TriangleMesh mesh_;
+  std::vector<std::string> remarks_;
   Bounds3f bounds_;
   float area_ = 0;
   /// Of meshes that are one: two triangles that share the diagonal from the first vertex to the

@@ -22,14 +22,16 @@ std::vector<Parameter> file_mesh_parameters(bool flip_tex_coords) {
 }
 
 std::unique_ptr<Shape> create_from_file(const Arguments& arguments,
-                                        TriangleMesh (*read)(const std::string&)) {
+                                        MeshFile (*read)(const std::string&)) {
   const std::string& path = arguments.text("filename");
   MeshOptions options;
   options.to_world = affine_to_world(arguments);
   options.face_normals = arguments.boolean("face_normals");
   options.flip_normals = arguments.boolean("flip_normals");
   options.flip_tex_coords = arguments.boolean("flip_tex_coords");
-  return std::make_unique<MeshShape>(prepare_mesh(read(path), options, path));
+  MeshFile file = read(path);
+  return std::make_unique<MeshShape>(prepare_mesh(std::move(file.mesh), options, path),
+                                     std::move(file.remarks));
 }
 
 std::unique_ptr<Shape> create_built_in(const Arguments& arguments, TriangleMesh mesh) {

@@ -3,13 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <set>
 #include <string_view>
 #include <unordered_map>
 
 #include "kaustik/base/file.h"
 #include "kaustik/base/sampler.h"
 #include "kaustik/geometry/mesh_reader.h"
+#include "kaustik/geometry/polygon_cutter.h"
 
 namespace kaustik {
 namespace {
@@ -29,22 +32,18 @@ struct CornerHash {
 
 class ObjReader {
  public:
-  explicit ObjReader(const std::string& path) : path_(path), bytes_(read_file(path)) {}
+  explicit ObjReader(const std::string& path)
+      : path_(path), bytes_(read_file(path)), cutter_(bytes_.size()) {}
 
-  TriangleMesh read() {
-    const std::string_view text(reinterpret_cast<const char*>(bytes_.data()), bytes_.size());
-    for (size_t begin = 0; begin < text.size();) {
-      const size_t end = std::min(text.find('\n', begin), text.size());
-      ++line_;
-      read_line(text.substr(begin, end - begin));
-      begin = end + 1;
-    }
+  MeshFile read() {
+    at_ = byte_order_mark(bytes_, path_);
+    while (at_ < bytes_.size()) read_line(next_line());
     if (mesh_.triangles.empty()) {
       line_ = 0;
       fail("the mesh has no faces", "export the object as a mesh with faces");
     }
     finish();
-    return std::move(mesh_);
+    return {std::move(mesh_), std::move(remarks_)};
   }
 
  private:
@@ -52,7 +51,10 @@ class ObjReader {
     throw Error(ErrorKind::input, "OBJ: " + what, remedy, place_in(path_, line_));
   }
 
+  std::string_view next_line();
+  std::string_view next_part();
   void read_line(std::string_view line);
+  void remark_unknown(const std::string& keyword);
   void read_numbers(std::string_view line, std::string_view what, float* values, int count) const;
   void read_face(std::string_view line);
   CornerKey read_corner(std::string_view word) const;
@@ -71,17 +73,71 @@ class ObjReader {
 
   std::string path_;
   std::vector<uint8_t> bytes_;
-  int line_ = 0;
+  size_t at_ = 0;
+  int line_ = 1;        ///< on which the line that is read begins
+  int parts_ = 0;       ///< over how many lines of the file it goes
+  std::string joined_;  ///< the line, where it goes on
   size_t faces_ = 0;
   std::vector<Vec3f> positions_, normals_;
   std::vector<Vec2f> uvs_;
   std::unordered_map<CornerKey, uint32_t, CornerHash> vertices_;
   TriangleMesh mesh_;
+  PolygonCutter cutter_;
+  std::vector<uint32_t> corners_;  ///< of the face that is read
+  size_t small_faces_ = 0;
+  std::set<std::string> unknown_;
+  std::vector<std::string> remarks_;
   bool any_uv_ = false, any_normal_ = false;
 };
 
+/// Up to the end of the line, which any system may have written.
+std::string_view ObjReader::next_part() {
+  const std::string_view rest(reinterpret_cast<const char*>(bytes_.data()) + at_,
+                              bytes_.size() - at_);
+  const size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
+  at_ += std::min(end + (rest.substr(end, 2) == "\r\n" ? 2 : 1), rest.size());
+  ++parts_;
+  return rest.substr(0, end);
+}
+
+/// A line; one that ends with a backslash goes on in the next one.
+std::string_view ObjReader::next_line() {
+  line_ += parts_;
+  parts_ = 0;
+  std::string_view part = next_part();
+  if (!part.ends_with('\\')) return part;
+  joined_.clear();
+  for (; part.ends_with('\\'); part = next_part()) {
+    joined_.append(part.substr(0, part.size() - 1));
+    joined_.push_back(' ');
+  }
+  joined_.append(part);
+  return joined_;
+}
+
+/// What says nothing about the faces, or about points and lines alone.
+bool is_skipped(std::string_view keyword) {
+  constexpr std::string_view known[] = {"g",        "o",        "s",          "mg",        "usemtl",
+                                        "mtllib",   "usemap",   "maplib",     "lod",       "bevel",
+                                        "c_interp", "d_interp", "shadow_obj", "trace_obj", "l",
+                                        "p",        "vp"};
+  return keyword.empty() || keyword[0] == '#' ||
+         std::find(std::begin(known), std::end(known), keyword) != std::end(known);
+}
+
+void ObjReader::remark_unknown(const std::string& keyword) {
+  constexpr size_t most = 5;
+  const std::string given = keyword.substr(0, 40);
+  if (unknown_.size() >= most || !unknown_.insert(given).second) return;
+  remarks_.push_back(fmt::format(
+      "{}:{}: lines that begin with '{}' are skipped: OBJ files of faces have none{}", path_, line_,
+      given, unknown_.size() == most ? "; there may be more such lines" : ""));
+}
+
 void ObjReader::read_line(std::string_view line) {
-  const std::string_view keyword = next_word(line);
+  std::string keyword(next_word(line));
+  for (char& c : keyword)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
   float values[3] = {0, 0, 0};
   if (keyword == "v") {
     read_numbers(line, fmt::format("vertex {}", positions_.size() + 1), values, 3);
@@ -99,6 +155,8 @@ void ObjReader::read_line(std::string_view line) {
     uvs_.emplace_back(values[0], values[1]);
   } else if (keyword == "f") {
     read_face(line);
+  } else if (!is_skipped(keyword)) {
+    remark_unknown(keyword);
   }
 }
 
@@ -121,17 +179,16 @@ void ObjReader::read_numbers(std::string_view line, std::string_view what, float
 
 void ObjReader::read_face(std::string_view line) {
   ++faces_;
-  uint32_t first = 0, previous = 0;
-  size_t corners = 0;
+  corners_.clear();
   for (std::string_view word = next_word(line); !word.empty() && word[0] != '#';
-       word = next_word(line), ++corners) {
-    const uint32_t vertex = vertex_of(read_corner(word));
-    if (corners == 0) first = vertex;
-    if (corners >= 2) mesh_.triangles.push_back({first, previous, vertex});
-    previous = vertex;
-  }
-  if (corners < 3)
-    fail(fmt::format("face {} has {} corners", faces_, corners), "a face needs at least three");
+       word = next_word(line))
+    corners_.push_back(vertex_of(read_corner(word)));
+  if (corners_.size() < 3)
+    ++small_faces_;
+  else if (!cutter_.cut(mesh_.positions, corners_, mesh_.triangles))
+    fail(fmt::format("face {} with {} corners takes too long to be cut into triangles", faces_,
+                     corners_.size()),
+         "export the mesh as triangles");
 }
 
 CornerKey ObjReader::read_corner(std::string_view word) const {
@@ -178,10 +235,11 @@ uint32_t ObjReader::vertex_of(const CornerKey& key) {
 void ObjReader::finish() {
   if (!any_uv_) mesh_.uvs.clear();
   if (!any_normal_) mesh_.normals.clear();
+  if (small_faces_ > 0) remarks_.push_back(remark_on_small_faces(small_faces_, path_));
 }
 
 }  // namespace
 
-TriangleMesh read_obj(const std::string& path) { return ObjReader(path).read(); }
+MeshFile read_obj(const std::string& path) { return ObjReader(path).read(); }
 
 }  // namespace kaustik

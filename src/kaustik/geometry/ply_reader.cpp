@@ -4,11 +4,13 @@
 
 #include <bit>
 #include <charconv>
+#include <set>
 #include <span>
 #include <string_view>
 
 #include "kaustik/base/file.h"
 #include "kaustik/geometry/mesh_reader.h"
+#include "kaustik/geometry/polygon_cutter.h"
 
 namespace kaustik {
 namespace {
@@ -56,9 +58,10 @@ struct PlyElement {
 
 class PlyReader {
  public:
-  explicit PlyReader(const std::string& path) : path_(path), bytes_(read_file(path)) {}
+  explicit PlyReader(const std::string& path)
+      : path_(path), bytes_(read_file(path)), cutter_(bytes_.size()) {}
 
-  TriangleMesh read() {
+  MeshFile read() {
     read_header();
     for (const PlyElement& element : elements_) {
       check_count(element);
@@ -71,7 +74,9 @@ class PlyReader {
     }
     if (mesh_.triangles.empty())
       fail("the mesh has no faces", "export the object as a mesh with faces");
-    return std::move(mesh_);
+    MeshFile file{std::move(mesh_), {}};
+    if (small_faces_ > 0) file.remarks.push_back(remark_on_small_faces(small_faces_, path_));
+    return file;
   }
 
  private:
@@ -111,13 +116,18 @@ class PlyReader {
   int line_ = 0;  ///< 0 in binary data
   Format format_ = Format::text;
   std::vector<PlyElement> elements_;
+  std::set<std::string> element_names_;
+  char line_end_ = '\n';  ///< '\r' where no '\n' follows
   TriangleMesh mesh_;
   uint64_t vertex_count_ = 0;
+  PolygonCutter cutter_;
+  std::vector<uint32_t> corners_;  ///< of the face that is read
+  size_t small_faces_ = 0;
 };
 
 std::vector<std::string_view> PlyReader::header_line() {
   const auto begin = bytes_.begin() + std::ptrdiff_t(at_);
-  const auto end = std::find(begin, bytes_.end(), uint8_t('\n'));
+  const auto end = std::find(begin, bytes_.end(), uint8_t(line_end_));
   if (end == bytes_.end())
     fail("the header has no end", "it is truncated or no PLY file: export it again");
   std::string_view line(reinterpret_cast<const char*>(bytes_.data()) + at_, size_t(end - begin));
@@ -135,11 +145,14 @@ std::vector<std::string_view> PlyReader::header_line() {
 }
 
 void PlyReader::read_header() {
-  const std::string_view start(reinterpret_cast<const char*>(bytes_.data()),
-                               std::min<size_t>(bytes_.size(), 3));
+  at_ = byte_order_mark(bytes_, path_);
+  const std::string_view start(reinterpret_cast<const char*>(bytes_.data()) + at_,
+                               std::min<size_t>(left(), 5));
   line_ = 1;
-  if (start != "ply") fail("the file does not start with 'ply'", "give a PLY file");
+  if (!start.starts_with("ply")) fail("the file does not start with 'ply'", "give a PLY file");
   line_ = 0;
+  // How the first line ends tells how all of them do.
+  if (start.size() == 5 && start[3] == '\r' && start[4] != '\n') line_end_ = '\r';
   header_line();
   bool has_format = false;
   while (true) {
@@ -177,9 +190,9 @@ void PlyReader::header_element(const std::vector<std::string_view>& words) {
       std::from_chars(words[2].data(), words[2].data() + words[2].size(), element.count);
   if (error != std::errc() || end != words[2].data() + words[2].size())
     fail(fmt::format("'{}' is no number of elements", words[2]), "export the file again");
-  for (const PlyElement& other : elements_)
-    if (other.name == element.name)
-      fail(fmt::format("element '{}' is there twice", element.name), "export the file again");
+  if (!element_names_.insert(element.name).second)
+    fail(fmt::format("element '{}' is there twice", element.name.substr(0, 40)),
+         "export the file again");
   elements_.push_back(std::move(element));
 }
 
@@ -223,7 +236,7 @@ void PlyReader::check_count(const PlyElement& element) const {
 
 double PlyReader::text_value() {
   while (at_ < bytes_.size() && bytes_[at_] <= ' ')
-    if (bytes_[at_++] == '\n') ++line_;
+    if (bytes_[at_++] == uint8_t(line_end_)) ++line_;
   const size_t begin = at_;
   while (at_ < bytes_.size() && bytes_[at_] > ' ') ++at_;
   if (begin == at_) fail_truncated();
@@ -353,21 +366,24 @@ void PlyReader::read_faces(const PlyElement& element) {
 
 void PlyReader::read_polygon(const PlyProperty& property, uint64_t face) {
   const uint64_t corners = list_size(property);
-  uint32_t first = 0, previous = 0;
+  corners_.clear();
   for (uint64_t i = 0; i < corners; ++i) {
     const double index = value(property.type);
     if (!(index >= 0) || index >= double(vertex_count_) || index != std::floor(index))
       fail(fmt::format("face {} refers to vertex {} of {}", face, index, vertex_count_),
            "the file is damaged: export it again");
-    const auto corner = uint32_t(index);
-    if (i == 0) first = corner;
-    if (i >= 2) mesh_.triangles.push_back({first, previous, corner});
-    previous = corner;
+    corners_.push_back(uint32_t(index));
   }
+  if (corners_.size() < 3)
+    ++small_faces_;
+  else if (!cutter_.cut(mesh_.positions, corners_, mesh_.triangles))
+    fail(fmt::format("face {} with {} corners takes too long to be cut into triangles", face,
+                     corners),
+         "export the mesh as triangles");
 }
 
 }  // namespace
 
-TriangleMesh read_ply(const std::string& path) { return PlyReader(path).read(); }
+MeshFile read_ply(const std::string& path) { return PlyReader(path).read(); }
 
 }  // namespace kaustik

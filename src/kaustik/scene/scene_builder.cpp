@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kaustik/base/color.h"
+#include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/texture_emission.h"
 
 namespace kaustik {
@@ -228,6 +229,9 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   read_media(object, built.surface);
   if (!has_all_required(arguments)) return std::nullopt;
   collecting(file_place(arguments), [&] { built.shape = type->create(arguments); });
+  if (const auto* mesh = dynamic_cast<const MeshShape*>(built.shape.get()))
+    for (const std::string& remark : mesh->remarks())
+      if (remarks_reported_.insert(remark).second) warnings_.push_back(remark);
   if (!built.shape || !built.surface.bsdf) return std::nullopt;
   return built;
 }

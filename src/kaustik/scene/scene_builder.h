@@ -64,7 +64,7 @@ class SceneBuilder {
 
   Problems problems_;
   std::vector<std::string> warnings_;
-  std::set<std::string> ignored_reported_;
+  std::set<std::string> ignored_reported_, remarks_reported_;
   std::vector<BuiltShape> shapes_;
   std::vector<std::vector<BuiltShape>> groups_;
   std::map<const Object*, uint32_t> group_of_;
