@@ -370,8 +370,8 @@ class Counting final : public Bsdf {
   Lobes lobes() const override { return ++asked, Lobes::diffuse; }
   SurfaceNeeds needs() const override { return ++asked, SurfaceNeeds::none; }
   bool transmits() const override { return ++asked, false; }
-  Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override {
-    return ++asked, Spectrum(inv_pi);
+  Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes lobes) const override {
+    return ++asked, Spectrum(any(lobes & Lobes::diffuse) ? inv_pi : 0.0f);
   }
   float pdf(const BsdfContext&, const Vec3f&, const Vec3f& wi, Lobes) const override {
     return ++asked, wi.z * inv_pi;

@@ -123,7 +123,7 @@ void EarClipper::build_tree() {
   for (size_t i = 0; i < left_; ++i, first_ = next_[first_])
     if (turn_at(first_) <= 0) items_.push_back(first_);
   if (!items_.empty()) build_node(0, uint32_t(items_.size()), nowhere);
-  steps_ -= std::min(steps_, left_);
+  steps_ -= std::min(steps_, 8 * left_);
 }
 
 uint32_t EarClipper::build_node(uint32_t begin, uint32_t end, uint32_t parent) {

@@ -96,8 +96,8 @@ bool is_convex(const std::vector<Vec2d>& flat) {
 
 bool PolygonCutter::cut(const Positions& positions, Corners corners,
                         std::vector<Triangle>& triangles) {
-  // Each side is a side of two faces at most, and so many can be drawn without crossings.
-  if (corners.size() > 6 * positions.size() + 4) return false;
+  // More than once round all of them, there and back: no polygon, but work without end.
+  if (corners.size() > 2 * positions.size() + 4) return false;
   if (corners.size() == 4) {
     add_quad(positions, corners, triangles);
     return true;
