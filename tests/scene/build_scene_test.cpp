@@ -1,5 +1,10 @@
 // From descriptions to scenes: defaults, nesting, sharing, and every way to get it wrong.
 
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
 #include "tests/scene/scene_support.h"
 
 namespace kaustik {
@@ -257,6 +262,18 @@ TEST(BuildScene, BsdfsThatShareNestedOnesStayFew) {
   const std::string seven = "<shape type=\"sphere\"><ref id=\"b7\"/></shape>";
   EXPECT_EQ(scene_of(camera + nested_bsdfs("blendbsdf", 7, true) + seven)->surface(0).bsdf->size(),
             255);
+}
+
+TEST(BuildScene, WhatMeshFilesLeaveOutIsReportedOnce) {
+  const std::string path = testing::TempDir() + "kaustik_" + std::to_string(::getpid()) + ".obj";
+  std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2\ntriangle 1 2 3\n";
+  const std::string shape =
+      "<shape type=\"obj\"><string name=\"filename\" value=\"" + path + "\"/></shape>";
+  const auto scene = scene_of(any_camera + shape + shape);
+  std::filesystem::remove(path);
+  ASSERT_EQ(scene->warnings().size(), 2u);
+  EXPECT_NE(scene->warnings()[0].find(":6: lines that begin with 'triangle'"), std::string::npos);
+  EXPECT_NE(scene->warnings()[1].find("1 face was left out"), std::string::npos);
 }
 
 TEST(BuildScene, ErrorsWithoutAPlaceGetThatOfTheFileName) {
