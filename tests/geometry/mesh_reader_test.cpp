@@ -3,8 +3,8 @@
 #include "kaustik/geometry/mesh_reader.h"
 
 #include <bit>
-#include <chrono>
 #include <cstring>
+#include <ctime>
 
 #include "geometry_support.h"
 
@@ -317,12 +317,12 @@ TEST(MeshFiles, TakeTimeInProportionToTheirSize) {
   for (int i = 0; i < 1000000; ++i) corners += char(random.uniform() * 200);
   std::string joined = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 ";
   for (int i = 0; i < 300000; ++i) joined += "\\\n";
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   EXPECT_NE(error_of([&] { ply(elements); }), "");
   EXPECT_THROW(ply(corners), Error);
   EXPECT_EQ(obj(joined).triangles.size(), 1u);
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  EXPECT_LT(taken.count(), 6.0 * samples_divisor);
+  const double taken = double(std::clock() - begin) / CLOCKS_PER_SEC;
+  EXPECT_LT(taken, 1.5 * samples_divisor);
 }
 
 TEST(ObjReader, SurvivesDamage) { survive_damage(text_obj, obj, 200); }

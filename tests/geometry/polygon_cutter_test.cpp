@@ -2,7 +2,7 @@
 
 #include "kaustik/geometry/polygon_cutter.h"
 
-#include <chrono>
+#include <ctime>
 #include <numbers>
 #include <numeric>
 
@@ -201,15 +201,15 @@ TEST(PolygonCutter, CrossingSidesEnd) {
 }
 
 TEST(PolygonCutter, LargePolygonsTakeNoSquareOfTheirCorners) {
-  for (const Points& points : {star(30000, 0.9f, 0), comb(30000), spiral(60000)}) {
+  for (const Points& points : {star(10000, 0.9f, 0), comb(10000), spiral(20000)}) {
     std::vector<uint32_t> corners(points.size());
     std::iota(corners.begin(), corners.end(), 0u);
     Triangles triangles;
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     // A file holds at least 16 bytes for each corner.
     EXPECT_TRUE(PolygonCutter(16 * points.size()).cut(points, corners, triangles));
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    EXPECT_LT(taken.count(), 5.0 * samples_divisor);  // n²: minutes
+    const double taken = double(std::clock() - begin) / CLOCKS_PER_SEC;
+    EXPECT_LT(taken, 1.0 * samples_divisor);  // s of the processor
     EXPECT_NEAR(area_of(points, triangles), shoelace(points), 1e-4 * shoelace(points));
   }
 }
