@@ -145,9 +145,11 @@ TEST(MitsubaErrors, CircularReferences) {
       {"<shape type='s'><ref id='in'/></shape>\n"
        "<bsdf type='a' id='out'><bsdf type='x' id='in'><ref id='out'/></bsdf></bsdf>",
        "3:48", "'in' → 'out' → 'in'", "remove"});
-  const auto aliases = problems_in(in_scene("<alias id='a' as='b'/>\n<alias id='b' as='a'/>"));
-  ASSERT_EQ(aliases.size(), 2u);
-  EXPECT_EQ(text_of(aliases[1].place), "test.xml:2:1");
+  expect_wrong({"<alias id='a' as='b'/>\n<alias id='b' as='a'/>", "3:1",
+                "the alias 'a' stands for itself, by way of 'b'", "name an object"});
+  expect_wrong({"<alias id='a' as='a'/>", "2:1", "the alias 'a' stands for itself", "an object"});
+  expect_wrong({"<alias id='b' as='a'/>\n<ref id='a'/>\n<alias id='a' as='b'/>", "2:1",
+                "the alias 'a' stands for itself, by way of 'b'", "name an object"});
 }
 
 std::string nested(int levels, const std::string& innermost) {
@@ -197,9 +199,10 @@ TEST(MitsubaErrors, BrokenXml) {
   expect("<scene version='3.0.0'/>\n</scene>", "2:3", "tags mismatch", "no element is open");
   expect("<scene version='3.0.0'/>\n  <scene/>", "2:3", "second root", "one <scene>");
   expect("<scene version='3.0.0'/>\n  abc", "2:3", "text outside the root", "<scene version");
-  expect("", "1:1", "no XML element", "<scene version");
-  expect("<!-- only a comment -->", "1:1", "no XML element", "<scene version");
-  expect("ply\nformat ascii 1.0\n", "1:1", "text outside the root", "<scene version");
+  // What does not even begin as a scene may be any file: no column, so that nothing is quoted.
+  expect("", "1:0", "no XML element", "<scene version");
+  expect("<!-- only a comment -->", "1:0", "no XML element", "<scene version");
+  expect("ply\nformat ascii 1.0\n", "1:0", "text outside the root", "<scene version");
 }
 
 TEST(MitsubaErrors, Encoding) {
@@ -214,7 +217,7 @@ TEST(MitsubaErrors, Encoding) {
   expect("<scene version='3.0.0'>\n<!-- \xf4\x90\x80\x80 --></scene>", "2:6", "not UTF-8");
   expect("<scene version='3.0.0'/>\n\xe2\x82", "2:1", "not UTF-8");
   expect("<scene version='3.0.0'/>\n\0"s, "2:1", "zero byte");
-  expect("\xff\xfe<\0"s, "1:1", "UTF-16");
+  expect("\xff\xfe<\0"s, "1:0", "UTF-16");
   EXPECT_NO_THROW(parse("<scene version='3.0.0'><!-- ä € 😀 --></scene>"));
 }
 
@@ -289,7 +292,7 @@ TEST(MitsubaErrors, Files) {
   expect_problem(load(folder / "no.xml"), folder / "no.xml:0:0", "No such file", "name");
   expect_problem(load(folder / ""), folder / ":0:0", "not a regular file", "file");
   const std::string empty = folder.write("empty.xml", "");
-  expect_problem(load(empty), empty + ":1:1", "no XML element", "<scene");
+  expect_problem(load(empty), empty + ":1:0", "no XML element", "<scene");
   const std::string huge = folder.write("huge.xml", "<scene version='3.0.0'/>");
   std::filesystem::resize_file(huge, uint64_t{3} << 30);
   expect_problem(load(huge), huge + ":0:0", "more than 512 MiB", "PLY");
@@ -305,7 +308,7 @@ TEST(MitsubaErrors, NamedFiles) {
     expect_problem(problems_of([&] { load_mitsuba_xml(path); }), folder / place, message, "");
   };
   expect("<spectrum name='x' filename='no.spd'/>", "scene.xml:2:30", "No such file");
-  expect("<spectrum name='x' filename='bad.spd'/>", "bad.spd:3:0", "3 values instead of 2");
+  expect("<spectrum name='x' filename='bad.spd'/>", "bad.spd:3:0", "not two numbers");
   expect("<spectrum name='x' filename='empty.spd'/>", "empty.spd:0:0", "spectrum is empty");
   expect("<include filename='no.xml'/>", "scene.xml:2:20", "No such file");
   expect("<include filenam='no.xml'/>", "scene.xml:2:10", "no attribute 'filenam'");
@@ -327,7 +330,8 @@ TEST(MitsubaErrors, Includes) {
   expect("<include filename='broken.xml'/>", "broken.xml:2:6", "mismatch", "<a> of line 2");
   expect("<include filename='unversioned.xml'/>", "unversioned.xml:1:1", "lacks its version",
          "3.0");
-  expect("<include filename='float.xml'/>", "float.xml:1:1", "unknown element <float>", "");
+  expect("<include filename='float.xml'/>", "scene.xml:2:20", "float.xml' is no part of a scene",
+         "root is <scene");
   expect("<include filename='bad.xml'/>", "bad.xml:3:24", "'y' is not a number", "");
   expect("<bsdf type='b' id='white'/><include filename='twin.xml'/>", "twin.xml:2:1",
          "the id 'white' is taken", "scene.xml:2:1");

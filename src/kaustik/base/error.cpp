@@ -26,6 +26,7 @@ bool is_text(const std::string& line) {
   });
 }
 
+/// Who leaves the column out knows of no letter to point at, or must not show what may be any file.
 std::string excerpt(const Place& place) {
   const std::string line = line_of_file(*place.file, place.line);
   if (line.empty() || !is_text(line)) return {};
@@ -44,27 +45,36 @@ std::string describe(const Problem& problem) {
     text += ": ";
   }
   text += problem.message;
-  if (problem.place.file && problem.place.line > 0) text += excerpt(problem.place);
+  if (problem.place.file && problem.place.column > 0) text += excerpt(problem.place);
   if (!problem.remedy.empty()) text += "\n  remedy: " + problem.remedy;
   return text;
 }
 
-/// Levenshtein distance, letters compared without case.
-size_t edit_distance(std::string_view a, std::string_view b) {
+/// Without the dependence on the locale, which takes most of the time.
+char lower(char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; }
+
+/// Levenshtein distance, letters compared without case; `limit` if it is not below that.
+size_t edit_distance(std::string_view a, std::string_view b, size_t limit) {
+  if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= limit) return limit;
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
   for (size_t i = 0; i < a.size(); ++i) {
     size_t diagonal = row[0];
     row[0] = i + 1;
-    for (size_t j = 0; j < b.size(); ++j) {
+    // What lies farther from the diagonal than the limit cannot be on the way.
+    const size_t begin = i + 1 > limit ? i + 1 - limit : 0, end = std::min(b.size(), i + limit);
+    if (begin > 0) diagonal = row[begin], row[begin] = limit;
+    size_t least = row[begin];
+    for (size_t j = begin; j < end; ++j) {
       const size_t above = row[j + 1];
-      const bool equal = std::tolower(static_cast<unsigned char>(a[i])) ==
-                         std::tolower(static_cast<unsigned char>(b[j]));
+      const bool equal = lower(a[i]) == lower(b[j]);
       row[j + 1] = std::min({diagonal + (equal ? 0 : 1), above + 1, row[j] + 1});
       diagonal = above;
+      least = std::min(least, row[j + 1]);
     }
+    if (least >= limit) return limit;
   }
-  return row[b.size()];
+  return std::min(row[b.size()], limit);
 }
 
 }  // namespace
@@ -94,7 +104,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   std::string best;
   size_t best_distance = std::max<size_t>(2, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    const size_t distance = edit_distance(name, candidate);
+    const size_t distance = edit_distance(name, candidate, best_distance);
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

@@ -20,8 +20,8 @@ struct Problem {
   Place place;
 };
 
-/// One or several problems, reported together. what() is the whole text: per problem
-/// "file:line:column: message", an excerpt of that line with a caret, and the remedy.
+/// One or several problems, reported together. what() is the whole text: per problem "file:line:
+/// column: message", if it has a column an excerpt of that line with a caret, and the remedy.
 class Error : public std::exception {
  public:
   Error(ErrorKind kind, std::vector<Problem> problems);

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
+#include <vector>
 
 #include "kaustik/loader/mitsuba_values.h"
 
@@ -12,6 +12,8 @@ namespace {
 
 /// Definitions that use one another could otherwise grow without bounds.
 constexpr size_t maximum_replaced_bytes = size_t{64} << 20;
+/// A '$' is compared with names of every length that there is: this bounds how many.
+constexpr size_t maximum_name = 200;
 
 std::string_view name_at(std::string_view text) {
   size_t length = 0;
@@ -29,38 +31,40 @@ Definitions::Definitions(const LoadOptions& options, Problems& problems) {
     if (name.empty() || name_at(name) != name)
       problems.add(fmt::format("{} cannot be the name of a definition", in_quotes(name)),
                    "names are made of letters, digits and '_'", command_line);
-    else if (find(name))
-      problems.add(fmt::format("'{}' is defined twice", name), "keep one definition", command_line);
+    else if (definitions_.contains(name))
+      problems.add(fmt::format("{} is defined twice", in_quotes(name)), "keep one definition",
+                   command_line);
     else
-      insert({name, value, false});
+      insert(name, {value, false});
   }
 }
 
-Definitions::Definition* Definitions::find(std::string_view name) {
-  for (Definition& definition : definitions_)
-    if (definition.name == name) return &definition;
-  return nullptr;
+void Definitions::insert(const std::string& name, Definition definition) {
+  definitions_.emplace(name, std::move(definition));
+  lengths_.insert(name.size());
 }
 
-void Definitions::insert(Definition definition) {
-  const auto shorter = std::find_if(
-      definitions_.begin(), definitions_.end(),
-      [&](const Definition& other) { return other.name.size() < definition.name.size(); });
-  definitions_.insert(shorter, std::move(definition));
-}
-
-Definitions::Definition* Definitions::longest_at(std::string_view text) {
-  for (Definition& definition : definitions_)
-    if (text.starts_with(definition.name)) return &definition;
+Definitions::Entry* Definitions::longest_at(std::string_view text) {
+  text = text.substr(0, text.find('$'));  // no name holds one
+  for (auto length = lengths_.rbegin(); length != lengths_.rend(); ++length) {
+    if (*length > text.size()) continue;
+    const auto found = definitions_.find(text.substr(0, *length));
+    if (found != definitions_.end()) return &*found;
+  }
   return nullptr;
 }
 
 void Definitions::set_default(const std::string& name, const std::string& value) {
+  if (name.empty())
+    throw BadValue("a <default> without a name", "give the name that $name stands for");
+  if (name.size() > maximum_name || name.find('$') != std::string::npos)
+    throw BadValue(fmt::format("{} cannot be the name of a <default>", in_quotes(name)),
+                   fmt::format("use at most {} letters, digits and '_'", maximum_name));
   known_.insert(name);
-  if (Definition* definition = find(name))
-    definition->used = true;
+  if (const auto defined = definitions_.find(name); defined != definitions_.end())
+    defined->second.used = true;
   else
-    insert({name, value, true});
+    insert(name, {value, true});
 }
 
 std::string Definitions::replace(std::string_view text) {
@@ -74,16 +78,17 @@ std::string Definitions::replace(std::string_view text) {
       result += text[i++];
     } else {
       const std::string_view rest = text.substr(i + 1);
-      Definition* definition = longest_at(rest);
-      if (!definition) fail_undefined(name_at(rest));
-      known_.insert(definition->name);
-      definition->used = true;
-      replaced_bytes_ += definition->value.size();
+      Entry* entry = longest_at(rest);
+      if (!entry) fail_undefined(name_at(rest));
+      auto& [name, definition] = *entry;
+      if (!definition.used) known_.insert(name);
+      definition.used = true;
+      replaced_bytes_ += definition.value.size();
       if (replaced_bytes_ > maximum_replaced_bytes)
         throw BadValue("the values of <default> elements fill more than 64 MiB",
                        "use shorter values");
-      result += definition->value;
-      i += 1 + definition->name.size();
+      result += definition.value;
+      i += 1 + name.size();
     }
   }
   return result;
@@ -92,7 +97,8 @@ std::string Definitions::replace(std::string_view text) {
 void Definitions::fail_undefined(std::string_view name) const {
   if (name.empty()) throw BadValue("a '$' without a name", "write \\$ for a dollar sign itself");
   std::vector<std::string> names;
-  for (const Definition& definition : definitions_) names.push_back(definition.name);
+  for (const auto& [known, definition] : definitions_) names.push_back(known);
+  name = name.substr(0, maximum_name);
   std::string remedy =
       fmt::format("define it with -D {}=… or <default name=\"{}\" value=\"…\"/>", name, name);
   const std::string others = names.empty() ? "" : suggestion(name, names);
@@ -102,11 +108,11 @@ void Definitions::fail_undefined(std::string_view name) const {
 
 void Definitions::report_unused(Problems& problems) const {
   const std::vector<std::string> names(known_.begin(), known_.end());
-  for (const Definition& definition : definitions_)
+  for (const auto& [name, definition] : definitions_)
     if (!definition.used)
-      problems.add(fmt::format("the scene does not use '{}', which -D defines", definition.name),
+      problems.add(fmt::format("the scene does not use '{}', which -D defines", name),
                    names.empty() ? "the scene has no <default> and uses no $name: leave out -D"
-                                 : suggestion(definition.name, names),
+                                 : suggestion(name, names),
                    place_in("command line"));
 }
 

@@ -1,8 +1,8 @@
 #pragma once
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "kaustik/base/error.h"
 #include "kaustik/loader/mitsuba_xml.h"
@@ -15,7 +15,8 @@ class Definitions {
  public:
   Definitions(const LoadOptions& options, Problems& problems);
 
-  /// Has no effect on a name that is defined already.
+  /// Has no effect on a name that is defined already. Throws BadValue for what can be no name:
+  /// empty, with a '$', or too long.
   void set_default(const std::string& name, const std::string& value);
   /// `text` with each `$name` replaced (of several names that fit the longest) and each `\$` by a
   /// dollar sign. Throws BadValue for an undefined name.
@@ -25,17 +26,17 @@ class Definitions {
 
  private:
   struct Definition {
-    std::string name;
     std::string value;
     bool used;
   };
-  Definition* find(std::string_view name);
-  void insert(Definition definition);
-  Definition* longest_at(std::string_view text);
+  using Entry = std::pair<const std::string, Definition>;
+  void insert(const std::string& name, Definition definition);
+  Entry* longest_at(std::string_view text);
   [[noreturn]] void fail_undefined(std::string_view name) const;
 
-  std::vector<Definition> definitions_;  ///< longest name first
-  std::set<std::string> known_;          ///< names that the scene itself mentions
+  std::map<std::string, Definition, std::less<>> definitions_;
+  std::set<size_t> lengths_;     ///< of their names
+  std::set<std::string> known_;  ///< names that the scene itself mentions
   size_t replaced_bytes_ = 0;
 };
 

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 constexpr size_t maximum_bytes = size_t{512} << 20;
 constexpr size_t maximum_includes = 10000;
-constexpr size_t maximum_include_depth = 15;  // as Mitsuba
+constexpr size_t maximum_include_depth = 15;   // as Mitsuba
+constexpr size_t maximum_search_folders = 50;  ///< each costs a look at the disk per file
 
 std::string joined(const std::vector<fs::path>& paths, std::string_view separator) {
   std::string text;
@@ -33,6 +34,14 @@ fs::path identity(const fs::path& path) {
   return canonical.empty() ? path : canonical;
 }
 
+/// Of this version or an older one.
+bool is_object_tag(const std::string& tag) {
+  return is_in(object_tags(), upgraded_tag(tag, {0, 0, 0}));
+}
+
+/// A scene may name any file: an error quotes only what looks like a part of one.
+bool begins_as_scene(const std::string& text) { return is_object_tag(root_tag(text)); }
+
 bool is_there(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(path, ignored);
@@ -41,19 +50,26 @@ bool is_there(const fs::path& path) {
 }  // namespace
 
 std::string Reader::text_of(const fs::path& path, const Place& where) {
-  std::error_code unknown;
-  const auto size = fs::is_regular_file(path, unknown) ? fs::file_size(path, unknown) : 0;
-  if (!unknown && size > maximum_bytes - read_bytes_)
+  const size_t allowed = maximum_bytes - read_bytes_;
+  const auto refuse = [&] {
     throw Error(ErrorKind::input, "the scene's XML has more than 512 MiB",
                 "keep meshes in PLY files, which load faster", where);
+  };
+  std::error_code unknown;
+  const auto size = fs::is_regular_file(path, unknown) ? fs::file_size(path, unknown) : 0;
+  if (!unknown && size > allowed) refuse();
+  std::vector<uint8_t> bytes;
   try {
-    const std::vector<uint8_t> bytes = kaustik::read_file(path.string());
-    read_bytes_ += bytes.size();
-    return {bytes.begin(), bytes.end()};
+    // One more than is allowed: it may grow meanwhile, and only what has been read counts.
+    bytes = kaustik::read_file_start(path.string(), allowed + 1);
   } catch (const Error& error) {
     const Problem& problem = error.problems().front();
     throw Error(error.kind(), problem.message, problem.remedy, where);
   }
+  if (bytes.size() > allowed) refuse();
+  read_bytes_ += bytes.size();
+  budget_.allow_file(bytes.size());
+  return {bytes.begin(), bytes.end()};
 }
 
 Description Reader::read_file(const std::string& path) {
@@ -63,7 +79,8 @@ Description Reader::read_file(const std::string& path) {
 
 Description Reader::read_text(std::string text, const std::string& name, const fs::path& folder) {
   if (open_files_.empty()) open_files_ = {name};
-  const XmlDocument document(std::move(text), name);
+  const bool may_be_quoted = begins_as_scene(text);
+  const XmlDocument document(std::move(text), name, may_be_quoted);
   Source source = {document, {}, {folder}, folder};
   return finish(read_version(source) ? read_scene(source) : nullptr);
 }
@@ -79,15 +96,22 @@ void Reader::read_search_folder(const Element& element, Unfinished&, Source& sou
   refuse_children(element, source);
   if (!check_attributes(element, {{"value"}, {}}, problems_)) return;
   const Attribute& value = *element.find("value");
-  const fs::path folder = found(value.value, source);
+  const fs::path folder = found(value.value, source).lexically_normal();
   std::error_code ignored;
-  if (element.node.parent() != source.document.root())
+  if (element.node.parent() != source.document.root()) {
     problems_.add("<path> in an object", "move it to the start of the scene", element.place);
-  else if (!fs::is_directory(folder, ignored))
+  } else if (!fs::is_directory(folder, ignored)) {
     problems_.add(fmt::format("there is no folder {}", in_quotes(folder.string())),
                   "name a folder, relative to the one of this file", value.place);
-  else
+  } else {
+    std::erase(source.folders, folder);
     source.folders.insert(source.folders.begin(), folder);
+    if (source.folders.size() > maximum_search_folders) {
+      problems_.add(fmt::format("more than {} folders are searched", maximum_search_folders),
+                    "name the folder in the file names themselves", value.place);
+      problems_.throw_if_any();
+    }
+  }
 }
 
 void Reader::read_include(const Element& element, Unfinished& parent, Source& source) {
@@ -120,22 +144,32 @@ void Reader::read_include(const Element& element, Unfinished& parent, Source& so
   open_files_.pop_back();
 }
 
-std::unique_ptr<XmlDocument> Reader::included_document(const fs::path& path, const Place& place) {
+const XmlDocument& Reader::included_document(const fs::path& path, const Place& place) {
+  auto& document = documents_[identity(path)];
+  if (document) return *document;
   try {
-    return std::make_unique<XmlDocument>(text_of(path, place), path.string());
+    std::string text = text_of(path, place);
+    const bool may_be_quoted = begins_as_scene(text);
+    document = std::make_unique<XmlDocument>(std::move(text), path.string(), may_be_quoted);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
     const Problem& problem = error.problems().front();
     throw BadValue(problem.message, problem.remedy, problem.place);
   }
+  return *document;
 }
 
 void Reader::read_included(const fs::path& path, const Element& element, Unfinished& parent,
                            Source& includer) {
-  const auto document = included_document(path, element.find("filename")->place);
-  Source source = {*document, {}, includer.folders, path.parent_path()};
+  const XmlDocument& document = included_document(path, element.find("filename")->place);
+  if (!is_object_tag(document.root().name()))
+    throw BadValue(fmt::format("{} is no part of a scene", in_quotes(path.string())),
+                   "include files whose root is <scene version=\"3.0.0\"> or an object, such as "
+                   "<bsdf version=\"3.0.0\" type=\"…\">",
+                   element.find("filename")->place);
+  Source source = {document, {}, includer.folders, path.parent_path()};
   source.folders.insert(source.folders.begin(), source.own_folder);
-  const auto root = read_version(source) ? ready(document->root(), source) : std::nullopt;
+  const auto root = read_version(source) ? ready(document.root(), source) : std::nullopt;
   if (!root) {
     incomplete_ = true;
   } else if (root->tag == "scene") {
@@ -148,10 +182,6 @@ void Reader::read_included(const fs::path& path, const Element& element, Unfinis
 
 void Reader::read_included_object(const Element& root, const std::string& name, Unfinished& parent,
                                   Source& source) {
-  if (!is_in(object_tags(), root.tag)) {
-    report_unknown(root);
-    return;
-  }
   const std::string child_name = name.empty() ? root.value("name") : name;
   take_name(parent, child_name, root.place);
   parent.object->children.push_back({child_name, read_object(root, source)});

@@ -26,6 +26,10 @@ Vec3d parse_point(const Element& element) {
   return parse_components(element, 0);
 }
 
+size_t bytes_of(const SpectralCurve& curve) {
+  return curve.samples.size() * sizeof(curve.samples[0]);
+}
+
 }  // namespace
 
 void Reader::read_property(const Element& element, Unfinished& parent, Source& source) {
@@ -61,14 +65,25 @@ Value Reader::spectrum_of(const Element& element, const Source& source) {
   const Attribute* file = element.find("filename");
   if (!value == !file)
     throw BadValue("<spectrum> takes either 'value' or 'filename'", "give one of the two");
-  if (value) return parse_attribute(*value, parse_spectrum);
+  const Value result = value ? parse_attribute(*value, parse_spectrum)
+                             : Value(curve_of(found(file->value, source).string(), file->place));
+  if (const auto* curve = std::get_if<SpectralCurve>(&result))
+    budget_.spend(bytes_of(*curve), element.place);
+  return result;
+}
+
+const SpectralCurve& Reader::curve_of(const std::string& path, const Place& place) {
+  const auto known = curves_.find(path);
+  if (known != curves_.end()) return known->second;
   try {
-    return read_spectrum_file(found(file->value, source).string());
+    const SpectralCurve& curve = curves_[path] = read_spectrum_file(path);
+    budget_.allow(2 * bytes_of(curve));
+    return curve;
   } catch (const Error& error) {
+    curves_.erase(path);
     if (error.kind() != ErrorKind::input) throw;
     const Problem& problem = error.problems().front();
-    throw BadValue(problem.message, problem.remedy,
-                   problem.place.file ? problem.place : file->place);
+    throw BadValue(problem.message, problem.remedy, problem.place.file ? problem.place : place);
   }
 }
 

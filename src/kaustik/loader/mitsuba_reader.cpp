@@ -7,15 +7,26 @@
 #include "kaustik/loader/mitsuba_tags.h"
 
 namespace kaustik::mitsuba {
+namespace {
+
+/// What an element becomes takes at most so much, beside what its attributes hold: an object or a
+/// property, that its parent holds it, and who refers to it.
+constexpr size_t bytes_per_element = 500, bytes_per_attribute = 50;
+
+}  // namespace
+
 bool Reader::read_version(Source& source) {
   const pugi::xml_node root = source.document.root();
   const pugi::xml_attribute version = root.attribute("version");
   if (!version) {
+    // A file that is no scene may have such a root, too: nothing of it is quoted.
+    Place place = source.document.place(root);
+    if (std::string_view(root.name()) != "scene") place.column = 0;
     problems_.add(fmt::format("<{}> lacks its version", root.name()),
                   fmt::format("write <{} version=\"3.0.0\">, or \"0.6.0\" for a scene of "
                               "Mitsuba 0.6",
                               root.name()),
-                  source.document.place(root));
+                  place);
     return false;
   }
   try {
@@ -51,6 +62,7 @@ std::optional<Element> Reader::ready(const pugi::xml_node& node, const Source& s
   const XmlDocument& document = source.document;
   Element element = {upgraded_tag(node.name(), source.version), node, document.place(node), {}};
   bool sound = true;
+  size_t bytes = bytes_per_element;
   for (const pugi::xml_attribute& attribute : node.attributes()) {
     Attribute result = {attribute.name(),
                         {},
@@ -63,8 +75,10 @@ std::optional<Element> Reader::ready(const pugi::xml_node& node, const Source& s
       problems_.add(bad.what(), bad.remedy, result.place);
       sound = false;
     }
+    bytes += bytes_per_attribute + result.value.size();
     element.attributes.push_back(std::move(result));
   }
+  budget_.spend(bytes, element.place);
   if (!sound) return std::nullopt;
   return element;
 }
@@ -194,10 +208,11 @@ void Reader::read_default(const Element& element, Unfinished&, Source& source) {
   refuse_children(element, source);
   if (!check_attributes(element, {{"name", "value"}, {}}, problems_)) return;
   const Attribute& name = *element.find("name");
-  if (name.value.empty())
-    problems_.add("a <default> without a name", "give the name that $name stands for", name.place);
-  else
+  try {
     definitions_.set_default(name.value, element.value("value"));
+  } catch (const BadValue& bad) {
+    add(problems_, bad, name.place);
+  }
 }
 
 }  // namespace kaustik::mitsuba

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kaustik/loader/load_budget.h"
 #include "kaustik/loader/mitsuba_definitions.h"
 #include "kaustik/loader/mitsuba_element.h"
 #include "kaustik/loader/mitsuba_references.h"
@@ -37,6 +38,7 @@ class Reader {
     std::map<std::string, Place> names;
   };
 
+  /// Contents of a file that the scene is made of; counts against all limits.
   std::string text_of(const std::filesystem::path& path, const Place& where);
   bool read_version(Source& source);
   Description finish(const std::shared_ptr<Object>& scene);
@@ -61,8 +63,10 @@ class Reader {
                      Source& includer);
   void read_included_object(const Element& root, const std::string& name, Unfinished& parent,
                             Source& source);
-  std::unique_ptr<XmlDocument> included_document(const std::filesystem::path& path,
-                                                 const Place& place);
+  /// Of a file that is included; each is read once, however often that is.
+  const XmlDocument& included_document(const std::filesystem::path& path, const Place& place);
+  /// Of a file that a <spectrum> names at that place; each is read once.
+  const SpectralCurve& curve_of(const std::string& path, const Place& place);
   void report_unknown(const Element& element);
 
   Value value_of(const Element& element, const std::string& name, const Source& source);
@@ -74,6 +78,9 @@ class Reader {
   Problems problems_;
   Definitions definitions_;
   References references_;
+  LoadBudget budget_;
+  std::map<std::filesystem::path, std::unique_ptr<XmlDocument>> documents_;  ///< by identity
+  std::map<std::string, SpectralCurve> curves_;                              ///< by path
   std::vector<std::filesystem::path> open_files_;  ///< the outermost first
   size_t included_files_ = 0;
   size_t read_bytes_ = 0;

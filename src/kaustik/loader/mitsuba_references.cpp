@@ -106,33 +106,44 @@ void References::refer(const std::shared_ptr<Object>& parent, const std::string&
   parent->children.push_back({child_name, nullptr});
 }
 
-std::shared_ptr<Object> References::find(const std::string& id) const {
-  auto found = declarations_.find(id);
-  // The limit ends circles of aliases of aliases.
-  for (int i = 0; i < maximum_depth && found != declarations_.end(); ++i) {
-    if (found->second.object) return found->second.object;
-    found = declarations_.find(found->second.alias_of);
+void References::follow(Declarations::iterator alias, Problems& problems) {
+  std::vector<Declarations::iterator> chain;
+  auto at = alias;
+  while (at != declarations_.end() && !at->second.object && !at->second.followed) {
+    at->second.followed = true;
+    chain.push_back(at);
+    at = declarations_.find(at->second.alias_of);
   }
-  return nullptr;
+  if (at == declarations_.end())
+    report_unknown(chain.back()->second.alias_of, chain.back()->second.place, problems);
+  else if (at->second.object)
+    for (const auto& on_the_way : chain) on_the_way->second.object = at->second.object;
+  else if (std::find(chain.begin(), chain.end(), at) != chain.end())  // else told already
+    problems.add(fmt::format("the alias {} stands for itself{}", in_quotes(at->first),
+                             at->second.alias_of == at->first
+                                 ? ""
+                                 : fmt::format(", by way of {}", in_quotes(at->second.alias_of))),
+                 "one of these aliases must name an object", at->second.place);
 }
 
-void References::report_unknown(const std::string& id, const Place& place,
-                                Problems& problems) const {
-  std::vector<std::string> ids;
-  for (const auto& [known, declaration] : declarations_)
-    if (find(known)) ids.push_back(known);
-  std::sort(ids.begin(), ids.end());
+void References::report_unknown(const std::string& id, const Place& place, Problems& problems) {
+  if (known_ids_.empty())
+    for (const auto& [known, declaration] : declarations_)
+      if (declaration.object) known_ids_.push_back(known);
   problems.add(fmt::format("no object has the id {}", in_quotes(id)),
-               ids.empty() ? "no object of the scene has an id" : suggestion(id, ids), place);
+               known_ids_.empty() ? "no object of the scene has an id" : suggestion(id, known_ids_),
+               place);
 }
 
 void References::resolve(const std::shared_ptr<Object>& scene, Problems& problems) {
-  for (const auto& [id, declaration] : declarations_)
-    if (!find(id)) report_unknown(declaration.alias_of, declaration.place, problems);
+  for (auto at = declarations_.begin(); at != declarations_.end(); ++at)
+    if (!at->second.object && !at->second.followed) follow(at, problems);
   for (Reference& reference : references_) {
-    reference.target = find(reference.id);
-    if (!reference.target && declarations_.find(reference.id) == declarations_.end())
+    const auto found = declarations_.find(reference.id);
+    if (found == declarations_.end())
       report_unknown(reference.id, reference.place, problems);
+    else
+      reference.target = found->second.object;  // null: an alias that has been told already
   }
   if (!problems.empty()) return;
   DepthCheck(references_, problems).height(scene.get(), scene->place);

@@ -29,9 +29,10 @@ class References {
 
  private:
   struct Declaration {
-    std::shared_ptr<Object> object;  ///< null for an alias
+    std::shared_ptr<Object> object;  ///< null for an alias, until resolve() has found it
     std::string alias_of;
     Place place;
+    bool followed = false;  ///< an alias that resolve() has been at
   };
   struct Reference {
     std::shared_ptr<Object> parent;
@@ -42,12 +43,16 @@ class References {
   };
   class DepthCheck;
 
-  void insert(const std::string& id, Declaration declaration, Problems& problems);
-  std::shared_ptr<Object> find(const std::string& id) const;
-  void report_unknown(const std::string& id, const Place& place, Problems& problems) const;
+  using Declarations = std::map<std::string, Declaration>;
 
-  std::map<std::string, Declaration> declarations_;
+  void insert(const std::string& id, Declaration declaration, Problems& problems);
+  /// Finds what an alias stands for, and all those on the way there.
+  void follow(Declarations::iterator alias, Problems& problems);
+  void report_unknown(const std::string& id, const Place& place, Problems& problems);
+
+  Declarations declarations_;
   std::vector<Reference> references_;
+  std::vector<std::string> known_ids_;  ///< that lead to an object; for messages
 };
 
 }  // namespace kaustik::mitsuba

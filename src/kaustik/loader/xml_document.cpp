@@ -93,8 +93,10 @@ std::string remedy_for(const pugi::xml_parse_result& result, std::string_view te
 
 }  // namespace
 
-XmlDocument::XmlDocument(std::string text, std::string name)
-    : name_(std::make_shared<const std::string>(std::move(name))), text_(std::move(text)) {
+XmlDocument::XmlDocument(std::string text, std::string name, bool may_be_quoted)
+    : name_(std::make_shared<const std::string>(std::move(name))),
+      text_(std::move(text)),
+      may_be_quoted_(may_be_quoted) {
   if (text_.starts_with(byte_order_mark)) text_.erase(0, byte_order_mark.size());
   line_starts_.push_back(0);
   for (size_t i = 0; i < text_.size(); ++i)
@@ -128,8 +130,10 @@ void XmlDocument::parse() {
   const std::string_view before = std::string_view(original).substr(0, offset);
   const bool in_end_tag = before.ends_with("</");
   fail(offset, fmt::format("broken XML: {}", result.description()),
-       remedy_for(result, in_end_tag ? before.substr(0, before.size() - 2) : original,
-                  line_starts_));
+       may_be_quoted_
+           ? remedy_for(result, in_end_tag ? before.substr(0, before.size() - 2) : original,
+                        line_starts_)
+           : "give a Mitsuba scene, which is XML in UTF-8");
 }
 
 void XmlDocument::check_top_level() const {
@@ -151,7 +155,7 @@ void XmlDocument::check_top_level() const {
 Place XmlDocument::place_at(size_t offset) const {
   const auto next = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset);
   const auto line = next - line_starts_.begin();
-  return {name_, int(line), int(offset - *(next - 1)) + 1};
+  return {name_, int(line), may_be_quoted_ ? int(offset - *(next - 1)) + 1 : 0};
 }
 
 Place XmlDocument::place_of(const char* letter) const {
@@ -175,6 +179,21 @@ Place XmlDocument::place_of_value(const pugi::xml_attribute& attribute) const {
 
 void XmlDocument::fail(size_t offset, const std::string& message, const std::string& remedy) const {
   throw Error(ErrorKind::input, message, remedy, place_at(offset));
+}
+
+std::string root_tag(std::string_view text) {
+  size_t at = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  for (;;) {
+    at = std::min(text.find_first_not_of(white_space, at), text.size());
+    const std::string_view rest = text.substr(at);
+    if (!rest.starts_with("<!") && !rest.starts_with("<?")) break;
+    const size_t end = end_of_special(text, at);
+    if (end == std::string_view::npos) return {};
+    at = end;
+  }
+  if (at >= text.size() || text[at] != '<') return {};
+  const size_t end = std::min(text.find_first_of(" \t\r\n/><", at + 1), text.size());
+  return std::string(text.substr(at + 1, end - at - 1));
 }
 
 }  // namespace kaustik

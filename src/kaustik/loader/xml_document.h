@@ -2,6 +2,7 @@
 #include <memory>
 #include <pugixml.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kaustik/base/place.h"
@@ -12,8 +13,9 @@ namespace kaustik {
 class XmlDocument {
  public:
   /// Throws Error(input) unless `text` is well-formed XML in UTF-8 (a byte order mark is allowed)
-  /// with one root element. `name` stands for the file in messages.
-  XmlDocument(std::string text, std::string name);
+  /// with one root element. `name` stands for the file in messages. Unless it may be quoted, places
+  /// have no column, so that no error shows an excerpt.
+  XmlDocument(std::string text, std::string name, bool may_be_quoted = true);
   XmlDocument(const XmlDocument&) = delete;
   XmlDocument& operator=(const XmlDocument&) = delete;
 
@@ -36,7 +38,11 @@ class XmlDocument {
   std::shared_ptr<const std::string> name_;
   std::string text_;  ///< parsed in place: holds the strings of the tree
   std::vector<size_t> line_starts_;
+  bool may_be_quoted_;
   pugi::xml_document tree_;
 };
+
+/// The tag of the first element, which may be all that is sound; "" if something else comes first.
+std::string root_tag(std::string_view text);
 
 }  // namespace kaustik
