@@ -65,6 +65,14 @@ TEST(nearest_name, finds_slips_and_refuses_guesses) {
   EXPECT_EQ(nearest_name("toworld", names), "to_world");
   EXPECT_EQ(nearest_name("colour_of_money", names), "");
   EXPECT_EQ(nearest_name("x", {}), "");
+  // Of three letters two may not be others.
+  EXPECT_EQ(nearest_name("prb", {"ppm", "path"}), "");
+  EXPECT_EQ(nearest_name("pmm", {"ppm", "path"}), "ppm");
+  // A search that gives up early finds what a full one finds.
+  EXPECT_EQ(nearest_name("abcdefghijkl", {"zzzzzzzzzzzz", "abXdefghYjklm", "abcdeghijkl", "a"}),
+            "abcdeghijkl");
+  EXPECT_EQ(nearest_name("abcdefghijkl", {"cdefghijklmn"}), "cdefghijklmn");  // 4 of 12
+  EXPECT_EQ(nearest_name("abcdefghijkl", {"defghijklmno"}), "");              // 6
 }
 
 TEST(nearest_name, becomes_a_remedy) {

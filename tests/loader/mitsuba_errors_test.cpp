@@ -79,7 +79,9 @@ TEST(MitsubaErrors, Colors) {
   expect_wrong({"<rgb name='x' value='#12345g'/>", "2:22", "is not a colour", "six"});
   expect_wrong({"<rgb name='x' value='1 2 c'/>", "2:22", "'c' is not a number", "0.5"});
   expect_wrong({"<spectrum name='x' value=''/>", "2:27", "spectrum is empty", "400:0.1"});
-  expect_wrong({"<spectrum name='x' value='1 2 3'/>", "2:27", "not a pair", "<rgb>"});
+  expect_wrong({"<spectrum name='x' value='1 2 3'/>", "2:27", "three numbers, not", "<rgb>"});
+  expect_wrong({"<spectrum name='x' value='1 2'/>", "2:27", "not a pair", "<rgb>"});
+  expect_wrong({"<spectrum name='x' value='#ff0000'/>", "2:27", "a colour, not", "<rgb>"});
   expect_wrong({"<spectrum name='x' value='400:1, 400:2'/>", "2:27", "wavelength 400 follows 400",
                 "increasing"});
   expect_wrong({"<spectrum name='x' value='-4:1'/>", "2:27", "wavelength -4 is not", "nanometres"});
@@ -99,8 +101,10 @@ TEST(MitsubaErrors, Transforms) {
   expect("<rotate x='0' angle='90'/>", "1", "rotation axis is zero", "invertible");
   expect("<rotate x='1' angle='9o'/>", "22", "'9o' is not a number", "0.5");
   expect("<matrix value='1 2 3'/>", "16", "the matrix has 3 values", "16 values");
-  expect("<lookat origin='1,1,1' target='1,1,1'/>", "1", "origin and target are equal", "invert");
-  expect("<lookat origin='1,1,1' target='1,2,1' up='0,1,0'/>", "1", "up vector", "invertible");
+  expect("<lookat origin='1,1,1' target='1,1,1'/>", "1", "origin and target are equal",
+         "must differ");
+  expect("<lookat origin='1,1,1' target='1,2,1' up='0,1,0'/>", "1", "up vector",
+         "up must not point");
   expect("<lookat target='1,2,1' up='0,1,0'/>", "1", "lacks the attribute 'origin'", "target=");
   expect("<scale value='1e200'/><scale value='1e200'/>", "23", "not finite", "usual size");
 }

@@ -51,6 +51,11 @@ class ObjReader {
     throw Error(ErrorKind::input, "OBJ: " + what, remedy, place_in(path_, line_));
   }
 
+  /// For a message. A scene may name any file: words are shown once there is a vertex in it.
+  std::string_view quotable(std::string_view word) const {
+    return positions_.empty() ? "…" : word.substr(0, 40);
+  }
+
   std::string_view next_line();
   std::string_view next_part();
   void read_line(std::string_view line);
@@ -164,7 +169,7 @@ void ObjReader::read_numbers(std::string_view line, std::string_view what, float
                              int count) const {
   for (int i = 0; i < count; ++i) {
     std::string_view word = next_word(line);
-    const std::string_view given = word.substr(0, 40);
+    const std::string_view given = quotable(word);
     if (!word.empty() && word[0] == '+') word.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -211,7 +216,7 @@ uint32_t ObjReader::read_index(std::string_view text, size_t count, std::string_
   int64_t index = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
   if (error != std::errc() || end != text.data() + text.size())
-    fail(fmt::format("face {}: '{}' is no index", faces_, text.substr(0, 40)),
+    fail(fmt::format("face {}: '{}' is no index", faces_, quotable(text)),
          "corners are written 1, 1/2, 1//3 or 1/2/3");
   const int64_t from_zero = index > 0 ? index - 1 : int64_t(count) + index;
   if (index == 0 || from_zero < 0 || from_zero >= int64_t(count))

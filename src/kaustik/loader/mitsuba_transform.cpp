@@ -76,8 +76,11 @@ Transform parse_transform_operation(const Element& element) {
     const Transform transform = parse_operation(element);
     return followed_by(Transform(), transform);
   } catch (const std::invalid_argument& wrong) {
-    throw BadValue(fmt::format("<{}>: {}", element.tag, wrong.what()),
-                   "a transform must be invertible");
+    throw BadValue(
+        fmt::format("<{}>: {}", element.tag, wrong.what()),
+        element.tag == "lookat"
+            ? "origin and target must differ, and up must not point from one to the other"
+            : "a transform must be invertible");
   }
 }
 

@@ -148,8 +148,14 @@ Value parse_spectrum(std::string_view text) {
   const std::string_view remedy =
       "write one number, or pairs such as \"400:0.1, 500:0.2\", or use <rgb>";
   if (parts.empty()) throw BadValue("the spectrum is empty", std::string(remedy));
+  if (parts[0].starts_with('#'))
+    throw BadValue(fmt::format("{} is a colour, not a spectrum", in_quotes(parts[0])),
+                   "write <rgb> instead of <spectrum>");
   if (parts.size() == 1 && parts[0].find(':') == std::string_view::npos)
     return parse_float(parts[0]);
+  if (parts.size() == 3 && parts[0].find(':') == std::string_view::npos)
+    throw BadValue(fmt::format("{} are three numbers, not a spectrum", in_quotes(trimmed(text))),
+                   "write <rgb> instead of <spectrum> for red, green and blue");
   SpectralCurve curve;
   for (const std::string_view part : parts) {
     const size_t colon = part.find(':');
