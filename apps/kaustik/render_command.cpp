@@ -84,7 +84,7 @@ void render(RenderOptions options) {
 std::string integrator_names() {
   std::string names;
   for (const IntegratorType& type : integrator_types())
-    names += (names.empty() ? "" : ", ") + type.info.name;
+    if (type.known_here_as.empty()) names += (names.empty() ? "" : ", ") + type.info.name;
   return names;
 }
 

@@ -73,9 +73,10 @@ RenderJob make_job(Description description, const RenderRecipe& recipe, bool wit
   tell_of_memory(description);
   RenderJob job;
   std::exception_ptr unreadable;
+  std::optional<GuardedDigest> digest;
   if (with_digest) {
     try {
-      job.digest = description_digest(description);
+      digest.emplace(description);
     } catch (const Error&) {
       unreadable = std::current_exception();
     }
@@ -85,10 +86,16 @@ RenderJob make_job(Description description, const RenderRecipe& recipe, bool wit
   if (unreadable) std::rethrow_exception(unreadable);
   std::vector<std::string> warnings = scene_warnings(*job.scene);
   job.integrator = make_integrator(description, *job.scene, warnings);
+  if (digest) {
+    digest->check(description);
+    job.digest = digest->digest();
+  }
   for (const std::string& warning : warnings) warn(warning);
-  if (const std::string dark = darkness_warning(*job.scene); !dark.empty()) warn(dark);
-  job.view = {integrator_type(description, *job.scene),
-              double(job.scene->camera().horizontal_fov()),
+  const std::string type = integrator_type(description, *job.scene);
+  for (const std::string& dark :
+       {darkness_warning(*job.scene), hidden_lamps_warning(*job.scene, type)})
+    if (!dark.empty()) warn(dark);
+  job.view = {type, double(job.scene->camera().horizontal_fov()),
               double(job.scene->camera().vertical_fov()), job.scene->film().quantity};
   return job;
 }

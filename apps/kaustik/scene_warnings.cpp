@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <set>
 
 namespace kaustik::app {
 namespace {
@@ -12,7 +14,92 @@ namespace {
 /// from which on they are seen: a fifth of a pixel in a picture of 2000.
 constexpr float coarse_step = 1e-4f;
 
+/// Camera rays along a side of the picture, and surfaces that one may pass.
+constexpr int probes_per_side = 16, longest_probe = 64;
+/// Points and their lamps that may be looked at.
+constexpr int most_lamps = 64;
+
+/// Light goes through it straight or bent, but by nothing that can be sampled toward a lamp.
+bool is_clear(const Surface& surface) {
+  return !surface.is_null && surface.transmits && any(surface.lobes & Lobes::delta);
+}
+
+/// The first surface along a ray of the camera that scatters light by more than delta lobes.
+std::optional<SurfacePoint> seen_point(const Scene& scene, Ray ray) {
+  Hit hit;
+  for (int i = 0; i < longest_probe && scene.tracer().intersect(ray, hit); ++i) {
+    const SurfacePoint point = scene.tracer().surface_point(ray, hit);
+    const Surface& surface = scene.surface(point.shape);
+    if (any(surface.lobes & (Lobes::diffuse | Lobes::glossy))) return point;
+    if (!surface.transmits) return std::nullopt;
+    ray = spawn_ray(point, ray.direction);
+  }
+  return std::nullopt;
+}
+
+/// The surface, clear, that hides the lamp from the point; null if none does, or something opaque.
+const Surface* clear_surface_before(const Scene& scene, const SurfacePoint& point,
+                                    const LightSample& sample) {
+  const Surface* clear = nullptr;
+  Hit hit;
+  SurfacePoint from = point;
+  for (int i = 0; i < longest_probe; ++i) {
+    const Ray ray = std::isfinite(sample.distance)
+                        ? spawn_ray_to(from, point.position + sample.direction * sample.distance)
+                        : spawn_ray(from, sample.direction);
+    if (!scene.tracer().intersect(ray, hit)) return clear;
+    from = scene.tracer().surface_point(ray, hit);
+    const Surface& surface = scene.surface(from.shape);
+    if (is_clear(surface))
+      clear = &surface;
+    else if (!surface.is_null)
+      return nullptr;
+  }
+  return nullptr;
+}
+
+/// What hides any of these lamps from the point.
+const Surface* what_hides(const Scene& scene, const std::vector<const Light*>& lamps,
+                          const SurfacePoint& point, const Vec3f& toward_camera) {
+  const Vec3f facing = dot(toward_camera, point.ng) > 0 ? point.ng : -point.ng;
+  for (const Light* lamp : lamps) {
+    const LightSample sample = lamp->sample_toward({point.position, facing}, {0.5f, 0.5f});
+    if (sample.radiance.is_zero() || !(dot(sample.direction, facing) > 0)) continue;
+    if (const Surface* clear = clear_surface_before(scene, point, sample)) return clear;
+  }
+  return nullptr;
+}
+
 }  // namespace
+
+std::string hidden_lamps_warning(const Scene& scene, const std::string& integrator) {
+  static const std::set<std::string> from_camera_alone = {
+      "path", "volpath", "volpathmis", "volpath_simple", "direct", "raytracing", "localphong"};
+  if (!from_camera_alone.contains(integrator)) return {};
+  std::vector<const Light*> lamps;
+  for (const auto& light : scene.lights())
+    if (light->is_delta() && !light->is_only_seen() && int(lamps.size()) < most_lamps)
+      lamps.push_back(light.get());
+  if (lamps.empty()) return {};
+  int points = 0, hidden = 0;
+  std::string name;
+  const Vec2i size = scene.film().crop_size;
+  for (int i = 0; i < probes_per_side * probes_per_side; ++i) {
+    const Vec2f raster((float(i % probes_per_side) + 0.5f) / probes_per_side * float(size.x),
+                       (float(i / probes_per_side) + 0.5f) / probes_per_side * float(size.y));
+    const Ray ray = scene.camera().sample_ray(raster);
+    const std::optional<SurfacePoint> point = seen_point(scene, ray);
+    if (!point) continue;
+    ++points;
+    const Surface* clear = what_hides(scene, lamps, *point, -ray.direction);
+    if (clear && ++hidden == 1) name = clear->name;
+  }
+  if (hidden == 0) return {};
+  return fmt::format(
+      "integrator {} never finds light of point, spot and directional lamps through glass or masks "
+      "('{}'): {} of {} points that the camera sees lack it; use auto, or a small sphere as lamp",
+      integrator, name, hidden, points);
+}
 
 std::string coordinates_warning(const Scene& scene) {
   const Bounds3f box = scene.tracer().bounds();
@@ -38,6 +125,11 @@ std::string darkness_warning(const Scene& scene) {
   const bool may_shine = std::ranges::any_of(scene.lights(), [](const auto& light) {
     return light->is_only_seen() || light->power().sum() > 0;
   });
+  // Lamps without a surface are not seen themselves.
+  if (may_shine && scene.surface_count() == 0 && scene.environment_lights().empty() &&
+      !scene.has_media())
+    return "the scene has no shape that its lamps could light: the picture will be black; add a "
+           "<shape> to it";
   if (may_shine) return {};
   return "no light of the scene has power: the picture will be black; give an <emitter> more than "
          "0";

@@ -12,6 +12,11 @@ std::string coordinates_warning(const Scene& scene);
 /// That, and what the builder of the scene found odd.
 std::vector<std::string> scene_warnings(const Scene& scene);
 
+/// Of points that the camera sees some may be lit only through glass or a mask by a lamp that no
+/// path can meet (point, spot, directional): methods that follow paths from the camera alone never
+/// find that light. Which to use instead; "" if there are none, or `integrator` finds it.
+std::string hidden_lamps_warning(const Scene& scene, const std::string& integrator);
+
 /// Why the picture will be black; "" if there is light.
 std::string darkness_warning(const Scene& scene);
 

@@ -160,7 +160,7 @@ TEST_F(Commands, InfoWarnsOfWhatCannotWork) {
   warned({"<sensor type=\"perspective\"><transform name=\"to_world\">"
           "<lookat origin=\"0,0,5\" target=\"0,0,9\" up=\"0,1,0\"/></transform></sensor>",
           false},
-         "the camera sees nothing");
+         "the camera sees no shape");
   warned(
       {"<sensor type=\"perspective\"><integer name=\"shutter_open\" value=\"3\"/></sensor>", false},
       "'shutter_open' of sensor 'perspective' has no effect");
@@ -226,7 +226,7 @@ TEST_F(Commands, PhotonsExplainsEmptyMaps) {
   write("plain.xml", scene_with({}));
   const RunResult plain = run_well({"photons", "plain.xml", "-o", "map.kpm"});
   EXPECT_TRUE(contains(plain.err, "no specular object")) << plain.err;
-  EXPECT_TRUE(contains(plain.err, "the global map is empty: of ")) << plain.err;
+  EXPECT_TRUE(contains(plain.err, "the global map is empty: no surface sends")) << plain.err;
   const RunResult none =
       run_well({"photons", "scene.xml", "-o", "map.kpm", "--set", "integrator.caustic_photons=0"});
   EXPECT_TRUE(contains(none.err, "no caustic photons are asked for")) << none.err;

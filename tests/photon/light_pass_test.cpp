@@ -110,6 +110,8 @@ TEST(LightPass, SaysWhyAMapIsEmpty) {
   EXPECT_NE(escaped.find("the caustic map is empty"), std::string::npos);
   EXPECT_NE(escaped.find("left the scene"), std::string::npos);
   EXPECT_EQ(explained({room(0.5), lamp(Vec3d(0, 0, 0))}), "");
+  // In the open nothing is wrong: the ball is lit, and lights nothing else.
+  EXPECT_EQ(explained({sphere(Vec3d(0, 0, 0), 1, diffuse(0.5)), lamp(Vec3d(0, 0, 1.2))}), "");
 }
 
 /// What a lamp elsewhere emits does not take the photons of the one that makes the caustic.

@@ -129,8 +129,7 @@ TEST(BuildScene, GroupsThatCannotBe) {
 
 TEST(BuildScene, WhatIsMissing) {
   expect_problem(sphere, "1:1", "the scene has no camera", "<sensor");
-  expect_problem(camera, "1:1", "the scene has no shape", "<shape>");
-  EXPECT_EQ(problems_of("").size(), 2u);
+  expect_problem("", "1:1", "the scene has no camera", "<sensor");
   expect_problem(camera + "<shape type=\"ply\"/>", "2:29", "shape 'ply' needs 'filename'");
 }
 
@@ -152,6 +151,15 @@ TEST(BuildScene, WhatIsThereTwice) {
   const Description two =
       description_of(camera + sphere + "<integrator type=\"path\"/>\n<integrator type=\"path\"/>");
   EXPECT_THROW(find_integrator(two), Error);
+}
+
+TEST(BuildScene, ScenesWithoutShapes) {
+  const auto scene = scene_of(camera + "<emitter type=\"constant\"/>");
+  EXPECT_EQ(scene->surface_count(), 0u);
+  EXPECT_TRUE(std::isfinite(scene->lights().at(0)->power().sum()));
+  EXPECT_GT(scene->lights().at(0)->power().sum(), 0);
+  EXPECT_NO_THROW(scene_of(camera));
+  EXPECT_NO_THROW(scene_of(camera + "<shape type=\"shapegroup\" id=\"g\"/>"));
 }
 
 /// The one of the top level is the scene's; of several, the one that no shape refers to.
@@ -177,7 +185,7 @@ TEST(BuildScene, WhichIntegratorIsTheScenes) {
 
 TEST(BuildScene, WhatStandsInTheWrongPlace) {
   expect_problem(camera + sphere + "\n<film type=\"hdrfilm\"/>", "3:1",
-                 "a film cannot stand at the top", "it may hold");
+                 "a film cannot stand at the top", "put it into the <sensor>");
   expect_problem(camera + "\n<shape type=\"sphere\"><film type=\"hdrfilm\"/></shape>", "3:22",
                  "shape 'sphere' cannot hold a film", "bsdf, emitter");
   expect_problem(camera + sphere + "\n<emitter type=\"area\"/>", "3:1", "stands outside of a shape",

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
+#include "kaustik/base/error.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/scene/overrides.h"
 #include "tests/support/temporary_folder.h"
@@ -49,6 +51,33 @@ TEST(DescriptionDigest, SettingsCountAsWhatTheyChange) {
   const DescriptionDigest path = digest_of(std::string(ball) + "<integrator type=\"path\"/>");
   EXPECT_EQ(path.scene, plain.scene);
   EXPECT_NE(path.integrator, plain.integrator);
+}
+
+TEST(DescriptionDigest, FilesThatChangeWhileTheyAreReadAreTold) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("mesh.obj"), text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto write = [&](const std::string& to, const std::string& contents) {
+    std::ofstream(to) << contents;
+  };
+  write(path, text);
+  const Description mesh =
+      described("<shape type=\"obj\"><string name=\"filename\" value=\"" + path + "\"/></shape>");
+  const GuardedDigest guarded(mesh);
+  EXPECT_EQ(guarded.digest(), description_digest(mesh));
+  EXPECT_NO_THROW(guarded.check(mesh));
+  // As long as before, and put in its place as editors do.
+  write(folder.path("new.obj"), "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");
+  std::filesystem::rename(folder.path("new.obj"), path);
+  try {
+    guarded.check(mesh);
+    ADD_FAILURE() << "a changed file has passed";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("changed while the scene was read: '" + path + "'"),
+              std::string::npos)
+        << error.what();
+  }
+  write(path, text);  // the same once more is no change
+  EXPECT_NO_THROW(guarded.check(mesh));
 }
 
 TEST(DescriptionDigest, FilesCountByTheirContents) {

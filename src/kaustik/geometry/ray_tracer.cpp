@@ -315,6 +315,7 @@ void RayTracer::Impl::build() {
     attach_instance(instance);
     bounds.extendBy(instance.world_from_group.bounds(group_bounds[instance.group]));
   }
+  if (bounds.isEmpty()) bounds = {Vec3f(-1, -1, -1), Vec3f(1, 1, 1)};
   commit(scene);
 }
 

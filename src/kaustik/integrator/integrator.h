@@ -116,8 +116,10 @@ struct IntegratorType {
   bool is_model;  ///< an IlluminationModel, which single surfaces may have as their own
   /// `scene` must outlive the integrator.
   std::unique_ptr<Integrator> (*create)(const Arguments&, const Scene& scene);
+  std::string known_here_as{};  ///< of other renderers' names: what it is here
 };
-/// "auto", "path", "lighttracer", "photonmap", "vcm", "bdpt", "ppm", "localphong", "raytracing".
+/// "auto", "path", "lighttracer", "photonmap", "vcm", "bdpt", "ppm", "localphong", "raytracing";
+/// and what Mitsuba calls some of them.
 const std::vector<IntegratorType>& integrator_types();
 
 /// The row `components`, which every integrator has, and its reading; throws Error for an unknown

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "kaustik/integrator/surface_models.h"
@@ -32,6 +33,11 @@ void refuse_what_is_the_scenes(const Arguments& arguments, Problems& problems) {
                    arguments.place_of(name));
 }
 
+/// Several shapes may have such an integrator.
+void tell_once(const std::string& warning, std::vector<std::string>& warnings) {
+  if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+}
+
 std::unique_ptr<Integrator> create(const Object& object, const Scene& scene, bool of_surface,
                                    std::vector<std::string>& warnings) {
   const IntegratorType& type = type_of(object);
@@ -43,8 +49,11 @@ std::unique_ptr<Integrator> create(const Object& object, const Scene& scene, boo
   if (of_surface) refuse_what_is_the_scenes(arguments, problems);
   problems.throw_if_any();
   for (const std::string& ignored : arguments.ignored())
-    warnings.push_back(
-        fmt::format("'{}' of integrator '{}' has no effect here", ignored, object.type));
+    tell_once(fmt::format("'{}' of integrator '{}' has no effect here", ignored, object.type),
+              warnings);
+  if (!type.known_here_as.empty())
+    tell_once(fmt::format("integrator '{}' is called {} here", object.type, type.known_here_as),
+              warnings);
   return type.create(arguments, scene);
 }
 

@@ -3,6 +3,12 @@
 #include "kaustik/integrator/path_parameters.h"
 
 namespace kaustik {
+namespace {
+
+/// Mitsuba's `direct` has no depth to choose.
+bool is_direct(const Arguments& arguments) { return !arguments.info().find("max_depth"); }
+
+}  // namespace
 
 const TypeInfo& PathIntegrator::info() {
   static const TypeInfo info{
@@ -10,15 +16,17 @@ const TypeInfo& PathIntegrator::info() {
       "path",
       "Unbiased path tracing with light sampling and multiple importance sampling.",
       {components_parameter(), max_depth_parameter(), rr_depth_parameter(),
-       ignored_parameter("hide_emitters", ParameterKind::boolean)}};
+       ignored_parameter("hide_emitters", ParameterKind::boolean),
+       ignored_parameter("strict_normals", ParameterKind::boolean),
+       ignored_parameter("samples_per_pass", ParameterKind::integer)}};
   return info;
 }
 
 PathIntegrator::PathIntegrator(const Arguments& arguments, const Scene& scene)
     : IlluminationModel(scene),
       components_(read_components(arguments)),
-      maximum_events_(read_maximum_events(arguments)),
-      roulette_depth_(int(arguments.integer("rr_depth"))) {}
+      maximum_events_(is_direct(arguments) ? 1 : read_maximum_events(arguments)),
+      roulette_depth_(is_direct(arguments) ? 1 : int(arguments.integer("rr_depth"))) {}
 
 bool PathIntegrator::advance(const PassState&, CameraWalk& walk) const {
   for (;;) {

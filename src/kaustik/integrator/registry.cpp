@@ -4,6 +4,7 @@
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/integrator/light_tracer.h"
 #include "kaustik/integrator/local_phong.h"
+#include "kaustik/integrator/mitsuba_integrators.h"
 #include "kaustik/integrator/path.h"
 #include "kaustik/integrator/photon_map_integrator.h"
 #include "kaustik/integrator/ray_tracing.h"
@@ -13,11 +14,12 @@ namespace kaustik {
 namespace {
 
 template <typename T>
-IntegratorType row(const TypeInfo& info) {
+IntegratorType row(const TypeInfo& info, const std::string& known_here_as = {}) {
   return {info, std::is_base_of_v<IlluminationModel, T>,
           [](const Arguments& arguments, const Scene& scene) -> std::unique_ptr<Integrator> {
             return std::make_unique<T>(arguments, scene);
-          }};
+          },
+          known_here_as};
 }
 
 std::vector<std::string> valid_components() {
@@ -37,6 +39,11 @@ const std::vector<IntegratorType>& integrator_types() {
       row<VcmIntegrator>(ppm_info()),
       row<LocalPhong>(LocalPhong::info()),
       row<RayTracing>(RayTracing::info()),
+      row<PathIntegrator>(volpath_info(), "path"),
+      row<PathIntegrator>(volpathmis_info(), "path"),
+      row<PathIntegrator>(volpath_simple_info(), "path"),
+      row<PathIntegrator>(direct_info(), "path with max_depth = 2"),
+      row<LightTracer>(ptracer_info(), "lighttracer"),
   };
   return types;
 }

@@ -77,6 +77,7 @@ void LightCounts::add(const LightCounts& other) {
   emitted += other.emitted;
   stored += other.stored;
   nothing += other.nothing;
+  arrived += other.arrived;
   escaped += other.escaped;
   absorbed += other.absorbed;
   too_long += other.too_long;
@@ -171,6 +172,7 @@ class LightPass::Tracer {
   }
 
   Lobes meet_global(const LightVertex& at) {
+    if (at.path_class.events() == 0) ++counts.arrived;
     if (at.path_class.diffuse_events() > 0) {
       store(at, global);
       return Lobes::all;
@@ -351,8 +353,14 @@ PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop,
   return maps;
 }
 
+bool nothing_lit_twice(const MapReport& global) {
+  constexpr uint64_t enough = 100;  // of the light that arrives less than some percent goes on
+  return global.total().arrived >= enough && global.total().stored == 0;
+}
+
 std::vector<std::string> LightPass::warnings(const PhotonMaps& maps) const {
   std::vector<std::string> list;
+  if (scene_.surface_count() == 0) return list;  // where should they be?
   const auto explain = [&](const char* name, const MapReport& report) {
     const LightCounts total = report.total();
     if (scene_.lights().empty())
@@ -365,7 +373,7 @@ std::vector<std::string> LightPass::warnings(const PhotonMaps& maps) const {
         name, total.emitted, total.nothing, total.escaped, total.absorbed, total.too_long,
         total.stopped);
   };
-  if (settings_.global_photons > 0 && maps.global.empty())
+  if (settings_.global_photons > 0 && maps.global.empty() && !nothing_lit_twice(maps.global_report))
     list.push_back(explain("global", maps.global_report));
   if (settings_.caustic_photons > 0 && maps.caustic.empty() && target_count_ > 0)
     list.push_back(explain("caustic", maps.caustic_report));

@@ -41,6 +41,7 @@ struct LightCounts {
   uint64_t emitted = 0;  ///< tries, those that carry nothing included
   uint64_t stored = 0;   ///< photons in the map
   uint64_t nothing = 0;  ///< emitted rays without flux (aimed below the horizon)
+  uint64_t arrived = 0;  ///< of those for the global map: came to a surface
   uint64_t escaped = 0;  ///< left the scene
   uint64_t absorbed = 0;
   uint64_t too_long = 0;   ///< reached the limit of events
@@ -57,6 +58,10 @@ struct MapReport {
   size_t target_count = 0;  ///< objects' boxes that were aimed at
   LightCounts total() const;
 };
+
+/// Whether the global map is empty because light comes to surfaces, but from none to another: as in
+/// the open, where there is no indirect light.
+bool nothing_lit_twice(const MapReport& global);
 
 /// The maps of one pass.
 struct PhotonMaps {

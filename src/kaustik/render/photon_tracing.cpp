@@ -28,6 +28,8 @@ void explain_empty_maps(const StoredPhotons& photons, std::vector<std::string>& 
   const LightPassSettings& settings = photons.settings;
   if (settings.global_photons == 0)
     warnings.emplace_back("the global map is empty: no global photons are asked for");
+  else if (nothing_lit_twice(photons.maps.global_report))
+    warnings.emplace_back("the global map is empty: no surface sends light to another");
   if (settings.caustic_photons == 0)
     warnings.emplace_back("the caustic map is empty: no caustic photons are asked for");
   else if (photons.maps.caustic_report.target_count == 0)

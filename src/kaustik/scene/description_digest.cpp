@@ -1,10 +1,13 @@
 #include "kaustik/scene/description_digest.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <map>
+#include <set>
 
 #include "kaustik/base/checksum.h"
+#include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
 #include "kaustik/scene/scene.h"
 
@@ -72,12 +75,54 @@ class Digester {
   std::map<std::string, uint64_t> files_;
 };
 
+void collect_files(const Object& object, std::set<const Object*>& seen,
+                   std::set<std::string>& files) {
+  if (!seen.insert(&object).second) return;
+  for (const Property& property : object.properties)
+    if (const std::string file = file_of(property); !file.empty()) files.insert(file);
+  for (const Child& child : object.children) collect_files(*child.object, seen, files);
+}
+
 }  // namespace
 
 DescriptionDigest description_digest(const Description& description) {
   const auto integrator = find_integrator(description);
   Digester digester(integrator.get());
   return {digester.of(*description.scene), integrator ? digester.of(*integrator) : 0};
+}
+
+std::map<std::string, GuardedDigest::Stamp> GuardedDigest::stamps_of(
+    const Description& description) {
+  std::set<const Object*> seen;
+  std::set<std::string> files;
+  collect_files(*description.scene, seen, files);
+  std::map<std::string, Stamp> stamps;
+  for (const std::string& file : files) {
+    struct stat status;
+    if (::stat(file.c_str(), &status) != 0) continue;  // who reads it will tell
+    const auto nanoseconds = [](const timespec& t) {
+      return int64_t(t.tv_sec) * 1'000'000'000 + int64_t(t.tv_nsec);
+    };
+    stamps[file] = {int64_t(status.st_dev), int64_t(status.st_ino), int64_t(status.st_size),
+                    nanoseconds(status.st_mtim), nanoseconds(status.st_ctim)};
+  }
+  return stamps;
+}
+
+GuardedDigest::GuardedDigest(const Description& description)
+    : stamps_(stamps_of(description)), digest_(description_digest(description)) {}
+
+void GuardedDigest::check(const Description& description) const {
+  const auto now = stamps_of(description);
+  if (now == stamps_ || description_digest(description) == digest_) return;
+  std::string changed;
+  for (const auto& [file, stamp] : stamps_)
+    if (const auto found = now.find(file); found == now.end() || found->second != stamp)
+      changed += (changed.empty() ? "'" : ", '") + file + "'";
+  throw Error(ErrorKind::input,
+              fmt::format("changed while the scene was read: {}",
+                          changed.empty() ? "a file that was not there" : changed),
+              "wait until nothing writes there any more, and render again");
 }
 
 }  // namespace kaustik

@@ -1,5 +1,8 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <map>
+#include <string>
 
 #include "kaustik/scene/description.h"
 
@@ -16,5 +19,22 @@ struct DescriptionDigest {
 /// files that properties `filename` and `photon_map` name; where those lie makes no difference, nor
 /// do comments and spaces in the scene file. Throws Error if such a file cannot be read.
 DescriptionDigest description_digest(const Description& description);
+
+/// A digest, and whether it still is that of the files when all of them have been read again: one
+/// that somebody writes meanwhile must not pass for another.
+class GuardedDigest {
+ public:
+  explicit GuardedDigest(const Description& description);
+  const DescriptionDigest& digest() const { return digest_; }
+  /// Throws Error(input) if a file has other contents than those of the digest.
+  void check(const Description& description) const;
+
+ private:
+  using Stamp = std::array<int64_t, 5>;
+  static std::map<std::string, Stamp> stamps_of(const Description& description);
+
+  std::map<std::string, Stamp> stamps_;  ///< what the system tells of the files, by path
+  DescriptionDigest digest_;
+};
 
 }  // namespace kaustik

@@ -140,11 +140,6 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
                   scene.place);
   else
     collecting(sensor_->place, [&] { make_sensor(*sensor_); });
-  const bool has_shape =
-      std::any_of(scene.children.begin(), scene.children.end(), [](const Child& child) {
-        return child.object->family == "shape" && child.object->type != shapegroup_info().name;
-      });
-  if (!has_shape) problems_.add("the scene has no shape", "add at least one <shape>", scene.place);
   problems_.throw_if_any();
 
   Scene::Parts parts;
@@ -190,8 +185,12 @@ void SceneBuilder::add_top_level(const Object& object) {
     else
       make_texture(alias);
   } else if (object.family != "integrator") {
+    const bool is_of_sensor = object.family == "film" || object.family == "sampler";
     problems_.add(fmt::format("a {} cannot stand at the top of a scene", object.family),
-                  "it may hold: shape, bsdf, texture, medium, emitter, sensor, integrator",
+                  is_of_sensor ? "put it into the <sensor>"
+                  : object.family == "rfilter"
+                      ? "put it into the <film>"
+                      : "it may hold: shape, bsdf, texture, medium, emitter, sensor, integrator",
                   object.place);
   }
 }

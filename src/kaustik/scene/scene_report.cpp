@@ -73,7 +73,10 @@ void describe_view(const Scene& scene, SceneReport& report) {
   report.lines.push_back(
       fmt::format("picture    {} × {} pixels{}", scene.film().crop_size.x, scene.film().crop_size.y,
                   scene.film().quantity == Quantity::irradiance ? " of irradiance" : ""));
-  if (view.hits == 0) report.warnings.push_back("the camera sees nothing: check its to_world");
+  if (scene.surface_count() == 0)
+    report.warnings.push_back("the scene has no shape: only what is behind it can be seen");
+  else if (view.hits == 0)
+    report.warnings.push_back("the camera sees no shape: check its to_world");
   const float extent = length(scene.tracer().bounds().max - scene.tracer().bounds().min);
   if (view.hits < view.rays) return;
   const std::string& name = scene.surface(view.nearest_shape).name;
