@@ -201,5 +201,22 @@ TEST_F(SceneFiles, NoFileHoldsItself) {
   }
 }
 
+TEST(PlacedScenes, CopiesOfLampsAreCounted) {
+  std::string lamps, places;
+  for (int i = 0; i < 400; ++i) {
+    lamps += "<emitter type=\"point\"/>";
+    places += "<shape type=\"instance\"><ref id=\"lamps\"/></shape>";
+  }
+  const std::string text = std::string(any_camera) + group("lamps", lamps) + places;
+  const std::vector<Problem> problems = problems_of(text);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_NE(problems[0].message.find("more than 100000 lamps"), std::string::npos);
+  std::vector<std::string> warnings;
+  const std::string fewer =
+      std::string(any_camera) + group("lamps", lamps) + places.substr(0, places.size() / 4);
+  EXPECT_EQ(flatten_placed_scenes(description_of(fewer), warnings).scene->children.size(),
+            2u + 100 * 400);  // the camera and the group itself
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int maximum_levels = 64;
 constexpr size_t maximum_placements = 1'000'000;
+constexpr size_t maximum_lamps = 100'000;  ///< each is a light of its own, unlike other shapes
 
 bool is_shape(const Object& object, const char* type) {
   return object.family == "shape" && object.type == type;
@@ -113,12 +114,7 @@ class Flattener {
     for (const Child& child : scene.children) {
       const Object* group = group_of(*child.object);
       if (group && !is_flat(*group)) {
-        placements_ += 1 + placements_in(*child.object, 0);
-        if (placements_ > maximum_placements)
-          throw Error(ErrorKind::input,
-                      fmt::format("instances of instances make more than {} placements",
-                                  maximum_placements),
-                      "use fewer, or put shapes into one group", child.object->place);
+        count(*child.object);
         place(*child.object, Transform(), 0);
       } else {
         top_->children.push_back(child);
@@ -145,17 +141,41 @@ class Flattener {
                   fmt::format("instances nest more than {} levels deep", maximum_levels),
                   "make the scene flatter", instance.place);
   }
-  /// How many placements one of `instance`'s group brings with it, or more than the most.
-  size_t placements_in(const Object& instance, int level) {
+  /// What placing a group once makes.
+  struct Copies {
+    size_t placements = 0, lamps = 0;
+  };
+  /// Refuses an instance of the top level that makes too much of the scene, before it is made.
+  void count(const Object& instance) {
+    const Copies copies = copies_in(instance, 0);
+    placements_ += 1 + copies.placements;
+    lamps_ += copies.lamps;
+    if (placements_ > maximum_placements)
+      throw Error(
+          ErrorKind::input,
+          fmt::format("instances of instances make more than {} placements", maximum_placements),
+          "use fewer, or put shapes into one group", instance.place);
+    if (lamps_ > maximum_lamps)
+      throw Error(
+          ErrorKind::input,
+          fmt::format("instances make more than {} lamps of those in groups", maximum_lamps),
+          "use fewer, or let one shape shine for several", instance.place);
+  }
+  /// What one placing of `instance`'s group brings with it, or more than the most.
+  Copies copies_in(const Object& instance, int level) {
     check_level(instance, level);
     const Object& group = *group_of(instance);
-    const auto known = placements_in_.find(&group);
-    if (known != placements_in_.end()) return known->second;
-    size_t count = 0;
-    for (const Child& child : group.children)
-      if (group_of(*child.object) && count <= maximum_placements)
-        count += 1 + placements_in(*child.object, level + 1);
-    return placements_in_[&group] = std::min(count, maximum_placements + 1);
+    const auto known = copies_in_.find(&group);
+    if (known != copies_in_.end()) return known->second;
+    Copies copies;
+    for (const Child& child : group.children) {
+      if (child.object->family == "emitter" || shines(*child.object)) ++copies.lamps;
+      if (!group_of(*child.object)) continue;
+      const Copies more = copies_in(*child.object, level + 1);
+      copies.placements = std::min(copies.placements + 1 + more.placements, maximum_placements + 1);
+      copies.lamps = std::min(copies.lamps + more.lamps, maximum_lamps + 1);
+    }
+    return copies_in_[&group] = copies;
   }
 
   void place(const Object& instance, const Transform& outer, int level) {
@@ -195,8 +215,8 @@ class Flattener {
 
   std::vector<std::string>& warnings_;
   Object* top_ = nullptr;
-  size_t placements_ = 0;
-  std::map<const Object*, size_t> placements_in_;
+  size_t placements_ = 0, lamps_ = 0;
+  std::map<const Object*, Copies> copies_in_;
   std::map<const Object*, std::shared_ptr<Object>> dark_parts_;
   std::set<const Object*> reported_;
 };
