@@ -7,6 +7,7 @@ namespace {
 
 constexpr int cosines = 33;
 constexpr int samples_per_node = 512;
+constexpr int parameters = 9;
 
 /// Node i lies at cosθ = (i/(cosines − 1))², denser toward the horizon where the albedo bends.
 float cosine_of_node(int i) { return std::max(1e-3f, sqr(float(i) / float(cosines - 1))); }
@@ -54,22 +55,32 @@ Spectrum AlbedoTable::operator()(const Vec3f& wo) const {
   return mix(along(a.index), along(a.index + 1), a.weight);
 }
 
-AlbedoTables::AlbedoTables(float low, float high, bool isotropic,
-                           const std::function<Spectrum(float, const Vec3f&, const Vec2f&)>& weight)
-    : low_(low), high_(high) {
-  constexpr int count = 9;
-  for (int i = 0; i < (high > low ? count : 1); ++i) {
-    const float parameter = low + (high - low) * float(i) / float(count - 1);
-    tables_.emplace_back(isotropic,
-                         [&](const Vec3f& wo, const Vec2f& u) { return weight(parameter, wo, u); });
-  }
+AlbedoTables::AlbedoTables(float low, float high, bool isotropic, Weight weight)
+    : low_(low),
+      high_(high),
+      isotropic_(isotropic),
+      weight_(std::move(weight)),
+      tables_(high > low ? parameters : 1) {}
+
+float AlbedoTables::parameter_of(size_t index) const {
+  return low_ + (high_ - low_) * float(index) / float(parameters - 1);
+}
+
+const AlbedoTable& AlbedoTables::table(size_t index) const {
+  Lazy& lazy = tables_[index];
+  std::call_once(lazy.once, [&] {
+    const float parameter = parameter_of(index);
+    lazy.table.emplace(isotropic_,
+                       [&](const Vec3f& wo, const Vec2f& u) { return weight_(parameter, wo, u); });
+  });
+  return *lazy.table;
 }
 
 Spectrum AlbedoTables::operator()(float parameter, const Vec3f& wo) const {
-  if (tables_.size() == 1) return tables_.front()(wo);
+  if (tables_.size() == 1) return table(0)(wo);
   const float share = std::clamp((parameter - low_) / (high_ - low_), 0.0f, 1.0f);
   const Position p = position(share * float(tables_.size() - 1), int(tables_.size()));
-  return mix(tables_[size_t(p.index)](wo), tables_[size_t(p.index) + 1](wo), p.weight);
+  return mix(table(size_t(p.index))(wo), table(size_t(p.index) + 1)(wo), p.weight);
 }
 
 }  // namespace kaustik
