@@ -21,11 +21,11 @@ class Rooms {
                flat("cube", scale("2, 1, 1"), set("flip_normals", true) + floor) + wall + lamp()) {}
 
   /// Mean radiance of the picture.
-  double light(const std::string& type) const {
+  double light(const std::string& type, const std::string& parameters = "") const {
     RenderOptions options;
     options.samples = 4;
     options.passes = 2;
-    return render(scene_, type, "", options).mean({""}).mean();
+    return render(scene_, type, parameters, options).mean({""}).mean();
   }
 
  private:
@@ -70,7 +70,15 @@ TEST(LightLeaks, GlossyAndRoundWalls) {
   expect_dark("drum", Rooms(cylinder("0, -1.01, 0", "0, 1.01, 0", 1.001, grey), grey, 48));
 }
 
-/// What the tests above would see if there were a way for light.
+/// What the tests above would see without that …
+TEST(LightLeaks, DisksReachThroughWalls) {
+  for (const char* type : {"vcm", "ppm"})
+    for (const double thickness : {0.001, 0.04})
+      EXPECT_GT(Rooms(slab(thickness), grey, 48).light(type, set("visibility", false)), 0)
+          << type << " " << thickness;
+}
+
+/// … and if there were a way for light.
 TEST(LightLeaks, AGapIsSeen) {
   for (const char* type : merging)
     EXPECT_GT(Rooms(slab(0.01, 0.02), grey, 48).light(type), 0) << type;

@@ -249,7 +249,8 @@ void VcmIntegrator::trace_sample(const State& state, const Vec2f& raster, const 
                                state.weights.settings().merge_area * inv_pi,
                                state.media,
                                settings_.maximum_events,
-                               state.plans->scattering.get()};
+                               state.plans->scattering.get(),
+                               settings_.visibility};
   VcmCameraPath path(inputs, walk, plan);
   follow(state.plans->techniques, walk, path, {});
 }

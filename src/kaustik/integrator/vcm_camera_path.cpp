@@ -347,7 +347,8 @@ void VcmCameraPath::merge() {
   const DiskWeights weights = disk_weights(disk);
   const bool is_matt =
       all_delta_ && lobes == Lobes::diffuse && !vertex.transmits() && !vertex.has_relief();
-  std::vector<MergedPart>* const each = weights.surroundings.are_clear ? nullptr : &empty_parts();
+  const bool is_all_reached = weights.surroundings.are_clear || !in_.visibility;
+  std::vector<MergedPart>* const each = is_all_reached ? nullptr : &empty_parts();
   MergedLight light =
       is_matt ? merged_matt(disk, weights, each) : merged(disk, weights, lobes, each);
   if (each) leave_reached(covered, radius, *each, light);

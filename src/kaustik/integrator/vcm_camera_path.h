@@ -28,6 +28,7 @@ struct VcmCameraInputs {
   MediumDisks media = {};
   int maximum_events = 1 << 20;
   const ScatterGuide* scattering = nullptr;  ///< of light paths; null: not guided
+  bool visibility = true;                    ///< what is hidden does not merge
 };
 
 /// A camera walk's vertices as multiple importance sampling sees them, and what light paths bring

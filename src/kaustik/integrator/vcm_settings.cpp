@@ -60,6 +60,8 @@ std::vector<Parameter> parameters(const Techniques& preset) {
       boolean_parameter("edges", true,
                         "Disks of merging end at the straight edges around them, with kernels that "
                         "light's gradient does not bias."),
+      boolean_parameter("visibility", true,
+                        "Vertices of light paths merge only where nothing opaque hides them."),
       boolean_parameter("choose_survival", true,
                         "A pilot chooses, place by place, how often the camera's paths go on "
                         "beside what merges; else they always do."),
@@ -127,6 +129,7 @@ VcmSettings::VcmSettings(const Arguments& arguments)
   correlation = arguments.boolean("correlation");
   learn_radii = arguments.boolean("learn_radii");
   edges = arguments.boolean("edges");
+  visibility = arguments.boolean("visibility");
   choose_survival = arguments.boolean("choose_survival");
   samples_per_pass = uint32_t(arguments.integer("samples_per_pass"));
   techniques = {arguments.boolean("unidirectional"), arguments.boolean("next_event"),

@@ -21,6 +21,7 @@ struct VcmSettings {
   bool correlation = true;      ///< see PathWeights
   bool learn_radii = true;      ///< from the passes before; else the first pass's shrink
   bool edges = true;            ///< disks of merging end at the straight edges around them
+  bool visibility = true;       ///< what is hidden does not merge
   bool choose_survival = true;  ///< of camera paths beside what merges; else they always go on
   uint32_t samples_per_pass = 4;
   bool adaptive = true;              ///< camera samples go where passes before find them to differ
