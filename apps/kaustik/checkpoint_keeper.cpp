@@ -11,8 +11,10 @@ namespace {
 constexpr double most_time = 0.1;
 
 std::chrono::steady_clock::duration duration_of(double seconds) {
+  // The clock counts nanoseconds: in 64 bits they last for 292 years.
+  constexpr double century_s = 3.2e9;
   return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-      std::chrono::duration<double>(seconds));
+      std::chrono::duration<double>(std::min(seconds, century_s)));
 }
 
 }  // namespace

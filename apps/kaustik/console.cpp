@@ -9,6 +9,8 @@
 #include <csignal>
 #include <thread>
 
+#include "kaustik/base/to_integer.h"
+
 namespace kaustik::app {
 namespace {
 
@@ -34,7 +36,7 @@ int usable_threads(int asked) {
 }
 
 std::string duration_text(double seconds) {
-  const auto s = int64_t(seconds + 0.5);
+  const auto s = to_integer(seconds + 0.5, int64_t(0), int64_t(1) << 53);
   if (s >= 3600) return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
   if (s >= 60) return fmt::format("{} min {:02} s", s / 60, s % 60);
   return seconds < 9.95 ? fmt::format("{:.1f} s", seconds) : fmt::format("{} s", s);
@@ -51,7 +53,7 @@ namespace {
 
 std::string bar_text(double fraction) {
   constexpr int width = 24;
-  const int filled = int(fraction * width);
+  const int filled = to_integer(fraction * width, 0, width);
   return fmt::format("[{}{}] {:3.0f} %", std::string(size_t(filled), '#'),
                      std::string(size_t(width - filled), '-'), 100 * fraction);
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "kaustik/base/to_integer.h"
 #include "kaustik/geometry/shape_creators.h"
 #include "kaustik/geometry/shape_support.h"
 
@@ -143,7 +144,7 @@ std::vector<Bounds3f> Cylinder::bounding_boxes(int budget) const {
   // Patches about as long as wide; a thin cylinder is only cut along its axis.
   const double girth = 2 * std::numbers::pi * radius_;
   const int boxes = std::max(1, budget);
-  int around = int(std::min(double(boxes), std::sqrt(boxes * girth / length_)));
+  int around = to_integer(std::sqrt(boxes * girth / length_), 0, boxes);
   if (around < 4) around = 1;
   const int along = std::max(1, boxes / around);
   std::vector<Bounds3f> result;
@@ -166,7 +167,9 @@ const TypeInfo& cylinder_info() {
       "The side of a cylinder, without caps.",
       {point_parameter("p0", Vec3d(0, 0, 0), "One end of the axis."),
        point_parameter("p1", Vec3d(0, 0, 1), "The other end of the axis."),
-       number_parameter("radius", 1.0, "Radius of the cylinder.").range(1e-30, 1e18).in("m"),
+       number_parameter("radius", 1.0, "Radius of the cylinder.")
+           .range(smallest_length, largest_length)
+           .in("m"),
        transform_parameter("to_world", "Places the cylinder in the world; one scale for all axes."),
        boolean_parameter("flip_normals", false, "The inside is the front.")}};
   return info;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kaustik/base/error.h"
+#include "kaustik/base/to_integer.h"
 #include "kaustik/image/photometry.h"
 
 namespace kaustik {
@@ -31,7 +32,7 @@ double round_down(double value) {
 /// The value below which `share` of the sorted values are; 0 of none.
 double quantile(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return 0;
-  return sorted[size_t(share * double(sorted.size() - 1))];
+  return sorted[to_integer(share * double(sorted.size() - 1), size_t(0), sorted.size() - 1)];
 }
 
 void set_linear_limits(ColorScale& scale, const std::vector<double>& sorted,
@@ -103,7 +104,7 @@ Vec3f viridis(float t) {
       {0.824940f, 0.884720f, 0.106217f}, {0.993248f, 0.906157f, 0.143936f}};
   constexpr int steps = int(std::size(table)) - 1;
   const float x = std::isnan(t) ? 0 : std::clamp(t, 0.0f, 1.0f) * steps;
-  const int i = std::min(int(x), steps - 1);
+  const int i = to_integer(x, 0, steps - 1);
   const float part = x - float(i);
   Vec3f result;
   for (int c = 0; c < 3; ++c)

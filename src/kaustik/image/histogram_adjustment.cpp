@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "kaustik/base/to_integer.h"
 #include "kaustik/image/vision.h"
 
 namespace kaustik {
@@ -91,12 +92,12 @@ std::vector<double> HistogramAdjustment::count(const std::vector<double>& logs) 
   for (const double value : logs) {
     const double x = (value - log_min_) / bin_width();
     if (!settings_.smooth) {
-      ++bins[size_t(std::clamp(int(x), 0, last))];
+      ++bins[size_t(to_integer(x, 0, last))];
       continue;
     }
     // Shared between the two nearest bins, so that a small change of a sample is one of the curve.
     const double between = std::clamp(x - 0.5, 0.0, double(last));
-    const int lower = std::min(int(between), last - 1);
+    const int lower = to_integer(between, 0, last - 1);
     bins[size_t(lower)] += lower + 1 - between;
     bins[size_t(lower) + 1] += between - lower;
   }
@@ -186,7 +187,7 @@ void HistogramAdjustment::scale_linearly() {
 double HistogramAdjustment::log_display(double log_world) const {
   const double x =
       std::clamp((log_world - log_min_) / (log_max_ - log_min_), 0.0, 1.0) * settings_.bins;
-  const size_t bin = std::min(size_t(x), cumulative_.size() - 2);
+  const size_t bin = to_integer(x, size_t(0), cumulative_.size() - 2);
   const double share =
       cumulative_[bin] + (x - double(bin)) * (cumulative_[bin + 1] - cumulative_[bin]);
   return log_black_ + display_range() * share;

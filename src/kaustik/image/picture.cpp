@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "kaustik/base/error.h"
+#include "kaustik/base/to_integer.h"
 #include "kaustik/image/photometry.h"
 
 namespace kaustik {
@@ -26,7 +27,7 @@ void check(const FieldOfView& view) {
 
 /// Number of 1° cells along an image side.
 int cells_across(float half_extent, int pixels) {
-  return int(std::clamp(std::round(half_extent / half_tangent(1)), 1.0f, float(pixels)));
+  return to_integer(std::round(half_extent / half_tangent(1)), 1, pixels);
 }
 
 std::optional<float> angle_of(const Image& image, const char* key) {

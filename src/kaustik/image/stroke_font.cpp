@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kaustik/base/to_integer.h"
 #include "kaustik/image/photometry.h"
 
 namespace kaustik {
@@ -93,9 +94,7 @@ void draw_glyph(Image& image, const Glyph& glyph, float x, float y, float height
                 const Vec3f& color) {
   const float scale = height * unit, half_line = std::max(0.5f, half_thickness * height);
   const float margin = half_line + 1;
-  const auto within = [](float value, int size) {
-    return std::clamp(int(std::floor(value)), 0, size);
-  };
+  const auto within = [](float value, int size) { return to_integer(value, 0, size); };
   const int x0 = within(x - margin, image.width());
   const int x1 = within(x + float(glyph.width) * scale + margin + 1, image.width());
   const int y0 = within(y - height - margin, image.height());

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "kaustik/base/error.h"
+#include "kaustik/base/to_integer.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/image/tone_operators.h"
 
@@ -96,7 +97,7 @@ std::vector<uint8_t> srgb_bytes(const Image& display_linear) {
   for (size_t i = 0; i < display_linear.pixel_count(); ++i)
     for (const auto& plane : rgb.planes) {
       const float encoded = srgb_from_linear(std::clamp(plane[i], 0.0f, 1.0f));
-      bytes.push_back(uint8_t(std::isnan(encoded) ? 0.0f : encoded * 255 + 0.5f));
+      bytes.push_back(to_integer<uint8_t>(encoded * 255 + 0.5f, 0, 255));
     }
   return bytes;
 }

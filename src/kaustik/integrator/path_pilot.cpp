@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/to_integer.h"
 #include "kaustik/integrator/merge_disk.h"
 
 namespace kaustik {
@@ -23,8 +24,8 @@ const double most_ratio =
 
 int bin_of(double ratio) {
   if (!(ratio > 0)) return 0;
-  const int bin = int(std::lround(std::log2(ratio))) + ProbeStatistics::bin_of_one;
-  return std::clamp(bin, 0, ProbeStatistics::bin_count - 1);
+  return to_integer(std::round(std::log2(ratio)) + ProbeStatistics::bin_of_one, 0,
+                    ProbeStatistics::bin_count - 1);
 }
 
 double all_light(const SampleSink& sink) {
@@ -196,7 +197,7 @@ std::vector<ProbeStatistics> probe_statistics(const VcmCameraInputs& inputs,
   });
   double counted = 0;
   for (const ProbeStatistics& s : single) counted += paths_per_probe * (s.rays + s.rays_beyond);
-  rays += uint64_t(std::llround(counted));
+  rays += to_integer(std::round(counted), uint64_t(0), uint64_t(1) << 53);
   std::vector<ProbeStatistics> result(probes.size());
   const Vec2i size = plans.blocks();
   parallel_blocks(probes.size(), 256, [&](size_t begin, size_t end, size_t) {

@@ -1,5 +1,6 @@
 #include "kaustik/integrator/photon_gather.h"
 
+#include "kaustik/base/to_integer.h"
 #include "kaustik/transport/direct_light.h"
 #include "kaustik/transport/visibility.h"
 
@@ -218,7 +219,7 @@ Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, const Vec3f
     float u_cell = (branch.next_1d() + float(i)) / float(samples);
     int cell;
     if (u_cell < floor) {
-      cell = std::min(int(u_cell / floor * float(grid.count())), grid.count() - 1);
+      cell = to_integer(u_cell / floor * float(grid.count()), 0, grid.count() - 1);
     } else {
       double left = (u_cell - floor) / (1 - floor) * total;
       cell = 0;

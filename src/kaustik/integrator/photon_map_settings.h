@@ -1,4 +1,5 @@
 #pragma once
+#include "kaustik/base/to_integer.h"
 #include "kaustik/irradiance/irradiance_cache.h"
 #include "kaustik/photon/light_pass.h"
 #include "kaustik/photon/shadow_pass.h"
@@ -68,7 +69,7 @@ struct PhotonMapSettings {
   float level_scale(int recursion) const;
   /// A count at a recursion level, at least `least`.
   int count_at(int count, int recursion, int least = 1) const {
-    return std::max(least, int(float(count) * level_scale(recursion)));
+    return to_integer(float(count) * level_scale(recursion), least, 1 << 30);
   }
   /// How much larger an error of the irradiance cache is allowed at a recursion level.
   float cache_tolerance(int recursion) const { return 1 / level_scale(recursion); }

@@ -1,3 +1,4 @@
+#include "kaustik/base/to_integer.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/image/picture_argument.h"
 #include "kaustik/light/environment_light.h"
@@ -31,8 +32,8 @@ class PictureSphere {
   Spectrum eval(const LatLong& at) const {
     const double x = at.turn * width_ - 0.5, left = std::floor(x);
     const double y = std::acos(std::clamp(at.height, -1.0, 1.0)) / std::numbers::pi * (rows_ - 1);
-    const int row = std::clamp(int(y), 0, rows_ - 2);
-    const int column = left < 0 ? width_ - 1 : std::min(int(left), width_ - 1);
+    const int row = to_integer(y, 0, rows_ - 2);
+    const int column = left < 0 ? width_ - 1 : to_integer(left, 0, width_ - 1);
     const int next = column + 1 < width_ ? column + 1 : 0;
     const float s = float(x - left), t = float(y - row);
     const Spectrum upper = texel(column, row) * (1 - s) + texel(next, row) * s;

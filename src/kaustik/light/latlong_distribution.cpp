@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "kaustik/base/to_integer.h"
+
 namespace kaustik {
 namespace {
 
@@ -51,7 +53,7 @@ LatLongDistribution::Corners LatLongDistribution::corners(int row, int column) c
 
 int LatLongDistribution::row_of(double height) const {
   const double angle = std::acos(std::clamp(height, -1.0, 1.0));
-  int row = std::clamp(int(angle / last_angle_ * (rows_ - 1)), 0, rows_ - 2);
+  int row = to_integer(angle / last_angle_ * (rows_ - 1), 0, rows_ - 2);
   // The rounding of the angle must not put a height outside of its cell.
   while (row > 0 && height > heights_[size_t(row)]) --row;
   while (row < rows_ - 2 && height < heights_[size_t(row) + 1]) ++row;
@@ -77,7 +79,7 @@ float LatLongDistribution::pdf(const LatLong& at) const {
   if (!(integral_ > 0) || at.height < heights_.back()) return 0;
   const int row = row_of(at.height);
   const double x = at.turn * width_ - 0.5, left = std::floor(x);
-  const int column = left < 0 ? width_ - 1 : std::min(int(left), width_ - 1);
+  const int column = left < 0 ? width_ - 1 : to_integer(left, 0, width_ - 1);
   const Corners v = corners(row, column);
   const double s = x - left;
   const double t =

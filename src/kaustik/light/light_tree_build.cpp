@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "kaustik/base/to_integer.h"
+
 namespace kaustik {
 namespace {
 
@@ -105,7 +107,7 @@ size_t LightTreeBuild::split(size_t begin, size_t end, int depth) {
   const Vec3f size = centers.max - centers.min;
   const auto bin_of = [&](const Node& leaf, int axis) {
     const float x = (center(leaf.position)[axis] - centers.min[axis]) / size[axis];
-    return std::clamp(int(x * float(bin_count)), 0, bin_count - 1);
+    return to_integer(x * float(bin_count), 0, bin_count - 1);
   };
 
   double best_cost = std::numeric_limits<double>::infinity();

@@ -1,6 +1,7 @@
 #include "kaustik/material/albedo_table.h"
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/base/to_integer.h"
 
 namespace kaustik {
 namespace {
@@ -17,7 +18,7 @@ struct Position {
   float weight;  ///< of the next node
 };
 Position position(float at, int count) {
-  const int index = std::clamp(int(at), 0, count - 2);
+  const int index = to_integer(at, 0, count - 2);
   return {index, std::clamp(at - float(index), 0.0f, 1.0f)};
 }
 

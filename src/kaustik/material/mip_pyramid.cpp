@@ -1,5 +1,7 @@
 #include "kaustik/material/mip_pyramid.h"
 
+#include "kaustik/base/to_integer.h"
+
 namespace kaustik {
 namespace {
 
@@ -65,8 +67,8 @@ const Spectrum& MipPyramid::texel(const Level& level, int x, int y) const {
 const Spectrum& MipPyramid::nearest(const Vec2f& uv) const {
   const Vec2f p = wrapped(uv);
   const Level& level = levels_.front();
-  return texel(level, int(std::floor(p.x * float(level.width))),
-               int(std::floor(p.y * float(level.height))));
+  return texel(level, lattice_cell(p.x * float(level.width)),
+               lattice_cell(p.y * float(level.height)));
 }
 
 Spectrum MipPyramid::bilinear(const Level& level, const Vec2f& uv) const {
@@ -74,7 +76,7 @@ Spectrum MipPyramid::bilinear(const Level& level, const Vec2f& uv) const {
   const float x = p.x * float(level.width) - 0.5f, y = p.y * float(level.height) - 0.5f;
   const float left = std::floor(x), upper = std::floor(y);
   const float fx = x - left, fy = y - upper;
-  const int ix = int(left), iy = int(upper);
+  const int ix = lattice_cell(left), iy = lattice_cell(upper);
   const Spectrum a = texel(level, ix, iy) * (1 - fx) + texel(level, ix + 1, iy) * fx;
   const Spectrum b = texel(level, ix, iy + 1) * (1 - fx) + texel(level, ix + 1, iy + 1) * fx;
   return a * (1 - fy) + b * fy;

@@ -1,5 +1,7 @@
 #include "kaustik/material/noise.h"
 
+#include "kaustik/base/to_integer.h"
+
 namespace kaustik {
 namespace {
 
@@ -69,8 +71,8 @@ struct NoiseCell {
     const Vec3f q(in_range(p.x), in_range(p.y), in_range(p.z));
     const Vec3f corner(std::floor(q.x), std::floor(q.y), std::floor(q.z));
     f = q - corner;
-    const uint32_t x = uint32_t(int(corner.x)), y = uint32_t(int(corner.y)),
-                   z = uint32_t(int(corner.z));
+    const uint32_t x = uint32_t(lattice_cell(corner.x)), y = uint32_t(lattice_cell(corner.y)),
+                   z = uint32_t(lattice_cell(corner.z));
     const CellHash<Words> column(seed, Words{x, x + 1, x, x + 1}, Words{y, y, y + 1, y + 1});
     below = column.at(z);
     above = column.at(z + 1);

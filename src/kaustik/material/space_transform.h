@@ -13,10 +13,11 @@ class SpaceTransform {
 
   /// Far from the origin floats have lost all detail anyway; the bound keeps squares finite.
   Vec3f point(const TextureCoordinates& at) const {
-    constexpr float farthest = 1e9f;
+    static constexpr float farthest = 1e9f;
     const Vec3f p = texture_from_world_.point(at.position);
-    return {std::clamp(p.x, -farthest, farthest), std::clamp(p.y, -farthest, farthest),
-            std::clamp(p.z, -farthest, farthest)};
+    // In this order what is no number becomes one.
+    const auto within = [](float x) { return std::min(std::max(-farthest, x), farthest); };
+    return {within(p.x), within(p.y), within(p.z)};
   }
   Vec3f normal(const TextureCoordinates& at) const {
     return normalize(texture_from_world_.normal(at.normal));

@@ -1,3 +1,4 @@
+#include "kaustik/base/to_integer.h"
 #include "kaustik/material/bsdf_kinds.h"
 #include "kaustik/material/noise.h"
 #include "kaustik/material/procedural_parameters.h"
@@ -67,9 +68,8 @@ class Tiles final : public Texture {
  private:
   Place place(const TextureCoordinates& at) const;
   float random(const Place& place, uint32_t which) const {
-    return cell_random(int(std::floor(place.at.x / rows_[0].period)),
-                       int(std::floor(place.at.y / rows_[1].period)), place.axis,
-                       seed_ * 8 + which);
+    return cell_random(lattice_cell(place.at.x / rows_[0].period),
+                       lattice_cell(place.at.y / rows_[1].period), place.axis, seed_ * 8 + which);
   }
   /// How much of what differs from tile to tile is left in the mean over a footprint.
   float tile_visibility(const Place& place) const {

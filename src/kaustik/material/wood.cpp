@@ -1,3 +1,4 @@
+#include "kaustik/base/to_integer.h"
 #include "kaustik/material/bsdf_kinds.h"
 #include "kaustik/material/noise.h"
 #include "kaustik/material/procedural_parameters.h"
@@ -10,6 +11,9 @@ float smooth_step(float from, float to, float x) {
   const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
   return t * t * (3 - 2 * t);
 }
+
+/// Planks and rings that are told apart; farther out floats have lost them.
+float within_cells(float x) { return std::clamp(x, -1e6f, 1e6f); }
 
 /// Wood whose grain runs along x: year rings about the axis of the trunk, fibres and pores along
 /// it; on request sawn into planks, each from another place of a trunk.
@@ -61,11 +65,11 @@ Wood::Piece Wood::piece_at(const Vec3f& p, float width) const {
   Piece piece{p};
   int row = 0, column = 0;
   if (plank_width_ > 0) {
-    const float y = std::clamp(p.y / plank_width_, -1e6f, 1e6f);
-    row = int(std::floor(y));
+    const float y = within_cells(p.y / plank_width_);
+    row = lattice_cell(y);
     const float shift = cell_random(row, 0, 1, seed_);
-    const float x = std::clamp(p.x / plank_length_ + shift, -1e6f, 1e6f);
-    column = int(std::floor(x));
+    const float x = within_cells(p.x / plank_length_ + shift);
+    column = lattice_cell(x);
     const float fy = y - float(row), fx = x - float(column);
     piece.to_gap =
         std::min(std::min(fy, 1 - fy) * plank_width_, std::min(fx, 1 - fx) * plank_length_);
@@ -104,8 +108,7 @@ float Wood::shade(const Piece& piece, float width) const {
   const float radius = std::hypot(p.y, p.z) * inverse + 4.5f * bent;
   const float year = std::floor(radius), within = radius - year;
   // Late wood gets denser through the year and ends sharply; years differ.
-  const float strength =
-      0.55f + 0.45f * cell_random(int(std::clamp(year, -1e6f, 1e6f)), 0, 9, seed_);
+  const float strength = 0.55f + 0.45f * cell_random(lattice_cell(within_cells(year)), 0, 9, seed_);
   const float blur = width * inverse;
   const float ring = smooth_step(0.1f, 0.95f, within) *
                      (1 - smooth_step(0.94f - 0.3f * std::min(blur, 1.0f), 1.0f, within)) *

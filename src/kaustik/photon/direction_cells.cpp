@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kaustik/base/to_integer.h"
+
 namespace kaustik {
 namespace {
 
@@ -155,7 +157,7 @@ float DirectionCells::pdf(const Vec3f& direction) const {
     const float place = direction[(axis + 1 + k) % 3] / w - window.min[k];
     const float along = place / step(face, k);
     if (!(along >= 0 && along <= float(resolution_))) return 0;
-    cell[k] = std::min(int(along), resolution_ - 1);
+    cell[k] = to_integer(along, 0, resolution_ - 1);
   }
   // Solid angle over area of the face: w³ for a unit direction.
   return density_[index(face, cell[0], cell[1])] / (w * w * w);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "kaustik/base/to_integer.h"
 #include "kaustik/photon/aim_light.h"
 #include "kaustik/photon/projection_map.h"
 
@@ -119,7 +120,7 @@ void add_by_largest_remainder(uint32_t total, const std::vector<double>& parts,
   uint32_t given = 0;
   for (size_t i = 0; i < parts.size(); ++i) {
     const double exact = parts[i] * double(total);
-    const auto whole = std::min(uint32_t(exact), total - given);
+    const auto whole = to_integer(exact, 0u, total - given);
     counts[i] += whole;
     given += whole;
     if (parts[i] > 0) remainders.emplace_back(exact - double(whole), i);

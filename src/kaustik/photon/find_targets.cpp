@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/base/to_integer.h"
 #include "kaustik/base/warp.h"
 #include "kaustik/photon/aim_spheres.h"
 
@@ -165,7 +166,7 @@ std::vector<AimTarget> find_targets(const Scene& scene, Lobes lobes, int budget,
   const double spare = limit > placed.size() ? double(limit - placed.size()) : 0.0;
   std::vector<AimTarget> targets;
   for (size_t i = 0; i < placed.size(); ++i) {
-    const int share = 1 + (total > 0 ? int(spare * sizes[i] / total) : 0);
+    const int share = 1 + (total > 0 ? to_integer(spare * sizes[i] / total, 0, int(limit)) : 0);
     const std::vector<AimTarget> boxes =
         aim == Aim::boxes ? best_boxes(placed[i], share) : boxes_of(placed[i], share);
     targets.insert(targets.end(), boxes.begin(), boxes.end());

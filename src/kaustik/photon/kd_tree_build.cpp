@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/to_integer.h"
 #include "kaustik/photon/kd_tree_buckets.h"
 
 namespace kaustik {
@@ -48,7 +49,7 @@ float choose_pivot(const Point* points, size_t count, size_t rank, int axis) {
   const float share = float(rank) / float(count);
   const float deviation = std::sqrt(share * (1.0f - share) * float(samples));
   const float target = share * float(samples) + (share < 0.5f ? deviation : -deviation);
-  const size_t chosen = size_t(std::clamp(target, 0.0f, float(samples - 1)));
+  const size_t chosen = to_integer(target, size_t(0), samples - 1);
   const auto begin = values.begin();
   std::nth_element(begin, begin + std::ptrdiff_t(chosen), begin + std::ptrdiff_t(samples));
   return values[chosen];

@@ -4,21 +4,24 @@
 #include <cstdint>
 
 #include "kaustik/base/spectrum.h"
+#include "kaustik/base/to_integer.h"
 #include "kaustik/base/vec.h"
 
 namespace kaustik {
 
-/// Halves away from zero, as std::lround does, but inline.
-inline int nearest_integer(float x) { return int(x + std::copysign(0.5f, x)); }
+/// Halves away from zero, as std::lround does, but inline; within ±`most`.
+inline int nearest_integer(float x, int most) {
+  return to_integer(x + std::copysign(0.5f, x), -most, most);
+}
 
 /// A unit vector in 3 × 8 bits, exact enough to tell half spaces apart.
 class CoarseNormal {
  public:
   CoarseNormal() = default;
   explicit CoarseNormal(const Vec3f& n)
-      : x_(int8_t(nearest_integer(n.x * 127))),
-        y_(int8_t(nearest_integer(n.y * 127))),
-        z_(int8_t(nearest_integer(n.z * 127))) {}
+      : x_(int8_t(nearest_integer(n.x * 127, 127))),
+        y_(int8_t(nearest_integer(n.y * 127, 127))),
+        z_(int8_t(nearest_integer(n.z * 127, 127))) {}
   /// Dot product, times 127.
   float dot(const Vec3f& v) const { return float(x_) * v.x + float(y_) * v.y + float(z_) * v.z; }
   /// About 127: how long it is in the units of dot(). Over that cosines are off by 0.005 × sine.
@@ -45,8 +48,8 @@ class PackedDirection {
       y = (1 - std::fabs(x)) * std::copysign(1.0f, y);
       x = folded;
     }
-    x_ = int16_t(nearest_integer(x * 32767));
-    y_ = int16_t(nearest_integer(y * 32767));
+    x_ = int16_t(nearest_integer(x * 32767, 32767));
+    y_ = int16_t(nearest_integer(y * 32767, 32767));
   }
   Vec3f unpack() const {
     float x = float(x_) / 32767, y = float(y_) / 32767;

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "kaustik/base/to_integer.h"
+
 namespace kaustik {
 namespace {
 
@@ -40,7 +42,7 @@ void PhotonSides::add(int8_t x, int8_t y, int8_t z, bool on_front) {
 
 PhotonSides::Query PhotonSides::query(const Vec3f& normal, bool both_sides) {
   // 63 parts keep three products with 127 parts inside 16 bits.
-  const auto parts = [](float v) { return int16_t(std::lround(v * 63)); };
+  const auto parts = [](float v) { return to_integer<int16_t>(std::round(v * 63), -63, 63); };
   return {parts(normal.x), parts(normal.y), parts(normal.z), both_sides};
 }
 

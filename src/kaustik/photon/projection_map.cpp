@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/base/to_integer.h"
 
 namespace kaustik {
 namespace {
@@ -112,7 +113,7 @@ ProjectionPlane::ProjectionPlane(const Light& light, const ProjectionInputs& inp
   if (!(step_.x > 0 && step_.y > 0)) return;
   occupied_.assign(size_t(resolution_) * size_t(resolution_), false);
   const auto cell = [&](float place, int axis) {
-    return std::clamp(int((place - corner_[axis]) / step_[axis]), 0, resolution_ - 1);
+    return to_integer((place - corner_[axis]) / step_[axis], 0, resolution_ - 1);
   };
   for (const Bounds3f& box : flat)
     for (int y = cell(box.min.y, 1); y <= cell(box.max.y, 1); ++y)
@@ -137,7 +138,7 @@ float ProjectionPlane::pdf(const SurfacePoint& origin, const Vec3f& direction) c
 EmittedRay ProjectionPlane::sample(const Vec2f& u_position, const Vec2f&, float u_target) const {
   EmittedRay result = no_ray();
   if (list_.empty()) return result;
-  const size_t i = std::min(size_t(u_target * float(list_.size())), list_.size() - 1);
+  const size_t i = to_integer(u_target * float(list_.size()), size_t(0), list_.size() - 1);
   const int x = int(list_[i]) % resolution_, y = int(list_[i]) / resolution_;
   const Vec3f local(corner_.x + (float(x) + u_position.x) * step_.x,
                     corner_.y + (float(y) + u_position.y) * step_.y, start_);

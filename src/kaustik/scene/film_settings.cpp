@@ -1,5 +1,6 @@
 #include "kaustik/scene/film_settings.h"
 
+#include "kaustik/base/to_integer.h"
 #include "kaustik/base/warp.h"
 
 namespace kaustik {
@@ -62,7 +63,7 @@ float PixelFilter::sample_1d(float u) const {
       break;
   }
   const std::vector<float>& cdf = table_->cdf;
-  size_t cell = table_->guide[size_t(u * float(table_cells))];
+  size_t cell = table_->guide[to_integer(u * float(table_cells), size_t(0), table_cells - 1)];
   while (cell + 1 < table_cells && cdf[cell + 1] <= u) ++cell;
   const float inside = (u - cdf[cell]) / (cdf[cell + 1] - cdf[cell]);
   return radius_ * (2 * (float(cell) + inside) / float(table_cells) - 1);

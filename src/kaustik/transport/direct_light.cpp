@@ -1,5 +1,7 @@
 #include "kaustik/transport/direct_light.h"
 
+#include "kaustik/base/to_integer.h"
+
 namespace kaustik {
 
 bool sample_direct_light(const Scene& scene, const Receiver& receiver, Sampler& sampler,
@@ -44,7 +46,7 @@ void share_light_samples(const Scene& scene, const Receiver& receiver, int sampl
   counts.assign(irradiances.size(), 0);
   for (size_t i = 0; i < counts.size(); ++i)
     if (irradiances[i] > 0)
-      counts[i] = std::max(1, int(std::lround(double(irradiances[i]) / total * samples)));
+      counts[i] = to_integer(std::round(double(irradiances[i]) / total * samples), 1, samples);
 }
 
 namespace {

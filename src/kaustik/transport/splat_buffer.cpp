@@ -1,5 +1,7 @@
 #include "kaustik/transport/splat_buffer.h"
 
+#include "kaustik/base/to_integer.h"
+
 namespace kaustik {
 
 SplatBuffer::SplatBuffer(const FilmSettings& film, ComponentSet wanted)
@@ -15,10 +17,10 @@ void SplatBuffer::add(const Vec2f& raster, Component component, const Spectrum& 
     return;
   }
   const float radius = filter_.radius();
-  const int x0 = std::max(0, int(std::ceil(raster.x - radius - 0.5f)));
-  const int y0 = std::max(0, int(std::ceil(raster.y - radius - 0.5f)));
-  const int x1 = std::min(size_.x - 1, int(std::floor(raster.x + radius - 0.5f)));
-  const int y1 = std::min(size_.y - 1, int(std::floor(raster.y + radius - 0.5f)));
+  const int x0 = to_integer(std::ceil(raster.x - radius - 0.5f), 0, size_.x);
+  const int y0 = to_integer(std::ceil(raster.y - radius - 0.5f), 0, size_.y);
+  const int x1 = to_integer(std::floor(raster.x + radius - 0.5f), -1, size_.x - 1);
+  const int y1 = to_integer(std::floor(raster.y + radius - 0.5f), -1, size_.y - 1);
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) {
       const float weight =
