@@ -101,6 +101,47 @@ TEST(RayTracer, PiecesNearAPoint) {
     for (size_t i = 0; i < 3; ++i) EXPECT_EQ(piece.corners[i].z, -9);
 }
 
+/// Embree asserts that rays are numbers below 1.8e18.
+TEST(RayTracer, WhatIsNoRayHitsNothingAndIsCounted) {
+  const auto tracer = tracer_of({make_shape("sphere")});
+  const Ray sound{{0, 0, 3}, {0, 0, -1}, infinity};
+  std::vector<Ray> rays;
+  for (const float bad : {std::nanf(""), infinity, -infinity, 1e19f, -1e30f})
+    for (int i = 0; i < 3; ++i) {
+      rays.insert(rays.end(), 2, sound);
+      rays[rays.size() - 2].origin[i] = bad;
+      rays.back().direction[i] = bad;
+    }
+  rays.push_back(sound);
+  rays.back().t_max = std::nanf("");
+  const size_t bad_rays = rays.size();
+  Hit hit;
+  for (const Ray& ray : rays) {
+    EXPECT_FALSE(tracer->intersect(ray, hit));
+    EXPECT_FALSE(tracer->occluded(ray));
+  }
+  EXPECT_EQ(tracer->refused_rays(), 2 * bad_rays);
+  // In packets their neighbours are traced as ever.
+  for (size_t i = 0; i <= bad_rays; ++i) rays.insert(rays.begin() + std::ptrdiff_t(2 * i), sound);
+  std::vector<Hit> hits(rays.size());
+  tracer->intersect(rays, hits);
+  for (size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(hits[i].t, i % 2 == 0 ? 2.0f : infinity) << i;
+  EXPECT_EQ(tracer->refused_rays(), 3 * bad_rays);
+}
+
+TEST(RayTracer, RaysStayWithinTheLimitInInstancesToo) {
+  Geometry geometry;
+  geometry.groups = {{make_shape("sphere")}};
+  geometry.instances = {{0, Transform::scale({1e-9, 1e-9, 1e-9})}};
+  const RayTracer tracer(std::move(geometry));
+  EXPECT_NEAR(tracer.largest_coordinate(), 1.8e9, 1e8);
+  Hit hit;
+  EXPECT_FALSE(tracer.intersect({{0, 0, 1e10f}, {0, 0, -1}, infinity}, hit));
+  EXPECT_EQ(tracer.refused_rays(), 1u);
+  EXPECT_TRUE(tracer.intersect({{0, 0, 1e-8f}, {0, 0, -1}, infinity}, hit));
+  EXPECT_EQ(tracer.refused_rays(), 1u);
+}
+
 TEST(RayTracer, MeshPointsInterpolateTheirVertices) {
   const auto shape = bumpy_ball(4);
   const auto tracer = tracer_of({shape});

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <mutex>
 
@@ -35,6 +37,10 @@ struct InstanceRecord {
   float norm = 0;       ///< ‖world_from_group‖∞
   float condition = 0;  ///< its condition number
 };
+
+/// Embree asserts that a ray's origin and direction stay within this (its FLT_LARGE), in the world
+/// and in every instance; it leaves out primitives that do not.
+constexpr float embree_limit = 1.8e18f;
 
 Vec3f combine(const Vec3f (&columns)[3], const Vec3f& v) {
   return columns[0] * v.x + columns[1] * v.y + columns[2] * v.z;
@@ -61,6 +67,18 @@ InstanceRecord make_instance(const Transform& world_from_group, uint32_t first_s
   record.norm = row_sum_norm(world_from_group);
   record.condition = record.norm * row_sum_norm(inverse);
   return record;
+}
+
+/// The largest coordinate in the world that is within Embree's limit in the instance's group, too.
+float largest_coordinate_for(const InstanceRecord& instance) {
+  const Transform& t = instance.group_from_world;
+  double largest = double(embree_limit);
+  for (int i = 0; i < 3; ++i) {
+    const double factor = std::fabs(t.at(i, 0)) + std::fabs(t.at(i, 1)) + std::fabs(t.at(i, 2));
+    const double room = 0.99 * double(embree_limit) - std::fabs(t.at(i, 3));
+    largest = std::min(largest, room / std::max(factor, 1e-300));
+  }
+  return float(std::max(0.0, largest));
 }
 
 /// Where a mesh is read at a hit of it; asked for early, for several hits at once, since in large
@@ -157,6 +175,18 @@ SurfacePiece piece_of(const ShapeRecord& record, uint32_t primitive) {
   return piece;
 }
 
+/// What a failure of Embree means.
+Error error_of(RTCError code, const std::string& text) {
+  if (code == RTC_ERROR_OUT_OF_MEMORY)
+    return {ErrorKind::system, "out of memory while building the ray tracing structure",
+            "use smaller meshes, or instances of one shape group"};
+  if (code == RTC_ERROR_UNSUPPORTED_CPU)
+    return {ErrorKind::system, "Embree cannot run on this processor",
+            "use one with SSE4.2 or newer"};
+  return {ErrorKind::system, "Embree failed: " + text,
+          "give the program more memory or threads (ulimit -v, ulimit -u)"};
+}
+
 constexpr size_t packet_size = 8;
 
 void fill(RTCRayHit8& out, size_t i, const Ray& ray) {
@@ -222,13 +252,13 @@ inline void trace_any(RTCScene scene, RTCRay& ray) {
 struct RayTracer::Impl {
   explicit Impl(Geometry g) : geometry(std::move(g)) {
     device = rtcNewDevice(nullptr);
-    if (!device) throw Error(ErrorKind::system, "Embree cannot start on this processor");
+    if (!device) throw error_of(rtcGetDeviceError(nullptr), "no device");
     try {
       rtcSetDeviceErrorFunction(device, on_error, this);
       rtcSetDeviceMemoryMonitorFunction(device, on_memory, this);
       build();
     } catch (...) {
-      release();
+      error_code == RTC_ERROR_NONE ? release() : abandon();
       throw;
     }
   }
@@ -243,7 +273,9 @@ struct RayTracer::Impl {
   void commit(RTCScene target);
   void check();
   void release();
+  void abandon();
   void place_hit(uint32_t geometry_id, uint32_t instance_id, Hit& hit) const;
+  bool takes(const Ray& ray) const;
   void intersect_packet(std::span<const Ray> rays, std::span<Hit> hits) const;
   SurfacePoint point_of_others(const ShapeRecord& record, const Ray& ray, const Hit& hit) const;
 
@@ -262,6 +294,8 @@ struct RayTracer::Impl {
   RTCScene scene = nullptr;
   std::vector<RTCScene> group_scenes;
   std::atomic<int64_t> bytes{0};
+  float largest_coordinate = embree_limit;
+  mutable std::atomic<uint64_t> refused_rays{0};
   std::mutex error_mutex;
   RTCError error_code = RTC_ERROR_NONE;
   std::string error_text;
@@ -278,10 +312,14 @@ void RayTracer::Impl::on_error(void* self, RTCError code, const char* text) {
 void RayTracer::Impl::check() {
   const std::lock_guard lock(error_mutex);
   if (error_code == RTC_ERROR_NONE) return;
-  if (error_code == RTC_ERROR_OUT_OF_MEMORY)
-    throw Error(ErrorKind::system, "out of memory while building the ray tracing structure",
-                "use smaller meshes, or instances of one shape group");
-  throw Error(ErrorKind::system, "Embree failed: " + error_text);
+  throw error_of(error_code, error_text);
+}
+
+/// Taking Embree down where it could not start all its threads ends the program, and whether it
+/// could is not told: after a failure it is left behind.
+void RayTracer::Impl::abandon() {
+  rtcSetDeviceErrorFunction(device, nullptr, nullptr);
+  rtcSetDeviceMemoryMonitorFunction(device, nullptr, nullptr);
 }
 
 void RayTracer::Impl::release() {
@@ -372,6 +410,7 @@ void RayTracer::Impl::attach_instance(const Instance& instance) {
   RTCGeometry part = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(part, group_scenes[instance.group]);
   const InstanceRecord& record = instances.back();
+  largest_coordinate = std::min(largest_coordinate, largest_coordinate_for(record));
   float matrix[12];
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) matrix[3 * j + i] = record.columns[j][i];
@@ -420,7 +459,28 @@ void RayTracer::Impl::place_hit(uint32_t geometry_id, uint32_t instance_id, Hit&
   hit.shape += instances[hit.instance].first_shape;
 }
 
+/// Whether Embree takes the ray; counts it if not. Every ray passes here, so its seven numbers are
+/// compared in two registers.
+inline bool RayTracer::Impl::takes(const Ray& ray) const {
+  static_assert(offsetof(Ray, direction) == 12 && offsetof(Ray, t_max) == 24);
+  Lanes first, second;
+  std::memcpy(&first, &ray.origin, sizeof(first));
+  std::memcpy(&second, &ray.direction, sizeof(second));
+  const float most = largest_coordinate;
+  // What is no number is not less than anything.
+  const LaneMask fits = (lane_abs(first) <= Lanes{most, most, most, most}) &
+                        (lane_abs(second) <= Lanes{most, most, most, infinity});
+  using Halves = int64_t __attribute__((vector_size(16)));
+  const auto halves = Halves(fits);
+  if ((halves[0] & halves[1]) == -1) [[likely]]
+    return true;
+  refused_rays.fetch_add(1, std::memory_order_relaxed);
+  return false;
+}
+
 bool RayTracer::intersect(const Ray& ray, Hit& hit) const {
+  if (!impl_->takes(ray)) [[unlikely]]
+    return false;
   RTCRayHit rayhit;
   fill(rayhit.ray, ray);
   rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -440,7 +500,7 @@ void RayTracer::Impl::intersect_packet(std::span<const Ray> rays, std::span<Hit>
   alignas(32) int valid[packet_size];
   RTCRayHit8 packet;
   for (size_t i = 0; i < packet_size; ++i) {
-    valid[i] = i < rays.size() ? -1 : 0;
+    valid[i] = i < rays.size() && takes(rays[i]) ? -1 : 0;
     fill(packet, i, rays[std::min(i, rays.size() - 1)]);
   }
   trace_closest(scene, valid, packet);
@@ -471,6 +531,8 @@ void RayTracer::intersect(std::span<const Ray> rays, std::span<Hit> hits) const 
 }
 
 bool RayTracer::occluded(const Ray& ray) const {
+  if (!impl_->takes(ray)) [[unlikely]]
+    return false;
   RTCRay r;
   fill(r, ray);
   trace_any(impl_->scene, r);
@@ -526,6 +588,8 @@ const Shape& RayTracer::shape(uint32_t index) const { return *impl_->records[ind
 size_t RayTracer::shape_count() const { return impl_->records.size(); }
 const Geometry& RayTracer::geometry() const { return impl_->geometry; }
 Bounds3f RayTracer::bounds() const { return impl_->bounds; }
+uint64_t RayTracer::refused_rays() const { return impl_->refused_rays; }
+float RayTracer::largest_coordinate() const { return impl_->largest_coordinate; }
 size_t RayTracer::size_in_bytes() const { return size_t(std::max<int64_t>(0, impl_->bytes)); }
 void* RayTracer::embree_scene() const { return impl_->scene; }
 

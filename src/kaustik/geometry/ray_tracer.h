@@ -46,7 +46,9 @@ class RayTracer {
   RayTracer(const RayTracer&) = delete;
   RayTracer& operator=(const RayTracer&) = delete;
 
-  /// Closest hit in (0, ray.t_max); false if none.
+  /// Closest hit in (0, ray.t_max); false if none. Here and below a ray that floats cannot carry
+  /// through the scene (not finite, or farther out than `largest_coordinate()`) hits nothing, and
+  /// is counted.
   bool intersect(const Ray& ray, Hit& hit) const;
   /// The same for many rays at once, which is faster, most of all if they are alike: hits[i]
   /// belongs to rays[i], its `t` is infinite if there is none; `hits` is as long as `rays` or
@@ -57,6 +59,12 @@ class RayTracer {
   /// All pieces of surfaces that meet the ball, and maybe others nearby, in an order that is the
   /// same for the same scene.
   void pieces_near(const Vec3f& center, float radius, const PieceSink& sink) const;
+  /// How many rays were no rays, of all that were traced so far.
+  uint64_t refused_rays() const;
+  /// What no component of a ray's origin and direction may exceed: Embree's own limit, 1.8e18, or
+  /// less where an instance magnifies what it shows.
+  float largest_coordinate() const;
+
   /// World-space geometry of a hit.
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 

@@ -4,6 +4,7 @@
 #include "kaustik/integrator/make_integrator.h"
 #include "kaustik/integrator/photon_map_settings.h"
 #include "kaustik/photon/photon_parts.h"
+#include "kaustik/scene/scene_report.h"
 
 namespace kaustik {
 namespace {
@@ -56,6 +57,7 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
   photons.settings = PhotonMapSettings(arguments).light_pass;
   photons.settings.part = part;
   photons.settings.volume_photons = 0;  // files have no place for them
+  const uint64_t refused_before = scene.tracer().refused_rays();
   with_threads(threads, [&] {
     const LightPass pass(scene, photons.settings, seed);
     photons.maps = pass.trace(seed, 0, stop, progress);
@@ -66,6 +68,8 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
   if (stop.stop_requested())
     throw Error(ErrorKind::system, "cancelled before the photon maps were complete");
   explain_empty_maps(photons, traced.warnings);
+  if (const uint64_t refused = scene.tracer().refused_rays() - refused_before)
+    traced.warnings.push_back(refused_rays_warning(refused));
   return traced;
 }
 

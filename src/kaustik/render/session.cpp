@@ -11,6 +11,7 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/make_integrator.h"
+#include "kaustik/scene/scene_report.h"
 
 namespace kaustik {
 namespace {
@@ -253,6 +254,7 @@ SessionReport Session::run(std::stop_token stop,
                            const std::function<void()>& pass_done) {
   report_ = {};
   report_.samples_per_pass = samples_per_pass_;
+  const uint64_t refused_before = scene_.tracer().refused_rays();
   Monitor monitor(*this, progress);
   with_threads(settings_.threads, [&] {
     for (uint32_t next = film_.passes().first_missing(settings_.first_pass);
@@ -274,6 +276,8 @@ SessionReport Session::run(std::stop_token stop,
   if (report_.dropped_samples > 0)
     report_.warnings.push_back(
         fmt::format("{} samples were not finite and were left out", report_.dropped_samples));
+  if (const uint64_t refused = scene_.tracer().refused_rays() - refused_before)
+    report_.warnings.push_back(refused_rays_warning(refused));
   monitor.tell(Progress::Stage::done, true);
   return report_;
 }

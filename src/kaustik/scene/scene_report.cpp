@@ -111,6 +111,13 @@ void describe_lights(const Scene& scene, SceneReport& report) {
 
 }  // namespace
 
+std::string refused_rays_warning(uint64_t rays) {
+  return fmt::format(
+      "{} rays left the range of single floats and hit nothing: something in the scene is too far "
+      "out, too large or too thin",
+      rays);
+}
+
 SceneReport describe_scene(const Scene& scene) {
   SceneReport report;
   size_t triangles = 0, analytic = 0;

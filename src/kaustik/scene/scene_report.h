@@ -15,4 +15,7 @@ struct SceneReport {
 };
 SceneReport describe_scene(const Scene& scene);
 
+/// What is to be told of rays that RayTracer has refused.
+std::string refused_rays_warning(uint64_t rays);
+
 }  // namespace kaustik
