@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "kaustik/base/limits.h"
 #include "kaustik/image/tone_mapping.h"
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/scene/camera.h"
@@ -31,6 +32,8 @@ std::vector<const TypeInfo*> all_types() {
 }
 
 std::string range_text(const Parameter& p) {
+  // What holds for every coordinate goes without saying.
+  if (p.kind == ParameterKind::point && p.maximum == largest_length) return {};
   const bool low = std::isfinite(p.minimum), high = std::isfinite(p.maximum) && p.maximum < 1e30;
   if (low && high) return fmt::format("{} … {}", p.minimum, p.maximum);
   if (low) return fmt::format("≥ {}", p.minimum);

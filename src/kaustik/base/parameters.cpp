@@ -7,6 +7,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "kaustik/base/limits.h"
+
 namespace kaustik {
 namespace {
 
@@ -133,8 +135,23 @@ const std::string* name_out_of_choices(const Parameter& parameter, const Value& 
   return restricted ? std::get_if<std::string>(&value) : nullptr;
 }
 
+/// Moves and magnifies by numbers that lengths can bear; so does its inverse.
+bool is_within_lengths(const Transform& transform) {
+  const Transform inverse = transform.inverse();
+  double largest = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      largest = std::max({largest, std::fabs(transform.at(i, j)), std::fabs(transform.at(i, 3)),
+                          std::fabs(inverse.at(i, j))});
+  return largest <= largest_length;  // false for what is no number
+}
+
 /// What is wrong with a value of the right type; empty if nothing.
 std::string complaint(const Parameter& parameter, const Value& value) {
+  const auto* transform = std::get_if<Transform>(&value);
+  if (transform && !is_within_lengths(*transform))
+    return fmt::format("'{}' moves, grows or shrinks things beyond what single floats carry",
+                       parameter.name);
   for (const double number : numbers_in(value)) {
     if (!std::isfinite(number))
       return fmt::format("'{}' must be finite, found {}", parameter.name, number);
@@ -151,6 +168,9 @@ std::string complaint(const Parameter& parameter, const Value& value) {
 std::string remedy_for(const Parameter& parameter, const Value& value) {
   if (const std::string* name = name_out_of_choices(parameter, value))
     return suggest(*name, parameter.choices);
+  if (std::holds_alternative<Transform>(value))
+    return fmt::format("keep its factors between {:g} and {:g}, and its distances below {:g} m",
+                       smallest_length, largest_length, largest_length);
   return fmt::format("give a value from {} to {}{}{}", parameter.minimum, parameter.maximum,
                      parameter.unit.empty() ? "" : " ", parameter.unit);
 }
@@ -218,7 +238,8 @@ Parameter number_or_name_parameter(std::string name, Value default_value,
   return p;
 }
 Parameter point_parameter(std::string name, Vec3d value, std::string sentence) {
-  return row(std::move(name), ParameterKind::point, Value(value), std::move(sentence));
+  return row(std::move(name), ParameterKind::point, Value(value), std::move(sentence))
+      .range(-largest_length, largest_length);
 }
 Parameter color_parameter(std::string name, double value, std::string sentence) {
   return row(std::move(name), ParameterKind::color, Value(Rgb{value, value, value}),

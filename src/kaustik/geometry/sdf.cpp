@@ -264,7 +264,7 @@ const TypeInfo& sdf_info() {
        integer_parameter("iterations", 4, "Levels of detail.").range(1, 16),
        point_parameter("center", Vec3d(0, 0, 0), "Centre of the solid."),
        number_parameter("size", 2.0, "Edge of the cube that holds the solid.")
-           .range(1e-30, 1e18)
+           .range(smallest_length, largest_length)
            .in("m"),
        transform_parameter("to_world", "Places the solid in the world.")}};
   return info;

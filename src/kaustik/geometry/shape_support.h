@@ -1,6 +1,7 @@
 #pragma once
 // What several shapes share; not for other rooms.
 
+#include "kaustik/base/limits.h"
 #include "kaustik/geometry/shape.h"
 
 namespace kaustik {

@@ -224,7 +224,9 @@ const TypeInfo& sphere_info() {
       "sphere",
       "A sphere; rays meet it exactly.",
       {point_parameter("center", Vec3d(0, 0, 0), "Centre of the sphere."),
-       number_parameter("radius", 1.0, "Radius of the sphere.").range(1e-30, 1e18).in("m"),
+       number_parameter("radius", 1.0, "Radius of the sphere.")
+           .range(smallest_length, largest_length)
+           .in("m"),
        transform_parameter("to_world", "Places the sphere in the world; one scale for all axes."),
        boolean_parameter("flip_normals", false, "The inside is the front.")}};
   return info;

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "kaustik/base/limits.h"
 #include "kaustik/base/warp.h"
 #include "kaustik/geometry/make_sphere.h"
 #include "kaustik/light/attenuation.h"
@@ -177,7 +178,7 @@ std::unique_ptr<Light> create_distributed(const LightInputs& inputs) {
 std::vector<Parameter> with_shared_rows(std::vector<Parameter> rows) {
   const std::vector<Parameter> shared = {
       number_parameter("radius", 0.1, "Of the sphere, scaled by `to_world`.")
-          .range(1e-6, 1e18)
+          .range(1e-6, largest_length)
           .in("m"),
       color_parameter("intensity", 1, "Radiant intensity from afar (a spot's within its beam).")
           .in("W/sr"),

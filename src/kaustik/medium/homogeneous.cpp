@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include "kaustik/base/color.h"
+#include "kaustik/base/limits.h"
 #include "kaustik/medium/medium_kinds.h"
 
 namespace kaustik {
@@ -39,6 +42,21 @@ Spectrum share(const Spectrum& part, const Spectrum& whole) {
   return result;
 }
 
+/// Light has to fly a distance that floats carry.
+void check_extinction(const Spectrum& extinction, const Arguments& arguments) {
+  for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
+    const float value = extinction[lane];
+    const bool is_small = double(value) < 1 / largest_length;
+    if (value == 0 || (!is_small && double(value) <= 1 / smallest_length)) continue;
+    throw Error(ErrorKind::input,
+                fmt::format("the medium's extinction of {:g} per metre is too {} for single floats",
+                            value, is_small ? "small" : "large"),
+                fmt::format("give zero, or from {:g} to {:g}: see 'scale' and the coefficients",
+                            1 / largest_length, 1 / smallest_length),
+                arguments.given("scale") ? arguments.place_of("scale") : arguments.place());
+  }
+}
+
 std::shared_ptr<const Medium> create(const MediumInputs& inputs) {
   const Arguments& arguments = inputs.arguments;
   const bool by_parts = arguments.given("sigma_a") || arguments.given("sigma_s");
@@ -59,9 +77,7 @@ std::shared_ptr<const Medium> create(const MediumInputs& inputs) {
     albedo = coefficient(arguments, "albedo");
   }
   extinction *= float(arguments.number("scale"));
-  if (!extinction.is_finite())
-    throw Error(ErrorKind::input, "the medium's coefficients are too large for single floats",
-                "lower 'scale' or the coefficients", arguments.place());
+  check_extinction(extinction, arguments);
   return std::make_shared<Medium>(extinction, albedo, inputs.phase);
 }
 

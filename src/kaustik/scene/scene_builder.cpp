@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kaustik/base/color.h"
+#include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/texture_emission.h"
 
@@ -76,6 +77,27 @@ const Parameter* texture_parameter(const TypeInfo& info, const std::string& name
   }
   const bool is_free = count == 1 && std::holds_alternative<std::monostate>(only->default_value);
   return is_free ? only : nullptr;
+}
+
+/// Refuses what floats cannot carry through ray tracing; `what` is the subject of the message.
+void check_extent(const Bounds3f& bounds, const std::string& what, const Place& place) {
+  if (bounds.isEmpty()) return;
+  const float farthest = std::max(max_abs(bounds.min), max_abs(bounds.max));
+  if (double(farthest) <= 1.01 * largest_length) return;
+  throw Error(
+      ErrorKind::input,
+      fmt::format("{} reaches as far out as {:g} m, more than single floats carry", what, farthest),
+      fmt::format("keep all coordinates between {:g} and {:g} m", -largest_length, largest_length),
+      place);
+}
+
+void check_size(const Shape& shape, const Place& place) {
+  check_extent(shape.bounds(), "the shape", place);
+  if (shape.mesh() || !shape.can_sample() || double(shape.area()) > sqr(smallest_length)) return;
+  throw Error(
+      ErrorKind::input,
+      fmt::format("the shape's area is {:g} m², less than single floats carry", shape.area()),
+      fmt::format("let its sizes, scaled by to_world, be at least {:g} m", smallest_length), place);
 }
 
 /// Where an object names its file; without one its own place.
@@ -227,7 +249,10 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   if (built.surface.bsdf) built.surface.ask_bsdf();
   read_media(object, built.surface);
   if (!has_all_required(arguments)) return std::nullopt;
-  collecting(file_place(arguments), [&] { built.shape = type->create(arguments); });
+  collecting(file_place(arguments), [&] {
+    built.shape = type->create(arguments);
+    check_size(*built.shape, file_place(arguments));
+  });
   if (const auto* mesh = dynamic_cast<const MeshShape*>(built.shape.get()))
     for (const std::string& remark : mesh->remarks())
       if (remarks_reported_.insert(remark).second) warnings_.push_back(remark);
@@ -276,7 +301,14 @@ void SceneBuilder::add_instance(const Object& object) {
                   object.place);
     return;
   }
-  instances_.push_back({group_index(object.children[0].object), arguments.transform("to_world")});
+  const Transform& to_world = arguments.transform("to_world");
+  const uint32_t group = group_index(object.children[0].object);
+  instances_.push_back({group, to_world});
+  Bounds3f bounds;
+  for (const BuiltShape& built : groups_[group]) bounds.extendBy(built.shape->bounds());
+  collecting(arguments.place_of("to_world"), [&] {
+    check_extent(to_world.bounds(bounds), "the instance", arguments.place_of("to_world"));
+  });
 }
 
 std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<Object>& object) {
