@@ -1,0 +1,291 @@
+#include "tests/fuzz/scene_grammar.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "kaustik/integrator/integrator.h"
+#include "kaustik/scene/camera.h"
+#include "tests/fuzz/parameter_values.h"
+
+namespace kaustik::fuzz {
+namespace {
+
+constexpr int deepest_nesting = 4;
+
+/// The rows whose type fits.
+template <typename Row, typename Fits>
+std::vector<const Row*> rows_that(const std::vector<Row>& rows, const Fits& fits) {
+  std::vector<const Row*> result;
+  for (const Row& row : rows)
+    if (fits(row)) result.push_back(&row);
+  return result;
+}
+
+using Names = std::vector<std::string>;
+
+bool holds(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Parameters of which a type takes either the first or the second.
+const std::vector<std::pair<Names, Names>>& alternatives() {
+  static const std::vector<std::pair<Names, Names>> list = {
+      {{"albedo", "sigma_t"}, {"sigma_a", "sigma_s"}},
+      {{"material"}, {"eta", "k"}},
+      {{"alpha"}, {"alpha_u", "alpha_v"}},
+      {{"position"}, {"to_world"}},
+      {{"direction"}, {"to_world"}},
+      {{"intensity"}, {"power"}},
+      {{"sun_direction"},
+       {"latitude", "longitude", "timezone", "year", "month", "day", "hour", "minute", "second"}}};
+  return list;
+}
+
+/// What cannot stand in a bsdf of this type.
+const Names& misfits_in(const std::string& type) {
+  static const Names none, relief = {"bumpmap", "normalmap"},
+                           see_through = {"dielectric", "difftrans", "thinphong", "mask", "null"};
+  if (type == "twosided") return see_through;
+  return type == "bumpmap" || type == "normalmap" || type == "blendbsdf" ? relief : none;
+}
+
+class Grammar {
+ public:
+  Grammar(uint64_t seed, const std::string& files_folder)
+      : draw_(seed), values_(draw_, files_folder) {
+    values_.wildness = draw_.one_of({0.0, 0.02, 0.05, 0.1, 0.3});
+  }
+
+  GeneratedScene scene() {
+    GeneratedScene result;
+    result.begin = "<scene version=\"3.0.0\">\n" + sensor() + definitions() + content();
+    result.end = "</scene>\n";
+    for (const IntegratorType& type : integrator_types())
+      result.integrators.push_back({type.info.name, integrator(type.info)});
+    return result;
+  }
+
+ private:
+  std::string open(const TypeInfo& info, const std::string& name = "", const std::string& id = "") {
+    return fmt::format("<{} type=\"{}\"{}{}>", info.family, info.name,
+                       name.empty() ? "" : " name=\"" + name + "\"",
+                       id.empty() ? "" : " id=\"" + id + "\"");
+  }
+  static std::string close(const TypeInfo& info) { return "</" + info.family + ">\n"; }
+
+  /// Some of the type's parameters; textures stand for some that take them. Those that `skips`
+  /// names are left out.
+  std::string properties(const TypeInfo& info, Names skips = {}) {
+    if (draw_.chance(0.98))
+      for (const auto& [first, second] : alternatives()) {
+        const Names& other = draw_.chance(0.5) ? first : second;
+        skips.insert(skips.end(), other.begin(), other.end());
+      }
+    // Of eta and k each needs the other.
+    const bool both = info.find("k") && !holds(skips, "k") && draw_.chance(0.5);
+    if (info.find("k") && !both) skips.insert(skips.end(), {"eta", "k"});
+    std::string result;
+    for (const Parameter& p : info.parameters) {
+      if (holds(skips, p.name)) continue;
+      const bool only_texture =
+          p.accepts_texture && std::holds_alternative<std::monostate>(p.default_value);
+      const bool costly = p.name.find("photons") != std::string::npos ||
+                          p.name == "cache_samples" || p.name == "samples_per_pass";
+      const bool needed = both && (p.name == "eta" || p.name == "k");
+      if (!p.required && !only_texture && !costly && !needed && !draw_.chance(0.3)) continue;
+      if (p.accepts_texture && (only_texture || draw_.chance(0.3)))
+        result += texture(p.name);
+      else
+        result += values_.property(info, p);
+    }
+    return result;
+  }
+
+  std::string texture(const std::string& name) {
+    const TypeInfo& info = draw_.one_of(texture_types()).info;
+    return open(info, name) + properties(info) + close(info);
+  }
+
+  std::string bsdf(const Names& misfits = {}, int depth = 0, const std::string& id = "") {
+    if (id.empty() && bsdfs_ > 0 && draw_.chance(misfits.empty() ? 0.3 : 0.02))
+      return fmt::format("<ref id=\"b{}\"/>", draw_.below(bsdfs_));
+    const auto fitting = rows_that(bsdf_types(), [&](const BsdfType& type) {
+      if (holds(misfits, type.info.name) && !draw_.chance(0.02)) return false;
+      return type.minimum_nested == 0 || depth < deepest_nesting;
+    });
+    const BsdfType& type = *draw_.one_of(fitting);
+    std::string result = open(type.info, "", id) + properties(type.info);
+    const int spare = depth < deepest_nesting ? type.maximum_nested - type.minimum_nested : 0;
+    const int nested = type.minimum_nested + (spare > 0 ? int(draw_.below(size_t(spare) + 1)) : 0);
+    Names inside = misfits_in(type.info.name);
+    inside.insert(inside.end(), misfits.begin(), misfits.end());
+    for (int i = 0; i < nested; ++i) result += bsdf(inside, depth + 1);
+    return result + close(type.info);
+  }
+
+  std::string medium(const std::string& name, const std::string& id = "") {
+    if (id.empty() && media_ > 0 && draw_.chance(0.5))
+      return fmt::format("<ref{} id=\"m{}\"/>", name.empty() ? "" : " name=\"" + name + "\"",
+                         draw_.below(media_));
+    const TypeInfo& info = draw_.one_of(medium_types()).info;
+    std::string result = open(info, name, id) + properties(info);
+    if (draw_.chance(0.5)) {
+      const TypeInfo& phase = draw_.one_of(phase_function_types()).info;
+      result += open(phase) + properties(phase) + close(phase);
+    }
+    return result + close(info);
+  }
+
+  std::string emitter(bool of_shape) {
+    const auto fitting = rows_that(
+        light_types(), [&](const LightType& type) { return type.needs_shape == of_shape; });
+    const TypeInfo& info = draw_.one_of(fitting)->info;
+    std::string result = open(info) + properties(info);
+    if (!of_shape && draw_.chance(0.1)) result += medium("");
+    return result + close(info);
+  }
+
+  std::string shape_in(const TypeInfo& info, bool shines, const std::string& placed) {
+    std::string result = open(info);
+    result += properties(info, {"to_world"}) + placed;
+    if (draw_.chance(0.9)) result += bsdf(shines ? Names{"null"} : Names{});
+    if (shines) result += emitter(true);
+    for (const char* side : {"interior", "exterior"})
+      if (draw_.chance(0.15)) result += medium(side);
+    if (draw_.chance(0.03)) {
+      const auto models =
+          rows_that(integrator_types(), [](const IntegratorType& type) { return type.is_model; });
+      const TypeInfo& model = draw_.one_of(models)->info;
+      // These are the whole picture's.
+      result += open(model) + properties(model, {"components", "samples_per_pass"}) + close(model);
+    }
+    return result + close(info);
+  }
+
+  std::string shape(bool shines) {
+    const TypeInfo& info = draw_.one_of(shape_types()).info;
+    return shape_in(info, shines && info.name != "sdf", values_.transform("to_world"));
+  }
+
+  /// A room around everything.
+  std::string room() {
+    return "<shape type=\"cube\"><boolean name=\"flip_normals\" value=\"true\"/>"
+           "<transform name=\"to_world\"><scale value=\"4\"/></transform>" +
+           bsdf() + (draw_.chance(0.1) ? medium("interior") : "") + "</shape>\n";
+  }
+
+  std::string group(const std::string& id) {
+    std::string result = "<shape type=\"shapegroup\" id=\"" + id + "\">\n";
+    for (size_t i = 1 + draw_.below(2); i > 0; --i) result += shape(draw_.chance(0.1));
+    if (groups_ > 0 && draw_.chance(0.4)) result += instance();
+    return result + "</shape>\n";
+  }
+
+  std::string instance() {
+    return fmt::format("<shape type=\"instance\"><ref id=\"g{}\"/>{}</shape>\n",
+                       draw_.below(groups_), values_.transform("to_world"));
+  }
+
+  /// What others refer to: each may refer to those before it.
+  std::string definitions() {
+    std::string result;
+    for (size_t count = draw_.below(4); media_ < count; ++media_)
+      result += medium("", fmt::format("m{}", media_));
+    for (size_t count = draw_.below(4); bsdfs_ < count; ++bsdfs_)
+      result += bsdf({}, 0, fmt::format("b{}", bsdfs_));
+    for (size_t count = draw_.chance(0.3) ? 1 + draw_.below(2) : 0; groups_ < count; ++groups_)
+      result += group(fmt::format("g{}", groups_));
+    return result;
+  }
+
+  std::string content() {
+    std::string result = draw_.chance(0.4) ? room() : "";
+    for (size_t i = 1 + draw_.below(4); i > 0; --i) result += shape(draw_.chance(0.3));
+    if (groups_ > 0)
+      for (size_t i = 1 + draw_.below(3); i > 0; --i) result += instance();
+    for (size_t i = draw_.below(4); i > 0; --i) result += emitter(false);
+    return result;
+  }
+
+  std::string integrator(const TypeInfo& info) {
+    return open(info) + properties(info) + close(info);
+  }
+
+  std::string sensor() {
+    std::string result = "<sensor type=\"perspective\">";
+    if (draw_.chance(values_.wildness))
+      result += values_.transform("to_world");
+    else
+      result += fmt::format(
+          "<transform name=\"to_world\"><lookat origin=\"{:.3g}, {:.3g}, {:.3g}\" target=\"0, 0, "
+          "0\" up=\"0, 1, 0\"/></transform>",
+          draw_.between(-1, 1), draw_.between(-1, 1), draw_.between(-3.5, -2));
+    result += properties(Camera::info(), {"to_world", "focal_length"});
+    if (draw_.chance(0.15)) result += medium("");
+    return result + film() + "</sensor>\n";
+  }
+
+  std::string film() {
+    std::string result =
+        "<film type=\"hdrfilm\"><integer name=\"width\" value=\"6\"/><integer name=\"height\" "
+        "value=\"6\"/>";
+    if (draw_.chance(0.1)) result += "<string name=\"quantity\" value=\"irradiance\"/>";
+    if (draw_.chance(0.1))
+      result +=
+          "<integer name=\"crop_offset_x\" value=\"2\"/><integer name=\"crop_height\" "
+          "value=\"3\"/>";
+    const TypeInfo& filter = draw_.one_of(filter_infos());
+    if (draw_.chance(0.5)) result += open(filter) + properties(filter) + close(filter);
+    result += "</film>";
+    const TypeInfo& sampler = draw_.one_of(sampler_infos());
+    if (draw_.chance(0.1)) result += open(sampler) + properties(sampler) + close(sampler);
+    return result;
+  }
+
+  Draw draw_;
+  ParameterValues values_;
+  size_t media_ = 0, bsdfs_ = 0, groups_ = 0;  ///< that may be referred to
+};
+
+void write_pfm(const std::string& path, int width, int height, const std::vector<float>& pixels) {
+  std::ofstream file(path, std::ios::binary);
+  file << fmt::format("PF\n{} {}\n-1.0\n", width, height);
+  for (int i = 0; i < 3 * width * height; ++i) {
+    const float value = pixels[size_t(i) % pixels.size()];
+    file.write(reinterpret_cast<const char*>(&value), sizeof(value));
+  }
+}
+
+}  // namespace
+
+GeneratedScene generate_scene(uint64_t seed, const std::string& files_folder) {
+  return Grammar(seed, files_folder).scene();
+}
+
+void write_files(const std::string& folder) {
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder + "/" + name, std::ios::binary) << text;
+  };
+  write("quad.obj",
+        "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+        "f 1/1 2/2 3/3 4/4\n");
+  write("tent.obj",
+        "v -1 0 0\nv 1 0 0\nv 0 1 -1\nv 0 1 1\nvn 0 1 0\nvn 0 -1 0\n"
+        "f 1//1 2//1 3//2\nf 1//2 2//1 4//1\n");
+  write("flat.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 0 1 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\n");
+  write("far.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nv 1e-30 1e-30 0\nf 1 2 3\nf 1 3 4\n");
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty "
+      "float y\nproperty float z\nelement face 2\nproperty list uchar int "
+      "vertex_indices\nend_header\n";
+  write("pyramid.ply", ply + "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 3 1\n");
+  write("needle.ply", ply + "0 0 0\n1 0 0\n1 1e-20 0\n1e6 1e6 1e6\n3 0 1 2\n3 0 1 3\n");
+  write_pfm(folder + "/colors.pfm", 8, 4, {0.1f, 0.5f, 0.9f, 0.3f, 0.7f});
+  write_pfm(folder + "/one.pfm", 1, 1, {0.5f, 0.6f, 0.7f});
+  write_pfm(folder + "/bright.pfm", 4, 2, {0.0f, 1e30f, 1e-30f, 1.0f, 2.0f});
+  write_pfm(folder + "/black.pfm", 2, 2, {0.0f});
+}
+
+}  // namespace kaustik::fuzz
