@@ -113,7 +113,8 @@ TEST(Session, PlansPassesAndSamples) {
   // The scripted integrator takes 4 samples per pass where nobody asks for anything.
   for (const Case& c : {Case{none, none, 0, 16, 4}, Case{3, none, 0, 3, 4}, Case{none, 1, 0, 1, 1},
                         Case{none, 4, 0, 4, 1}, Case{none, 8, 0, 4, 2}, Case{none, 64, 0, 16, 4},
-                        Case{none, 640, 0, 16, 40}, Case{none, none, 8, 4, 2},
+                        Case{none, 256, 0, 16, 16}, Case{none, 640, 0, 40, 16},
+                        Case{none, 1000, 0, 63, 16}, Case{none, none, 8, 4, 2},
                         Case{none, 16, 8, 4, 4}, Case{5, none, 10, 5, 2}, Case{2, 6, 0, 2, 3},
                         Case{8, 2, 0, 2, 1}, Case{none, 7, 0, 4, 2}, Case{none, 28, 0, 7, 4}}) {
     const auto scene = plain_scene(c.scene_samples);
@@ -265,32 +266,81 @@ TEST(Session, CancellingKeepsTheFinishedPasses) {
   expect_same_bits(session.film().image(), rendered(*scene, Scripted(calm), settings));
 }
 
-TEST(Session, CancellingTheFirstPassLeavesWhatIsThere) {
-  const auto scene = scene_with(film_of(64, 64), room);
-  std::stop_source source;
-  std::atomic<int> samples = 0;
+/// Samples of 1 in every pixel, and splats that sum to 2; `cancel` is called for each sample with
+/// its number, and in the light pass with 0.
+Script unit_script(const std::function<void(int)>& cancel, std::atomic<int>& samples) {
   Script script;
+  script.prepare = [&cancel](const Pass&, SplatBuffer& splats) {
+    for (int i = 0; i < 4; ++i)
+      for (int y = 0; y < 40; ++y)
+        for (int x = 0; x < 40; ++x)
+          splats.add({float(x) + 0.5f, float(y) + 0.5f}, Component::caustic, Spectrum(0.5f));
+    cancel(0);
+  };
   script.sample = [&](const Vec2f&, Sampler&, SampleSink& sink) {
-    if (++samples == 500) source.request_stop();
+    cancel(++samples);
     sink.add(Component::direct, Spectrum(1));
   };
-  const Scripted integrator(script);
-  SessionSettings settings;
-  settings.passes = 1;
-  settings.samples_per_pixel = 4;
-  Session session(*scene, integrator, settings);
-  const SessionReport report = session.run(source.get_token());
-  EXPECT_TRUE(report.cancelled);
-  EXPECT_TRUE(report.incomplete_pass);
-  EXPECT_EQ(report.passes, 1u);
-  const Image image = session.film().image();
-  int lit = 0;
-  for (const float value : image.channel(0)) {
-    EXPECT_TRUE(value == 0 || value == 1) << value;
-    lit += value == 1 ? 1 : 0;
+  script.splats = true;
+  return script;
+}
+
+// A stop in the first pass, whenever it comes, leaves the right picture of fewer samples or none.
+TEST(Session, CancellingTheFirstPassLeavesARightPictureOrNone) {
+  const auto scene = scene_with(film_of(40, 40, "<rfilter type=\"box\"/>"), room);
+  constexpr int pixels = 40 * 40;
+  struct Case {
+    int at;
+    bool picture, complete;
+  };
+  // One thread: then the sample that stops it is the last.
+  for (const Case& c :
+       {Case{0, false, false}, Case{1, false, false}, Case{pixels - 1, false, false},
+        Case{pixels, true, false}, Case{pixels + 5, true, false}, Case{3 * pixels - 1, true, false},
+        Case{5 * pixels - 1, true, false}, Case{5 * pixels, true, true}}) {
+    SCOPED_TRACE(c.at);
+    std::stop_source source;
+    std::atomic<int> samples = 0;
+    const std::function<void(int)> cancel = [&](int number) {
+      if (number == c.at) source.request_stop();
+    };
+    const Scripted integrator(unit_script(cancel, samples));
+    SessionSettings settings;
+    settings.threads = 1;
+    settings.passes = 2;
+    settings.samples_per_pixel = 10;
+    Session session(*scene, integrator, settings);
+    const SessionReport report = session.run(source.get_token());
+    EXPECT_TRUE(report.cancelled);
+    EXPECT_EQ(report.passes, c.picture ? 1u : 0u);
+    EXPECT_EQ(report.incomplete_pass, c.picture && !c.complete);
+    EXPECT_EQ(session.film().samples_per_pixel(), uint64_t(c.picture ? c.at / pixels : 0));
+    const Image image = session.film().image();
+    for (const float value : image.channel(0)) ASSERT_EQ(value, c.picture ? 3 : 0);
   }
-  EXPECT_GE(lit, 120);
-  EXPECT_LT(lit, 64 * 64);
+}
+
+// That the samples of a first pass are taken in rounds changes no bit.
+TEST(Session, AFirstPassHasTheBitsOfTheSamePassLater) {
+  const auto scene = plain_scene();
+  const auto integrator = integrator_for(*scene, "path");
+  SessionSettings settings;
+  settings.passes = 2;
+  settings.samples_per_pixel = 2 * 300;
+  Session both(*scene, *integrator, settings);
+  both.run();
+  settings.first_pass = 1;
+  settings.passes = 1;
+  settings.samples_per_pixel = 300;
+  Session later(*scene, *integrator, settings);
+  later.run();
+  settings.first_pass = 0;
+  settings.passes = 2;
+  settings.samples_per_pixel = 600;
+  Film begun = later.film();
+  Session first_last(*scene, *integrator, settings, std::move(begun));
+  first_last.run();
+  expect_same_bits(both.film().image(), first_last.film().image());
 }
 
 TEST(Session, APixelOfManySamplesCanBeCancelled) {
@@ -310,6 +360,63 @@ TEST(Session, APixelOfManySamplesCanBeCancelled) {
   session.run(source.get_token());
   EXPECT_LT(samples, 10000);
   EXPECT_FLOAT_EQ(session.film().image().at(0, 0, 0), 1);  // the mean of those that were taken
+}
+
+// Many samples make many passes: none takes longer, or more light paths, than four of the usual.
+TEST(Session, ManySamplesMakeManyPasses) {
+  const Scripted integrator{Script()};
+  const auto plan = [&](const Scene& scene, SessionSettings settings) {
+    const Session session(scene, integrator, settings);
+    return std::pair(session.planned_passes(), session.samples_per_pass());
+  };
+  const auto small = plain_scene(), large = scene_with(film_of(1024, 1024), room);
+  SessionSettings settings;
+  settings.samples_per_pixel = 100000;
+  EXPECT_EQ(plan(*small, settings), std::pair(6250u, 16u));
+  EXPECT_EQ(plan(*large, settings), std::pair(25000u, 4u));
+  settings.samples_per_pixel = 1 << 30;
+  EXPECT_EQ(plan(*small, settings), std::pair(1u << 26, 16u));
+  settings.samples_per_pixel = 64;
+  EXPECT_EQ(plan(*large, settings), std::pair(16u, 4u));
+  // Limits of time and error are looked at between passes: these are as short as without samples.
+  settings.samples_per_pixel = 100000;
+  settings.seconds = 1;
+  EXPECT_EQ(plan(*small, settings), std::pair(25000u, 4u));
+  settings.seconds.reset();
+  settings.error = 0.01;
+  EXPECT_EQ(plan(*small, settings), std::pair(25000u, 4u));
+  settings.samples_per_pixel = 3;
+  EXPECT_EQ(plan(*small, settings), std::pair(1u, 3u));
+  // Who says how many passes there are says how large they are.
+  settings.samples_per_pixel = 100000;
+  settings.passes = 2;
+  EXPECT_EQ(plan(*small, settings), std::pair(2u, 50000u));
+}
+
+// A large first pass is cut when the time is over, but not below the usual samples.
+TEST(Session, ALargeFirstPassEndsInTime) {
+  const auto scene = scene_with(film_of(2, 2, "<rfilter type=\"box\"/>"), room);
+  Script script;
+  script.sample = [](const Vec2f&, Sampler&, SampleSink& sink) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    sink.add(Component::direct, Spectrum(1));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.threads = 1;
+  settings.passes = 1;
+  settings.samples_per_pixel = 100000;
+  for (const double seconds : {1e-6, 0.2}) {
+    settings.seconds = seconds;
+    Session session(*scene, integrator, settings);
+    const SessionReport report = session.run();
+    EXPECT_FALSE(report.cancelled);
+    EXPECT_TRUE(report.incomplete_pass);
+    EXPECT_EQ(report.passes, 1u);
+    EXPECT_GE(session.film().samples_per_pixel(), 4u);
+    EXPECT_LT(session.film().samples_per_pixel(), 200u);
+    EXPECT_EQ(session.film().image().at(1, 1, 0), 1);
+  }
 }
 
 TEST(Session, StopsInTime) {

@@ -188,11 +188,11 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
 
 std::vector<ProbeStatistics> probe_statistics(const VcmCameraInputs& inputs,
                                               const PixelPlans& plans, const PilotLimits& limits,
-                                              uint64_t& rays) {
+                                              uint64_t& rays, const std::stop_token& stop) {
   const std::vector<PixelProbe>& probes = plans.probes();
   std::vector<ProbeStatistics> single(probes.size());
   parallel_blocks(probes.size(), 16, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i)
+    for (size_t i = begin; i < end && !stop.stop_requested(); ++i)
       single[i] = statistics_at(inputs, probes[i], plans.plans()[i], i, limits);
   });
   double counted = 0;

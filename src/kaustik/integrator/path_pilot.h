@@ -1,4 +1,5 @@
 #pragma once
+#include <stop_token>
 #include <vector>
 
 #include "kaustik/integrator/efficiency.h"
@@ -16,9 +17,9 @@ struct PilotLimits {
 /// A few camera paths at every probe of `plans`, and the light vertices that merge there: how well
 /// either way finds the light. `inputs`: of the pilot pass; its weights know merging alone of what
 /// light paths do, and count those of a real pass. What comes back is averaged over the probes
-/// around; one for each probe. Counts the rays.
+/// around; one for each probe. Counts the rays. Returns early once `stop` is requested.
 std::vector<ProbeStatistics> probe_statistics(const VcmCameraInputs& inputs,
                                               const PixelPlans& plans, const PilotLimits& limits,
-                                              uint64_t& rays);
+                                              uint64_t& rays, const std::stop_token& stop = {});
 
 }  // namespace kaustik

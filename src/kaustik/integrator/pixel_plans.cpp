@@ -33,7 +33,7 @@ PixelPlans::PixelPlans(const Scene& scene) {
 }
 
 void PixelPlans::choose_disks(const LightVertices& pilot, uint32_t paths, int wanted_neighbors,
-                              float given) {
+                              float given, const std::stop_token& stop) {
   if (given > 0) {
     other_area_ = pi * sqr(given);
     for (PixelPlan& plan : plans_) plan.merge_area = other_area_;
@@ -43,7 +43,7 @@ void PixelPlans::choose_disks(const LightVertices& pilot, uint32_t paths, int wa
   const int neighbors = std::max(2, int(std::lround(wanted_neighbors * share)));
   parallel_blocks(plans_.size(), 16, [&](size_t begin, size_t end, size_t) {
     SidedTree<LightVertexData>::Neighbors found;
-    for (size_t i = begin; i < end; ++i) {
+    for (size_t i = begin; i < end && !stop.stop_requested(); ++i) {
       const PixelProbe& probe = (*probes_)[i];
       if (!probe.found || pilot.tree.empty()) continue;
       pilot.tree.nearest(probe.vertex.position(), side_of(probe.vertex), false, neighbors,

@@ -48,7 +48,8 @@ class PixelPlans {
   explicit PixelPlans(const Scene& scene);
   /// So many vertices of a pass set a radius, as a pilot pass tells, which may have fewer paths.
   /// `given` > 0 is taken for all, m. `paths`: light paths of a pass.
-  void choose_disks(const LightVertices& pilot, uint32_t paths, int neighbors, float given);
+  void choose_disks(const LightVertices& pilot, uint32_t paths, int neighbors, float given,
+                    const std::stop_token& stop = {});
 
   /// Looks for the edges of what the probes show, for disks of so many widths of a pixel, or of
   /// `given` > 0, m, around all that their blocks show. Counts its rays.

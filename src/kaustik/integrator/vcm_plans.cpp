@@ -28,8 +28,10 @@ constexpr uint32_t trial_part = 4;
 /// Light paths are guided where they are scattered if no more than this is left of noise times
 /// rays.
 constexpr double worth_guiding = 0.8;
-/// Light paths of a pass at most: their vertices take some gigabytes.
-constexpr double most_light_paths = 1 << 24;
+/// Light paths of a pass at most, of which each takes about a kilobyte: passes of many samples have
+/// no more of them, unless a pass of so few samples as is usual has.
+constexpr double most_light_paths = 1 << 21, most_usual_light_paths = 1 << 24;
+constexpr double usual_samples = 4;
 /// Light paths that are tried beside those that are asked for, relative to them.
 constexpr std::array<float, 3> light_path_factors{1, 4, 0.25f};
 /// Fewer have wider disks, whose bias is not counted: they must be so much better.
@@ -144,9 +146,10 @@ Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
 }
 
 uint32_t light_path_count(const Vec2i& size, uint32_t samples_per_pixel, float light_paths) {
-  const double wanted =
-      double(light_paths) * double(size.x) * double(size.y) * double(samples_per_pixel);
-  return uint32_t(std::clamp(wanted, 1.0, most_light_paths));
+  const double of_sample = double(light_paths) * double(size.x) * double(size.y);
+  const double most =
+      std::clamp(of_sample * usual_samples, most_light_paths, most_usual_light_paths);
+  return uint32_t(std::clamp(of_sample * double(samples_per_pixel), 1.0, most));
 }
 
 float accepted_area(const PixelPlans& pixels) {
@@ -181,10 +184,12 @@ VcmPlans VcmPlanner::plan(uint32_t samples_per_pixel, const std::stop_token& sto
     plans.connectible_per_path =
         float(light.vertices.connectible.size()) / float(light.vertices.connectible_paths());
   if (!settings_.techniques.merging || stop.stop_requested()) return plans;
-  plans.pixels.choose_disks(light.vertices, of_pass, settings_.merge_neighbors, settings_.radius);
+  plans.pixels.choose_disks(light.vertices, of_pass, settings_.merge_neighbors, settings_.radius,
+                            stop);
   plans.media =
       medium_disks(scene_, settings_, light.vertices, of_pass, plans.pixels.mean_distance());
-  plans.pilot = std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass));
+  plans.pilot = std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass, stop));
+  if (stop.stop_requested()) return plans;
   if (settings_.chooses_connections) plans.connects.assign(plans.pixels.probes().size(), false);
   if (settings_.chooses_light_paths)
     choose_light_paths(plans);
@@ -274,8 +279,8 @@ VcmPlanner::PilotLight VcmPlanner::trace_pilot(const Guides& guides, uint32_t ro
   return light;
 }
 
-VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light,
-                                uint32_t light_paths) const {
+VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light, uint32_t light_paths,
+                                const std::stop_token& stop) const {
   VcmPilot pilot;
   PathWeights::Settings settings;
   settings.techniques = settings_.techniques;
@@ -301,7 +306,7 @@ VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light,
   pilot.probes = probe_statistics(
       inputs, plans.pixels,
       {light_share, settings_.maximum_events, settings_.roulette_depth, settings_.components},
-      plans.pilot_rays);
+      plans.pilot_rays, stop);
   for (const PixelPlan& plan : plans.pixels.plans()) pilot.areas.push_back(plan.merge_area);
   pilot.light_paths = plans.light_paths;
   pilot.needs_merging = scene_.has_scattering() || (is_merging_wanted(settings_.components) &&

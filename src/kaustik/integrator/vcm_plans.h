@@ -92,7 +92,8 @@ class VcmPlanner {
                               uint32_t count, const std::stop_token& stop) const;
   PilotLight trace_pilot(const Guides& guides, uint32_t round, uint32_t count, VcmPlans& plans,
                          const std::stop_token& stop) const;
-  VcmPilot make_pilot(VcmPlans& plans, const PilotLight& light, uint32_t light_paths) const;
+  VcmPilot make_pilot(VcmPlans& plans, const PilotLight& light, uint32_t light_paths,
+                      const std::stop_token& stop) const;
 
   const Scene& scene_;
   const VcmSettings& settings_;

@@ -19,13 +19,15 @@ struct SessionSettings {
   /// How many from the first on, those that the film begins with included; absent: see
   /// `samples_per_pixel` and `seconds`.
   std::optional<uint32_t> passes;
-  /// Samples per pixel of all passes together, at least four where there are so many samples;
-  /// absent: the scene's, else the integrator's default per pass.
+  /// Samples per pixel of all passes together; absent: the scene's, else the integrator's default
+  /// per pass. Unless `passes` says how many there are, there are at least four where there are so
+  /// many samples, and no pass is long: many samples make many passes, not large ones.
   std::optional<uint32_t> samples_per_pixel;
   /// Of each pass, whatever is said above; then `samples_per_pixel` only says how many passes.
   std::optional<uint32_t> samples_per_pass;
-  /// Stop before the pass that would end later than this; at least one pass is always finished, if
-  /// one is left to do.
+  /// Stop before the pass that would end later than this. At least one pass is always finished if
+  /// one is left to do, but of a first pass of more than the integrator's default samples no more
+  /// than these.
   std::optional<double> seconds;
   /// Stop when Film::picture_error() is at most this. It is looked at after 16, 32, 64, … passes
   /// only: who looks all the time, and stops when the error happens to look small, stops too early.
@@ -57,8 +59,9 @@ struct SessionReport {
   double light_seconds = 0;  ///< of it, in light passes
   double mean_error = 0;     ///< Film::mean_error()
   double picture_error = 0;  ///< Film::picture_error()
-  bool cancelled = false;
-  bool incomplete_pass = false;  ///< cancelled in the first pass: the picture is only part of it
+  bool cancelled = false;    ///< a stop request came before what was asked for was done
+  /// The film holds fewer samples than its one pass was to have: each pixel at least one.
+  bool incomplete_pass = false;
   std::vector<std::string> warnings;
   std::vector<std::string> decisions;  ///< PassReport::decisions
 };
@@ -76,10 +79,11 @@ class Session {
           Film begun);
   ~Session();
 
-  /// Renders until a stop rule holds or `stop` is requested; then the film holds what is finished.
-  /// `progress` is called from one thread at a time, a few times per second. `pass_done` is called
-  /// after every finished pass, when no thread works: film() may be looked at then, and `stop`
-  /// requested. What it takes counts as time of the session.
+  /// Renders until a stop rule holds or `stop` is requested; then the film holds what is finished:
+  /// whole passes, or fewer samples of the first pass where each pixel has at least one, or
+  /// nothing. `progress` is called from one thread at a time, a few times per second. `pass_done`
+  /// is called after every finished pass, when no thread works: film() may be looked at then, and
+  /// `stop` requested. What it takes counts as time of the session.
   SessionReport run(std::stop_token stop = {},
                     const std::function<void(const Progress&)>& progress = {},
                     const std::function<void()>& pass_done = {});
@@ -91,20 +95,26 @@ class Session {
 
  private:
   class Monitor;
+  struct CameraPass;
+  enum class PassEnd { complete, incomplete, discarded };
   void plan();
+  /// Of a pass of a plan that does not say how many passes there are.
+  uint32_t most_samples_per_pass() const;
   PassRange planned() const;  ///< empty: limited by time or error
   /// Whether the error is small enough, where it is looked at.
   bool is_good_enough(double error) const;
   /// Whether pass `index`, the next one, is to be rendered.
-  bool goes_on(uint32_t index, const std::stop_token& stop, const Monitor& monitor) const;
-  /// False if it was cancelled midway.
-  bool render_pass(uint32_t index, std::stop_token stop, Monitor& monitor);
-  void render_tile(const Pass& pass, const PassState& state, int tile, const std::stop_token& stop,
-                   Monitor& monitor);
-  /// The mean over the pixel's samples, those before a stop request if there is one. Returns rays.
-  uint64_t render_pixel(const Pass& pass, const PassState& state, int x, int y,
-                        const std::stop_token& stop, Monitor& monitor);
-  void add_splats();
+  bool goes_on(uint32_t index, const Monitor& monitor) const;
+  PassEnd render_pass(uint32_t index, std::stop_token stop, Monitor& monitor);
+  /// Takes the pass's samples. False if it was halted: then pixels have fewer, maybe none.
+  bool render_camera(const Pass& pass, const PassState& state, const std::stop_token& stop,
+                     Monitor& monitor);
+  /// Samples of the tile's pixels up to number `end` of each, until it is halted.
+  void render_tile(CameraPass& camera, const Vec2i& tile, uint32_t end);
+  /// The same of a pixel, added to `sum`; returns rays.
+  uint64_t render_pixel(CameraPass& camera, int x, int y, uint32_t end, PassPixel& sum) const;
+  /// Means over the samples from their sums, and the splats.
+  void finish_pixels();
 
   const Scene& scene_;
   const Integrator& integrator_;
@@ -112,7 +122,6 @@ class Session {
   Film film_;
   SplatBuffer splats_;
   std::vector<PassPixel> pixels_;
-  Vec2i tiles_;
   uint32_t pass_count_ = 0;  ///< 0: limited by time or error
   uint32_t samples_per_pass_ = 1;
   SessionReport report_;

@@ -1,0 +1,60 @@
+#include "kaustik/render/session_monitor.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+namespace kaustik {
+namespace {
+
+/// Resident memory of the program, 0 where the system does not tell.
+size_t resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  size_t total = 0, resident = 0;
+  statm >> total >> resident;
+  return resident * size_t(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+void Session::Monitor::tell(Progress::Stage stage, bool force) {
+  if (!listener_) return;
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock || (!force && told_ && seconds_since(last_) < 0.2)) return;
+  told_ = true;
+  last_ = Clock::now();
+  Progress p;
+  p.stage = stage;
+  p.elapsed_s = elapsed();
+  p.passes_done = passes_at_start_ + passes_done_;
+  p.passes_total = session_.pass_count_ == 0 ? 0 : passes_at_start_ + passes_to_do_;
+  p.fraction = stage == Progress::Stage::done ? 1 : fraction(p.elapsed_s);
+  p.remaining_s = p.fraction > 1e-3 ? p.elapsed_s * (1 / p.fraction - 1) : -1;
+  p.rays_per_s = double(rays) / std::max(1e-9, p.elapsed_s);
+  p.photons_per_s = light_seconds > 0 ? double(photons) / light_seconds : 0;
+  p.memory_bytes = resident_bytes();
+  p.relative_error = error_;
+  listener_(p);
+}
+
+double Session::Monitor::passes_for_error() const {
+  const double passes = passes_at_start_ + passes_done_;
+  const double needed = passes * std::pow(error_ / *session_.settings_.error, 2);
+  return std::exp2(std::ceil(std::log2(std::max(double(replicate_count), needed))));
+}
+
+double Session::Monitor::fraction(double elapsed_s) const {
+  const double samples = double(session_.film_.pixel_count()) * session_.samples_per_pass_;
+  double f = 0;
+  if (passes_to_do_ > 0)
+    f = (passes_done_ + light_share_ * light_done_ +
+         (1 - light_share_) * std::min(1.0, double(samples_done_) / samples)) /
+        passes_to_do_;
+  if (session_.settings_.error)
+    f = std::max(f, (passes_at_start_ + passes_done_) / passes_for_error());
+  if (session_.settings_.seconds) f = std::max(f, elapsed_s / *session_.settings_.seconds);
+  return std::min(f, 0.999);
+}
+
+}  // namespace kaustik

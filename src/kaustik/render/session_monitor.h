@@ -1,0 +1,94 @@
+#pragma once
+// For the session's own sources.
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+
+#include "kaustik/render/session.h"
+
+namespace kaustik {
+
+/// Counts what is done and tells the listener now and then.
+class Session::Monitor {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  Monitor(const Session& session, const std::function<void(const Progress&)>& listener)
+      : session_(session),
+        listener_(listener),
+        start_(Clock::now()),
+        passes_at_start_(session.film_.pass_count()),
+        passes_to_do_(session.film_.passes().missing(session.planned())),
+        light_share_(session.integrator_.samples_camera() ? 0.3 : 1),
+        error_(session.film_.picture_error()) {}
+
+  void start_pass() {
+    pass_start_ = Clock::now();
+    samples_done_ = 0;
+    light_done_ = 0;
+  }
+  void light_pass_at(double share) {
+    light_done_ = share;
+    tell(Progress::Stage::light, false);
+  }
+  void light_pass_done(const PassReport& report) {
+    light_seconds += seconds_since(pass_start_);
+    light_done_ = 1;
+    if (passes_done_ == 0 && light_seconds < 0.1) light_share_ = 0;
+    rays += report.rays;
+    photons += report.photons;
+    tell(Progress::Stage::picture, false);
+  }
+  void samples_done(uint64_t samples, uint64_t sample_rays) {
+    rays += sample_rays;
+    samples_done_ += samples;
+    tell(Progress::Stage::picture, false);
+  }
+  void pass_done() {
+    last_pass_seconds_ = seconds_since(pass_start_);
+    ++passes_done_;
+    samples_done_ = 0;
+    light_done_ = 0;
+    light_share_ = std::min(1.0, light_seconds / std::max(1e-9, elapsed()));
+    error_ = session_.film_.picture_error();
+    tell(Progress::Stage::light, false);
+  }
+  uint32_t passes_done() const { return passes_done_; }
+  double error() const { return error_; }
+  static double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  }
+  double elapsed() const { return seconds_since(start_); }
+  /// Of the last pass: the first may hold plans that are made once, the mean would too.
+  double last_pass_seconds() const { return last_pass_seconds_; }
+
+  /// Tells the listener if it is time, or if `force`.
+  void tell(Progress::Stage stage, bool force);
+
+  std::atomic<uint64_t> rays{0}, photons{0}, dropped{0};
+  double light_seconds = 0;
+
+ private:
+  /// How many it will take if the error falls with the square root of their number; infinite: not
+  /// known yet.
+  double passes_for_error() const;
+  double fraction(double elapsed_s) const;
+
+  const Session& session_;
+  const std::function<void(const Progress&)>& listener_;
+  Clock::time_point start_, pass_start_, last_;
+  double last_pass_seconds_ = 0;
+  bool told_ = false;
+  std::mutex mutex_;
+  uint32_t passes_at_start_;
+  uint32_t passes_to_do_;                  ///< 0: limited by time, or nothing is left
+  std::atomic<uint32_t> passes_done_{0};   ///< of this session
+  std::atomic<uint64_t> samples_done_{0};  ///< of this pass, of all pixels
+  std::atomic<double> light_done_{0};      ///< of this pass's light pass
+  std::atomic<double> light_share_;        ///< of a pass's time; a guess before the first is done
+  std::atomic<double> error_;              ///< of the picture
+};
+
+}  // namespace kaustik
