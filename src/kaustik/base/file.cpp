@@ -2,11 +2,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <new>
@@ -52,21 +55,28 @@ std::string folder_of(const std::string& path) {
   throw Error(ErrorKind::input, message, remedy);
 }
 
+/// `path` is what was asked for, `target` what its links lead to.
+std::string in_words(const std::string& path, const std::string& target) {
+  return target == path ? fmt::format("'{}'", path)
+                        : fmt::format("'{}' (a link to '{}')", path, target);
+}
+
 void check_folder(const std::string& path) {
-  const std::string folder = folder_of(path);
+  const std::string target = output_target(path), folder = folder_of(target);
+  const std::string named = in_words(path, target);
   struct stat status;
   if (::stat(folder.c_str(), &status) != 0) {
     const int reason = errno;
-    throw_input(fmt::format("cannot write '{}': folder '{}': {}", path, folder, text_of(reason)),
+    throw_input(fmt::format("cannot write {}: folder '{}': {}", named, folder, text_of(reason)),
                 reason == ENOENT
                     ? fmt::format("create it (mkdir -p '{}') or choose another", folder)
                     : "choose a path in a folder that exists");
   }
   if (!S_ISDIR(status.st_mode))
-    throw_input(fmt::format("cannot write '{}': '{}' is a file, not a folder", path, folder),
+    throw_input(fmt::format("cannot write {}: '{}' is a file, not a folder", named, folder),
                 "choose a path in a folder");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw_input(fmt::format("cannot write '{}': folder '{}': {}", path, folder, text_of(errno)),
+    throw_input(fmt::format("cannot write {}: folder '{}': {}", named, folder, text_of(errno)),
                 "choose a folder that you may write to, or change its permissions");
 }
 
@@ -89,11 +99,26 @@ void check_what_stands_there(const std::string& path) {
                 "choose another name, or make that file writable");
 }
 
-/// The file that a chain of symbolic links leads to, so that the link stays and its target changes.
-std::string without_links(const std::string& path) {
+/// Removes what a writer that was killed has left in the folder of `target`, as far as that is
+/// certain: its process is gone, and nobody holds the lock of a writer, who may be on another
+/// machine.
+void remove_leftovers(const std::string& target) {
   std::error_code failed;
-  const fs::path resolved = fs::canonical(path, failed);
-  return failed ? path : resolved.string();
+  for (fs::directory_iterator entry(folder_of(target), failed), end; !failed && entry != end;
+       entry.increment(failed)) {
+    const std::string name = entry->path().filename().string();
+    int pid = 0, number = 0, length = 0;
+    if (std::sscanf(name.c_str(), ".kaustik-%d-%d.tmp%n", &pid, &number, &length) != 2 ||
+        size_t(length) != name.size() || pid <= 0)
+      continue;
+    if (pid != ::getpid() && (::kill(pid, 0) == 0 || errno != ESRCH)) continue;
+    const Descriptor file(
+        ::open(entry->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+    struct stat status;
+    if (file.is_open() && ::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode) &&
+        ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
+      ::unlink(entry->path().c_str());
+  }
 }
 
 /// A new file beside the target; it removes itself unless it has been renamed.
@@ -110,6 +135,8 @@ class TemporaryFile {
         fail(errno);
     }
     if (!file_) fail(EEXIST);
+    // Held as long as this writes: see remove_leftovers().
+    ::flock(file_->get(), LOCK_SH | LOCK_NB);
   }
   ~TemporaryFile() {
     if (!is_renamed_) ::unlink(path_.c_str());
@@ -198,6 +225,20 @@ std::vector<uint8_t> read_file_start(const std::string& path, size_t most) {
   }
 }
 
+std::string output_target(const std::string& path) {
+  constexpr int most_links = 40;  // as the system
+  fs::path target = path;
+  for (int i = 0; i < most_links; ++i) {
+    std::error_code failed;
+    if (!fs::is_symlink(fs::symlink_status(target, failed))) return target.string();
+    const fs::path next = fs::read_symlink(target, failed);
+    if (failed) return target.string();
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  throw_input(fmt::format("cannot write '{}': its links lead in a circle", path),
+              "choose another name, or remove the links");
+}
+
 void check_output_path(const std::string& path) {
   if (path.empty()) throw_input("the name of the output file is empty", "give a file name");
   check_folder(path);
@@ -206,7 +247,9 @@ void check_output_path(const std::string& path) {
 
 void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes) {
   check_output_path(path);
-  TemporaryFile file(without_links(path));
+  const std::string target = output_target(path);
+  remove_leftovers(target);
+  TemporaryFile file(target);
   file.write(bytes);
   file.replace_target();
 }
