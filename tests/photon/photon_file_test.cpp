@@ -328,5 +328,23 @@ TEST(SceneFingerprint, TellsScenesApartButNotViews) {
   EXPECT_EQ(seen_from(1), seen_from(2));
 }
 
+// Programs from different compilers agree but for the last bits, of which nothing else is left
+// where coordinates should be zero.
+TEST(SceneFingerprint, LastBitsMakeNoDifference) {
+  const auto turned = [](double degrees, double size) {
+    const auto upright =
+        Transform::rotate(Vec3d(1, 0, 0), degrees) * Transform::scale(Vec3d(size, size, 1));
+    return scene_fingerprint(*make_scene({light("spot"), placed("rectangle", upright, mirror()),
+                                          sphere(Vec3d(0, 0, 0), 0.3 * size, black())}));
+  };
+  for (const double degrees : {90.0, 180.0, 33.0}) {
+    const std::string exact = turned(degrees, 3);
+    for (const double last_bits : {-1e-7, 1e-7, 2e-7})
+      EXPECT_EQ(turned(degrees * (1 + last_bits), 3 * (1 - last_bits)), exact) << degrees;
+    EXPECT_NE(turned(degrees + 0.5, 3), exact);
+    EXPECT_NE(turned(degrees, 3.01), exact);
+  }
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -68,7 +68,10 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
                 settings_.photon_file_place);
   };
   if (stored.fingerprint != scene_fingerprint(scene))
-    refuse("holds photons of another scene (" + stored.scene + ")");
+    refuse(
+        "holds photons of another scene, of this one before it was changed, or of another version "
+        "of Kaustik (" +
+        stored.scene + ": " + stored.fingerprint + ")");
   if (!stored.settings.part.is_whole())
     throw Error(ErrorKind::input, settings_.photon_file + " holds only a part of the photons",
                 "put all parts together with: kaustik merge PART.kpm ... -o MAP.kpm",

@@ -10,6 +10,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "kaustik/base/binary_file.h"
 #include "kaustik/base/checksum.h"
 
@@ -107,12 +110,22 @@ PhotonMap get_map(BinaryReader& reader, MapReport& report) {
   return {std::move(positions), std::move(photons)};
 }
 
-std::string text_of(const Bounds3f& b) {
-  return fmt::format("{:.5g} {:.5g} {:.5g} to {:.5g} {:.5g} {:.5g}", b.min.x, b.min.y, b.min.z,
-                     b.max.x, b.max.y, b.max.z);
+/// The number of steps, so that the last bits of another build make no difference, nor the noise
+/// and the sign of what should be zero. Steps turn where no number lies that people write.
+std::string in_steps(double value, double step) {
+  constexpr double turn = 0.6180339887;
+  const double steps = std::floor(value / step + turn);
+  return std::fabs(steps) < 1e15 ? fmt::format("{} ", int64_t(steps)) : "far ";
+}
+std::string in_steps(const Vec3f& v, double step) {
+  return in_steps(double(v.x), step) + in_steps(double(v.y), step) + in_steps(double(v.z), step);
+}
+/// The same of its logarithm.
+std::string in_relative_steps(double value, double step) {
+  return value > 0 ? in_steps(std::log(value), step) : value < 0 ? "negative " : "zero ";
 }
 
-std::string text_of(const Vec3f& v) { return fmt::format("{:.4g} {:.4g} {:.4g};", v.x, v.y, v.z); }
+constexpr double step_of_color = 1e-4, step_of_direction = 1e-3;
 
 /// How a surface scatters: its albedo, and where it sends a few directions from either side.
 std::string text_of(const Bsdf& bsdf) {
@@ -122,33 +135,40 @@ std::string text_of(const Bsdf& bsdf) {
   for (const float side : {1.0f, -1.0f}) {
     const Vec3f wo = normalize(Vec3f(0.3f, 0.2f, side));
     const Spectrum albedo = bsdf.albedo(context, wo, Lobes::all);
-    text += fmt::format("{:.3g} {:.3g} {:.3g};", albedo[0], albedo[1], albedo[2]);
+    text += in_steps({albedo[0], albedo[1], albedo[2]}, step_of_color);
     for (const float u : {0.02f, 0.98f})
-      text += text_of(bsdf.sample(context, wo, u, {0.4f, 0.7f}, Lobes::all).wi);
+      text += in_steps(bsdf.sample(context, wo, u, {0.4f, 0.7f}, Lobes::all).wi, step_of_direction);
   }
   return text;
 }
 
 /// What a light sends out: its power and a few of its rays.
-std::string text_of(const Light& light) {
-  std::string text = fmt::format("{:.4g};", light.power().sum());
+std::string text_of(const Light& light, double step_of_place) {
+  std::string text = in_relative_steps(double(light.power().sum()), step_of_color);
   for (const float u : {0.2f, 0.7f}) {
     const EmissionSample ray = light.sample_emission({u, 0.4f}, {0.6f, u});
-    text += text_of(ray.point.position) + text_of(ray.direction);
+    text +=
+        in_steps(ray.point.position, step_of_place) + in_steps(ray.direction, step_of_direction);
   }
   return text;
 }
 
 /// Of what tells scenes apart: shapes, where instances stand, how surfaces scatter, what lights
-/// send out. Rounded, so that the last bits of another build make no difference.
+/// send out.
 uint64_t digest_of(const Scene& scene) {
+  const Bounds3f& all = scene.tracer().bounds();
+  const double step = 1e-5 * std::max(1e-30, double(length(all.max - all.min)));
   std::string text;
-  for (uint32_t i = 0; i < scene.surface_count(); ++i)
-    text += text_of(scene.tracer().shape(i).bounds()) + text_of(*scene.surface(i).bsdf);
+  for (uint32_t i = 0; i < scene.surface_count(); ++i) {
+    const Bounds3f& bounds = scene.tracer().shape(i).bounds();
+    text +=
+        in_steps(bounds.min, step) + in_steps(bounds.max, step) + text_of(*scene.surface(i).bsdf);
+  }
   for (const Instance& instance : scene.tracer().geometry().instances)
     for (const Vec3f& p : {Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(0, 0, 1)})
-      text += text_of(instance.world_from_group.point(p));
-  for (const auto& light : scene.lights()) text += text_of(*light);
+      text += in_steps(instance.world_from_group.point(p), step);
+  for (const auto& light : scene.lights()) text += text_of(*light, step);
+  text += in_relative_steps(step, 1e-5);
   return checksum({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
@@ -159,14 +179,10 @@ std::string scene_fingerprint(const Scene& scene) {
   for (uint32_t i = 0; i < scene.tracer().shape_count(); ++i)
     if (const TriangleMesh* mesh = scene.tracer().shape(i).mesh())
       triangles += mesh->triangles.size();
-  Spectrum power;
-  for (const auto& light : scene.lights()) power += light->power();
   // Maps for irradiance have photons on mirrors and glass too.
-  return fmt::format(
-      "{} shapes, {} triangles, bounds {}, {} lights of {:.5g} {:.5g} {:.5g} W, digest {:016x}{}",
-      scene.surface_count(), triangles, text_of(scene.tracer().bounds()), scene.lights().size(),
-      power[0], power[1], power[2], digest_of(scene),
-      scene.film().quantity == Quantity::irradiance ? ", for irradiance" : "");
+  return fmt::format("{} shapes, {} triangles, {} lights, digest {:016x}{}", scene.surface_count(),
+                     triangles, scene.lights().size(), digest_of(scene),
+                     scene.film().quantity == Quantity::irradiance ? ", for irradiance" : "");
 }
 
 void write_photon_file(const std::string& path, const StoredPhotons& photons) {

@@ -14,8 +14,9 @@ struct StoredPhotons {
   PhotonMaps maps;
 };
 
-/// A text that differs between scenes whose photons differ in all likelihood: counts, bounds, power
-/// of the lights, and a digest of all shapes' places and colours. The camera makes no difference.
+/// A text that differs between scenes whose photons differ in all likelihood: counts, and a digest
+/// of all shapes' places and colours and of the lights. The camera makes no difference, nor do last
+/// bits, in which programs from different compilers differ.
 std::string scene_fingerprint(const Scene& scene);
 
 /// Writes atomically; throws as write_file_atomically() does. The times are left out, so that equal
