@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "file_roles.h"
 #include "kaustik/base/error.h"
 #include "kaustik/image/image_io.h"
 #include "kaustik/image/metrics.h"
+#include "numbers.h"
 
 namespace kaustik::app {
 namespace {
@@ -14,7 +16,13 @@ struct CompareOptions {
 };
 
 void compare(const CompareOptions& options) {
-  if (!options.difference.empty()) check_writable(options.difference);
+  if (!options.difference.empty()) {
+    check_writable(options.difference);
+    FileRoles roles;
+    roles.reads(options.image);
+    roles.reads(options.reference);
+    roles.writes(options.difference);
+  }
   const Image image = read_image(options.image);
   const Image reference = read_image(options.reference);
   const ImageComparison c = compare_images(image, reference, options.layer);
@@ -43,7 +51,7 @@ void add_compare(CLI::App& program) {
   command->add_option("-o,--output", o->difference,
                       "Picture of the relative difference to write: red brighter, blue darker");
   command->add_option("--scale", o->scale, "Relative difference that is fully red or blue [1]")
-      ->check(CLI::PositiveNumber);
+      ->check(number_between(0, std::numeric_limits<double>::infinity()));
   command->add_option("--layer", o->layer, "Layer to compare [the picture itself]");
   command->callback([o] { compare(*o); });
 }

@@ -3,22 +3,49 @@
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <csignal>
+#include <cstdio>
 #include <thread>
 
 #include "kaustik/base/to_integer.h"
+#include "standard_streams.h"
 
 namespace kaustik::app {
 namespace {
 
-volatile std::sig_atomic_t interrupts = 0;
+/// The first signal and when it came, in ns: 0 before.
+std::atomic<int64_t> first_time = 0;
+std::atomic<int> first_signal = 0;
+static_assert(std::atomic<int64_t>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+constexpr int64_t same_moment_ns = 200'000'000;
 
 void on_interrupt(int signal) {
-  interrupts = interrupts + 1;
-  std::signal(signal, SIG_DFL);
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  const int64_t now = int64_t(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
+  int64_t none = 0;
+  if (first_time.compare_exchange_strong(none, now)) {
+    first_signal = signal;
+    return;
+  }
+  if (now - first_time < same_moment_ns && (first_signal == signal || first_signal == 0)) return;
+  // It is delivered when this returns.
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+/// Of the terminal that standard error is.
+size_t terminal_columns() {
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return 80;
 }
 
 }  // namespace
@@ -51,14 +78,24 @@ std::string count_text(double count) {
 
 namespace {
 
-std::string bar_text(double fraction) {
-  constexpr int width = 24;
-  const int filled = to_integer(fraction * width, 0, width);
-  return fmt::format("[{}{}] {:3.0f} %", std::string(size_t(filled), '#'),
-                     std::string(size_t(width - filled), '-'), 100 * fraction);
+std::string bar_text(double fraction, size_t width) {
+  const auto filled = size_t(to_integer(fraction * double(width), 0, int(width)));
+  return fmt::format("[{}{}] ", std::string(filled, '#'), std::string(width - filled, '-'));
 }
 
 }  // namespace
+
+std::string progress_text(double fraction, const std::vector<std::string>& facts, size_t columns) {
+  constexpr size_t narrow = 40, wide = 80;
+  std::string line;
+  if (columns >= narrow) line = bar_text(fraction, columns >= wide ? 24 : 8);
+  line += fmt::format("{:3.0f} %", 100 * fraction);
+  for (const std::string& fact : facts) {
+    if (line.size() + 2 + fact.size() > columns) break;
+    line += "  " + fact;
+  }
+  return line.substr(0, columns);
+}
 
 ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
@@ -67,19 +104,19 @@ void ProgressLine::show(const Progress& p) {
   const bool done = p.stage == Progress::Stage::done;
   if (!terminal_ && !done && p.elapsed_s - last_printed_s_ < 5) return;
   last_printed_s_ = p.elapsed_s;
-  std::string line = bar_text(p.fraction);
-  line += p.passes_total > 0 ? fmt::format("  pass {}/{}", p.passes_done, p.passes_total)
-                             : fmt::format("  pass {}", p.passes_done);
+  std::vector<std::string> facts;
+  facts.push_back(p.passes_total > 0 ? fmt::format("pass {}/{}", p.passes_done, p.passes_total)
+                                     : fmt::format("pass {}", p.passes_done));
   if (done)
-    line += fmt::format("  {}", duration_text(p.elapsed_s));
+    facts.push_back(duration_text(p.elapsed_s));
   else if (p.remaining_s >= 0)
-    line += fmt::format("  {} left", duration_text(p.remaining_s));
-  line += fmt::format("  {}rays/s", count_text(p.rays_per_s));
-  if (p.photons_per_s > 0) line += fmt::format("  {}photons/s", count_text(p.photons_per_s));
-  line += fmt::format("  {} MB", p.memory_bytes >> 20);
+    facts.push_back(duration_text(p.remaining_s) + " left");
   if (std::isfinite(p.relative_error))
-    line += fmt::format("  error {:.2f} %", 100 * p.relative_error);
-  print(line);
+    facts.push_back(fmt::format("error {:.2f} %", 100 * p.relative_error));
+  facts.push_back(count_text(p.rays_per_s) + "rays/s");
+  if (p.photons_per_s > 0) facts.push_back(count_text(p.photons_per_s) + "photons/s");
+  facts.push_back(fmt::format("{} MB", p.memory_bytes >> 20));
+  print(p.fraction, facts);
 }
 
 void ProgressLine::show(double fraction, double elapsed_s) {
@@ -87,44 +124,54 @@ void ProgressLine::show(double fraction, double elapsed_s) {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock || elapsed_s - last_printed_s_ < (terminal_ ? 0.2 : 5)) return;
   last_printed_s_ = elapsed_s;
-  std::string line = bar_text(fraction);
-  if (fraction > 1e-3)
-    line += fmt::format("  {} left", duration_text(elapsed_s * (1 / fraction - 1)));
-  print(line);
+  std::vector<std::string> facts;
+  if (fraction > 1e-3) facts.push_back(duration_text(elapsed_s * (1 / fraction - 1)) + " left");
+  print(fraction, facts);
 }
 
-void ProgressLine::print(const std::string& text) {
-  std::string line = text;
-  if (terminal_) {
-    const size_t width = line.size();
-    if (width < width_) line += std::string(width_ - width, ' ');
-    width_ = width;
-    fmt::print(stderr, "\r{}", line);
-  } else {
-    fmt::print(stderr, "{}\n", line);
+void ProgressLine::print(double fraction, const std::vector<std::string>& facts) {
+  if (!terminal_) {
+    say("{}", progress_text(fraction, facts, 1000));
+    return;
   }
+  // The last column stays free: some terminals go to the next line there.
+  const size_t columns = std::max<size_t>(2, terminal_columns()) - 1;
+  std::string line = progress_text(fraction, facts, columns);
+  const size_t width = line.size();
+  // What the line before it has left, as far as it did not go to another line when the terminal was
+  // made narrower.
+  line.resize(std::max(width, std::min(width_, columns)), ' ');
+  width_ = width;
+  std::fputs(("\r" + line).c_str(), stderr);
   std::fflush(stderr);
 }
 
 void ProgressLine::finish() {
-  if (!quiet_ && terminal_) fmt::print(stderr, "\n");
+  if (!quiet_ && terminal_) std::fputs("\n", stderr);
 }
 
 InterruptGuard::InterruptGuard() {
-  interrupts = 0;
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  first_time = 0;
+  first_signal = 0;
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  action.sa_flags = SA_RESTART;
+  for (const int signal : signals_) ::sigaddset(&action.sa_mask, signal);
+  for (size_t i = 0; i < signals_.size(); ++i) {
+    ::sigaction(signals_[i], nullptr, &before_[i]);
+    if (signals_[i] != SIGHUP || before_[i].sa_handler != SIG_IGN)
+      ::sigaction(signals_[i], &action, nullptr);
+  }
   watcher_ = std::jthread([this](std::stop_token ended) {
     while (!ended.stop_requested()) {
-      if (interrupts > 0) source_.request_stop();
+      if (first_time != 0) source_.request_stop();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
   });
 }
 
 InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (size_t i = 0; i < signals_.size(); ++i) ::sigaction(signals_[i], &before_[i], nullptr);
 }
 
 }  // namespace kaustik::app

@@ -1,16 +1,20 @@
 #pragma once
-#include <functional>
+#include <signal.h>
+
+#include <array>
 #include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "kaustik/render/session.h"
 
 namespace kaustik::app {
 
-/// One line on standard error that is kept up to date; on anything but a terminal a line now and
-/// then. Shows percent, time left, rays/s, photons/s, memory, error.
+/// One line on standard error that is kept up to date, as wide as the terminal is at the moment; on
+/// anything but a terminal a line now and then. Shows percent, passes, time left, error, rays/s,
+/// photons/s, memory: as much of it, in this order, as there is room for.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet);
@@ -20,15 +24,20 @@ class ProgressLine {
   void finish();
 
  private:
-  void print(const std::string& line);
+  void print(double fraction, const std::vector<std::string>& facts);
   bool quiet_, terminal_;
   double last_printed_s_ = -1e9;
   size_t width_ = 0;
   std::mutex mutex_;
 };
 
-/// Turns the first interrupt (Ctrl-C) or termination signal into a stop request; a second one ends
-/// the program at once.
+/// The first of `facts` behind a bar, in at most `columns` columns; without a bar where it is
+/// narrow.
+std::string progress_text(double fraction, const std::vector<std::string>& facts, size_t columns);
+
+/// Turns the first Ctrl-C (SIGINT), SIGTERM or SIGHUP into a stop request; a second one, of
+/// whichever, ends the program at once. The same one again within a moment is the first: some send
+/// it to the process and to its group. SIGHUP is left ignored if it was (nohup).
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -36,6 +45,8 @@ class InterruptGuard {
   std::stop_token token() const { return source_.get_token(); }
 
  private:
+  static constexpr std::array<int, 3> signals_ = {SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, signals_.size()> before_{};
   std::stop_source source_;
   std::jthread watcher_;
 };

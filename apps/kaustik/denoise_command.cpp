@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "file_roles.h"
 #include "kaustik/base/error.h"
 #include "kaustik/image/denoise.h"
 #include "kaustik/image/image_io.h"
+#include "picture_file.h"
 
 namespace kaustik::app {
 namespace {
@@ -30,21 +32,26 @@ void add_denoise(CLI::App& program) {
       "so the result is for looking at, not for measuring.");
   struct Options {
     std::string input, output;
-    bool full_float = false;
+    bool full_float = false, force = false;
   };
   auto o = std::make_shared<Options>();
   command->add_option("image", o->input, "EXR that kaustik rendered, with all its layers")
       ->required();
   command
       ->add_option("-o,--output", o->output,
-                   "EXR, HDR, PFM or LogLuv tif to write; for displays: kaustik tonemap")
+                   "EXR, HDR, PFM or LogLuv tif to write, - for standard output; for displays: "
+                   "kaustik tonemap")
       ->required();
   command->add_flag("--float", o->full_float, "EXR with 32-bit instead of 16-bit floats");
+  command->add_flag("--force", o->force, "Replace the image that is read");
   command->callback([o] {
-    check_writable(o->output);
+    FileRoles roles;
+    roles.reads(o->input, o->force);
+    check_picture_writable(o->output);
+    roles.writes(o->output);
     WriteOptions write;
     write.exr_half = !o->full_float;
-    write_image(denoised(o->input), o->output, write);
+    write_picture(denoised(o->input), o->output, write);
   });
 }
 

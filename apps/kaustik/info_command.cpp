@@ -12,7 +12,7 @@ namespace {
 void info(const std::string& path, const std::vector<std::string>& definitions) {
   LoadOptions load;
   load.definitions = parse_definitions(definitions);
-  const Description description = load_mitsuba_xml(path, load);
+  const Description description = load_scene(path, load);
   tell_of_memory(description);
   const auto scene = build_scene(description);
   SceneReport report = describe_scene(*scene);
@@ -29,7 +29,7 @@ void add_info(CLI::App& program) {
       program.add_subcommand("info", "Print what is in a scene and warn of what can't work.");
   auto path = std::make_shared<std::string>();
   auto definitions = std::make_shared<std::vector<std::string>>();
-  command->add_option("scene", *path, "Scene file (Mitsuba XML)")->required();
+  command->add_option("scene", *path, "Scene file (Mitsuba XML); - for standard input")->required();
   command->add_option("-D,--define", *definitions, "Value for $name in the scene file")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);

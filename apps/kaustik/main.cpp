@@ -5,10 +5,13 @@
 #include <spdlog/spdlog.h>
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <new>
 
 #include "commands.h"
+#include "exit_codes.h"
 #include "kaustik/base/error.h"
+#include "standard_streams.h"
 
 namespace {
 
@@ -21,13 +24,26 @@ void keep_memory() {
 #endif
 }
 
-constexpr int exit_system = 1, exit_input = 2;
+/// The command that a file without one was likely meant for; "" if none.
+std::string command_for(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (extension == ".xml" || file == "-") return "render";
+  if (extension == ".kpt") return "resume";
+  if (extension == ".exr" || extension == ".hdr" || extension == ".pfm") return "tonemap";
+  return {};
+}
 
 /// CLI11 would only say that a subcommand is missing.
 void check_command(const std::string& name, const CLI::App& program) {
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
-  if (name.starts_with('-') || std::find(names.begin(), names.end(), name) != names.end()) return;
+  if ((name.starts_with('-') && name != "-") ||
+      std::find(names.begin(), names.end(), name) != names.end())
+    return;
+  if (const std::string command = command_for(name); !command.empty())
+    throw kaustik::Error(kaustik::ErrorKind::input, fmt::format("'{}' is no command", name),
+                         fmt::format("kaustik {} {}{}", command, name,
+                                     command == "tonemap" ? " -o PICTURE.png" : ""));
   throw kaustik::Error(kaustik::ErrorKind::input, fmt::format("there is no command '{}'", name),
                        kaustik::suggest(name, names));
 }
@@ -39,7 +55,8 @@ int run(int argc, char** argv) {
   program.footer(
       "Start with: kaustik render scenes/cornell_box/cornell_box.xml -o cornell.exr -o "
       "cornell.png\n"
-      "Every parameter of every object: kaustik help");
+      "Every parameter of every object: kaustik help\n\n" +
+      std::string(kaustik::app::exit_code_table));
   kaustik::app::add_render(program);
   kaustik::app::add_resume(program);
   kaustik::app::add_tonemap(program);
@@ -53,9 +70,29 @@ int run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : exit_input;
+    if (program.exit(error) != 0) return kaustik::app::exit_input;
   }
+  kaustik::app::finish_standard_output();
   return 0;
+}
+
+/// What ended the program before its time, in words and as its exit code; called where it is
+/// caught.
+int told() {
+  using namespace kaustik::app;
+  try {
+    throw;
+  } catch (const EndedEarly&) {
+    return exit_ended_early;
+  } catch (const kaustik::Error& error) {
+    say("{}", error.what());
+    return error.kind() == kaustik::ErrorKind::input ? exit_input : exit_system;
+  } catch (const std::bad_alloc&) {
+    say("out of memory\n  remedy: render a smaller picture or fewer photons");
+  } catch (const std::exception& error) {
+    say("{}", error.what());
+  }
+  return exit_system;
 }
 
 }  // namespace
@@ -66,16 +103,17 @@ int main(int argc, char** argv) {
   keep_memory();
   // A file that grows over the limit is then an error of the write, not the program's end.
   std::signal(SIGXFSZ, SIG_IGN);
+  kaustik::app::prepare_standard_streams();
   try {
     return run(argc, argv);
-  } catch (const kaustik::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return error.kind() == kaustik::ErrorKind::input ? exit_input : exit_system;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "out of memory\n  remedy: render a smaller picture or fewer photons\n");
-    return exit_system;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return exit_system;
+  } catch (...) {
+    if (!kaustik::app::standard_output_failed()) return told();
   }
+  // Printing throws, too, but knows no reason.
+  try {
+    kaustik::app::finish_standard_output();
+  } catch (...) {
+    return told();
+  }
+  return kaustik::app::exit_system;
 }

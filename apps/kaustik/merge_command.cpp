@@ -1,30 +1,41 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "failures.h"
+#include "file_roles.h"
 #include "kaustik/base/file.h"
 #include "kaustik/render/checkpoint.h"
 #include "kaustik/render/photon_tracing.h"
 #include "picture_output.h"
+#include "standard_streams.h"
 
 namespace kaustik::app {
 namespace {
 
 struct MergeOptions {
   std::vector<std::string> inputs, outputs;
+  bool force = false;
 };
+
+/// What a merge writes may replace neither its parts nor what somebody else has computed.
+void check_new_file(const std::string& path, bool (*is_kind)(const std::string&),
+                    const std::string& what, const MergeOptions& options) {
+  check_output_path(path);
+  check_not_there(path, is_kind, what, "choose another name", options.force);
+}
 
 void merge_photons(const MergeOptions& options) {
   if (options.outputs.size() > 1)
     throw Error(ErrorKind::input, "photon maps are written to one file",
                 "give one output: -o MAP.kpm");
   const std::string& output = options.outputs.front();
-  check_output_path(output);
+  check_new_file(output, is_photon_file, "a photon map", options);
   std::vector<StoredPhotons> parts;
   for (const std::string& input : options.inputs) parts.push_back(read_photon_file(input));
   const StoredPhotons whole = merged_photons(parts);
   write_photon_file(output, whole);
-  fmt::print(stderr, "wrote {}: {} global and {} caustic photons\n", output,
-             whole.maps.global.size(), whole.maps.caustic.size());
+  say("wrote {}: {} global and {} caustic photons", output, whole.maps.global.size(),
+      whole.maps.caustic.size());
 }
 
 bool names_checkpoint(const std::string& output) { return output.ends_with(".kpt"); }
@@ -52,19 +63,28 @@ Checkpoint merged_checkpoints(const std::vector<std::string>& paths) {
 void merge_passes(const MergeOptions& options) {
   OutputPlan images;
   images.files = images_of(options);
-  check_outputs(images);
-  for (const std::string& output : options.outputs)
-    if (names_checkpoint(output)) check_output_path(output);
-  Checkpoint whole = merged_checkpoints(options.inputs);
-  // A merged checkpoint keeps the first part's list of images, for resume.
+  FileRoles roles;
+  for (const std::string& input : options.inputs) roles.reads(input, options.force);
+  check_outputs(images, roles);
   for (const std::string& output : options.outputs) {
     if (!names_checkpoint(output)) continue;
-    write_checkpoint(output, whole.record, whole.film);
-    fmt::print(stderr, "wrote {}: passes {}\n", output, whole.film.passes().text());
+    roles.writes(output);
+    check_new_file(output, is_checkpoint, "a checkpoint", options);
   }
+  Checkpoint whole = merged_checkpoints(options.inputs);
+  // What is written here is what resume is to write later.
+  if (!images.files.empty()) whole.record.outputs.files = images.files;
+  Failures failures;
+  for (const std::string& output : options.outputs)
+    if (names_checkpoint(output))
+      failures.attempt(output, [&] {
+        write_checkpoint(output, whole.record, whole.film);
+        say("wrote {}: passes {}", output, whole.film.passes().text());
+      });
   whole.record.outputs.files = images.files;
-  write_pictures(whole.film, whole.record, {});
+  write_pictures(whole.film, whole.record, {}, failures);
   print_errors(whole.film);
+  failures.throw_if_any();
 }
 
 void merge(const MergeOptions& options) {
@@ -100,6 +120,8 @@ void add_merge(CLI::App& program) {
       ->take_all()
       ->allow_extra_args(false)
       ->required();
+  command->add_flag("--force", o->force,
+                    "Replace a checkpoint or photon map that is there already");
   command->callback([o] { merge(*o); });
 }
 

@@ -6,12 +6,16 @@
 
 #include "commands.h"
 #include "console.h"
+#include "exit_codes.h"
+#include "file_roles.h"
 #include "kaustik/base/file.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/photon_tracing.h"
 #include "kaustik/scene/overrides.h"
+#include "numbers.h"
 #include "render_job.h"
 #include "scene_warnings.h"
+#include "standard_streams.h"
 #include "thesis_settings.h"
 
 namespace kaustik::app {
@@ -24,6 +28,7 @@ struct PhotonsOptions {
   std::string part;
   uint64_t seed = 0;
   int threads = 0;
+  bool force = false;
 };
 
 /// "2/4": part 2 of 4.
@@ -72,12 +77,50 @@ void print_map(const char* name, const Scene& scene, const PhotonMap& map,
   if (report.lights.size() > 1) print_counts("all", report.total());
 }
 
+/// Photon maps are replaced by new ones without a question, as pictures are.
+bool is_photon_map(const std::string& path) {
+  std::error_code unknown;
+  return std::filesystem::is_regular_file(path, unknown) && is_photon_file(path);
+}
+
+TracedPhotons traced(const PhotonsOptions& options, const PhotonPart& part,
+                     const Description& description, const Scene& scene) {
+  const InterruptGuard interrupt;
+  say("tracing photons of {}", options.scene);
+  ProgressLine line(false);
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    TracedPhotons photons = trace_photon_maps(
+        description, scene, options.seed, usable_threads(options.threads), interrupt.token(),
+        [&](double share) {
+          line.show(
+              share,
+              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        },
+        part);
+    line.finish();
+    return photons;
+  } catch (const Error& error) {
+    if (!interrupt.token().stop_requested()) throw;
+    line.finish();
+    say("{}: nothing is written", error.what());
+    throw EndedEarly{};
+  }
+}
+
 void trace_photons(const PhotonsOptions& options) {
   const PhotonPart part = parse_part(options.part);
   check_output_path(options.output);
+  FileRoles roles;
+  roles.reads(options.scene);
+  roles.writes(options.output);
+  if (!is_photon_map(options.output))
+    check_not_there(options.output, is_photon_file, "a photon map", "", options.force);
   LoadOptions load;
   load.definitions = parse_definitions(options.definitions);
-  Description description = load_mitsuba_xml(options.scene, load);
+  Description description = load_scene(options.scene, load);
+  roles.reads(description);
+  roles.check();
   // Before the settings, so that they speak of the integrator that is used.
   override_integrator(description, "photonmap");
   apply_settings(description, options.levels, options.settings);
@@ -85,19 +128,8 @@ void trace_photons(const PhotonsOptions& options) {
   const auto scene = build_scene(description);
   for (const std::string& warning : scene_warnings(*scene)) warn(warning);
 
-  const InterruptGuard interrupt;
-  fmt::print(stderr, "tracing photons of {}\n", options.scene);
-  ProgressLine line(false);
-  const auto start = std::chrono::steady_clock::now();
-  TracedPhotons traced = trace_photon_maps(
-      description, *scene, options.seed, usable_threads(options.threads), interrupt.token(),
-      [&](double share) {
-        line.show(share,
-                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-      },
-      part);
-  line.finish();
-  StoredPhotons& stored = traced.photons;
+  TracedPhotons traced_photons = traced(options, part, description, *scene);
+  StoredPhotons& stored = traced_photons.photons;
   stored.scene = std::filesystem::path(options.scene).lexically_normal().string();
   write_photon_file(options.output, stored);
 
@@ -106,8 +138,8 @@ void trace_photons(const PhotonsOptions& options) {
   print_map("caustic", *scene, stored.maps.caustic, stored.maps.caustic_report);
   fmt::print("traced in {}, trees built in {}\n", duration_text(stored.maps.trace_seconds),
              duration_text(stored.maps.build_seconds));
-  for (const std::string& warning : traced.warnings) warn(warning);
-  fmt::print(stderr, "wrote {}\n", options.output);
+  for (const std::string& warning : traced_photons.warnings) warn(warning);
+  say("wrote {}", options.output);
 }
 
 }  // namespace
@@ -117,7 +149,8 @@ void add_photons(CLI::App& program) {
       "photons",
       "Trace the photon maps of a scene, store them for other views, print their statistics.");
   auto o = std::make_shared<PhotonsOptions>();
-  command->add_option("scene", o->scene, "Scene file (Mitsuba XML)")->required();
+  command->add_option("scene", o->scene, "Scene file (Mitsuba XML); - for standard input")
+      ->required();
   command->add_option("-o,--output", o->output, "Photon map to write, .kpm")->required();
   command->add_option("-D,--define", o->definitions, "Value for $name in the scene file")
       ->type_name("NAME=VALUE")
@@ -132,8 +165,9 @@ void add_photons(CLI::App& program) {
       ->add_option("--part", o->part,
                    "Trace only part I of N, to be put together with kaustik merge [all]")
       ->type_name("I/N");
+  command->add_flag("--force", o->force, "Replace a file that is there and is no photon map");
   command->add_option("--seed", o->seed, "Seed of all random numbers [0]");
-  command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(CLI::Range(0, 4096));
+  command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
   command->callback([o] { trace_photons(*o); });
 }
 

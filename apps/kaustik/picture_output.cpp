@@ -7,7 +7,8 @@
 #include "console.h"
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/denoise.h"
-#include "kaustik/image/image_io.h"
+#include "picture_file.h"
+#include "standard_streams.h"
 
 namespace kaustik::app {
 namespace {
@@ -19,14 +20,14 @@ void set_metadata(Image& image, const Film& film, const RenderRecord& record,
   image.set_metadata("integrator", record.view.integrator);
   image.set_metadata("seed", int64_t(record.recipe.seed));
   image.set_metadata("passes", int64_t(film.pass_count()));
-  image.set_metadata("samples_per_pixel",
-                     int64_t(film.pass_count()) * record.recipe.samples_per_pass);
+  image.set_metadata("samples_per_pixel", int64_t(film.samples_per_pixel()));
   image.set_metadata("horizontal_fov", record.view.horizontal_fov);
   image.set_metadata("vertical_fov", record.view.vertical_fov);
   image.set_metadata(
       "quantity",
       std::string(record.view.quantity == Quantity::irradiance ? "irradiance" : "radiance"));
-  if (options.incomplete_pass) image.set_metadata("incomplete", std::string("cancelled in pass 1"));
+  if (options.incomplete_pass)
+    image.set_metadata("incomplete", std::string("ended within the first pass"));
   if (!record.outputs.reproducible) image.set_metadata("render_seconds", record.seconds);
 }
 
@@ -45,32 +46,36 @@ void smooth_noise(Image& image) {
 
 }  // namespace
 
-void check_outputs(const OutputPlan& outputs) {
-  for (const std::string& file : outputs.files) check_writable(file);
+void check_outputs(const OutputPlan& outputs, FileRoles& roles) {
+  for (const std::string& file : outputs.files) {
+    check_picture_writable(file);
+    roles.writes(file);
+  }
   make_tone_operator(outputs.tone, outputs.tone_settings);
 }
 
-void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options) {
+void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,
+                    Failures& failures) {
   WriteOptions write;
   write.exr_half = !record.outputs.full_float;
   write.tone = make_tone_operator(record.outputs.tone, record.outputs.tone_settings);
   Image image = film.image();
   set_metadata(image, film, record, options);
   if (record.outputs.denoise) with_threads(options.threads, [&] { smooth_noise(image); });
-  for (const std::string& file : record.outputs.files) {
-    write_image(image, file, write);
-    if (!options.quiet) fmt::print(stderr, "wrote {}\n", file);
-  }
+  for (const std::string& file : record.outputs.files)
+    failures.attempt(file, [&] {
+      write_picture(image, file, write);
+      if (!options.quiet) say("wrote {}", picture_name(file));
+    });
 }
 
 void print_errors(const Film& film) {
   const double of_mean = film.mean_error(), of_pixels = film.picture_error();
   if (std::isfinite(of_mean))
-    fmt::print(stderr, "mean of the picture: ±{:.2g} % (95 % confidence, {} passes)\n",
-               100 * of_mean, film.pass_count());
+    say("mean of the picture: ±{:.2g} % (95 % confidence, {} passes)", 100 * of_mean,
+        film.pass_count());
   if (std::isfinite(of_pixels))
-    fmt::print(stderr, "error of the pixels: {:.2g} % (standard error, root mean square)\n",
-               100 * of_pixels);
+    say("error of the pixels: {:.2g} % (standard error, root mean square)", 100 * of_pixels);
 }
 
 }  // namespace kaustik::app

@@ -1,4 +1,6 @@
 #pragma once
+#include "failures.h"
+#include "file_roles.h"
 #include "kaustik/render/checkpoint.h"
 
 namespace kaustik::app {
@@ -6,16 +8,17 @@ namespace kaustik::app {
 struct OutputOptions {
   int threads = 0;               ///< for smoothing; 0: all
   bool quiet = false;            ///< says nothing of the files
-  bool incomplete_pass = false;  ///< the film holds only a part of its one pass
+  bool incomplete_pass = false;  ///< the film holds fewer samples than a pass has
 };
 
-/// Checks, before long work, that the files can be written and the tone mapping can be made; throws
-/// Error.
-void check_outputs(const OutputPlan& outputs);
+/// Checks, before long work, that the files can be written, each once, and the tone mapping can be
+/// made; throws Error.
+void check_outputs(const OutputPlan& outputs, FileRoles& roles);
 
 /// Writes the film's picture to all the files of the record's plan, with what is known of it as
-/// metadata. Throws Error.
-void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options);
+/// metadata; those that cannot be written go to `failures`.
+void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,
+                    Failures& failures);
 
 /// Tells how well the picture is known, on standard error.
 void print_errors(const Film& film);

@@ -1,17 +1,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include "commands.h"
 #include "console.h"
+#include "file_roles.h"
 #include "kaustik/base/file.h"
 #include "kaustik/image/tone_mapping.h"
 #include "kaustik/integrator/integrator.h"
+#include "numbers.h"
 #include "picture_output.h"
 #include "render_job.h"
+#include "standard_streams.h"
 #include "thesis_settings.h"
 
 namespace kaustik::app {
@@ -28,7 +33,7 @@ struct RenderOptions {
   LevelOptions levels;
   int threads = 0;
   std::optional<double> exposure;
-  bool quiet = false;
+  bool quiet = false, force = false;
 };
 
 /// "tonemap.key=0.3" is for the tone mapping operator, everything else for the scene.
@@ -44,13 +49,25 @@ void sort_settings(RenderOptions& options) {
     options.outputs.tone_settings.push_back(fmt::format("exposure={}", *options.exposure));
 }
 
+void check_new_checkpoint(const std::string& path, bool force, FileRoles& roles) {
+  check_output_path(path);
+  roles.writes(path);
+  check_not_there(path, is_checkpoint, "a checkpoint",
+                  fmt::format("go on with it: kaustik resume {}", path), force);
+}
+
 void render(RenderOptions options) {
   RenderRecipe& recipe = options.recipe;
+  FileRoles roles;
+  roles.reads(recipe.scene);
+  if (options.outputs.files.empty() && is_standard_stream(recipe.scene))
+    throw Error(ErrorKind::input, "a scene from standard input gives its picture no name",
+                "say what to write: -o FILE");
   if (options.outputs.files.empty())
     options.outputs.files.push_back(std::filesystem::path(recipe.scene).stem().string() + ".exr");
   sort_settings(options);
-  check_outputs(options.outputs);
-  if (options.checkpoint) check_output_path(*options.checkpoint);
+  check_outputs(options.outputs, roles);
+  if (options.checkpoint) check_new_checkpoint(*options.checkpoint, options.force, roles);
   SessionSettings settings;
   settings.seed = recipe.seed;
   settings.threads = usable_threads(options.threads);
@@ -67,6 +84,8 @@ void render(RenderOptions options) {
   recipe.folder = std::filesystem::current_path().string();
   recipe.definitions = parse_definitions(options.definitions);
   Description description = load_description(recipe);
+  roles.reads(description);
+  roles.check();
   // What the thesis sets is a photon map's.
   if (!find_integrator(description) && sets_thesis_photon_map(options.levels)) {
     recipe.integrator = "photonmap";
@@ -91,18 +110,32 @@ std::string integrator_names() {
 }  // namespace
 
 double parse_duration(const std::string& text, const std::string& option) {
-  double value = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const std::string unit(end, text.data() + text.size());
-  const double factor = unit.empty() || unit == "s"    ? 1
-                        : unit == "m" || unit == "min" ? 60
-                        : unit == "h"                  ? 3600
-                                                       : 0;
-  if (code != std::errc{} || factor == 0 || !(value > 0) || !std::isfinite(value))
+  // Longer ones would leave the range of clocks.
+  constexpr double longest_s = 1e9;
+  const auto fail = [&] {
     throw Error(ErrorKind::input, fmt::format("cannot read the time '{}'", text),
-                "write a positive number of seconds (60s), minutes (5m) or hours (1h)",
+                "write a positive number of seconds (60s), minutes (5m), hours (1h), or 1h30m, up "
+                "to 30 years",
                 place_in("command line: " + option));
-  return value * factor;
+  };
+  double seconds = 0, last_unit = std::numeric_limits<double>::infinity();
+  const char *at = text.data(), *const last = text.data() + text.size();
+  do {
+    double value = 0;
+    const auto [end, code] = std::from_chars(at, last, value, std::chars_format::fixed);
+    const char* const next = std::find_if(end, last, [](char c) { return !std::isalpha(c); });
+    const std::string name(end, next);
+    const double unit = name == "s" || (name.empty() && at == text.data() && end == last) ? 1
+                        : name == "m" || name == "min"                                    ? 60
+                        : name == "h"                                                     ? 3600
+                                                                                          : 0;
+    if (code != std::errc{} || unit == 0 || !(unit < last_unit) || !(value >= 0)) fail();
+    seconds += value * unit;
+    last_unit = unit;
+    at = next;
+  } while (at != last);
+  if (!(seconds > 0) || !(seconds <= longest_s)) fail();
+  return seconds;
 }
 
 double parse_error_bound(const std::string& text) {
@@ -131,17 +164,19 @@ std::vector<std::pair<std::string, std::string>> parse_definitions(
 void add_render(CLI::App& program) {
   CLI::App* command = program.add_subcommand("render", "Render a scene to image files.");
   command->footer(
-      "Ctrl-C (SIGINT, SIGTERM) ends the render, writes what is finished and exits with 0; a "
-      "second "
-      "one ends the program at once.\n"
+      "Ctrl-C, SIGTERM and SIGHUP end the render, write what is finished, and the exit code is 75; "
+      "a second one ends the program at once. In the first pass a picture of fewer samples is "
+      "written, or nothing as long as not every pixel has one.\n"
       "Variables photonMap.… of the environment set integrator photonmap as in Schregle's thesis: "
       "kaustik help thesis.");
   auto options = std::make_shared<RenderOptions>();
-  command->add_option("scene", options->recipe.scene, "Scene file (Mitsuba XML)")->required();
+  command
+      ->add_option("scene", options->recipe.scene, "Scene file (Mitsuba XML); - for standard input")
+      ->required();
   command
       ->add_option("-o,--output", options->outputs.files,
-                   "Image to write, by extension: exr, hdr, pfm, tif (LogLuv), png, jpg, ppm; may "
-                   "be repeated [SCENE.exr]")
+                   "Image to write, by extension: exr, hdr, pfm, tif (LogLuv), png, jpg, ppm; - or "
+                   "png:- for standard output; may be repeated [SCENE.exr]")
       ->take_all()
       ->allow_extra_args(false);
   command->add_option("-D,--define", options->definitions, "Value for $name in the scene file")
@@ -158,25 +193,29 @@ void add_render(CLI::App& program) {
   add_light_level(*command, options->levels);
   add_eye_level(*command, options->levels);
   command->add_option("--passes", options->passes, "Number of passes")
-      ->check(CLI::Range(1u, 1u << 30));
-  command->add_option("--spp", options->spp, "Samples per pixel over all passes")
-      ->check(CLI::Range(1u, 1u << 30));
+      ->check(whole_number(1, 1 << 30));
+  command
+      ->add_option("--spp", options->spp,
+                   "Samples per pixel over all passes (many make many passes)")
+      ->check(whole_number(1, 1 << 30));
   command->add_option("--error", options->error,
                       "Stop when the picture's relative error is at most this: 2% (looked at after "
                       "16, 32, 64, … passes)");
   command
       ->add_option("--first-pass", options->first_pass,
                    "Number of the first pass; --passes and --spp count from it [0]")
-      ->check(CLI::Range(0u, 1u << 30));
-  command->add_option("--time", options->time, "Stop in time: 60s, 5m, 1h (one pass at least)");
+      ->check(whole_number(0, 1 << 30));
+  command->add_option("--time", options->time, "Stop in time: 60s, 5m, 1h30m (one pass at least)");
   auto* checkpoint = command->add_option(
       "--checkpoint", options->checkpoint,
       "Keep the finished passes in this file, .kpt: kaustik resume, kaustik merge");
+  command->add_flag("--force", options->force, "Replace a checkpoint that is there already")
+      ->needs(checkpoint);
   command->add_option("--every", options->every, "Time between checkpoints: 30s, 5m, 1h [30s]")
       ->needs(checkpoint);
   command->add_option("--seed", options->recipe.seed, "Seed of all random numbers [0]");
   command->add_option("--threads", options->threads, "Threads; 0: all [0]")
-      ->check(CLI::Range(0, 4096));
+      ->check(whole_number(0, 4096));
   command->add_option(
       "--tonemap", options->outputs.tone,
       fmt::format("For 8-bit images: {} [histogram]; its parameters: --set tonemap.key=0.3",

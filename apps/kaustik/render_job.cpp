@@ -7,30 +7,17 @@
 
 #include "checkpoint_keeper.h"
 #include "console.h"
+#include "exit_codes.h"
+#include "failures.h"
 #include "kaustik/base/memory.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/scene/mesh_memory.h"
 #include "picture_output.h"
 #include "scene_warnings.h"
+#include "standard_streams.h"
 
 namespace kaustik::app {
 namespace {
-
-/// A failure must not cost the picture: it is thrown when that is written.
-std::exception_ptr write_last_checkpoint(CheckpointKeeper& keeper, const Film& film,
-                                         const SessionReport& report, bool wanted) {
-  if (!wanted) return nullptr;
-  if (report.incomplete_pass) {
-    warn("no pass was finished: there is no checkpoint");
-    return nullptr;
-  }
-  try {
-    keeper.write_last(film);
-  } catch (const std::exception&) {
-    return std::current_exception();
-  }
-  return nullptr;
-}
 
 /// Meshes that take less are not worth a word.
 constexpr uint64_t much_memory = 500'000'000;
@@ -60,10 +47,15 @@ void tell_of_memory(const Description& description) {
                      gigabytes(physical_memory_bytes())));
 }
 
+Description load_scene(const std::string& path, const LoadOptions& options) {
+  if (!is_standard_stream(path)) return load_mitsuba_xml(path, options);
+  return parse_mitsuba_xml(read_standard_input(), "standard input", "", options);
+}
+
 Description load_description(const RenderRecipe& recipe) {
   LoadOptions load;
   load.definitions = recipe.definitions;
-  Description description = load_mitsuba_xml(recipe.scene, load);
+  Description description = load_scene(recipe.scene, load);
   if (!recipe.integrator.empty()) override_integrator(description, recipe.integrator);
   return description;
 }
@@ -102,6 +94,8 @@ RenderJob make_job(Description description, const RenderRecipe& recipe, bool wit
 
 void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& settings,
              std::optional<Film> begun, const JobOptions& options) {
+  // Large films take a while to be made.
+  const InterruptGuard interrupt;
   Session session = begun ? Session(*job.scene, *job.integrator, settings, *std::move(begun))
                           : Session(*job.scene, *job.integrator, settings);
   const bool keeps = !options.checkpoint.empty();
@@ -112,22 +106,32 @@ void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& s
   record.view = job.view;
 
   CheckpointKeeper keeper(options.checkpoint, options.every_s, record);
-  const InterruptGuard interrupt;
   ProgressLine line(options.quiet);
   const SessionReport report = session.run(
       interrupt.token(), [&](const Progress& p) { line.show(p); },
       [&] { keeper.pass_done(session.film()); });
   line.finish();
-  if (!options.quiet) print_errors(session.film());
+  if (!options.quiet && report.passes > 0) print_errors(session.film());
   for (const std::string& decision : report.decisions)
     if (!options.quiet) note(decision);
   if (!options.quiet) tell_of_first_seconds(job.view.integrator, settings.seconds);
   for (const std::string& warning : report.warnings) warn(warning);
-  if (report.cancelled) warn("cancelled: writing what is finished");
   record.seconds += report.seconds;
-  const std::exception_ptr failed = write_last_checkpoint(keeper, session.film(), report, keeps);
-  write_pictures(session.film(), record, {settings.threads, options.quiet, report.incomplete_pass});
-  if (failed) std::rethrow_exception(failed);
+  if (report.passes == 0) {
+    warn("ended before every pixel had a sample: nothing is written, what was there before stays");
+    throw EndedEarly{};
+  }
+  if (report.cancelled) warn("cancelled: writing what is finished");
+  // A failure must not cost what can still be written.
+  Failures failures;
+  if (keeps && report.incomplete_pass)
+    warn("no pass was finished: there is no checkpoint");
+  else if (keeps)
+    failures.attempt(options.checkpoint, [&] { keeper.write_last(session.film()); });
+  write_pictures(session.film(), record, {settings.threads, options.quiet, report.incomplete_pass},
+                 failures);
+  failures.throw_if_any();
+  if (report.cancelled) throw EndedEarly{};
 }
 
 }  // namespace kaustik::app

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/checkpoint.h"
 #include "kaustik/render/session.h"
 
@@ -18,6 +19,9 @@ struct RenderJob {
 /// Says how much memory large meshes will take, before they are read.
 void tell_of_memory(const Description& description);
 
+/// Reads a scene file, or standard input ("-"). Throws Error.
+Description load_scene(const std::string& path, const LoadOptions& options);
+
 /// The recipe's scene file with its definitions and its integrator, before its settings.
 Description load_description(const RenderRecipe& recipe);
 
@@ -32,9 +36,9 @@ struct JobOptions {
   double every_s = 30;     ///< between two checkpoints
 };
 
-/// Renders with progress, keeps the checkpoint and writes the picture; goes on with `begun` if it
+/// Renders with progress, keeps the checkpoint and writes the pictures; goes on with `begun` if it
 /// is there. A checkpoint needs the job's digest. What `record` lacks is filled in: samples per
-/// pass, plan, digest, view. Throws Error.
+/// pass, plan, digest, view. Throws Error, of all that could not be written, and EndedEarly.
 void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& settings,
              std::optional<Film> begun, const JobOptions& options);
 

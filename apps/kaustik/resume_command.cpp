@@ -1,13 +1,17 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
 #include "commands.h"
 #include "console.h"
 #include "kaustik/base/file.h"
+#include "numbers.h"
+#include "picture_file.h"
 #include "picture_output.h"
 #include "render_job.h"
+#include "standard_streams.h"
 
 namespace kaustik::app {
 namespace {
@@ -24,12 +28,54 @@ struct ResumeOptions {
 /// The scene is looked for where the render was told to look for it.
 void check_scene_is_there(const RenderRecipe& recipe, const std::string& checkpoint) {
   std::error_code ignored;
+  if (is_standard_stream(recipe.scene))
+    throw Error(ErrorKind::input, "its scene came from standard input",
+                "say where the same scene is: --scene FILE", place_in(checkpoint));
   if (std::filesystem::exists(recipe.scene, ignored)) return;
   throw Error(ErrorKind::input, fmt::format("its scene '{}' is not there", recipe.scene),
               fmt::format("resume in the folder '{}' where the render was begun, or say where the "
                           "scene is now: --scene FILE",
                           recipe.folder),
               place_in(checkpoint));
+}
+
+bool lies_below(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
+         folder.end();
+}
+
+/// The checkpoint may come from anybody: what it names is written in and below its own folder only,
+/// and what it lies in, as links have it.
+void check_outputs_are_near(const std::vector<std::string>& outputs,
+                            const std::string& checkpoint) {
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  const fs::path folder = fs::weakly_canonical(fs::absolute(checkpoint).parent_path(), unknown);
+  std::vector<std::string> far;
+  for (const std::string& output : outputs)
+    if (is_standard_stream(output) ||
+        !lies_below(fs::weakly_canonical(fs::absolute(output_target(output)), unknown), folder))
+      far.push_back(output);
+  if (far.empty() && !outputs.empty() && !unknown) return;
+  if (outputs.empty())
+    throw Error(ErrorKind::input, "it names no picture to write", "say what to write: -o FILE",
+                place_in(checkpoint));
+  throw Error(ErrorKind::input,
+              fmt::format("it names pictures outside its own folder: '{}'", fmt::join(far, "', '")),
+              fmt::format("if these are to be written: -o '{}'", fmt::join(outputs, "' -o '")),
+              place_in(checkpoint));
+}
+
+/// "a.exr, b.png (which is there and will be replaced)"
+std::string replacements(const std::vector<std::string>& outputs) {
+  std::string text;
+  std::error_code ignored;
+  for (const std::string& output : outputs) {
+    text += (text.empty() ? "" : ", ") + picture_name(output);
+    if (!is_standard_stream(output) && std::filesystem::exists(output, ignored))
+      text += " (replacing what is there)";
+  }
+  return text;
 }
 
 /// A changed scene would give passes that do not belong to those that are there.
@@ -79,10 +125,19 @@ void resume(const ResumeOptions& options) {
   check_program(checkpoint, options.checkpoint, KAUSTIK_VERSION);
   RenderRecord& record = checkpoint.record;
   if (!options.scene.empty()) record.recipe.scene = options.scene;
-  if (!options.outputs.empty()) record.outputs.files = options.outputs;
-  check_outputs(record.outputs);
-  check_scene_is_there(record.recipe, options.checkpoint);
-  const RenderJob job = make_job(load_description(record.recipe), record.recipe, true);
+  if (options.outputs.empty())
+    check_outputs_are_near(record.outputs.files, options.checkpoint);
+  else
+    record.outputs.files = options.outputs;
+  FileRoles roles;
+  roles.reads(options.checkpoint);
+  roles.reads(record.recipe.scene);
+  check_outputs(record.outputs, roles);
+  if (options.scene.empty()) check_scene_is_there(record.recipe, options.checkpoint);
+  Description description = load_description(record.recipe);
+  roles.reads(description);
+  roles.check();
+  const RenderJob job = make_job(std::move(description), record.recipe, true);
   check_same(job, checkpoint, options.checkpoint);
 
   const SessionSettings settings = session_settings(options, checkpoint);
@@ -92,8 +147,8 @@ void resume(const ResumeOptions& options) {
   else if (options.time)
     record.plan.seconds = record.seconds + *settings.seconds;
   if (!options.quiet)
-    fmt::print(stderr, "{} goes on: passes {} are there\n", record.recipe.scene,
-               checkpoint.film.passes().text());
+    say("{} goes on: passes {} are there; to be written: {}", record.recipe.scene,
+        checkpoint.film.passes().text(), replacements(record.outputs.files));
   JobOptions job_options;
   job_options.quiet = options.quiet;
   job_options.checkpoint = options.checkpoint;
@@ -116,21 +171,22 @@ void add_resume(CLI::App& program) {
   command->add_option("checkpoint", o->checkpoint, "Checkpoint, .kpt; kept up to date")->required();
   command
       ->add_option("-o,--output", o->outputs,
-                   "Image to write; may be repeated [as the render was told]")
+                   "Image to write; may be repeated [as the render was told, in and below the "
+                   "checkpoint's folder]")
       ->take_all()
       ->allow_extra_args(false);
   auto* passes =
       command->add_option("--passes", o->passes, "Number of passes, those there included")
-          ->check(CLI::Range(1u, 1u << 30));
+          ->check(whole_number(1, 1 << 30));
   command->add_option("--spp", o->spp, "Samples per pixel over all passes, those there included")
-      ->check(CLI::Range(1u, 1u << 30))
+      ->check(whole_number(1, 1 << 30))
       ->excludes(passes);
-  command->add_option("--time", o->time, "Stop in time, from now: 60s, 5m, 1h");
+  command->add_option("--time", o->time, "Stop in time, from now: 60s, 5m, 1h30m");
   command->add_option("--error", o->error,
                       "Stop when the picture's relative error is at most this: 2%");
   command->add_option("--scene", o->scene, "Where the scene file is now, if it was moved");
   command->add_option("--every", o->every, "Time between checkpoints [30s]");
-  command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(CLI::Range(0, 4096));
+  command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
   command->add_flag("-q,--quiet", o->quiet, "No progress");
   command->callback([o] { resume(*o); });
 }

@@ -9,6 +9,7 @@
 #include "console.h"
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/scene/overrides.h"
+#include "numbers.h"
 
 namespace kaustik::app {
 namespace {
@@ -152,7 +153,7 @@ void add_light_level(CLI::App& command, LevelOptions& levels) {
       .add_option("-l", levels.light,
                   "Longest light path of photons in scattering events (max_light_level)")
       ->type_name("N")
-      ->check(CLI::Range(1, 1 << 20));
+      ->check(whole_number(1, 1 << 20));
 }
 
 void add_eye_level(CLI::App& command, LevelOptions& levels) {
@@ -160,7 +161,7 @@ void add_eye_level(CLI::App& command, LevelOptions& levels) {
       .add_option("-e", levels.eye,
                   "Levels of the camera's path at which photonmap gathers (max_eye_level)")
       ->type_name("N")
-      ->check(CLI::Range(0, 64));
+      ->check(whole_number(0, 64));
 }
 
 bool sets_thesis_photon_map(const LevelOptions& levels) {

@@ -1,12 +1,17 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <set>
+#include <optional>
 
 #include "commands.h"
 #include "console.h"
+#include "failures.h"
+#include "file_roles.h"
 #include "kaustik/base/error.h"
 #include "kaustik/image/image_io.h"
+#include "numbers.h"
+#include "picture_file.h"
+#include "standard_streams.h"
 
 namespace kaustik::app {
 namespace {
@@ -16,7 +21,7 @@ struct TonemapOptions {
   std::string layer, tone = "histogram";
   std::optional<double> exposure, fov, display_maximum, display_range;
   int quality = 95;
-  bool quiet = false;
+  bool quiet = false, force = false;
 };
 
 /// What is to be written of each input: one input may have several outputs; several inputs have as
@@ -44,14 +49,14 @@ std::vector<std::vector<std::string>> outputs_of(const TonemapOptions& options) 
   return result;
 }
 
-void check_outputs(const std::vector<std::vector<std::string>>& outputs) {
-  std::set<std::string> seen;
+void check_outputs(const TonemapOptions& options,
+                   const std::vector<std::vector<std::string>>& outputs) {
+  FileRoles roles;
+  for (const std::string& input : options.inputs) roles.reads(input, options.force);
   for (const auto& list : outputs)
     for (const std::string& output : list) {
-      check_shown_writable(output);
-      if (!seen.insert(std::filesystem::path(output).lexically_normal().string()).second)
-        throw Error(ErrorKind::input, fmt::format("'{}' would be written twice", output),
-                    "give every picture a name of its own");
+      check_shown_picture_writable(output);
+      roles.writes(output);
     }
 }
 
@@ -76,21 +81,31 @@ void warn_of_bad_pixels(const std::string& input, const BadPixels& bad) {
   tell(bad.negative, "of negative luminance: shown black");
 }
 
+/// An input as the display shows it; tells what is odd about it.
+Image shown(const TonemapOptions& options, const std::string& input, const ToneOperator& tone) {
+  const Image image = read_image(input);
+  warn_of_bad_pixels(input, count_bad_pixels(rgb_view(image, options.layer)));
+  std::optional<FieldOfView> view = field_of_view(image);
+  if (options.fov) view = FieldOfView{float(*options.fov), 0};
+  if (!view && tone.needs_view() && !options.quiet)
+    say("{}: no field of view in its metadata: {}° across assumed (--fov)", input,
+        FieldOfView{}.horizontal);
+  return tone_map(image, tone, options.layer, view);
+}
+
 void tonemap(const TonemapOptions& options) {
   const auto tone = operator_of(options);
   const std::vector<std::vector<std::string>> outputs = outputs_of(options);
-  check_outputs(outputs);
-  for (size_t i = 0; i < options.inputs.size(); ++i) {
-    const Image image = read_image(options.inputs[i]);
-    warn_of_bad_pixels(options.inputs[i], count_bad_pixels(rgb_view(image, options.layer)));
-    std::optional<FieldOfView> view = field_of_view(image);
-    if (options.fov) view = FieldOfView{float(*options.fov), 0};
-    if (!view && tone->needs_view() && !options.quiet)
-      fmt::print(stderr, "{}: no field of view in its metadata: {}° across assumed (--fov)\n",
-                 options.inputs[i], FieldOfView{}.horizontal);
-    const Image shown = tone_map(image, *tone, options.layer, view);
-    for (const std::string& output : outputs[i]) write_shown_image(shown, output, options.quality);
-  }
+  check_outputs(options, outputs);
+  // One image that cannot be read or written does not cost the others.
+  Failures failures;
+  for (size_t i = 0; i < options.inputs.size(); ++i)
+    failures.attempt(options.inputs[i], [&] {
+      const Image image = shown(options, options.inputs[i], *tone);
+      for (const std::string& output : outputs[i])
+        failures.attempt(output, [&] { write_shown_picture(image, output, options.quality); });
+    });
+  failures.throw_if_any();
 }
 
 }  // namespace
@@ -105,8 +120,10 @@ void add_tonemap(CLI::App& program) {
   auto o = std::make_shared<TonemapOptions>();
   command->add_option("inputs", o->inputs, "Images to read")->required();
   command
-      ->add_option("-o,--output", o->outputs,
-                   "png, jpg, ppm or tif (8 bits) to write, or a folder; may be repeated")
+      ->add_option(
+          "-o,--output", o->outputs,
+          "png, jpg, ppm or tif (8 bits) to write, or a folder, or - (jpg:- …) for standard "
+          "output; may be repeated")
       ->required()
       ->take_all()
       ->allow_extra_args(false);
@@ -119,11 +136,12 @@ void add_tonemap(CLI::App& program) {
   command->add_option("--layer", o->layer, "Layer of an EXR, such as caustic [the picture itself]");
   command->add_option("--exposure", o->exposure, "The same as --set exposure=…");
   command->add_option("--fov", o->fov, "Horizontal field of view, degrees [from the file, else 50]")
-      ->check(CLI::Range(0.001, 179.9));
+      ->check(number_between(0, 180));
   command->add_option("--display-maximum", o->display_maximum,
                       "The same as --set display_maximum=…");
   command->add_option("--display-range", o->display_range, "The same as --set display_range=…");
-  command->add_option("--quality", o->quality, "Of jpg [95]")->check(CLI::Range(1, 100));
+  command->add_option("--quality", o->quality, "Of jpg [95]")->check(whole_number(1, 100));
+  command->add_flag("--force", o->force, "Replace an image that is read");
   command->add_flag("-q,--quiet", o->quiet, "No notes");
   command->callback([o] { tonemap(*o); });
 }

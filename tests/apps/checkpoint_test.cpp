@@ -41,7 +41,8 @@ class CheckpointCommands : public ProgramTest {
             "--spp",        std::to_string(count * samples_per_pass),
             "--seed",       seed,
             "-o",           name + ".exr",
-            "--checkpoint", name + ".kpt"};
+            "--force",      "--checkpoint",
+            name + ".kpt"};
   }
   void expect_refused(const Arguments& arguments, const std::string& place,
                       const std::string& message, const std::string& remedy) const {
@@ -70,7 +71,7 @@ TEST_F(CheckpointCommands, ResumedAndMergedRendersAreTheSameFiles) {
     run_well(render(scene, {0, 6}, "whole"));
     run_well(render(scene, {0, 3}, "head"));
     run_well(render(scene, {3, 6}, "tail"));
-    run_well({"merge", "tail.kpt", "head.kpt", "-o", "merged.exr", "-o", "merged.kpt"});
+    run_well({"merge", "tail.kpt", "head.kpt", "-o", "merged.exr", "-o", "merged.kpt", "--force"});
     run_well({"resume", "head.kpt", "-q", "--passes", "6", "-o", "resumed.exr"});
     run_well({"resume", "merged.kpt", "-q", "-o", "again.exr"});
     const std::string whole = contents("whole.exr");
@@ -110,7 +111,7 @@ TEST_F(CheckpointCommands, CtrlCKeepsACheckpointThatGoesOn) {
   const RunResult cancelled = run({"render", "path.xml", "--passes", "100000", "--spp", "200000",
                                    "--reproducible", "-o", "a.exr", "--checkpoint", "a.kpt"},
                                   interrupt);
-  EXPECT_EQ(cancelled.exit_code, 0) << cancelled.err;
+  EXPECT_EQ(cancelled.exit_code, 75) << cancelled.err;
   const int64_t passes = passes_of("a.exr");
   ASSERT_GT(passes, 0);
   const std::string picture = contents("a.exr");
@@ -155,7 +156,7 @@ TEST_F(CheckpointCommands, NoFinishedPassIsNoCheckpoint) {
   const RunResult result = run({"render", "path.xml", "--passes", "1", "--spp", "100000000", "-o",
                                 "a.exr", "--checkpoint", "a.kpt"},
                                interrupt);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.exit_code, 75) << result.err;
   EXPECT_TRUE(contains(result.err, "there is no checkpoint")) << result.err;
   EXPECT_FALSE(exists("a.kpt"));
 }

@@ -2,13 +2,16 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <pty.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -21,8 +24,19 @@ using Clock = std::chrono::steady_clock;
 /// The reading end of a pipe and what has come through it.
 class Capture {
  public:
-  Capture() {
-    if (::pipe2(ends_, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+  /// Of a terminal, if it is to have columns.
+  explicit Capture(int columns = 0) {
+    winsize size{};
+    size.ws_col = static_cast<unsigned short>(columns);
+    size.ws_row = 24;
+    const bool is_made = columns > 0 ? ::openpty(&ends_[0], &ends_[1], nullptr, nullptr, &size) == 0
+                                     : ::pipe2(ends_, O_CLOEXEC) == 0;
+    if (!is_made) throw std::runtime_error("no pipe");
+  }
+  void resize(int columns) const {
+    winsize size{};
+    size.ws_col = static_cast<unsigned short>(columns);
+    ::ioctl(ends_[0], TIOCSWINSZ, &size);
   }
   ~Capture() {
     ::close(ends_[0]);
@@ -60,12 +74,12 @@ void limit(__rlimit_resource resource, std::optional<rlim_t> most) {
   ::setrlimit(resource, &both);
 }
 
-[[noreturn]] void become_kaustik(std::vector<char*> argv, const RunOptions& options,
+[[noreturn]] void become_kaustik(std::vector<char*> argv, const RunOptions& options, int input,
                                  const Capture& out, const Capture& err) {
-  ::dup2(out.writing_end(), STDOUT_FILENO);
+  const int full = options.full_output ? ::open("/dev/full", O_WRONLY) : -1;
+  ::dup2(full >= 0 ? full : out.writing_end(), STDOUT_FILENO);
   ::dup2(err.writing_end(), STDERR_FILENO);
-  const int nothing = ::open("/dev/null", O_RDONLY);
-  ::dup2(nothing, STDIN_FILENO);
+  ::dup2(input, STDIN_FILENO);
   limit(RLIMIT_FSIZE, options.file_size_limit);
   limit(RLIMIT_AS, options.memory_limit);
   if (!options.folder.empty() && ::chdir(options.folder.c_str()) != 0) ::_exit(126);
@@ -84,10 +98,15 @@ RunResult run_kaustik(const std::vector<std::string>& arguments, const RunOption
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
 
-  Capture out, err;
+  std::FILE* const input = std::tmpfile();
+  std::fputs(options.input.c_str(), input);
+  std::rewind(input);
+  Capture out, err(options.terminal_columns.empty() ? 0 : options.terminal_columns.front());
+  size_t resized = 1;
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("cannot fork");
-  if (child == 0) become_kaustik(argv, options, out, err);
+  if (child == 0) become_kaustik(argv, options, ::fileno(input), out, err);
+  std::fclose(input);
   out.close_writing_end();
   err.close_writing_end();
 
@@ -103,18 +122,23 @@ RunResult run_kaustik(const std::vector<std::string>& arguments, const RunOption
     pollfd requests[] = {out.poll_request(), err.poll_request()};
     ::poll(requests, 2, 20);
     if (requests[0].revents != 0) out.read_some();
-    if (requests[1].revents != 0) err.read_some();
+    if (requests[1].revents != 0) {
+      err.read_some();
+      if (resized < options.terminal_columns.size())
+        err.resize(options.terminal_columns[resized++]);
+    }
     if (interrupted) continue;
     if (!interrupt_time && err.text.find(options.interrupt_at) != std::string::npos)
       interrupt_time = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                           std::chrono::duration<double>(options.interrupt_delay_s));
     if (!interrupt_time || Clock::now() < *interrupt_time) continue;
     interrupted = true;
-    ::kill(child, SIGINT);
+    for (const int signal : options.signals) ::kill(child, signal);
   }
   int status = 0;
   ::waitpid(child, &status, 0);
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
   result.out = out.text;
   result.err = err.text;
   return result;

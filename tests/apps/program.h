@@ -2,6 +2,7 @@
 // Runs the real program and looks at what it leaves.
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/resource.h>
 
 #include <filesystem>
@@ -24,13 +25,21 @@ struct RunOptions {
   std::optional<rlim_t> file_size_limit;  ///< bytes that a file may have (RLIMIT_FSIZE)
   /// Bytes of address space (RLIMIT_AS); not for programs with sanitizers, which take terabytes.
   std::optional<rlim_t> memory_limit;
-  /// Sends SIGINT this long after standard error holds this text.
+  /// Sends these signals, one after the other, this long after standard error holds this text.
   std::string interrupt_at;
   double interrupt_delay_s = 0;
+  std::vector<int> signals = {SIGINT};
+  std::string input;  ///< standard input
+  /// Whether standard output is a device that is always full.
+  bool full_output = false;
+  /// Standard error is a terminal of so many columns, from the second number on of so many after
+  /// each read of its text; empty: a pipe.
+  std::vector<int> terminal_columns;
 };
 
 struct RunResult {
   int exit_code = -1;  ///< −1: ended by a signal
+  int signal = 0;      ///< that ended it; 0: none
   bool timed_out = false;
   std::string out, err;
 };

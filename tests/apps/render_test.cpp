@@ -230,39 +230,5 @@ TEST_F(Render, StoredPhotonsServeOtherViews) {
   refused({}, "cannot read 'map.kpm'");
 }
 
-TEST_F(Render, CtrlCInTheFirstPassWritesWhatIsThere) {
-  RunOptions interrupt;
-  interrupt.interrupt_at = "pass 0";
-  interrupt.interrupt_delay_s = 0.5;
-  write("old.exr", "old");
-  const RunResult result = run(
-      {"render", "path.xml", "--passes", "1", "--spp", "100000000", "-o", "old.exr"}, interrupt);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(contains(result.err, "cancelled: writing what is finished")) << result.err;
-  const Image image = read_image(path("old.exr"));
-  EXPECT_EQ(image.width(), 24);
-  EXPECT_NE(image.find_metadata("incomplete"), nullptr);
-}
-
-TEST_F(Render, CtrlCKeepsTheFinishedPasses) {
-  RunOptions interrupt;
-  interrupt.interrupt_at = "pass 0";
-  interrupt.interrupt_delay_s = 1;
-  for (const std::string integrator : {"path", "lighttracer", "photonmap"}) {
-    SCOPED_TRACE(integrator);
-    const RunResult result = run(
-        {"render", integrator + ".xml", "--passes", "1000000", "--spp", "1000000", "-o", "a.exr"},
-        interrupt);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(contains(result.err, "cancelled")) << result.err;
-    const Image image = read_image(path("a.exr"));
-    EXPECT_EQ(image.find_metadata("incomplete"), nullptr);
-    const MetadataValue* passes = image.find_metadata("passes");
-    ASSERT_NE(passes, nullptr);
-    EXPECT_GT(std::get<int64_t>(*passes), 0);
-    EXPECT_GT(brightness("a.exr"), 0);
-  }
-}
-
 }  // namespace
 }  // namespace kaustik::test

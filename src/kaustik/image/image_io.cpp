@@ -74,15 +74,14 @@ const Writer& writer_for(const std::string& path, bool for_display) {
               "give the name one of " + known);
 }
 
-/// Encodes by calling `encode` and writes; every problem names the file.
+/// Encodes by calling `encode`; every problem names the file.
 template <typename Encode>
-void write_encoded(const Image& image, const std::string& path, const Encode& encode) {
+Bytes encoded(const Image& image, const std::string& path, const Encode& encode) {
   if (image.empty())
     throw Error(ErrorKind::input, fmt::format("cannot write '{}': the image is empty", path),
                 "give it a size and channels");
-  Bytes bytes;
   try {
-    bytes = encode();
+    return encode();
   } catch (const Error& error) {
     const Problem& problem = error.problems().front();
     throw Error(error.kind(), fmt::format("cannot write '{}': {}", path, problem.message),
@@ -94,7 +93,6 @@ void write_encoded(const Image& image, const std::string& path, const Encode& en
     throw Error(ErrorKind::system, fmt::format("cannot write '{}': {}", path, error.what()),
                 "choose another format or a smaller image");
   }
-  write_file_atomically(path, bytes);
 }
 
 struct Reader {
@@ -145,25 +143,39 @@ Image read_image(const std::string& path, const ReadOptions& options) {
   return {};
 }
 
+std::vector<uint8_t> encode_image(const Image& image, const std::string& path,
+                                  const WriteOptions& options) {
+  return encoded(image, path, [&] { return writer_for(path, false).encode(image, options); });
+}
+
+std::vector<uint8_t> encode_shown_image(const Image& shown, const std::string& path,
+                                        int jpeg_quality) {
+  return encoded(shown, path,
+                 [&] { return writer_for(path, true).encode_shown(shown, jpeg_quality); });
+}
+
 void write_image(const Image& image, const std::string& path, const WriteOptions& options) {
   check_writable(path);
-  write_encoded(image, path, [&] { return writer_for(path, false).encode(image, options); });
+  write_file_atomically(path, encode_image(image, path, options));
 }
 
 void write_shown_image(const Image& shown, const std::string& path, int jpeg_quality) {
   check_shown_writable(path);
-  write_encoded(shown, path,
-                [&] { return writer_for(path, true).encode_shown(shown, jpeg_quality); });
+  write_file_atomically(path, encode_shown_image(shown, path, jpeg_quality));
 }
+
+void check_extension(const std::string& path) { writer_for(path, false); }
+
+void check_shown_extension(const std::string& path) { writer_for(path, true); }
 
 void check_writable(const std::string& path) {
   check_output_path(path);
-  writer_for(path, false);
+  check_extension(path);
 }
 
 void check_shown_writable(const std::string& path) {
   check_output_path(path);
-  writer_for(path, true);
+  check_shown_extension(path);
 }
 
 }  // namespace kaustik

@@ -39,10 +39,19 @@ void write_image(const Image& image, const std::string& path, const WriteOptions
 /// write_image().
 void write_shown_image(const Image& shown, const std::string& path, int jpeg_quality = 95);
 
+/// The bytes that write_image() and write_shown_image() would write to a file of this name.
+std::vector<uint8_t> encode_image(const Image& image, const std::string& path,
+                                  const WriteOptions& options = {});
+std::vector<uint8_t> encode_shown_image(const Image& shown, const std::string& path,
+                                        int jpeg_quality = 95);
+
 /// Throws Error(input) if write_image() could not write here: unknown extension, folder missing or
 /// not writable, path is a folder. To be called before a long render.
 void check_writable(const std::string& path);
 /// The same for write_shown_image().
 void check_shown_writable(const std::string& path);
+/// Of that only the extension.
+void check_extension(const std::string& path);
+void check_shown_extension(const std::string& path);
 
 }  // namespace kaustik

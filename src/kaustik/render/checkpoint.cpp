@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <new>
 
 #include "kaustik/base/binary_file.h"
@@ -181,6 +182,19 @@ StopPlan merged_plan(const StopPlan& a, const StopPlan& b, const PassSet& passes
   return plan;
 }
 
+/// A part of a second that sums of times are exact in, in whatever order they are added.
+double to_exact_part(double seconds) {
+  return std::ldexp(std::round(std::ldexp(seconds, 20)), -20);
+}
+
+/// All but the plan, of the part whose passes begin first: so the order of merging makes no
+/// difference. Parts that were to write different pictures leave open what the whole is to write.
+RenderRecord merged_record(RenderRecord first, const RenderRecord& other) {
+  if (first.outputs.files != other.outputs.files) first.outputs.files.clear();
+  first.seconds = to_exact_part(first.seconds) + to_exact_part(other.seconds);
+  return first;
+}
+
 }  // namespace
 
 void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film) try {
@@ -244,9 +258,13 @@ void merge_checkpoint(Checkpoint& whole, const std::string& whole_path, const Ch
     fail(fmt::format("of its passes {} were given before: {}", part.film.passes().text(),
                      twice.text()),
          "give each pass once: render parts with their own --first-pass and --passes");
+  const bool leads =
+      part.film.passes().ranges().front().begin < whole.film.passes().ranges().front().begin;
   whole.film.add(part.film);
-  whole.record.plan = merged_plan(whole.record.plan, part.record.plan, whole.film.passes());
-  whole.record.seconds += part.record.seconds;
+  RenderRecord record =
+      merged_record(leads ? part.record : whole.record, leads ? whole.record : part.record);
+  record.plan = merged_plan(whole.record.plan, part.record.plan, whole.film.passes());
+  whole.record = std::move(record);
 }
 
 }  // namespace kaustik

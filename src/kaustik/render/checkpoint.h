@@ -79,9 +79,11 @@ bool is_checkpoint(const std::string& path);
 void check_program(const Checkpoint& checkpoint, const std::string& path,
                    const std::string& program);
 
-/// The passes of both, in `whole`. Throws Error(input), at `path`, where part and whole have a pass
-/// in common, or are of different scenes, integrators, settings, seeds or samples per pass.
-/// `whole_path` is for messages.
+/// The passes of both, in `whole`, with the record of the part whose passes begin first, so that
+/// the order of parts makes no difference; where they were to write different images, it names
+/// none. Throws Error(input), at `path`, where part and whole have a pass in common, or are of
+/// different scenes, integrators, settings, seeds or samples per pass. `whole_path` is for
+/// messages.
 void merge_checkpoint(Checkpoint& whole, const std::string& whole_path, const Checkpoint& part,
                       const std::string& path);
 

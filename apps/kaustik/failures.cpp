@@ -1,0 +1,24 @@
+#include "failures.h"
+
+#include <fmt/format.h>
+
+#include <new>
+
+namespace kaustik::app {
+
+void Failures::keep(const Error& error) {
+  if (error.kind() == ErrorKind::system) kind_ = ErrorKind::system;
+  problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
+}
+
+void Failures::keep(const std::string& file, const std::exception& error) {
+  const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  keep(Error(ErrorKind::system, fmt::format("cannot write '{}': {}", file,
+                                            no_memory ? "not enough memory" : error.what())));
+}
+
+void Failures::throw_if_any() const {
+  if (!problems_.empty()) throw Error(kind_, problems_);
+}
+
+}  // namespace kaustik::app

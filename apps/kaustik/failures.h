@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "kaustik/base/error.h"
+
+namespace kaustik::app {
+
+/// Collects what fails, so that one output that fails does not cost the others.
+class Failures {
+ public:
+  /// Runs `action`, which is to write `file`; what it throws is kept.
+  template <typename Action>
+  void attempt(const std::string& file, const Action& action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      keep(error);
+    } catch (const std::exception& error) {
+      keep(file, error);
+    }
+  }
+  bool empty() const { return problems_.empty(); }
+  /// Throws Error with all of them, if there are any; of kind system if one is.
+  void throw_if_any() const;
+
+ private:
+  void keep(const Error& error);
+  void keep(const std::string& file, const std::exception& error);
+
+  ErrorKind kind_ = ErrorKind::input;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace kaustik::app

@@ -1,0 +1,36 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <span>
+#include <string>
+
+namespace kaustik::app {
+
+/// Opens what the program was started without, so that no file gets the number of a standard
+/// stream; and lets writing to a closed pipe be an error of the write, not the program's end.
+void prepare_standard_streams();
+
+/// Throws Error(system) if something that was printed did not get through. A reader that has gone
+/// ends the program as it does others, by SIGPIPE.
+void finish_standard_output();
+/// Whether printing to it has failed.
+bool standard_output_failed();
+
+/// Whether a file's name means standard input or output: "-", or with a format "png:-".
+bool is_standard_stream(const std::string& name);
+
+/// All of standard input; throws Error(input) if it is too much for a scene.
+std::string read_standard_input();
+/// Throws Error(system) if it cannot be written.
+void write_standard_output(std::span<const uint8_t> bytes);
+
+/// A line on standard error; that nobody may be reading it any more is no reason to stop.
+template <typename... Values>
+void say(fmt::format_string<Values...> text, Values&&... values) {
+  const std::string line = fmt::format(text, std::forward<Values>(values)...) + "\n";
+  std::fputs(line.c_str(), stderr);
+}
+
+}  // namespace kaustik::app
