@@ -104,7 +104,7 @@ BEGIN {
   own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")
   own("nanoflann", "^nanoflann", "", not_in_word "nanoflann::")
   own("nlohmann-json", "^nlohmann/", "", not_in_word "nlohmann::")
-  system_headers = "^(sys/[a-z]+|unistd|fcntl|signal|sched|stdlib|malloc|immintrin)\\.h$"
+  system_headers = "^(sys/[a-z]+|unistd|fcntl|signal|sched|stdlib|malloc|immintrin|poll)\\.h$"
 }
 
 FILENAME == "CMakeLists.txt" {

@@ -79,7 +79,7 @@ TEST_F(CheckpointsOfAnotherProgram, AreTakenByThatProgram) {
   write_as_of("same.kpt", "b.kpt", version.substr(0, version.find('\n')));
   EXPECT_TRUE(contents("same.kpt") == contents("b.kpt"));
   run_well({"merge", "a.kpt", "same.kpt", "-o", "new.kpt"});
-  run_well({"resume", "new.kpt", "-q", "--passes", "5"});
+  run_well({"resume", "new.kpt", "-q", "--passes", "5", "-o", "new.exr"});
 }
 
 }  // namespace

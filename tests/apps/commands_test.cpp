@@ -243,7 +243,7 @@ TEST_F(Commands, CtrlCLeavesNoHalfPhotonMap) {
   const RunResult result = run(
       {"photons", "scene.xml", "-o", "map.kpm", "--set", "integrator.caustic_photons=300000000"},
       interrupt);
-  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_EQ(result.exit_code, 75) << result.err;
   EXPECT_TRUE(contains(result.err, "cancelled")) << result.err;
   EXPECT_EQ(files(), (std::vector<std::string>{"scene.xml"}));
 }

@@ -73,7 +73,7 @@ TEST_F(Messages, TheErrorIsInTheProgressAndAtTheEnd) {
     const RunResult result =
         render(small_scene(), {"--integrator", integrator, "--passes", "4", "--spp", "4"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(matches(result.err, "100 %  pass 4/4 .* error " + percent + "\n")) << result.err;
+    EXPECT_TRUE(matches(result.err, "100 %  pass 4/4 .* error " + percent + "  ")) << result.err;
     EXPECT_TRUE(matches(result.err, "\nerror of the pixels: " + percent)) << result.err;
     EXPECT_TRUE(matches(result.err, "\nmean of the picture: ±" + percent)) << result.err;
   }

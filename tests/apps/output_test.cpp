@@ -58,7 +58,7 @@ TEST_F(Output, AFullDiskHarmsNothing) {
         {"render", "scene.xml", "-q", "-o", "old.png"},
         {"render", "scene.xml", "-q", "-o", "old.tif"},
         {"render", "scene.xml", "-q", "-o", "old.hdr"},
-        {"photons", "scene.xml", "-o", "old.kpm"},
+        {"photons", "scene.xml", "--force", "-o", "old.kpm"},
         {"tonemap", "made.exr", "-o", "old.png"},
         {"denoise", "made.exr", "-o", "old.exr"},
         {"compare", "made.exr", "made.exr", "-o", "old.exr"}}) {

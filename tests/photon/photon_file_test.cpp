@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -344,6 +346,16 @@ TEST(SceneFingerprint, LastBitsMakeNoDifference) {
     EXPECT_NE(turned(degrees + 0.5, 3), exact);
     EXPECT_NE(turned(degrees, 3.01), exact);
   }
+}
+
+// Metal seen from behind sends light nowhere, and nothing else may be told of where.
+TEST(SceneFingerprint, AbsorbedLightHasNoDirection) {
+  const auto metal = object("bsdf", "roughconductor", {{"alpha", 0.2}});
+  std::set<std::string> found;
+  for (int i = 0; i < 20; ++i)
+    found.insert(scene_fingerprint(*make_scene(
+        {light("spot"), placed("rectangle", Transform::scale(Vec3d(3, 3, 1)), metal)})));
+  EXPECT_EQ(found.size(), 1u);
 }
 
 }  // namespace

@@ -136,8 +136,11 @@ std::string text_of(const Bsdf& bsdf) {
     const Vec3f wo = normalize(Vec3f(0.3f, 0.2f, side));
     const Spectrum albedo = bsdf.albedo(context, wo, Lobes::all);
     text += in_steps({albedo[0], albedo[1], albedo[2]}, step_of_color);
-    for (const float u : {0.02f, 0.98f})
-      text += in_steps(bsdf.sample(context, wo, u, {0.4f, 0.7f}, Lobes::all).wi, step_of_direction);
+    for (const float u : {0.02f, 0.98f}) {
+      const BsdfSample sample = bsdf.sample(context, wo, u, {0.4f, 0.7f}, Lobes::all);
+      // What is absorbed has no direction.
+      text += sample.weight.is_zero() ? "absorbed " : in_steps(sample.wi, step_of_direction);
+    }
   }
   return text;
 }
