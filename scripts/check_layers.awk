@@ -96,6 +96,7 @@ BEGIN {
   own("libtiff", "^tiff", "image", not_in_word "TIFF[A-Z]?[a-z]*[ (*]")
   own("libpng", "^png", "image", not_in_word "png_(structp?|infop?|bytep?)" not_in_word)
   own("libjpeg", "^j(peglib|error|config|morecfg)\\.h", "image", not_in_word "jpeg_[a-z]+_struct")
+  own("libwebp", "^webp/", "image", not_in_word "(WebP[A-Z]|VP8)[A-Za-z_]+[ (;]")
   own("Embree", "^embree[34]/", "geometry", not_in_word "(RTC[A-Z][A-Za-z]+|rtc[A-Z][A-Za-z]+)")
   own("Highway", "^hwy/", "light photon", not_in_word "hwy::")
   own("pugixml", "^pugi", "loader", not_in_word "pugi::")

@@ -74,6 +74,21 @@ TEST(RgbView, finds_channels_of_other_programs) {
   EXPECT_EQ(rgb_view(single)[0], Vec3f(7));
 }
 
+TEST(RgbView, finds_the_picture_among_layers) {
+  const auto channels = [](std::vector<std::string> names) { return colour_channels(names); };
+  using Found = std::array<int, 3>;
+  EXPECT_EQ(channels({"beauty.B", "beauty.G", "beauty.R", "depth.Z"}), (Found{2, 1, 0}));
+  EXPECT_EQ(channels({"V.Combined.B", "V.Combined.G", "V.Combined.R", "V.Diff.B", "V.Diff.G",
+                      "V.Diff.R"}),
+            (Found{2, 1, 0}));
+  EXPECT_EQ(channels({"A", "G", "R"}), (Found{2, 1, -1}));
+  EXPECT_EQ(channels({"A", "R"}), (Found{1, 1, 1}));
+  EXPECT_FALSE(channels({"a.B", "a.G", "a.R", "b.B", "b.G", "b.R"}));
+  EXPECT_FALSE(channels({"A"}));
+  const Image image(2, 1, {"R", "G"});
+  EXPECT_EQ(rgb_view(image)[1].z, 0);
+}
+
 TEST(RgbView, finds_layers) {
   Image image(1, 1,
               {"R", "G", "B", "direct.R", "direct.G", "direct.B", "N.X", "N.Y", "N.Z", "depth.Z"});

@@ -449,5 +449,41 @@ TEST_F(RoundTrip, png_palettes_and_opacity) {
   EXPECT_NEAR(image.at(1, 0, 3), 128 / 255.0, 1e-6);
 }
 
+// 16-bit floats end at 6e-8 and are coarse below 6e-5.
+TEST_F(RoundTrip, dim_pictures_keep_their_values) {
+  const auto error_of = [&](const Image& image) {
+    write_image(image, path("dim.exr"));
+    const Image read = read_image(path("dim.exr"));
+    double worst = 0;
+    for (size_t i = 0; i < image.pixel_count(); ++i)
+      worst = std::max(worst, std::fabs(double(read.channel(read.find_channel("R"))[i]) /
+                                            double(image.channel(0)[i]) -
+                                        1));
+    return worst;
+  };
+  Image image(40, 30, {"R", "G", "B"});
+  const auto fill = [&](float value) { std::ranges::fill(image.channel(0), value); };
+  for (const float level : {1e-8f, 1e-7f, 3e-6f, 1e-4f, 1.0f}) {
+    fill(level);
+    EXPECT_LT(error_of(image), 1.0 / 2048) << level;
+  }
+  // A dim corner of a bright picture.
+  fill(1);
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 3; ++x) image.at(x, y, 0) = 1e-8f;
+  EXPECT_LT(error_of(image), 1.0 / 2048);
+  // One such pixel is no picture: the channel stays short.
+  fill(1);
+  image.at(5, 5, 0) = 1e-9f;
+  EXPECT_EQ(error_of(image), 1);
+  // In RGBE and LogLuv to their steps.
+  fill(1e-8f);
+  for (int c = 1; c < 3; ++c) std::ranges::fill(image.channel(c), 1e-8f);
+  for (const char* name : {"dim.hdr", "dim.tif"}) {
+    write_image(image, path(name));
+    EXPECT_NEAR(read_image(path(name)).channel(1)[7] / 1e-8f, 1, 0.02) << name;
+  }
+}
+
 }  // namespace
 }  // namespace kaustik

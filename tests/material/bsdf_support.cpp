@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "kaustik/image/picture_reader.h"
+
 namespace kaustik::test {
 
 Property property(const std::string& name, Value value) { return {name, std::move(value), {}}; }
@@ -32,7 +34,8 @@ std::shared_ptr<const Texture> make_texture(const std::string& type,
     Problems problems;
     const Arguments arguments(t.info, properties, place_in("scene.xml", 8, 2), problems);
     problems.throw_if_any();
-    return t.create(arguments);
+    PictureReader pictures;
+    return t.create(arguments, pictures);
   }
   throw std::invalid_argument("no texture type " + type);
 }

@@ -6,7 +6,7 @@
 #include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
-#include <ImfOutputFile.h>
+#include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfTileDescriptionAttribute.h>
@@ -14,35 +14,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
+#include <map>
 
-#include "kaustik/base/error.h"
 #include "kaustik/image/formats.h"
-#include "kaustik/image/photometry.h"
+#include "kaustik/image/primaries.h"
 
 namespace kaustik::formats {
 namespace {
-
-constexpr float largest_half = 65504;
-
-class MemoryOutput : public Imf::OStream {
- public:
-  MemoryOutput() : OStream("memory") {}
-  void write(const char data[], int count) override {
-    const size_t end = position_ + size_t(count);
-    if (end > bytes.size()) bytes.resize(end);
-    std::memcpy(bytes.data() + position_, data, size_t(count));
-    position_ = end;
-  }
-  uint64_t tellp() override { return position_; }
-  void seekp(uint64_t position) override { position_ = size_t(position); }
-
-  Bytes bytes;
-
- private:
-  size_t position_ = 0;
-};
 
 class MemoryInput : public Imf::IStream {
  public:
@@ -64,50 +43,10 @@ class MemoryInput : public Imf::IStream {
   size_t position_ = 0;
 };
 
-/// Attributes that the format itself gives a meaning.
-bool is_reserved(const std::string& key) {
-  static constexpr const char* names[] = {"channels",
-                                          "chunkCount",
-                                          "compression",
-                                          "dataWindow",
-                                          "displayWindow",
-                                          "lineOrder",
-                                          "pixelAspectRatio",
-                                          "screenWindowCenter",
-                                          "screenWindowWidth",
-                                          "tiles",
-                                          "type",
-                                          "name",
-                                          "version",
-                                          "view",
-                                          "multiView",
-                                          "chromaticities",
-                                          "whiteLuminance",
-                                          "preview",
-                                          "maxSamplesPerPixel",
-                                          "dwaCompressionLevel"};
-  return std::find(std::begin(names), std::end(names), key) != std::end(names);
-}
-
-void insert_metadata(Imf::Header& header, const Image& image) {
-  for (const auto& [key, value] : image.metadata()) {
-    if (key.empty() || key.size() > 255 || is_reserved(key))
-      throw Error(ErrorKind::input, fmt::format("'{}' cannot be a metadata key in EXR", key),
-                  "choose another name for it, of 1 to 255 characters");
-    const int64_t* integer = std::get_if<int64_t>(&value);
-    if (const double* number = std::get_if<double>(&value))
-      header.insert(key, Imf::DoubleAttribute(*number));
-    else if (integer && *integer >= INT32_MIN && *integer <= INT32_MAX)
-      header.insert(key, Imf::IntAttribute(int(*integer)));
-    else  // EXR has no 64-bit integers; text keeps every digit
-      header.insert(key, Imf::StringAttribute(text_of(value)));
-  }
-}
-
 void set_metadata_from_header(Image& image, const Imf::Header& header) {
   for (auto entry = header.begin(); entry != header.end(); ++entry) {
     const std::string key = entry.name();
-    if (is_reserved(key)) continue;
+    if (is_exr_attribute(key)) continue;
     const Imf::Attribute& value = entry.attribute();
     if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&value))
       image.set_metadata(key, text->value());
@@ -120,12 +59,6 @@ void set_metadata_from_header(Image& image, const Imf::Header& header) {
   }
 }
 
-bool fits_half(std::span<const float> values) {
-  return std::all_of(values.begin(), values.end(), [](float value) {
-    return !std::isfinite(value) || std::fabs(value) <= largest_half;
-  });
-}
-
 int64_t extent(int from, int to) { return int64_t(to) - int64_t(from) + 1; }
 
 /// How many bytes of pixels a byte of the file can become.
@@ -135,28 +68,49 @@ double densest_compression(Imf::Compression compression) {
   return is_dwa ? 64 * deflate : deflate;  // DWA deflates one value per block of 8 × 8
 }
 
-/// Sizes of one part, before the library allocates anything by them.
-void check_header(const Imf::Header& header, size_t file_size) {
-  const Imath::Box2i window = header.dataWindow();
-  int64_t channels = 0;
-  double pixel_bytes = 0;
-  for (auto entry = header.channels().begin(); entry != header.channels().end(); ++entry) {
-    ++channels;
-    pixel_bytes += entry.channel().type == Imf::HALF ? 2 : 4;
+/// Lines that the library decodes at once.
+int lines_at_once(const Imf::Header& header) {
+  if (header.hasTileDescription()) return int(std::min(header.tileDescription().ySize, 1u << 30));
+  switch (header.compression()) {
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION:
+      return 16;
+    case Imf::PIZ_COMPRESSION:
+    case Imf::B44_COMPRESSION:
+    case Imf::B44A_COMPRESSION:
+    case Imf::DWAA_COMPRESSION:
+      return 32;
+    case Imf::DWAB_COMPRESSION:
+      return 256;
+    default:
+      return 1;
   }
-  if (channels == 0) throw BadImage("it has no channels");
-  const double most_pixels_per_byte = densest_compression(header.compression()) / pixel_bytes;
-  check_header_size(extent(window.min.x, window.max.x), extent(window.min.y, window.max.y),
-                    channels, file_size, most_pixels_per_byte);
+}
+
+/// Sizes of one part, before the library allocates anything by them.
+void check_header(const Imf::Header& header, size_t file_size, const ReadOptions& options) {
+  const Imath::Box2i window = header.dataWindow();
+  double pixel_bytes = 0;
+  for (auto entry = header.channels().begin(); entry != header.channels().end(); ++entry)
+    pixel_bytes += entry.channel().type == Imf::HALF ? 2 : 4;
+  if (pixel_bytes == 0) throw BadImage("it has no channels");
+  const double density = densest_compression(header.compression()) / pixel_bytes;
+  const int64_t width = extent(window.min.x, window.max.x);
+  const int64_t height = extent(window.min.y, window.max.y);
+  check_promise({width, height, 0, 0, density}, file_size, {});
+  // The library holds the lines packed, unpacked and in between.
+  const int64_t lines = std::min<int64_t>(height, lines_at_once(header));
+  check_promise({width, lines, 0, int64_t(3 * pixel_bytes), density}, file_size, options);
   if (!header.hasTileDescription()) return;
   const Imf::TileDescription& tiles = header.tileDescription();
   // Tiles may be larger than what the image uses of them, but the library allocates whole ones.
   constexpr int64_t largest_tile_side = 4096;
   if (std::max(tiles.xSize, tiles.ySize) > largest_tile_side)
-    check_header_size(tiles.xSize, tiles.ySize, channels, file_size, most_pixels_per_byte);
+    check_promise({tiles.xSize, tiles.ySize, 0, int64_t(3 * pixel_bytes), density}, file_size,
+                  options);
 }
 
-void check_headers(ByteView file) {
+void check_headers(ByteView file, const ReadOptions& options) {
   MemoryInput input(file);
   char start[8];
   input.read(start, sizeof(start));
@@ -166,74 +120,156 @@ void check_headers(ByteView file) {
     Imf::Header header;
     int header_version = version;
     header.readFrom(input, header_version);
-    check_header(header, file.size());
+    check_header(header, file.size(), options);
   } while (has_parts && !input.at_empty_header());
+}
+
+/// The image that lines of the data window go into: of its size, or of the display window's.
+class Target {
+ public:
+  Target(const Imf::Header& header, const std::vector<std::string>& names,
+         const ReadOptions& options)
+      : window_(header.dataWindow()) {
+    const Imath::Box2i display = header.displayWindow();
+    const int64_t x = int64_t(window_.min.x) - display.min.x;
+    const int64_t y = int64_t(window_.min.y) - display.min.y;
+    const int64_t width = extent(display.min.x, display.max.x);
+    const int64_t height = extent(display.min.y, display.max.y);
+    check_image_size(width, height, 0);
+    constexpr int64_t farthest = 1 << 30;
+    if (std::max(std::abs(x), std::abs(y)) > farthest)
+      throw BadImage("its data window is too far from its display window");
+    const bool whole = options.whole_picture;
+    const int64_t own_width = extent(window_.min.x, window_.max.x);
+    const int64_t own_height = extent(window_.min.y, window_.max.y);
+    check_promise({whole ? width : own_width, whole ? height : own_height, int64_t(names.size()), 0,
+                   std::numeric_limits<double>::infinity()},
+                  0, options);
+    image = Image(int(whole ? width : own_width), int(whole ? height : own_height), names);
+    if (!whole) image.set_frame({int(width), int(height), int(x), int(y)});
+    left_ = whole ? x : 0;
+    upper_ = whole ? y : 0;
+  }
+
+  /// Values `stride` apart, of line y of the file.
+  template <typename Value>
+  void put(int y, int channel, const Value* line, size_t stride) {
+    const int64_t row = upper_ + y - window_.min.y;
+    if (row < 0 || row >= image.height()) return;
+    const int64_t width = extent(window_.min.x, window_.max.x);
+    const int64_t begin = std::max<int64_t>(left_, 0);
+    const int64_t end = std::min<int64_t>(left_ + width, image.width());
+    for (int64_t x = begin; x < end; ++x)
+      image.at(int(x), int(row), channel) = float(line[size_t(x - left_) * stride]);
+  }
+
+  Image image;
+
+ private:
+  Imath::Box2i window_;
+  int64_t left_, upper_;
+};
+
+/// Luminance with chroma of half the resolution, which the library puts together.
+bool is_luminance_chroma(const Imf::ChannelList& channels) {
+  return channels.findChannel("Y") && !channels.findChannel("R") &&
+         (channels.findChannel("RY") || channels.findChannel("BY"));
+}
+
+Image read_luminance_chroma(MemoryInput& input, const ReadOptions& options) {
+  Imf::RgbaInputFile file(input, 0);
+  const Imath::Box2i window = file.dataWindow();
+  const bool has_alpha = file.header().channels().findChannel("A") != nullptr;
+  Target target(file.header(), channel_names_for(has_alpha ? 4 : 3), options);
+  std::vector<Imf::Rgba> line(size_t(extent(window.min.x, window.max.x)));
+  file.setFrameBuffer(
+      Imf::ComputeBasePointer(line.data(), Imath::V2i(window.min.x, 0), int64_t{1}, size_t{1}, 0),
+      1, 0);
+  for (int y = window.min.y; y <= window.max.y; ++y) {
+    file.readPixels(y);
+    const ::half* const values[] = {&line[0].r, &line[0].g, &line[0].b, &line[0].a};
+    for (int c = 0; c < target.image.channel_count(); ++c) target.put(y, c, values[c], 4);
+  }
+  return std::move(target.image);
+}
+
+/// The channels to be read.
+std::vector<std::string> wanted_channels(const Imf::ChannelList& channels,
+                                         const ReadOptions& options) {
+  std::vector<std::string> all, wanted;
+  for (auto entry = channels.begin(); entry != channels.end(); ++entry)
+    all.emplace_back(entry.name());
+  const auto colours = options.only_colours ? colour_channels(all) : std::nullopt;
+  for (size_t i = 0; i < all.size(); ++i)
+    if (!colours || std::find(colours->begin(), colours->end(), int(i)) != colours->end())
+      wanted.push_back(all[i]);
+  for (const std::string& name : wanted) {
+    const Imf::Channel& channel = channels[name];
+    if (channel.xSampling != 1 || channel.ySampling != 1)
+      throw BadImage(fmt::format("channel '{}' is subsampled, which is not supported", name));
+  }
+  return wanted;
+}
+
+Image read_channels(MemoryInput& input, const ReadOptions& options) {
+  Imf::InputFile file(input, 0);
+  const Imath::Box2i window = file.header().dataWindow();
+  const std::vector<std::string> names = wanted_channels(file.header().channels(), options);
+  Target target(file.header(), names, options);
+  const size_t width = size_t(extent(window.min.x, window.max.x));
+  std::vector<float, ZeroedAllocator<float>> line(width * names.size());
+  Imf::FrameBuffer buffer;
+  for (size_t c = 0; c < names.size(); ++c) {
+    Imf::Slice slice = Imf::Slice::Make(Imf::FLOAT, line.data() + c * width,
+                                        Imath::V2i(window.min.x, 0), int64_t(width), 1);
+    slice.yStride = 0;  // every line comes to the same place
+    buffer.insert(names[c], slice);
+  }
+  file.setFrameBuffer(buffer);
+  for (int y = window.min.y; y <= window.max.y; ++y) {
+    file.readPixels(y);
+    for (size_t c = 0; c < names.size(); ++c) target.put(y, int(c), line.data() + c * width, 1);
+  }
+  return std::move(target.image);
+}
+
+/// The red, green and blue of every layer.
+void convert_colours(Image& image, const ColourMatrix& matrix) {
+  std::map<std::string_view, int> index;
+  for (int c = 0; c < image.channel_count(); ++c) index[image.channel_names()[size_t(c)]] = c;
+  for (const auto& [name, red] : index) {
+    const std::string layer(name.substr(0, name.rfind('.') + 1));
+    const auto green = index.find(layer + 'G'), blue = index.find(layer + 'B');
+    if (name != layer + 'R' || green == index.end() || blue == index.end()) continue;
+    const int channels[] = {red, green->second, blue->second};
+    for (size_t i = 0; i < image.pixel_count(); ++i) {
+      const Vec3f colour =
+          matrix * Vec3f(image.channel(channels[0])[i], image.channel(channels[1])[i],
+                         image.channel(channels[2])[i]);
+      for (int c = 0; c < 3; ++c) image.channel(channels[c])[i] = colour[c];
+    }
+  }
+}
+
+Primaries primaries_of(const Imf::Header& header) {
+  const Imf::Chromaticities& c = Imf::chromaticities(header);
+  return {c.red, c.green, c.blue, c.white};
 }
 
 }  // namespace
 
-Bytes encode_exr(const Image& image, bool half) {
-  Imf::Header header(image.width(), image.height());
-  header.compression() = Imf::ZIP_COMPRESSION;
-  // Rec. 709 is what the library assumes; said in the file, no reader has to guess.
-  Imf::addChromaticities(header, Imf::Chromaticities());
-  Imf::addWhiteLuminance(header, white_efficacy);
-  insert_metadata(header, image);
-
-  const size_t pixels = image.pixel_count();
-  std::vector<std::vector<::half>> halves;
-  Imf::FrameBuffer buffer;
-  for (int c = 0; c < image.channel_count(); ++c) {
-    const std::string& name = image.channel_names()[size_t(c)];
-    const std::span<const float> values = image.channel(c);
-    const size_t width = size_t(image.width());
-    if (half && fits_half(values)) {
-      header.channels().insert(name, Imf::Channel(Imf::HALF));
-      std::vector<::half>& converted = halves.emplace_back(pixels);
-      std::transform(values.begin(), values.end(), converted.begin(),
-                     [](float value) { return ::half(value); });
-      buffer.insert(name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(converted.data()),
-                                     sizeof(::half), sizeof(::half) * width));
-    } else {
-      header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-      // The library only reads through this pointer.
-      char* data = const_cast<char*>(reinterpret_cast<const char*>(values.data()));
-      buffer.insert(name, Imf::Slice(Imf::FLOAT, data, sizeof(float), sizeof(float) * width));
-    }
-  }
-  MemoryOutput output;
+Image decode_exr(ByteView bytes, const ReadOptions& options) {
+  check_headers(bytes, options);
+  Imf::Header header;
   {
-    Imf::OutputFile file(output, header, 0);
-    file.setFrameBuffer(buffer);
-    file.writePixels(image.height());
+    MemoryInput input(bytes);
+    header = Imf::InputFile(input, 0).header();
   }
-  return std::move(output.bytes);
-}
-
-Image decode_exr(ByteView bytes) {
-  check_headers(bytes);
   MemoryInput input(bytes);
-  Imf::InputFile file(input, 0);
-  const Imf::Header& header = file.header();
-  const Imath::Box2i window = header.dataWindow();
-  std::vector<std::string> names;
-  for (auto entry = header.channels().begin(); entry != header.channels().end(); ++entry) {
-    if (entry.channel().xSampling != 1 || entry.channel().ySampling != 1)
-      throw BadImage(
-          fmt::format("channel '{}' is subsampled, which is not supported", entry.name()));
-    names.push_back(entry.name());
-  }
-  Image image(int(extent(window.min.x, window.max.x)), int(extent(window.min.y, window.max.y)),
-              names);
-  Imf::FrameBuffer buffer;
-  for (int c = 0; c < image.channel_count(); ++c) {
-    char* data = reinterpret_cast<char*>(image.channel(c).data());
-    const size_t stride = sizeof(float);
-    buffer.insert(names[size_t(c)], Imf::Slice::Make(Imf::FLOAT, data, window, stride,
-                                                     stride * size_t(image.width())));
-  }
-  file.setFrameBuffer(buffer);
-  file.readPixels(window.min.y, window.max.y);
+  Image image = is_luminance_chroma(header.channels()) ? read_luminance_chroma(input, options)
+                                                       : read_channels(input, options);
+  if (Imf::hasChromaticities(header))
+    if (const auto matrix = rec709_from(primaries_of(header))) convert_colours(image, *matrix);
   set_metadata_from_header(image, header);
   return image;
 }

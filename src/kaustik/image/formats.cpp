@@ -6,12 +6,22 @@
 
 namespace kaustik::formats {
 
-void check_header_size(int64_t width, int64_t height, int64_t channels, size_t file_size,
-                       double most_pixels_per_byte) {
-  check_image_size(width, height, channels);
-  if (double(width) * double(height) > most_pixels_per_byte * double(file_size))
-    throw BadImage(
-        fmt::format("{} x {} pixels cannot be in a file of {} bytes", width, height, file_size));
+void check_promise(const Promise& promise, size_t file_size, const ReadOptions& options) {
+  check_image_size(promise.width, promise.height, 0);
+  const double pixels = double(promise.width) * double(promise.height);
+  if (pixels > promise.most_pixels_per_byte * double(file_size))
+    throw BadImage(fmt::format("{} x {} pixels cannot be in a file of {} bytes", promise.width,
+                               promise.height, file_size));
+  const double bytes_per_pixel = double(promise.channels) * sizeof(float) +
+                                 double(promise.work_bytes) + double(options.kept_bytes_per_pixel);
+  if (pixels * bytes_per_pixel > double(options.memory_bytes))
+    throw TooLittleMemory(fmt::format(
+        "its {} x {} pixels take {:.3g} MB of memory, and it may take {:.3g} MB", promise.width,
+        promise.height, pixels * bytes_per_pixel / 1e6, double(options.memory_bytes) / 1e6));
+}
+
+void set_pixel(Image& image, int x, int y, const uint8_t* samples) {
+  for (int c = 0; c < image.channel_count(); ++c) image.at(x, y, c) = float(samples[c]) / 255;
 }
 
 std::vector<std::string> channel_names_for(int channel_count) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <new>
-#include <optional>
 #include <set>
 
 #include "kaustik/base/error.h"
@@ -25,6 +24,8 @@ void check_channel_names(const std::vector<std::string>& names) {
 }
 
 }  // namespace
+
+int64_t default_picture_memory() { return physical_memory_bytes() / 2; }
 
 void check_image_size(int64_t width, int64_t height, int64_t channels) {
   const std::string what = fmt::format("an image of {} x {} pixels", width, height);
@@ -47,9 +48,10 @@ Image::Image(int width, int height, std::vector<std::string> channel_names) {
   check_channel_names(channel_names);
   width_ = width;
   height_ = height;
+  frame_ = {width, height};
   channel_names_ = std::move(channel_names);
   try {
-    values_.assign(pixel_count() * channel_names_.size(), 0.0f);
+    values_.resize(pixel_count() * channel_names_.size());
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::system,
                 fmt::format("no memory for an image of {} x {} pixels with {} channels", width,
@@ -68,49 +70,59 @@ int Image::add_channel(const std::string& name) {
   names.push_back(name);
   check_image_size(width_, height_, int64_t(names.size()));
   check_channel_names(names);
-  values_.resize(pixel_count() * names.size(), 0.0f);
+  values_.resize(pixel_count() * names.size());
   channel_names_ = std::move(names);
   return channel_count() - 1;
 }
 
+void Image::set_frame(const PictureFrame& frame) {
+  check_image_size(frame.width, frame.height, 0);
+  frame_ = frame;
+}
+
 void Image::set_metadata(const std::string& key, MetadataValue value) {
-  const auto found = std::find_if(metadata_.begin(), metadata_.end(),
-                                  [&](const auto& entry) { return entry.first == key; });
-  if (found == metadata_.end())
+  const auto [entry, is_new] = metadata_index_.try_emplace(key, metadata_.size());
+  if (is_new)
     metadata_.emplace_back(key, std::move(value));
   else
-    found->second = std::move(value);
+    metadata_[entry->second].second = std::move(value);
 }
 
 const MetadataValue* Image::find_metadata(std::string_view key) const {
-  for (const auto& [name, value] : metadata_)
-    if (name == key) return &value;
-  return nullptr;
+  const auto found = metadata_index_.find(key);
+  return found == metadata_index_.end() ? nullptr : &metadata_[found->second].second;
 }
 
-RgbView rgb_view(const Image& image, const std::string& layer) {
-  const auto view_of = [&](const std::array<std::string, 3>& names) -> std::optional<RgbView> {
-    RgbView view;
-    for (size_t i = 0; i < 3; ++i) {
-      const int index = image.find_channel(names[i]);
-      if (index < 0) return std::nullopt;
-      view.planes[i] = image.channel(index);
-    }
-    return view;
-  };
-  const std::string prefix = layer.empty() ? "" : layer + ".";
-  for (const char* names : {"RGB", "rgb", "XYZ", "YYY", "ZZZ", "VVV"})
-    if (const auto view = view_of({prefix + names[0], prefix + names[1], prefix + names[2]}))
-      return *view;
-  std::string alone = layer;
-  if (layer.empty() && image.channel_count() == 1 && image.find_channel("A") < 0)
-    alone = image.channel_names()[0];
-  if (const auto view = view_of({alone, alone, alone})) return *view;
-  throw Error(
-      ErrorKind::input,
-      layer.empty() ? std::string("the image has no colour channels")
-                    : fmt::format("the image has no layer '{}'", layer),
-      fmt::format("name a layer; the channels are: {}", fmt::join(image.channel_names(), ", ")));
+Image window_of(const Image& image, int x, int y, int width, int height) {
+  Image window(width, height, image.channel_names());
+  const PictureFrame& frame = image.frame();
+  window.set_frame({frame.width, frame.height, x, y});
+  window.set_srgb_encoded(image.is_srgb_encoded());
+  for (const auto& [key, value] : image.metadata()) window.set_metadata(key, value);
+  const int64_t left = std::max(x, frame.x), upper = std::max(y, frame.y);
+  const int64_t right = std::min(int64_t(x) + width, int64_t(frame.x) + image.width());
+  const int64_t lower = std::min(int64_t(y) + height, int64_t(frame.y) + image.height());
+  if (left >= right) return window;
+  for (int c = 0; c < image.channel_count(); ++c)
+    for (int64_t row = upper; row < lower; ++row)
+      std::copy_n(&image.channel(c)[size_t((row - frame.y) * image.width() + left - frame.x)],
+                  right - left, &window.channel(c)[size_t((row - y) * width + left - x)]);
+  return window;
+}
+
+Image whole_picture(Image image) {
+  if (image.is_whole()) return image;
+  return window_of(image, 0, 0, image.frame().width, image.frame().height);
+}
+
+Image visible_part(Image image) {
+  const PictureFrame& frame = image.frame();
+  const int left = std::max(frame.x, 0), upper = std::max(frame.y, 0);
+  const auto right = int(std::min(int64_t(frame.x) + image.width(), int64_t(frame.width)));
+  const auto lower = int(std::min(int64_t(frame.y) + image.height(), int64_t(frame.height)));
+  if (left >= right || upper >= lower) return whole_picture(std::move(image));
+  if (right - left == image.width() && lower - upper == image.height()) return image;
+  return window_of(image, left, upper, right - left, lower - upper);
 }
 
 }  // namespace kaustik

@@ -3,6 +3,9 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,10 +14,20 @@
 #include <vector>
 
 #include "kaustik/base/vec.h"
+#include "kaustik/image/zeroed_allocator.h"
 
 namespace kaustik {
 
 using MetadataValue = std::variant<std::string, double, int64_t>;
+
+/// The picture that an image is a window of: its size, and where in it the image's upper left pixel
+/// lies. EXR calls the picture display window and the image data window. A window may reach beyond
+/// its picture.
+struct PictureFrame {
+  int width = 0, height = 0;
+  int x = 0, y = 0;
+  friend bool operator==(const PictureFrame&, const PictureFrame&) = default;
+};
 
 /// A buffer of float pixels with named channels, stored channel by channel, each row by row from
 /// the top left. Names follow OpenEXR: "R", "G", "B" are the picture itself, "direct.R",
@@ -31,6 +44,13 @@ class Image {
   int height() const { return height_; }
   size_t pixel_count() const { return size_t(width_) * size_t(height_); }
   bool empty() const { return values_.empty(); }
+
+  /// Of a new image: just its own size.
+  const PictureFrame& frame() const { return frame_; }
+  /// Throws Error(input) if the picture has no size.
+  void set_frame(const PictureFrame& frame);
+  /// The image is all of its picture and nothing else.
+  bool is_whole() const { return frame_ == PictureFrame{width_, height_}; }
 
   int channel_count() const { return int(channel_names_.size()); }
   const std::vector<std::string>& channel_names() const { return channel_names_; }
@@ -71,12 +91,26 @@ class Image {
   int height_ = 0;
   bool is_srgb_encoded_ = false;
   std::vector<std::string> channel_names_;
-  std::vector<float> values_;
+  PictureFrame frame_;
+  /// Memory that is never written costs nothing: a header that lies is found out before.
+  std::vector<float, ZeroedAllocator<float>> values_;
   std::vector<std::pair<std::string, MetadataValue>> metadata_;
+  std::map<std::string, size_t, std::less<>> metadata_index_;
 };
+
+/// The rectangle of the image's picture with the upper left corner (x, y): black where the image
+/// has no pixels. Metadata and picture stay.
+Image window_of(const Image& image, int x, int y, int width, int height);
+/// All of the image's picture and nothing else, see window_of().
+Image whole_picture(Image image);
+/// What the image has of its picture: without pixels that lie outside. None: all of the picture.
+Image visible_part(Image image);
 
 /// Most pixels that an image may have.
 inline constexpr int64_t max_image_pixels = 500'000'000;
+
+/// What pictures that are read may take of this machine's memory where nothing else is said: half.
+int64_t default_picture_memory();
 
 /// Throws Error(input) if a size is not positive, has over max_image_pixels, or needs more memory
 /// than the machine has.
@@ -85,15 +119,22 @@ void check_image_size(int64_t width, int64_t height, int64_t channels);
 /// Red, green and blue of a picture or of one of its layers.
 struct RgbView {
   std::array<std::span<const float>, 3> planes;
+  std::shared_ptr<const std::vector<float>> zeros;  ///< stands for channels that are not there
   Vec3f operator[](size_t pixel) const {
     return {planes[0][pixel], planes[1][pixel], planes[2][pixel]};
   }
 };
 
-/// The channels "R", "G", "B" (else "r", "g", "b", else "X", "Y", "Z", else "Y", "Z" or "V" thrice)
-/// of `layer`, "" for the picture itself; else the one channel that is called like the layer, or
-/// the image's only one (but for opacity), thrice. Throws Error(input) if the image has none. Valid
-/// as long as the image is and keeps its channels.
+/// Which of the channels are red, green and blue of `layer`, "" for the picture itself; -1: none of
+/// them, it is black. They are called "R", "G", "B" (else "r", "g", "b", else "X", "Y", "Z", else
+/// "Y", "Z" or "V" thrice), two of "R", "G", "B", the one channel that is called like the layer, or
+/// the only one but for opacity. A picture without channels of its own is the only layer with
+/// colours, or the one that is called beauty, combined, rgba, rgb or color. None: nothing of that.
+std::optional<std::array<int, 3>> colour_channels(const std::vector<std::string>& names,
+                                                  const std::string& layer = {});
+
+/// The colour_channels() of an image. Throws Error(input) if it has none. Valid as long as the
+/// image is and keeps its channels.
 RgbView rgb_view(const Image& image, const std::string& layer = {});
 
 }  // namespace kaustik

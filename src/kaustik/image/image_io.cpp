@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <new>
 
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
@@ -55,11 +56,17 @@ constexpr Writer writers[] = {{".exr", write_exr, nullptr},
                               {".jpeg", tone_mapped<formats::encode_jpeg>, formats::encode_jpeg},
                               {".ppm", tone_mapped<show_ppm>, show_ppm}};
 
-/// Throws for an extension that is unknown, or `for_display` none of a format for displays.
-const Writer& writer_for(const std::string& path, bool for_display) {
+/// In lower case.
+std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
+/// Throws for an extension that is unknown, or `for_display` none of a format for displays.
+const Writer& writer_for(const std::string& path, bool for_display) {
+  const std::string extension = extension_of(path);
   std::string known;
   for (const Writer& writer : writers) {
     if (for_display && !writer.encode_shown) continue;
@@ -89,6 +96,9 @@ Bytes encoded(const Image& image, const std::string& path, const Encode& encode)
   } catch (const formats::BadImage& error) {
     throw Error(ErrorKind::input, fmt::format("cannot write '{}': {}", path, error.what()),
                 "choose another format");
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::system, fmt::format("cannot write '{}': too little memory", path),
+                "choose a smaller image");
   } catch (const std::exception& error) {
     throw Error(ErrorKind::system, fmt::format("cannot write '{}': {}", path, error.what()),
                 "choose another format or a smaller image");
@@ -97,7 +107,7 @@ Bytes encoded(const Image& image, const std::string& path, const Encode& encode)
 
 struct Reader {
   std::string_view start;
-  Image (*decode)(ByteView);
+  Image (*decode)(ByteView, const ReadOptions&);
 };
 
 constexpr Reader readers[] = {{"\x76\x2f\x31\x01", formats::decode_exr},
@@ -113,13 +123,17 @@ constexpr Reader readers[] = {{"\x76\x2f\x31\x01", formats::decode_exr},
                               {std::string_view("II+\0", 4), formats::decode_tiff},
                               {std::string_view("MM\0+", 4), formats::decode_tiff},
                               {"\x89PNG\r\n\x1a\n", formats::decode_png},
-                              {"\xff\xd8\xff", formats::decode_jpeg}};
+                              {"\xff\xd8\xff", formats::decode_jpeg},
+                              {"RIFF", formats::decode_webp},
+                              {"BM", formats::decode_bmp}};
 
-Image decode(ByteView file) {
+Image decode(ByteView file, const std::string& path, const ReadOptions& options) {
   if (file.empty()) throw formats::BadImage("the file is empty");
   const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
   for (const Reader& reader : readers)
-    if (text.starts_with(reader.start)) return reader.decode(file);
+    if (text.starts_with(reader.start)) return reader.decode(file, options);
+  // The format has no mark at its start.
+  if (extension_of(path) == ".tga") return formats::decode_tga(file, options);
   throw formats::BadImage("it is no image of a known format");
 }
 
@@ -129,12 +143,20 @@ Image read_image(const std::string& path, const ReadOptions& options) {
   const std::vector<uint8_t> file = read_file(path);
   const auto refuse = [&](const std::string& reason) {
     throw Error(ErrorKind::input, fmt::format("cannot read image '{}': {}", path, reason),
-                "give a complete EXR, HDR, PFM, TIFF, PNG, JPEG, PPM or PGM file");
+                "give a complete EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA, PPM or PGM file");
+  };
+  const auto refuse_for_memory = [&](const std::string& reason) {
+    throw Error(ErrorKind::system, fmt::format("cannot read image '{}': {}", path, reason),
+                options.memory_remedy);
   };
   try {
-    Image image = decode(file);
+    Image image = decode(file, path, options);
     if (options.srgb_to_linear && image.is_srgb_encoded()) formats::linearise(image);
     return image;
+  } catch (const formats::TooLittleMemory& error) {
+    refuse_for_memory(error.what());
+  } catch (const std::bad_alloc&) {
+    refuse_for_memory("there is not enough memory for it");
   } catch (const Error& error) {
     refuse(error.problems().front().message);
   } catch (const std::exception& error) {

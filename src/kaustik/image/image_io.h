@@ -7,19 +7,31 @@
 namespace kaustik {
 
 struct ReadOptions {
-  /// Turn the colours of integer formats (PNG, JPEG, PPM, integer TIFF), which are sRGB encoded
-  /// unless the file says otherwise, into linear ones. If not, Image::is_srgb_encoded() tells.
+  /// Turn the colours of integer formats (PNG, JPEG, PPM, BMP, TGA, WebP, integer TIFF), which are
+  /// sRGB encoded unless the file says otherwise, into linear ones. If not,
+  /// Image::is_srgb_encoded() tells.
   bool srgb_to_linear = true;
+  /// All of the picture and nothing else, black where the file has no pixels. If not, the pixels of
+  /// the file, with Image::frame() to tell their place.
+  bool whole_picture = false;
+  bool only_colours = false;                        ///< of an EXR just the channels of rgb_view()
+  int64_t memory_bytes = default_picture_memory();  ///< that reading may take
+  int64_t kept_bytes_per_pixel = 0;                 ///< that the caller needs beside the image
+  std::string memory_remedy = "give a smaller picture";
 };
 
-/// Reads .exr, .hdr, .pfm, .tif, .png, .jpg and .ppm/.pgm; which one it is, is taken from the
-/// contents. EXR gives all its channels as they are named; the others give "R", "G", "B" or "Y",
-/// with "A" where there is one. LogLuv TIFF, HDR and PFM are radiances. Throws Error(input) if the
-/// file is missing, truncated, corrupt or not an image.
+/// Reads .exr, .hdr, .pfm, .tif, .png, .jpg, .webp, .bmp, .tga and .ppm/.pgm; which one it is, is
+/// taken from the contents, for .tga from the name. EXR gives its channels as they are named, and
+/// luminance with chroma ("Y", "RY", "BY") as "R", "G", "B"; the others give "R", "G", "B" or "Y",
+/// with "A" where there is one. Colours of other primaries that an EXR or HDR names become those of
+/// Rec. 709. LogLuv TIFF, HDR and PFM are radiances. Throws Error(input) if the file is missing,
+/// truncated, corrupt or not an image, Error(system) if the picture takes more memory than it may
+/// or than there is: never more than some 100 MB beyond what the image has to hold.
 Image read_image(const std::string& path, const ReadOptions& options = {});
 
 struct WriteOptions {
-  /// EXR channels as 16-bit floats; one that holds a finite value above 65504 is kept at 32 bits.
+  /// EXR channels as 16-bit floats. One is kept at 32 bits if it holds a finite value above 65504,
+  /// or values so near to zero that they would lose more than others do by rounding.
   bool exr_half = true;
   std::shared_ptr<const ToneOperator> tone;  ///< for the 8-bit formats; null: "histogram"
   std::optional<FieldOfView> view;           ///< see tone_map()

@@ -1,6 +1,7 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 // jpeglib.h needs the standard headers above it.
 #include <jerror.h>
 #include <jpeglib.h>
@@ -17,6 +18,7 @@ struct ErrorManager {
   jpeg_error_mgr base;  // first, since the library only knows this part
   std::jmp_buf jump;
   char error[JMSG_LENGTH_MAX] = "";
+  bool lacks_memory = false;
 };
 
 ErrorManager& manager_of(j_common_ptr codec) {
@@ -24,6 +26,8 @@ ErrorManager& manager_of(j_common_ptr codec) {
 }
 
 void stop(j_common_ptr codec) {
+  manager_of(codec).lacks_memory =
+      codec->err->msg_code == JERR_OUT_OF_MEMORY || codec->err->msg_code == JERR_NO_BACKING_STORE;
   codec->err->format_message(codec, manager_of(codec).error);
   std::longjmp(manager_of(codec).jump, 1);
 }
@@ -40,6 +44,20 @@ void install(ErrorManager& manager) {
   manager.base.emit_message = stop_at_warnings;
 }
 
+/// Each scan of a progressive picture goes over all of its pixels, and may take no more than a few
+/// bytes. Real ones have about ten.
+void limit_scans(j_common_ptr codec) {
+  constexpr int most_scans = 100;
+  constexpr double most_scanned_pixels = 5e9;
+  auto* const reader = reinterpret_cast<j_decompress_ptr>(codec);
+  const double pixels = double(reader->image_width) * double(reader->image_height);
+  if (reader->input_scan_number <= most_scans &&
+      (reader->input_scan_number <= 1 || reader->input_scan_number * pixels <= most_scanned_pixels))
+    return;
+  std::snprintf(manager_of(codec).error, JMSG_LENGTH_MAX, "it has too many scans");
+  std::longjmp(manager_of(codec).jump, 1);
+}
+
 /// A decompressor, destroyed with this.
 struct Decompressor {
   Decompressor() {
@@ -51,6 +69,7 @@ struct Decompressor {
   Decompressor& operator=(const Decompressor&) = delete;
 
   jpeg_decompress_struct codec = {};
+  jpeg_progress_mgr progress = {};
   ErrorManager errors;
 };
 
@@ -80,25 +99,47 @@ bool read_header(Decompressor& reader, const uint8_t* data, size_t size) {
   return true;
 }
 
-/// Asks for grey or RGB; false if the library cannot make that of it.
+/// Asks for grey, RGB or CMYK; false if the library cannot make that of it.
 bool start_reading(Decompressor& reader) {
   if (setjmp(reader.errors.jump)) return false;
-  const bool is_grey = reader.codec.jpeg_color_space == JCS_GRAYSCALE;
-  reader.codec.out_color_space = is_grey ? JCS_GRAYSCALE : JCS_RGB;
+  const J_COLOR_SPACE stored = reader.codec.jpeg_color_space;
+  const bool is_print = stored == JCS_CMYK || stored == JCS_YCCK;
+  reader.codec.out_color_space = stored == JCS_GRAYSCALE ? JCS_GRAYSCALE
+                                 : is_print              ? JCS_CMYK
+                                                         : JCS_RGB;
   // The same pixels everywhere, whatever the library thinks fastest.
   reader.codec.dct_method = JDCT_ISLOW;
+  reader.progress.progress_monitor = limit_scans;
+  reader.codec.progress = &reader.progress;
   jpeg_start_decompress(&reader.codec);
   return true;
 }
 
-bool read_rows(Decompressor& reader, uint8_t* pixels, size_t row_bytes) {
+bool read_row(Decompressor& reader, uint8_t* row) {
   if (setjmp(reader.errors.jump)) return false;
-  while (reader.codec.output_scanline < reader.codec.output_height) {
-    JSAMPROW row = pixels + size_t(reader.codec.output_scanline) * row_bytes;
-    jpeg_read_scanlines(&reader.codec, &row, 1);
-  }
+  jpeg_read_scanlines(&reader.codec, &row, 1);
+  return true;
+}
+
+bool finish_reading(Decompressor& reader) {
+  if (setjmp(reader.errors.jump)) return false;
   jpeg_finish_decompress(&reader.codec);
   return true;
+}
+
+[[noreturn]] void fail(const Decompressor& reader) {
+  if (reader.errors.lacks_memory) throw std::bad_alloc();
+  throw BadImage(reader.errors.error);
+}
+
+/// Red, green and blue of cyan, magenta, yellow and black, without profiles: what ink leaves of
+/// white. Adobe stores what is left of the paper, others the ink.
+void rgb_from_cmyk(uint8_t* row, size_t width, bool is_inverted) {
+  for (size_t x = 0; x < width; ++x) {
+    int left[4];
+    for (size_t c = 0; c < 4; ++c) left[c] = is_inverted ? row[4 * x + c] : 255 - row[4 * x + c];
+    for (size_t c = 0; c < 3; ++c) row[3 * x + c] = uint8_t((left[c] * left[3] + 127) / 255);
+  }
 }
 
 bool write_all(Compressor& writer, uint32_t width, uint32_t height, int quality, uint8_t* pixels) {
@@ -142,21 +183,28 @@ Bytes encode_jpeg(const Image& display_linear, int quality) {
   return Bytes(writer.buffer, writer.buffer + writer.size);
 }
 
-Image decode_jpeg(ByteView file) {
+Image decode_jpeg(ByteView file, const ReadOptions& options) {
   Decompressor reader;
-  if (!read_header(reader, file.data(), file.size())) throw BadImage(reader.errors.error);
+  if (!read_header(reader, file.data(), file.size())) fail(reader);
   const int64_t width = reader.codec.image_width, height = reader.codec.image_height;
+  const int stored_channels = reader.codec.num_components;
+  const int channels = stored_channels == 1 ? 1 : 3;
   constexpr double most_pixels_per_byte = 512;  // one bit per block of 8 × 8
-  check_header_size(width, height, 3, file.size(), most_pixels_per_byte);
-  if (!start_reading(reader)) throw BadImage(reader.errors.error);
-  const int channels = reader.codec.output_components;
-  const size_t row_bytes = size_t(width) * size_t(channels);
-  Bytes pixels(row_bytes * size_t(height));
-  if (!read_rows(reader, pixels.data(), row_bytes)) throw BadImage(reader.errors.error);
+  // With several scans the library keeps the coefficients of all blocks.
+  const bool has_scans = jpeg_has_multiple_scans(&reader.codec) != FALSE;
+  const int64_t work_bytes = has_scans ? stored_channels * int64_t(sizeof(JCOEF)) : 0;
+  check_promise({width, height, channels, work_bytes, most_pixels_per_byte}, file.size(), options);
+  if (!start_reading(reader)) fail(reader);
+  const bool is_print = reader.codec.out_color_space == JCS_CMYK;
+  std::vector<uint8_t> row(size_t(width) * size_t(reader.codec.output_components));
   Image image(int(width), int(height), channel_names_for(channels));
-  for (size_t i = 0; i < image.pixel_count(); ++i)
-    for (int c = 0; c < channels; ++c)
-      image.channel(c)[i] = float(pixels[i * size_t(channels) + size_t(c)]) / 255;
+  for (int y = 0; y < image.height(); ++y) {
+    if (!read_row(reader, row.data())) fail(reader);
+    if (is_print) rgb_from_cmyk(row.data(), size_t(width), reader.codec.saw_Adobe_marker != FALSE);
+    for (int x = 0; x < image.width(); ++x)
+      set_pixel(image, x, y, row.data() + size_t(x) * size_t(channels));
+  }
+  if (!finish_reading(reader)) fail(reader);
   image.set_srgb_encoded(true);
   return image;
 }

@@ -35,7 +35,52 @@ double mean_of(const std::vector<double>& values, size_t count) {
 
 double ratio(double a, double b) { return a == b ? 1 : a / b; }
 
+std::string text_of(const Image& image) {
+  const PictureFrame& f = image.frame();
+  const std::string size = fmt::format("{} x {} pixels", image.width(), image.height());
+  if (image.is_whole()) return size;
+  return fmt::format("{} at ({}, {}) of {} x {}", size, f.x, f.y, f.width, f.height);
+}
+
+bool have_same_size(const Image& a, const Image& b) {
+  return a.width() == b.width() && a.height() == b.height();
+}
+
+/// Whether `part` lies in `whole`, both being windows of pictures of one size.
+bool is_inside(const Image& part, const Image& whole) {
+  const PictureFrame &p = part.frame(), &w = whole.frame();
+  return p.width == w.width && p.height == w.height && p.x >= w.x && p.y >= w.y &&
+         int64_t(p.x) + part.width() <= int64_t(w.x) + whole.width() &&
+         int64_t(p.y) + part.height() <= int64_t(w.y) + whole.height();
+}
+
+Image part_of(const Image& whole, const Image& part) {
+  return window_of(whole, part.frame().x, part.frame().y, part.width(), part.height());
+}
+
 }  // namespace
+
+SamePixels same_pixels(Image image, Image reference) {
+  const bool is_same_window = image.frame() == reference.frame();
+  const bool has_one_frame = image.is_whole() || reference.is_whole();
+  if (have_same_size(image, reference) && (is_same_window || has_one_frame))
+    return {std::move(image), std::move(reference)};
+  // What an EXR has beyond its display window is no part of the picture.
+  image = visible_part(std::move(image));
+  reference = visible_part(std::move(reference));
+  if (is_inside(image, reference)) {
+    Image part = part_of(reference, image);
+    return {std::move(image), std::move(part)};
+  }
+  if (is_inside(reference, image)) {
+    Image part = part_of(image, reference);
+    return {std::move(part), std::move(reference)};
+  }
+  throw Error(ErrorKind::input,
+              fmt::format("the images show different pixels: {}, and {}", text_of(image),
+                          text_of(reference)),
+              "compare images of the same size, or a crop window with the whole picture");
+}
 
 double trimmed_mean(std::vector<double> values) {
   const size_t dropped = values.size() / 1000;

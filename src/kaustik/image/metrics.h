@@ -23,6 +23,14 @@ struct ImageComparison {
 /// Mean without the largest thousandth of the values (their number rounded down).
 double trimmed_mean(std::vector<double> values);
 
+/// The same pixels of two images: both are whole, or windows of one picture, as their frames tell.
+struct SamePixels {
+  Image image, reference;
+};
+/// Of two windows of one picture what one has of the other if that lies in it; an image without a
+/// frame of its own is taken for the window of its size. Throws Error(input) if neither holds.
+SamePixels same_pixels(Image image, Image reference);
+
 /// Throws Error(input) if the sizes differ, an image has no such layer, or no pixel is finite in
 /// both.
 ImageComparison compare_images(const Image& image, const Image& reference,

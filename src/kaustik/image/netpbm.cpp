@@ -86,7 +86,7 @@ Bytes encode_pfm(const Image& image, const std::string& layer) {
   return bytes;
 }
 
-Image decode_pfm(ByteView file) {
+Image decode_pfm(ByteView file, const ReadOptions& options) {
   Tokens tokens(file);
   const int channels = tokens.word() == "PF" ? 3 : 1;
   const int width = tokens.number(), height = tokens.number();
@@ -95,7 +95,7 @@ Image decode_pfm(ByteView file) {
   const float scale = std::strtof(scale_text.c_str(), &end);
   if (*end != 0 || scale == 0 || !std::isfinite(scale))
     throw BadImage(fmt::format("'{}' is no scale", scale_text));
-  check_header_size(width, height, channels, file.size(), 0.25);
+  check_promise({width, height, channels, 0, 0.25}, file.size(), options);
   const size_t pixels = size_t(width) * size_t(height);
   if (tokens.rest().size() / 4 / size_t(channels) < pixels) throw BadImage("the file is truncated");
   Image image(width, height, channel_names_for(channels));
@@ -115,7 +115,7 @@ Bytes encode_ppm(const Image& display_linear) {
   return bytes;
 }
 
-Image decode_pnm(ByteView file) {
+Image decode_pnm(ByteView file, const ReadOptions& options) {
   Tokens tokens(file);
   const char kind = tokens.word()[1];
   const int channels = kind == '3' || kind == '6' ? 3 : 1;
@@ -123,7 +123,7 @@ Image decode_pnm(ByteView file) {
   const int width = tokens.number(), height = tokens.number(), maximum = tokens.number();
   if (maximum < 1 || maximum > 65535)
     throw BadImage(fmt::format("a maximum of {} is not possible", maximum));
-  check_header_size(width, height, channels, file.size(), 1);
+  check_promise({width, height, channels, 0, 1}, file.size(), options);
   const size_t sample_bytes = maximum > 255 ? 2 : 1;
   const size_t samples = size_t(width) * size_t(height) * size_t(channels);
   const ByteView binary = tokens.rest();

@@ -7,13 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
+#include <limits>
 #include <optional>
 #include <sstream>
 
 #include "kaustik/image/formats.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/image/picture.h"
+#include "kaustik/image/primaries.h"
 
 namespace kaustik::formats {
 namespace {
@@ -113,18 +114,40 @@ class Cursor {
 
 struct Header {
   bool is_xyz = false;
-  float exposure = 1;  ///< stored values are radiance times this
+  float exposure = 1;         ///< stored values are radiance times this
+  Vec3f correction{1, 1, 1};  ///< and times this
+  std::optional<ColourMatrix> rec709_from_stored;
   bool is_bottom_up = false, is_right_to_left = false, has_columns_first = false;
   int width = 0, height = 0;
   std::optional<FieldOfView> view;
 };
 
-float positive_number(const std::string& text) {
-  char* end = nullptr;
-  const float value = std::strtof(text.c_str(), &end);
-  if (end == text.c_str() || !(value > 0) || !std::isfinite(value))
-    throw BadImage(fmt::format("'{}' is no exposure", text));
+/// So many numbers between white space.
+template <size_t count>
+std::array<float, count> numbers(const std::string& text, const char* what) {
+  std::array<float, count> values;
+  std::istringstream in(text);
+  for (float& value : values)
+    if (!(in >> value) || !std::isfinite(value))
+      throw BadImage(fmt::format("'{}' is no {}", text, what));
+  return values;
+}
+
+float exposure_of(const std::string& text) {
+  const float value = numbers<1>(text, "exposure")[0];
+  if (!(value > 0)) throw BadImage(fmt::format("'{}' is no exposure", text));
   return value;
+}
+
+Vec3f correction_of(const std::string& text) {
+  const auto [r, g, b] = numbers<3>(text, "colour correction");
+  if (!(r > 0 && g > 0 && b > 0)) throw BadImage(fmt::format("'{}' is no colour correction", text));
+  return {r, g, b};
+}
+
+std::optional<ColourMatrix> matrix_of(const std::string& text) {
+  const auto n = numbers<8>(text, "list of primaries");
+  return rec709_from({{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}, {n[6], n[7]}});
 }
 
 /// "-Y 480 +X 640" and the other seven orders of pixels.
@@ -169,7 +192,11 @@ Header read_header(Cursor& cursor) {
       if (!header.is_xyz && format != "32-bit_rle_rgbe")
         throw BadImage(fmt::format("pixel format '{}' is not supported", format));
     } else if (line.starts_with("EXPOSURE=")) {
-      header.exposure *= positive_number(line.substr(9));  // several multiply
+      header.exposure *= exposure_of(line.substr(9));  // several multiply
+    } else if (line.starts_with("COLORCORR=")) {
+      header.correction *= correction_of(line.substr(10));  // so do these
+    } else if (line.starts_with("PRIMARIES=")) {
+      header.rec709_from_stored = matrix_of(line.substr(10));
     } else if (line.starts_with("VIEW=")) {
       header.view = read_view(line.substr(5));  // the last counts
     }
@@ -219,6 +246,14 @@ void read_line(Cursor& cursor, std::vector<Rgbe>& line) {
     }
 }
 
+/// Linear Rec. 709.
+Vec3f radiance_of(const Rgbe& pixel, const Header& header) {
+  const Vec3f stored = rgb_from_rgbe(pixel) / header.exposure / header.correction;
+  // Radiance's XYZ is in lumens over its efficacy, so Y is photopic radiance as ours is.
+  if (header.is_xyz) return rgb_from_xyz(stored);
+  return header.rec709_from_stored ? *header.rec709_from_stored * stored : stored;
+}
+
 }  // namespace
 
 Bytes encode_hdr(const Image& image, const std::string& layer) {
@@ -237,11 +272,12 @@ Bytes encode_hdr(const Image& image, const std::string& layer) {
   return bytes;
 }
 
-Image decode_hdr(ByteView file) {
+Image decode_hdr(ByteView file, const ReadOptions& options) {
   Cursor cursor(file);
   const Header header = read_header(cursor);
-  constexpr double most_pixels_per_byte = 100;
-  check_header_size(header.width, header.height, 3, file.size(), most_pixels_per_byte);
+  // The older runs repeat a pixel as often as they like.
+  constexpr double most_pixels_per_byte = std::numeric_limits<double>::infinity();
+  check_promise({header.width, header.height, 3, 0, most_pixels_per_byte}, file.size(), options);
   Image image(header.width, header.height, {"R", "G", "B"});
   if (header.view) {
     image.set_metadata("horizontal_fov", double(header.view->horizontal));
@@ -252,9 +288,7 @@ Image decode_hdr(ByteView file) {
   for (int major = 0; major < lines; ++major) {
     read_line(cursor, line);
     for (int minor = 0; minor < int(line.size()); ++minor) {
-      Vec3f colour = rgb_from_rgbe(line[size_t(minor)]) / header.exposure;
-      // Radiance's XYZ is in lumens over its efficacy, so Y is photopic radiance as ours is.
-      if (header.is_xyz) colour = rgb_from_xyz(colour);
+      const Vec3f colour = radiance_of(line[size_t(minor)], header);
       int x = header.has_columns_first ? major : minor;
       int y = header.has_columns_first ? minor : major;
       if (header.is_right_to_left) x = header.width - 1 - x;

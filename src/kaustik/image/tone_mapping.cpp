@@ -76,7 +76,7 @@ Vec3f into_gamut(const Vec3f& rgb) {
 }
 
 Image tone_map(const Image& image, const ToneOperator& tone, const std::string& layer,
-               const std::optional<FieldOfView>& view) {
+               const std::optional<FieldOfView>& view, bool in_frame) {
   const Picture picture(image, layer, view ? *view : field_of_view(image).value_or(FieldOfView{}));
   const std::vector<Vec3f> colours = tone.displayed(picture);
   const RgbView rgb = rgb_view(image, layer);
@@ -84,6 +84,10 @@ Image tone_map(const Image& image, const ToneOperator& tone, const std::string& 
   for (size_t i = 0; i < colours.size(); ++i) {
     const Vec3f shown = is_finite(rgb[i]) ? into_gamut(colours[i]) : Vec3f(shown_for_bad(rgb[i]));
     for (int c = 0; c < 3; ++c) result.channel(c)[i] = shown[c];
+  }
+  if (in_frame) {
+    result.set_frame(image.frame());
+    result = whole_picture(std::move(result));
   }
   result = tone.decorated(std::move(result), picture);
   for (const auto& [key, value] : image.metadata()) result.set_metadata(key, value);

@@ -39,10 +39,11 @@ std::shared_ptr<const ToneOperator> make_tone_operator(
 /// "R", "G", "B" in [0, 1] of `layer` of an image as a display shows it, linear; 1 is its white.
 /// Colours that it cannot show are desaturated toward their luminance. A pixel with a NaN becomes
 /// black, +infinity white; neither influences others. `view`: of the camera; without one, what the
-/// image's metadata say, else 50° across. Keeps the metadata. Throws Error(input) if the image has
-/// no such layer or `view` is out of its range.
+/// image's metadata say, else 50° across. Keeps the metadata. An image that is a window of a
+/// picture is shown as such; `in_frame`: in its place in the picture, which is black elsewhere.
+/// Throws Error(input) if the image has no such layer or `view` is out of its range.
 Image tone_map(const Image& image, const ToneOperator& tone, const std::string& layer = {},
-               const std::optional<FieldOfView>& view = {});
+               const std::optional<FieldOfView>& view = {}, bool in_frame = false);
 
 /// `rgb` (display-linear) brought into [0, 1]³ by moving it toward its own luminance.
 Vec3f into_gamut(const Vec3f& rgb);

@@ -1,6 +1,6 @@
 #include "kaustik/base/to_integer.h"
 #include "kaustik/image/photometry.h"
-#include "kaustik/image/picture_argument.h"
+#include "kaustik/image/picture_reader.h"
 #include "kaustik/light/environment_light.h"
 #include "kaustik/light/irradiance_harmonics.h"
 #include "kaustik/light/latlong_distribution.h"
@@ -16,6 +16,7 @@ class PictureSphere {
   explicit PictureSphere(const Image& image)
       : width_(image.width()), rows_(std::max(image.height(), 2)) {
     const RgbView pixels = rgb_view(image);
+    texels_.reserve(size_t(width_) * size_t(rows_));
     for (int y = 0; y < rows_; ++y)
       for (int x = 0; x < width_; ++x) {
         const int row = std::min(y, image.height() - 1);
@@ -81,6 +82,7 @@ class PictureSphere {
 
 LatLongDistribution distribution_of(const PictureSphere& picture) {
   std::vector<float> values;
+  values.reserve(size_t(picture.width()) * size_t(picture.rows()));
   for (int row = 0; row < picture.rows(); ++row)
     for (int column = 0; column < picture.width(); ++column) {
       const Spectrum& c = picture.texel(column, row);
@@ -138,13 +140,18 @@ class EnvmapLight final : public EnvironmentLight {
   std::array<double, 4> fluence_{};
 };
 
+/// A texel of four floats and the numbers of its distribution.
+constexpr int64_t bytes_per_pixel = 32;
+
 std::unique_ptr<Light> create_envmap(const LightInputs& inputs) {
   const Arguments& arguments = inputs.arguments;
   const Transform& to_world = emitter_transform(inputs);
   if (!keeps_angles(to_world))
     throw Error(ErrorKind::input, "'to_world' distorts this environment",
                 "leave out shear and scaling by unequal factors", arguments.place_of("to_world"));
-  auto light = std::make_unique<EnvmapLight>(read_picture_argument(arguments),
+  PictureReader own_reader;
+  PictureReader& pictures = inputs.pictures ? *inputs.pictures : own_reader;
+  auto light = std::make_unique<EnvmapLight>(pictures.read(arguments, bytes_per_pixel),
                                              float(arguments.number("scale")), to_world,
                                              EmissionDisk(inputs.scene_bounds));
   if (!light->shines())
@@ -162,7 +169,8 @@ LightType envmap_light_type() {
       "emitter",
       "envmap",
       "A picture of the light around the scene, in latitude and longitude.",
-      {file_parameter("filename", "EXR, HDR, PFM, TIFF, PNG, JPEG or PPM file: radiance."),
+      {file_parameter("filename",
+                      "EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA or PPM file: radiance."),
        number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
        transform_parameter("to_world", "World from the picture, whose upper edge is +y."),
        ignored_parameter("mis_compensation", ParameterKind::boolean), ignored_sampling_weight()}};

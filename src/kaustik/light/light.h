@@ -11,6 +11,8 @@
 
 namespace kaustik {
 
+class PictureReader;
+
 struct EmissionBall;
 
 /// A point that asks a light for light.
@@ -146,6 +148,7 @@ struct LightInputs {
   Bounds3f scene_bounds;  ///< of everything that can be hit
   /// Stands for a color argument that takes a texture; null: the argument counts.
   std::shared_ptr<const EmissionPattern> pattern = nullptr;
+  PictureReader* pictures = nullptr;  ///< null: one with the default budget
 };
 
 struct LightType {

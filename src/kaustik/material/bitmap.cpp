@@ -1,7 +1,7 @@
 #include <utility>
 #include <vector>
 
-#include "kaustik/image/picture_argument.h"
+#include "kaustik/image/picture_reader.h"
 #include "kaustik/material/bsdf_kinds.h"
 #include "kaustik/material/mip_pyramid.h"
 #include "kaustik/material/uv_transform.h"
@@ -54,7 +54,7 @@ const TypeInfo& info() {
       "texture",
       "bitmap",
       "A picture, filtered by the footprint of the ray.",
-      {file_parameter("filename", "EXR, HDR, PFM, TIFF, PNG, JPEG or PPM file."),
+      {file_parameter("filename", "EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA or PPM file."),
        choice_parameter("filter_type", "bilinear", {"bilinear", "nearest"},
                         "How values between pixels come about."),
        choice_parameter("wrap_mode", "repeat", {"repeat", "mirror", "clamp"},
@@ -66,27 +66,36 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create(const Arguments& arguments) {
-  ReadOptions options;
-  options.srgb_to_linear = !arguments.boolean("raw");
-  const Image image = read_picture_argument(arguments, options);
-  // The pyramid takes four floats per texel and a third more for its reductions, beside the image.
-  check_image_size(image.width(), image.height(), 9);
-  const RgbView pixels = rgb_view(image);
-  std::vector<Spectrum> texels;
-  texels.reserve(image.pixel_count());
+/// Per pixel: a texel of four floats, and a third more for the reductions.
+constexpr int64_t bytes_per_pixel = 22;
+
+struct Texels {
+  int width = 0, height = 0;
+  std::vector<Spectrum> values;
   float maximum = 0;
+};
+
+/// The image is gone when the pyramid is made.
+Texels texels_of(const Image& image) {
+  Texels texels{image.width(), image.height(), {}};
+  const RgbView pixels = rgb_view(image);
+  texels.values.reserve(image.pixel_count());
   for (size_t i = 0; i < image.pixel_count(); ++i) {
     const Vec3f c = pixels[i];
-    texels.push_back(spectrum_from_rgb(c.x, c.y, c.z));
-    maximum = std::max(maximum, texels.back().max_lane());
+    texels.values.push_back(spectrum_from_rgb(c.x, c.y, c.z));
+    texels.maximum = std::max(texels.maximum, texels.values.back().max_lane());
   }
+  return texels;
+}
+
+std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader& pictures) {
+  Texels texels = texels_of(pictures.read(arguments, bytes_per_pixel, !arguments.boolean("raw")));
   const std::string& wrap = arguments.text("wrap_mode");
-  return std::make_shared<Bitmap>(MipPyramid(image.width(), image.height(), std::move(texels),
+  return std::make_shared<Bitmap>(MipPyramid(texels.width, texels.height, std::move(texels.values),
                                              wrap == "clamp"    ? Wrap::clamp
                                              : wrap == "mirror" ? Wrap::mirror
                                                                 : Wrap::repeat),
-                                  maximum, arguments.text("filter_type") == "nearest",
+                                  texels.maximum, arguments.text("filter_type") == "nearest",
                                   UvTransform(arguments.transform("to_uv")));
 }
 

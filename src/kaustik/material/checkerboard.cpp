@@ -57,7 +57,7 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create(const Arguments& arguments) {
+std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader&) {
   return std::make_shared<Checkerboard>(reflectance_spectrum(arguments.color("color0")),
                                         reflectance_spectrum(arguments.color("color1")),
                                         UvTransform(arguments.transform("to_uv")));

@@ -7,6 +7,8 @@
 
 namespace kaustik {
 
+class PictureReader;
+
 /// Where a texture is looked up: a point with the footprint of the ray that asks, a disk as large
 /// as the ellipse that the ray's cone cuts out of the surface (its long axis is not followed).
 struct TextureCoordinates {
@@ -57,7 +59,8 @@ Spectrum sampled_mean(const Texture& texture, float extent, int count = 4096);
 
 struct TextureType {
   const TypeInfo& info;
-  std::shared_ptr<const Texture> (*create)(const Arguments&);
+  /// Pictures come from the reader.
+  std::shared_ptr<const Texture> (*create)(const Arguments&, PictureReader&);
 };
 /// "bitmap", "checkerboard", "noise", "marble", "wood", "tiles", "waves".
 const std::vector<TextureType>& texture_types();

@@ -75,7 +75,7 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create(const Arguments& arguments) {
+std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader&) {
   return std::make_shared<Waves>(arguments);
 }
 

@@ -42,7 +42,7 @@ std::vector<int> lines_of(const std::vector<std::shared_ptr<Object>>& objects) {
 
 std::shared_ptr<const Scene> build_scene(const Description& description,
                                          const BuildOptions& options) {
-  SceneBuilder builder;
+  SceneBuilder builder(options.texture_memory_bytes);
   std::vector<std::string> warnings;
   const Description flat = flatten_placed_scenes(description, warnings);
   Scene::Parts parts = builder.build(*flat.scene);

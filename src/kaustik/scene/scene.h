@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kaustik/geometry/ray_tracer.h"
+#include "kaustik/image/image.h"
 #include "kaustik/light/light.h"
 #include "kaustik/material/bsdf.h"
 #include "kaustik/medium/medium.h"
@@ -120,7 +121,8 @@ class Scene {
 };
 
 struct BuildOptions {
-  RayObserver* observer = nullptr;  ///< must outlive the scene
+  RayObserver* observer = nullptr;                          ///< must outlive the scene
+  int64_t texture_memory_bytes = default_picture_memory();  ///< that its pictures may take
 };
 
 /// Checks every object against the table of its type and builds the scene. Throws Error with all

@@ -178,6 +178,8 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   parts.camera_medium = std::move(camera_medium_);
   parts.light_media = std::move(light_media_);
   parts.warnings = std::move(warnings_);
+  parts.warnings.insert(parts.warnings.end(), pictures_.warnings().begin(),
+                        pictures_.warnings().end());
   return parts;
 }
 
@@ -319,7 +321,7 @@ std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<
     refuse_children(*object, {});
     const Arguments arguments = arguments_of(type->info, *object);
     if (has_all_required(arguments))
-      collecting(file_place(arguments), [&] { texture = type->create(arguments); });
+      collecting(file_place(arguments), [&] { texture = type->create(arguments, pictures_); });
   } else {
     unknown_type(*object, names_of(texture_types()));
   }
@@ -458,7 +460,7 @@ void SceneBuilder::make_lights() {
         emission_pattern_of(*pending.object, arguments);
     collecting(pending.object->place, [&] {
       lights_.push_back(type->create(
-          {arguments, to_world, pending.shape, pending.shape_index, bounds_, pattern}));
+          {arguments, to_world, pending.shape, pending.shape_index, bounds_, pattern, &pictures_}));
       light_media_.push_back(medium_of(*pending.object));
     });
   }

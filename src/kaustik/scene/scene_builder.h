@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "kaustik/image/picture_reader.h"
 #include "kaustik/scene/scene.h"
 
 namespace kaustik {
@@ -12,6 +13,7 @@ namespace kaustik {
 /// together. One builder serves one scene.
 class SceneBuilder {
  public:
+  explicit SceneBuilder(int64_t texture_memory_bytes) : pictures_(texture_memory_bytes) {}
   Scene::Parts build(const Object& scene);
 
  private:
@@ -63,6 +65,7 @@ class SceneBuilder {
   void collecting(const Place& place, const std::function<void()>& body);
 
   Problems problems_;
+  PictureReader pictures_;
   std::vector<std::string> warnings_;
   std::set<std::string> ignored_reported_, remarks_reported_;
   std::vector<BuiltShape> shapes_;

@@ -1,0 +1,104 @@
+#include "kaustik/image/picture_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kaustik {
+namespace {
+
+/// Errors of reading get the place of the file name.
+Image read_at(const Arguments& arguments, const ReadOptions& options) {
+  try {
+    return read_image(arguments.text("filename"), options);
+  } catch (const Error& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems)
+      if (!problem.place.file) problem.place = arguments.place_of("filename");
+    throw Error(error.kind(), std::move(problems));
+  }
+}
+
+/// Its colours or its grey. Alpha is no colour, and which of other channels is meant nobody knows.
+std::array<int, 3> colours_of(const Image& image, const Arguments& arguments) {
+  if (const auto channels = colour_channels(image.channel_names())) return *channels;
+  // The message of rgb_view() names the channels.
+  try {
+    rgb_view(image);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::input,
+                fmt::format("picture '{}' has no colours: {}", arguments.text("filename"),
+                            error.problems().front().remedy),
+                "save it with the channels R, G and B, or with one that is called Y",
+                arguments.place_of("filename"));
+  }
+  return {};
+}
+
+bool is_radiance(float value) { return std::isfinite(value) && value >= 0; }
+
+/// Pixels whose values no light and no surface has.
+struct BadColours {
+  size_t count = 0, first = 0;
+  bool has_infinite = false;
+  float largest = 0;  ///< of the values that are right
+};
+
+/// Repairs them, see PictureReader::read().
+BadColours repair(Image& image, const std::array<int, 3>& channels) {
+  BadColours bad;
+  for (size_t i = 0; i < image.pixel_count(); ++i) {
+    bool is_bad = false;
+    for (const int c : channels) {
+      if (c < 0) continue;
+      const float value = image.channel(c)[i];
+      if (is_radiance(value)) bad.largest = std::max(bad.largest, value);
+      is_bad = is_bad || !is_radiance(value);
+    }
+    if (is_bad && bad.count++ == 0) bad.first = i;
+  }
+  if (bad.count == 0) return bad;
+  for (const int c : channels) {
+    if (c < 0) continue;
+    for (float& value : image.channel(c)) {
+      if (is_radiance(value)) continue;
+      const bool is_infinite = value > 0;
+      bad.has_infinite = bad.has_infinite || is_infinite;
+      value = is_infinite ? bad.largest : 0;
+    }
+  }
+  return bad;
+}
+
+}  // namespace
+
+PictureReader::PictureReader(int64_t memory_bytes)
+    : budget_bytes_(memory_bytes), left_bytes_(memory_bytes) {}
+
+Image PictureReader::read(const Arguments& arguments, int64_t kept_bytes_per_pixel,
+                          bool srgb_to_linear) {
+  ReadOptions options;
+  options.srgb_to_linear = srgb_to_linear;
+  options.whole_picture = true;
+  options.only_colours = true;
+  options.memory_bytes = left_bytes_;
+  options.kept_bytes_per_pixel = kept_bytes_per_pixel;
+  options.memory_remedy = fmt::format(
+      "allow pictures more memory than {:.3g} MB in all (--texture-memory), or give smaller ones",
+      double(budget_bytes_) / 1e6);
+  Image image = read_at(arguments, options);
+  left_bytes_ -= int64_t(image.pixel_count()) * kept_bytes_per_pixel;
+  const BadColours bad = repair(image, colours_of(image, arguments));
+  if (bad.count > 0)
+    warnings_.push_back(fmt::format(
+        "picture '{}': {} of its {} pixels {} negative or not finite, the first at ({}, {}): "
+        "taken as {}",
+        arguments.text("filename"), bad.count, image.pixel_count(), bad.count == 1 ? "is" : "are",
+        bad.first % size_t(image.width()), bad.first / size_t(image.width()),
+        bad.has_infinite ? fmt::format("0, infinite ones as {:.4g}, the largest of the others",
+                                       double(bad.largest))
+                         : std::string("0")));
+  return image;
+}
+
+}  // namespace kaustik

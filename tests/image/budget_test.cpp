@@ -1,0 +1,165 @@
+// What reading costs in memory and time, and what is told where that is too much.
+
+#include <sys/resource.h>
+
+#include <ctime>
+
+#include "kaustik/image/image_io.h"
+#include "kaustik/image/picture_reader.h"
+#include "tests/image/samples.h"
+#include "tests/image/support.h"
+
+namespace kaustik {
+namespace {
+
+using Budget = testing::FileTest;
+using testing::Caught;
+
+int64_t peak_bytes() {
+  rusage usage = {};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return 1024 * int64_t(usage.ru_maxrss);
+}
+
+/// A Radiance picture of one pixel and older runs that repeat it.
+std::string old_runs(int width, int height, int lines) {
+  std::string file =
+      "#?RADIANCE\n\n-Y " + std::to_string(height) + " +X " + std::to_string(width) + "\n";
+  const auto run = [](int count) { return std::string{1, 1, 1, char(count)}; };
+  for (int y = 0; y < lines; ++y) {
+    const int rest = width - 1;
+    file += std::string("\100\100\100\200", 4) + run(rest & 255) + run(rest >> 8 & 255) +
+            run(rest >> 16);
+  }
+  return file;
+}
+
+TEST_F(Budget, more_than_it_is_lack_of_memory) {
+  const Image image = testing::test_picture(100, 50, 1);
+  for (const char* name : {"a.exr", "a.hdr", "a.pfm", "a.tif", "a.png", "a.jpg", "a.ppm"}) {
+    write_image(image, path(name));
+    ReadOptions options;
+    options.memory_bytes = 100 * 50 * 12 - 1;
+    options.memory_remedy = "do this";
+    const Caught error = testing::caught([&] { read_image(path(name), options); });
+    ASSERT_TRUE(error.is_error) << name;
+    EXPECT_EQ(error.kind, ErrorKind::system) << error.text;
+    EXPECT_NE(error.text.find(path(name)), std::string::npos) << error.text;
+    EXPECT_NE(error.text.find("100 x 50 pixels"), std::string::npos) << error.text;
+    EXPECT_EQ(error.remedy, "do this");
+    options.memory_bytes = 100 * 50 * 20;  // LogLuv is decoded by strips
+    EXPECT_EQ(read_image(path(name), options).width(), 100);
+    options.kept_bytes_per_pixel = 20;
+    EXPECT_TRUE(testing::caught([&] { read_image(path(name), options); }).is_error) << name;
+  }
+}
+
+TEST_F(Budget, promises_that_a_file_does_not_keep_cost_nothing) {
+  put(path("a.hdr"), old_runs(100000, 1000, 3));
+  const int64_t before = peak_bytes();
+  const std::clock_t start = std::clock();
+  testing::expect_input_error([&] { read_image(path("a.hdr")); }, "truncated");
+  const double taken_s = double(std::clock() - start) / CLOCKS_PER_SEC;
+  // 100 million pixels would be 1.2 GB.
+#ifndef KAUSTIK_SLOW_BUILD
+  EXPECT_LT(peak_bytes() - before, 100'000'000);
+  EXPECT_LT(taken_s, 1);
+#endif
+}
+
+TEST_F(Budget, what_fits_is_read_however_small_its_file) {
+  put(path("a.hdr"), old_runs(100000, 20, 20));
+  const Image image = read_image(path("a.hdr"));
+  EXPECT_EQ(image.width(), 100000);
+  EXPECT_FLOAT_EQ(image.at(99999, 19, 2), 64.5f / 256);
+}
+
+TEST_F(Budget, metadata_take_time_in_proportion) {
+  Image image(1, 1, {"Y"});
+  constexpr int count = 150'000;
+  const std::clock_t start = std::clock();
+  for (int i = 0; i < count; ++i) image.set_metadata("key" + std::to_string(i), int64_t(i));
+  for (const char* name : {"a.exr", "a.tif"}) {
+    write_image(image, path(name));
+    const Image read = read_image(path(name));
+    ASSERT_NE(read.find_metadata("key149999"), nullptr) << name;
+    EXPECT_GE(read.metadata().size(), size_t{count}) << name;
+  }
+  const double taken_s = double(std::clock() - start) / CLOCKS_PER_SEC;
+#ifndef KAUSTIK_SLOW_BUILD
+  EXPECT_LT(taken_s, 10);  // a search through all of them for each took a minute
+#endif
+}
+
+TEST_F(Budget, damaged_and_countless_texts_of_png_are_refused) {
+  Image image(2, 2, {"R", "G", "B"});
+  image.set_metadata("scene", std::string("box"));
+  write_image(image, path("a.png"));
+  const std::string file = contents(path("a.png"));
+  const size_t text = file.find("scene");
+  ASSERT_NE(text, std::string::npos);
+  std::string damaged = file;
+  damaged[text + 6] = 'B';
+  put(path("b.png"), damaged);
+  testing::expect_input_error([&] { read_image(path("b.png")); }, "CRC");
+  // Behind the header of 8 + 25 bytes.
+  const auto with = [&](const std::string& chunk, int count) {
+    std::string more;
+    for (int i = 0; i < count; ++i) more += chunk;
+    put(path("c.png"), file.substr(0, 33) + more + file.substr(33));
+  };
+  with(testing::png_chunk("tEXt", std::string("k\0v", 3)), 3000);
+  EXPECT_NE(read_image(path("c.png")).find_metadata("k"), nullptr);
+  with(testing::png_chunk("tEXt", std::string("k\0v", 3)), 20000);
+  testing::expect_input_error([&] { read_image(path("c.png")); }, "texts");
+}
+
+const TypeInfo& picture_info() {
+  static const TypeInfo info{"texture", "picture", "", {file_parameter("filename", "A file.")}};
+  return info;
+}
+
+class PictureOfScene : public testing::FileTest {
+ protected:
+  Image read(PictureReader& reader, const std::string& name, int64_t kept_bytes) const {
+    Problems problems;
+    const Place place = place_in("scene.xml", 3, 4);
+    const Arguments arguments(picture_info(), {{"filename", path(name), place}}, place, problems);
+    problems.throw_if_any();
+    return reader.read(arguments, kept_bytes);
+  }
+};
+
+TEST_F(PictureOfScene, all_pictures_share_one_budget) {
+  write_image(testing::test_picture(100, 50, 1), path("a.pfm"));
+  PictureReader reader(5000 * (2 * 20 + 12));
+  read(reader, "a.pfm", 20);
+  read(reader, "a.pfm", 20);
+  const Caught error = testing::caught([&] { read(reader, "a.pfm", 20); });
+  ASSERT_TRUE(error.is_error);
+  EXPECT_EQ(error.kind, ErrorKind::system);
+  EXPECT_NE(error.text.find("scene.xml:3:4"), std::string::npos) << error.text;
+  EXPECT_NE(error.text.find("--texture-memory"), std::string::npos) << error.text;
+}
+
+TEST_F(PictureOfScene, bad_pixels_are_repaired_and_counted) {
+  Image image(3, 2, {"R", "G", "B"});
+  for (int c = 0; c < 3; ++c)
+    for (float& value : image.channel(c)) value = float(c + 1);
+  image.at(1, 0, 0) = -4;
+  image.at(2, 0, 1) = std::numeric_limits<float>::infinity();
+  image.at(0, 1, 2) = std::numeric_limits<float>::quiet_NaN();
+  write_image(image, path("a.pfm"));
+  PictureReader reader;
+  const Image read_back = read(reader, "a.pfm", 0);
+  EXPECT_EQ(read_back.at(1, 0, 0), 0);
+  EXPECT_EQ(read_back.at(1, 0, 1), 2);
+  EXPECT_EQ(read_back.at(2, 0, 1), 3);
+  EXPECT_EQ(read_back.at(0, 1, 2), 0);
+  ASSERT_EQ(reader.warnings().size(), 1u);
+  EXPECT_NE(reader.warnings()[0].find("3 of its 6 pixels"), std::string::npos);
+  EXPECT_NE(reader.warnings()[0].find("(1, 0)"), std::string::npos) << reader.warnings()[0];
+}
+
+}  // namespace
+}  // namespace kaustik
