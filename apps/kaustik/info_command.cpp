@@ -5,16 +5,18 @@
 #include "kaustik/scene/scene_report.h"
 #include "render_job.h"
 #include "scene_warnings.h"
+#include "texture_memory.h"
 
 namespace kaustik::app {
 namespace {
 
-void info(const std::string& path, const std::vector<std::string>& definitions) {
+void info(const std::string& path, const std::vector<std::string>& definitions,
+          const BuildOptions& build) {
   LoadOptions load;
   load.definitions = parse_definitions(definitions);
   const Description description = load_scene(path, load);
   tell_of_memory(description);
-  const auto scene = build_scene(description);
+  const auto scene = build_scene(description, build);
   SceneReport report = describe_scene(*scene);
   if (const std::string coarse = coordinates_warning(*scene); !coarse.empty())
     report.warnings.push_back(coarse);
@@ -33,7 +35,9 @@ void add_info(CLI::App& program) {
   command->add_option("-D,--define", *definitions, "Value for $name in the scene file")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  command->callback([path, definitions] { info(*path, *definitions); });
+  auto build = std::make_shared<BuildOptions>();
+  add_texture_memory(*command, *build);
+  command->callback([path, definitions, build] { info(*path, *definitions, *build); });
 }
 
 }  // namespace kaustik::app

@@ -16,6 +16,7 @@
 #include "render_job.h"
 #include "scene_warnings.h"
 #include "standard_streams.h"
+#include "texture_memory.h"
 #include "thesis_settings.h"
 
 namespace kaustik::app {
@@ -27,6 +28,7 @@ struct PhotonsOptions {
   LevelOptions levels;
   std::string part;
   uint64_t seed = 0;
+  BuildOptions build;
   int threads = 0;
   bool force = false;
 };
@@ -125,7 +127,7 @@ void trace_photons(const PhotonsOptions& options) {
   override_integrator(description, "photonmap");
   apply_settings(description, options.levels, options.settings);
   tell_of_memory(description);
-  const auto scene = build_scene(description);
+  const auto scene = build_scene(description, options.build);
   for (const std::string& warning : scene_warnings(*scene)) warn(warning);
 
   TracedPhotons traced_photons = traced(options, part, description, *scene);
@@ -167,6 +169,7 @@ void add_photons(CLI::App& program) {
       ->type_name("I/N");
   command->add_flag("--force", o->force, "Replace a file that is there and is no photon map");
   command->add_option("--seed", o->seed, "Seed of all random numbers [0]");
+  add_texture_memory(*command, o->build);
   command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
   command->callback([o] { trace_photons(*o); });
 }

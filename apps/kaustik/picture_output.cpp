@@ -60,6 +60,7 @@ void write_pictures(const Film& film, const RenderRecord& record, const OutputOp
   write.exr_half = !record.outputs.full_float;
   write.tone = make_tone_operator(record.outputs.tone, record.outputs.tone_settings);
   Image image = film.image();
+  if (record.view.frame.width > 0) image.set_frame(record.view.frame);
   set_metadata(image, film, record, options);
   if (record.outputs.denoise) with_threads(options.threads, [&] { smooth_noise(image); });
   for (const std::string& file : record.outputs.files)

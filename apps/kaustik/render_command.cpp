@@ -17,6 +17,7 @@
 #include "picture_output.h"
 #include "render_job.h"
 #include "standard_streams.h"
+#include "texture_memory.h"
 #include "thesis_settings.h"
 
 namespace kaustik::app {
@@ -31,6 +32,7 @@ struct RenderOptions {
   std::optional<uint32_t> passes, spp;
   uint32_t first_pass = 0;
   LevelOptions levels;
+  BuildOptions build;
   int threads = 0;
   std::optional<double> exposure;
   bool quiet = false, force = false;
@@ -92,7 +94,8 @@ void render(RenderOptions options) {
     override_integrator(description, recipe.integrator);
   }
   recipe.settings = collected_settings(description, options.levels, options.settings);
-  const RenderJob job = make_job(std::move(description), recipe, options.checkpoint.has_value());
+  const RenderJob job =
+      make_job(std::move(description), recipe, options.checkpoint.has_value(), options.build);
   RenderRecord record;
   record.recipe = recipe;
   record.plan = {options.first_pass, 0, settings.seconds, settings.error};
@@ -214,6 +217,7 @@ void add_render(CLI::App& program) {
   command->add_option("--every", options->every, "Time between checkpoints: 30s, 5m, 1h [30s]")
       ->needs(checkpoint);
   command->add_option("--seed", options->recipe.seed, "Seed of all random numbers [0]");
+  add_texture_memory(*command, options->build);
   command->add_option("--threads", options->threads, "Threads; 0: all [0]")
       ->check(whole_number(0, 4096));
   command->add_option(

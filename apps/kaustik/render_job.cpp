@@ -35,6 +35,10 @@ void tell_of_first_seconds(const std::string& integrator, std::optional<double> 
                   first_seconds));
 }
 
+PictureFrame frame_of(const FilmSettings& film) {
+  return {film.size.x, film.size.y, film.crop_offset.x, film.crop_offset.y};
+}
+
 }  // namespace
 
 void tell_of_memory(const Description& description) {
@@ -60,7 +64,8 @@ Description load_description(const RenderRecipe& recipe) {
   return description;
 }
 
-RenderJob make_job(Description description, const RenderRecipe& recipe, bool with_digest) {
+RenderJob make_job(Description description, const RenderRecipe& recipe, bool with_digest,
+                   const BuildOptions& build) {
   for (const Setting& setting : recipe.settings) override_property(description, setting);
   tell_of_memory(description);
   RenderJob job;
@@ -74,7 +79,7 @@ RenderJob make_job(Description description, const RenderRecipe& recipe, bool wit
     }
   }
   // Tells of a file that cannot be read where it is named.
-  job.scene = build_scene(description);
+  job.scene = build_scene(description, build);
   if (unreadable) std::rethrow_exception(unreadable);
   std::vector<std::string> warnings = scene_warnings(*job.scene);
   job.integrator = make_integrator(description, *job.scene, warnings);
@@ -88,7 +93,8 @@ RenderJob make_job(Description description, const RenderRecipe& recipe, bool wit
        {darkness_warning(*job.scene), hidden_lamps_warning(*job.scene, type)})
     if (!dark.empty()) warn(dark);
   job.view = {type, double(job.scene->camera().horizontal_fov()),
-              double(job.scene->camera().vertical_fov()), job.scene->film().quantity};
+              double(job.scene->camera().vertical_fov()), job.scene->film().quantity,
+              frame_of(job.scene->film())};
   return job;
 }
 

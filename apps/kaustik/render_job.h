@@ -27,7 +27,8 @@ Description load_description(const RenderRecipe& recipe);
 
 /// Applies the recipe's settings and builds the scene; what is odd about it is told. The digest
 /// reads every file of the scene once more: only checkpoints are worth it. Throws Error.
-RenderJob make_job(Description description, const RenderRecipe& recipe, bool with_digest);
+RenderJob make_job(Description description, const RenderRecipe& recipe, bool with_digest,
+                   const BuildOptions& build = {});
 
 /// How a session is watched and kept.
 struct JobOptions {

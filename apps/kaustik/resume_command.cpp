@@ -12,6 +12,7 @@
 #include "picture_output.h"
 #include "render_job.h"
 #include "standard_streams.h"
+#include "texture_memory.h"
 
 namespace kaustik::app {
 namespace {
@@ -21,6 +22,7 @@ struct ResumeOptions {
   std::optional<std::string> time, error;
   std::vector<std::string> outputs;
   std::optional<uint32_t> passes, spp;
+  BuildOptions build;
   int threads = 0;
   bool quiet = false;
 };
@@ -137,7 +139,7 @@ void resume(const ResumeOptions& options) {
   Description description = load_description(record.recipe);
   roles.reads(description);
   roles.check();
-  const RenderJob job = make_job(std::move(description), record.recipe, true);
+  const RenderJob job = make_job(std::move(description), record.recipe, true, options.build);
   check_same(job, checkpoint, options.checkpoint);
 
   const SessionSettings settings = session_settings(options, checkpoint);
@@ -186,6 +188,7 @@ void add_resume(CLI::App& program) {
                       "Stop when the picture's relative error is at most this: 2%");
   command->add_option("--scene", o->scene, "Where the scene file is now, if it was moved");
   command->add_option("--every", o->every, "Time between checkpoints [30s]");
+  add_texture_memory(*command, o->build);
   command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
   command->add_flag("-q,--quiet", o->quiet, "No progress");
   command->callback([o] { resume(*o); });

@@ -21,7 +21,7 @@ struct TonemapOptions {
   std::string layer, tone = "histogram";
   std::optional<double> exposure, fov, display_maximum, display_range;
   int quality = 95;
-  bool quiet = false, force = false;
+  bool data_window = false, quiet = false, force = false;
 };
 
 /// What is to be written of each input: one input may have several outputs; several inputs have as
@@ -83,14 +83,14 @@ void warn_of_bad_pixels(const std::string& input, const BadPixels& bad) {
 
 /// An input as the display shows it; tells what is odd about it.
 Image shown(const TonemapOptions& options, const std::string& input, const ToneOperator& tone) {
-  const Image image = read_image(input);
+  const Image image = visible_part(read_image(input));
   warn_of_bad_pixels(input, count_bad_pixels(rgb_view(image, options.layer)));
   std::optional<FieldOfView> view = field_of_view(image);
   if (options.fov) view = FieldOfView{float(*options.fov), 0};
   if (!view && tone.needs_view() && !options.quiet)
     say("{}: no field of view in its metadata: {}° across assumed (--fov)", input,
         FieldOfView{}.horizontal);
-  return tone_map(image, tone, options.layer, view);
+  return tone_map(image, tone, options.layer, view, !options.data_window);
 }
 
 void tonemap(const TonemapOptions& options) {
@@ -141,6 +141,9 @@ void add_tonemap(CLI::App& program) {
                       "The same as --set display_maximum=…");
   command->add_option("--display-range", o->display_range, "The same as --set display_range=…");
   command->add_option("--quality", o->quality, "Of jpg [95]")->check(whole_number(1, 100));
+  command->add_flag("--data-window", o->data_window,
+                    "Of an EXR show only the pixels that it has, such as a rendered crop window; "
+                    "else all of its display window, black where it has none");
   command->add_flag("--force", o->force, "Replace an image that is read");
   command->add_flag("-q,--quiet", o->quiet, "No notes");
   command->callback([o] { tonemap(*o); });

@@ -13,7 +13,7 @@ namespace {
 
 constexpr BinaryFileKind checkpoint_kind = {
     {0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
-    3,
+    4,
     "checkpoint",
     "give a .kpt file that was written by: kaustik render SCENE --checkpoint FILE.kpt",
     "render again with this program: kaustik render SCENE --checkpoint FILE.kpt"};
@@ -134,6 +134,8 @@ void put_view(BinaryWriter& writer, const ViewFacts& view) {
   writer.put(view.horizontal_fov);
   writer.put(view.vertical_fov);
   writer.put(uint8_t(view.quantity == Quantity::irradiance));
+  for (const int number : {view.frame.width, view.frame.height, view.frame.x, view.frame.y})
+    writer.put(int32_t(number));
 }
 
 ViewFacts get_view(BinaryReader& reader) {
@@ -142,6 +144,11 @@ ViewFacts get_view(BinaryReader& reader) {
   view.horizontal_fov = get_finite(reader);
   view.vertical_fov = get_finite(reader);
   view.quantity = reader.get_flag() ? Quantity::irradiance : Quantity::radiance;
+  for (int* number : {&view.frame.width, &view.frame.height, &view.frame.x, &view.frame.y}) {
+    *number = reader.get<int32_t>();
+    if (*number < 0 || *number > max_image_pixels)
+      reader.damaged("the frame of its picture is not valid");
+  }
   return view;
 }
 
