@@ -206,8 +206,8 @@ Image decode_bmp(ByteView bytes, const ReadOptions& options) {
   const ByteReader file(bytes);
   const Header header = read_header(file);
   const int channels = header.has_alpha() ? 4 : 3;
-  // Runs skip as many lines as they like, for two bytes each.
-  const double most_pixels_per_byte = header.has_runs() ? 255.0 * 65536 : 8;
+  // Runs have 255 pixels in two bytes; they may skip more, which is filled with the first colour.
+  const double most_pixels_per_byte = header.has_runs() ? 1000 : 8;
   check_promise({header.width, header.height, channels, 0, most_pixels_per_byte}, bytes.size(),
                 options);
   Image image(int(header.width), int(header.height), channel_names_for(channels));
