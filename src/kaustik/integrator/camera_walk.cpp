@@ -1,5 +1,7 @@
 #include "kaustik/integrator/camera_walk.h"
 
+#include "kaustik/transport/roulette.h"
+
 namespace kaustik {
 namespace {
 
@@ -294,7 +296,8 @@ bool CameraWalk::survive(float u) {
   // By the square root of the throughput: longer paths for less variance, by a tenth at equal time
   // in a room of bright walls.
   const float survival =
-      std::min(0.95f, std::sqrt(state_.throughput.max_lane() * state_.roulette_scale));
+      std::min(1.0f, std::sqrt(state_.throughput.max_lane() * state_.roulette_scale)) *
+      length_survival(state_.depth);
   if (!(u < survival)) return false;
   state_.throughput *= 1 / survival;
   return true;

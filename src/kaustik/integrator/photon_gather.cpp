@@ -2,6 +2,7 @@
 
 #include "kaustik/base/to_integer.h"
 #include "kaustik/transport/direct_light.h"
+#include "kaustik/transport/roulette.h"
 #include "kaustik/transport/visibility.h"
 
 namespace kaustik {
@@ -153,7 +154,8 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
     eta_scale *= sqr(sample.eta);
     footprint.scatter(sample.event, sample.pdf_solid_angle);
     if (events >= gather_roulette_depth) {
-      const float survival = std::min(0.95f, throughput.max_lane() * eta_scale);
+      const float survival =
+          std::min(1.0f, throughput.max_lane() * eta_scale) * length_survival(events);
       if (!(u_choice.y < survival)) break;
       throughput *= 1 / survival;
     }

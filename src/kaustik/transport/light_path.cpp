@@ -5,13 +5,17 @@
 namespace kaustik {
 namespace {
 
-/// By the share that is left of what was emitted, not by the event's weight alone: that would make
-/// flux grow without end where weights alternate about one, as those of bent normals do (Veach
-/// 1997, eq. 5.19) when water reflects light totally time and again. Light that total reflection,
-/// perfect mirrors or white media trap would never end, hence the bound.
-float survival_of(const LightPath& path, const Spectrum& event_weight) {
-  const float bound = path.path_class.events() < certain_events ? 1.0f : 0.95f;
-  return std::min(bound, (path.weight * event_weight).max_lane());
+/// Russian roulette by the share that is left of what was emitted, not by the event's weight alone:
+/// that would make flux grow without end where weights alternate about one, as those of bent
+/// normals do (Veach 1997, eq. 5.19) when water reflects light totally time and again. And by the
+/// path's length. False if the path ends; attenuates it otherwise.
+bool survive(LightPath& path, const Spectrum& event_weight, float u) {
+  const float by_weight = std::min(1.0f, (path.weight * event_weight).max_lane());
+  const float by_length = length_survival(path.path_class.events());
+  if (!(u < by_weight * by_length)) return false;
+  path.attenuate(event_weight * (1 / by_weight));
+  path.state.throughput *= 1 / by_length;
+  return true;
 }
 
 /// With the weight and the density of those that are not guided.
@@ -40,9 +44,7 @@ bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPa
   const ScatterGuide::Place place =
       may_be_guided ? limits.guide->place(vertex, vertex.wo()) : ScatterGuide::Place();
   const BsdfSample sample = sample_direction(vertex, follow, place, u, u_choice.x);
-  const float survival = survival_of(path, sample.weight);
-  if (sample.event == Lobes::none || !(u_choice.y < survival)) return false;
-  path.attenuate(sample.weight * (1 / survival));
+  if (sample.event == Lobes::none || !survive(path, sample.weight, u_choice.y)) return false;
   path.state.pdf_unguided = sample.event == Lobes::delta ? 0 : sample.pdf_solid_angle;
   path.state.pdf_forward = place.pdf(path.state.pdf_unguided, sample.wi);
   if (place.guided() > 0) path.state.throughput *= path.state.pdf_unguided / path.state.pdf_forward;
@@ -84,9 +86,7 @@ MediumFate scatter_in_medium(LightPath& path, const Medium::Flight& flight,
   if (!follow) return MediumFate::stopped;
   if (path.path_class.events() >= limits.maximum_events) return MediumFate::too_long;
   const Vec2f u = path.sampler.next_2d();
-  const float survival = survival_of(path, flight.weight);
-  if (!(path.sampler.next_1d() < survival)) return MediumFate::absorbed;
-  path.attenuate(flight.weight * (1 / survival));
+  if (!survive(path, flight.weight, path.sampler.next_1d())) return MediumFate::absorbed;
   const Vec3f wo = -path.ray.direction;
   const Vec3f wi = medium.phase().sample(wo, u);
   path.state.pdf_forward = path.state.pdf_reverse = medium.phase().eval(wo, wi);

@@ -8,6 +8,7 @@
 #include "kaustik/base/sampler.h"
 #include "kaustik/transport/path_class.h"
 #include "kaustik/transport/path_state.h"
+#include "kaustik/transport/roulette.h"
 #include "kaustik/transport/scatter_guide.h"
 #include "kaustik/transport/vertex.h"
 
@@ -34,8 +35,8 @@ struct LightPath {
   PathState state;     ///< throughput: flux that arrives, W, before any attenuation there
   LightPathClass path_class;
   Sampler sampler;
-  Spectrum weight{1.0f};  ///< the throughput's share of what was emitted, but for what guiding
-                          ///< makes of it; roulette keeps it about 1
+  Spectrum weight{1.0f};  ///< the throughput's share of what was emitted, but for what guiding and
+                          ///< length_survival() make of it; roulette keeps it about 1
   uint32_t segments = 0;  ///< traced so far: those across null boundaries count, each has a block
                           ///< of random numbers
   float distance = 0;     ///< from the last event to the origin of `ray`, m
@@ -78,15 +79,13 @@ enum class MediumEvents {
   stop           ///< nowhere
 };
 
-/// Events after which no light path goes on for certain.
-inline constexpr int certain_events = 16;
-
 struct LightPathLimits {
   int maximum_events = 1 << 20;    ///< scattering events
   Lobes traced = Lobes::specular;  ///< lobes whose events count as specular
   MediumEvents in_media = MediumEvents::follow;
   /// Where bent normals are met at grazing incidence, flux grows without bound, rarely (the factor
-  /// of SurfaceVertex::eval_cosine): what is beyond this share of the emitted flux is cut off.
+  /// of SurfaceVertex::eval_cosine): what is beyond this share of the emitted flux is cut off. What
+  /// roulette gives to those that survive is not cut.
   float largest_weight = infinity;
   bool needs_reverse_pdf = false;  ///< PathState::pdf_reverse is to be found out
   /// Where paths that may go on by all lobes do so; null: by the bsdf alone.
@@ -102,8 +101,8 @@ struct LightPathCounts {
 };
 
 /// Scatters `path` at `vertex`, by the lobes `follow`: true if it goes on. Russian roulette
-/// survives with the largest lane of the path's weight, so the flux of the survivors stays even;
-/// shared by global, caustic and splatted light [Schregle 1998].
+/// survives with the largest lane of the path's weight, so the flux of the survivors stays even,
+/// and by length_survival(); shared by global, caustic and splatted light [Schregle 1998].
 bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPathLimits& limits,
                         LightPath& path);
 
