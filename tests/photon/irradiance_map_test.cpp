@@ -32,6 +32,7 @@ PhotonMap two_sided_map(size_t count, uint64_t seed) {
     Photon photon;
     photon.flux.fill((front ? 1.0f : 100.0f) / float(count));
     photon.side = CoarseNormal(front ? up : -up);
+    photon.path = uint32_t(i);
     photons.push_back(photon);
   }
   return {std::move(positions), std::move(photons)};

@@ -207,7 +207,7 @@ TEST_F(PhotonFile, OtherVersionsAndByteOrdersAreNamed) {
   bytes[12] = 9;
   seal(bytes);
   put(bytes);
-  expect_refused("has version 9, this program reads version 3");
+  expect_refused("has version 9, this program reads version 4");
   bytes = good;
   std::swap(bytes[8], bytes[11]);
   std::swap(bytes[9], bytes[10]);

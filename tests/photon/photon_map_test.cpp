@@ -37,7 +37,33 @@ PhotonMap uniform_map(size_t count, uint64_t seed) {
     const float x = number(random);
     positions.push_back({x, number(random), 0});
   }
-  return {std::move(positions), std::vector<Photon>(count, photon_of(1.0f / float(count)))};
+  std::vector<Photon> photons(count, photon_of(1.0f / float(count)));
+  for (size_t i = 0; i < count; ++i) photons[i].path = uint32_t(i);
+  return {std::move(positions), std::move(photons)};
+}
+
+/// Light paths that leave photons in clusters, as light does that is trapped under a skin of glass:
+/// 2.5 each in the mean, geometrically distributed, apart by about `spread`. Irradiance 1 on the
+/// unit square. Unless `told`, the map takes every photon for a path of its own.
+PhotonMap clustered_map(uint32_t paths, float spread, bool told, uint64_t seed) {
+  constexpr float mean_count = 2.5f, margin = 0.1f;
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<float> place(-margin, 1 + margin);
+  std::geometric_distribution<int> more(1 / mean_count);
+  std::normal_distribution<float> offset(0, spread);
+  const float flux = sqr(1 + 2 * margin) / (mean_count * float(paths));
+  std::vector<Vec3f> positions;
+  std::vector<Photon> photons;
+  for (uint32_t path = 0; path < paths; ++path) {
+    const float x = place(random), y = place(random);
+    for (int left = 1 + more(random); left > 0; --left) {
+      const float dx = offset(random);
+      positions.push_back({x + dx, y + offset(random), 0});
+      photons.push_back(photon_of(flux));
+      photons.back().path = told ? path : uint32_t(photons.size());
+    }
+  }
+  return {std::move(positions), std::move(photons)};
 }
 
 /// What the neighbours of a query are.
@@ -128,6 +154,39 @@ TEST(DensityEstimate, HasTheRightMean) {
   }
 }
 
+/// Whatever the clusters' size beside the disk's. Photons taken for independent would be too
+/// bright.
+TEST(DensityEstimate, HasTheRightMeanWherePathsLeaveClusters) {
+  constexpr uint32_t paths = 20'000;
+  const EstimateSettings ten{10};
+  const float radius = std::sqrt(10 * 1.44f / (pi * 2.5f * float(paths)));
+  const auto estimates = [&](float spread, bool told, float maximum_radius) {
+    EstimateSettings settings = ten;
+    settings.maximum_radius = maximum_radius;
+    RunningStatistics statistics;
+    for (uint64_t seed = 1; seed <= uint64_t(std::max(2, 30 / sample_divisor)); ++seed) {
+      const PhotonMap map = clustered_map(paths, spread, told, seed);
+      for (float y = 0.05f; y < 0.95f; y += 0.04f)
+        for (float x = 0.05f; x < 0.95f; x += 0.04f)
+          statistics.add(double(map.irradiance({x, y, 0}, up, settings).value[0]));
+    }
+    return statistics;
+  };
+  const double level = sidak_level(0.01, 4);
+  const auto check = [&](float spread, float maximum_radius) {
+    const RunningStatistics found = estimates(spread, true, maximum_radius);
+    EXPECT_GT(z_test_p_value(found, 1.0), level) << spread / radius << ": " << found.mean();
+#ifndef KAUSTIK_SLOW_BUILD
+    EXPECT_LT(found.standard_error(), 0.006) << spread / radius;
+#endif
+  };
+  check(0.01f * radius, infinity);
+  check(0.5f * radius, infinity);
+  check(2 * radius, infinity);
+  check(0.5f * radius, 1.5f * radius);  // where some disks are as large as allowed
+  EXPECT_LT(z_test_p_value(estimates(0.5f * radius, false, infinity), 1.0), level);
+}
+
 /// The k-th of N uniform photons takes a Beta(k, N − k + 1) share of the area, so the constant
 /// kernel over complete sets has relative variance 1/(k − 2); other kernels multiply it by their
 /// roughness, as they do for the Poisson number m within a fixed radius: 1/m.
@@ -196,7 +255,8 @@ TEST(PhotonSides, ThinWall) {
   for (int i = 0; i < 20'000; ++i) {
     const float x = number(random), y = number(random);
     const bool front = i % 4 == 0;
-    const Photon photon = photon_of(front ? 1.0f : 1000.0f, front ? up : -up);
+    Photon photon = photon_of(front ? 1.0f : 1000.0f, front ? up : -up);
+    photon.path = uint32_t(i);
     both.push_back({x, y, front ? 1e-4f : -1e-4f});
     both_photons.push_back(photon);
     if (!front) continue;

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace kaustik {
@@ -58,6 +60,14 @@ class KdNeighbors {
   /// Leaves only the wanted ones.
   void finish() {
     if (count_ > 0) shrink();
+  }
+  /// Puts them in the order of their distances, those at the same distance in that of the tree.
+  void sort() {
+    std::vector<std::pair<Distance, uint32_t>> all;
+    all.reserve(count_);
+    for (size_t i = 0; i < count_; ++i) all.emplace_back(distances_sq_[i], indices_[i]);
+    std::sort(all.begin(), all.end());
+    for (size_t i = 0; i < count_; ++i) std::tie(distances_sq_[i], indices_[i]) = all[i];
   }
 
  private:

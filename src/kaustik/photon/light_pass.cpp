@@ -21,7 +21,8 @@ struct PhotonList {
     positions.reserve(count);
     photons.reserve(count);
   }
-  void add(const LightVertex& at, float scale) {
+  /// `path`: its number in the pass.
+  void add(const LightVertex& at, uint32_t path, float scale) {
     const SurfaceVertex& vertex = at.vertex;
     const Vec3f& ng = vertex.point().ng;
     const float cos_geometric = dot(vertex.wo(), ng);
@@ -37,6 +38,7 @@ struct PhotonList {
     photon.distance = at.distance;
     photon.direction = PackedDirection(vertex.wo());
     photon.on_front = cos_geometric > 0;
+    photon.path = path;
     photon.side = CoarseNormal(cos_geometric > 0 ? ng : -ng);
     positions.push_back(vertex.position());
     photons.push_back(photon);
@@ -106,11 +108,14 @@ constexpr float largest_first_weight = 10;
 /// Traces one block of photons of one light.
 class LightPass::Tracer {
  public:
-  Tracer(const LightPass& pass, Kind kind, int light, uint32_t count, uint32_t index)
+  /// `first_path`: how many paths the pass has of other kinds and lights before these.
+  Tracer(const LightPass& pass, Kind kind, int light, uint32_t count, uint32_t first_path,
+         uint32_t index)
       : pass_(pass),
         largest_weight_(largest_first_weight * std::cbrt(float(index) + 1)),
         kind_(kind),
         light_(light),
+        first_path_(first_path),
         scale_(1.0f / float(count)),
         storing_(without(Lobes::all, pass.settings_.traced | Lobes::delta)),
         stores_everywhere_(pass.scene_.film().quantity == Quantity::irradiance) {
@@ -195,7 +200,7 @@ class LightPass::Tracer {
 
   void store(const LightVertex& at, PhotonList& list) {
     if (!stores_everywhere_ && !any(at.vertex.lobes() & storing_)) return;
-    list.add(at, scale_);
+    list.add(at, first_path_ + at.path, scale_);
     ++counts.stored;
     counts.stored_flux += double(at.state.throughput.max_lane()) * scale_;
   }
@@ -215,6 +220,7 @@ class LightPass::Tracer {
   float largest_weight_;
   Kind kind_;
   int light_;
+  uint32_t first_path_;
   float scale_;
   Lobes storing_;
   bool stores_everywhere_;  ///< irradiance is asked for on mirrors and glass too
@@ -260,13 +266,17 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
   deposits.report.lights.assign(shares.size(), {});
   struct Block {
     int light;
-    uint32_t begin, end;
+    uint32_t first_path, begin, end;
   };
   std::vector<Block> blocks;
-  for (size_t light = 0; light < shares.size(); ++light)
+  // Paths of both kinds may end in one map.
+  uint32_t first_path = kind == Kind::caustic ? settings_.global_photons : 0;
+  for (size_t light = 0; light < shares.size(); ++light) {
     for (uint32_t begin = 0; begin < shares[light]; begin += uint32_t(photons_per_block))
-      blocks.push_back(
-          {int(light), begin, std::min(shares[light], begin + uint32_t(photons_per_block))});
+      blocks.push_back({int(light), first_path, begin,
+                        std::min(shares[light], begin + uint32_t(photons_per_block))});
+    first_path += shares[light];
+  }
   if (stream != Stream::training) {
     const size_t total = blocks.size();
     blocks.resize(total * (settings_.part.index + 1) / settings_.part.count);
@@ -277,8 +287,8 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
   parallel_blocks(blocks.size(), 1, [&](size_t i, size_t, size_t) {
     if (stop.stop_requested()) return;
     const Block& block = blocks[i];
-    auto tracer =
-        std::make_unique<Tracer>(*this, kind, block.light, shares[size_t(block.light)], index);
+    auto tracer = std::make_unique<Tracer>(*this, kind, block.light, shares[size_t(block.light)],
+                                           block.first_path, index);
     // Kinds draw from different addresses even where they share a stream (training).
     const uint64_t element = uint64_t(block.light) * 2 + (kind == Kind::caustic ? 1 : 0) +
                              (kind == Kind::volume ? uint64_t(1) << 32 : 0);

@@ -66,13 +66,15 @@ class PackedDirection {
   int16_t x_ = 0, y_ = 0;
 };
 
-/// Flux that arrived at a surface; its position is the key in the photon map. 28 bytes.
+/// Flux that arrived at a surface; its position is the key in the photon map. 32 bytes.
 struct Photon {
   std::array<float, Spectrum::lane_count> flux{};  ///< W that arrives, before any attenuation
   float distance = 0;                              ///< to the origin, m
   PackedDirection direction;                       ///< toward the origin
   CoarseNormal side;     ///< geometric normal on the side on which it arrived
   uint8_t on_front = 1;  ///< whether that side is the side of the surface's own normal
+  /// Number of its light path in the pass: photons of one path may lie in a cluster.
+  uint32_t path = 0;
 
   Spectrum flux_spectrum() const { return {flux[0], flux[1], flux[2], flux[3]}; }
   /// Unit direction toward the origin from a point `at` near the photon's position: what
@@ -83,6 +85,6 @@ struct Photon {
     return normalize(position + d * distance - at);
   }
 };
-static_assert(sizeof(Photon) == 28);
+static_assert(sizeof(Photon) == 32);
 
 }  // namespace kaustik

@@ -5,7 +5,7 @@
 //   part index and count (u32 each),
 //   twice (global, caustic): report: rays, target_count, number of lights (u64), per light the
 //   seven counts (six u64, one f64); number of photons n (u64), n × position (3 × f32),
-//   n × Photon (28 bytes).
+//   n × Photon (32 bytes).
 #include "kaustik/photon/photon_file.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr BinaryFileKind photon_map_kind = {
     {0x89, 'K', 'P', 'M', '\r', '\n', 0x1a, '\n'},
-    3,  // Photon's layout is part of the file's
+    4,  // Photon's layout is part of the file's
     "photon map",
     "give a .kpm file that was written by: kaustik photons SCENE -o MAP.kpm",
     "write it again with this program: kaustik photons SCENE -o MAP.kpm"};

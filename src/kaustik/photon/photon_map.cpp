@@ -1,5 +1,7 @@
 #include "kaustik/photon/photon_map.h"
 
+#include <bit>
+
 namespace kaustik {
 namespace {
 
@@ -41,18 +43,29 @@ class KernelWeight {
   float scale_ = 0, slope_ = 0;
 };
 
-/// Radius and number of the photons that the kernel sums.
-struct Disk {
-  float radius_sq = 0;
-  size_t count = 0;
-};
+/// Light paths that were met, by their numbers.
+class PathSet {
+ public:
+  /// Empty, with room for `count`.
+  void start(size_t count) {
+    const size_t size = std::bit_ceil(2 * count);
+    slots_.assign(size, 0);
+    mask_ = size - 1;
+  }
+  /// False where it was met before.
+  bool insert(uint32_t path) {
+    const uint32_t key = path + 1;  // 0: free
+    size_t slot = size_t(key * 0x9E3779B97F4A7C15u >> 32) & mask_;
+    for (; slots_[slot] != 0; slot = (slot + 1) & mask_)
+      if (slots_[slot] == key) return false;
+    slots_[slot] = key;
+    return true;
+  }
 
-template <typename Neighbors>
-Disk disk_of(const Neighbors& neighbors, float maximum_radius) {
-  // The farthest of a complete set stands last, so it is left out by counting to one less.
-  if (neighbors.complete()) return {neighbors.farthest_sq(), neighbors.size() - 1};
-  return {sqr(maximum_radius), neighbors.size()};
-}
+ private:
+  std::vector<uint32_t> slots_;
+  size_t mask_ = 0;
+};
 
 }  // namespace
 
@@ -68,14 +81,41 @@ PhotonMap::Neighbors& PhotonMap::workspace() {
   return neighbors;
 }
 
+size_t PhotonMap::count_until(const Neighbors& neighbors, size_t count, size_t paths) const {
+  static thread_local PathSet met;
+  met.start(count);
+  for (size_t i = 0; i < count; ++i)
+    if (met.insert(tree().data(neighbors.index(i)).path) && --paths == 0) return i + 1;
+  return count + 1;
+}
+
+PhotonMap::Disk PhotonMap::find_disk(const Vec3f& position, const Vec3f& side, bool both_sides,
+                                     const EstimateSettings& settings, Neighbors& neighbors) const {
+  const auto paths = size_t(settings.neighbors);
+  for (size_t wanted = paths;; wanted = std::min(2 * wanted, size())) {
+    tree_.nearest(position, side, both_sides, int(wanted), settings.maximum_radius, neighbors);
+    const size_t found = neighbors.size();
+    const Disk all{sqr(settings.maximum_radius), found, found};
+    if (found < paths) return all;
+    // Most often no path comes twice. The farthest of a complete set stands last.
+    if (found == paths && count_until(neighbors, found, paths) == paths)
+      return {neighbors.farthest_sq(), paths - 1, paths};
+    if (found > paths) {
+      neighbors.sort();
+      const size_t needed = count_until(neighbors, found, paths);
+      if (needed <= found) return {neighbors.distance_sq(needed - 1), needed - 1, needed};
+    }
+    if (!neighbors.complete() || wanted >= size()) return all;
+  }
+}
+
 DensityEstimate PhotonMap::irradiance(const Vec3f& position, const Vec3f& side,
                                       const EstimateSettings& settings) const {
   DensityEstimate estimate;
   if (settings.neighbors <= 0 || empty()) return estimate;
   Neighbors& neighbors = workspace();
-  tree_.nearest(position, side, false, settings.neighbors, settings.maximum_radius, neighbors);
-  const Disk disk = disk_of(neighbors, settings.maximum_radius);
-  estimate.found = int(neighbors.size());
+  const Disk disk = find_disk(position, side, false, settings, neighbors);
+  estimate.found = int(disk.found);
   estimate.radius = std::sqrt(disk.radius_sq);
   if (disk.count == 0 || !std::isfinite(disk.radius_sq) || !(disk.radius_sq > 0)) return estimate;
   const KernelWeight weight(settings, disk.radius_sq);
@@ -106,10 +146,9 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   if (settings.neighbors <= 0 || empty()) return estimate;
   Neighbors& neighbors = workspace();
   const bool both_sides = vertex.transmits();
-  tree_.nearest(vertex.position(), both_sides ? vertex.point().ng : side, both_sides,
-                settings.neighbors, settings.maximum_radius, neighbors);
-  const Disk disk = disk_of(neighbors, settings.maximum_radius);
-  estimate.found = int(neighbors.size());
+  const Disk disk = find_disk(vertex.position(), both_sides ? vertex.point().ng : side, both_sides,
+                              settings, neighbors);
+  estimate.found = int(disk.found);
   estimate.radius = std::sqrt(disk.radius_sq);
   if (disk.count == 0 || !std::isfinite(disk.radius_sq) || !(disk.radius_sq > 0)) return estimate;
   const KernelWeight weight(settings, disk.radius_sq);

@@ -15,7 +15,7 @@ enum class Kernel {
 
 /// How a density is estimated.
 struct EstimateSettings {
-  int neighbors = 50;               ///< photons to find; 0: no light
+  int neighbors = 50;               ///< photons, of different light paths, to find; 0: no light
   float maximum_radius = infinity;  ///< m
   Kernel kernel = Kernel::constant;
   float cone_constant = 1;  ///< k ≥ 1 of the cone
@@ -31,7 +31,10 @@ struct DensityEstimate {
 /// Photons in a kd-tree and the estimates from them (Schregle 1998, corrected). The
 /// farthest of k neighbours only sets the radius; the kernel sums the k − 1 nearer ones, which
 /// makes the estimate unbiased for even density (García et al. 2012). With fewer than k within the
-/// maximum radius, that is the radius, and all count. Immutable; estimates are thread-safe.
+/// maximum radius, that is the radius, and all count. That holds for independent things, which
+/// light paths are and the photons of one path are not: light that is trapped leaves clusters. So
+/// neighbours are paths, each as near as its nearest photon, and all photons of the k − 1 nearer
+/// paths that lie within the radius count. Immutable; estimates are thread-safe.
 class PhotonMap {
  public:
   PhotonMap() = default;
@@ -72,7 +75,18 @@ class PhotonMap {
 
  private:
   using Neighbors = SidedTree<Photon>::Neighbors;
+  /// What an estimate sums: the first `count` of the neighbours that were found.
+  struct Disk {
+    float radius_sq = 0;
+    size_t count = 0, found = 0;
+  };
   static Neighbors& workspace();
+  /// `both_sides` as for SidedTree::nearest().
+  Disk find_disk(const Vec3f& position, const Vec3f& side, bool both_sides,
+                 const EstimateSettings& settings, Neighbors& neighbors) const;
+  /// How many of the first `count` neighbours there are until `paths` different paths are met;
+  /// count + 1: there are fewer.
+  size_t count_until(const Neighbors& neighbors, size_t count, size_t paths) const;
 
   SidedTree<Photon> tree_;
   float mean_flux_ = 0;
