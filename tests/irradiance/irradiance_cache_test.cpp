@@ -28,7 +28,7 @@ constexpr int resolution = 100;
 const Vec3f up(0, 0, 1);
 
 CachePoint cache_point(const Vec3f& position, const Vec3f& normal, float pixel_width = 0) {
-  return {surface_point(position, normal), normal, pixel_width, 0, 1};
+  return {surface_point(position, normal), normal, pixel_width, 1};
 }
 
 /// A square grid of points on the plane z = 0 over [0, 1]².
@@ -212,6 +212,26 @@ TEST(irradiance_cache, points_that_tolerate_more_ask_for_fewer_records) {
   EXPECT_LT(records(1.5f), records(1) * 8 / 10);
   EXPECT_EQ(records(100), records(RecordOctree::overlap));
   EXPECT_EQ(records(0), records(1));
+}
+
+/// A record that was made for wide pixels reaches far for those who see it so, and not for who
+/// looks from nearby, whose points get records of their own.
+TEST(irradiance_cache, who_sees_more_sharply_gets_records_of_its_own) {
+  const RoomSource room;
+  const auto far = floor_points(resolution, 0.1f), near = floor_points(resolution, 0.005f);
+  IrradianceCache for_near(settings_with(0.3f, 60)), for_both(settings_with(0.3f, 60));
+  fill(for_near, near, room);
+  fill(for_both, far, room);
+  const size_t wide = for_both.record_count();
+  const auto unserved = [&](const std::vector<CachePoint>& points) {
+    return std::count_if(points.begin(), points.end(),
+                         [&](const CachePoint& p) { return !for_both.serves(p); });
+  };
+  EXPECT_EQ(unserved(far), 0);
+  EXPECT_GT(unserved(near), int64_t(near.size() / 2));
+  fill(for_both, near, room);
+  EXPECT_EQ(unserved(near), 0);
+  EXPECT_GT(for_both.record_count() - wide, for_near.record_count() / 2);
 }
 
 TEST(irradiance_cache, sides_do_not_share) {

@@ -27,6 +27,8 @@ std::vector<CacheRecord> random_records(uint32_t count, bool clustered) {
       const Vec3f axis = Frame(r.normal).to_world(Vec3f(0.6f, 0.8f, 0));
       r.squeeze = axis * (std::sqrt(sqr(aspect) - 1) / r.reach);
     }
+    r.turning = i % 3 == 0 ? 4.0f : 1.0f;
+    r.pixel_width = float(i % 4);
     r.irradiance = Spectrum(1 + s.next_1d(), s.next_1d(), 0, 0);
     for (int axis = 0; axis < 3; ++axis) {
       r.per_metre[axis] = Spectrum(s.next_1d() - 0.5f);
@@ -44,17 +46,20 @@ struct BruteForce {
   double weight = 0, lane0 = 0;
   double least = infinity, greatest = -infinity;  // of the lane
 
-  BruteForce(const std::vector<CacheRecord>& records, const Vec3f& p, const Vec3f& n,
-             double limit) {
+  BruteForce(const std::vector<CacheRecord>& records, const Vec3f& p, const Vec3f& n, double limit,
+             double pixel_width) {
     for (const CacheRecord& r : records) {
       if (dot(n, r.normal) <= 0) continue;
       const Vec3f d = p - r.position;
       const double height = 0.5 * double(dot(d, n + r.normal));
       const double factor = height < 0 ? 10 : 3;
       const double minor_sq = 1 / (1 / double(sqr(r.reach)) + double(length_sq(r.squeeze)));
-      const double error_sq = double(length_sq(d)) / double(sqr(r.reach)) +
-                              double(sqr(dot(d, r.squeeze))) + sqr_of(factor * height) / minor_sq +
-                              (1 - double(dot(n, r.normal))) / double(sqr(tolerance));
+      const double narrower =
+          pixel_width > 0 ? std::max(1.0, double(r.pixel_width) / (2 * pixel_width)) : 1.0;
+      const double error_sq =
+          sqr_of(narrower) * (double(length_sq(d)) / double(sqr(r.reach)) +
+                              double(sqr(dot(d, r.squeeze))) + sqr_of(factor * height) / minor_sq) +
+          double(r.turning) * (1 - double(dot(n, r.normal))) / double(sqr(tolerance));
       best = std::min(best, error_sq);
       if (error_sq >= limit * limit) continue;
       const double w = std::pow(1 - error_sq / (limit * limit), 2);
@@ -74,10 +79,12 @@ void compare_with_brute_force(const std::vector<CacheRecord>& records, float sca
     Sampler s = Sampler::at(2, 0, Stream::training, i, 0);
     const Vec3f n = square_to_sphere(s.next_2d());
     const Vec3f p = n * (scale * (0.97f + 0.06f * s.next_1d()));
+    const float pixel = i % 3 == 0 ? 0.0f : 0.7f;
     for (const float relax : {1.0f, 1.5f, 4.0f}) {
-      const BruteForce expected(records, p, n, double(relax * RecordOctree::overlap));
+      const BruteForce expected(records, p, n, double(relax * RecordOctree::overlap),
+                                double(pixel));
       Spectrum e;
-      const bool hit = octree.interpolate(p, n, relax, e);
+      const bool hit = octree.interpolate(p, n, relax, e, pixel);
       if (expected.weight > 1e-8) {
         hits += hit;
         if (relax == 1) {
@@ -92,13 +99,13 @@ void compare_with_brute_force(const std::vector<CacheRecord>& records, float sca
         EXPECT_FALSE(hit);
       }
       if (std::fabs(expected.best - 1) > 1e-4) {
-        EXPECT_EQ(octree.serves(p, n), expected.best < 1);
+        EXPECT_EQ(octree.serves(p, n, 1, pixel), expected.best < 1);
       }
       if (std::fabs(expected.best - 2) > 1e-4) {
-        EXPECT_EQ(octree.serves(p, n, std::sqrt(2.0f)), expected.best < 2);
+        EXPECT_EQ(octree.serves(p, n, std::sqrt(2.0f), pixel), expected.best < 2);
       }
     }
-    served += octree.serves(p, n);
+    served += octree.serves(p, n, 1, pixel);
   }
   EXPECT_GT(hits, 300);
   EXPECT_GT(served, 10);

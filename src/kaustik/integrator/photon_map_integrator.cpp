@@ -16,6 +16,12 @@ constexpr int cache_strides[] = {8, 4, 2, 1};
 bool is_last_stride(int stride, float minimum_spacing) {
   return stride == 1 || float(3 * stride) <= minimum_spacing;
 }
+/// Surfaces that a camera path sees blurred, behind a glossy event, ask for records in the rounds
+/// of this stride and larger ones alone: what such records don't serve is gathered, for blurred
+/// points may lie anywhere, and a record of its own for each would cost more than it serves.
+constexpr int least_blurred_stride = 4;
+/// Beams wider than so many pixels are blurred.
+constexpr float blurred_pixels = 2;
 /// Surfaces of one camera path that ask for records.
 constexpr size_t cache_points_per_path = 4;
 
@@ -31,13 +37,13 @@ float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
 CachePoint cache_point_of(const CameraWalk& walk, const Vec3f& normal,
                           const PhotonMapSettings& settings) {
   const Footprint& footprint = walk.footprint();
-  const float pixel = 2 * std::min(footprint.width, footprint.sharp_width);
-  return {walk.vertex().point(),
-          normal,
-          pixel,
-          2 * footprint.width,
+  return {walk.vertex().point(), normal, 2 * std::min(footprint.width, footprint.sharp_width),
           settings.cache_tolerance(walk.events()),
           walk.vertex().medium_toward(normal, walk.medium())};
+}
+
+bool is_blurred(const CameraWalk& walk) {
+  return walk.footprint().width > blurred_pixels * walk.footprint().sharp_width;
 }
 
 /// Of the walk's vertex: the camera's side gathers nothing on its way.
@@ -222,6 +228,7 @@ void PhotonMapIntegrator::collect_cache_points(const Vec2i& pixel, int stride, c
   const size_t first = points.size();
   while (walk.advance()) {
     const SurfaceVertex& vertex = walk.vertex();
+    if (is_blurred(walk) && stride < least_blurred_stride) return;
     if (any(vertex.lobes() & Lobes::diffuse) && !settings_.approximates(level_of(walk))) {
       const Vec3f normal = vertex.facing_normal();
       points.push_back(cache_point_of(walk, normal, settings_));
@@ -296,8 +303,11 @@ Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk&
   Spectrum irradiance;
   if (state.cache) {
     const CachePoint point = cache_point_of(walk, normal, settings_);
-    if (state.cache->interpolate(point, irradiance)) return irradiance;
-    if (state.cache->interpolate(point, irradiance, 2)) return irradiance;
+    // What is seen sharply was looked at while the cache was filled, so what few points slipped
+    // through lie beside records that serve.
+    const bool serves = !is_blurred(walk) || state.cache->serves(point);
+    if (serves && state.cache->interpolate(point, irradiance)) return irradiance;
+    if (!is_blurred(walk) && state.cache->interpolate(point, irradiance, 2)) return irradiance;
   }
   const SurfaceVertex& vertex = walk.vertex();
   return state.light->gather_irradiance(vertex, normal, vertex.medium_toward(normal, walk.medium()),

@@ -15,6 +15,12 @@ struct CacheRecord {
   /// Share of its weight that it has among other records, in (0, 1]: one that knows only a groove
   /// but has to serve as far as the least spacing must not darken what lies beside it.
   float confidence = 1;
+  /// How much more than elsewhere turned normals count, ≥ 1: where irradiance falls off quickly as
+  /// the normal turns, as at the border of the lit half of a ball, its gradient does not hold far.
+  float turning = 1;
+  /// Of the pixel that it was made for, m; 0: unknown. The reach is meant for points whose pixels
+  /// are about as wide; see RecordOctree.
+  float pixel_width = 0;
   Spectrum irradiance;  ///< W/m²
   /// By axis x, y, z: what is added per metre that the point moves …
   Spectrum per_metre[3];

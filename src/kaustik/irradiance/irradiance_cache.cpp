@@ -35,6 +35,7 @@ struct ComputedRecord {
   float clamped_radius;                ///< m, ≤ the validity's: by the neighbours
   float gradient_radius;               ///< m, another limit, which neighbours don't share
   float minimum_reach, maximum_reach;  ///< m
+  float pixel_width;                   ///< m, of the point that it was made for
 };
 
 void set_reach(const ComputedRecord& computed, float quality, CacheRecord& record) {
@@ -57,6 +58,8 @@ CacheRecord finished(const ComputedRecord& computed, const CacheSettings& settin
   CacheRecord record;
   record.position = computed.position;
   record.normal = computed.normal;
+  record.pixel_width = computed.pixel_width;
+  record.turning = turning_factor(estimate);
   set_reach(computed, settings.quality, record);
   record.irradiance = estimate.irradiance;
   if (!settings.gradients) return record;
@@ -103,21 +106,16 @@ struct IrradianceCache::Impl {
   uint64_t rays = 0, dropped = 0;
   float extent = 0;  ///< m, diagonal of the points of the first round that had any
 
-  /// `distance`: harmonic mean of what a record there sees, m.
-  float minimum_reach(const CachePoint& p, float distance) const {
-    const float blurred = std::min(settings.minimum_spacing * p.blur_width, distance);
-    return std::max({settings.minimum_spacing * p.pixel_width, blurred, 1e-6f * extent});
+  float minimum_reach(const CachePoint& p) const {
+    return std::max(settings.minimum_spacing * p.pixel_width, 1e-6f * extent);
   }
-  float maximum_reach(const CachePoint& p, float distance) const {
-    const float blurred = std::min(settings.maximum_spacing * p.blur_width, distance);
-    const float wanted = p.pixel_width > 0
-                             ? std::max(settings.maximum_spacing * p.pixel_width, blurred)
-                             : settings.quality * extent;
-    return std::max(wanted, minimum_reach(p, distance));
+  float maximum_reach(const CachePoint& p) const {
+    const float wanted =
+        p.pixel_width > 0 ? settings.maximum_spacing * p.pixel_width : settings.quality * extent;
+    return std::max(wanted, minimum_reach(p));
   }
-
-  float beam_width(const CachePoint& p) const {
-    return p.pixel_width > 0 ? std::max(p.pixel_width, p.blur_width) : extent / unknown_pixels;
+  bool serves(const CachePoint& p, float tolerance) const {
+    return octree.serves(p.point.position, p.normal, tolerance, p.pixel_width);
   }
 
   std::vector<uint32_t> finite_points(const std::vector<CachePoint>& points) const;
@@ -150,7 +148,7 @@ std::vector<uint32_t> IrradianceCache::Impl::misses(const std::vector<CachePoint
     for (size_t i = begin; i < end; ++i) {
       const CachePoint& p = points[candidates[i]];
       const float tolerance = std::clamp(p.tolerance, 1.0f, RecordOctree::overlap);
-      served[i] = octree.serves(p.point.position, p.normal, tolerance);
+      served[i] = serves(p, tolerance);
     }
   });
   std::vector<uint32_t> result;
@@ -167,7 +165,7 @@ std::vector<uint32_t> IrradianceCache::Impl::pick(const std::vector<CachePoint>&
   std::vector<uint32_t> result;
   for (const uint32_t i : candidates) {
     const CachePoint& p = points[i];
-    const float apart = std::max(spacing * maximum_reach(p, infinity), minimum_reach(p, 0));
+    const float apart = std::max(spacing * maximum_reach(p), minimum_reach(p));
     if (subset.pick(p.point.position, p.normal, apart)) result.push_back(i);
   }
   return result;
@@ -185,11 +183,13 @@ ComputedRecord IrradianceCache::Impl::compute(const CachePoint& at, const Radian
     record.validity.radius = split_sphere_radius(record.estimate, settings.minimum_distance);
     if (settings.gradients) record.gradient_radius = gradient_radius(record.estimate);
   } else {
-    record.validity = hessian_validity(record.estimate, at.normal, beam_width(at));
+    const float width = at.pixel_width > 0 ? at.pixel_width : extent / unknown_pixels;
+    record.validity = hessian_validity(record.estimate, at.normal, width);
   }
   record.clamped_radius = record.validity.radius;
-  record.minimum_reach = minimum_reach(at, record.estimate.harmonic_distance);
-  record.maximum_reach = maximum_reach(at, record.estimate.harmonic_distance);
+  record.minimum_reach = minimum_reach(at);
+  record.maximum_reach = maximum_reach(at);
+  record.pixel_width = at.pixel_width;
   return record;
 }
 
@@ -267,8 +267,10 @@ size_t IrradianceCache::fill_round(const std::vector<CachePoint>& points,
 }
 
 bool IrradianceCache::interpolate(const CachePoint& at, Spectrum& irradiance, float relax) const {
-  return impl_->octree.interpolate(at.point.position, at.normal, relax, irradiance);
+  return impl_->octree.interpolate(at.point.position, at.normal, relax, irradiance, at.pixel_width);
 }
+
+bool IrradianceCache::serves(const CachePoint& at) const { return impl_->serves(at, 1); }
 
 size_t IrradianceCache::record_count() const { return impl_->records.size(); }
 const std::vector<CacheRecord>& IrradianceCache::records() const { return impl_->octree.records(); }

@@ -13,12 +13,10 @@ namespace kaustik {
 /// A place where irradiance is wanted: on one side of a surface.
 struct CachePoint {
   SurfacePoint point;
-  Vec3f normal;           ///< unit shading normal on the side that receives the light
-  float pixel_width = 0;  ///< size of a pixel's footprint there, m; 0: unknown
-  /// Width of the beam that a diffuse or glossy event on the way has spread, m; below the pixel's:
-  /// none has. Spacings go by it, but no record reaches farther for it than the harmonic mean
-  /// distance of what it sees: one near a lamp would count for all that lies about it.
-  float blur_width = 0;
+  Vec3f normal;  ///< unit shading normal on the side that receives the light
+  /// Size of a pixel's footprint there, m, without what diffuse and glossy events on the way
+  /// spread: a record also serves those who see its place sharply. 0: unknown.
+  float pixel_width = 0;
   /// How much larger an error than at other points is allowed when the cache is filled; from 1 to
   /// RecordOctree::overlap.
   float tolerance = 1;
@@ -72,6 +70,9 @@ class IrradianceCache {
   /// `relax` ≥ 1 widens every record's reach by that factor, for the few points that no round saw
   /// (of records that serve only so, those listed nearby). Thread-safe.
   bool interpolate(const CachePoint& at, Spectrum& irradiance, float relax = 1) const;
+
+  /// Whether a record serves the point as the filling of the cache asks for. Thread-safe.
+  bool serves(const CachePoint& at) const;
 
   size_t record_count() const;
   /// For pictures of the cache.

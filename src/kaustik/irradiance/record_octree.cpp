@@ -120,6 +120,8 @@ class RecordOctree::Builder {
         }
         block.inverse_reach_sq[lane] = record.inverse_reach_sq();
         block.inverse_minor_sq[lane] = record.inverse_minor_sq();
+        block.turning[lane] = record.turning;
+        block.half_pixel_sq[lane] = sqr(0.5f * record.pixel_width);
         block.record[lane] = list[begin + lane];
       }
       tree_.blocks_.push_back(block);
@@ -160,9 +162,12 @@ inline RecordOctree::Lanes RecordOctree::error_sq(const Block& b, const Point& a
   const Lanes behind = Lanes{} + sqr(height_factor_behind);
   const Lanes factor_sq = height < 0 ? behind : front;
   const Lanes squeezed = dx * b.squeeze[0] + dy * b.squeeze[1] + dz * b.squeeze[2];
-  const Lanes error_sq = (dx * dx + dy * dy + dz * dz) * b.inverse_reach_sq + squeezed * squeezed +
-                         factor_sq * height * height * b.inverse_minor_sq +
-                         (1 - cosine) * inverse_normal_tolerance_sq_;
+  const Lanes one = Lanes{} + 1;
+  const Lanes narrower_sq = b.half_pixel_sq * at.inverse_pixel_sq;
+  const Lanes error_sq = ((dx * dx + dy * dy + dz * dz) * b.inverse_reach_sq + squeezed * squeezed +
+                          factor_sq * height * height * b.inverse_minor_sq) *
+                             (narrower_sq > one ? narrower_sq : one) +
+                         (1 - cosine) * b.turning * inverse_normal_tolerance_sq_;
   const Lanes never = Lanes{} + infinity;
   return cosine > 0 ? error_sq : never;
 }
@@ -189,11 +194,13 @@ inline const RecordOctree::Node* RecordOctree::leaf_at(const Vec3f& position) co
   return node;
 }
 
-bool RecordOctree::serves(const Vec3f& position, const Vec3f& normal, float tolerance) const {
+bool RecordOctree::serves(const Vec3f& position, const Vec3f& normal, float tolerance,
+                          float pixel_width) const {
   const Node* leaf = leaf_at(position);
   if (!leaf) return false;
+  const Point at(position, normal, pixel_width);
   for (uint32_t i = 0; i < leaf->blocks; ++i) {
-    const Lanes error = error_sq(blocks_[leaf->first + i], {position, normal});
+    const Lanes error = error_sq(blocks_[leaf->first + i], at);
     const Lanes rest = tolerance * tolerance - error;
     if (rest[0] > 0 || rest[1] > 0 || rest[2] > 0 || rest[3] > 0) return true;
   }
@@ -211,8 +218,8 @@ inline void RecordOctree::accumulate(const Node& leaf, const Point& at, float re
 }
 
 bool RecordOctree::interpolate(const Vec3f& position, const Vec3f& normal, float relax,
-                               Spectrum& irradiance) const {
-  const Point at{position, normal};
+                               Spectrum& irradiance, float pixel_width) const {
+  const Point at(position, normal, pixel_width);
   Mean mean;
   if (const Node* leaf = leaf_at(position)) accumulate(*leaf, at, relax, mean);
   if (!(mean.weight > 0)) return false;

@@ -3,6 +3,8 @@
 namespace kaustik {
 namespace {
 
+constexpr float most_turning = 1e4f;  ///< also of what is not finite
+
 /// What relative errors are relative to.
 float size_of(const Spectrum& irradiance) { return std::sqrt((irradiance * irradiance).sum()); }
 
@@ -16,6 +18,14 @@ float gradient_radius(const HemisphereEstimate& estimate) {
   float gradients = 0;
   for (const Vec3f& gradient : estimate.translation_gradient) gradients += length(gradient);
   return gradients > 0 ? std::max(0.0f, estimate.irradiance.sum()) / gradients : infinity;
+}
+
+float turning_factor(const HemisphereEstimate& estimate) {
+  float gradients = 0;
+  for (const Vec3f& gradient : estimate.rotation_gradient) gradients += length(gradient);
+  const float irradiance = std::max(estimate.irradiance.sum(), 1e-30f);
+  const float factor = 2 * sqr(gradients / irradiance);
+  return factor < most_turning ? std::max(factor, 1.0f) : most_turning;
 }
 
 Validity hessian_validity(const HemisphereEstimate& estimate, const Vec3f& normal,

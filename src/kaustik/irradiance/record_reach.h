@@ -18,6 +18,10 @@ struct Validity {
 /// length over which they would change the irradiance by itself.
 float split_sphere_radius(const HemisphereEstimate& estimate, bool minimum_distance);
 float gradient_radius(const HemisphereEstimate& estimate);
+/// The same for turned normals: square of √2 over the angle by which the rotation gradient would
+/// change the irradiance by itself, at least 1. Without it records serve within √2 times the
+/// quality, in radians.
+float turning_factor(const HemisphereEstimate& estimate);
 
 /// Schwarzhaupt, Jensen and Jarosz 2012: by the Hessian of the irradiance, which is what gradients
 /// leave out. The relative error ½ |Δxᵀ H Δx|/E is integrated over an ellipse whose rim has the
