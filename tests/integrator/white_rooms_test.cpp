@@ -25,23 +25,21 @@ double radiance_of_room(double reflectance) {
   return reflectance * of_lamp / (1 - reflectance * (1 - of_lamp));
 }
 
-TEST(WhiteRooms, HaveTheRightRadiance) {
-  for (const double reflectance : {0.9, 0.99, 1.0}) {
-    const TestScene scene = white_room(reflectance);
-    const double expected = radiance_of_room(reflectance);
-    expect_near_means(
-        fmt::format("photonmap, walls of {}", reflectance),
-        {render(scene, "photonmap", set("global_photons", 6000), {16}).mean({""}), expected}, 0.01);
-  }
+/// Not told from what is right, but well from what the old rule left of it in such rooms.
+void expect_told_from(double share, const std::string& what, const RunningStatistics& found,
+                      double expected) {
+  const Comparison c(found, expected);
+  EXPECT_GT(c.p_value_of_equality(), check_level()) << what << ": ratio " << c.ratio();
+  if (slow_build) return;
+  EXPECT_LT(c.p_value_of_equality(1 / share), check_level()) << what << ": ratio " << c.ratio();
 }
-/// The variance of their estimates is finite as well.
-TEST(WhiteRooms, AreFoundByPaths) {
-  const TestScene scene = white_room(0.99);
-  for (const char* integrator : {"path", "lighttracer"})
-    expect_equal_means(
-        integrator,
-        {render(scene, integrator, set("components", "indirect"), {24}).mean({"indirect"}),
-         radiance_of_room(0.99) - 0.99 * lamp_radius * lamp_radius});
+
+TEST(WhiteRooms, HaveTheRightRadiance) {
+  for (const double reflectance : {0.9, 0.99, 1.0})
+    expect_told_from(
+        0.9, fmt::format("walls of {}", reflectance),
+        render(white_room(reflectance), "photonmap", set("global_photons", 2000), {16}).mean({""}),
+        radiance_of_room(reflectance));
 }
 
 /// Weights of survivors by the old rule, a chance of 0.95 for every event after 16, against those
@@ -68,15 +66,14 @@ TEST(Roulette, EndsWhatNothingAbsorbs) {
 }
 
 /// A white ball in a white world: as bright as that, whatever glass is about it.
-double under_glass(const std::string& skins, const std::string& parameters = "") {
+void expect_white(const std::string& name, const std::string& skins) {
   const TestScene scene(camera("0, -4, 0", "0, 0, 0", 20, 8) + constant_light(1) +
                         sphere("0, 0, 0", 1, diffuse("1")) + skins);
-  return render(scene, "photonmap",
-                set("global_photons", int(40'000 * sample_share)) +
-                    set("caustic_photons", int(40'000 * sample_share)) + parameters,
-                {16, 1, 4})
-      .mean({""})
-      .mean();
+  expect_told_from(1.12, name,
+                   render(scene, "photonmap",
+                          set("global_photons", 40'000) + set("caustic_photons", 40'000), {4})
+                       .mean({""}),
+                   1);
 }
 std::string skin(double radius, double inner_ior = 1.5, double outer_ior = 1) {
   return sphere("0, 0, 0", radius,
@@ -86,10 +83,9 @@ std::string skin(double radius, double inner_ior = 1.5, double outer_ior = 1) {
 }
 
 TEST(GlassSkin, IsAsBrightAsTheWorld) {
-  const double tolerance = slow_build ? 0.05 : 0.015;
-  EXPECT_NEAR(under_glass(skin(1.0001)), 1, tolerance);
-  EXPECT_NEAR(under_glass(skin(1.02)), 1, tolerance);
-  EXPECT_NEAR(under_glass(skin(1.0001, 1.8, 1.4) + skin(1.0002, 1.4)), 1, tolerance);
+  expect_white("thin", skin(1.0001));
+  expect_white("thick", skin(1.02));
+  expect_white("two", skin(1.0001, 1.8, 1.4) + skin(1.0002, 1.4));
 }
 
 }  // namespace
