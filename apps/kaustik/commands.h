@@ -15,6 +15,7 @@ void add_denoise(CLI::App& program);
 void add_photons(CLI::App& program);
 void add_resume(CLI::App& program);
 void add_merge(CLI::App& program);
+void add_stitch(CLI::App& program);
 void add_help(CLI::App& program);
 
 // What an option's text says; throw Error(input) with the option as the place.
