@@ -45,7 +45,9 @@ bool surface_at(const Subject& subject, const Vec2f& raster, CachePoint& point) 
   Sampler sampler(0, 0);
   CameraWalk walk(*subject.scene, raster, sampler, nowhere, subject.settings->traced());
   if (!walk.advance() || !any(walk.vertex().lobes() & Lobes::diffuse)) return false;
-  point = {walk.vertex().point(), walk.vertex().facing_normal(), 2 * walk.footprint().width, 0, 1};
+  point = {.point = walk.vertex().point(),
+           .normal = walk.vertex().facing_normal(),
+           .pixel_width = 2 * walk.footprint().width};
   return true;
 }
 

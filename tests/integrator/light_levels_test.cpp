@@ -74,7 +74,7 @@ class NotingLight final : public Light {
 void render_noting(const std::string& inside, const std::string& type,
                    const std::string& parameters, Levels& levels) {
   const Description description = description_of(inside);
-  Scene::Parts parts = SceneBuilder().build(*description.scene);
+  Scene::Parts parts = SceneBuilder(int64_t(1) << 30).build(*description.scene);
   parts.lights[0] = std::make_unique<NotingLight>(std::move(parts.lights[0]), levels);
   const Scene scene(std::move(parts));
   std::vector<std::string> warnings;

@@ -83,7 +83,7 @@ RenderRecord little_record() {
   record.outputs.tone = "linear";
   record.outputs.tone_settings = {"exposure=1"};
   record.outputs.full_float = true;
-  record.view = {"path", 40, 30, Quantity::irradiance};
+  record.view = {"path", 40, 30, Quantity::irradiance, {}};
   record.seconds = 12.5;
   return record;
 }
