@@ -70,6 +70,55 @@ TEST(LightLeaks, GlossyAndRoundWalls) {
   expect_dark("drum", Rooms(cylinder("0, -1.01, 0", "0, 1.01, 0", 1.001, grey), grey, 48));
 }
 
+/// What light is let through nowhere is no hole.
+TEST(LightLeaks, WallsOfClosedMasks) {
+  expect_dark("mask", Rooms(flat("cube", scale("0.005, 1, 1"),
+                                 R"(<bsdf type="mask"><float name="opacity" value="1"/>)" + grey +
+                                     "</bsdf>"),
+                            grey, 48));
+}
+
+/// A lit cavity of 5 cm below a thin floor, which is as near as disks are thick.
+TEST(LightLeaks, FloorsOverLight) {
+  const auto level = [](double z) {
+    return flat("rectangle", scale("2, 1, 1") + translate(fmt::format("0, 0, {}", z)),
+                R"(<bsdf type="twosided">)" + grey + "</bsdf>");
+  };
+  const TestScene scene(camera("1.9, -0.9, 0.9", "0, -0.2, 0", 60, 48, "0, 0, 1") +
+                        flat("cube", scale("2, 1, 1"), set("flip_normals", true) + grey) +
+                        level(0) + level(-0.01) + level(-0.06) +
+                        sphere("0, 0, -0.03", 0.01, grey + area_light("500, 500, 500")));
+  RenderOptions options;
+  options.samples = 4;
+  options.passes = 2;
+  for (const char* type : merging)
+    EXPECT_EQ(render(scene, type, "", options).mean({""}).mean(), 0) << type;
+}
+
+/// Fog on both sides of a wall.
+TEST(LightLeaks, FogBehindAWall) {
+  const std::string fog =
+      R"(<medium type="homogeneous" name="interior"><float name="sigma_t" value="0.5"/>
+      <rgb name="albedo" value="0.8, 0.8, 0.8"/></medium>)";
+  const auto room = [&](double x) {
+    return flat("cube", scale("0.98, 0.98, 0.98") + translate(fmt::format("{}, 0, 0", x)),
+                R"(<bsdf type="null"/>)" + fog);
+  };
+  const TestScene scene(
+      camera("1.99, -0.9, 0.2", "0, -0.2, 0.6", 60, 24, "0, 0, 1") +
+      flat("cube", scale("2, 1, 1"), set("flip_normals", true) + grey) + slab(0.01) + room(-1) +
+      room(1) +
+      flat("rectangle", scale("0.3, 0.3, 1") + rotate("1, 0, 0", 180) + translate("-1, 0, 0.99"),
+           diffuse("0, 0, 0") + area_light("50, 50, 50")));
+  RenderOptions options;
+  options.samples = 4;
+  options.passes = 2;
+  for (const char* type : {"vcm", "ppm"}) {
+    EXPECT_EQ(render(scene, type, "", options).mean({""}).mean(), 0) << type;
+    EXPECT_GT(render(scene, type, set("visibility", false), options).mean({""}).mean(), 0) << type;
+  }
+}
+
 /// What the tests above would see without that …
 TEST(LightLeaks, DisksReachThroughWalls) {
   for (const char* type : {"vcm", "ppm"})

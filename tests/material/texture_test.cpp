@@ -144,7 +144,7 @@ TEST(bitmap, channels_of_the_file) {
       written(channels);
       ADD_FAILURE() << channels[0];
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("its channels are " + channels[0]),
+      EXPECT_NE(std::string(error.what()).find("the channels are: " + channels[0]),
                 std::string::npos)
           << error.what();
     }

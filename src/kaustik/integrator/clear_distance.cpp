@@ -17,11 +17,16 @@ class Polygon {
     std::copy_n(triangle.begin(), 3, corners_.begin());
   }
 
-  /// Leaves what has dot(q, normal) ≥ least.
+  /// Leaves what has dot(q, normal) ≥ least. Rounding may bend a sliver so that it has more corners
+  /// than there is room for: then it counts as if it were at the origin.
   void cut(const Vec3f& normal, float least) {
     std::array<Vec3f, most> left;
     size_t count = 0;
     for (size_t i = 0; i < count_; ++i) {
+      if (count + 2 > most) {
+        is_bent_ = true;
+        return;
+      }
       const Vec3f &a = corners_[i], &b = corners_[(i + 1) % count_];
       const float over_a = dot(a, normal) - least, over_b = dot(b, normal) - least;
       if (over_a >= 0) left[count++] = a;
@@ -35,6 +40,7 @@ class Polygon {
   bool is_empty() const { return count_ == 0; }
   /// Of the origin from the polygon's image in the plane of x and y, which have the length 1.
   float distance(const Vec3f& x, const Vec3f& y) const {
+    if (is_bent_) return 0;
     float nearest = infinity;
     bool left = true, right = true;
     for (size_t i = 0; i < count_; ++i) {
@@ -53,9 +59,10 @@ class Polygon {
   }
 
  private:
-  static constexpr size_t most = 3 + 2 + DiskEdges::most;
+  static constexpr size_t most = 2 * (3 + 2 + DiskEdges::most);
   std::array<Vec3f, most> corners_;
   size_t count_;
+  bool is_bent_ = false;
 };
 
 class Search {

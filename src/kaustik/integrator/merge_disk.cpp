@@ -31,19 +31,21 @@ float DiskCoverage::distance_to(Ray ray, const Stops& stops) const {
     if (stops(point)) return passed;
     ray.t_max -= hit.t;
     ray.origin = spawn_ray(point, ray.direction).origin;
+    // Through so many layers it is not followed: they hide what lies behind.
+    if (layer + 1 == most_layers) return passed;
   }
   return infinity;
 }
 
 DiskCoverage::DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t& rays,
-                           bool is_clear)
+                           float clear_flatness)
     : scene_(scene),
       vertex_(widest.vertex()),
       frame_(widest.side()),
       both_sides_(widest.both_sides()),
       rays_(rays),
-      is_clear_(is_clear) {
-  if (is_clear) return;
+      clear_flatness_(clear_flatness) {
+  if (clear_flatness > 0) return;
   // From off the surface, by what its position may be wrong.
   Ray up = spawn_ray(vertex_.point(), frame_.z);
   const float least = std::max(dot(up.origin - vertex_.position(), frame_.z), 0.0f);
@@ -106,19 +108,20 @@ std::optional<SurfacePoint> DiskCoverage::surface_at(float wanted_height, float 
 }
 
 bool DiskCoverage::is_way_free(float height, const Vec3f& direction, float distance) const {
-  if (is_clear_ || !(distance > 0)) return true;
+  if (clear_flatness_ > 0 || !(distance > 0)) return true;
   return !first_on_way(height, direction, distance,
                        [&](const SurfacePoint& point) { return hides(point); });
 }
 
 bool DiskCoverage::holds(float radius, float distance, float angle) const {
   const float height = height_share * radius;
-  const auto surface = surface_at(height, MergeDisk(vertex_, radius).flatness(), distance, angle);
+  const MergeDisk disk(vertex_, radius, clear_flatness_ > 0 ? clear_flatness_ : float(infinity));
+  const auto surface = surface_at(height, disk.flatness(), distance, angle);
   return surface && merges_at(*surface) && is_way_free(height, across(angle), distance);
 }
 
 bool DiskCoverage::reaches(float radius, const Vec3f& offset) const {
-  if (is_clear_) return true;
+  if (clear_flatness_ > 0) return true;
   const float height = height_share * radius;
   const float rise = dot(offset, frame_.z);
   const Vec3f along = offset - frame_.z * rise;
@@ -130,7 +133,9 @@ bool DiskCoverage::reaches(float radius, const Vec3f& offset) const {
   const float down = over - rise;
   const Ray ray{vertex_.position() + along + frame_.z * over, frame_.z * (down < 0 ? 1.0f : -1.0f),
                 std::fabs(down) - own_surface * radius};
-  return distance_to(ray, [&](const SurfacePoint& point) { return hides(point); }) == infinity;
+  return distance_to(ray, [&](const SurfacePoint& point) {
+           return merges_at(point) || hides(point);
+         }) == infinity;
 }
 
 float DiskCoverage::inverse_share(float radius, const DiskEdges& edges, Sampler numbers) const {

@@ -12,9 +12,13 @@ namespace kaustik {
 /// The disk around a vertex within which vertices of light paths merge with it.
 class MergeDisk {
  public:
-  /// `vertex` must outlive this.
-  MergeDisk(const SurfaceVertex& vertex, float radius)
-      : vertex_(vertex), ng_(vertex.point().ng), radius_(radius) {}
+  /// `vertex` must outlive this. What lies farther than `flatness`, m, from the plane does not
+  /// count where that is less than usual.
+  MergeDisk(const SurfaceVertex& vertex, float radius, float flatness = infinity)
+      : vertex_(vertex),
+        ng_(vertex.point().ng),
+        radius_(radius),
+        depth_(std::min(flatness_ * radius, flatness)) {}
 
   /// How much light counts at a point of a surface, that far from the vertex, with normal `side`:
   /// as much as its surface covers of the tangent plane, the cosine between the two, for relief has
@@ -37,7 +41,7 @@ class MergeDisk {
   /// away do not count, else the side on which light arrives tells.
   bool both_sides() const { return vertex_.transmits(); }
   /// Farthest that something may lie from the plane, m …
-  float flatness() const { return flatness_ * radius_; }
+  float flatness() const { return depth_; }
   /// … and the least cosine between its normal and the vertex's.
   static float least_cosine() { return least_cosine_; }
 
@@ -48,6 +52,7 @@ class MergeDisk {
   const SurfaceVertex& vertex_;
   const Vec3f ng_;
   float radius_;
+  float depth_;  ///< flatness()
 };
 
 /// What is reached of the disks around a vertex: from a height over the vertex along the tangent
@@ -57,8 +62,9 @@ class MergeDisk {
 class DiskCoverage {
  public:
   /// For disks up to the size of `widest`, whose vertex must outlive this. Counts its rays; one is
-  /// traced here, but where it is known that nothing stands in the way (`is_clear`: SurfaceEdges).
-  DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t& rays, bool is_clear = false);
+  /// traced here, but where it is known that the disk is clear (PixelPlans::Surroundings).
+  DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t& rays,
+               float clear_flatness = 0);
   /// No ray sets out from higher over the vertex, m.
   static float highest(float radius);
 
@@ -107,8 +113,8 @@ class DiskCoverage {
   const Frame frame_;  ///< z: the side that is seen
   const bool both_sides_;
   uint64_t& rays_;
-  const bool is_clear_;
-  float free_ = infinity;  ///< height over the vertex up to which nothing hangs, m
+  const float clear_flatness_;  ///< m; 0: something may stand in the way
+  float free_ = infinity;       ///< height over the vertex up to which nothing hangs, m
 };
 
 }  // namespace kaustik

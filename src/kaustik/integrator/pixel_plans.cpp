@@ -17,6 +17,17 @@ Vec3f side_of(const SurfaceVertex& vertex) {
   return vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
 }
 
+/// Of a disk where these edges hold.
+PixelPlans::Surroundings surroundings_by(const SurfaceEdges& edges, const Vec3f& position,
+                                         float radius) {
+  PixelPlans::Surroundings result;
+  result.edges = edges.around(position, radius);
+  result.are_complete = edges.are_complete(position, radius);
+  if (result.are_complete && edges.are_clear(position, radius))
+    result.clear_flatness = edges.flatness();
+  return result;
+}
+
 }  // namespace
 
 PixelPlans::PixelPlans(const Scene& scene) {
@@ -81,9 +92,7 @@ PixelPlans::Surroundings PixelPlans::surroundings(const Vec2f& raster, const Sur
                                                   float radius) const {
   if (!edges_) return {};
   const auto known = [&](const SurfaceEdges& edges) {
-    return Surroundings{edges.around(vertex.position(), radius),
-                        edges.are_complete(vertex.position(), radius),
-                        edges.are_clear(vertex.position(), radius)};
+    return surroundings_by(edges, vertex.position(), radius);
   };
   const Vec2i block = block_at(raster);
   const SurfaceEdges& own = (*edges_)[index_of(block)];
@@ -100,8 +109,7 @@ PixelPlans::Surroundings PixelPlans::surroundings(size_t probe, float radius) co
   if (!edges_) return {};
   const Vec3f position = (*probes_)[probe].vertex.position();
   const SurfaceEdges& edges = (*edges_)[probe];
-  return {edges.around(position, radius), edges.are_complete(position, radius),
-          edges.are_clear(position, radius)};
+  return surroundings_by(edges, position, radius);
 }
 
 PixelPlans PixelPlans::with(std::vector<PixelPlan> plans) const {

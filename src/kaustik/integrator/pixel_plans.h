@@ -59,7 +59,10 @@ class PixelPlans {
   struct Surroundings {
     DiskEdges edges;
     bool are_complete = false;  ///< nothing else was seen to end the surface
-    bool are_clear = false;     ///< nothing hides points of what edges leave from one another
+    /// The disk is complete, and nothing hides points of it from one another that lie no farther
+    /// from its plane than this, m. 0: that is not known.
+    float clear_flatness = 0;
+    bool are_clear() const { return clear_flatness > 0; }
   };
   /// Of a disk around a vertex that a pixel shows, by the probes around.
   Surroundings surroundings(const Vec2f& raster, const SurfaceVertex& vertex, float radius) const;

@@ -218,6 +218,8 @@ bool SurfaceEdges::hold_at(const SurfaceVertex& vertex) const {
   return true;
 }
 
+float SurfaceEdges::flatness() const { return 2 * same_height * reach_; }
+
 DiskEdges SurfaceEdges::around(const Vec3f& position, float radius) const {
   DiskEdges result;
   for (const Line& line : lines_) {

@@ -24,11 +24,13 @@ class SurfaceEdges {
   bool are_complete(const Vec3f& position, float radius) const {
     return length(position - position_) + radius <= complete_;
   }
-  /// Whether nothing at all hides points of such a disk from one another, as far as the edges leave
-  /// it. That is sure; what rays have not met may be there all the same.
+  /// Whether nothing stands over such a disk, as far as the edges leave it. This does not rest on
+  /// rays, which may miss what is small: no surface nearby is left out.
   bool are_clear(const Vec3f& position, float radius) const {
     return length(position - position_) + radius <= clear_;
   }
+  /// How far points of the plane may lie from one of them where they hold, m.
+  float flatness() const;
 
  private:
   void find_lines(const Scene& scene, const SurfaceVertex& vertex, uint64_t& rays);

@@ -4,6 +4,7 @@
 
 #include "kaustik/base/prefetch.h"
 #include "kaustik/integrator/merge_disk.h"
+#include "kaustik/transport/visibility.h"
 
 namespace kaustik {
 namespace {
@@ -28,13 +29,47 @@ std::vector<uint32_t>& empty_indices() {
 
 /// Of the sampler's forks for the coverage of the disk of merging, for the bias of merging (two),
 /// for the part of what merges, and for that which tells what is reached.
-constexpr uint32_t coverage_key = 1, bias_key = 2, part_key = 4, reached_key = 5;
+constexpr uint32_t coverage_key = 1, bias_key = 2, part_key = 4, reached_key = 5,
+                   reached_in_medium_key = 6;
 
 std::vector<MattMerging::Factors>& empty_factors() {
   static thread_local std::vector<MattMerging::Factors> factors;
   factors.clear();
   return factors;
 }
+
+constexpr size_t no_part = ~size_t(0);
+
+/// Draws one of the parts that count, in proportion to their light in a lane.
+template <typename Part, typename Counts>
+size_t drawn_part(const std::vector<Part>& parts, int lane, double u, const Counts& counts) {
+  double left = 0;
+  for (const Part& part : parts)
+    if (counts(part)) left += double(part.light[lane]);
+  left *= u;
+  size_t drawn = no_part;
+  for (size_t i = 0; i < parts.size() && left >= 0; ++i) {
+    if (!counts(parts[i]) || !(parts[i].light[lane] > 0)) continue;
+    left -= double(parts[i].light[lane]);
+    drawn = i;
+  }
+  return drawn;
+}
+
+/// Most often all lanes draw the same part: it is asked about once.
+class LastAnswer {
+ public:
+  template <typename Ask>
+  bool of(size_t part, const Ask& ask) {
+    if (part != part_) answer_ = ask();
+    part_ = part;
+    return answer_;
+  }
+
+ private:
+  size_t part_ = no_part;
+  bool answer_ = false;
+};
 
 /// Chance with which that is estimated: it takes rays.
 constexpr float bias_chance = 0.25f;
@@ -341,13 +376,15 @@ void VcmCameraPath::merge() {
   const float widest = merge_radius();
   if (!(widest > 0)) return;
   const DiskCoverage covered(in_.scene, MergeDisk(vertex, widest), walk_.rays(),
-                             surroundings(widest).are_clear);
+                             surroundings(widest).clear_flatness);
   const float radius = std::min(widest, std::max(covered.clear_radius(), walk_.footprint().width));
-  const MergeDisk disk(vertex, radius);
-  const DiskWeights weights = disk_weights(disk);
+  const PixelPlans::Surroundings around = surroundings(radius);
+  const MergeDisk disk = around.are_clear() ? MergeDisk(vertex, radius, around.clear_flatness)
+                                            : MergeDisk(vertex, radius);
+  const DiskWeights weights = disk_weights(disk, around);
   const bool is_matt =
       all_delta_ && lobes == Lobes::diffuse && !vertex.transmits() && !vertex.has_relief();
-  const bool is_all_reached = weights.surroundings.are_clear || !in_.visibility;
+  const bool is_all_reached = around.are_clear() || !in_.visibility;
   std::vector<MergedPart>* const each = is_all_reached ? nullptr : &empty_parts();
   MergedLight light =
       is_matt ? merged_matt(disk, weights, each) : merged(disk, weights, lobes, each);
@@ -374,6 +411,12 @@ void VcmCameraPath::merge() {
   walk_.add_bias((total - narrow) * (1 / ((1 - narrow_radius) * bias_chance)));
 }
 
+std::vector<VcmCameraPath::MediumPart>& VcmCameraPath::empty_medium_parts() {
+  static thread_local std::vector<MediumPart> parts;
+  parts.clear();
+  return parts;
+}
+
 std::vector<VcmCameraPath::MergedPart>& VcmCameraPath::empty_parts() {
   static thread_local std::vector<MergedPart> parts;
   parts.clear();
@@ -390,33 +433,19 @@ bool VcmCameraPath::MergedLight::is_zero() const {
 void VcmCameraPath::leave_reached(const DiskCoverage& covered, float radius,
                                   const std::vector<MergedPart>& each, MergedLight& light) const {
   const double u = double(walk_.sampler().fork(reached_key).next_1d());
-  // Most often they draw the same part.
-  constexpr size_t none = ~size_t(0);
-  size_t last = none;
-  bool is_reached = false;
-  const auto reaches = [&](size_t part) {
-    if (part != last)
-      is_reached = covered.reaches(radius, each[part].position - walk_.vertex().position());
-    last = part;
-    return is_reached;
-  };
+  LastAnswer is_reached;
   Spectrum before, after;
   for (int c = 0; c < component_count; ++c) {
     Spectrum& sum = light.of[size_t(c)];
     before += sum;
     if (sum.is_zero()) continue;
     for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
-      double left = 0;
-      for (const MergedPart& part : each)
-        if (int(part.component) == c) left += double(part.light[lane]);
-      left *= u;
-      size_t drawn = none;
-      for (size_t i = 0; i < each.size() && left >= 0; ++i) {
-        if (int(each[i].component) != c || !(each[i].light[lane] > 0)) continue;
-        left -= double(each[i].light[lane]);
-        drawn = i;
-      }
-      if (drawn == none || !reaches(drawn)) sum.set(lane, 0);
+      const size_t part =
+          drawn_part(each, lane, u, [&](const MergedPart& of) { return int(of.component) == c; });
+      if (part == no_part || !is_reached.of(part, [&] {
+            return covered.reaches(radius, each[part].position - walk_.vertex().position());
+          }))
+        sum.set(lane, 0);
     }
     after += sum;
   }
@@ -434,15 +463,15 @@ PixelPlans::Surroundings VcmCameraPath::surroundings(float radius) const {
   return in_.pixels.surroundings(walk_.raster(), walk_.vertex(), radius);
 }
 
-VcmCameraPath::DiskWeights VcmCameraPath::disk_weights(const MergeDisk& disk) const {
-  const PixelPlans::Surroundings around = surroundings(disk.radius());
+VcmCameraPath::DiskWeights VcmCameraPath::disk_weights(
+    const MergeDisk& disk, const PixelPlans::Surroundings& around) const {
   const DiskEdges& edges = around.edges;
   const Frame frame(disk.side());
   DiskWeights weights{
       around, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
       DiskKernel(frame, disk.radius() * narrow_radius, edges, KernelShape::parabolic)};
   // Slopes are for all of what edges leave, not for a part of it that is covered.
-  if (!around.are_complete || !around.are_clear) {
+  if (!around.are_complete || !(around.are_clear() || !in_.visibility)) {
     weights.wide.level();
     weights.narrow.level();
   }
@@ -619,6 +648,7 @@ Spectrum VcmCameraPath::radiance(const Ray& ray, float length, const Medium& med
   const PhaseFunction& phase_function = medium.phase();
   const Vec3f wo = -ray.direction;
   const auto count = float(in_.light.path_count);
+  std::vector<MediumPart>& parts = empty_medium_parts();
   in_.light.in_media.discs.visit_met(ray, merging, [&](size_t i, float along, float distance_sq) {
     const MergeableMediumVertex& light = in_.light.in_media.data[i];
     if (!light.medium->is_like(medium) || walk_.events() + int(light.before) > in_.maximum_events)
@@ -631,8 +661,28 @@ Spectrum VcmCameraPath::radiance(const Ray& ray, float length, const Medium& med
     const float weight = medium_merge_weight(light, phase, phase_function.eval(wi, wo));
     vertices_.pop_back();
     const float kernel = 2 * inv_pi * (1 - distance_sq / radius_sq) / radius_sq;
-    sum += light.flux_spectrum() * medium.transmittance(along) * (kernel * phase * weight / count);
+    parts.push_back(
+        {i, position,
+         light.flux_spectrum() * medium.transmittance(along) * (kernel * phase * weight / count)});
+    sum += parts.back().light;
   });
+  return in_.visibility ? visible_of(parts, sum) : sum;
+}
+
+/// As leave_reached().
+Spectrum VcmCameraPath::visible_of(const std::vector<MediumPart>& parts, Spectrum sum) const {
+  if (parts.empty()) return sum;
+  const double u = double(walk_.sampler().fork(reached_in_medium_key).next_1d());
+  LastAnswer is_visible;
+  for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
+    const size_t part = drawn_part(parts, lane, u, [](const MediumPart&) { return true; });
+    if (part == no_part || !is_visible.of(part, [&] {
+          const Vec3f& from = parts[part].position;
+          const Vec3f to = in_.light.in_media.discs.center(parts[part].disc) - from;
+          return !(length_sq(to) > 0) || is_unobstructed(in_.scene, {from, to, 1}, walk_.rays());
+        }))
+      sum.set(lane, 0);
+  }
   return sum;
 }
 

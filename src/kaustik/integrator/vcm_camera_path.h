@@ -107,9 +107,18 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
     DiskKernel wide, narrow;
   };
   static std::vector<MergedPart>& empty_parts();
+  /// What one light vertex in a medium sends along the segment that passes it.
+  struct MediumPart {
+    size_t disc;     ///< of LightVertices::in_media
+    Vec3f position;  ///< of the segment, nearest to it
+    Spectrum light;
+  };
+  static std::vector<MediumPart>& empty_medium_parts();
+  /// Leaves of `sum`, the light of these parts, what nothing hides from the segment.
+  Spectrum visible_of(const std::vector<MediumPart>& parts, Spectrum sum) const;
   /// Of a disk around the vertex.
   PixelPlans::Surroundings surroundings(float radius) const;
-  DiskWeights disk_weights(const MergeDisk& disk) const;
+  DiskWeights disk_weights(const MergeDisk& disk, const PixelPlans::Surroundings& around) const;
   /// Both add to `each`, if there is one, what makes up MergedLight::of.
   MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights,
                           std::vector<MergedPart>* each) const;

@@ -10,7 +10,8 @@ class Mask final : public CompoundBsdf {
  public:
   Mask(std::shared_ptr<const Bsdf> nested, std::shared_ptr<const Texture> opacity)
       : CompoundBsdf({.lobes = nested->lobes() | Lobes::delta,
-                      .transmits = true,
+                      .transmits = nested->transmits() || !opacity->is_constant() ||
+                                   opacity->mean().max_lane() < 1,
                       .needs = nested->needs() | texture_needs({opacity.get()}),
                       .size = nested->size() + 1}),
         nested_(std::move(nested)),

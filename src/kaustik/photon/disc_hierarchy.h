@@ -22,6 +22,7 @@ class DiscHierarchy {
   size_t size() const { return discs_.size(); }
   bool empty() const { return discs_.empty(); }
   float radius(size_t i) const { return discs_[i].radius; }
+  const Vec3f& center(size_t i) const { return discs_[i].center; }
 
   /// visit(index, distance of the disc's foot on `ray`, squared distance of its centre from `ray`)
   /// of all whose foot lies within `length` (may be infinite) and whose radius reaches the ray.
