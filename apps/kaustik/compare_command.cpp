@@ -23,8 +23,8 @@ void compare(const CompareOptions& options) {
     roles.reads(options.reference);
     roles.writes(options.difference);
   }
-  const auto [image, reference] =
-      same_pixels(read_image(options.image), read_image(options.reference));
+  Image given = read_image(options.image);
+  const auto [image, reference] = same_pixels(std::move(given), read_image(options.reference));
   const ImageComparison c = compare_images(image, reference, options.layer);
   fmt::print("mse                  {:.6g}\n", c.mse);
   fmt::print("relative_mse         {:.6g}\n", c.relative_mse);

@@ -113,11 +113,14 @@ bool DiskCoverage::is_way_free(float height, const Vec3f& direction, float dista
                        [&](const SurfacePoint& point) { return hides(point); });
 }
 
-bool DiskCoverage::holds(float radius, float distance, float angle) const {
+float DiskCoverage::held(float radius, float distance, float angle) const {
   const float height = height_share * radius;
   const MergeDisk disk(vertex_, radius, clear_flatness_ > 0 ? clear_flatness_ : float(infinity));
   const auto surface = surface_at(height, disk.flatness(), distance, angle);
-  return surface && merges_at(*surface) && is_way_free(height, across(angle), distance);
+  if (!surface || !merges_at(*surface) || !is_way_free(height, across(angle), distance)) return 0;
+  const float rise_sq = sqr(dot(surface->position - vertex_.position(), frame_.z));
+  const float left_sq = sqr(radius) - sqr(distance);
+  return left_sq > rise_sq ? 1 - rise_sq / left_sq : 0.0f;
 }
 
 bool DiskCoverage::reaches(float radius, const Vec3f& offset) const {
@@ -145,7 +148,8 @@ float DiskCoverage::inverse_share(float radius, const DiskEdges& edges, Sampler 
     const Vec2f u = numbers.next_2d();
     const float distance = radius * std::sqrt(1 - std::sqrt(1 - u.x)), angle = 2 * pi * u.y;
     if (!edges.hold(across(angle) * distance)) continue;
-    if (holds(radius, distance, angle)) return float(tries);
+    const float share = held(radius, distance, angle);
+    if (share > 0 && (share == 1 || numbers.next_1d() < share)) return float(tries);
     ++tries;
   }
   return float(tries);

@@ -72,9 +72,14 @@ class DiskCoverage {
   /// this was made for, would blur it, m.
   float clear_radius() const;
 
-  /// Whether a light vertex at a point of the tangent plane, `distance` away in the direction
-  /// `angle`, would merge in the disk of that radius.
-  bool holds(float radius, float distance, float angle) const;
+  /// How much a light vertex at a point of the tangent plane, `distance` away in the direction
+  /// `angle`, would count in the disk of that radius, relative to one in the plane: 0 if it would
+  /// not merge, less than 1 where the surface lies off the plane, for the kernel goes by distances
+  /// in space.
+  float held(float radius, float distance, float angle) const;
+  bool holds(float radius, float distance, float angle) const {
+    return held(radius, distance, angle) > 0;
+  }
   /// Whether the light vertex that lies so far from the vertex is reached.
   bool reaches(float radius, const Vec3f& offset) const;
   /// An estimate of one over the share that is covered of what edges leave of the disk, by the
