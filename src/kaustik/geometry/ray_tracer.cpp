@@ -543,9 +543,11 @@ void RayTracer::pieces_near(const Vec3f& center, float radius, const PieceSink& 
   struct Search {
     const Impl& impl;
     const PieceSink& sink;
+    bool wants_more = true;
   } search{*impl_, sink};
   const auto visit = [](RTCPointQueryFunctionArguments* arguments) {
-    const Search& in = *static_cast<const Search*>(arguments->userPtr);
+    Search& in = *static_cast<Search*>(arguments->userPtr);
+    if (!in.wants_more) return false;
     const bool is_placed = arguments->context->instStackSize > 0;
     Hit at;
     in.impl.place_hit(arguments->geomID,
@@ -556,7 +558,8 @@ void RayTracer::pieces_near(const Vec3f& center, float radius, const PieceSink& 
       for (Vec3f& corner : piece.corners)
         corner = combine(instance.columns, corner) + instance.translation;
     }
-    if (in.sink.take(in.sink.context, piece)) return false;
+    in.wants_more = in.sink.take(in.sink.context, piece);
+    if (in.wants_more) return false;
     arguments->query->radius = 0;  // nothing is near any more
     return true;
   };
