@@ -11,10 +11,10 @@ void Failures::keep(const Error& error) {
   problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
 }
 
-void Failures::keep(const std::string& file, const std::exception& error) {
+void Failures::keep(const std::string& what, const std::exception& error) {
   const bool no_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-  keep(Error(ErrorKind::system, fmt::format("cannot write '{}': {}", file,
-                                            no_memory ? "not enough memory" : error.what())));
+  keep(Error(ErrorKind::system,
+             fmt::format("cannot {}: {}", what, no_memory ? "not enough memory" : error.what())));
 }
 
 void Failures::throw_if_any() const {

@@ -12,12 +12,17 @@ class Failures {
   /// Runs `action`, which is to write `file`; what it throws is kept.
   template <typename Action>
   void attempt(const std::string& file, const Action& action) {
+    attempt_to("write '" + file + "'", action);
+  }
+  /// The same of any work; `what` is for messages: cannot `what`.
+  template <typename Action>
+  void attempt_to(const std::string& what, const Action& action) {
     try {
       action();
     } catch (const Error& error) {
       keep(error);
     } catch (const std::exception& error) {
-      keep(file, error);
+      keep(what, error);
     }
   }
   bool empty() const { return problems_.empty(); }
@@ -26,7 +31,7 @@ class Failures {
 
  private:
   void keep(const Error& error);
-  void keep(const std::string& file, const std::exception& error);
+  void keep(const std::string& what, const std::exception& error);
 
   ErrorKind kind_ = ErrorKind::input;
   std::vector<Problem> problems_;

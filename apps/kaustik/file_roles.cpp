@@ -14,8 +14,14 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path identity(const std::string& path) {
+  if (path.empty())
+    throw Error(ErrorKind::input, "the name of a file is empty", "give a file name");
   std::error_code failed;
-  const fs::path target = fs::absolute(output_target(path));
+  const fs::path target = fs::absolute(output_target(path), failed);
+  if (failed)
+    throw Error(ErrorKind::system,
+                fmt::format("cannot tell where '{}' is: {}", path, failed.message()),
+                "give the whole path of the file");
   const fs::path canonical = fs::weakly_canonical(target, failed);
   return failed ? target : canonical;
 }

@@ -33,7 +33,8 @@ class FileRoles {
   std::vector<std::string> outputs_;
 };
 
-/// Whether both names, through links too, are of one file, there or not.
+/// Whether both names, through links too, are of one file, there or not. Throws Error(input) for an
+/// empty name.
 bool is_same_file(const std::string& a, const std::string& b);
 
 /// Throws Error(input) if something stands at `path` but an empty file, unless `force`. `is_kind`

@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 #include <new>
+#include <string_view>
 
 #include "commands.h"
 #include "exit_codes.h"
@@ -105,16 +106,24 @@ int main(int argc, char** argv) {
   // A file that grows over the limit is then an error of the write, not the program's end.
   std::signal(SIGXFSZ, SIG_IGN);
   kaustik::app::prepare_standard_streams();
+  int exit_code = kaustik::app::exit_system;
+  bool is_output_told = false;
   try {
     return run(argc, argv);
+  } catch (const kaustik::app::EndedEarly&) {
+    exit_code = told();
+  } catch (const kaustik::Error& error) {
+    exit_code = told();
+    is_output_told = std::string_view(error.what()).find("standard output") != std::string::npos;
   } catch (...) {
+    // Printing throws, too, but knows no reason.
     if (!kaustik::app::standard_output_failed()) return told();
   }
-  // Printing throws, too, but knows no reason.
+  if (!kaustik::app::standard_output_failed()) return exit_code;
   try {
     kaustik::app::finish_standard_output();
   } catch (...) {
-    return told();
+    if (!is_output_told) told();
   }
-  return kaustik::app::exit_system;
+  return exit_code;
 }

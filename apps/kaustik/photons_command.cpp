@@ -86,8 +86,8 @@ bool is_photon_map(const std::string& path) {
 }
 
 TracedPhotons traced(const PhotonsOptions& options, const PhotonPart& part,
-                     const Description& description, const Scene& scene) {
-  const InterruptGuard interrupt;
+                     const Description& description, const Scene& scene,
+                     const InterruptGuard& interrupt) {
   say("tracing photons of {}", options.scene);
   ProgressLine line(false);
   const auto start = std::chrono::steady_clock::now();
@@ -130,7 +130,9 @@ void trace_photons(const PhotonsOptions& options) {
   const auto scene = build_scene(description, options.build);
   for (const std::string& warning : scene_warnings(*scene)) warn(warning);
 
-  TracedPhotons traced_photons = traced(options, part, description, *scene);
+  // To the end: what is traced is worth being written.
+  const InterruptGuard interrupt;
+  TracedPhotons traced_photons = traced(options, part, description, *scene, interrupt);
   StoredPhotons& stored = traced_photons.photons;
   stored.scene = std::filesystem::path(options.scene).lexically_normal().string();
   write_photon_file(options.output, stored);

@@ -58,11 +58,17 @@ void write_pictures(const Film& film, const RenderRecord& record, const OutputOp
                     Failures& failures) {
   WriteOptions write;
   write.exr_half = !record.outputs.full_float;
-  write.tone = make_tone_operator(record.outputs.tone, record.outputs.tone_settings);
-  Image image = film.image();
-  if (record.view.frame.width > 0) image.set_frame(record.view.frame);
-  set_metadata(image, film, record, options);
-  if (record.outputs.denoise) with_threads(options.threads, [&] { smooth_noise(image); });
+  Image image;
+  bool is_made = false;
+  failures.attempt_to("make the picture", [&] {
+    write.tone = make_tone_operator(record.outputs.tone, record.outputs.tone_settings);
+    image = film.image();
+    if (record.view.frame.width > 0) image.set_frame(record.view.frame);
+    set_metadata(image, film, record, options);
+    if (record.outputs.denoise) with_threads(options.threads, [&] { smooth_noise(image); });
+    is_made = true;
+  });
+  if (!is_made) return;
   for (const std::string& file : record.outputs.files)
     failures.attempt(file, [&] {
       write_picture(image, file, write);

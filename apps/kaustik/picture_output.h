@@ -16,7 +16,7 @@ struct OutputOptions {
 void check_outputs(const OutputPlan& outputs, FileRoles& roles);
 
 /// Writes the film's picture to all the files of the record's plan, with what is known of it as
-/// metadata; those that cannot be written go to `failures`.
+/// metadata; those that cannot be made or written go to `failures`.
 void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,
                     Failures& failures);
 

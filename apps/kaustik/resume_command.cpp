@@ -41,9 +41,20 @@ void check_scene_is_there(const RenderRecipe& recipe, const std::string& checkpo
               place_in(checkpoint));
 }
 
-bool lies_below(const std::filesystem::path& file, const std::filesystem::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
-         folder.end();
+/// As links have it; nothing if that cannot be told.
+std::optional<std::filesystem::path> real_path(const std::filesystem::path& path) {
+  std::error_code failed;
+  const std::filesystem::path whole = std::filesystem::absolute(path, failed);
+  if (failed) return {};
+  const std::filesystem::path real = std::filesystem::weakly_canonical(whole, failed);
+  if (failed) return {};
+  return real;
+}
+
+bool lies_below(const std::optional<std::filesystem::path>& file,
+                const std::filesystem::path& folder) {
+  return file && std::mismatch(folder.begin(), folder.end(), file->begin(), file->end()).first ==
+                     folder.end();
 }
 
 /// The checkpoint may come from anybody: what it names is written in and below its own folder only,
@@ -51,14 +62,13 @@ bool lies_below(const std::filesystem::path& file, const std::filesystem::path& 
 void check_outputs_are_near(const std::vector<std::string>& outputs,
                             const std::string& checkpoint) {
   namespace fs = std::filesystem;
-  std::error_code unknown;
-  const fs::path folder = fs::weakly_canonical(fs::absolute(checkpoint).parent_path(), unknown);
+  const std::optional<fs::path> folder = real_path(fs::path(checkpoint).parent_path() / ".");
   std::vector<std::string> far;
   for (const std::string& output : outputs)
-    if (is_standard_stream(output) ||
-        !lies_below(fs::weakly_canonical(fs::absolute(output_target(output)), unknown), folder))
+    if (is_standard_stream(output) || !folder ||
+        !lies_below(real_path(output_target(output)), *folder))
       far.push_back(output);
-  if (far.empty() && !outputs.empty() && !unknown) return;
+  if (far.empty() && !outputs.empty()) return;
   if (outputs.empty())
     throw Error(ErrorKind::input, "it names no picture to write", "say what to write: -o FILE",
                 place_in(checkpoint));

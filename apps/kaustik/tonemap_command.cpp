@@ -100,7 +100,7 @@ void tonemap(const TonemapOptions& options) {
   // One image that cannot be read or written does not cost the others.
   Failures failures;
   for (size_t i = 0; i < options.inputs.size(); ++i)
-    failures.attempt(options.inputs[i], [&] {
+    failures.attempt_to("show '" + options.inputs[i] + "'", [&] {
       const Image image = shown(options, options.inputs[i], *tone);
       for (const std::string& output : outputs[i])
         failures.attempt(output, [&] { write_shown_picture(image, output, options.quality); });

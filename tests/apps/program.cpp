@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <stdexcept>
 
 namespace kaustik::test {
@@ -112,6 +113,7 @@ RunResult run_kaustik(const std::vector<std::string>& arguments, const RunOption
 
   RunResult result;
   bool interrupted = options.interrupt_at.empty();
+  const std::regex interrupt_at(options.interrupt_at);
   std::optional<Clock::time_point> interrupt_time;
   const auto end = Clock::now() + std::chrono::duration<double>(options.timeout_s);
   while (out.is_open() || err.is_open()) {
@@ -128,7 +130,7 @@ RunResult run_kaustik(const std::vector<std::string>& arguments, const RunOption
         err.resize(options.terminal_columns[resized++]);
     }
     if (interrupted) continue;
-    if (!interrupt_time && err.text.find(options.interrupt_at) != std::string::npos)
+    if (!interrupt_time && std::regex_search(err.text, interrupt_at))
       interrupt_time = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                           std::chrono::duration<double>(options.interrupt_delay_s));
     if (!interrupt_time || Clock::now() < *interrupt_time) continue;

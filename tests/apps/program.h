@@ -25,7 +25,8 @@ struct RunOptions {
   std::optional<rlim_t> file_size_limit;  ///< bytes that a file may have (RLIMIT_FSIZE)
   /// Bytes of address space (RLIMIT_AS); not for programs with sanitizers, which take terabytes.
   std::optional<rlim_t> memory_limit;
-  /// Sends these signals, one after the other, this long after standard error holds this text.
+  /// Sends these signals, one after the other, this long after standard error holds what this
+  /// regular expression describes.
   std::string interrupt_at;
   double interrupt_delay_s = 0;
   std::vector<int> signals = {SIGINT};

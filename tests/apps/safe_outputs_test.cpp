@@ -165,6 +165,37 @@ TEST_F(SafeOutputs, WhatCannotBePrintedIsAFailure) {
   }
 }
 
+TEST_F(SafeOutputs, AFullStandardOutputHidesNoOtherFailure) {
+  RunOptions full;
+  full.full_output = true;
+  full.file_size_limit = 1000;
+  const RunResult result = run(render({"-o", "-", "-o", "a.pfm"}), full);
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_TRUE(contains(result.err, "cannot write to standard output")) << result.err;
+  EXPECT_TRUE(contains(result.err, "cannot write 'a.pfm'") ||
+              contains(result.err, "a.pfm': File too large"))
+      << result.err;
+}
+
+TEST_F(SafeOutputs, AnEmptyNameIsRefusedInWords) {
+  refused({"tonemap", "", "-o", "a.png"}, "name of a file is empty");
+}
+
+TEST_F(SafeOutputs, AWindowOfAPictureTooLargeForOneImageIsWritten) {
+  Words words = render({"-o", "a.exr", "--set", "film.width=100000", "--set", "film.height=90000"});
+  for (const char* name : {"film.crop_width=4", "film.crop_height=4", "film.crop_offset_x=50000",
+                           "film.crop_offset_y=60000"})
+    words.insert(words.end(), {"--set", name});
+  run_well(words);
+  const Image image = read_image(path("a.exr"));
+  EXPECT_EQ(image.width(), 4);
+  EXPECT_EQ(image.height(), 4);
+  EXPECT_TRUE((image.frame() == PictureFrame{100000, 90000, 50000, 60000}));
+  refused({"stitch", "a.exr", "-o", "b.exr"}, "too large");
+  refused({"tonemap", "a.exr", "-q", "-o", "b.png"}, "too large");
+  run_well({"tonemap", "a.exr", "-q", "--data-window", "-o", "b.png"});
+}
+
 TEST_F(SafeOutputs, OptionsSayWhatIsNoNumberAndFilesTheirCommand) {
   refused({"render", "scene.xml", "--spp", "abc"}, "'abc' is not a whole number");
   refused({"render", "scene.xml", "--spp", "1.5"}, "'1.5' is not a whole number");

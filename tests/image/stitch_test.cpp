@@ -53,6 +53,27 @@ TEST(Stitcher, EveryPixelGetsToItsPlace) {
   EXPECT_EQ(whole.find_metadata("passes"), nullptr);
 }
 
+TEST(Stitcher, MetadataOfOnePartDoesNotVanishUntold) {
+  Image marked = part(0, 0, 7, 2);
+  marked.set_metadata("passes", int64_t(7));
+  marked.set_metadata("incomplete", std::string("ended within the first pass"));
+  marked.set_metadata("artist", std::string("somebody"));
+  const Image plain = part(0, 2, 7, 3);
+  for (const bool marked_first : {true, false}) {
+    SCOPED_TRACE(marked_first);
+    Stitcher stitcher;
+    stitcher.add("a.exr", marked_first ? marked : plain);
+    stitcher.add("b.exr", marked_first ? plain : marked);
+    EXPECT_EQ(stitcher.differing(), std::vector<std::string>{"artist"});
+    const Image whole = std::move(stitcher).finish();
+    EXPECT_EQ(whole.find_metadata("artist"), nullptr);
+    ASSERT_NE(whole.find_metadata("incomplete"), nullptr);
+    EXPECT_EQ(std::get<std::string>(*whole.find_metadata("incomplete")),
+              "ended within the first pass");
+    EXPECT_EQ(std::get<double>(*whole.find_metadata("render_seconds")), 3);
+  }
+}
+
 TEST(Stitcher, RefusesWhatDoesNotFit) {
   EXPECT_EQ(refusal({part(0, 0, 7, 2), part(0, 2, 7, 3)}), "");
   EXPECT_NE(refusal({part(0, 0, 7, 2), part(0, 3, 7, 2)})

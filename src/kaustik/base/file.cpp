@@ -114,9 +114,13 @@ void remove_leftovers(const std::string& target) {
     if (pid != ::getpid() && (::kill(pid, 0) == 0 || errno != ESRCH)) continue;
     const Descriptor file(
         ::open(entry->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
-    struct stat status;
-    if (file.is_open() && ::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode) &&
-        ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
+    struct stat status, named;
+    if (!file.is_open() || ::fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
+        ::flock(file.get(), LOCK_EX | LOCK_NB) != 0)
+      continue;
+    // Of another file that has got the name meanwhile the lock says nothing.
+    if (::lstat(entry->path().c_str(), &named) == 0 && named.st_dev == status.st_dev &&
+        named.st_ino == status.st_ino)
       ::unlink(entry->path().c_str());
   }
 }
@@ -128,15 +132,14 @@ class TemporaryFile {
     const fs::path folder = folder_of(target);
     for (int i = 0; i < attempts && !file_; ++i) {
       path_ = (folder / fmt::format(".kaustik-{}-{}.tmp", ::getpid(), i)).string();
-      const int fd = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (fd >= 0)
-        file_.emplace(fd);
-      else if (errno != EEXIST)
-        fail(errno);
+      // Network disks lock only what may be read, too.
+      const int fd = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (fd < 0 && errno != EEXIST) fail(errno);
+      if (fd < 0) continue;
+      file_.emplace(fd);
+      if (is_taken_for_leftover()) file_.reset();
     }
     if (!file_) fail(EEXIST);
-    // Held as long as this writes: see remove_leftovers().
-    ::flock(file_->get(), LOCK_SH | LOCK_NB);
   }
   ~TemporaryFile() {
     if (!is_renamed_) ::unlink(path_.c_str());
@@ -163,9 +166,12 @@ class TemporaryFile {
         ::fchmod(file_->get(), status.st_mode & 07777) != 0)
       fail(errno);
     if (::fsync(file_->get()) != 0) fail(errno);
-    if (!file_->close()) fail(errno);
+    // Closing it first would give up the lock while it still has the name of a leftover.
     if (::rename(path_.c_str(), target_.c_str()) != 0) fail(errno);
     is_renamed_ = true;
+    if (!file_->close())
+      throw Error(ErrorKind::system, fmt::format("cannot write '{}': {}", target_, text_of(errno)),
+                  "check the disk and write it again");
     // The name itself is safe only when the folder is on the disk too; not every file system can.
     const Descriptor folder(::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.is_open()) ::fsync(folder.get());
@@ -173,6 +179,14 @@ class TemporaryFile {
 
  private:
   static constexpr int attempts = 1000;
+
+  /// Takes the lock, which is held as long as this writes: see remove_leftovers(). True if another
+  /// program was just about to remove the file.
+  bool is_taken_for_leftover() const {
+    if (::flock(file_->get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) return true;
+    struct stat status;
+    return ::fstat(file_->get(), &status) == 0 && status.st_nlink == 0;
+  }
 
   [[noreturn]] void fail(int error_number) const {
     throw Error(ErrorKind::system,

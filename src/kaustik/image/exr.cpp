@@ -135,7 +135,11 @@ class Target {
     const int64_t y = int64_t(window_.min.y) - display.min.y;
     const int64_t width = extent(display.min.x, display.max.x);
     const int64_t height = extent(display.min.y, display.max.y);
-    check_image_size(width, height, 0);
+    // The picture may be too large for one image, of which this is a window.
+    if (options.whole_picture) check_image_size(width, height, 0);
+    constexpr int64_t largest = 1 << 30;
+    if (std::min(width, height) < 1 || std::max(width, height) > largest)
+      throw BadImage("its display window is empty or too large");
     constexpr int64_t farthest = 1 << 30;
     if (std::max(std::abs(x), std::abs(y)) > farthest)
       throw BadImage("its data window is too far from its display window");

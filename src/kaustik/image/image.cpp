@@ -76,7 +76,11 @@ int Image::add_channel(const std::string& name) {
 }
 
 void Image::set_frame(const PictureFrame& frame) {
-  check_image_size(frame.width, frame.height, 0);
+  // It takes no memory: crop windows may be of pictures too large for one image.
+  if (frame.width <= 0 || frame.height <= 0)
+    throw Error(ErrorKind::input,
+                fmt::format("a picture of {} x {} pixels", frame.width, frame.height),
+                "width and height must be at least 1");
   frame_ = frame;
 }
 

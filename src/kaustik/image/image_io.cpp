@@ -145,20 +145,21 @@ Image read_image(const std::string& path, const ReadOptions& options) {
     throw Error(ErrorKind::input, fmt::format("cannot read image '{}': {}", path, reason),
                 "give a complete EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA, PPM or PGM file");
   };
-  const auto refuse_for_memory = [&](const std::string& reason) {
-    throw Error(ErrorKind::system, fmt::format("cannot read image '{}': {}", path, reason),
-                options.memory_remedy);
+  const auto refuse_for_machine = [&](const std::string& reason, const std::string& remedy) {
+    throw Error(ErrorKind::system, fmt::format("cannot read image '{}': {}", path, reason), remedy);
   };
   try {
     Image image = decode(file, path, options);
     if (options.srgb_to_linear && image.is_srgb_encoded()) formats::linearise(image);
     return image;
   } catch (const formats::TooLittleMemory& error) {
-    refuse_for_memory(error.what());
+    refuse_for_machine(error.what(), options.memory_remedy);
   } catch (const std::bad_alloc&) {
-    refuse_for_memory("there is not enough memory for it");
+    refuse_for_machine("there is not enough memory for it", options.memory_remedy);
   } catch (const Error& error) {
-    refuse(error.problems().front().message);
+    const Problem& problem = error.problems().front();
+    if (error.kind() == ErrorKind::input) refuse(problem.message);
+    refuse_for_machine(problem.message, problem.remedy);
   } catch (const std::exception& error) {
     refuse(error.what());
   }

@@ -12,6 +12,8 @@ namespace {
 
 /// Of what takes time in each part.
 constexpr const char* summed_key = "render_seconds";
+/// What is true of the whole if it is of any part.
+constexpr const char* lasting_key = "incomplete";
 
 [[noreturn]] void refuse(const std::string& message, const std::string& remedy) {
   throw Error(ErrorKind::input, message, remedy);
@@ -44,17 +46,28 @@ void Stitcher::check(const std::string& name, const Image& part) const {
            "render all parts with the same integrator");
 }
 
+void Stitcher::note_differing(const std::string& key) {
+  if (std::find(differing_.begin(), differing_.end(), key) == differing_.end())
+    differing_.push_back(key);
+}
+
 void Stitcher::take_metadata(const Image& part) {
+  for (const auto& [key, value] : part.metadata()) {
+    if (whole_.find_metadata(key)) continue;
+    if (key == lasting_key)
+      whole_.set_metadata(key, value);
+    else
+      note_differing(key);
+  }
   for (const auto& [key, value] : std::vector(whole_.metadata())) {
+    if (key == lasting_key) continue;
     const MetadataValue* other = part.find_metadata(key);
     const double *sum = std::get_if<double>(&value),
                  *more = other ? std::get_if<double>(other) : nullptr;
     if (key == summed_key && sum && more)
       whole_.set_metadata(key, *sum + *more);
-    else if (other && *other == value)
-      continue;
-    else if (std::find(differing_.begin(), differing_.end(), key) == differing_.end())
-      differing_.push_back(key);
+    else if (!other || *other != value)
+      note_differing(key);
   }
 }
 
