@@ -168,7 +168,7 @@ TEST_F(SafeOutputs, WhatCannotBePrintedIsAFailure) {
 TEST_F(SafeOutputs, AFullStandardOutputHidesNoOtherFailure) {
   RunOptions full;
   full.full_output = true;
-  full.file_size_limit = 1000;
+  full.file_size_limit = 100;
   const RunResult result = run(render({"-o", "-", "-o", "a.pfm"}), full);
   EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_TRUE(contains(result.err, "cannot write to standard output")) << result.err;

@@ -113,11 +113,18 @@ bool DiskCoverage::is_way_free(float height, const Vec3f& direction, float dista
                        [&](const SurfacePoint& point) { return hides(point); });
 }
 
-float DiskCoverage::held(float radius, float distance, float angle) const {
+std::optional<SurfacePoint> DiskCoverage::merging_at(float radius, float distance,
+                                                     float angle) const {
   const float height = height_share * radius;
   const MergeDisk disk(vertex_, radius, clear_flatness_ > 0 ? clear_flatness_ : float(infinity));
   const auto surface = surface_at(height, disk.flatness(), distance, angle);
-  if (!surface || !merges_at(*surface) || !is_way_free(height, across(angle), distance)) return 0;
+  if (!surface || !merges_at(*surface) || !is_way_free(height, across(angle), distance)) return {};
+  return surface;
+}
+
+float DiskCoverage::held(float radius, float distance, float angle) const {
+  const auto surface = merging_at(radius, distance, angle);
+  if (!surface) return 0;
   const float rise_sq = sqr(dot(surface->position - vertex_.position(), frame_.z));
   const float left_sq = sqr(radius) - sqr(distance);
   return left_sq > rise_sq ? 1 - rise_sq / left_sq : 0.0f;

@@ -72,14 +72,14 @@ class DiskCoverage {
   /// this was made for, would blur it, m.
   float clear_radius() const;
 
-  /// How much a light vertex at a point of the tangent plane, `distance` away in the direction
-  /// `angle`, would count in the disk of that radius, relative to one in the plane: 0 if it would
-  /// not merge, less than 1 where the surface lies off the plane, for the kernel goes by distances
-  /// in space.
-  float held(float radius, float distance, float angle) const;
+  /// Whether a light vertex at a point of the tangent plane, `distance` away in the direction
+  /// `angle`, would merge in the disk of that radius, as far as what is reached there tells …
   bool holds(float radius, float distance, float angle) const {
-    return held(radius, distance, angle) > 0;
+    return merging_at(radius, distance, angle).has_value();
   }
+  /// … and how much it would count, relative to one in the plane: less than 1 where the surface
+  /// lies off the plane, for the kernel goes by distances in space.
+  float held(float radius, float distance, float angle) const;
   /// Whether the light vertex that lies so far from the vertex is reached.
   bool reaches(float radius, const Vec3f& offset) const;
   /// An estimate of one over the share that is covered of what edges leave of the disk, by the
@@ -108,6 +108,7 @@ class DiskCoverage {
   template <typename Stops>
   std::optional<SurfacePoint> first_on_way(float height, const Vec3f& direction, float reach,
                                            const Stops& stops) const;
+  std::optional<SurfacePoint> merging_at(float radius, float distance, float angle) const;
   bool is_way_free(float height, const Vec3f& direction, float distance) const;
   /// How far away the ray meets a point where stops(point) holds; infinite: nowhere.
   template <typename Stops>
