@@ -23,8 +23,7 @@ PixelPlans::Surroundings surroundings_by(const SurfaceEdges& edges, const Vec3f&
   PixelPlans::Surroundings result;
   result.edges = edges.around(position, radius);
   result.are_complete = edges.are_complete(position, radius);
-  if (result.are_complete && edges.are_clear(position, radius))
-    result.clear_flatness = edges.flatness();
+  if (edges.are_clear(position, radius)) result.clear_flatness = edges.flatness();
   return result;
 }
 

@@ -59,8 +59,8 @@ class PixelPlans {
   struct Surroundings {
     DiskEdges edges;
     bool are_complete = false;  ///< nothing else was seen to end the surface
-    /// The disk is complete, and nothing hides points of it from one another that lie no farther
-    /// from its plane than this, m. 0: that is not known.
+    /// Nothing hides points of the disk from one another that lie no farther from its plane than
+    /// this, m. 0: that is not known.
     float clear_flatness = 0;
     bool are_clear() const { return clear_flatness > 0; }
   };
