@@ -316,7 +316,7 @@ TEST(MeshFiles, TakeTimeInProportionToTheirSize) {
   Random random(3);
   for (int i = 0; i < 600; ++i) corners += char(random.uniform() * 100);
   put(corners, uint32_t(1000000), false);
-  for (int i = 0; i < 1000000; ++i) corners += char(random.uniform() * 200);
+  for (int i = 0; i < 1000000; ++i) corners += char(uint8_t(random.uniform() * 200));
   std::string joined = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 ";
   for (int i = 0; i < 300000; ++i) joined += "\\\n";
   const std::clock_t begin = std::clock();

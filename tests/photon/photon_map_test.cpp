@@ -184,7 +184,9 @@ TEST(DensityEstimate, HasTheRightMeanWherePathsLeaveClusters) {
   check(0.5f * radius, infinity);
   check(2 * radius, infinity);
   check(0.5f * radius, 1.5f * radius);  // where some disks are as large as allowed
+#ifndef KAUSTIK_SLOW_BUILD
   EXPECT_LT(z_test_p_value(estimates(0.5f * radius, false, infinity), 1.0), level);
+#endif
 }
 
 /// The k-th of N uniform photons takes a Beta(k, N − k + 1) share of the area, so the constant
