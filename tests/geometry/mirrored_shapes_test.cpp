@@ -30,13 +30,14 @@ std::string cube_faces(const std::string& normal) {
 /// Normals of the cube's corners, times `factor`; zero from the first that has `none`.
 std::string cube_normals(int factor, size_t none) {
   std::string text;
-  for (size_t i = 0; i < 8; ++i)
-    for (const int axis : {0, 1, 2, 3}) {
+  for (size_t i = 0; i < 8; ++i) {
+    text += "vn";
+    for (const int axis : {0, 1, 2}) {
       const int sign = (i >> (2 - axis) & 1) != 0 ? factor : -factor;
-      text += axis == 0 ? "vn " : " ";
-      if (axis < 3) text += std::to_string(i < none ? sign : 0);
-      if (axis == 3) text += "\n";
+      text += " " + std::to_string(i < none ? sign : 0);
     }
+    text += "\n";
+  }
   return text;
 }
 
