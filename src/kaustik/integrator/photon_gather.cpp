@@ -14,6 +14,8 @@ constexpr int precomputed_level = 1;
 constexpr int gather_roulette_depth = 4;
 /// Gather rays average over so many directions that one volume photon out of these is enough.
 constexpr size_t coarse_volume_stride = 8;
+/// Of the sampler's forks for what is visible of each map.
+constexpr uint32_t caustic_key = 1, global_key = 2;
 
 }  // namespace
 
@@ -26,8 +28,11 @@ PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
       radii_(radii),
       shadows_(shadows),
       shadow_settings_(shadow_settings) {
+  uint64_t rays = 0;
   precomputed_ = IrradianceMap(maps.global, maps.places,
-                               at_level(settings.global, radii.global, precomputed_level));
+                               at_level(settings.global, radii.global, precomputed_level),
+                               settings.visibility ? &scene : nullptr, rays);
+  rays_ = rays;
   if (!maps.volume.empty()) make_volume_maps(pass);
 }
 
@@ -54,37 +59,51 @@ EstimateSettings PhotonLight::at_level(const EstimateSettings& settings, float r
   return result;
 }
 
-Spectrum PhotonLight::caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion) const {
-  return maps_.caustic
-      .radiance(vertex, lobes, at_level(settings_.caustic, radii_.caustic, recursion))
-      .value;
+Spectrum PhotonLight::estimate(const PhotonMap& map, const SurfaceVertex& vertex, Lobes lobes,
+                               const EstimateSettings& settings, const Sampler& numbers,
+                               uint64_t& rays) const {
+  if (map.empty()) return {};
+  if (!settings_.visibility) return map.radiance(vertex, lobes, settings).value;
+  const SurfaceSight sight(scene_, vertex.position(), vertex.point().shape, rays);
+  return map.radiance(vertex, lobes, settings, {&sight, Sampler(numbers).next_1d()}).value;
 }
 
-Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int recursion) const {
-  return maps_.global.radiance(vertex, lobes, at_level(settings_.global, radii_.global, recursion))
-      .value;
+Spectrum PhotonLight::caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion,
+                              const Sampler& sampler, uint64_t& rays) const {
+  return estimate(maps_.caustic, vertex, lobes,
+                  at_level(settings_.caustic, radii_.caustic, recursion), sampler.fork(caustic_key),
+                  rays);
 }
 
-Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes,
-                                      int recursion) const {
-  Spectrum irradiance;
+Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int recursion,
+                             const Sampler& sampler, uint64_t& rays) const {
+  return estimate(maps_.global, vertex, lobes, at_level(settings_.global, radii_.global, recursion),
+                  sampler.fork(global_key), rays);
+}
+
+Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes, int recursion,
+                                      const Sampler& sampler, uint64_t& rays) const {
   const Vec3f& ng = vertex.point().ng;
+  const SurfaceSight sight(scene_, vertex.position(), vertex.point().shape, rays);
+  Spectrum irradiance;
   // Relief is left out: from a gather ray's distance its bent normals even out.
   if ((vertex.lobes() & lobes) != Lobes::diffuse || vertex.transmits() ||
-      !precomputed_.lookup(vertex.position(), vertex.on_front() ? ng : -ng, irradiance))
-    return global(vertex, lobes, recursion);
+      !precomputed_.lookup(vertex.position(), vertex.on_front() ? ng : -ng,
+                           settings_.visibility ? &sight : nullptr, irradiance))
+    return global(vertex, lobes, recursion, sampler, rays);
   return vertex.diffuse_value() * irradiance;
 }
 
 Spectrum PhotonLight::gathered_indirect(const SurfaceVertex& vertex, const Medium* medium,
-                                        Lobes lobes, Sampler& sampler, const EyeLevel& at) const {
+                                        Lobes lobes, Sampler& sampler, const EyeLevel& at,
+                                        uint64_t& rays) const {
   if (settings_.approximates(at) || !any(lobes & vertex.lobes() & Lobes::diffuse))
-    return gathered_global(vertex, lobes, at.recursion);
+    return gathered_global(vertex, lobes, at.recursion, sampler, rays);
   Spectrum light = diffuse_radiance(vertex, [&](const Vec3f& normal) {
     return gather_irradiance(vertex, normal, vertex.medium_toward(normal, medium), sampler, at);
   });
   if (any(lobes & vertex.lobes() & Lobes::glossy))
-    light += global(vertex, Lobes::glossy, at.recursion);
+    light += global(vertex, Lobes::glossy, at.recursion, sampler, rays);
   return light;
 }
 
@@ -140,11 +159,13 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
     sampler.start_vertex(uint32_t(events));
     const EyeLevel level{at.recursion + 1 + events, at.gathers + 1};
     const Lobes local = vertex.lobes() & settings_.local();
-    if (any(local))
-      result.radiance += throughput * (reflected_direct_light(vertex, medium, local,
-                                                              level.recursion, sampler, rays) +
-                                       caustic(vertex, local, level.recursion) +
-                                       gathered_indirect(vertex, medium, local, sampler, level));
+    if (any(local)) {
+      // One after the other: which numbers they draw must not be left to the compiler.
+      Spectrum sent = reflected_direct_light(vertex, medium, local, level.recursion, sampler, rays);
+      sent += caustic(vertex, local, level.recursion, sampler, rays);
+      sent += gathered_indirect(vertex, medium, local, sampler, level, rays);
+      result.radiance += throughput * sent;
+    }
     const Lobes traced = vertex.lobes() & settings_.traced();
     if (!any(traced) || !settings_.traces_specular(level)) break;
     const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();

@@ -22,9 +22,12 @@ class PhotonLight final : public RadianceSource {
               const ShadowSettings& shadow_settings, uint32_t pass);
 
   /// Radiance by caustic photons [L G⁺ → x] that `lobes` send back at a recursion level.
-  Spectrum caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion) const;
+  /// `sampler` tells where it is drawn what is visible; its numbers are not used up. Counts rays.
+  Spectrum caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion, const Sampler& sampler,
+                   uint64_t& rays) const;
   /// The same by global photons: the approximate solution for diffuse indirect light.
-  Spectrum global(const SurfaceVertex& vertex, Lobes lobes, int recursion) const;
+  Spectrum global(const SurfaceVertex& vertex, Lobes lobes, int recursion, const Sampler& sampler,
+                  uint64_t& rays) const;
 
   /// Diffuse indirect light along a gather ray from a surface at level `at`: what the surface there
   /// sends back of direct, caustic and global light by lobes that are not traced; specular events
@@ -62,9 +65,13 @@ class PhotonLight final : public RadianceSource {
   EstimateSettings at_level(const EstimateSettings& settings, float radius, int recursion) const;
   /// Diffuse indirect light at the end of a gather ray: gathered once more, or from the map.
   Spectrum gathered_indirect(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
-                             Sampler& sampler, const EyeLevel& at) const;
+                             Sampler& sampler, const EyeLevel& at, uint64_t& rays) const;
   /// From the map: looked up where it was computed beforehand.
-  Spectrum gathered_global(const SurfaceVertex& vertex, Lobes lobes, int recursion) const;
+  Spectrum gathered_global(const SurfaceVertex& vertex, Lobes lobes, int recursion,
+                           const Sampler& sampler, uint64_t& rays) const;
+  /// Radiance by the photons of a map.
+  Spectrum estimate(const PhotonMap& map, const SurfaceVertex& vertex, Lobes lobes,
+                    const EstimateSettings& settings, const Sampler& numbers, uint64_t& rays) const;
   Spectrum reflected_direct_light(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
                                   int recursion, Sampler& sampler, uint64_t& rays) const;
   void make_volume_maps(uint32_t pass);

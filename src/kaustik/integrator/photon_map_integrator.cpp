@@ -284,7 +284,8 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
   const Lobes local = vertex.lobes() & settings_.local();
   if (!any(local)) return;
   if (walk.wants_photon_light(Component::caustic))
-    walk.add_photon_light(Component::caustic, state.light->caustic(vertex, local, walk.events()));
+    walk.add_photon_light(Component::caustic, state.light->caustic(vertex, local, walk.events(),
+                                                                   walk.sampler(), walk.rays()));
   if (settings_.global.neighbors <= 0 || !walk.wants_photon_light(Component::indirect)) return;
   const bool gathers = any(local & Lobes::diffuse) && !settings_.approximates(level_of(walk));
   if (gathers)
@@ -294,8 +295,9 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
   // Glossy lobes that are not traced: the approximate solution is all that is left for them.
   const Lobes approximated = gathers ? local & Lobes::glossy : local;
   if (any(approximated))
-    walk.add_photon_light(Component::indirect,
-                          state.light->global(vertex, approximated, walk.events()));
+    walk.add_photon_light(
+        Component::indirect,
+        state.light->global(vertex, approximated, walk.events(), walk.sampler(), walk.rays()));
 }
 
 Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk& walk,

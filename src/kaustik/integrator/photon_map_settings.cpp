@@ -52,6 +52,7 @@ class PresetReader {
         {"count_specular_levels", true},
         {"aim_targets", int64_t{32}},
         {"precompute_stride", int64_t{0}},
+        {"visibility", false},
         {"irradiance_cache", false},
         {"light_sampling", std::string("all")},
         {"cache_metric", std::string("split_sphere")},
@@ -111,6 +112,9 @@ std::vector<Parameter> parameters() {
           "Gather rays look up irradiance that is computed beforehand at one place for "
           "so many global photons; 0: they estimate it where they hit.")
           .range(0, 1000000),
+      boolean_parameter("visibility", true,
+                        "Photons do not count where something opaque hides them, so that no light "
+                        "leaks through walls."),
       number_parameter("minimum_radiance", 0,
                        "Least visible radiance: bounds the search for photons [minRadiance]; 0: no "
                        "bound.")
@@ -257,6 +261,7 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
   caustic.cone_constant = read.number("caustic_filter");
   global.neighbors = int(read.integer("global_neighbors"));
   global.kernel = kernel_from(read.text("global_kernel"));
+  visibility = read.boolean("visibility");
   light_pass.place_stride = uint32_t(read.integer("precompute_stride"));
   minimum_radiance = read.number("minimum_radiance");
   caustic_radius = read.number("caustic_radius");

@@ -1,34 +1,76 @@
 #include "kaustik/photon/irradiance_map.h"
 
+#include <atomic>
+#include <optional>
+
+#include "kaustik/base/parallel.h"
+
 namespace kaustik {
+namespace {
+
+/// Places that are asked about where nearer ones are hidden.
+constexpr int most_asked = 8;
+
+/// The i-th point of a sequence that fills [0, 1) evenly (van der Corput 1935).
+float radical_inverse(uint32_t i) {
+  i = (i & 0x55555555u) << 1 | (i >> 1 & 0x55555555u);
+  i = (i & 0x33333333u) << 2 | (i >> 2 & 0x33333333u);
+  i = (i & 0x0f0f0f0fu) << 4 | (i >> 4 & 0x0f0f0f0fu);
+  i = (i & 0x00ff00ffu) << 8 | (i >> 8 & 0x00ff00ffu);
+  i = i << 16 | i >> 16;
+  return float(i >> 8) * 0x1p-24f;
+}
+
+}  // namespace
 
 IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide>& places,
-                             const EstimateSettings& settings) {
+                             const EstimateSettings& settings, const Scene* scene, uint64_t& rays) {
   if (map.empty() || settings.neighbors <= 0) return;
   maximum_radius_ = settings.maximum_radius;
   std::vector<Vec3f> positions(places.size());
   std::vector<Entry> entries(places.size());
+  std::atomic<uint64_t> all_rays{0};
   parallel_blocks(places.size(), 256, [&](size_t begin, size_t end, size_t) {
+    uint64_t block_rays = 0;
     for (size_t i = begin; i < end; ++i) {
       positions[i] = places[i].position;
+      PhotonVisibility visibility;
+      std::optional<SurfaceSight> sight;
+      if (scene)
+        visibility = {&sight.emplace(*scene, positions[i], SurfaceSight::no_shape, block_rays),
+                      radical_inverse(uint32_t(i))};
       const DensityEstimate estimate =
-          map.irradiance(positions[i], places[i].side.unpack(), settings);
+          map.irradiance(positions[i], places[i].side.unpack(), settings, visibility);
       for (int lane = 0; lane < Spectrum::lane_count; ++lane)
         entries[i].irradiance[size_t(lane)] = estimate.value[lane];
       entries[i].side = places[i].side;
     }
+    all_rays.fetch_add(block_rays, std::memory_order_relaxed);
   });
+  rays += all_rays;
   tree_ = {std::move(positions), std::move(entries)};
 }
 
-bool IrradianceMap::lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance) const {
+bool IrradianceMap::lookup(const Vec3f& position, const Vec3f& side, const SurfaceSight* sight,
+                           Spectrum& irradiance) const {
   if (empty()) return false;
   static thread_local SidedTree<Entry>::Neighbors neighbors;
+  const auto take = [&](size_t i) {
+    const uint32_t index = neighbors.index(i);
+    const Entry& entry = tree_.tree().data(index);
+    if (sight && !sight->sees(side, tree_.tree().key(index), entry.side.unpack())) return false;
+    irradiance = {entry.irradiance[0], entry.irradiance[1], entry.irradiance[2],
+                  entry.irradiance[3]};
+    return true;
+  };
   tree_.nearest(position, side, false, 1, maximum_radius_, neighbors);
   if (neighbors.empty()) return false;
-  const Entry& entry = tree_.tree().data(neighbors.index(0));
-  irradiance = {entry.irradiance[0], entry.irradiance[1], entry.irradiance[2], entry.irradiance[3]};
-  return true;
+  if (take(0)) return true;
+  tree_.nearest(position, side, false, most_asked, maximum_radius_, neighbors);
+  neighbors.sort();
+  for (size_t i = 1; i < neighbors.size(); ++i)
+    if (take(i)) return true;
+  return false;
 }
 
 }  // namespace kaustik

@@ -17,16 +17,19 @@ struct SurfaceSide {
 class IrradianceMap {
  public:
   IrradianceMap() = default;
-  /// In parallel, the same for any number of threads.
+  /// In parallel, the same for any number of threads. With `scene`, photons that are hidden from a
+  /// place do not count there; counts the rays that tell.
   IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide>& places,
-                const EstimateSettings& settings);
+                const EstimateSettings& settings, const Scene* scene, uint64_t& rays);
 
   bool empty() const { return tree_.empty(); }
   size_t size_in_bytes() const { return tree_.size_in_bytes(); }
   /// Irradiance W/m² at the nearest place on the side `side` (geometric normal); false if there is
   /// none within the maximum radius of the estimates. (Not within the radius of that place's own
-  /// estimate: bright places have small ones, so that would favour dark places.)
-  bool lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance) const;
+  /// estimate: bright places have small ones, so that would favour dark places.) With `sight`, of
+  /// the position, the nearest of the next few that it sees.
+  bool lookup(const Vec3f& position, const Vec3f& side, const SurfaceSight* sight,
+              Spectrum& irradiance) const;
 
  private:
   struct Entry {

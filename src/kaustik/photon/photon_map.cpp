@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "kaustik/photon/lane_draw.h"
+
 namespace kaustik {
 namespace {
 
@@ -109,8 +111,24 @@ PhotonMap::Disk PhotonMap::find_disk(const Vec3f& position, const Vec3f& side, b
   }
 }
 
+template <typename Part>
+Spectrum PhotonMap::visible(const Spectrum& sum, const Disk& disk, const Neighbors& neighbors,
+                            const Vec3f& normal, const PhotonVisibility& visibility,
+                            const Part& part) const {
+  if (!visibility.sight || sum.is_zero()) return sum;
+  LaneDraw draw(sum, visibility.u);
+  for (size_t i = 0; i < disk.count; ++i) draw.offer(i, part(i));
+  return draw.remaining(sum, [&](size_t i) {
+    const uint32_t index = neighbors.index(i);
+    const Vec3f side = tree().data(index).side.unpack();
+    return visibility.sight->sees(dot(side, normal) < 0 ? -normal : normal, tree().key(index),
+                                  side);
+  });
+}
+
 DensityEstimate PhotonMap::irradiance(const Vec3f& position, const Vec3f& side,
-                                      const EstimateSettings& settings) const {
+                                      const EstimateSettings& settings,
+                                      const PhotonVisibility& visibility) const {
   DensityEstimate estimate;
   if (settings.neighbors <= 0 || empty()) return estimate;
   Neighbors& neighbors = workspace();
@@ -119,26 +137,29 @@ DensityEstimate PhotonMap::irradiance(const Vec3f& position, const Vec3f& side,
   estimate.radius = std::sqrt(disk.radius_sq);
   if (disk.count == 0 || !std::isfinite(disk.radius_sq) || !(disk.radius_sq > 0)) return estimate;
   const KernelWeight weight(settings, disk.radius_sq);
-  for (size_t i = 0; i < disk.count; ++i)
-    estimate.value +=
-        tree().data(neighbors.index(i)).flux_spectrum() * weight(neighbors.distance_sq(i));
+  const auto part = [&](size_t i) {
+    return tree().data(neighbors.index(i)).flux_spectrum() * weight(neighbors.distance_sq(i));
+  };
+  for (size_t i = 0; i < disk.count; ++i) estimate.value += part(i);
+  estimate.value = visible(estimate.value, disk, neighbors, side, visibility, part);
   return estimate;
 }
 
-DensityEstimate PhotonMap::irradiance(const SurfaceVertex& vertex,
-                                      const EstimateSettings& settings) const {
+DensityEstimate PhotonMap::irradiance(const SurfaceVertex& vertex, const EstimateSettings& settings,
+                                      const PhotonVisibility& visibility) const {
   const Vec3f& ng = vertex.point().ng;
-  return irradiance(vertex.position(), vertex.on_front() ? ng : -ng, settings);
+  return irradiance(vertex.position(), vertex.on_front() ? ng : -ng, settings, visibility);
 }
 
 DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
-                                    const EstimateSettings& settings) const {
+                                    const EstimateSettings& settings,
+                                    const PhotonVisibility& visibility) const {
   const Lobes asked = lobes & vertex.lobes();
   const Vec3f side = vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
   if (!any(asked)) return {};
   const bool is_opaque_matt = asked == Lobes::diffuse && !vertex.transmits();
   if (is_opaque_matt && !vertex.has_relief()) {
-    DensityEstimate estimate = irradiance(vertex.position(), side, settings);
+    DensityEstimate estimate = irradiance(vertex.position(), side, settings, visibility);
     estimate.value *= vertex.diffuse_value();
     return estimate;
   }
@@ -153,6 +174,8 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   if (disk.count == 0 || !std::isfinite(disk.radius_sq) || !(disk.radius_sq > 0)) return estimate;
   const KernelWeight weight(settings, disk.radius_sq);
   const Spectrum diffuse = is_opaque_matt ? vertex.diffuse_value() : Spectrum();
+  static thread_local std::vector<Spectrum> parts;
+  parts.clear();
   for (size_t i = 0; i < disk.count; ++i) {
     const uint32_t index = neighbors.index(i);
     const Photon& photon = tree().data(index);
@@ -160,8 +183,11 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
     const Spectrum f = is_opaque_matt ? diffuse : vertex.eval(wi, asked);
     const float share = weight(neighbors.distance_sq(i)) *
                         (vertex.has_relief() ? vertex.irradiance_factor(wi) : 1.0f);
-    estimate.value += f * photon.flux_spectrum() * share;
+    parts.push_back(f * photon.flux_spectrum() * share);
+    estimate.value += parts.back();
   }
+  estimate.value = visible(estimate.value, disk, neighbors, side, visibility,
+                           [&](size_t i) { return parts[i]; });
   return estimate;
 }
 

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "kaustik/photon/sided_tree.h"
+#include "kaustik/photon/surface_sight.h"
 #include "kaustik/transport/vertex.h"
 
 namespace kaustik {
@@ -19,6 +20,13 @@ struct EstimateSettings {
   float maximum_radius = infinity;  ///< m
   Kernel kernel = Kernel::constant;
   float cone_constant = 1;  ///< k ≥ 1 of the cone
+};
+
+/// Whether photons that something opaque hides from the point count. They do not if there is a
+/// sight: one photon is drawn by the number `u` in [0, 1) and tells for all (LaneDraw).
+struct PhotonVisibility {
+  const SurfaceSight* sight = nullptr;
+  float u = 0;
 };
 
 /// What an estimate was made of.
@@ -53,14 +61,17 @@ class PhotonMap {
 
   /// Irradiance on the side of `vertex` from which it is seen. Photons that arrived on the other
   /// side are rejected during the search.
-  DensityEstimate irradiance(const SurfaceVertex& vertex, const EstimateSettings& settings) const;
+  DensityEstimate irradiance(const SurfaceVertex& vertex, const EstimateSettings& settings,
+                             const PhotonVisibility& visibility = {}) const;
   /// The same at a bare point of a surface whose geometric normal on the lit side is `side`.
   DensityEstimate irradiance(const Vec3f& position, const Vec3f& side,
-                             const EstimateSettings& settings) const;
+                             const EstimateSettings& settings,
+                             const PhotonVisibility& visibility = {}) const;
   /// Radiance that the lobes of `vertex` send toward its wo; for purely diffuse lobes the same as
   /// f_d times the irradiance.
   DensityEstimate radiance(const SurfaceVertex& vertex, Lobes lobes,
-                           const EstimateSettings& settings) const;
+                           const EstimateSettings& settings,
+                           const PhotonVisibility& visibility = {}) const;
 
   /// Photons near a point, for importance sampling: calls visit(photon, position) for each of at
   /// most `count` that arrived on the side `side`.
@@ -84,6 +95,10 @@ class PhotonMap {
   /// `both_sides` as for SidedTree::nearest().
   Disk find_disk(const Vec3f& position, const Vec3f& side, bool both_sides,
                  const EstimateSettings& settings, Neighbors& neighbors) const;
+  /// What is left of the sum of part(i) over the photons of the disk. `normal`: of the surface.
+  template <typename Part>
+  Spectrum visible(const Spectrum& sum, const Disk& disk, const Neighbors& neighbors,
+                   const Vec3f& normal, const PhotonVisibility& visibility, const Part& part) const;
   /// How many of the first `count` neighbours there are until `paths` different paths are met;
   /// count + 1: there are fewer.
   size_t count_until(const Neighbors& neighbors, size_t count, size_t paths) const;
