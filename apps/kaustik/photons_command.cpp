@@ -137,7 +137,7 @@ void trace_photons(const PhotonsOptions& options) {
   stored.scene = std::filesystem::path(options.scene).lexically_normal().string();
   write_photon_file(options.output, stored);
 
-  fmt::print("scene: {} ({})\n", stored.scene, stored.fingerprint);
+  fmt::print("scene: {} ({})\n", stored.scene, stored.fingerprint.counts);
   print_map("global", *scene, stored.maps.global, stored.maps.global_report);
   print_map("caustic", *scene, stored.maps.caustic, stored.maps.caustic_report);
   fmt::print("traced in {}, trees built in {}\n", duration_text(stored.maps.trace_seconds),

@@ -25,7 +25,7 @@ std::shared_ptr<const Scene> lamps_and_mirror() {
 
 StoredPhotons traced(const Scene& scene, PhotonPart part, uint64_t seed = 5) {
   StoredPhotons stored;
-  stored.fingerprint = scene_fingerprint(scene);
+  stored.fingerprint = fingerprint_of(scene);
   stored.seed = seed;
   stored.settings.global_photons = 30'000;
   stored.settings.caustic_photons = 20'000;
@@ -97,7 +97,7 @@ TEST(PhotonParts, WhatDoesNotFitIsRefused) {
   EXPECT_NE(problem_with({parts[0], traced(*scene, {1, 3})}).find("different seeds or settings"),
             std::string::npos);
   StoredPhotons other = parts[1];
-  other.fingerprint = "another";
+  other.fingerprint.sums[3] += 1;
   EXPECT_NE(problem_with({parts[0], other}).find("different scenes"), std::string::npos);
   EXPECT_EQ(problem_with(parts), "none");
 }

@@ -125,8 +125,8 @@ bool CameraWalk::advance(const VolumeLight* volume) {
   if (!sink_.wants(in_medium)) volume = nullptr;
   return travel([&](float length) {
            if (volume && state_.medium->scatters())
-             sink_.add(in_medium,
-                       state_.throughput * volume->radiance(ray_, length, *state_.medium));
+             sink_.add(in_medium, state_.throughput * volume->radiance(ray_, length, *state_.medium,
+                                                                       sampler_, rays_));
            state_.throughput *= state_.medium->transmittance(length);
            return false;
          }) == Arrival::surface;
@@ -137,7 +137,8 @@ CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume) {
   if (!sink_.wants(in_medium)) volume = nullptr;
   return travel([&](float length) {
     if (volume && state_.medium->scatters())
-      sink_.add(in_medium, state_.throughput * volume->radiance(ray_, length, *state_.medium));
+      sink_.add(in_medium, state_.throughput *
+                               volume->radiance(ray_, length, *state_.medium, sampler_, rays_));
     const Medium::Flight flight =
         state_.medium->sample_flight(length, state_.throughput, sampler_.next_2d());
     state_.throughput *= flight.weight;

@@ -28,11 +28,10 @@ PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
       radii_(radii),
       shadows_(shadows),
       shadow_settings_(shadow_settings) {
-  uint64_t rays = 0;
   precomputed_ = IrradianceMap(maps.global, maps.places,
                                at_level(settings.global, radii.global, precomputed_level),
-                               settings.visibility ? &scene : nullptr, rays);
-  rays_ = rays;
+                               settings.visibility ? &scene : nullptr);
+  rays_ = precomputed_.rays();
   if (!maps.volume.empty()) make_volume_maps(pass);
 }
 
@@ -40,14 +39,15 @@ void PhotonLight::make_volume_maps(uint32_t pass) {
   // What a disc blurs is two-dimensional, so the radii shrink as those on surfaces do (Knaus and
   // Zwicker 2011, section 5).
   const float shrinkage = pass_radius(1, pass);
-  volume_ = VolumePhotonMap(maps_.volume, settings_.volume_neighbors, shrinkage);
+  const Scene* const hides = settings_.visibility ? &scene_ : nullptr;
+  volume_ = VolumePhotonMap(maps_.volume, settings_.volume_neighbors, shrinkage, hides);
   std::vector<VolumePhoton> few;
   for (size_t i = 0; i < maps_.volume.size(); i += coarse_volume_stride) {
     few.push_back(maps_.volume[i]);
     const size_t stands_for = std::min(coarse_volume_stride, maps_.volume.size() - i);
     few.back().flux *= float(stands_for);
   }
-  coarse_volume_ = VolumePhotonMap(std::move(few), settings_.volume_neighbors, shrinkage);
+  coarse_volume_ = VolumePhotonMap(std::move(few), settings_.volume_neighbors, shrinkage, hides);
 }
 
 EstimateSettings PhotonLight::at_level(const EstimateSettings& settings, float radius,
@@ -88,8 +88,8 @@ Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes, 
   Spectrum irradiance;
   // Relief is left out: from a gather ray's distance its bent normals even out.
   if ((vertex.lobes() & lobes) != Lobes::diffuse || vertex.transmits() ||
-      !precomputed_.lookup(vertex.position(), vertex.on_front() ? ng : -ng,
-                           settings_.visibility ? &sight : nullptr, irradiance))
+      !precomputed_.lookup(vertex.position(), vertex.on_front() ? ng : -ng, irradiance,
+                           settings_.visibility ? &sight : nullptr))
     return global(vertex, lobes, recursion, sampler, rays);
   return vertex.diffuse_value() * irradiance;
 }
@@ -143,7 +143,7 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
     ++rays;
     const bool found = scene_.intersect(ray, hit);
     if (medium) {
-      result.radiance += throughput * coarse_volume_.radiance(ray, hit.t, *medium);
+      result.radiance += throughput * coarse_volume_.radiance(ray, hit.t, *medium, sampler, rays);
       throughput *= medium->transmittance(hit.t);
     }
     if (!found) break;

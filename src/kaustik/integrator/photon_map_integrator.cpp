@@ -73,11 +73,11 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
                 "make the maps anew with `kaustik photons` from this scene and these settings",
                 settings_.photon_file_place);
   };
-  if (stored.fingerprint != scene_fingerprint(scene))
+  if (!stored.fingerprint.matches(fingerprint_of(scene)))
     refuse(
         "holds photons of another scene, of this one before it was changed, or of another version "
         "of Kaustik (" +
-        stored.scene + ": " + stored.fingerprint + ")");
+        stored.scene + ", " + stored.fingerprint.counts + ")");
   if (!stored.settings.part.is_whole())
     throw Error(ErrorKind::input, settings_.photon_file + " holds only a part of the photons",
                 "put all parts together with: kaustik merge PART.kpm ... -o MAP.kpm",

@@ -4,6 +4,7 @@
 
 #include "kaustik/base/prefetch.h"
 #include "kaustik/integrator/merge_disk.h"
+#include "kaustik/photon/volume_sight.h"
 #include "kaustik/transport/visibility.h"
 
 namespace kaustik {
@@ -37,39 +38,6 @@ std::vector<MattMerging::Factors>& empty_factors() {
   factors.clear();
   return factors;
 }
-
-constexpr size_t no_part = ~size_t(0);
-
-/// Draws one of the parts that count, in proportion to their light in a lane.
-template <typename Part, typename Counts>
-size_t drawn_part(const std::vector<Part>& parts, int lane, double u, const Counts& counts) {
-  double left = 0;
-  for (const Part& part : parts)
-    if (counts(part)) left += double(part.light[lane]);
-  left *= u;
-  size_t drawn = no_part;
-  for (size_t i = 0; i < parts.size() && left >= 0; ++i) {
-    if (!counts(parts[i]) || !(parts[i].light[lane] > 0)) continue;
-    left -= double(parts[i].light[lane]);
-    drawn = i;
-  }
-  return drawn;
-}
-
-/// Most often all lanes draw the same part: it is asked about once.
-class LastAnswer {
- public:
-  template <typename Ask>
-  bool of(size_t part, const Ask& ask) {
-    if (part != part_) answer_ = ask();
-    part_ = part;
-    return answer_;
-  }
-
- private:
-  size_t part_ = no_part;
-  bool answer_ = false;
-};
 
 /// Chance with which that is estimated: it takes rays.
 constexpr float bias_chance = 0.25f;
@@ -385,10 +353,13 @@ void VcmCameraPath::merge() {
   const bool is_matt =
       all_delta_ && lobes == Lobes::diffuse && !vertex.transmits() && !vertex.has_relief();
   const bool is_all_reached = around.are_clear() || !in_.visibility;
-  std::vector<MergedPart>* const each = is_all_reached ? nullptr : &empty_parts();
-  MergedLight light =
-      is_matt ? merged_matt(disk, weights, each) : merged(disk, weights, lobes, each);
-  if (each) leave_reached(covered, radius, *each, light);
+  MergedLight light;
+  if (is_matt)
+    light =
+        is_all_reached ? merged_matt(disk, weights, nullptr) : reached_matt(disk, weights, covered);
+  else
+    light = is_all_reached ? merged(disk, weights, lobes, nullptr)
+                           : reached(disk, weights, lobes, covered);
   if (light.is_zero()) return;
   const auto paths = float(in_.light.path_count);
   // Numbers of their own: how many there are is not known beforehand.
@@ -411,12 +382,6 @@ void VcmCameraPath::merge() {
   walk_.add_bias((total - narrow) * (1 / ((1 - narrow_radius) * bias_chance)));
 }
 
-std::vector<VcmCameraPath::MediumPart>& VcmCameraPath::empty_medium_parts() {
-  static thread_local std::vector<MediumPart> parts;
-  parts.clear();
-  return parts;
-}
-
 std::vector<VcmCameraPath::MergedPart>& VcmCameraPath::empty_parts() {
   static thread_local std::vector<MergedPart> parts;
   parts.clear();
@@ -427,31 +392,83 @@ bool VcmCameraPath::MergedLight::is_zero() const {
   return std::all_of(of.begin(), of.end(), [](const Spectrum& sum) { return sum.is_zero(); });
 }
 
-/// Of each component and lane one part is drawn, in proportion to its light, and stands for all:
-/// if it is reached, all are. So nothing comes from where nothing is reached, and it is no noise
-/// where all is.
-void VcmCameraPath::leave_reached(const DiskCoverage& covered, float radius,
-                                  const std::vector<MergedPart>& each, MergedLight& light) const {
-  const double u = double(walk_.sampler().fork(reached_key).next_1d());
-  LastAnswer is_reached;
+VcmCameraPath::Draws VcmCameraPath::draws_of(const MergedLight& light) const {
+  const float u = walk_.sampler().fork(reached_key).next_1d();
+  Draws draws;
+  for (size_t c = 0; c < draws.size(); ++c)
+    if (!light.of[c].is_zero()) draws[c].emplace(light.of[c], u);
+  return draws;
+}
+
+template <typename IsReached>
+void VcmCameraPath::leave_drawn(const Draws& draws, const IsReached& is_reached,
+                                MergedLight& light) {
+  // Most often components draw the same part too.
+  size_t asked = ~size_t(0);
+  bool answer = false;
+  const auto ask = [&](size_t part) {
+    if (part != asked) answer = is_reached(part);
+    asked = part;
+    return answer;
+  };
   Spectrum before, after;
-  for (int c = 0; c < component_count; ++c) {
-    Spectrum& sum = light.of[size_t(c)];
-    before += sum;
-    if (sum.is_zero()) continue;
-    for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
-      const size_t part =
-          drawn_part(each, lane, u, [&](const MergedPart& of) { return int(of.component) == c; });
-      if (part == no_part || !is_reached.of(part, [&] {
-            return covered.reaches(radius, each[part].position - walk_.vertex().position());
-          }))
-        sum.set(lane, 0);
-    }
-    after += sum;
+  for (size_t c = 0; c < draws.size(); ++c) {
+    if (!draws[c]) continue;
+    before += light.of[c];
+    light.of[c] = draws[c]->remaining(light.of[c], ask);
+    after += light.of[c];
   }
   for (int lane = 0; lane < Spectrum::lane_count; ++lane)
     light.narrow.set(lane,
                      before[lane] > 0 ? light.narrow[lane] * (after[lane] / before[lane]) : 0.0f);
+}
+
+VcmCameraPath::MergedLight VcmCameraPath::reached_matt(const MergeDisk& disk,
+                                                       const DiskWeights& weights,
+                                                       const DiskCoverage& covered) const {
+  std::vector<MattMerging::Factors>& each = empty_factors();
+  MergedLight light = merged_matt(disk, weights, &each);
+  if (light.is_zero()) return light;
+  const SurfaceVertex& vertex = walk_.vertex();
+  const Spectrum reflected = vertex.diffuse_value();
+  Draws draws = draws_of(light);
+  const auto draw_of = [&](bool specular) -> std::optional<LaneDraw>& {
+    return draws[size_t(walk_.component_of(Lobes::diffuse, specular))];
+  };
+  const auto is_decided = [](const std::optional<LaneDraw>& draw) {
+    return !draw || draw->is_decided();
+  };
+  in_.matt.visit(
+      each,
+      [&](uint32_t number, const Spectrum& flux, bool specular) {
+        if (auto& draw = draw_of(specular)) draw->offer(number, flux * reflected);
+        return !is_decided(draw_of(false)) || !is_decided(draw_of(true));
+      },
+      [&](uint32_t number, const Spectrum& flux, bool specular) {
+        auto& draw = draw_of(specular);
+        return !draw || draw->pass_over(number, flux * reflected);
+      });
+  leave_drawn(
+      draws,
+      [&](size_t number) {
+        return covered.reaches(disk.radius(),
+                               in_.matt.position(uint32_t(number)) - vertex.position());
+      },
+      light);
+  return light;
+}
+
+VcmCameraPath::MergedLight VcmCameraPath::reached(const MergeDisk& disk, const DiskWeights& weights,
+                                                  Lobes lobes, const DiskCoverage& covered) const {
+  std::vector<MergedPart>& each = empty_parts();
+  MergedLight light = merged(disk, weights, lobes, &each);
+  if (light.is_zero()) return light;
+  Draws draws = draws_of(light);
+  for (size_t i = 0; i < each.size(); ++i)
+    if (auto& draw = draws[size_t(each[i].component)]) draw->offer(i, each[i].light);
+  leave_drawn(
+      draws, [&](size_t i) { return covered.reaches(disk.radius(), each[i].offset); }, light);
+  return light;
 }
 
 void VcmCameraPath::MergedLight::scale(float factor) {
@@ -478,18 +495,17 @@ VcmCameraPath::DiskWeights VcmCameraPath::disk_weights(
   return weights;
 }
 
-VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk,
-                                                      const DiskWeights& weights,
-                                                      std::vector<MergedPart>* each) const {
+VcmCameraPath::MergedLight VcmCameraPath::merged_matt(
+    const MergeDisk& disk, const DiskWeights& weights,
+    std::vector<MattMerging::Factors>* each) const {
   const SurfaceVertex& vertex = walk_.vertex();
-  std::vector<MattMerging::Factors>* const factors = each ? &empty_factors() : nullptr;
   const MattLight light =
       in_.matt.merge({vertex.position(), disk.side(), disk.radius(), disk.flatness(),
                       disk.least_cosine(), in_.maximum_events - walk_.events(),
                       weights.surroundings.edges, weights.wide.slope, weights.narrow.slope,
                       in_.weights.matt_vertex(vertices_, plan_.counted_area(in_.camera_samples),
                                               plan_.counted_survival(), plan_.connected)},
-                     factors);
+                     each);
   const Spectrum reflected = vertex.diffuse_value();
   MergedLight result;
   const auto add = [&](Component component, const MattLight::Sum& sum) {
@@ -497,15 +513,8 @@ VcmCameraPath::MergedLight VcmCameraPath::merged_matt(const MergeDisk& disk,
     result.of[size_t(component)] += sum.wide * reflected;
     result.narrow += sum.narrow * reflected;
   };
-  const Component after_specular = walk_.component_of(Lobes::diffuse, true),
-                  other = walk_.component_of(Lobes::diffuse, false);
-  add(after_specular, light.after_specular);
-  add(other, light.other);
-  if (each)
-    in_.matt.visit(*factors, [&](const Vec3f& position, const Spectrum& flux, bool specular) {
-      const Component component = specular ? after_specular : other;
-      if (walk_.wants(component)) each->push_back({position, component, flux * reflected});
-    });
+  add(walk_.component_of(Lobes::diffuse, true), light.after_specular);
+  add(walk_.component_of(Lobes::diffuse, false), light.other);
   return result;
 }
 
@@ -584,8 +593,7 @@ VcmCameraPath::MergedLight VcmCameraPath::merged(const MergeDisk& disk, const Di
                     const Spectrum reflected = arriving * bsdf.of(lobe);
                     result.of[size_t(component)] += reflected * kernel;
                     result.narrow += reflected * narrow_kernel;
-                    if (each)
-                      each->push_back({vertex.position() + offset, component, reflected * kernel});
+                    if (each) each->push_back({offset, component, reflected * kernel});
                   }
                 });
   return result;
@@ -641,14 +649,15 @@ float VcmCameraPath::medium_merge_weight(const MergeableMediumVertex& light, flo
   return in_.weights.merge(path);
 }
 
-Spectrum VcmCameraPath::radiance(const Ray& ray, float length, const Medium& medium) const {
+Spectrum VcmCameraPath::radiance(const Ray& ray, float length, const Medium& medium,
+                                 const Sampler& sampler, uint64_t& rays) const {
   Spectrum sum;
   const float merging = std::min(length, merging_length());
   if (in_.light.in_media.empty() || !(merging > 0)) return sum;
   const PhaseFunction& phase_function = medium.phase();
   const Vec3f wo = -ray.direction;
   const auto count = float(in_.light.path_count);
-  std::vector<MediumPart>& parts = empty_medium_parts();
+  std::vector<VolumePart>& parts = empty_volume_parts();
   in_.light.in_media.discs.visit_met(ray, merging, [&](size_t i, float along, float distance_sq) {
     const MergeableMediumVertex& light = in_.light.in_media.data[i];
     if (!light.medium->is_like(medium) || walk_.events() + int(light.before) > in_.maximum_events)
@@ -666,24 +675,9 @@ Spectrum VcmCameraPath::radiance(const Ray& ray, float length, const Medium& med
          light.flux_spectrum() * medium.transmittance(along) * (kernel * phase * weight / count)});
     sum += parts.back().light;
   });
-  return in_.visibility ? visible_of(parts, sum) : sum;
-}
-
-/// As leave_reached().
-Spectrum VcmCameraPath::visible_of(const std::vector<MediumPart>& parts, Spectrum sum) const {
-  if (parts.empty()) return sum;
-  const double u = double(walk_.sampler().fork(reached_in_medium_key).next_1d());
-  LastAnswer is_visible;
-  for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
-    const size_t part = drawn_part(parts, lane, u, [](const MediumPart&) { return true; });
-    if (part == no_part || !is_visible.of(part, [&] {
-          const Vec3f& from = parts[part].position;
-          const Vec3f to = in_.light.in_media.discs.center(parts[part].disc) - from;
-          return !(length_sq(to) > 0) || is_unobstructed(in_.scene, {from, to, 1}, walk_.rays());
-        }))
-      sum.set(lane, 0);
-  }
-  return sum;
+  if (!in_.visibility || sum.is_zero()) return sum;
+  return visible_from_segment(in_.scene, in_.light.in_media.discs, parts, sum,
+                              sampler.fork(reached_in_medium_key).next_1d(), rays);
 }
 
 bool VcmCameraPath::survives_first(float u) {

@@ -1,9 +1,12 @@
 #pragma once
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "kaustik/integrator/camera_walk.h"
 #include "kaustik/integrator/medium_disks.h"
 #include "kaustik/integrator/pixel_plans.h"
+#include "kaustik/photon/lane_draw.h"
 #include "kaustik/photon/light_path_emission.h"
 #include "kaustik/photon/light_vertices.h"
 #include "kaustik/photon/matt_merging.h"
@@ -82,7 +85,8 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   float sampled(const Scatterer& vertex, const DirectLight& light) const override;
   float met(int light, const SurfaceVertex& vertex) const override;
   float met(int light, const Ray& ray) const override;
-  Spectrum radiance(const Ray& ray, float length, const Medium& medium) const override;
+  Spectrum radiance(const Ray& ray, float length, const Medium& medium, const Sampler& sampler,
+                    uint64_t& rays) const override;
 
  private:
   /// What merges with the vertex, before it is divided by the area of the disk and the number of
@@ -96,7 +100,7 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
   };
   /// What one light vertex adds to that.
   struct MergedPart {
-    Vec3f position;
+    Vec3f offset;  ///< from the vertex
     Component component;
     Spectrum light;
   };
@@ -107,26 +111,25 @@ class VcmCameraPath final : public LightWeights, public VolumeLight {
     DiskKernel wide, narrow;
   };
   static std::vector<MergedPart>& empty_parts();
-  /// What one light vertex in a medium sends along the segment that passes it.
-  struct MediumPart {
-    size_t disc;     ///< of LightVertices::in_media
-    Vec3f position;  ///< of the segment, nearest to it
-    Spectrum light;
-  };
-  static std::vector<MediumPart>& empty_medium_parts();
-  /// Leaves of `sum`, the light of these parts, what nothing hides from the segment.
-  Spectrum visible_of(const std::vector<MediumPart>& parts, Spectrum sum) const;
   /// Of a disk around the vertex.
   PixelPlans::Surroundings surroundings(float radius) const;
   DiskWeights disk_weights(const MergeDisk& disk, const PixelPlans::Surroundings& around) const;
-  /// Both add to `each`, if there is one, what makes up MergedLight::of.
+  /// Both leave in their last argument, if there is one, what makes up MergedLight::of.
   MergedLight merged_matt(const MergeDisk& disk, const DiskWeights& weights,
-                          std::vector<MergedPart>* each) const;
+                          std::vector<MattMerging::Factors>* each) const;
   MergedLight merged(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes,
                      std::vector<MergedPart>* each) const;
-  /// Leaves of the light of these parts what is not hidden from the vertex.
-  void leave_reached(const DiskCoverage& covered, float radius, const std::vector<MergedPart>& each,
-                     MergedLight& light) const;
+  /// The same, as far as it is not hidden from the vertex.
+  MergedLight reached_matt(const MergeDisk& disk, const DiskWeights& weights,
+                           const DiskCoverage& covered) const;
+  MergedLight reached(const MergeDisk& disk, const DiskWeights& weights, Lobes lobes,
+                      const DiskCoverage& covered) const;
+  /// A draw for each component that has light.
+  using Draws = std::array<std::optional<LaneDraw>, component_count>;
+  Draws draws_of(const MergedLight& light) const;
+  /// Leaves what is_reached(part) holds for of those drawn.
+  template <typename IsReached>
+  static void leave_drawn(const Draws& draws, const IsReached& is_reached, MergedLight& light);
   /// visit(vertex, its flux as far as it counts, how far it lies from the disk's, direction to
   /// where it comes from, bsdf, path) for all that merge; where they are many, for one of
   /// `most_parts` parts of them at most, which is drawn and counts for all.

@@ -24,7 +24,7 @@ float radical_inverse(uint32_t i) {
 }  // namespace
 
 IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide>& places,
-                             const EstimateSettings& settings, const Scene* scene, uint64_t& rays) {
+                             const EstimateSettings& settings, const Scene* scene) {
   if (map.empty() || settings.neighbors <= 0) return;
   maximum_radius_ = settings.maximum_radius;
   std::vector<Vec3f> positions(places.size());
@@ -47,12 +47,12 @@ IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide
     }
     all_rays.fetch_add(block_rays, std::memory_order_relaxed);
   });
-  rays += all_rays;
+  rays_ = all_rays;
   tree_ = {std::move(positions), std::move(entries)};
 }
 
-bool IrradianceMap::lookup(const Vec3f& position, const Vec3f& side, const SurfaceSight* sight,
-                           Spectrum& irradiance) const {
+bool IrradianceMap::lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance,
+                           const SurfaceSight* sight) const {
   if (empty()) return false;
   static thread_local SidedTree<Entry>::Neighbors neighbors;
   const auto take = [&](size_t i) {

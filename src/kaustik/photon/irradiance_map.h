@@ -17,19 +17,21 @@ struct SurfaceSide {
 class IrradianceMap {
  public:
   IrradianceMap() = default;
-  /// In parallel, the same for any number of threads. With `scene`, photons that are hidden from a
-  /// place do not count there; counts the rays that tell.
+  /// In parallel, the same for any number of threads. Photons that the surfaces of `scene`, if
+  /// there is one, hide from a place do not count there.
   IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide>& places,
-                const EstimateSettings& settings, const Scene* scene, uint64_t& rays);
+                const EstimateSettings& settings, const Scene* scene = nullptr);
 
   bool empty() const { return tree_.empty(); }
+  /// That told what is hidden.
+  uint64_t rays() const { return rays_; }
   size_t size_in_bytes() const { return tree_.size_in_bytes(); }
   /// Irradiance W/m² at the nearest place on the side `side` (geometric normal); false if there is
   /// none within the maximum radius of the estimates. (Not within the radius of that place's own
   /// estimate: bright places have small ones, so that would favour dark places.) With `sight`, of
   /// the position, the nearest of the next few that it sees.
-  bool lookup(const Vec3f& position, const Vec3f& side, const SurfaceSight* sight,
-              Spectrum& irradiance) const;
+  bool lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance,
+              const SurfaceSight* sight = nullptr) const;
 
  private:
   struct Entry {
@@ -39,6 +41,7 @@ class IrradianceMap {
   };
   SidedTree<Entry> tree_;
   float maximum_radius_ = 0;
+  uint64_t rays_ = 0;
 };
 
 }  // namespace kaustik

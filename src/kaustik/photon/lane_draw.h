@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -14,11 +15,16 @@ class LaneDraw {
  public:
   /// All lanes draw by the number `u` in [0, 1): most often they draw the same part.
   LaneDraw(const Spectrum& sum, float u) {
-    for (size_t lane = 0; lane < lanes; ++lane) left_[lane] = u * sum[int(lane)];
+    for (size_t lane = 0; lane < lanes; ++lane)
+      left_[lane] = sum[int(lane)] > 0 ? u * sum[int(lane)] : -1.0f;
     drawn_.fill(none);
   }
 
-  /// To be called for every part of the sum, in any order.
+  /// Whether what is offered further changes nothing.
+  bool is_decided() const {
+    return std::all_of(left_.begin(), left_.end(), [](float left) { return left < 0; });
+  }
+  /// To be called for every part of the sum, in any order, until it is decided.
   void offer(size_t part, const Spectrum& value) {
     for (size_t lane = 0; lane < lanes; ++lane) {
       const float of_lane = value[int(lane)];
@@ -28,6 +34,14 @@ class LaneDraw {
     }
   }
 
+  /// The same of several parts at once, `value` together and `part` one of them: false, and nothing
+  /// is changed, if one of them may be drawn.
+  bool pass_over(size_t part, const Spectrum& value) {
+    for (size_t lane = 0; lane < lanes; ++lane)
+      if (left_[lane] >= 0 && left_[lane] < value[int(lane)]) return false;
+    offer(part, value);
+    return true;
+  }
   /// `sum` in the lanes whose part holds(part). It is asked once where lanes drew the same.
   template <typename Holds>
   Spectrum remaining(Spectrum sum, const Holds& holds) const {

@@ -53,21 +53,29 @@ class MattMerging {
   };
   /// Adds to `each`, if there is one, the factors of all vertices that count.
   MattLight merge(const MattDisk& disk, std::vector<Factors>* each = nullptr) const;
-  /// visit(position, flux, whether it came by specular events only) for all of which merge() told
-  /// the factors; flux times factor.
-  template <typename Visit>
-  void visit(const std::vector<Factors>& each, const Visit& visit) const {
-    for (const Factors& factors : each)
-      for (uint32_t i = 0; i < KdBuckets::bucket_size; ++i) {
+  /// offer(number, flux, whether it came by specular events only) for all of which merge() told the
+  /// factors, until it answers false; flux times factor. Leaves out buckets where pass_over(number
+  /// of one, flux of all, whether they came by specular events only) answers true.
+  template <typename Offer, typename PassOver>
+  void visit(const std::vector<Factors>& each, const Offer& offer,
+             const PassOver& pass_over) const {
+    for (const Factors& factors : each) {
+      const Block& block = blocks_[factors.bucket];
+      const uint32_t begin = factors.bucket * KdBuckets::bucket_size;
+      uint32_t first = 0;
+      while (first < KdBuckets::bucket_size && factors.wide[first] == 0) ++first;
+      if (first == KdBuckets::bucket_size) continue;
+      const bool all_alike = block.after_specular == 0 || block.after_specular == 0xffff;
+      if (all_alike && pass_over(begin + first, block.sum(factors), block.after_specular != 0))
+        continue;
+      for (uint32_t i = first; i < KdBuckets::bucket_size; ++i) {
         if (factors.wide[i] == 0) continue;
-        const Block& block = blocks_[factors.bucket];
-        Spectrum flux;
-        for (int lane = 0; lane < Spectrum::lane_count; ++lane)
-          flux.set(lane, block.flux[lane][i] * factors.wide[i]);
-        visit(buckets_->position(factors.bucket * KdBuckets::bucket_size + i), flux,
-              (block.after_specular >> i & 1) != 0);
+        const Spectrum flux(block.flux[0][i], block.flux[1][i], block.flux[2][i], block.flux[3][i]);
+        if (!offer(begin + i, flux * factors.wide[i], (block.after_specular >> i & 1) != 0)) return;
       }
+    }
   }
+  Vec3f position(uint32_t number) const { return buckets_->position(number); }
 
   /// Of 16 vertices, those of one bucket of the tree.
   struct alignas(64) Block {
@@ -80,6 +88,21 @@ class MattMerging {
     uint16_t most_before = 0;     ///< of all
     uint16_t after_specular = 0;  ///< bit i: that of vertex i
     bool same_side = false;       ///< all sides are alike
+
+    /// Of flux times factor.
+    Spectrum sum(const Factors& factors) const {
+      Spectrum result;
+      for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
+        // In vectors, as far as that goes.
+        std::array<float, size / 4> partial{};
+        for (size_t part = 0; part < 4; ++part)
+          for (size_t i = 0; i < partial.size(); ++i)
+            partial[i] +=
+                factors.wide[part * partial.size() + i] * flux[lane][part * partial.size() + i];
+        result.set(lane, (partial[0] + partial[1]) + (partial[2] + partial[3]));
+      }
+      return result;
+    }
   };
 
  private:

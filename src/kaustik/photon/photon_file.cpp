@@ -1,5 +1,6 @@
 // The content of a .kpm file, in the frame of base/binary_file.h:
-//   scene and fingerprint (each: u64 length, bytes), seed (u64),
+//   scene (u64 length, bytes), fingerprint: counts (u64 length, bytes), numbers (u64), 16 sums (f64
+//   each); seed (u64),
 //   settings: global_photons, caustic_photons (u32), maximum_events (i32), traced, reradiate, aim
 //   (u8 each), target_budget (i32),
 //   part index and count (u32 each),
@@ -21,7 +22,7 @@ namespace {
 
 constexpr BinaryFileKind photon_map_kind = {
     {0x89, 'K', 'P', 'M', '\r', '\n', 0x1a, '\n'},
-    4,  // Photon's layout is part of the file's
+    5,  // Photon's layout is part of the file's
     "photon map",
     "give a .kpm file that was written by: kaustik photons SCENE -o MAP.kpm",
     "write it again with this program: kaustik photons SCENE -o MAP.kpm"};
@@ -110,88 +111,26 @@ PhotonMap get_map(BinaryReader& reader, MapReport& report) {
   return {std::move(positions), std::move(photons)};
 }
 
-/// The number of steps, so that the last bits of another build make no difference, nor the noise
-/// and the sign of what should be zero. Steps turn where no number lies that people write.
-std::string in_steps(double value, double step) {
-  constexpr double turn = 0.6180339887;
-  const double steps = std::floor(value / step + turn);
-  return std::fabs(steps) < 1e15 ? fmt::format("{} ", int64_t(steps)) : "far ";
-}
-std::string in_steps(const Vec3f& v, double step) {
-  return in_steps(double(v.x), step) + in_steps(double(v.y), step) + in_steps(double(v.z), step);
-}
-/// The same of its logarithm.
-std::string in_relative_steps(double value, double step) {
-  return value > 0 ? in_steps(std::log(value), step) : value < 0 ? "negative " : "zero ";
+void put_fingerprint(BinaryWriter& writer, const SceneFingerprint& fingerprint) {
+  writer.put_text(fingerprint.counts);
+  writer.put(fingerprint.numbers);
+  for (const double sum : fingerprint.sums) writer.put(sum);
 }
 
-constexpr double step_of_color = 1e-4, step_of_direction = 1e-3;
-
-/// How a surface scatters: its albedo, and where it sends a few directions from either side.
-std::string text_of(const Bsdf& bsdf) {
-  BsdfContext context;
-  context.move_to({.uv = {0.5f, 0.5f}});
-  std::string text;
-  for (const float side : {1.0f, -1.0f}) {
-    const Vec3f wo = normalize(Vec3f(0.3f, 0.2f, side));
-    const Spectrum albedo = bsdf.albedo(context, wo, Lobes::all);
-    text += in_steps({albedo[0], albedo[1], albedo[2]}, step_of_color);
-    for (const float u : {0.02f, 0.98f}) {
-      const BsdfSample sample = bsdf.sample(context, wo, u, {0.4f, 0.7f}, Lobes::all);
-      // What is absorbed has no direction.
-      text += sample.weight.is_zero() ? "absorbed " : in_steps(sample.wi, step_of_direction);
-    }
-  }
-  return text;
-}
-
-/// What a light sends out: its power and a few of its rays.
-std::string text_of(const Light& light, double step_of_place) {
-  std::string text = in_relative_steps(double(light.power().sum()), step_of_color);
-  for (const float u : {0.2f, 0.7f}) {
-    const EmissionSample ray = light.sample_emission({u, 0.4f}, {0.6f, u});
-    text +=
-        in_steps(ray.point.position, step_of_place) + in_steps(ray.direction, step_of_direction);
-  }
-  return text;
-}
-
-/// Of what tells scenes apart: shapes, where instances stand, how surfaces scatter, what lights
-/// send out.
-uint64_t digest_of(const Scene& scene) {
-  const Bounds3f& all = scene.tracer().bounds();
-  const double step = 1e-5 * std::max(1e-30, double(length(all.max - all.min)));
-  std::string text;
-  for (uint32_t i = 0; i < scene.surface_count(); ++i) {
-    const Bounds3f& bounds = scene.tracer().shape(i).bounds();
-    text +=
-        in_steps(bounds.min, step) + in_steps(bounds.max, step) + text_of(*scene.surface(i).bsdf);
-  }
-  for (const Instance& instance : scene.tracer().geometry().instances)
-    for (const Vec3f& p : {Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(0, 0, 1)})
-      text += in_steps(instance.world_from_group.point(p), step);
-  for (const auto& light : scene.lights()) text += text_of(*light, step);
-  text += in_relative_steps(step, 1e-5);
-  return checksum({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+SceneFingerprint get_fingerprint(BinaryReader& reader) {
+  SceneFingerprint fingerprint;
+  fingerprint.counts = reader.get_text();
+  fingerprint.numbers = reader.get<uint64_t>();
+  for (double& sum : fingerprint.sums) sum = reader.get<double>();
+  return fingerprint;
 }
 
 }  // namespace
 
-std::string scene_fingerprint(const Scene& scene) {
-  size_t triangles = 0;
-  for (uint32_t i = 0; i < scene.tracer().shape_count(); ++i)
-    if (const TriangleMesh* mesh = scene.tracer().shape(i).mesh())
-      triangles += mesh->triangles.size();
-  // Maps for irradiance have photons on mirrors and glass too.
-  return fmt::format("{} shapes, {} triangles, {} lights, digest {:016x}{}", scene.surface_count(),
-                     triangles, scene.lights().size(), digest_of(scene),
-                     scene.film().quantity == Quantity::irradiance ? ", for irradiance" : "");
-}
-
 void write_photon_file(const std::string& path, const StoredPhotons& photons) {
   BinaryWriter writer(photon_map_kind);
   writer.put_text(photons.scene);
-  writer.put_text(photons.fingerprint);
+  put_fingerprint(writer, photons.fingerprint);
   writer.put(photons.seed);
   put_settings(writer, photons.settings);
   put_map(writer, photons.maps.global, photons.maps.global_report);
@@ -203,7 +142,7 @@ StoredPhotons read_photon_file(const std::string& path) {
   BinaryReader reader(photon_map_kind, path);
   StoredPhotons photons;
   photons.scene = reader.get_text();
-  photons.fingerprint = reader.get_text();
+  photons.fingerprint = get_fingerprint(reader);
   photons.seed = reader.get<uint64_t>();
   photons.settings = get_settings(reader);
   photons.maps.global = get_map(reader, photons.maps.global_report);

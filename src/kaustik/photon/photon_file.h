@@ -2,22 +2,18 @@
 #include <string>
 
 #include "kaustik/photon/light_pass.h"
+#include "kaustik/photon/scene_fingerprint.h"
 
 namespace kaustik {
 
 /// A light pass's maps as they are kept in a file (.kpm), for other views of the same scene.
 struct StoredPhotons {
-  std::string scene;        ///< the scene file that they come from, for people
-  std::string fingerprint;  ///< scene_fingerprint() of that scene
+  std::string scene;  ///< the scene file that they come from, for people
+  SceneFingerprint fingerprint;
   uint64_t seed = 0;
   LightPassSettings settings;  ///< that the maps were traced with
   PhotonMaps maps;
 };
-
-/// A text that differs between scenes whose photons differ in all likelihood: counts, and a digest
-/// of all shapes' places and colours and of the lights. The camera makes no difference, nor do last
-/// bits, in which programs from different compilers differ.
-std::string scene_fingerprint(const Scene& scene);
 
 /// Writes atomically; throws as write_file_atomically() does. The times are left out, so that equal
 /// maps are equal files.

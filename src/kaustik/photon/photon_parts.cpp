@@ -68,7 +68,7 @@ void check(std::span<const StoredPhotons> parts) {
   const uint32_t count = first.settings.part.count;
   std::vector<bool> found(count);
   for (const StoredPhotons& part : parts) {
-    if (part.fingerprint != first.fingerprint)
+    if (!part.fingerprint.matches(first.fingerprint))
       refuse("the photon maps are of different scenes: " + first.scene + " and " + part.scene,
              "trace all parts from the same scene");
     if (part.seed != first.seed || settings_key(part.settings) != settings_key(first.settings))

@@ -2,9 +2,13 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/photon/kd_tree.h"
+#include "kaustik/photon/volume_sight.h"
 
 namespace kaustik {
 namespace {
+
+/// Of the sampler's fork for what is visible.
+constexpr uint32_t visibility_key = 7;
 
 using PhotonTree = KdTree<3, Vec3f, uint32_t>;
 
@@ -18,8 +22,9 @@ float neighbor_distance(const PhotonTree& tree, const Vec3f& position, int neigh
 
 }  // namespace
 
-VolumePhotonMap::VolumePhotonMap(std::vector<VolumePhoton> photons, int neighbors,
-                                 float shrinkage) {
+VolumePhotonMap::VolumePhotonMap(std::vector<VolumePhoton> photons, int neighbors, float shrinkage,
+                                 const Scene* scene)
+    : scene_(scene) {
   order_photons(std::move(photons), neighbors, shrinkage);
   std::vector<DiscHierarchy::Disc> discs;
   discs.reserve(photons_.size());
@@ -55,17 +60,23 @@ void VolumePhotonMap::order_photons(std::vector<VolumePhoton> photons, int neigh
     if (!(photon.radius > 0)) photon.radius = largest;
 }
 
-Spectrum VolumePhotonMap::radiance(const Ray& ray, float length, const Medium& medium) const {
+Spectrum VolumePhotonMap::radiance(const Ray& ray, float length, const Medium& medium,
+                                   const Sampler& sampler, uint64_t& rays) const {
   Spectrum sum;
+  std::vector<VolumePart>& parts = empty_volume_parts();
   discs_.visit_met(ray, length, [&](size_t i, float along, float distance_sq) {
     const VolumePhoton& photon = photons_[i];
     if (photon.medium != &medium) return;
     const float radius_sq = sqr(photon.radius);
     const float kernel = 3 * inv_pi * sqr(1 - distance_sq / radius_sq) / radius_sq;
     const float phase = medium.phase().eval(photon.direction.unpack(), -ray.direction);
-    sum += photon.flux * medium.transmittance(along) * (kernel * phase);
+    const Spectrum light = photon.flux * medium.transmittance(along) * (kernel * phase);
+    sum += light;
+    if (scene_) parts.push_back({i, ray.origin + ray.direction * along, light});
   });
-  return sum;
+  if (!scene_ || sum.is_zero()) return sum;
+  return visible_from_segment(*scene_, discs_, parts, sum, sampler.fork(visibility_key).next_1d(),
+                              rays);
 }
 
 }  // namespace kaustik

@@ -3,6 +3,7 @@
 
 #include "kaustik/photon/disc_hierarchy.h"
 #include "kaustik/photon/photon.h"
+#include "kaustik/scene/scene.h"
 #include "kaustik/transport/volume_light.h"
 
 namespace kaustik {
@@ -23,8 +24,10 @@ struct VolumePhoton {
 class VolumePhotonMap final : public VolumeLight {
  public:
   VolumePhotonMap() = default;
-  /// `neighbors` ≥ 1; all radii are multiplied by `shrinkage`.
-  VolumePhotonMap(std::vector<VolumePhoton> photons, int neighbors, float shrinkage = 1);
+  /// `neighbors` ≥ 1; all radii are multiplied by `shrinkage`. Photons that the surfaces of
+  /// `scene`, if there is one, hide from a segment do not count there.
+  VolumePhotonMap(std::vector<VolumePhoton> photons, int neighbors, float shrinkage = 1,
+                  const Scene* scene = nullptr);
 
   size_t size() const { return photons_.size(); }
   bool empty() const { return photons_.empty(); }
@@ -34,13 +37,15 @@ class VolumePhotonMap final : public VolumeLight {
   /// Σ Φ p(θ) T(s) K(d/r)/r² over the photons of `medium` whose foot on the ray lies within the
   /// segment, with the biweight kernel K = 3/π (1 − d²/r²)² (eq. 12 of the paper; Φ is scattered
   /// flux here, which holds its σ_s/σ_t).
-  Spectrum radiance(const Ray& ray, float length, const Medium& medium) const override;
+  Spectrum radiance(const Ray& ray, float length, const Medium& medium, const Sampler& sampler,
+                    uint64_t& rays) const override;
 
  private:
   void order_photons(std::vector<VolumePhoton> photons, int neighbors, float shrinkage);
 
   std::vector<VolumePhoton> photons_;
   DiscHierarchy discs_;
+  const Scene* scene_ = nullptr;
 };
 
 }  // namespace kaustik

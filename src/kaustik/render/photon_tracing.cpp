@@ -52,7 +52,7 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
   problems.throw_if_any();
 
   StoredPhotons& photons = traced.photons;
-  photons.fingerprint = scene_fingerprint(scene);
+  photons.fingerprint = fingerprint_of(scene);
   photons.seed = seed;
   photons.settings = PhotonMapSettings(arguments).light_pass;
   photons.settings.part = part;

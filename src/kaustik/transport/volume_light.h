@@ -1,4 +1,5 @@
 #pragma once
+#include "kaustik/base/sampler.h"
 #include "kaustik/geometry/ray.h"
 #include "kaustik/medium/medium.h"
 
@@ -10,8 +11,9 @@ class VolumeLight {
   virtual ~VolumeLight() = default;
   /// Radiance that `medium` scatters into the segment of `length` (may be infinite) along `ray`
   /// (unit direction) toward its origin, what is lost on the way there taken off, W/(sr·m²).
-  /// Thread-safe.
-  virtual Spectrum radiance(const Ray& ray, float length, const Medium& medium) const = 0;
+  /// Numbers are forked off `sampler`, which stays as it is. Counts rays. Thread-safe.
+  virtual Spectrum radiance(const Ray& ray, float length, const Medium& medium,
+                            const Sampler& sampler, uint64_t& rays) const = 0;
 };
 
 }  // namespace kaustik
