@@ -13,7 +13,7 @@ bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--
 comma = ,
 ablation_scenes = peer_cornell,peer_cornell_glass,peer_ring,peer_pool_above,peer_pool_below,peer_hidden_light
 ablation_integrators = auto,auto:adaptive=false,ppm,ppm:adaptive=false,ppm:guiding=false,ppm:guided_scattering=false,$\
-  ppm:aim=none,ppm:choose_survival=false,ppm:learn_radii=false,ppm:edges=false,ppm:visibility=false,ppm:correlation=false,ppm:merging=false,ppm:splats=true,ppm:splats=true:connections=true
+  ppm:aim=none,ppm:choose_survival=false,ppm:learn_radii=false,ppm:edges=false,ppm:visibility=false,ppm:correlation=false,ppm:merging=false,ppm:splats=true,ppm:splats=true:connections=true,photonmap,photonmap:visibility=false
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
 .PHONY: all setup configure build render test thesis bench bench-scenes bench-peers ablation comparisons references install package docs format clean

@@ -45,10 +45,18 @@ std::string slab(double thickness, double gap = 0) {
               grey);
 }
 
-constexpr const char* merging[] = {"auto", "vcm", "ppm"};
+constexpr const char* merging[] = {"auto", "vcm", "ppm", "photonmap"};
+
+/// Few photons, whose disks are wide.
+std::string parameters_of(const std::string& type) {
+  return type == "photonmap" ? set("global_photons", 10000) + set("caustic_photons", 2000) +
+                                   set("volume_photons", 10000)
+                             : "";
+}
 
 void expect_dark(const std::string& what, const Rooms& rooms) {
-  for (const char* type : merging) EXPECT_EQ(rooms.light(type), 0) << what << " by " << type;
+  for (const char* type : merging)
+    EXPECT_EQ(rooms.light(type, parameters_of(type)), 0) << what << " by " << type;
 }
 
 TEST(LightLeaks, WallsOfAnyThickness) {
@@ -92,7 +100,7 @@ TEST(LightLeaks, FloorsOverLight) {
   options.samples = 4;
   options.passes = 2;
   for (const char* type : merging)
-    EXPECT_EQ(render(scene, type, "", options).mean({""}).mean(), 0) << type;
+    EXPECT_EQ(render(scene, type, parameters_of(type), options).mean({""}).mean(), 0) << type;
 }
 
 /// Fog on both sides of a wall.
@@ -113,24 +121,29 @@ TEST(LightLeaks, FogBehindAWall) {
   RenderOptions options;
   options.samples = 4;
   options.passes = 2;
-  for (const char* type : {"vcm", "ppm"}) {
-    EXPECT_EQ(render(scene, type, "", options).mean({""}).mean(), 0) << type;
-    EXPECT_GT(render(scene, type, set("visibility", false), options).mean({""}).mean(), 0) << type;
+  for (const char* type : {"vcm", "ppm", "photonmap"}) {
+    const auto light = [&](const std::string& parameters) {
+      return render(scene, type, parameters_of(type) + parameters, options).mean({""}).mean();
+    };
+    EXPECT_EQ(light(""), 0) << type;
+    EXPECT_GT(light(set("visibility", false)), 0) << type;
   }
 }
 
 /// What the tests above would see without that …
 TEST(LightLeaks, DisksReachThroughWalls) {
-  for (const char* type : {"vcm", "ppm"})
+  for (const char* type : {"vcm", "ppm", "photonmap"})
     for (const double thickness : {0.001, 0.04})
-      EXPECT_GT(Rooms(slab(thickness), grey, 48).light(type, set("visibility", false)), 0)
+      EXPECT_GT(Rooms(slab(thickness), grey, 48)
+                    .light(type, parameters_of(type) + set("visibility", false)),
+                0)
           << type << " " << thickness;
 }
 
 /// … and if there were a way for light.
 TEST(LightLeaks, AGapIsSeen) {
   for (const char* type : merging)
-    EXPECT_GT(Rooms(slab(0.01, 0.02), grey, 48).light(type), 0) << type;
+    EXPECT_GT(Rooms(slab(0.01, 0.02), grey, 48).light(type, parameters_of(type)), 0) << type;
 }
 
 }  // namespace
