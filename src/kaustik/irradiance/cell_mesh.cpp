@@ -28,7 +28,8 @@ EdgeHessian edge_hessian(const Vec3d& p, const Vec3d& q) {
   if (!(foot_distance > 0)) return {0, 0, 0};
   const Vec3d f = foot / foot_distance;
   const double h = std::max(foot_distance, least_offset * std::min(p_distance, q_distance));
-  const double p_reach = std::hypot(h, p_along), q_reach = std::hypot(h, q_along);
+  const double p_reach = std::sqrt(h * h + p_along * p_along),
+               q_reach = std::sqrt(h * h + q_along * q_along);
   const double p_sin = p_along / p_reach, q_sin = q_along / q_reach;
   const double p_cos = h / p_reach, q_cos = h / q_reach;
   const double angle = std::atan2(h * size, h * h + p_along * q_along);
