@@ -82,8 +82,9 @@ LightPathUse::LightPathUse(const Scene& scene, const LightPathEmission& plain, C
   const Vec2i size = scene.film().crop_size;
   const int block = block_size(size);
   reach_ = 0.5f * float(block);
-  const Vec2i blocks = (size + Vec2i(block - 1)) / block;
-  probes_ = make_pixel_probes(scene, blocks, block);
+  PlanWindow window;
+  window.size = size;
+  probes_ = make_pixel_probes(scene, window, block);
   direct_.resize(probes_.size());
   arrived_.resize(probes_.size());
   parallel_blocks(probes_.size(), 16, [&](size_t begin, size_t end, size_t) {

@@ -17,6 +17,26 @@ Vec3f side_of(const SurfaceVertex& vertex) {
   return vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
 }
 
+float mean_distance_of(const std::vector<PixelProbe>& probes) {
+  double sum = 0;
+  size_t hits = 0;
+  for (const PixelProbe& probe : probes)
+    if (probe.distance > 0) sum += double(probe.distance), ++hits;
+  return hits > 0 ? float(sum / double(hits)) : 1.0f;
+}
+
+/// One for each block of a picture of few pixels; no more of large ones.
+std::vector<PixelProbe> probes_of_whole_picture(const Scene& scene, int block_size) {
+  constexpr int most_on_a_side = 64;
+  const FilmSettings& film = scene.film();
+  const int longest = std::max(film.size.x, film.size.y);
+  PlanWindow whole;
+  whole.size = film.size;
+  whole.before = film.crop_offset;
+  return make_pixel_probes(scene, whole,
+                           std::max(block_size, (longest + most_on_a_side - 1) / most_on_a_side));
+}
+
 /// Of a disk where these edges hold.
 PixelPlans::Surroundings surroundings_by(const SurfaceEdges& edges, const Vec3f& position,
                                          float radius) {
@@ -30,16 +50,15 @@ PixelPlans::Surroundings surroundings_by(const SurfaceEdges& edges, const Vec3f&
 }  // namespace
 
 PixelPlans::PixelPlans(const Scene& scene) {
-  const Vec2i size = scene.film().crop_size;
-  blocks_ = (size + Vec2i(block_size - 1)) / block_size;
+  const FilmSettings& film = scene.film();
+  window_ = PlanWindow(film, block_size);
+  blocks_ = window_.blocks(block_size);
   probes_ = std::make_shared<const std::vector<PixelProbe>>(
-      make_pixel_probes(scene, blocks_, block_size));
+      make_pixel_probes(scene, window_, block_size));
   plans_.assign(probes_->size(), PixelPlan());
-  double distance_sum = 0;
-  size_t hits = 0;
-  for (const PixelProbe& probe : *probes_)
-    if (probe.distance > 0) distance_sum += double(probe.distance), ++hits;
-  mean_distance_ = hits > 0 ? float(distance_sum / double(hits)) : 1.0f;
+  mean_distance_ = film.crop_size == film.size
+                       ? mean_distance_of(*probes_)
+                       : mean_distance_of(probes_of_whole_picture(scene, block_size));
 }
 
 void PixelPlans::choose_disks(const LightVertices& pilot, uint32_t paths, int wanted_neighbors,

@@ -71,6 +71,8 @@ class PixelPlans {
   /// One per block of pixels, row by row.
   const std::vector<PixelProbe>& probes() const { return *probes_; }
   const Vec2i& blocks() const { return blocks_; }
+  /// What the blocks cover: the picture, or the crop window with what is around it.
+  const PlanWindow& window() const { return window_; }
   /// Those of the probes.
   const std::vector<PixelPlan>& plans() const { return plans_; }
   /// The same with other plans, one for each probe.
@@ -91,7 +93,7 @@ class PixelPlans {
   }
   /// Area of the disk at all other vertices, m².
   float other_area() const { return other_area_; }
-  /// Mean distance of what the camera sees first, m.
+  /// Mean distance of what the camera sees first in the whole picture, m.
   float mean_distance() const { return mean_distance_; }
 
  private:
@@ -100,8 +102,9 @@ class PixelPlans {
   void fill_gaps();
 
   Vec2i block_at(const Vec2f& raster) const {
-    return {std::clamp(int(raster.x) / block_size, 0, blocks_.x - 1),
-            std::clamp(int(raster.y) / block_size, 0, blocks_.y - 1)};
+    const Vec2f at = raster + Vec2f(float(window_.before.x), float(window_.before.y));
+    return {std::clamp(int(at.x) / block_size, 0, blocks_.x - 1),
+            std::clamp(int(at.y) / block_size, 0, blocks_.y - 1)};
   }
   size_t index_of(const Vec2i& block) const {
     return size_t(block.y) * size_t(blocks_.x) + size_t(block.x);
@@ -110,6 +113,7 @@ class PixelPlans {
   std::shared_ptr<const std::vector<PixelProbe>> probes_;
   std::shared_ptr<const std::vector<SurfaceEdges>> edges_;  ///< of each probe; null: not looked for
   std::shared_ptr<const SampleSpread> spread_;
+  PlanWindow window_;
   Vec2i blocks_{1, 1};
   std::vector<PixelPlan> plans_{PixelPlan()};
   float other_area_ = 0;

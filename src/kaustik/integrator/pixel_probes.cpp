@@ -47,14 +47,17 @@ Spectrum PixelProbe::sent(const LightVertexData& photon, ComponentSet wanted) co
   return reflected * photon.flux_spectrum();
 }
 
-std::vector<PixelProbe> make_pixel_probes(const Scene& scene, const Vec2i& blocks, int block_size) {
+std::vector<PixelProbe> make_pixel_probes(const Scene& scene, const PlanWindow& window,
+                                          int block_size) {
+  const Vec2i blocks = window.blocks(block_size);
   std::vector<PixelProbe> probes(size_t(blocks.x) * size_t(blocks.y));
-  const Vec2f size(float(scene.film().crop_size.x), float(scene.film().crop_size.y));
+  const Vec2f size(float(window.size.x), float(window.size.y));
   parallel_blocks(probes.size(), 16, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {
       const float x = (float(i % size_t(blocks.x)) + 0.5f) * float(block_size);
       const float y = (float(i / size_t(blocks.x)) + 0.5f) * float(block_size);
-      probes[i] = look(scene, {std::min(x, size.x - 0.5f), std::min(y, size.y - 0.5f)}, i);
+      const Vec2f raster(std::min(x, size.x - 0.5f), std::min(y, size.y - 0.5f));
+      probes[i] = look(scene, window.in_crop(raster), i);
     }
   });
   return probes;

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "kaustik/integrator/plan_window.h"
 #include "kaustik/photon/light_vertices.h"
 #include "kaustik/scene/scene.h"
 #include "kaustik/transport/path_class.h"
@@ -22,7 +23,8 @@ struct PixelProbe {
   Spectrum sent(const LightVertexData& photon, ComponentSet wanted) const;
 };
 
-/// One for each block of `block_size`² pixels, row by row.
-std::vector<PixelProbe> make_pixel_probes(const Scene& scene, const Vec2i& blocks, int block_size);
+/// One for each block of `block_size`² pixels, row by row, of that window.
+std::vector<PixelProbe> make_pixel_probes(const Scene& scene, const PlanWindow& window,
+                                          int block_size);
 
 }  // namespace kaustik

@@ -161,13 +161,14 @@ SampleLearning::Sums SampleLearning::BlockSums::all() const {
   return result;
 }
 
-SampleLearning::SampleLearning(const Vec2i& picture, const Vec2i& blocks, int block_size,
-                               bool is_sparing)
-    : picture_(picture), blocks_(blocks), block_size_(block_size), is_sparing_(is_sparing) {
-  for (int y = 0; y < blocks.y; ++y)
-    for (int x = 0; x < blocks.x; ++x)
-      pixels_.push_back(uint32_t(std::min(block_size, picture.x - x * block_size) *
-                                 std::min(block_size, picture.y - y * block_size)));
+SampleLearning::SampleLearning(const PlanWindow& window, int block_size, bool is_sparing)
+    : window_(window),
+      blocks_(window.blocks(block_size)),
+      block_size_(block_size),
+      is_sparing_(is_sparing) {
+  for (int y = 0; y < blocks_.y; ++y)
+    for (int x = 0; x < blocks_.x; ++x)
+      pixels_.push_back(uint32_t(window.crop_pixels({x, y}, block_size)));
   sums_.resize(pixels_.size());
 }
 
@@ -183,16 +184,16 @@ std::vector<SampleLearning::Sums> SampleLearning::take_samples(
     return (x + y + pass.index / 2) % 2 == 1;
   };
   const TakeSample take = [&](const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
-    integrator.sample(state, raster, sampler, sink);
+    integrator.sample(state, window_.in_crop(raster), sampler, sink);
   };
   const auto add_pair = [&](size_t block, uint32_t pair) {
     const Vec2i first =
         Vec2i(int(block % size_t(blocks_.x)), int(block / size_t(blocks_.x))) * block_size_;
     // Pixels of one block stratify one another over the passes.
     const uint32_t number = pairs_before(pass.index) + pair;
-    const TrainingPair found =
-        training_pair({picture_, first, Vec2i(block_size_), pass.seed, training_element + block},
-                      number, number, scene.film().filter, integrator.components(), take);
+    const TrainingPair found = training_pair(
+        {window_.size, first, Vec2i(block_size_), pass.seed, training_element + block}, number,
+        number, scene.film().filter, integrator.components(), take);
     const uint64_t pair_rays = found.rays[0] + found.rays[1];
     result[block].add({1, found.variance, found.light, double(pair_rays) / 2});
     return pair_rays;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/plan_window.h"
 
 namespace kaustik {
 
@@ -29,10 +30,10 @@ class SampleLearning {
   };
 
   SampleLearning() = default;
-  /// Blocks of `block_size`² pixels of a picture, row by row. `is_sparing`: with half of the
-  /// samples and less, where all that they cost is on top of a plain path tracer's.
-  SampleLearning(const Vec2i& picture, const Vec2i& blocks, int block_size,
-                 bool is_sparing = false);
+  /// Blocks of `block_size`² pixels, row by row. Counts are for the pixels of the crop window.
+  /// `is_sparing`: with half of the samples and less, where all that they cost is on top of a plain
+  /// path tracer's.
+  SampleLearning(const PlanWindow& window, int block_size, bool is_sparing = false);
 
   /// A few samples of `integrator` in every block, for the pass of that state alone: they are none
   /// of the picture's. Counts their rays.
@@ -59,7 +60,8 @@ class SampleLearning {
                        const Vec2i& blocks, uint32_t samples_per_pixel);
 
  private:
-  Vec2i picture_{0, 0}, blocks_{0, 0};
+  PlanWindow window_;
+  Vec2i blocks_{0, 0};
   int block_size_ = 1;
   bool is_sparing_ = false;
   std::vector<uint32_t> pixels_;  ///< of each block

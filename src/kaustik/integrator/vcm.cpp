@@ -91,8 +91,7 @@ std::shared_ptr<const VcmPlans> VcmIntegrator::plans_for(const Pass& pass, std::
   const std::lock_guard lock(learning_mutex_);
   return isolated([&] {
     const bool is_new = !learning_ || learning_->first() != first;
-    if (is_new)
-      learning_ = std::make_unique<VcmLearning>(first, settings_, scene_.film().crop_size);
+    if (is_new) learning_ = std::make_unique<VcmLearning>(first, settings_);
     if (is_new || learning_->seed() != pass.seed) learning_->begin(pass.seed);
     const uint32_t learned = VcmLearning::learned_passes(*first, settings_);
     const auto plans_of = [&](uint32_t index) {
@@ -143,9 +142,10 @@ VcmLearning::Samples VcmIntegrator::learning_samples(State& state, const Pass& p
     result.trial = learning_->connections().take_samples(
         scene_.film().filter, settings_.components, pass,
         [&](ConnectionLearning::Way way, const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
-          PixelPlan plan = state.plans->pixels.at(raster, state.shrinkage);
+          const Vec2f at = state.plans->pixels.window().in_crop(raster);
+          PixelPlan plan = state.plans->pixels.at(at, state.shrinkage);
           plan.connected = way == ConnectionLearning::connected ? 1.0f : 0.0f;
-          trace_sample(state, raster, plan, sampler, sink);
+          trace_sample(state, at, plan, sampler, sink);
         },
         stop, state.report.rays);
   return result;
@@ -165,7 +165,7 @@ PathWeights VcmIntegrator::weights_for(const VcmPlans& plans, const Pass& pass) 
   PathWeights::Settings weights;
   weights.techniques = plans.techniques;
   weights.light_paths =
-      float(light_path_count(scene_.film().crop_size, pass.samples_per_pixel, plans.light_paths));
+      float(light_path_count(scene_.film(), pass.samples_per_pixel, plans.light_paths));
   weights.connections = float(settings_.connections) / plans.connectible_per_path;
   weights.merge_area = plans.pixels.other_area() * sqr(pass_radius(1, pass.index));
   weights.accepted_area = accepted_area(plans.pixels);
@@ -180,7 +180,7 @@ LightVertices VcmIntegrator::trace(const VcmPlans& plans, const PathWeights& wei
   const float shrinkage = sqr(pass_radius(1, pass.index));
   return trace_light_vertices(
       {scene_, *plans.emission, weights, settings_.components, settings_.maximum_events,
-       light_path_count(scene_.film().crop_size, pass.samples_per_pixel, plans.light_paths),
+       light_path_count(scene_.film(), pass.samples_per_pixel, plans.light_paths),
        float(pass.samples_per_pixel), plans.pixels, shrinkage,
        VcmLearning::remembered_paths(pass.index, plans), plans.media.shrunk(shrinkage),
        plans.scattering.get(), plans.scattering != nullptr},

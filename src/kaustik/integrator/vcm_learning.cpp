@@ -58,17 +58,17 @@ std::shared_ptr<const SampleSpread> spread_of(uint32_t begin, std::vector<uint32
 
 }  // namespace
 
-VcmLearning::VcmLearning(std::shared_ptr<const VcmPlans> first, const VcmSettings& settings,
-                         const Vec2i& picture)
+VcmLearning::VcmLearning(std::shared_ptr<const VcmPlans> first, const VcmSettings& settings)
     : first_(std::move(first)),
       settings_(settings),
       learns_radii_(learns_radii(*first_, settings)),
       no_samples_(learns_samples(*first_, settings)
-                      ? SampleLearning(picture, first_->pixels.blocks(), PixelPlans::block_size,
+                      ? SampleLearning(first_->pixels.window(), PixelPlans::block_size,
                                        !first_->techniques.needs_light_paths())
                       : SampleLearning()),
       no_connections_(learns_connections(*first_, settings)
-                          ? ConnectionLearning(picture, blocks_per_trial * PixelPlans::block_size)
+                          ? ConnectionLearning(first_->pixels.window().size,
+                                               blocks_per_trial * PixelPlans::block_size)
                           : ConnectionLearning()) {}
 
 uint32_t VcmLearning::learned_passes(const VcmPlans& first, const VcmSettings& settings) {

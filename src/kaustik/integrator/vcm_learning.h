@@ -16,8 +16,7 @@ namespace kaustik {
 class VcmLearning {
  public:
   /// From `first`, the plans of the first pass. The settings must outlive this.
-  VcmLearning(std::shared_ptr<const VcmPlans> first, const VcmSettings& settings,
-              const Vec2i& picture);
+  VcmLearning(std::shared_ptr<const VcmPlans> first, const VcmSettings& settings);
 
   /// Passes that are learned from, where those are the plans of the first; 0: none.
   static uint32_t learned_passes(const VcmPlans& first, const VcmSettings& settings);

@@ -32,6 +32,9 @@ constexpr double worth_guiding = 0.8;
 /// no more of them, unless a pass of so few samples as is usual has.
 constexpr double most_light_paths = 1 << 21, most_usual_light_paths = 1 << 24;
 constexpr double usual_samples = 4;
+/// Light paths of a crop window at most, relative to those of a picture of its size, which so takes
+/// a few times as long; and how many any window may have.
+constexpr double most_times_own = 16, paths_of_any_crop = 1 << 16;
 /// Light paths that are tried beside those that are asked for, relative to them.
 constexpr std::array<float, 3> light_path_factors{1, 4, 0.25f};
 /// Fewer have wider disks, whose bias is not counted: they must be so much better.
@@ -55,7 +58,7 @@ bool has_hidden_light(const LightVertices& light) {
 MediumDisks medium_disks(const Scene& scene, const VcmSettings& settings,
                          const LightVertices& pilot, uint32_t of_pass, float mean_length) {
   constexpr float least_widths = 1, most_widths = 6;
-  const Vec2i size = scene.film().crop_size;
+  const Vec2i size = scene.film().size;
   const double per_pixel = double(pilot.in_media.size()) / double(pilot.path_count) *
                            double(of_pass) / (double(size.x) * double(size.y));
   const double wanted = std::sqrt(double(settings.merge_neighbors) * double(inv_pi) / per_pixel);
@@ -152,6 +155,14 @@ uint32_t light_path_count(const Vec2i& size, uint32_t samples_per_pixel, float l
   return uint32_t(std::clamp(of_sample * double(samples_per_pixel), 1.0, most));
 }
 
+uint32_t light_path_count(const FilmSettings& film, uint32_t samples_per_pixel, float light_paths) {
+  const uint32_t own = light_path_count(film.crop_size, samples_per_pixel, light_paths);
+  const uint32_t whole = light_path_count(film.size, samples_per_pixel, light_paths);
+  const double most =
+      std::min(most_light_paths, std::max(most_times_own * double(own), paths_of_any_crop));
+  return std::max(own, uint32_t(std::min(double(whole), most)));
+}
+
 float accepted_area(const PixelPlans& pixels) {
   return pi * sqr(near_per_distance * pixels.mean_distance());
 }
@@ -176,7 +187,7 @@ VcmPlans VcmPlanner::plan(uint32_t samples_per_pixel, const std::stop_token& sto
   if (!settings_.techniques.merging && !settings_.techniques.connections) return plans;
   if (settings_.techniques.merging) plans.pixels = PixelPlans(scene_);
   const uint32_t of_pass =
-      light_path_count(scene_.film().crop_size, samples_per_pixel, settings_.light_paths);
+      light_path_count(scene_.film(), samples_per_pixel, settings_.light_paths);
   const uint32_t count =
       std::min({of_pass, most_pilot_paths, std::max(fewest_pilot_paths, of_pass / 2)});
   const PilotLight light = search_light(plans, count, stop);
@@ -312,8 +323,13 @@ VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light, uint32
   pilot.needs_merging = scene_.has_scattering() || (is_merging_wanted(settings_.components) &&
                                                     has_hidden_light(light.vertices));
   const Vec2i size = scene_.film().crop_size;
-  pilot.costs = {samples,
-                 double(light.rays) / light_share / (samples * double(size.x) * double(size.y))};
+  // Chances of going on are to be those of the whole picture, so what light paths a crop window has
+  // beyond its own size's are taken for its neighbours'.
+  const double shared_by =
+      double(light_paths) /
+      double(light_path_count(size, plans.samples_per_pixel, settings_.light_paths));
+  pilot.costs = {samples, double(light.rays) / light_share /
+                              (samples * double(size.x) * double(size.y) * shared_by)};
   return pilot;
 }
 

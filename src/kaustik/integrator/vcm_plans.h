@@ -60,6 +60,10 @@ struct VcmPlans {
 
 /// Light paths of a pass of a picture of that size, with so many per camera sample.
 uint32_t light_path_count(const Vec2i& size, uint32_t samples_per_pixel, float light_paths);
+/// The same of what the film shows. A crop window gets the light paths of the whole picture, for
+/// disks are as wide as light paths are few and their bias is to be the same in all parts; but no
+/// more than some times those of its own size, and no more than memory may well go.
+uint32_t light_path_count(const FilmSettings& film, uint32_t samples_per_pixel, float light_paths);
 
 /// Makes the plans of the first pass, by pilot passes.
 class VcmPlanner {

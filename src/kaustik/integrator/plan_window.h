@@ -1,0 +1,27 @@
+#pragma once
+#include "kaustik/scene/film_settings.h"
+
+namespace kaustik {
+
+/// The part of the whole picture that plans are made for: the crop window and as much around it as
+/// what is learned of its border is averaged with. It begins where a block of the whole picture
+/// does, so a part of a picture is planned as the whole picture is.
+struct PlanWindow {
+  Vec2i size{1, 1};    ///< pixels
+  Vec2i before{0, 0};  ///< pixels of it left of the crop window and above it
+  Vec2i crop{1, 1};    ///< size of the crop window
+
+  PlanWindow() = default;
+  /// Of blocks of so many pixels on a side.
+  PlanWindow(const FilmSettings& film, int block_size);
+
+  Vec2i blocks(int block_size) const { return (size + Vec2i(block_size - 1)) / block_size; }
+  /// How many pixels of the block in that column and row are in the crop window.
+  int crop_pixels(const Vec2i& block, int block_size) const;
+  /// From its own raster to that of the crop window.
+  Vec2f in_crop(const Vec2f& raster) const {
+    return raster - Vec2f(float(before.x), float(before.y));
+  }
+};
+
+}  // namespace kaustik
