@@ -5,6 +5,7 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/merge_disk.h"
+#include "kaustik/integrator/radius_learning.h"
 #include "kaustik/transport/direct_light.h"
 
 namespace kaustik {
@@ -79,12 +80,14 @@ std::vector<AimTarget> boxes_around(std::vector<Vec3f> points, size_t count) {
 
 LightPathUse::LightPathUse(const Scene& scene, const LightPathEmission& plain, ComponentSet wanted)
     : wanted_(wanted), emission_(plain) {
-  const Vec2i size = scene.film().crop_size;
-  const int block = block_size(size);
+  // What merges in a crop window comes from around it, too. Were paths of no use there, their
+  // density would fall off at its border, and weights, which differ within a disk then, would leave
+  // that darker.
+  const FilmSettings& film = scene.film();
+  const int block = block_size(film.crop_size);
+  const int margin = int(std::ceil(RadiusLearning::widest_widths() / float(block)));
   reach_ = 0.5f * float(block);
-  PlanWindow window;
-  window.size = size;
-  probes_ = make_pixel_probes(scene, window, block);
+  probes_ = make_pixel_probes(scene, PlanWindow(film, block, margin), block);
   direct_.resize(probes_.size());
   arrived_.resize(probes_.size());
   parallel_blocks(probes_.size(), 16, [&](size_t begin, size_t end, size_t) {

@@ -5,19 +5,18 @@
 namespace kaustik {
 namespace {
 
-/// Disks are smoothed over the blocks beside theirs, of which each was chosen by those beside it.
-constexpr int blocks_around = 2;
 /// Trials look at two blocks on a side at once.
 constexpr int blocks_together = 2;
 
 }  // namespace
 
-PlanWindow::PlanWindow(const FilmSettings& film, int block_size) : crop(film.crop_size) {
+PlanWindow::PlanWindow(const FilmSettings& film, int block_size, int margin_blocks)
+    : crop(film.crop_size) {
   const int together = blocks_together * block_size;
   const auto along = [&](int offset, int length, int whole, int& own_size, int& own_before) {
-    const int margin = blocks_around * block_size;
+    const int margin = margin_blocks * block_size;
     const int begin = std::max(0, offset - margin) / together * together;
-    const int last_block = (offset + length - 1) / block_size + blocks_around;
+    const int last_block = (offset + length - 1) / block_size + margin_blocks;
     own_before = offset - begin;
     own_size = std::min(whole, (last_block + 1) * block_size) - begin;
   };

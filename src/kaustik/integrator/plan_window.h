@@ -12,8 +12,10 @@ struct PlanWindow {
   Vec2i crop{1, 1};    ///< size of the crop window
 
   PlanWindow() = default;
-  /// Of blocks of so many pixels on a side.
-  PlanWindow(const FilmSettings& film, int block_size);
+  /// Disks are smoothed over the blocks beside theirs, of which each was chosen by those beside it.
+  static constexpr int blocks_around = 2;
+  /// Of blocks of so many pixels on a side, and so many of them around the crop window.
+  PlanWindow(const FilmSettings& film, int block_size, int margin_blocks = blocks_around);
 
   Vec2i blocks(int block_size) const { return (size + Vec2i(block_size - 1)) / block_size; }
   /// How many pixels of the block in that column and row are in the crop window.
