@@ -80,9 +80,8 @@ std::vector<AimTarget> boxes_around(std::vector<Vec3f> points, size_t count) {
 
 LightPathUse::LightPathUse(const Scene& scene, const LightPathEmission& plain, ComponentSet wanted)
     : wanted_(wanted), emission_(plain) {
-  // What merges in a crop window comes from around it, too. Were paths of no use there, their
-  // density would fall off at its border, and weights, which differ within a disk then, would leave
-  // that darker.
+  // What merges in a crop window comes from around it, too. Guides that knew the window alone left
+  // it darker.
   const FilmSettings& film = scene.film();
   const int block = block_size(film.crop_size);
   const int margin = int(std::ceil(RadiusLearning::widest_widths() / float(block)));
