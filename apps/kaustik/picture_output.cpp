@@ -26,21 +26,26 @@ void set_metadata(Image& image, const Film& film, const RenderRecord& record,
   image.set_metadata(
       "quantity",
       std::string(record.view.quantity == Quantity::irradiance ? "irradiance" : "radiance"));
+  if (const PictureFrame& f = image.frame(); !image.is_whole())
+    image.set_metadata(crop_window_key,
+                       fmt::format("{} x {} pixels at ({}, {}) of {} x {}", image.width(),
+                                   image.height(), f.x, f.y, f.width, f.height));
   if (options.incomplete_pass)
     image.set_metadata("incomplete", std::string("ended within the first pass"));
   if (!record.outputs.reproducible) image.set_metadata("render_seconds", record.seconds);
 }
 
 /// The picture is worth more than its smoothing: where that fails the picture stays.
-void smooth_noise(Image& image) {
-  if (!can_denoise(image)) {
-    warn("the picture has no component with noise, or no surfaces: --denoise did nothing");
-    return;
-  }
+void smooth_noise(Image& image, int threads) {
   try {
-    image = denoise(image);
-  } catch (const std::bad_alloc&) {
-    warn("not enough memory to denoise: the picture is written as it was rendered");
+    if (can_denoise(image))
+      with_threads(threads, [&] { image = denoise(image); });
+    else
+      warn("the picture has no component with noise, or no surfaces: --denoise did nothing");
+  } catch (const std::exception& error) {
+    const bool lacks_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    warn(fmt::format("cannot denoise, so the picture is written as it was rendered: {}",
+                     lacks_memory ? "not enough memory" : error.what()));
   }
 }
 
@@ -65,7 +70,7 @@ void write_pictures(const Film& film, const RenderRecord& record, const OutputOp
     image = film.image();
     if (record.view.frame.width > 0) image.set_frame(record.view.frame);
     set_metadata(image, film, record, options);
-    if (record.outputs.denoise) with_threads(options.threads, [&] { smooth_noise(image); });
+    if (record.outputs.denoise) smooth_noise(image, options.threads);
     is_made = true;
   });
   if (!is_made) return;

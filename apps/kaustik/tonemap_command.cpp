@@ -21,7 +21,7 @@ struct TonemapOptions {
   std::string layer, tone = "histogram";
   std::optional<double> exposure, fov, display_maximum, display_range;
   int quality = 95;
-  bool data_window = false, quiet = false, force = false;
+  bool data_window = false, display_window = false, quiet = false, force = false;
 };
 
 /// What is to be written of each input: one input may have several outputs; several inputs have as
@@ -31,21 +31,24 @@ std::vector<std::vector<std::string>> outputs_of(const TonemapOptions& options) 
   const auto inside = [](const std::string& folder, const std::string& input) {
     return (fs::path(folder) / fs::path(input).stem()).string() + ".png";
   };
+  const auto is_folder = [](const std::string& output) {
+    return !is_standard_stream(output) && fs::is_directory(output);
+  };
   std::vector<std::vector<std::string>> result(options.inputs.size());
   if (options.inputs.size() == 1) {
     for (const std::string& output : options.outputs)
-      result[0].push_back(fs::is_directory(output) ? inside(output, options.inputs[0]) : output);
+      result[0].push_back(is_folder(output) ? inside(output, options.inputs[0]) : output);
     return result;
   }
-  const bool is_folder = options.outputs.size() == 1 && fs::is_directory(options.outputs[0]);
-  if (!is_folder && options.outputs.size() != options.inputs.size())
+  const bool has_folder = options.outputs.size() == 1 && is_folder(options.outputs[0]);
+  if (!has_folder && options.outputs.size() != options.inputs.size())
     throw Error(ErrorKind::input,
                 fmt::format("{} images to read, but {} to write", options.inputs.size(),
                             options.outputs.size()),
                 "give as many -o as images, or -o with an existing folder");
   for (size_t i = 0; i < options.inputs.size(); ++i)
-    result[i].push_back(is_folder ? inside(options.outputs[0], options.inputs[i])
-                                  : options.outputs[i]);
+    result[i].push_back(has_folder ? inside(options.outputs[0], options.inputs[i])
+                                   : options.outputs[i]);
   return result;
 }
 
@@ -83,14 +86,18 @@ void warn_of_bad_pixels(const std::string& input, const BadPixels& bad) {
 
 /// An input as the display shows it; tells what is odd about it.
 Image shown(const TonemapOptions& options, const std::string& input, const ToneOperator& tone) {
-  const Image image = visible_part(read_image(input));
+  Image image = read_image(input);
+  // Beyond a crop window nothing is known, but other pictures are black where they have no pixels.
+  const bool is_crop = image.find_metadata(crop_window_key) != nullptr;
+  const bool in_frame = options.display_window || (!options.data_window && !is_crop);
+  if (!in_frame || has_visible_part(image)) image = visible_part(std::move(image));
   warn_of_bad_pixels(input, count_bad_pixels(rgb_view(image, options.layer)));
   std::optional<FieldOfView> view = field_of_view(image);
   if (options.fov) view = FieldOfView{float(*options.fov), 0};
   if (!view && tone.needs_view() && !options.quiet)
     say("{}: no field of view in its metadata: {}° across assumed (--fov)", input,
         FieldOfView{}.horizontal);
-  return tone_map(image, tone, options.layer, view, !options.data_window);
+  return tone_map(image, tone, options.layer, view, in_frame);
 }
 
 void tonemap(const TonemapOptions& options) {
@@ -141,9 +148,13 @@ void add_tonemap(CLI::App& program) {
                       "The same as --set display_maximum=…");
   command->add_option("--display-range", o->display_range, "The same as --set display_range=…");
   command->add_option("--quality", o->quality, "Of jpg [95]")->check(whole_number(1, 100));
-  command->add_flag("--data-window", o->data_window,
-                    "Of an EXR show only the pixels that it has, such as a rendered crop window; "
-                    "else all of its display window, black where it has none");
+  auto* data_window = command->add_flag(
+      "--data-window", o->data_window,
+      "Of an EXR show only the pixels that it has [of crop windows that kaustik rendered]");
+  command
+      ->add_flag("--display-window", o->display_window,
+                 "Show all of the picture, black where the EXR has no pixels [of all others]")
+      ->excludes(data_window);
   command->add_flag("--force", o->force, "Replace an image that is read");
   command->add_flag("-q,--quiet", o->quiet, "No notes");
   command->callback([o] { tonemap(*o); });

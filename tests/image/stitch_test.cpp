@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "kaustik/base/error.h"
+#include "kaustik/image/image_io.h"
+#include "tests/image/support.h"
 
 namespace kaustik {
 namespace {
@@ -22,6 +24,8 @@ Image part(int x, int y, int width, int height, const PictureFrame& picture = {7
   image.set_metadata("passes", int64_t(width));
   return image;
 }
+
+using StitchedFiles = testing::FileTest;
 
 std::string refusal(const std::vector<Image>& parts) {
   Stitcher stitcher;
@@ -72,6 +76,34 @@ TEST(Stitcher, MetadataOfOnePartDoesNotVanishUntold) {
               "ended within the first pass");
     EXPECT_EQ(std::get<double>(*whole.find_metadata("render_seconds")), 3);
   }
+}
+
+// Of the kinds of numbers that files have, the widest: a third is not among 16-bit floats.
+TEST_F(StitchedFiles, PartsOf32BitsStayThat) {
+  const auto file = [&](const char* name) { return path(name); };
+  Image upper = part(0, 0, 7, 2), lower = part(0, 2, 7, 3);
+  for (float& value : upper.channel(0)) value = 1.0f / 3;
+  WriteOptions floats, halves;
+  floats.exr_half = false;
+  for (const bool upper_first : {true, false}) {
+    write_image(upper, file("upper.exr"), floats);
+    write_image(lower, file("lower.exr"), halves);
+    Stitcher stitcher;
+    for (const bool is_upper : {upper_first, !upper_first})
+      stitcher.add("part", read_image(file(is_upper ? "upper.exr" : "lower.exr")));
+    write_image(std::move(stitcher).finish(), file("whole.exr"), halves);
+    const Image whole = read_image(file("whole.exr"));
+    EXPECT_EQ(whole.at(0, 0, whole.find_channel("R")), 1.0f / 3);
+  }
+  // The twin: where no part has 32 bits they are not made up.
+  write_image(upper, file("upper.exr"), halves);
+  Stitcher stitcher;
+  stitcher.add("upper", read_image(file("upper.exr")));
+  stitcher.add("lower", read_image(file("lower.exr")));
+  write_image(std::move(stitcher).finish(), file("whole.exr"), halves);
+  const Image whole = read_image(file("whole.exr"));
+  EXPECT_NEAR(whole.at(0, 0, whole.find_channel("R")), 1.0f / 3, 1e-3);
+  EXPECT_FALSE(whole.keeps_floats(whole.find_channel("R")));
 }
 
 TEST(Stitcher, RefusesWhatDoesNotFit) {

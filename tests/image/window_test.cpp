@@ -83,6 +83,23 @@ TEST_F(Window, a_crop_is_compared_at_its_place) {
                               "5 x 4 pixels at (8, 3) of 20 x 10");
 }
 
+TEST_F(Window, what_shows_nothing_of_its_picture_is_not_compared) {
+  const Image whole = testing::test_picture(20, 10, 2);
+  for (const PictureFrame& beyond : {PictureFrame{20, 10, 20, 0}, PictureFrame{20, 10, 0, 10},
+                                     PictureFrame{20, 10, -5, 3}, PictureFrame{20, 10, 3, -4}}) {
+    Image none = window_of(whole, 0, 0, 5, 4);
+    none.set_frame(beyond);
+    EXPECT_FALSE(has_visible_part(none));
+    testing::expect_input_error([&] { same_pixels(none, whole); }, "lies in the picture");
+    testing::expect_input_error([&] { same_pixels(whole, none); }, "lies in the picture");
+    testing::expect_input_error([&] { visible_part(none); }, "none of the 5 x 4 pixels");
+  }
+  Image corner = window_of(whole, 0, 0, 5, 4);
+  corner.set_frame({20, 10, 19, 9});
+  EXPECT_TRUE(has_visible_part(corner));
+  EXPECT_EQ(visible_part(corner).pixel_count(), 1u);
+}
+
 TEST(Primaries, white_stays_white_and_rec_709_stays_itself) {
   EXPECT_FALSE(rec709_from(rec709_primaries()));
   // ACES AP0, whose blue lies below the axis, with its own white.

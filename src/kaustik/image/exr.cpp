@@ -1,3 +1,4 @@
+#include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFloatAttribute.h>
@@ -36,6 +37,7 @@ class MemoryInput : public Imf::IStream {
   uint64_t tellg() override { return position_; }
   void seekg(uint64_t position) override { position_ = size_t(position); }
   void clear() override {}
+  size_t file_size() const { return file_.size(); }
   bool at_empty_header() const { return position_ >= file_.size() || file_[position_] == 0; }
 
  private:
@@ -127,7 +129,7 @@ void check_headers(ByteView file, const ReadOptions& options) {
 /// The image that lines of the data window go into: of its size, or of the display window's.
 class Target {
  public:
-  Target(const Imf::Header& header, const std::vector<std::string>& names,
+  Target(const Imf::Header& header, const std::vector<std::string>& names, size_t file_size,
          const ReadOptions& options)
       : window_(header.dataWindow()) {
     const Imath::Box2i display = header.displayWindow();
@@ -148,7 +150,7 @@ class Target {
     const int64_t own_height = extent(window_.min.y, window_.max.y);
     check_promise({whole ? width : own_width, whole ? height : own_height, int64_t(names.size()), 0,
                    std::numeric_limits<double>::infinity()},
-                  0, options);
+                  file_size, options);
     image = Image(int(whole ? width : own_width), int(whole ? height : own_height), names);
     if (!whole) image.set_frame({int(width), int(height), int(x), int(y)});
     left_ = whole ? x : 0;
@@ -184,7 +186,7 @@ Image read_luminance_chroma(MemoryInput& input, const ReadOptions& options) {
   Imf::RgbaInputFile file(input, 0);
   const Imath::Box2i window = file.dataWindow();
   const bool has_alpha = file.header().channels().findChannel("A") != nullptr;
-  Target target(file.header(), channel_names_for(has_alpha ? 4 : 3), options);
+  Target target(file.header(), channel_names_for(has_alpha ? 4 : 3), input.file_size(), options);
   std::vector<Imf::Rgba> line(size_t(extent(window.min.x, window.max.x)));
   file.setFrameBuffer(
       Imf::ComputeBasePointer(line.data(), Imath::V2i(window.min.x, 0), int64_t{1}, size_t{1}, 0),
@@ -219,7 +221,9 @@ Image read_channels(MemoryInput& input, const ReadOptions& options) {
   Imf::InputFile file(input, 0);
   const Imath::Box2i window = file.header().dataWindow();
   const std::vector<std::string> names = wanted_channels(file.header().channels(), options);
-  Target target(file.header(), names, options);
+  Target target(file.header(), names, input.file_size(), options);
+  for (size_t c = 0; c < names.size(); ++c)
+    if (file.header().channels()[names[c]].type != Imf::HALF) target.image.set_keeps_floats(int(c));
   const size_t width = size_t(extent(window.min.x, window.max.x));
   std::vector<float, ZeroedAllocator<float>> line(width * names.size());
   Imf::FrameBuffer buffer;
@@ -262,7 +266,7 @@ Primaries primaries_of(const Imf::Header& header) {
 
 }  // namespace
 
-Image decode_exr(ByteView bytes, const ReadOptions& options) {
+Image decode_exr(ByteView bytes, const ReadOptions& options) try {
   check_headers(bytes, options);
   Imf::Header header;
   {
@@ -276,6 +280,8 @@ Image decode_exr(ByteView bytes, const ReadOptions& options) {
     if (const auto matrix = rec709_from(primaries_of(header))) convert_colours(image, *matrix);
   set_metadata_from_header(image, header);
   return image;
+} catch (const Iex::BaseExc& error) {
+  fail_as_told(error.what());
 }
 
 }  // namespace kaustik::formats

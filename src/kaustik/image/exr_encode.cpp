@@ -1,3 +1,4 @@
+#include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
@@ -124,7 +125,7 @@ Bytes encode_exr(const Image& image, bool half) {
     const std::string& name = image.channel_names()[size_t(c)];
     const std::span<const float> values = image.channel(c);
     const size_t width = size_t(image.width());
-    if (half && fits_half(name, values)) {
+    if (half && !image.keeps_floats(c) && fits_half(name, values)) {
       header.channels().insert(name, Imf::Channel(Imf::HALF));
       std::vector<::half>& converted = halves.emplace_back(pixels);
       std::transform(values.begin(), values.end(), converted.begin(),
@@ -138,10 +139,12 @@ Bytes encode_exr(const Image& image, bool half) {
     }
   }
   MemoryOutput output;
-  {
+  try {
     Imf::OutputFile file(output, header, 0);
     file.setFrameBuffer(buffer);
     file.writePixels(image.height());
+  } catch (const Iex::BaseExc& error) {
+    fail_as_told(error.what());
   }
   return std::move(output.bytes);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/to_integer.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/image/vision.h"
 
@@ -130,7 +131,7 @@ void blur_to_acuity(Picture& picture, const Grid<Vec3f>& foveal) {
   const Grid<float> octaves = lost_octaves(foveal, picture);
   const float most = *std::max_element(octaves.cells.begin(), octaves.cells.end());
   if (most == 0) return;
-  const std::vector<Grid<Vec3f>> levels = pyramid(picture, std::min(int(most), 30) + 2);
+  const std::vector<Grid<Vec3f>> levels = pyramid(picture, to_integer(most, 0, 30) + 2);
   const float columns_per_pixel = float(foveal.columns) / float(picture.width);
   const float rows_per_pixel = float(foveal.rows) / float(picture.height);
   size_t i = 0;
@@ -140,7 +141,8 @@ void blur_to_acuity(Picture& picture, const Grid<Vec3f>& foveal) {
       const float octave =
           std::min(octaves.interpolated(cx * columns_per_pixel, cy * rows_per_pixel),
                    float(levels.size() - 1));
-      const size_t finer = size_t(octave), coarser = std::min(finer + 1, levels.size() - 1);
+      const auto finer = to_integer<size_t>(octave, 0, levels.size() - 1);
+      const size_t coarser = std::min(finer + 1, levels.size() - 1);
       const auto read = [&](size_t level) {
         const float scale = 1 / float(size_t(1) << level);
         return levels[level].interpolated(cx * scale, cy * scale);

@@ -2,9 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <new>
+
 #include "kaustik/image/photometry.h"
 
 namespace kaustik::formats {
+
+void fail_as_told(const std::string& error) {
+  // Some libraries have no other way to tell.
+  for (const char* lack : {"emory", "No space for", "ailed to allocate", "bad_alloc"})
+    if (error.find(lack) != std::string::npos) throw std::bad_alloc();
+  throw BadImage(error);
+}
 
 void check_promise(const Promise& promise, size_t file_size, const ReadOptions& options) {
   check_image_size(promise.width, promise.height, 0);
@@ -14,10 +23,11 @@ void check_promise(const Promise& promise, size_t file_size, const ReadOptions& 
                                promise.height, file_size));
   const double bytes_per_pixel = double(promise.channels) * sizeof(float) +
                                  double(promise.work_bytes) + double(options.kept_bytes_per_pixel);
-  if (pixels * bytes_per_pixel > double(options.memory_bytes))
+  const double bytes = pixels * bytes_per_pixel + double(file_size);
+  if (bytes > double(options.memory_bytes))
     throw TooLittleMemory(fmt::format(
-        "its {} x {} pixels take {:.3g} MB of memory, and it may take {:.3g} MB", promise.width,
-        promise.height, pixels * bytes_per_pixel / 1e6, double(options.memory_bytes) / 1e6));
+        "its {} x {} pixels and its file take {:.3g} MB of memory, and it may take {:.3g} MB",
+        promise.width, promise.height, bytes / 1e6, double(options.memory_bytes) / 1e6));
 }
 
 void set_pixel(Image& image, int x, int y, const uint8_t* samples) {

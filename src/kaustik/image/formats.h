@@ -26,6 +26,10 @@ struct TooLittleMemory : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Throws what a library's error text tells: std::bad_alloc where memory was lacking, else
+/// BadImage.
+[[noreturn]] void fail_as_told(const std::string& error);
+
 /// Of a picture that a header promises.
 struct Promise {
   int64_t width = 0, height = 0;
@@ -34,7 +38,8 @@ struct Promise {
   double most_pixels_per_byte;  ///< that the format can pack into a byte of a file
 };
 /// Throws before anything is allocated: Error(input) for more than max_image_pixels, BadImage for
-/// more than a file of `file_size` bytes can hold, TooLittleMemory for more than `options` allow.
+/// more than a file of `file_size` bytes can hold, TooLittleMemory for more than `options` allow to
+/// the image and the file, which is in memory too.
 void check_promise(const Promise& promise, size_t file_size, const ReadOptions& options);
 
 /// Memory whose pages cost nothing until they are written.

@@ -23,6 +23,19 @@ void check_channel_names(const std::vector<std::string>& names) {
   }
 }
 
+/// In pixels of the picture, the last ones excluded.
+struct Corners {
+  int left, upper, right, lower;
+};
+
+/// Of what the image has of its picture; there may be nothing between them.
+Corners visible_corners(const Image& image) {
+  const PictureFrame& frame = image.frame();
+  return {std::max(frame.x, 0), std::max(frame.y, 0),
+          int(std::min(int64_t(frame.x) + image.width(), int64_t(frame.width))),
+          int(std::min(int64_t(frame.y) + image.height(), int64_t(frame.height)))};
+}
+
 }  // namespace
 
 int64_t default_picture_memory() { return physical_memory_bytes() / 2; }
@@ -50,6 +63,7 @@ Image::Image(int width, int height, std::vector<std::string> channel_names) {
   height_ = height;
   frame_ = {width, height};
   channel_names_ = std::move(channel_names);
+  keeps_floats_.resize(channel_names_.size());
   try {
     values_.resize(pixel_count() * channel_names_.size());
   } catch (const std::bad_alloc&) {
@@ -71,6 +85,7 @@ int Image::add_channel(const std::string& name) {
   check_image_size(width_, height_, int64_t(names.size()));
   check_channel_names(names);
   values_.resize(pixel_count() * names.size());
+  keeps_floats_.resize(names.size());
   channel_names_ = std::move(names);
   return channel_count() - 1;
 }
@@ -102,6 +117,8 @@ Image window_of(const Image& image, int x, int y, int width, int height) {
   const PictureFrame& frame = image.frame();
   window.set_frame({frame.width, frame.height, x, y});
   window.set_srgb_encoded(image.is_srgb_encoded());
+  for (int c = 0; c < image.channel_count(); ++c)
+    if (image.keeps_floats(c)) window.set_keeps_floats(c);
   for (const auto& [key, value] : image.metadata()) window.set_metadata(key, value);
   const int64_t left = std::max(x, frame.x), upper = std::max(y, frame.y);
   const int64_t right = std::min(int64_t(x) + width, int64_t(frame.x) + image.width());
@@ -114,19 +131,37 @@ Image window_of(const Image& image, int x, int y, int width, int height) {
   return window;
 }
 
-Image whole_picture(Image image) {
+Image whole_picture(Image image, int64_t memory_bytes) {
   if (image.is_whole()) return image;
-  return window_of(image, 0, 0, image.frame().width, image.frame().height);
+  const PictureFrame& frame = image.frame();
+  check_image_size(frame.width, frame.height, 0);
+  const double bytes = double(frame.width) * frame.height * image.channel_count() * sizeof(float);
+  if (bytes > double(memory_bytes))
+    throw Error(ErrorKind::system,
+                fmt::format("all {} x {} pixels of the picture that the image is a window of take "
+                            "{:.3g} MB of memory, and they may take {:.3g} MB",
+                            frame.width, frame.height, bytes / 1e6, double(memory_bytes) / 1e6),
+                "take the window alone, or use a machine with more memory");
+  return window_of(image, 0, 0, frame.width, frame.height);
+}
+
+bool has_visible_part(const Image& image) {
+  const Corners part = visible_corners(image);
+  return part.left < part.right && part.upper < part.lower;
 }
 
 Image visible_part(Image image) {
   const PictureFrame& frame = image.frame();
-  const int left = std::max(frame.x, 0), upper = std::max(frame.y, 0);
-  const auto right = int(std::min(int64_t(frame.x) + image.width(), int64_t(frame.width)));
-  const auto lower = int(std::min(int64_t(frame.y) + image.height(), int64_t(frame.height)));
-  if (left >= right || upper >= lower) return whole_picture(std::move(image));
-  if (right - left == image.width() && lower - upper == image.height()) return image;
-  return window_of(image, left, upper, right - left, lower - upper);
+  if (!has_visible_part(image))
+    throw Error(
+        ErrorKind::input,
+        fmt::format("none of the {} x {} pixels at ({}, {}) lies in the picture of {} x {}",
+                    image.width(), image.height(), frame.x, frame.y, frame.width, frame.height),
+        "give an image whose data window meets its display window");
+  const Corners part = visible_corners(image);
+  const int width = part.right - part.left, height = part.lower - part.upper;
+  if (width == image.width() && height == image.height()) return image;
+  return window_of(image, part.left, part.upper, width, height);
 }
 
 }  // namespace kaustik

@@ -29,6 +29,10 @@ struct PictureFrame {
   friend bool operator==(const PictureFrame&, const PictureFrame&) = default;
 };
 
+/// Metadata of an image that was rendered as a window: beyond it nothing is known. Without it what
+/// an image lacks of its picture is black.
+inline constexpr const char* crop_window_key = "crop_window";
+
 /// A buffer of float pixels with named channels, stored channel by channel, each row by row from
 /// the top left. Names follow OpenEXR: "R", "G", "B" are the picture itself, "direct.R",
 /// "albedo.R", "N.X", "depth.Z" belong to layers, "Y" alone is a grey picture, "A" is opacity.
@@ -76,6 +80,11 @@ class Image {
   /// Null if there is no such key.
   const MetadataValue* find_metadata(std::string_view key) const;
 
+  /// Files keep the channel at 32 bits, because the file that it comes from does; of a new channel:
+  /// not.
+  bool keeps_floats(int channel) const { return keeps_floats_[size_t(channel)]; }
+  void set_keeps_floats(int channel) { keeps_floats_[size_t(channel)] = true; }
+
   /// Values of colour channels are still sRGB encoded (see ReadOptions).
   bool is_srgb_encoded() const { return is_srgb_encoded_; }
   void set_srgb_encoded(bool encoded) { is_srgb_encoded_ = encoded; }
@@ -91,6 +100,7 @@ class Image {
   int height_ = 0;
   bool is_srgb_encoded_ = false;
   std::vector<std::string> channel_names_;
+  std::vector<bool> keeps_floats_;
   PictureFrame frame_;
   /// Memory that is never written costs nothing: a header that lies is found out before.
   std::vector<float, ZeroedAllocator<float>> values_;
@@ -101,9 +111,10 @@ class Image {
 /// The rectangle of the image's picture with the upper left corner (x, y): black where the image
 /// has no pixels. Metadata and picture stay.
 Image window_of(const Image& image, int x, int y, int width, int height);
-/// All of the image's picture and nothing else, see window_of().
-Image whole_picture(Image image);
-/// What the image has of its picture: without pixels that lie outside. None: all of the picture.
+/// Whether any of the image's pixels lies in its picture.
+bool has_visible_part(const Image& image);
+/// What the image has of its picture: without pixels that lie outside. Throws Error(input) if all
+/// of them do.
 Image visible_part(Image image);
 
 /// Most pixels that an image may have.
@@ -111,6 +122,10 @@ inline constexpr int64_t max_image_pixels = 500'000'000;
 
 /// What pictures that are read may take of this machine's memory where nothing else is said: half.
 int64_t default_picture_memory();
+
+/// All of the image's picture and nothing else, see window_of(). Throws Error(input) if it is too
+/// large for an image, Error(system) if it takes more than `memory_bytes`.
+Image whole_picture(Image image, int64_t memory_bytes = default_picture_memory());
 
 /// Throws Error(input) if a size is not positive, has over max_image_pixels, or needs more memory
 /// than the machine has.

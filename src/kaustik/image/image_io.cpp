@@ -97,11 +97,12 @@ Bytes encoded(const Image& image, const std::string& path, const Encode& encode)
     throw Error(ErrorKind::input, fmt::format("cannot write '{}': {}", path, error.what()),
                 "choose another format");
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::system, fmt::format("cannot write '{}': too little memory", path),
-                "choose a smaller image");
+    throw Error(ErrorKind::system,
+                fmt::format("cannot write '{}': there is not enough memory for it", path),
+                "free some memory, or choose a smaller image");
   } catch (const std::exception& error) {
     throw Error(ErrorKind::system, fmt::format("cannot write '{}': {}", path, error.what()),
-                "choose another format or a smaller image");
+                "choose another format");
   }
 }
 
@@ -140,7 +141,6 @@ Image decode(ByteView file, const std::string& path, const ReadOptions& options)
 }  // namespace
 
 Image read_image(const std::string& path, const ReadOptions& options) {
-  const std::vector<uint8_t> file = read_file(path);
   const auto refuse = [&](const std::string& reason) {
     throw Error(ErrorKind::input, fmt::format("cannot read image '{}': {}", path, reason),
                 "give a complete EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA, PPM or PGM file");
@@ -148,6 +148,14 @@ Image read_image(const std::string& path, const ReadOptions& options) {
   const auto refuse_for_machine = [&](const std::string& reason, const std::string& remedy) {
     throw Error(ErrorKind::system, fmt::format("cannot read image '{}': {}", path, reason), remedy);
   };
+  std::error_code unknown;  // who reads it will tell
+  const auto file_size = std::filesystem::file_size(path, unknown);
+  if (!unknown && double(file_size) > double(options.memory_bytes))
+    refuse_for_machine(fmt::format("the file alone takes {:.3g} MB of memory, and it may take "
+                                   "{:.3g} MB",
+                                   double(file_size) / 1e6, double(options.memory_bytes) / 1e6),
+                       options.memory_remedy);
+  const std::vector<uint8_t> file = read_file(path);
   try {
     Image image = decode(file, path, options);
     if (options.srgb_to_linear && image.is_srgb_encoded()) formats::linearise(image);

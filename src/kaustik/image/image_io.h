@@ -14,9 +14,10 @@ struct ReadOptions {
   /// All of the picture and nothing else, black where the file has no pixels. If not, the pixels of
   /// the file, with Image::frame() to tell their place.
   bool whole_picture = false;
-  bool only_colours = false;                        ///< of an EXR just the channels of rgb_view()
-  int64_t memory_bytes = default_picture_memory();  ///< that reading may take
-  int64_t kept_bytes_per_pixel = 0;                 ///< that the caller needs beside the image
+  bool only_colours = false;  ///< of an EXR just the channels of rgb_view()
+  /// That reading may take, the file itself included.
+  int64_t memory_bytes = default_picture_memory();
+  int64_t kept_bytes_per_pixel = 0;  ///< that the caller needs beside the image
   std::string memory_remedy = "give a smaller picture";
 };
 
@@ -31,7 +32,8 @@ Image read_image(const std::string& path, const ReadOptions& options = {});
 
 struct WriteOptions {
   /// EXR channels as 16-bit floats. One is kept at 32 bits if it holds a finite value above 65504,
-  /// or values so near to zero that they would lose more than others do by rounding.
+  /// or values so near to zero that they would lose more than others do by rounding, or if it comes
+  /// from a file that has 32 bits (Image::keeps_floats()).
   bool exr_half = true;
   std::shared_ptr<const ToneOperator> tone;  ///< for the 8-bit formats; null: "histogram"
   std::optional<FieldOfView> view;           ///< see tone_map()

@@ -127,9 +127,9 @@ bool finish_reading(Decompressor& reader) {
   return true;
 }
 
-[[noreturn]] void fail(const Decompressor& reader) {
-  if (reader.errors.lacks_memory) throw std::bad_alloc();
-  throw BadImage(reader.errors.error);
+[[noreturn]] void fail(const ErrorManager& errors) {
+  if (errors.lacks_memory) throw std::bad_alloc();
+  throw BadImage(errors.error);
 }
 
 /// Red, green and blue of cyan, magenta, yellow and black, without profiles: what ink leaves of
@@ -175,17 +175,17 @@ Bytes encode_jpeg(const Image& display_linear, int quality) {
   Compressor writer;
   if (!write_all(writer, uint32_t(display_linear.width()), uint32_t(display_linear.height()),
                  quality, pixels.data())) {
-    // The library may have moved the buffer and tells of it only at the end: better leaked, out of
-    // memory as we must be, than freed twice.
+    // The library may have moved the buffer and tells of it only at the end. Memory that is lost is
+    // better than memory that is freed twice.
     writer.buffer = nullptr;
-    throw BadImage(writer.errors.error);
+    fail(writer.errors);
   }
   return Bytes(writer.buffer, writer.buffer + writer.size);
 }
 
 Image decode_jpeg(ByteView file, const ReadOptions& options) {
   Decompressor reader;
-  if (!read_header(reader, file.data(), file.size())) fail(reader);
+  if (!read_header(reader, file.data(), file.size())) fail(reader.errors);
   const int64_t width = reader.codec.image_width, height = reader.codec.image_height;
   const int stored_channels = reader.codec.num_components;
   const int channels = stored_channels == 1 ? 1 : 3;
@@ -194,17 +194,17 @@ Image decode_jpeg(ByteView file, const ReadOptions& options) {
   const bool has_scans = jpeg_has_multiple_scans(&reader.codec) != FALSE;
   const int64_t work_bytes = has_scans ? stored_channels * int64_t(sizeof(JCOEF)) : 0;
   check_promise({width, height, channels, work_bytes, most_pixels_per_byte}, file.size(), options);
-  if (!start_reading(reader)) fail(reader);
+  if (!start_reading(reader)) fail(reader.errors);
   const bool is_print = reader.codec.out_color_space == JCS_CMYK;
   std::vector<uint8_t> row(size_t(width) * size_t(reader.codec.output_components));
   Image image(int(width), int(height), channel_names_for(channels));
   for (int y = 0; y < image.height(); ++y) {
-    if (!read_row(reader, row.data())) fail(reader);
+    if (!read_row(reader, row.data())) fail(reader.errors);
     if (is_print) rgb_from_cmyk(row.data(), size_t(width), reader.codec.saw_Adobe_marker != FALSE);
     for (int x = 0; x < image.width(); ++x)
       set_pixel(image, x, y, row.data() + size_t(x) * size_t(channels));
   }
-  if (!finish_reading(reader)) fail(reader);
+  if (!finish_reading(reader)) fail(reader.errors);
   image.set_srgb_encoded(true);
   return image;
 }

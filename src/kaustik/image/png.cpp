@@ -125,7 +125,10 @@ bool read_end(png_structp png, png_infop info) {
 
 [[noreturn]] void fail(const State& state) {
   if (state.lacks_memory) throw std::bad_alloc();
-  throw BadImage(state.is_over_limit ? "its texts or profiles take too much memory" : state.error);
+  throw BadImage(state.is_over_limit
+                     ? fmt::format("its texts and profiles take more than {} MB of memory",
+                                   most_memory / 1'000'000)
+                     : state.error);
 }
 
 /// Every chunk up to the end mark lies within the file: libpng allocates a chunk's length before it

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 
@@ -21,6 +22,7 @@ namespace {
 /// What is shared with libpng's callbacks.
 struct State {
   Bytes written;
+  bool lacks_memory = false;
   char error[256] = "";
 };
 
@@ -36,20 +38,29 @@ bool append_all(State& state, const uint8_t* data, size_t size) {
     state.written.insert(state.written.end(), data, data + size);
     return true;
   } catch (const std::bad_alloc&) {
+    state.lacks_memory = true;
     return false;
   }
 }
 void write_some(png_structp png, png_bytep data, size_t size) {
   if (!append_all(*static_cast<State*>(png_get_io_ptr(png)), data, size))
-    png_error(png, "out of memory");
+    png_error(png, "not enough memory");
 }
 void flush_nothing(png_structp) {}
+
+void* allocate(png_structp png, png_alloc_size_t size) {
+  void* const block = std::malloc(size);
+  if (!block) static_cast<State*>(png_get_mem_ptr(png))->lacks_memory = true;
+  return block;
+}
+void release(png_structp, void* block) { std::free(block); }
 
 /// A writer of libpng, destroyed with this.
 class Writer {
  public:
   explicit Writer(State& state)
-      : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, &state, keep_error, drop_warning)),
+      : png_(png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &state, keep_error, drop_warning,
+                                       &state, allocate, release)),
         info_(png_ ? png_create_info_struct(png_) : nullptr) {
     if (!info_) {
       png_destroy_write_struct(&png_, &info_);
@@ -125,8 +136,10 @@ Bytes encode_png(const Image& display_linear) {
   const Writer png(state);
   if (!write_all(png.get(), png.info(), uint32_t(display_linear.width()),
                  uint32_t(display_linear.height()), rows.data(), texts.entries.data(),
-                 int(texts.entries.size())))
+                 int(texts.entries.size()))) {
+    if (state.lacks_memory) throw std::bad_alloc();
     throw BadImage(state.error);
+  }
   return std::move(state.written);
 }
 

@@ -15,6 +15,9 @@ constexpr const char* summed_key = "render_seconds";
 /// What is true of the whole if it is of any part.
 constexpr const char* lasting_key = "incomplete";
 
+/// Of windows only.
+bool is_of_window(const std::string& key) { return key == crop_window_key; }
+
 [[noreturn]] void refuse(const std::string& message, const std::string& remedy) {
   throw Error(ErrorKind::input, message, remedy);
 }
@@ -29,7 +32,8 @@ void Stitcher::begin(const std::string& name, const Image& part) {
   const PictureFrame& frame = part.frame();
   whole_ = Image(frame.width, frame.height, part.channel_names());
   whole_.set_srgb_encoded(part.is_srgb_encoded());
-  for (const auto& [key, value] : part.metadata()) whole_.set_metadata(key, value);
+  for (const auto& [key, value] : part.metadata())
+    if (!is_of_window(key)) whole_.set_metadata(key, value);
   first_name_ = name;
   known_.assign(whole_.pixel_count(), false);
 }
@@ -53,7 +57,7 @@ void Stitcher::note_differing(const std::string& key) {
 
 void Stitcher::take_metadata(const Image& part) {
   for (const auto& [key, value] : part.metadata()) {
-    if (whole_.find_metadata(key)) continue;
+    if (whole_.find_metadata(key) || is_of_window(key)) continue;
     if (key == lasting_key)
       whole_.set_metadata(key, value);
     else
@@ -77,6 +81,8 @@ void Stitcher::add(const std::string& name, const Image& part) {
   else
     take_metadata(part);
   check(name, part);
+  for (int c = 0; c < part.channel_count(); ++c)
+    if (part.keeps_floats(c)) whole_.set_keeps_floats(c);
   const PictureFrame& frame = part.frame();
   for (int y = std::max(0, -frame.y); y < std::min(part.height(), frame.height - frame.y); ++y)
     for (int x = std::max(0, -frame.x); x < std::min(part.width(), frame.width - frame.x); ++x) {
@@ -106,8 +112,10 @@ Image Stitcher::finish() && {
            "render the parts that are missing by the film's crop window, too");
   }
   Image result(whole_.width(), whole_.height(), whole_.channel_names());
-  for (int c = 0; c < result.channel_count(); ++c)
+  for (int c = 0; c < result.channel_count(); ++c) {
     std::copy(whole_.channel(c).begin(), whole_.channel(c).end(), result.channel(c).begin());
+    if (whole_.keeps_floats(c)) result.set_keeps_floats(c);
+  }
   result.set_srgb_encoded(whole_.is_srgb_encoded());
   for (const auto& [key, value] : whole_.metadata())
     if (std::find(differing_.begin(), differing_.end(), key) == differing_.end())

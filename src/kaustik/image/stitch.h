@@ -13,8 +13,9 @@ class Stitcher {
   /// `name` is for messages. Throws Error(input) if the part is of a picture of another size, has
   /// other channels, or another value where an earlier part has a pixel, too.
   void add(const std::string& name, const Image& part);
-  /// The whole picture. Of the metadata, what all parts agree on; times are added, and
-  /// "incomplete" is kept of any part. Throws Error(input) if a pixel is in no part.
+  /// The whole picture. Of the metadata, what all parts agree on; times are added,
+  /// "incomplete" is kept of any part, and the place of the crop window is dropped. A channel keeps
+  /// its floats if it does in any part. Throws Error(input) if a pixel is in no part.
   Image finish() &&;
   /// Metadata on which the parts do not agree.
   const std::vector<std::string>& differing() const { return differing_; }

@@ -26,7 +26,13 @@ tmsize_t write_some(thandle_t handle, void* buffer, tmsize_t size) {
   MemoryTiff& file = file_of(handle);
   if (!file.is_writing || size < 0) return -1;
   const size_t end = file.position + size_t(size);
-  if (end > file.written.size()) file.written.resize(end);
+  // Nothing may be thrown through the library, which also writes when it is closed.
+  try {
+    if (end > file.written.size()) file.written.resize(end);
+  } catch (const std::bad_alloc&) {
+    if (file.error.empty()) file.error = "not enough memory";
+    return -1;
+  }
   std::memcpy(file.written.data() + file.position, buffer, size_t(size));
   file.position = end;
   return size;
@@ -61,11 +67,9 @@ int drop_warning(TIFF* tiff, void* user_data, const char* module, const char* fo
 
 }  // namespace
 
+// The name that the library is given must not have a word of those that fail_as_told() looks for.
 void fail(const MemoryTiff& file) {
-  // The library has no other way to tell. So the name that it is given must not have that word.
-  for (const char* lack : {"emory", "No space for", "ailed to allocate"})
-    if (file.error.find(lack) != std::string::npos) throw std::bad_alloc();
-  throw BadImage(file.error.empty() ? "its TIFF structure is broken" : file.error);
+  fail_as_told(file.error.empty() ? "its TIFF structure is broken" : file.error);
 }
 
 TiffPointer open_tiff(MemoryTiff& file, const char* mode, int64_t most_bytes) {

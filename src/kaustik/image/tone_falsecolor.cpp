@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "kaustik/base/to_integer.h"
 #include "kaustik/image/color_scale.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/image/stroke_font.h"
@@ -114,7 +115,7 @@ class FalseColor : public ToneOperator {
     }
     for (size_t i = 0; i < texts.size(); ++i) {
       const float y = float(bottom) - float(scale.position(scale.ticks[i])) * float(bottom - top);
-      const int line = std::clamp(int(y), top, bottom - 1);
+      const int line = to_integer(y, top, bottom - 1);
       fill(result, right, line, right + tick, line + 1, ink);
       draw_text(result, texts[i], float(right + tick) + digit / 2, y + digit / 2, digit, ink);
     }

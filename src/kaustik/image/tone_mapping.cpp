@@ -87,7 +87,8 @@ Image tone_map(const Image& image, const ToneOperator& tone, const std::string& 
   }
   if (in_frame) {
     result.set_frame(image.frame());
-    result = whole_picture(std::move(result));
+    // A third is for its file.
+    result = whole_picture(std::move(result), default_picture_memory() / 3 * 2);
   }
   result = tone.decorated(std::move(result), picture);
   for (const auto& [key, value] : image.metadata()) result.set_metadata(key, value);

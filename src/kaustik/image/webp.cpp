@@ -1,5 +1,7 @@
 #include <webp/decode.h>
 
+#include <new>
+
 #include "kaustik/image/formats.h"
 
 namespace kaustik::formats {
@@ -17,9 +19,14 @@ Image decode_webp(ByteView file, const ReadOptions& options) {
                 file.size(), options);
   const size_t row_bytes = size_t(features.width) * size_t(channels);
   WorkBytes pixels(row_bytes * size_t(features.height));
-  const auto decode = channels == 4 ? WebPDecodeRGBAInto : WebPDecodeRGBInto;
-  if (!decode(file.data(), file.size(), pixels.data(), pixels.size(), int(row_bytes)))
-    throw BadImage("the file is truncated or damaged");
+  WebPDecoderConfig config;
+  if (!WebPInitDecoderConfig(&config)) throw BadImage("the WebP library is of another version");
+  config.output.colorspace = channels == 4 ? MODE_RGBA : MODE_RGB;
+  config.output.is_external_memory = 1;
+  config.output.u.RGBA = {pixels.data(), int(row_bytes), pixels.size()};
+  const VP8StatusCode decoded = WebPDecode(file.data(), file.size(), &config);
+  if (decoded == VP8_STATUS_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (decoded != VP8_STATUS_OK) throw BadImage("the file is truncated or damaged");
   Image image(features.width, features.height, channel_names_for(channels));
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x)
