@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/to_integer.h"
 
 namespace kaustik {
 namespace {
@@ -69,7 +70,7 @@ void PixelPlans::choose_disks(const LightVertices& pilot, uint32_t paths, int wa
     return;
   }
   const double share = double(pilot.path_count) / double(std::max(1u, paths));
-  const int neighbors = std::max(2, int(std::lround(wanted_neighbors * share)));
+  const int neighbors = to_integer(std::round(wanted_neighbors * share), 2, 1 << 30);
   parallel_blocks(plans_.size(), 16, [&](size_t begin, size_t end, size_t) {
     SidedTree<LightVertexData>::Neighbors found;
     for (size_t i = begin; i < end && !stop.stop_requested(); ++i) {

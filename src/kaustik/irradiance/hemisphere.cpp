@@ -1,5 +1,6 @@
 #include "kaustik/irradiance/hemisphere.h"
 
+#include "kaustik/base/to_integer.h"
 #include "kaustik/irradiance/cell_mesh.h"
 
 namespace kaustik {
@@ -47,7 +48,7 @@ Plan plan_samples(const RadianceSource& source, const SurfacePoint& at, const Fr
   Plan plan;
   std::vector<float> importance;
   if (share > 0) {
-    plan.grid = HemisphereGrid::for_samples(std::max(1, int(float(samples) * (1 - share))));
+    plan.grid = HemisphereGrid::for_samples(to_integer(float(samples) * (1 - share), 1, samples));
     if (source.importance(at, frame, plan.grid, importance) &&
         clean_importance(size_t(plan.grid.count()), importance)) {
       plan.counts = samples_per_cell(importance, samples - plan.grid.count(), u);
@@ -220,8 +221,8 @@ int HemisphereGrid::cell_of(const Vec3f& d) const {
   const float sine_sq = d.x * d.x + d.y * d.y;
   float turn = std::atan2(d.y, d.x) * (0.5f * inv_pi);
   if (turn < 0) turn += 1;
-  const int i = std::clamp(int(sine_sq * float(theta_cells)), 0, theta_cells - 1);
-  const int j = std::clamp(int(turn * float(phi_cells)), 0, phi_cells - 1);
+  const int i = to_integer(sine_sq * float(theta_cells), 0, theta_cells - 1);
+  const int j = to_integer(turn * float(phi_cells), 0, phi_cells - 1);
   return i * phi_cells + j;
 }
 

@@ -1,6 +1,7 @@
 #include "kaustik/irradiance/spaced_subset.h"
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/base/to_integer.h"
 
 namespace kaustik {
 namespace {
@@ -20,7 +21,8 @@ uint64_t cell_key(int class_of_points, const int64_t (&cell)[3]) {
 }
 
 int64_t cell_coordinate(float position, float cell_size) {
-  return int64_t(std::clamp(std::floor(double(position) / double(cell_size)), -1e15, 1e15));
+  constexpr int64_t last = 1'000'000'000'000'000;
+  return to_integer(std::floor(double(position) / double(cell_size)), -last, last);
 }
 
 }  // namespace
