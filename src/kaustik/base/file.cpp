@@ -9,11 +9,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
+#include <charconv>
 #include <filesystem>
 #include <limits>
 #include <new>
 #include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -99,6 +100,19 @@ void check_what_stands_there(const std::string& path) {
                 "choose another name, or make that file writable");
 }
 
+/// The process that a temporary file of this name belongs to; 0: it is no such name.
+int writer_of(const std::string& name) {
+  constexpr std::string_view start = ".kaustik-", end = ".tmp";
+  if (!name.starts_with(start)) return 0;
+  int pid = 0, number = 0;
+  const char* const last = name.data() + name.size();
+  const auto [dash, code] = std::from_chars(name.data() + start.size(), last, pid);
+  if (code != std::errc{} || dash == last || *dash != '-') return 0;
+  const auto [rest, number_code] = std::from_chars(dash + 1, last, number);
+  const bool is_whole = number_code == std::errc{} && std::string_view(rest, last) == end;
+  return is_whole && number >= 0 ? pid : 0;
+}
+
 /// Removes what a writer that was killed has left in the folder of `target`, as far as that is
 /// certain: its process is gone, and nobody holds the lock of a writer, who may be on another
 /// machine.
@@ -106,11 +120,8 @@ void remove_leftovers(const std::string& target) {
   std::error_code failed;
   for (fs::directory_iterator entry(folder_of(target), failed), end; !failed && entry != end;
        entry.increment(failed)) {
-    const std::string name = entry->path().filename().string();
-    int pid = 0, number = 0, length = 0;
-    if (std::sscanf(name.c_str(), ".kaustik-%d-%d.tmp%n", &pid, &number, &length) != 2 ||
-        size_t(length) != name.size() || pid <= 0)
-      continue;
+    const int pid = writer_of(entry->path().filename().string());
+    if (pid <= 0) continue;
     if (pid != ::getpid() && (::kill(pid, 0) == 0 || errno != ESRCH)) continue;
     const Descriptor file(
         ::open(entry->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));

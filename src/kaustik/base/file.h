@@ -15,9 +15,9 @@ std::vector<uint8_t> read_file_start(const std::string& path, size_t most);
 /// flushed to the disk, renamed over the target. Whatever goes wrong, a file that was there before
 /// stays as it was and the temporary one is removed; if the program is killed, by the next one that
 /// writes to that folder. A symbolic link stays, and the file that it leads to is written, there or
-/// not. Throws Error(input) for what
-/// check_output_path() finds, Error(system) when writing fails (disk full, file size limit, …).
-/// The caller must have SIGXFSZ ignored if a file size limit may be set.
+/// not. Throws Error(input) for what check_output_path() finds, Error(system) when writing fails
+/// (disk full, file size limit, …). The caller must have SIGXFSZ ignored if a file size limit may
+/// be set.
 void write_file_atomically(const std::string& path, std::span<const uint8_t> bytes);
 
 /// The file that a chain of symbolic links leads to, there or not: what is written to a link.
