@@ -278,6 +278,29 @@ TEST_F(CheckpointFile, OtherVersionsAreRefused) {
   EXPECT_THROW(check_program(checkpoint, "a.kpt", "1.2.4"), Error);
 }
 
+TEST_F(CheckpointFile, AFrameHoldsTheFilm) {
+  const auto write_with = [&](const PictureFrame& frame) {
+    RenderRecord record = little_record();
+    record.view.frame = frame;
+    write_checkpoint(path(), record, little_film());
+  };
+  const Film film = little_film();
+  const int width = film.width(), height = film.height();
+  for (const PictureFrame& bad :
+       {PictureFrame{5 + width, 0, 0, 0}, PictureFrame{0, 5 + height, 0, 0},
+        PictureFrame{width, height, 1, 0}, PictureFrame{width, height, 0, 1},
+        PictureFrame{width + 9, height + 9, -1, 0}, PictureFrame{width - 1, height, 0, 0},
+        PictureFrame{0, 0, 3, 3}, PictureFrame{-width, -height, 0, 0}}) {
+    write_with(bad);
+    expect_refused("the frame of its picture is not valid");
+  }
+  for (const PictureFrame& good : {PictureFrame{}, PictureFrame{width, height, 0, 0},
+                                   PictureFrame{width + 1, height + 2, 1, 2}}) {
+    write_with(good);
+    EXPECT_EQ(read_checkpoint(path()).record.view.frame, good);
+  }
+}
+
 TEST_F(CheckpointFile, ForeignFilesAreRefused) {
   expect_refused("No such file");
   write({});

@@ -144,12 +144,17 @@ ViewFacts get_view(BinaryReader& reader) {
   view.horizontal_fov = get_finite(reader);
   view.vertical_fov = get_finite(reader);
   view.quantity = reader.get_flag() ? Quantity::irradiance : Quantity::radiance;
-  for (int* number : {&view.frame.width, &view.frame.height, &view.frame.x, &view.frame.y}) {
+  for (int* number : {&view.frame.width, &view.frame.height, &view.frame.x, &view.frame.y})
     *number = reader.get<int32_t>();
-    if (*number < 0 || *number > max_image_pixels)
-      reader.damaged("the frame of its picture is not valid");
-  }
   return view;
+}
+
+/// A window of that size lies in the frame, which may be absent.
+bool is_valid(const PictureFrame& frame, const Vec2i& size) {
+  if (frame == PictureFrame{}) return true;
+  return frame.x >= 0 && frame.y >= 0 && frame.width <= max_image_pixels &&
+         frame.height <= max_image_pixels && size.x <= int64_t(frame.width) - frame.x &&
+         size.y <= int64_t(frame.height) - frame.y;
 }
 
 RenderRecord get_record(BinaryReader& reader) {
@@ -226,6 +231,8 @@ Checkpoint read_checkpoint(const std::string& path) {
   reader.expect_end();
   const Film& film = checkpoint.film;
   const PassSet& passes = film.passes();
+  if (!is_valid(checkpoint.record.view.frame, {film.width(), film.height()}))
+    reader.damaged("the frame of its picture is not valid");
   if (passes.empty()) reader.damaged("it holds no pass");
   if (film.samples_per_pixel() !=
       uint64_t(film.pass_count()) * checkpoint.record.recipe.samples_per_pass)
