@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <set>
+
+#include "kaustik/integrator/integrator.h"
 
 namespace kaustik::app {
 namespace {
@@ -73,9 +74,10 @@ const Surface* what_hides(const Scene& scene, const std::vector<const Light*>& l
 }  // namespace
 
 std::string hidden_lamps_warning(const Scene& scene, const std::string& integrator) {
-  static const std::set<std::string> from_camera_alone = {
-      "path", "volpath", "volpathmis", "volpath_simple", "direct", "raytracing", "localphong"};
-  if (!from_camera_alone.contains(integrator)) return {};
+  const auto& types = integrator_types();
+  const auto type = std::ranges::find(
+      types, integrator, [](const IntegratorType& t) -> const std::string& { return t.info.name; });
+  if (type == types.end() || !type->is_from_camera_alone) return {};
   std::vector<const Light*> lamps;
   for (const auto& light : scene.lights())
     if (light->is_delta() && !light->is_only_seen() && int(lamps.size()) < most_lamps)

@@ -117,6 +117,9 @@ struct IntegratorType {
   /// `scene` must outlive the integrator.
   std::unique_ptr<Integrator> (*create)(const Arguments&, const Scene& scene);
   std::string known_here_as{};  ///< of other renderers' names: what it is here
+  /// It follows paths from the camera alone: light of lamps that no path can meet (point, spot,
+  /// directional) it never finds behind glass.
+  bool is_from_camera_alone = false;
 };
 /// "auto", "path", "lighttracer", "photonmap", "vcm", "bdpt", "ppm", "localphong", "raytracing";
 /// and what Mitsuba calls some of them.

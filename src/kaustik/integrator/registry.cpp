@@ -22,6 +22,11 @@ IntegratorType row(const TypeInfo& info, const std::string& known_here_as = {}) 
           known_here_as};
 }
 
+IntegratorType from_camera_alone(IntegratorType type) {
+  type.is_from_camera_alone = true;
+  return type;
+}
+
 std::vector<std::string> valid_components() {
   return {component_names.begin(), component_names.end()};
 }
@@ -31,18 +36,18 @@ std::vector<std::string> valid_components() {
 const std::vector<IntegratorType>& integrator_types() {
   static const std::vector<IntegratorType> types{
       row<AutoIntegrator>(AutoIntegrator::info()),
-      row<PathIntegrator>(PathIntegrator::info()),
+      from_camera_alone(row<PathIntegrator>(PathIntegrator::info())),
       row<LightTracer>(LightTracer::info()),
       row<PhotonMapIntegrator>(PhotonMapSettings::info()),
       row<VcmIntegrator>(vcm_info()),
       row<VcmIntegrator>(bdpt_info()),
       row<VcmIntegrator>(ppm_info()),
-      row<LocalPhong>(LocalPhong::info()),
-      row<RayTracing>(RayTracing::info()),
-      row<PathIntegrator>(volpath_info(), "path"),
-      row<PathIntegrator>(volpathmis_info(), "path"),
-      row<PathIntegrator>(volpath_simple_info(), "path"),
-      row<PathIntegrator>(direct_info(), "path with max_depth = 2"),
+      from_camera_alone(row<LocalPhong>(LocalPhong::info())),
+      from_camera_alone(row<RayTracing>(RayTracing::info())),
+      from_camera_alone(row<PathIntegrator>(volpath_info(), "path")),
+      from_camera_alone(row<PathIntegrator>(volpathmis_info(), "path")),
+      from_camera_alone(row<PathIntegrator>(volpath_simple_info(), "path")),
+      from_camera_alone(row<PathIntegrator>(direct_info(), "path with max_depth = 2")),
       row<LightTracer>(ptracer_info(), "lighttracer"),
   };
   return types;
