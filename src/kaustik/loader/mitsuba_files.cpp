@@ -67,6 +67,7 @@ std::string Reader::text_of(const fs::path& path, const Place& where) {
     throw Error(error.kind(), problem.message, problem.remedy, where);
   }
   if (bytes.size() > allowed) refuse();
+  sources_.insert(path.string());
   read_bytes_ += bytes.size();
   budget_.allow_file(bytes.size());
   return {bytes.begin(), bytes.end()};

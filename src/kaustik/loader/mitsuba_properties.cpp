@@ -77,6 +77,7 @@ const SpectralCurve& Reader::curve_of(const std::string& path, const Place& plac
   if (known != curves_.end()) return known->second;
   try {
     const SpectralCurve& curve = curves_[path] = read_spectrum_file(path);
+    sources_.insert(path);
     budget_.allow(2 * bytes_of(curve));
     return curve;
   } catch (const Error& error) {

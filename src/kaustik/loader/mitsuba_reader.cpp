@@ -55,7 +55,7 @@ Description Reader::finish(const std::shared_ptr<Object>& scene) {
     definitions_.report_unused(problems_);
   }
   problems_.throw_if_any();
-  return {scene};
+  return {scene, {sources_.begin(), sources_.end()}};
 }
 
 std::optional<Element> Reader::ready(const pugi::xml_node& node, const Source& source) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,7 @@ class Reader {
   LoadBudget budget_;
   std::map<std::filesystem::path, std::unique_ptr<XmlDocument>> documents_;  ///< by identity
   std::map<std::string, SpectralCurve> curves_;                              ///< by path
+  std::set<std::string> sources_;                                            ///< see Description
   std::vector<std::filesystem::path> open_files_;  ///< the outermost first
   size_t included_files_ = 0;
   size_t read_bytes_ = 0;

@@ -3,6 +3,7 @@
 // in its file. Plain data; nothing here knows a renderer type.
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,14 @@ struct Object {
 /// or absolute.
 struct Description {
   std::shared_ptr<Object> scene;  ///< never null; its children are the top-level objects
+  /// What the loader has read: scene files and spectra.
+  std::vector<std::string> sources = {};
 };
 
 /// The path of the file that a property `filename` or `photon_map` names, "" for all others.
 std::string file_of(const Property& property);
+
+/// The files that properties of the scene name: meshes, pictures, photon maps, scenes.
+std::set<std::string> named_files(const Description& description);
 
 }  // namespace kaustik

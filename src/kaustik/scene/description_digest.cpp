@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 
 #include <map>
-#include <set>
 
 #include "kaustik/base/checksum.h"
 #include "kaustik/base/error.h"
@@ -75,14 +74,6 @@ class Digester {
   std::map<std::string, uint64_t> files_;
 };
 
-void collect_files(const Object& object, std::set<const Object*>& seen,
-                   std::set<std::string>& files) {
-  if (!seen.insert(&object).second) return;
-  for (const Property& property : object.properties)
-    if (const std::string file = file_of(property); !file.empty()) files.insert(file);
-  for (const Child& child : object.children) collect_files(*child.object, seen, files);
-}
-
 }  // namespace
 
 DescriptionDigest description_digest(const Description& description) {
@@ -93,11 +84,8 @@ DescriptionDigest description_digest(const Description& description) {
 
 std::map<std::string, GuardedDigest::Stamp> GuardedDigest::stamps_of(
     const Description& description) {
-  std::set<const Object*> seen;
-  std::set<std::string> files;
-  collect_files(*description.scene, seen, files);
   std::map<std::string, Stamp> stamps;
-  for (const std::string& file : files) {
+  for (const std::string& file : named_files(description)) {
     struct stat status;
     if (::stat(file.c_str(), &status) != 0) continue;  // who reads it will tell
     const auto nanoseconds = [](const timespec& t) {
