@@ -6,6 +6,7 @@
 #include "kaustik/image/image_io.h"
 #include "kaustik/image/metrics.h"
 #include "numbers.h"
+#include "standard_streams.h"
 
 namespace kaustik::app {
 namespace {
@@ -16,11 +17,14 @@ struct CompareOptions {
 };
 
 void compare(const CompareOptions& options) {
+  FileRoles roles;
+  roles.reads(options.image);
+  roles.reads(options.reference);
   if (!options.difference.empty()) {
+    if (is_standard_stream(options.difference))
+      throw Error(ErrorKind::input, "standard output is for the figures, not for the picture",
+                  "give the name of a file: -o FILE.png");
     check_writable(options.difference);
-    FileRoles roles;
-    roles.reads(options.image);
-    roles.reads(options.reference);
     roles.writes(options.difference);
   }
   Image given = read_image(options.image);

@@ -19,23 +19,25 @@
 namespace kaustik::app {
 namespace {
 
-/// The first signal and when it came, in ns: 0 before.
-std::atomic<int64_t> first_time = 0;
-std::atomic<int> first_signal = 0;
-static_assert(std::atomic<int64_t>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+/// The first signal and when it came, in one number so that no other comes in between: µs · 256 +
+/// signal; 0: none yet.
+std::atomic<int64_t> first_signal = 0;
+static_assert(std::atomic<int64_t>::is_always_lock_free);
 
-constexpr int64_t same_moment_ns = 200'000'000;
+constexpr int64_t same_moment_us = 200'000;
 
-void on_interrupt(int signal) {
+int64_t now_us() {
   timespec time{};
   ::clock_gettime(CLOCK_MONOTONIC, &time);
-  const int64_t now = int64_t(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
-  int64_t none = 0;
-  if (first_time.compare_exchange_strong(none, now)) {
-    first_signal = signal;
-    return;
-  }
-  if (now - first_time < same_moment_ns && (first_signal == signal || first_signal == 0)) return;
+  return int64_t(time.tv_sec) * 1'000'000 + time.tv_nsec / 1000;
+}
+
+void on_interrupt(int signal) {
+  const int64_t now = now_us();
+  int64_t first = 0;
+  // Otherwise `first` is what came before.
+  if (first_signal.compare_exchange_strong(first, now << 8 | signal)) return;
+  if ((first & 255) == signal && now - (first >> 8) < same_moment_us) return;
   // It is delivered when this returns.
   ::signal(signal, SIG_DFL);
   ::raise(signal);
@@ -151,7 +153,6 @@ void ProgressLine::finish() {
 }
 
 InterruptGuard::InterruptGuard() {
-  first_time = 0;
   first_signal = 0;
   struct sigaction action {};
   action.sa_handler = on_interrupt;
@@ -159,12 +160,11 @@ InterruptGuard::InterruptGuard() {
   for (const int signal : signals_) ::sigaddset(&action.sa_mask, signal);
   for (size_t i = 0; i < signals_.size(); ++i) {
     ::sigaction(signals_[i], nullptr, &before_[i]);
-    if (signals_[i] != SIGHUP || before_[i].sa_handler != SIG_IGN)
-      ::sigaction(signals_[i], &action, nullptr);
+    if (before_[i].sa_handler != SIG_IGN) ::sigaction(signals_[i], &action, nullptr);
   }
   watcher_ = std::jthread([this](std::stop_token ended) {
     while (!ended.stop_requested()) {
-      if (first_time != 0) source_.request_stop();
+      if (first_signal != 0) source_.request_stop();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
   });

@@ -37,7 +37,8 @@ std::string progress_text(double fraction, const std::vector<std::string>& facts
 
 /// Turns the first Ctrl-C (SIGINT), SIGTERM or SIGHUP into a stop request; a second one, of
 /// whichever, ends the program at once. The same one again within a moment is the first: some send
-/// it to the process and to its group. SIGHUP is left ignored if it was (nohup).
+/// it to the process and to its group. What is ignored stays so: SIGHUP under
+/// nohup, SIGINT of a script's background jobs.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -19,6 +19,7 @@ void Failures::keep(const std::string& what, const std::exception& error) {
 
 void Failures::throw_if_any() const {
   if (!problems_.empty()) throw Error(kind_, problems_);
+  if (is_reader_gone_) throw ReaderGone{};
 }
 
 }  // namespace kaustik::app

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "kaustik/base/error.h"
+#include "standard_streams.h"
 
 namespace kaustik::app {
 
@@ -23,10 +24,12 @@ class Failures {
       keep(error);
     } catch (const std::exception& error) {
       keep(what, error);
+    } catch (const ReaderGone&) {
+      is_reader_gone_ = true;
     }
   }
-  bool empty() const { return problems_.empty(); }
-  /// Throws Error with all of them, if there are any; of kind system if one is.
+  /// Throws Error with all of them, if there are any; of kind system if one is. Else ReaderGone if
+  /// that was thrown.
   void throw_if_any() const;
 
  private:
@@ -35,6 +38,7 @@ class Failures {
 
   ErrorKind kind_ = ErrorKind::input;
   std::vector<Problem> problems_;
+  bool is_reader_gone_ = false;
 };
 
 }  // namespace kaustik::app

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <set>
 
 #include "kaustik/base/file.h"
 #include "standard_streams.h"
@@ -26,12 +25,10 @@ fs::path identity(const std::string& path) {
   return failed ? target : canonical;
 }
 
-void add_files(const Object& object, std::set<const Object*>& seen, std::set<std::string>& files) {
-  if (!seen.insert(&object).second) return;
-  if (object.place.file) files.insert(*object.place.file);
-  for (const Property& property : object.properties)
-    if (const std::string file = file_of(property); !file.empty()) files.insert(file);
-  for (const Child& child : object.children) add_files(*child.object, seen, files);
+/// Whether there is something that would be lost.
+bool has_contents(const std::string& path) {
+  std::error_code unknown;
+  return fs::is_regular_file(path, unknown) && fs::file_size(path, unknown) > 0;
 }
 
 }  // namespace
@@ -43,16 +40,22 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 void FileRoles::reads(const std::string& path, std::optional<bool> may_be_replaced) {
-  if (!is_standard_stream(path)) inputs_.push_back({path, may_be_replaced});
+  if (is_standard_stream(path))
+    throw Error(ErrorKind::input,
+                fmt::format("'{}' is standard input, from which only scenes are read", path),
+                "give the name of a file (one that is called so: ./" + path + ")");
+  inputs_.push_back({path, may_be_replaced});
+}
+
+void FileRoles::reads_scene(const std::string& path) {
+  if (!is_standard_stream(path)) reads(path);
 }
 
 void FileRoles::reads(const Description& description) {
-  std::set<const Object*> seen;
-  std::set<std::string> files;
-  add_files(*description.scene, seen, files);
+  for (const std::string& file : description.sources) reads_scene(file);
   std::error_code ignored;
-  // Places may be of the command line, too.
-  for (const std::string& file : files)
+  // Whoever reads it tells of one that is not there.
+  for (const std::string& file : named_files(description))
     if (fs::exists(file, ignored)) reads(file);
 }
 
@@ -70,6 +73,24 @@ void FileRoles::writes(const std::string& path) {
   outputs_.push_back(path);
 }
 
+void FileRoles::writes(const std::string& path, const FileKind& kind, Replacing replacing,
+                       const std::string& if_of_kind) {
+  if (is_standard_stream(path))
+    throw Error(
+        ErrorKind::input,
+        fmt::format("'{}' is standard output, which takes pictures only, not {}", path, kind.name),
+        "give the name of a file (one that is called so: ./" + path + ")");
+  check_output_path(path);
+  writes(path);
+  if (replacing == Replacing::anything || !has_contents(path)) return;
+  const bool is_of_kind = kind.is_one(path);
+  if (is_of_kind && replacing == Replacing::own_kind) return;
+  throw Error(
+      ErrorKind::input,
+      fmt::format("'{}' is there already, and is {}{}", path, is_of_kind ? "" : "not ", kind.name),
+      (is_of_kind ? if_of_kind : "choose another name") + ", or replace it: --force");
+}
+
 void FileRoles::check() const {
   for (const std::string& output : outputs_) check(output);
 }
@@ -83,17 +104,6 @@ void FileRoles::check(const std::string& output) const {
                 input.may_be_replaced ? "choose another name for the output, or replace it: --force"
                                       : "choose another name for the output");
   }
-}
-
-void check_not_there(const std::string& path, bool (*is_kind)(const std::string&),
-                     const std::string& what, const std::string& remedy, bool force) {
-  std::error_code unknown;
-  if (force || !fs::is_regular_file(path, unknown) || fs::file_size(path, unknown) == 0) return;
-  if (is_kind(path))
-    throw Error(ErrorKind::input, fmt::format("'{}' is there already, and is {}", path, what),
-                remedy + ", or replace it: --force");
-  throw Error(ErrorKind::input, fmt::format("'{}' is there already, and is not {}", path, what),
-              "choose another name, or replace it: --force");
 }
 
 }  // namespace kaustik::app

@@ -8,17 +8,34 @@
 
 namespace kaustik::app {
 
+/// A kind of files that are no pictures.
+struct FileKind {
+  const char* name;  ///< "a checkpoint"
+  bool (*is_one)(const std::string& path);
+};
+
+/// What an output may replace.
+enum class Replacing { nothing, own_kind, anything };
+
 /// The files that a command reads and writes. To be checked before long work: nothing that it reads
 /// may be replaced, and nothing may be written twice, under whatever names and links. Standard
 /// input and output ("-") are no files.
 class FileRoles {
  public:
-  /// `may_be_replaced`: by --force, which was given or not.
+  /// Throws Error(input) for standard input, from which only scenes are read. `may_be_replaced`: by
+  /// --force, which was given or not.
   void reads(const std::string& path, std::optional<bool> may_be_replaced = {});
+  /// A scene file, or standard input.
+  void reads_scene(const std::string& path);
   /// The scene files and all that they name.
   void reads(const Description& description);
-  /// Throws Error(input) if another output, or something that is read, is this file.
+  /// A picture. Throws Error(input) if another output, or something that is read, is this file.
   void writes(const std::string& path);
+  /// Something else. Throws Error(input) as writes() and check_output_path() do, for standard
+  /// output, and for what is there and may not be replaced; `if_of_kind` is what to do about a file
+  /// of that kind. Empty files may be replaced.
+  void writes(const std::string& path, const FileKind& kind, Replacing replacing,
+              const std::string& if_of_kind);
   /// Throws as writes() does, for each of the outputs.
   void check() const;
 
@@ -36,10 +53,5 @@ class FileRoles {
 /// Whether both names, through links too, are of one file, there or not. Throws Error(input) for an
 /// empty name.
 bool is_same_file(const std::string& a, const std::string& b);
-
-/// Throws Error(input) if something stands at `path` but an empty file, unless `force`. `is_kind`
-/// tells whether it is `what`, such as "a checkpoint", and `remedy` what to do if so.
-void check_not_there(const std::string& path, bool (*is_kind)(const std::string&),
-                     const std::string& what, const std::string& remedy, bool force);
 
 }  // namespace kaustik::app

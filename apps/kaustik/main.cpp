@@ -86,11 +86,13 @@ int told() {
     throw;
   } catch (const EndedEarly&) {
     return exit_ended_early;
+  } catch (const ReaderGone&) {
+    end_by_broken_pipe();
   } catch (const kaustik::Error& error) {
     say("{}", error.what());
     return error.kind() == kaustik::ErrorKind::input ? exit_input : exit_system;
   } catch (const std::bad_alloc&) {
-    say("out of memory\n  remedy: render a smaller picture or fewer photons");
+    say("not enough memory\n  remedy: free some, or ask for less: smaller pictures, fewer photons");
   } catch (const std::exception& error) {
     say("{}", error.what());
   }
@@ -107,7 +109,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   kaustik::app::prepare_standard_streams();
   int exit_code = kaustik::app::exit_system;
-  bool is_output_told = false;
+  bool is_told = true, is_output_told = false;
   try {
     return run(argc, argv);
   } catch (const kaustik::app::EndedEarly&) {
@@ -118,10 +120,13 @@ int main(int argc, char** argv) {
   } catch (...) {
     // Printing throws, too, but knows no reason.
     if (!kaustik::app::standard_output_failed()) return told();
+    is_told = false;
   }
   if (!kaustik::app::standard_output_failed()) return exit_code;
   try {
     kaustik::app::finish_standard_output();
+  } catch (const kaustik::app::ReaderGone&) {
+    if (!is_told) told();
   } catch (...) {
     if (!is_output_told) told();
   }

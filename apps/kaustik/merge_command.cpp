@@ -3,7 +3,6 @@
 #include "commands.h"
 #include "failures.h"
 #include "file_roles.h"
-#include "kaustik/base/file.h"
 #include "kaustik/render/checkpoint.h"
 #include "kaustik/render/photon_tracing.h"
 #include "picture_output.h"
@@ -18,18 +17,16 @@ struct MergeOptions {
 };
 
 /// What a merge writes may replace neither its parts nor what somebody else has computed.
-void check_new_file(const std::string& path, bool (*is_kind)(const std::string&),
-                    const std::string& what, const MergeOptions& options) {
-  check_output_path(path);
-  check_not_there(path, is_kind, what, "choose another name", options.force);
+void add_output(FileRoles& roles, const std::string& path, const FileKind& kind, bool force) {
+  roles.writes(path, kind, force ? Replacing::anything : Replacing::nothing, "choose another name");
 }
 
-void merge_photons(const MergeOptions& options) {
+void merge_photons(const MergeOptions& options, FileRoles& roles) {
   if (options.outputs.size() > 1)
     throw Error(ErrorKind::input, "photon maps are written to one file",
                 "give one output: -o MAP.kpm");
   const std::string& output = options.outputs.front();
-  check_new_file(output, is_photon_file, "a photon map", options);
+  add_output(roles, output, {"a photon map", is_photon_file}, options.force);
   std::vector<StoredPhotons> parts;
   for (const std::string& input : options.inputs) parts.push_back(read_photon_file(input));
   const StoredPhotons whole = merged_photons(parts);
@@ -60,17 +57,13 @@ Checkpoint merged_checkpoints(const std::vector<std::string>& paths) {
   return whole;
 }
 
-void merge_passes(const MergeOptions& options) {
+void merge_passes(const MergeOptions& options, FileRoles& roles) {
   OutputPlan images;
   images.files = images_of(options);
-  FileRoles roles;
-  for (const std::string& input : options.inputs) roles.reads(input, options.force);
   check_outputs(images, roles);
-  for (const std::string& output : options.outputs) {
-    if (!names_checkpoint(output)) continue;
-    roles.writes(output);
-    check_new_file(output, is_checkpoint, "a checkpoint", options);
-  }
+  for (const std::string& output : options.outputs)
+    if (names_checkpoint(output))
+      add_output(roles, output, {"a checkpoint", is_checkpoint}, options.force);
   Checkpoint whole = merged_checkpoints(options.inputs);
   // What is written here is what resume is to write later.
   if (!images.files.empty()) whole.record.outputs.files = images.files;
@@ -88,9 +81,11 @@ void merge_passes(const MergeOptions& options) {
 }
 
 void merge(const MergeOptions& options) {
+  FileRoles roles;
+  for (const std::string& input : options.inputs) roles.reads(input, options.force);
   const std::string& first = options.inputs.front();
-  if (is_checkpoint(first)) return merge_passes(options);
-  if (is_photon_file(first)) return merge_photons(options);
+  if (is_checkpoint(first)) return merge_passes(options, roles);
+  if (is_photon_file(first)) return merge_photons(options, roles);
   throw Error(ErrorKind::input, "this is neither a checkpoint nor a photon map",
               "give files that were written by: kaustik render --checkpoint FILE.kpt, or kaustik "
               "photons --part I/N",

@@ -8,7 +8,6 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "file_roles.h"
-#include "kaustik/base/file.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/photon_tracing.h"
 #include "kaustik/scene/overrides.h"
@@ -79,12 +78,6 @@ void print_map(const char* name, const Scene& scene, const PhotonMap& map,
   if (report.lights.size() > 1) print_counts("all", report.total());
 }
 
-/// Photon maps are replaced by new ones without a question, as pictures are.
-bool is_photon_map(const std::string& path) {
-  std::error_code unknown;
-  return std::filesystem::is_regular_file(path, unknown) && is_photon_file(path);
-}
-
 TracedPhotons traced(const PhotonsOptions& options, const PhotonPart& part,
                      const Description& description, const Scene& scene,
                      const InterruptGuard& interrupt) {
@@ -112,12 +105,11 @@ TracedPhotons traced(const PhotonsOptions& options, const PhotonPart& part,
 
 void trace_photons(const PhotonsOptions& options) {
   const PhotonPart part = parse_part(options.part);
-  check_output_path(options.output);
   FileRoles roles;
-  roles.reads(options.scene);
-  roles.writes(options.output);
-  if (!is_photon_map(options.output))
-    check_not_there(options.output, is_photon_file, "a photon map", "", options.force);
+  roles.reads_scene(options.scene);
+  // Photon maps are replaced by new ones without a question, as pictures are.
+  roles.writes(options.output, {"a photon map", is_photon_file},
+               options.force ? Replacing::anything : Replacing::own_kind, "");
   LoadOptions load;
   load.definitions = parse_definitions(options.definitions);
   Description description = load_scene(options.scene, load);

@@ -10,7 +10,6 @@
 #include "commands.h"
 #include "console.h"
 #include "file_roles.h"
-#include "kaustik/base/file.h"
 #include "kaustik/image/tone_mapping.h"
 #include "kaustik/integrator/integrator.h"
 #include "numbers.h"
@@ -51,17 +50,10 @@ void sort_settings(RenderOptions& options) {
     options.outputs.tone_settings.push_back(fmt::format("exposure={}", *options.exposure));
 }
 
-void check_new_checkpoint(const std::string& path, bool force, FileRoles& roles) {
-  check_output_path(path);
-  roles.writes(path);
-  check_not_there(path, is_checkpoint, "a checkpoint",
-                  fmt::format("go on with it: kaustik resume {}", path), force);
-}
-
 void render(RenderOptions options) {
   RenderRecipe& recipe = options.recipe;
   FileRoles roles;
-  roles.reads(recipe.scene);
+  roles.reads_scene(recipe.scene);
   if (options.outputs.files.empty() && is_standard_stream(recipe.scene))
     throw Error(ErrorKind::input, "a scene from standard input gives its picture no name",
                 "say what to write: -o FILE");
@@ -69,7 +61,10 @@ void render(RenderOptions options) {
     options.outputs.files.push_back(std::filesystem::path(recipe.scene).stem().string() + ".exr");
   sort_settings(options);
   check_outputs(options.outputs, roles);
-  if (options.checkpoint) check_new_checkpoint(*options.checkpoint, options.force, roles);
+  if (options.checkpoint)
+    roles.writes(*options.checkpoint, {"a checkpoint", is_checkpoint},
+                 options.force ? Replacing::anything : Replacing::nothing,
+                 fmt::format("go on with it: kaustik resume {}", *options.checkpoint));
   SessionSettings settings;
   settings.seed = recipe.seed;
   settings.threads = usable_threads(options.threads);

@@ -105,8 +105,23 @@ void check_same(const RenderJob& job, const Checkpoint& checkpoint, const std::s
       "bring back the scene as it was, or render the new one from the start", place_in(path));
 }
 
+/// What the options say in words of their own. Read before the scene is.
+struct Limits {
+  std::optional<double> seconds, error;
+  double every_s = 0;
+};
+
+Limits limits_of(const ResumeOptions& options) {
+  Limits limits;
+  if (options.time) limits.seconds = parse_duration(*options.time, "--time");
+  if (options.error) limits.error = parse_error_bound(*options.error);
+  limits.every_s = parse_duration(options.every, "--every");
+  return limits;
+}
+
 /// What the options say of how far to go, else what the render was told.
-SessionSettings session_settings(const ResumeOptions& options, const Checkpoint& checkpoint) {
+SessionSettings session_settings(const ResumeOptions& options, const Limits& limits,
+                                 const Checkpoint& checkpoint) {
   const RenderRecord& record = checkpoint.record;
   SessionSettings settings;
   settings.seed = record.recipe.seed;
@@ -115,8 +130,8 @@ SessionSettings session_settings(const ResumeOptions& options, const Checkpoint&
   settings.first_pass = record.plan.first_pass;
   settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;
-  if (options.time) settings.seconds = parse_duration(*options.time, "--time");
-  if (options.error) settings.error = parse_error_bound(*options.error);
+  settings.seconds = limits.seconds;
+  settings.error = limits.error;
   if (settings.passes || settings.samples_per_pixel || settings.seconds || settings.error)
     return settings;
   settings.error = record.plan.error;
@@ -132,6 +147,9 @@ SessionSettings session_settings(const ResumeOptions& options, const Checkpoint&
 }
 
 void resume(const ResumeOptions& options) {
+  const Limits limits = limits_of(options);
+  FileRoles roles;
+  roles.reads(options.checkpoint);
   check_output_path(options.checkpoint);
   Checkpoint checkpoint = read_checkpoint(options.checkpoint);
   check_program(checkpoint, options.checkpoint, KAUSTIK_VERSION);
@@ -141,9 +159,7 @@ void resume(const ResumeOptions& options) {
     check_outputs_are_near(record.outputs.files, options.checkpoint);
   else
     record.outputs.files = options.outputs;
-  FileRoles roles;
-  roles.reads(options.checkpoint);
-  roles.reads(record.recipe.scene);
+  roles.reads_scene(record.recipe.scene);
   check_outputs(record.outputs, roles);
   if (options.scene.empty()) check_scene_is_there(record.recipe, options.checkpoint);
   Description description = load_description(record.recipe);
@@ -152,7 +168,7 @@ void resume(const ResumeOptions& options) {
   const RenderJob job = make_job(std::move(description), record.recipe, true, options.build);
   check_same(job, checkpoint, options.checkpoint);
 
-  const SessionSettings settings = session_settings(options, checkpoint);
+  const SessionSettings settings = session_settings(options, limits, checkpoint);
   record.plan.error = settings.error;
   if (!settings.seconds)
     record.plan.seconds.reset();
@@ -164,7 +180,7 @@ void resume(const ResumeOptions& options) {
   JobOptions job_options;
   job_options.quiet = options.quiet;
   job_options.checkpoint = options.checkpoint;
-  job_options.every_s = parse_duration(options.every, "--every");
+  job_options.every_s = limits.every_s;
   run_job(job, record, settings, std::move(checkpoint.film), job_options);
 }
 

@@ -22,16 +22,11 @@ bool reader_is_gone() {
 }
 
 [[noreturn]] void throw_output_failed(int reason) {
+  if (reason == EPIPE || (reason == 0 && reader_is_gone())) throw ReaderGone{};
   std::string why;
   if (reason != 0) why = ": " + std::error_code(reason, std::generic_category()).message();
   throw Error(ErrorKind::system, "cannot write to standard output" + why,
               "free some space, or send it elsewhere");
-}
-
-[[noreturn]] void end_as_others_do() {
-  ::signal(SIGPIPE, SIG_DFL);
-  ::raise(SIGPIPE);
-  throw_output_failed(EPIPE);
 }
 
 }  // namespace
@@ -50,8 +45,12 @@ void finish_standard_output() {
   std::cout.flush();
   const int reason = std::fflush(stdout) != 0 ? errno : 0;
   if (reason == 0 && !standard_output_failed()) return;
-  if (reason == EPIPE || reader_is_gone()) end_as_others_do();
   throw_output_failed(reason);
+}
+
+void end_by_broken_pipe() {
+  ::signal(SIGPIPE, SIG_DFL);
+  ::raise(SIGPIPE);
 }
 
 bool is_standard_stream(const std::string& name) {
@@ -76,8 +75,9 @@ std::string read_standard_input() {
 }
 
 void write_standard_output(std::span<const uint8_t> bytes) {
-  const bool is_written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
-  if (is_written && std::fflush(stdout) == 0) return;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size() &&
+      std::fflush(stdout) == 0)
+    return;
   throw_output_failed(errno);
 }
 

@@ -12,9 +12,15 @@ namespace kaustik::app {
 /// stream; and lets writing to a closed pipe be an error of the write, not the program's end.
 void prepare_standard_streams();
 
-/// Throws Error(system) if something that was printed did not get through. A reader that has gone
-/// ends the program as it does others, by SIGPIPE.
+/// What is thrown where nobody reads standard output any more. That is no failure to tell of: the
+/// program ends as others do, by end_by_broken_pipe(), once everything else is done.
+struct ReaderGone {};
+
+/// Throws Error(system) if something that was printed did not get through, ReaderGone if nobody
+/// reads it.
 void finish_standard_output();
+/// Ends the program by SIGPIPE; returns only where that is blocked.
+void end_by_broken_pipe();
 /// Whether printing to it has failed.
 bool standard_output_failed();
 
@@ -23,7 +29,7 @@ bool is_standard_stream(const std::string& name);
 
 /// All of standard input; throws Error(input) if it is too much for a scene.
 std::string read_standard_input();
-/// Throws Error(system) if it cannot be written.
+/// Throws Error(system) if it cannot be written, ReaderGone if nobody reads it.
 void write_standard_output(std::span<const uint8_t> bytes);
 
 /// A line on standard error; that nobody may be reading it any more is no reason to stop.

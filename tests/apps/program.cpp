@@ -78,9 +78,14 @@ void limit(__rlimit_resource resource, std::optional<rlim_t> most) {
 [[noreturn]] void become_kaustik(std::vector<char*> argv, const RunOptions& options, int input,
                                  const Capture& out, const Capture& err) {
   const int full = options.full_output ? ::open("/dev/full", O_WRONLY) : -1;
-  ::dup2(full >= 0 ? full : out.writing_end(), STDOUT_FILENO);
+  int unread[2] = {-1, -1};
+  if (options.closed_output && ::pipe2(unread, O_CLOEXEC) == 0) ::close(unread[0]);
+  ::dup2(options.closed_output ? unread[1] : full >= 0 ? full : out.writing_end(), STDOUT_FILENO);
   ::dup2(err.writing_end(), STDERR_FILENO);
   ::dup2(input, STDIN_FILENO);
+  // A background job of a shell has SIGINT ignored, and would hand that down.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    ::signal(signal, signal == options.ignored_signal ? SIG_IGN : SIG_DFL);
   limit(RLIMIT_FSIZE, options.file_size_limit);
   limit(RLIMIT_AS, options.memory_limit);
   if (!options.folder.empty() && ::chdir(options.folder.c_str()) != 0) ::_exit(126);

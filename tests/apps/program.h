@@ -30,9 +30,10 @@ struct RunOptions {
   std::string interrupt_at;
   double interrupt_delay_s = 0;
   std::vector<int> signals = {SIGINT};
-  std::string input;  ///< standard input
-  /// Whether standard output is a device that is always full.
-  bool full_output = false;
+  int ignored_signal = 0;  ///< that the program is started with; 0: none
+  std::string input;       ///< standard input
+  /// Whether standard output is a device that is always full, or a pipe that nobody reads.
+  bool full_output = false, closed_output = false;
   /// Standard error is a terminal of so many columns, from the second number on of so many after
   /// each read of its text; empty: a pipe.
   std::vector<int> terminal_columns;

@@ -1,5 +1,6 @@
 // What the program writes replaces nothing that is not meant, and nothing that fails costs the
 // rest.
+#include <algorithm>
 #include <filesystem>
 
 #include "kaustik/image/image_io.h"
@@ -152,6 +153,117 @@ TEST_F(SafeOutputs, StandardStreamsTakeScenesAndGivePictures) {
   refused(render({"-o", "xyz:-"}), "unknown extension");
 }
 
+TEST_F(SafeOutputs, StandardStreamsAreForScenesAndPicturesOnly) {
+  run_well(render({"-o", "a.exr", "--checkpoint", "a.kpt"}));
+  const std::string takes = "takes pictures only", from = "from which only scenes are read";
+  refused(render({"-o", "b.exr", "--checkpoint", "-"}), takes);
+  refused(render({"-o", "b.exr", "--checkpoint", "kpt:-", "--force"}), takes);
+  refused({"photons", "scene.xml", "-o", "-"}, takes);
+  refused({"photons", "scene.xml", "-o", "kpm:-", "--force"}, takes);
+  refused({"merge", "a.kpt", "-o", "kpt:-"}, "unknown extension");
+  refused({"compare", "a.exr", "a.exr", "-o", "-"}, "standard output is for the figures");
+  refused({"compare", "a.exr", "a.exr", "-o", "png:-"}, "standard output is for the figures");
+  for (const Words& words :
+       {Words{"resume", "-"}, Words{"merge", "-", "-o", "b.exr"},
+        Words{"merge", "a.kpt", "-", "-o", "b.exr"}, Words{"tonemap", "-", "-o", "b.png"},
+        Words{"compare", "a.exr", "-"}, Words{"compare", "-", "a.exr"},
+        Words{"denoise", "-", "-o", "b.exr"}, Words{"stitch", "a.exr", "-", "-o", "b.exr"}})
+    refused(words, from);
+  // The name is no other than before where it cannot be mistaken, nor is the picture's way.
+  run_well(render({"-o", "b.exr", "--checkpoint", "./-"}));
+  EXPECT_TRUE(exists("-"));
+  EXPECT_TRUE(run_well({"merge", "a.kpt", "-o", "-"}).out == contents("a.exr"));
+}
+
+TEST_F(SafeOutputs, AReaderThatHasGoneEndsQuietly) {
+  run_well(render({"-o", "a.exr", "-o", "a.pfm", "--checkpoint", "a.kpt"}));
+  const std::string picture = contents("a.pfm"), checkpoint = contents("a.kpt");
+  RunOptions gone;
+  gone.closed_output = true;
+  const RunResult result =
+      run(render({"-o", "-", "-o", "b.pfm", "--checkpoint", "a.kpt", "--force"}), gone);
+  EXPECT_EQ(result.signal, SIGPIPE);
+  EXPECT_EQ(result.err, "");
+  EXPECT_TRUE(contents("b.pfm") == picture);
+  EXPECT_FALSE(contents("a.kpt").empty());
+  for (const Words& words : {Words{"info", "scene.xml"}, Words{"tonemap", "a.exr", "-o", "-", "-q"},
+                             Words{"denoise", "a.exr", "-o", "-"}, Words{"help"}}) {
+    const RunResult other = run(words, gone);
+    EXPECT_EQ(other.signal, SIGPIPE) << words[0];
+    EXPECT_EQ(other.err, "") << words[0];
+  }
+  // What else fails is told, with its exit code.
+  gone.file_size_limit = 100;
+  const RunResult failed = run(render({"-o", "-", "-o", "c.pfm"}), gone);
+  EXPECT_EQ(failed.exit_code, 1) << failed.err;
+  EXPECT_TRUE(contains(failed.err, "c.pfm")) << failed.err;
+}
+
+TEST_F(SafeOutputs, AllThatASceneIsReadFromStays) {
+  write("lamp.spd", "400 1\n700 2\n");
+  write("defaults.xml", "<scene version=\"3.0.0\"><default name=\"size\" value=\"8\"/></scene>");
+  write("whole.xml", scene_with({"<include filename=\"defaults.xml\"/><integrator type=\"path\"/>"
+                                 "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"1\" "
+                                 "z=\"2\"/><spectrum name=\"intensity\" filename=\"lamp.spd\"/>"
+                                 "</emitter><texture type=\"checkerboard\"><float name=\"scale\" "
+                                 "value=\"$size\"/></texture>"}));
+  for (const char* file : {"lamp.spd", "defaults.xml", "whole.xml"})
+    refused({"render", "whole.xml", "-q", "-o", "a.exr", "--force", "--checkpoint", file},
+            "writing it would replace it");
+}
+
+TEST_F(SafeOutputs, ResumeReadsItsOptionsFirst) {
+  run_well(render({"-o", "a.exr", "--checkpoint", "a.kpt"}));
+  write("scene.xml", "this is no scene any more");
+  refused({"resume", "a.kpt", "-q", "--time", "soon"}, "cannot read the time 'soon'");
+  refused({"resume", "a.kpt", "-q", "--every", "often"}, "cannot read the time 'often'");
+  refused({"resume", "a.kpt", "-q", "--error", "little"}, "cannot read the error 'little'");
+}
+
+// A picture for displays has the pixels that were rendered, whichever command makes it.
+TEST_F(SafeOutputs, ACropIsShownAsTheCrop) {
+  Words words = render({"-o", "a.exr", "-o", "a.png", "--float", "--tonemap", "srgb"});
+  for (const char* setting :
+       {"film.crop_width=5", "film.crop_height=3", "film.crop_offset_x=2", "film.crop_offset_y=4"})
+    words.insert(words.end(), {"--set", setting});
+  run_well(words);
+  const Words shown = {"tonemap", "a.exr", "-q", "--operator", "srgb", "-o"};
+  const auto tonemapped = [&](const std::string& name, const Words& more) {
+    Words all = shown;
+    all.push_back(name);
+    all.insert(all.end(), more.begin(), more.end());
+    run_well(all);
+    return read_image(path(name));
+  };
+  const Image rendered = read_image(path("a.png")), crop = tonemapped("b.png", {});
+  EXPECT_EQ(rendered.width(), 5);
+  EXPECT_EQ(rendered.height(), 3);
+  ASSERT_EQ(crop.width(), 5);
+  ASSERT_EQ(crop.height(), 3);
+  for (int c = 0; c < 3; ++c) EXPECT_TRUE(std::ranges::equal(rendered.channel(c), crop.channel(c)));
+  const Image whole = tonemapped("c.png", {"--display-window"});
+  EXPECT_EQ(whole.width(), 8);
+  EXPECT_EQ(whole.height(), 8);
+  EXPECT_EQ(whole.at(2, 4, 1), crop.at(0, 0, 1));
+  EXPECT_EQ(whole.at(1, 4, 1), 0);
+  // In an EXR of others, what the file does not hold is black.
+  Image other(4, 2, {"R", "G", "B"});
+  for (int c = 0; c < 3; ++c) std::ranges::fill(other.channel(c), 0.5f);
+  other.set_frame({9, 9, 1, 1});
+  write_image(other, path("d.exr"));
+  run_well({"tonemap", "d.exr", "-q", "-o", "d.png"});
+  EXPECT_EQ(read_image(path("d.png")).width(), 9);
+  run_well({"tonemap", "d.exr", "-q", "--data-window", "-o", "d.png"});
+  EXPECT_EQ(read_image(path("d.png")).width(), 4);
+  other.set_frame({9, 9, 20, 0});
+  write_image(other, path("d.exr"));
+  run_well({"tonemap", "d.exr", "-q", "-o", "d.png"});
+  const Image black = read_image(path("d.png"));
+  EXPECT_EQ(black.width(), 9);
+  for (const float value : black.channel(0)) EXPECT_EQ(value, 0);
+  refused({"tonemap", "d.exr", "-q", "--data-window", "-o", "d.png"}, "lies in the picture");
+}
+
 TEST_F(SafeOutputs, WhatCannotBePrintedIsAFailure) {
   RunOptions full;
   full.full_output = true;
@@ -192,8 +304,8 @@ TEST_F(SafeOutputs, AWindowOfAPictureTooLargeForOneImageIsWritten) {
   EXPECT_EQ(image.height(), 4);
   EXPECT_TRUE((image.frame() == PictureFrame{100000, 90000, 50000, 60000}));
   refused({"stitch", "a.exr", "-o", "b.exr"}, "too large");
-  refused({"tonemap", "a.exr", "-q", "-o", "b.png"}, "too large");
-  run_well({"tonemap", "a.exr", "-q", "--data-window", "-o", "b.png"});
+  refused({"tonemap", "a.exr", "-q", "--display-window", "-o", "b.png"}, "too large");
+  run_well({"tonemap", "a.exr", "-q", "-o", "b.png"});
 }
 
 TEST_F(SafeOutputs, OptionsSayWhatIsNoNumberAndFilesTheirCommand) {

@@ -66,6 +66,21 @@ TEST_F(Signals, AnotherOneEndsAtOnce) {
   EXPECT_EQ(contents("old.exr"), "old");
 }
 
+// A script's background job is started with SIGINT ignored, and Ctrl-C is not meant for it.
+TEST_F(Signals, WhatIsIgnoredStaysSo) {
+  for (const auto [ignored, other] :
+       {std::pair(SIGINT, SIGTERM), std::pair(SIGHUP, SIGINT), std::pair(SIGTERM, SIGINT)}) {
+    SCOPED_TRACE(ignored);
+    RunOptions how;
+    how.terminal_columns = {120};
+    how.interrupt_at = "pass [1-9]";
+    how.ignored_signal = ignored;
+    how.signals = {ignored, ignored, other};  // would end at once if the first one counted
+    const RunResult result = stopped({"--passes", "1000000", "--spp", "1000000"}, how);
+    EXPECT_EQ(result.exit_code, ended_early) << result.signal << result.err;
+  }
+}
+
 // The picture is the mean of the samples that were taken, or there is none.
 TEST_F(Signals, TheFirstPassLeavesARightPictureOrTheOldOne) {
   for (const std::string integrator : {"path", "bdpt", "lighttracer", "auto"}) {
