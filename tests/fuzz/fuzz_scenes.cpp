@@ -3,7 +3,7 @@
 // Each scene is a function of its seed. --xml only prints the scenes, --refusals also
 // prints the errors that refuse a scene. Ends with 1 if anything was
 // wrong: an abort, what a sanitizer finds, a hang, a pixel that is not finite, an exception that is
-// no Error, an Error without a place.
+// no Error, an Error without a place; or if too few of the pictures were made.
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -24,6 +24,10 @@
 namespace {
 
 using namespace kaustik::fuzz;
+
+/// Scenes that are refused test little: of so many scenes this share of the pictures must be made.
+constexpr uint64_t enough_for_share = 20;
+constexpr double least_share = 0.3;
 
 struct Options {
   uint64_t first = 1, scenes = 100, jobs = std::max(1u, std::thread::hardware_concurrency());
@@ -47,6 +51,8 @@ Options options_from(int count, char** arguments) {
     else
       fmt::print(stderr, "unknown argument '{}'\n", name), std::exit(2);
   }
+  if (options.scenes == 0 || options.jobs == 0)
+    fmt::print(stderr, "scenes and jobs must be numbers of at least 1\n"), std::exit(2);
   return options;
 }
 
@@ -100,11 +106,19 @@ int main(int count, char** arguments) {
   check_all(options, folder, counts);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double share = double(counts.renders) / double(std::max<uint64_t>(1, counts.wanted));
   fmt::print(
-      "{} scenes ({} refused), {} pictures ({} refused, {} with samples that were not finite, {} "
+      "{} scenes ({} refused), {} pictures, {:.0f} % of those that were wanted ({} refused, {} "
+      "with samples that were not finite, {} "
       "with rays that left the range of floats), {} failures, {:.0f} s\n",
-      counts.scenes.load(), counts.refused.load(), counts.renders.load(),
+      counts.scenes.load(), counts.refused.load(), counts.renders.load(), 100 * share,
       counts.renders_refused.load(), counts.dropped.load(), counts.with_lost_rays.load(),
       counts.failures.load(), seconds);
+  if (options.scenes >= enough_for_share && share < least_share) {
+    fmt::print(stderr,
+               "fewer than {:.0f} % of the pictures were made: too many scenes are refused\n",
+               100 * least_share);
+    return 1;
+  }
   return counts.failures > 0 ? 1 : 0;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -71,15 +72,22 @@ void Worker::start(uint64_t first) {
   position_->stage = 0;
   step_work_s_ = 0;
   step_begin_s_ = seconds_of(CLOCK_MONOTONIC);
+  const pid_t parent = getpid();
   process_ = fork();
   if (process_ < 0) throw std::runtime_error("no new process can be made");
-  if (process_ == 0) work(first);
+  if (process_ > 0) return;
+  // It does not outlive its parent, which may have ended before the system was told so.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
+  work(first);
 }
 
 void Worker::work(uint64_t first) {
   for (uint64_t seed = first; seed < end_; seed += stride_) {
     position_->seed = seed;
-    const SceneResult result = check_scene(generate_scene(seed, folder_), [this](size_t stage) {
+    const GeneratedScene scene = generate_scene(seed, folder_);
+    counts_.wanted += scene.integrators.size();
+    const SceneResult result = check_scene(scene, [this](size_t stage) {
       position_->stage = stage;
       ++position_->steps;
     });

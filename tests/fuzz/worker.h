@@ -7,10 +7,11 @@
 
 namespace kaustik::fuzz {
 
-/// Counts over all processes; in memory that they share.
+/// Counts over all processes; in memory that they share. Pictures are wanted of every scene by
+/// every integrator.
 struct Counts {
-  std::atomic<uint64_t> scenes{0}, refused{0}, renders{0}, renders_refused{0}, dropped{0},
-      with_lost_rays{0}, failures{0};
+  std::atomic<uint64_t> scenes{0}, refused{0}, wanted{0}, renders{0}, renders_refused{0},
+      dropped{0}, with_lost_rays{0}, failures{0};
 };
 
 /// Where a worker is; in memory that it shares with its parent.
