@@ -68,7 +68,7 @@ TEST_F(Signals, AnotherOneEndsAtOnce) {
 
 // A script's background job is started with SIGINT ignored, and Ctrl-C is not meant for it.
 TEST_F(Signals, WhatIsIgnoredStaysSo) {
-  for (const auto [ignored, other] :
+  for (const auto& [ignored, other] :
        {std::pair(SIGINT, SIGTERM), std::pair(SIGHUP, SIGINT), std::pair(SIGTERM, SIGINT)}) {
     SCOPED_TRACE(ignored);
     RunOptions how;

@@ -26,8 +26,8 @@ namespace {
 using namespace kaustik::fuzz;
 
 /// Scenes that are refused test little: of so many scenes this share of the pictures must be made.
-constexpr uint64_t enough_for_share = 20;
-constexpr double least_share = 0.3;
+constexpr uint64_t enough_for_share = 30;
+constexpr double least_share = 0.4;
 
 struct Options {
   uint64_t first = 1, scenes = 100, jobs = std::max(1u, std::thread::hardware_concurrency());
