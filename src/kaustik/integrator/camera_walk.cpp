@@ -1,5 +1,6 @@
 #include "kaustik/integrator/camera_walk.h"
 
+#include "kaustik/transport/null_boundaries.h"
 #include "kaustik/transport/roulette.h"
 
 namespace kaustik {
@@ -85,7 +86,7 @@ template <typename PassMedium>
 CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
   const bool only_arrives = seeks_irradiance();
   is_in_medium_ = false;
-  for (;;) {
+  for (int boundary = 0;; ++boundary) {
     sampler_.start_vertex(segments_++);
     Hit hit;
     ++rays_;
@@ -109,6 +110,7 @@ CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
     state_.footprint.travel(hit.t);
     vertex_.meet(scene_, ray_, hit, TransportMode::radiance, state_.footprint);
     if (!vertex_.is_null()) break;
+    if (boundary == most_null_boundaries) return Arrival::nothing;
     state_.medium = vertex_.medium_toward(ray_.direction, state_.medium);
     ray_ = spawn_ray(vertex_.point(), ray_.direction);
   }

@@ -2,6 +2,7 @@
 
 #include "kaustik/base/to_integer.h"
 #include "kaustik/transport/direct_light.h"
+#include "kaustik/transport/null_boundaries.h"
 #include "kaustik/transport/roulette.h"
 #include "kaustik/transport/visibility.h"
 
@@ -137,7 +138,7 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
   Ray ray = spawn_ray(from, direction);
   float distance = 0;
   uint64_t rays = 0;
-  int events = 0;
+  int events = 0, boundaries = 0;
   for (;;) {
     Hit hit;
     ++rays;
@@ -151,10 +152,12 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
     const SurfaceVertex vertex(scene_, ray, hit, TransportMode::radiance, footprint);
     distance += hit.t;
     if (vertex.is_null()) {
+      if (++boundaries > most_null_boundaries) break;
       medium = vertex.medium_toward(ray.direction, medium);
       ray = spawn_ray(vertex.point(), ray.direction);
       continue;
     }
+    boundaries = 0;
     if (events == 0) result.distance = distance;
     sampler.start_vertex(uint32_t(events));
     const EyeLevel level{at.recursion + 1 + events, at.gathers + 1};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/transport/null_boundaries.h"
 #include "kaustik/transport/path_class.h"
 #include "kaustik/transport/path_state.h"
 #include "kaustik/transport/roulette.h"
@@ -37,6 +38,7 @@ struct LightPath {
   Sampler sampler;
   Spectrum weight{1.0f};  ///< the throughput's share of what was emitted, but for what guiding and
                           ///< length_survival() make of it; roulette keeps it about 1
+  int boundaries = 0;     ///< null ones since the last event
   uint32_t segments = 0;  ///< traced so far: those across null boundaries count, each has a block
                           ///< of random numbers
   float distance = 0;     ///< from the last event to the origin of `ray`, m
@@ -161,6 +163,7 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
       }
       const Medium::Flight flight = fly_through_medium(path, hit.t);
       if (flight.scattered) {
+        path.boundaries = 0;
         if constexpr (std::is_invocable_v<const Handler&, const LightMediumEvent&>)
           handler(LightMediumEvent{medium_vertex(path, flight)});
         switch (scatter_in_medium(path, flight, limits)) {
@@ -181,10 +184,12 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
     vertex.meet(scene, path.ray, hit, TransportMode::flux, path.state.footprint);
     path.distance += hit.t;
     if (vertex.is_null()) {
+      if (++path.boundaries > most_null_boundaries) return ended(counts.stopped);
       path.state.medium = vertex.medium_toward(path.ray.direction, path.state.medium);
       path.ray = spawn_ray(vertex.point(), path.ray.direction);
       return true;
     }
+    path.boundaries = 0;
     const Lobes follow = handler(
         LightVertex{vertex, path.state, path.path_class, path.distance, path.index, path.ray, hit});
     if (!any(follow)) return ended(counts.stopped);

@@ -1,5 +1,7 @@
 #include "kaustik/transport/visibility.h"
 
+#include "kaustik/transport/null_boundaries.h"
+
 namespace kaustik {
 namespace {
 
@@ -8,7 +10,14 @@ namespace {
 template <typename Pass>
 bool follow_shadow_ray(const Scene& scene, Ray ray, const Medium* medium, uint64_t& rays,
                        const Pass& pass) {
-  for (;;) {
+  // Nearer to its end than it is known itself a ray is there. Else one that ends where boundaries
+  // meet would come nearer forever, where coordinates of zero round to less and less.
+  float near = 0;
+  if (std::isfinite(ray.t_max)) {
+    const Vec3f end = ray.origin + ray.direction * ray.t_max;
+    near = 8 * float_rounding * (length(ray.origin) + length(end));
+  }
+  for (int boundary = 0; boundary < most_null_boundaries; ++boundary) {
     Hit hit;
     ++rays;
     const bool found = scene.intersect(ray, hit);
@@ -24,12 +33,13 @@ bool follow_shadow_ray(const Scene& scene, Ray ray, const Medium* medium, uint64
     if (std::isfinite(ray.t_max)) {
       const Vec3f to_end = ray.origin + ray.direction * ray.t_max - origin;
       // The end may lie just behind the boundary, within its offset.
-      if (!(dot(to_end, ray.direction) > 0)) return true;
+      if (!(dot(to_end, ray.direction) > 0) || length(to_end) <= near) return true;
       ray = {origin, to_end, 1.0f};
     } else {
       ray.origin = origin;
     }
   }
+  return false;
 }
 
 }  // namespace
