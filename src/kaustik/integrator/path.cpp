@@ -1,12 +1,13 @@
 #include "kaustik/integrator/path.h"
 
+#include "kaustik/integrator/mitsuba_integrators.h"
 #include "kaustik/integrator/path_parameters.h"
 
 namespace kaustik {
 namespace {
 
-/// Mitsuba's `direct` has no depth to choose.
-bool is_direct(const Arguments& arguments) { return !arguments.info().find("max_depth"); }
+/// Mitsuba's `direct`: one event, and no depth to choose.
+bool is_direct(const Arguments& arguments) { return arguments.info().name == direct_info().name; }
 
 }  // namespace
 
