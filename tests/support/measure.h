@@ -153,15 +153,17 @@ class Comparison {
 
   /// Student's t of factor_a·a − factor_b·b, and the chance of one as large or larger where the
   /// difference is 0 (Welch 1947, for the degrees of freedom of independent measurements).
-  /// Rounding of single floats is no error.
+  /// Rounding of single floats is no error. Of two that are 0 without noise, neither exceeds: 1/2.
   double p_value_of_excess(double factor_a, double factor_b) const {
     const double rounding = 1e-6 * std::fabs(factor_b * b_.mean);
-    const double t =
-        (factor_a * a_.mean - factor_b * b_.mean) / std::hypot(error(factor_a, factor_b), rounding);
+    const double excess = factor_a * a_.mean - factor_b * b_.mean;
+    if (excess == 0) return 0.5;
+    const double t = excess / std::hypot(error(factor_a, factor_b), rounding);
     const double va = sqr(factor_a) * a_.variance, vb = sqr(factor_b) * b_.variance;
     double freedom = a_.freedom;
     if (!paired_ && b_.freedom > 0 && va + vb > 0)
-      freedom = sqr(va + vb) / (sqr(va) / a_.freedom + sqr(vb) / b_.freedom);
+      // By shares, whose squares do not underflow.
+      freedom = 1 / (sqr(va / (va + vb)) / a_.freedom + sqr(vb / (va + vb)) / b_.freedom);
     return student_t_cdf(-t, freedom);
   }
   /// Of the hypothesis that factor·a has the mean b, two-sided.
@@ -195,6 +197,7 @@ class Comparison {
 
 /// Of values that have the expected mean, two-sided.
 inline double t_test_p_value(const RunningStatistics& values, double expected) {
+  if (values.mean() == expected) return 1;
   const double t = std::fabs(values.mean() - expected) / values.standard_error();
   return 2 * student_t_cdf(-t, double(values.count() - 1));
 }
