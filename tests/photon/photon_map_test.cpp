@@ -392,6 +392,31 @@ TEST(PhotonRadiance, GlossyByIncidentDirections) {
 
 // ---------------------------------------------------------------- radii
 
+/// Moments of the distances against those of the kernel, sums over rings of the disk.
+TEST(KernelDistance, IsDistributedAsTheKernelsWeight) {
+  for (const Kernel kernel : {Kernel::constant, Kernel::cone, Kernel::epanechnikov})
+    for (const float k : {1.0f, 1.5f, 4.0f}) {
+      EstimateSettings settings;
+      settings.kernel = kernel;
+      settings.cone_constant = k;
+      const auto density = [&](double d) {
+        return kernel == Kernel::constant ? 2 * d
+               : kernel == Kernel::cone   ? 2 * d * (1 - d / double(k)) / (1 - 2 / (3 * double(k)))
+                                          : 4 * d * (1 - d * d);
+      };
+      constexpr int n = 10'000;
+      for (const int power : {1, 2, 6}) {
+        double expected = 0, found = 0;
+        for (int i = 0; i < n; ++i) {
+          const double x = (i + 0.5) / n;
+          expected += density(x) * std::pow(x, power) / n;
+          found += std::pow(double(kernel_distance(settings, float(x))), power) / n;
+        }
+        EXPECT_NEAR(found, expected, 1e-4);
+      }
+    }
+}
+
 TEST(PassRadius, FollowsTheRecurrence) {
   constexpr double alpha = 2.0 / 3.0;
   double radius_sq = 0.25;  // pass 0, which Knaus and Zwicker call 1

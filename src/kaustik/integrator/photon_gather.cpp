@@ -1,6 +1,7 @@
 #include "kaustik/integrator/photon_gather.h"
 
 #include "kaustik/base/to_integer.h"
+#include "kaustik/integrator/covered_disk.h"
 #include "kaustik/transport/direct_light.h"
 #include "kaustik/transport/null_boundaries.h"
 #include "kaustik/transport/roulette.h"
@@ -15,8 +16,8 @@ constexpr int precomputed_level = 1;
 constexpr int gather_roulette_depth = 4;
 /// Gather rays average over so many directions that one volume photon out of these is enough.
 constexpr size_t coarse_volume_stride = 8;
-/// Of the sampler's forks for what is visible of each map.
-constexpr uint32_t caustic_key = 1, global_key = 2;
+/// Of the sampler's forks for what is visible of each map, and for what covers disks.
+constexpr uint32_t caustic_key = 1, global_key = 2, coverage_key = 3;
 
 }  // namespace
 
@@ -60,26 +61,38 @@ EstimateSettings PhotonLight::at_level(const EstimateSettings& settings, float r
   return result;
 }
 
-Spectrum PhotonLight::estimate(const PhotonMap& map, const SurfaceVertex& vertex, Lobes lobes,
-                               const EstimateSettings& settings, const Sampler& numbers,
-                               uint64_t& rays) const {
+DensityEstimate PhotonLight::estimate(const PhotonMap& map, const SurfaceVertex& vertex,
+                                      Lobes lobes, const EstimateSettings& settings,
+                                      const Sampler& numbers, uint64_t& rays) const {
   if (map.empty()) return {};
-  if (!settings_.visibility) return map.radiance(vertex, lobes, settings).value;
+  if (!settings_.visibility) return map.radiance(vertex, lobes, settings);
   const SurfaceSight sight(scene_, vertex.position(), vertex.point().shape, rays);
-  return map.radiance(vertex, lobes, settings, {&sight, Sampler(numbers).next_1d()}).value;
+  return map.radiance(vertex, lobes, settings, {&sight, Sampler(numbers).next_1d()});
 }
 
-Spectrum PhotonLight::caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion,
-                              const Sampler& sampler, uint64_t& rays) const {
+DensityEstimate PhotonLight::caustic_estimate(const SurfaceVertex& vertex, Lobes lobes,
+                                              int recursion, const Sampler& sampler,
+                                              uint64_t& rays) const {
   return estimate(maps_.caustic, vertex, lobes,
                   at_level(settings_.caustic, radii_.caustic, recursion), sampler.fork(caustic_key),
                   rays);
 }
 
+Spectrum PhotonLight::seen_caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion,
+                                   const Sampler& sampler, uint64_t& rays) const {
+  const DensityEstimate found = caustic_estimate(vertex, lobes, recursion, sampler, rays);
+  if (!settings_.visibility || found.value.is_zero()) return found.value;
+  const bool keep_everywhere = scene_.film().quantity == Quantity::irradiance;
+  const PhotonSurroundings around{scene_, vertex, keep_everywhere ? Lobes::all : settings_.local()};
+  return found.value * inverse_covered_share(around, settings_.caustic, found.radius,
+                                             sampler.fork(coverage_key), rays);
+}
+
 Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int recursion,
                              const Sampler& sampler, uint64_t& rays) const {
   return estimate(maps_.global, vertex, lobes, at_level(settings_.global, radii_.global, recursion),
-                  sampler.fork(global_key), rays);
+                  sampler.fork(global_key), rays)
+      .value;
 }
 
 Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes, int recursion,

@@ -24,7 +24,12 @@ class PhotonLight final : public RadianceSource {
   /// Radiance by caustic photons [L G⁺ → x] that `lobes` send back at a recursion level.
   /// `sampler` tells where it is drawn what is visible; its numbers are not used up. Counts rays.
   Spectrum caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion, const Sampler& sampler,
-                   uint64_t& rays) const;
+                   uint64_t& rays) const {
+    return caustic_estimate(vertex, lobes, recursion, sampler, rays).value;
+  }
+  /// The same where the camera looks: as if the disk were whole where the surface ends within it.
+  Spectrum seen_caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion,
+                        const Sampler& sampler, uint64_t& rays) const;
   /// The same by global photons: the approximate solution for diffuse indirect light.
   Spectrum global(const SurfaceVertex& vertex, Lobes lobes, int recursion, const Sampler& sampler,
                   uint64_t& rays) const;
@@ -62,6 +67,8 @@ class PhotonLight final : public RadianceSource {
   uint64_t rays() const { return rays_.load(std::memory_order_relaxed); }
 
  private:
+  DensityEstimate caustic_estimate(const SurfaceVertex& vertex, Lobes lobes, int recursion,
+                                   const Sampler& sampler, uint64_t& rays) const;
   EstimateSettings at_level(const EstimateSettings& settings, float radius, int recursion) const;
   /// Diffuse indirect light at the end of a gather ray: gathered once more, or from the map.
   Spectrum gathered_indirect(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
@@ -70,8 +77,9 @@ class PhotonLight final : public RadianceSource {
   Spectrum gathered_global(const SurfaceVertex& vertex, Lobes lobes, int recursion,
                            const Sampler& sampler, uint64_t& rays) const;
   /// Radiance by the photons of a map.
-  Spectrum estimate(const PhotonMap& map, const SurfaceVertex& vertex, Lobes lobes,
-                    const EstimateSettings& settings, const Sampler& numbers, uint64_t& rays) const;
+  DensityEstimate estimate(const PhotonMap& map, const SurfaceVertex& vertex, Lobes lobes,
+                           const EstimateSettings& settings, const Sampler& numbers,
+                           uint64_t& rays) const;
   Spectrum reflected_direct_light(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
                                   int recursion, Sampler& sampler, uint64_t& rays) const;
   void make_volume_maps(uint32_t pass);

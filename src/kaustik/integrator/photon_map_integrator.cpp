@@ -284,8 +284,9 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
   const Lobes local = vertex.lobes() & settings_.local();
   if (!any(local)) return;
   if (walk.wants_photon_light(Component::caustic))
-    walk.add_photon_light(Component::caustic, state.light->caustic(vertex, local, walk.events(),
-                                                                   walk.sampler(), walk.rays()));
+    walk.add_photon_light(
+        Component::caustic,
+        state.light->seen_caustic(vertex, local, walk.events(), walk.sampler(), walk.rays()));
   if (settings_.global.neighbors <= 0 || !walk.wants_photon_light(Component::indirect)) return;
   const bool gathers = any(local & Lobes::diffuse) && !settings_.approximates(level_of(walk));
   if (gathers)

@@ -114,7 +114,8 @@ std::vector<Parameter> parameters() {
           .range(0, 1000000),
       boolean_parameter("visibility", true,
                         "Photons do not count where something opaque hides them, so that no light "
-                        "leaks through walls."),
+                        "leaks through walls, and where a surface ends within a disk of caustic "
+                        "photons the camera sees no less light."),
       number_parameter("minimum_radiance", 0,
                        "Least visible radiance: bounds the search for photons [minRadiance]; 0: no "
                        "bound.")

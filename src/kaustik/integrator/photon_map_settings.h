@@ -33,7 +33,7 @@ struct PhotonMapSettings {
   EstimateSettings caustic, global;
   int volume_neighbors = 0;
   float minimum_radiance = 0;
-  bool visibility = true;                       ///< photons that something hides do not count
+  bool visibility = true;  ///< what hides photons counts, and what covers disks
   float caustic_radius = 0, global_radius = 0;  ///< cap of pass 0, m; 0: from the photons
 
   LightChoice light_choice = LightChoice::one;

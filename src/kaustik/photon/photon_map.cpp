@@ -191,6 +191,27 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   return estimate;
 }
 
+float kernel_distance(const EstimateSettings& settings, float u) {
+  switch (settings.kernel) {
+    case Kernel::constant:
+      break;
+    case Kernel::cone: {
+      // 1 − d/k is 1 − 1/k, even, and 1/k of the cone 1 − d, which has a third of that weight.
+      const float k = settings.cone_constant, even = 3 * (k - 1) / (3 * (k - 1) + 1);
+      if (u < even) {
+        u /= even;
+        break;
+      }
+      u = std::min((u - even) / (1 - even), 1.0f);
+      // 3 d² − 2 d³ = u.
+      return 0.5f - std::sin(std::asin(1 - 2 * u) / 3);
+    }
+    case Kernel::epanechnikov:
+      return std::sqrt(1 - std::sqrt(1 - u));
+  }
+  return std::sqrt(u);
+}
+
 float radius_of_least_radiance(int neighbors, float mean_flux, float minimum_radiance) {
   if (!(minimum_radiance > 0)) return infinity;
   return std::sqrt(float(neighbors) * mean_flux / (pi * minimum_radiance));

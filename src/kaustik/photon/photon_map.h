@@ -29,6 +29,10 @@ struct PhotonVisibility {
   float u = 0;
 };
 
+/// A distance from the centre, relative to the disk's radius, distributed as the kernel's weight on
+/// the disk; from an even number in [0, 1).
+float kernel_distance(const EstimateSettings& settings, float u);
+
 /// What an estimate was made of.
 struct DensityEstimate {
   Spectrum value;    ///< irradiance W/m² or radiance W/(sr·m²)
