@@ -38,7 +38,8 @@ void Film::check_size(const FilmSettings& settings, size_t numbers_per_pixel) {
         ErrorKind::input,
         fmt::format("a picture of {} × {} pixels is too large here: it needs {:.1f} GB", size.x,
                     size.y, double(size.x) * double(size.y) * double(bytes_per_pixel) / 1e9),
-        "choose a smaller width and height, or render it in parts by the film's crop window: kaustik stitch",
+        "choose a smaller width and height, or render it in parts by the film's crop window: "
+        "kaustik stitch",
         settings.place);
   }
 }
