@@ -73,6 +73,18 @@ TEST(CoveredDisk, EndsWithTheSurface) {
   expect_share("corner", rectangle(scale("5, 5, 1") + translate("-5, -5, 0")), 0.25);
 }
 
+/// Photons of a lower step count as far as they lie in the ball, ∫ 6 (1 − D) D dD over half of it.
+TEST(CoveredDisk, TakesInSteps) {
+  for (const double depth : {0.3, 0.6}) {
+    const double below = 3 * ((1 - depth * depth) / 2 - (1 - depth * depth * depth) / 3);
+    expect_share(fmt::format("{} deep", depth),
+                 rectangle(scale("5, 5, 1") + translate("-5, 0, 0")) +
+                     rectangle(scale("5, 5, 1") +
+                               translate(fmt::format("5, 0, {}", -depth * double(radius)))),
+                 0.5 + below);
+  }
+}
+
 /// Photons beyond a wall are not this side's, nor those below the floor.
 TEST(CoveredDisk, EndsAtWalls) {
   const std::string wall =

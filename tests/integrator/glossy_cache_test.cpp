@@ -79,7 +79,6 @@ TEST(GlossyScenes, LoseNoCausticsAtTheEndsOfSurfaces) {
   const Comparison c(
       render(scene, "photonmap", caustic + set("caustic_photons", 120'000), {8}).mean({"caustic"}),
       render(scene, "path", caustic, {200}).mean({"caustic"}));
-  std::printf("  %.4f ± %.4f\n", c.ratio(), c.relative_error());
   EXPECT_GT(c.p_value_of_nearness(0.01), nearness_level()) << c.ratio();
   if (!slow_build) {
     EXPECT_LT(c.p_value_of_nearness(0.01, 0.96), nearness_level()) << c.ratio();

@@ -25,7 +25,8 @@ constexpr float largest_half = 65504;
 
 class MemoryOutput : public Imf::OStream {
  public:
-  MemoryOutput() : OStream("memory") {}
+  // The name stands in messages, and "memory" tells there what is lacking.
+  MemoryOutput() : OStream("file") {}
   void write(const char data[], int count) override {
     const size_t end = position_ + size_t(count);
     if (end > bytes.size()) bytes.resize(end);

@@ -13,9 +13,11 @@ struct PhotonSurroundings {
 };
 
 /// An estimate of one over the share of a disk around the vertex, by the weights of the kernel,
-/// where a surface that keeps photons is seen from over the vertex: unbiased but for shares of a
-/// few percent. Times it an estimate of density does not lose what would lie beyond the end of the
-/// surface or behind a wall. Counts its rays; where the disk is whole, that is one.
+/// where photons that lie on a surface count: within the ball of the radius, and not hidden
+/// (SurfaceSight). Times it an estimate of density does not lose what would lie beyond the end of
+/// the surface or behind a wall. Unbiased but for small shares: 63 tries at most leave 4 % too
+/// little at a share of a twentieth. Counts its rays; where the disk is flat and whole, that is
+/// one.
 float inverse_covered_share(const PhotonSurroundings& around, const EstimateSettings& kernel,
                             float radius, Sampler numbers, uint64_t& rays);
 

@@ -17,7 +17,8 @@ constexpr int gather_roulette_depth = 4;
 /// Gather rays average over so many directions that one volume photon out of these is enough.
 constexpr size_t coarse_volume_stride = 8;
 /// Of the sampler's forks for what is visible of each map, and for what covers disks.
-constexpr uint32_t caustic_key = 1, global_key = 2, coverage_key = 3;
+/// Lights fork by their numbers, which are smaller.
+constexpr uint32_t caustic_key = 0x70000001, global_key = 0x70000002, coverage_key = 0x70000003;
 
 }  // namespace
 

@@ -3,16 +3,10 @@
 #include <algorithm>
 
 namespace kaustik {
-namespace {
-
-/// Trials look at two blocks on a side at once.
-constexpr int blocks_together = 2;
-
-}  // namespace
 
 PlanWindow::PlanWindow(const FilmSettings& film, int block_size, int margin_blocks)
     : crop(film.crop_size) {
-  const int together = blocks_together * block_size;
+  const int together = blocks_per_trial * block_size;
   const auto along = [&](int offset, int length, int whole, int& own_size, int& own_before) {
     const int margin = margin_blocks * block_size;
     const int begin = std::max(0, offset - margin) / together * together;

@@ -5,11 +5,14 @@ namespace kaustik {
 
 /// The part of the whole picture that plans are made for: the crop window and as much around it as
 /// what is learned of its border is averaged with. It begins where a block of the whole picture
-/// does, so a part of a picture is planned as the whole picture is.
+/// does: where blocks are of one size in both, a part is planned as the whole picture is.
 struct PlanWindow {
   Vec2i size{1, 1};    ///< pixels
   Vec2i before{0, 0};  ///< pixels of it left of the crop window and above it
   Vec2i crop{1, 1};    ///< size of the crop window
+
+  /// On a side: one block of the trial of connections has so many of the plans.
+  static constexpr int blocks_per_trial = 2;
 
   PlanWindow() = default;
   /// Disks are smoothed over the blocks beside theirs, of which each was chosen by those beside it.

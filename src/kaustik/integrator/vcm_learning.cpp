@@ -15,9 +15,6 @@ constexpr uint32_t most_learned_passes = 256;
 /// The same for what guides light paths; of each epoch the last pass.
 constexpr uint32_t most_guided_passes = 16;
 
-/// On a side: one block of the trial of connections has so many of the plans.
-constexpr int blocks_per_trial = 2;
-
 bool teaches_emission(uint32_t pass) {
   return pass < most_guided_passes && std::has_single_bit(pass + 1);
 }
@@ -66,10 +63,11 @@ VcmLearning::VcmLearning(std::shared_ptr<const VcmPlans> first, const VcmSetting
                       ? SampleLearning(first_->pixels.window(), PixelPlans::block_size,
                                        !first_->techniques.needs_light_paths())
                       : SampleLearning()),
-      no_connections_(learns_connections(*first_, settings)
-                          ? ConnectionLearning(first_->pixels.window().size,
-                                               blocks_per_trial * PixelPlans::block_size)
-                          : ConnectionLearning()) {}
+      no_connections_(
+          learns_connections(*first_, settings)
+              ? ConnectionLearning(first_->pixels.window().size,
+                                   PlanWindow::blocks_per_trial * PixelPlans::block_size)
+              : ConnectionLearning()) {}
 
 uint32_t VcmLearning::learned_passes(const VcmPlans& first, const VcmSettings& settings) {
   uint32_t passes = learns_samples(first, settings) ? SampleLearning::most_passes : 0;
@@ -169,8 +167,8 @@ void VcmLearning::choose_connections(VcmPlans& plans, uint32_t epoch) {
   for (int y = 0; y < blocks.y; ++y)
     for (int x = 0; x < blocks.x; ++x)
       plans.connects[size_t(y) * size_t(blocks.x) + size_t(x)] =
-          choice.connects[size_t(y / blocks_per_trial) * size_t(choice.blocks.x) +
-                          size_t(x / blocks_per_trial)];
+          choice.connects[size_t(y / PlanWindow::blocks_per_trial) * size_t(choice.blocks.x) +
+                          size_t(x / PlanWindow::blocks_per_trial)];
   plans.decisions.push_back(fmt::format(
       "auto: camera paths are connected to light paths in {:.0f} % of the picture: {:.2g} times "
       "less to do than without, by a trial",

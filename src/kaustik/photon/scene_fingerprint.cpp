@@ -10,11 +10,13 @@
 namespace kaustik {
 namespace {
 
-/// By how much numbers may differ. Most are about 1, and floats are exact to 1e-7.
-constexpr double tolerance = 1e-5;
-/// For what is no number …
-constexpr double nowhere = 3, zero = -1e3;
-/// … and the largest that is one.
+/// By how much numbers may differ. Most are about 1, floats are exact to 1e-7, and what follows
+/// from them is so to some times that.
+constexpr double tolerance = 2e-6;
+/// For directions and logarithms that there are none of …
+const Vec3f nowhere(3, 3, 3);
+constexpr double zero = -1e3;
+/// … and the largest number.
 constexpr double most = 1e6;
 
 class Summation {
@@ -47,10 +49,7 @@ void add_bsdf(const Bsdf& bsdf, Summation& sums) {
     for (const float u : {0.02f, 0.98f}) {
       const BsdfSample sample = bsdf.sample(context, wo, u, {0.4f, 0.7f}, Lobes::all);
       // What is absorbed has no direction.
-      if (sample.weight.is_zero())
-        sums.add(nowhere);
-      else
-        sums.add(sample.wi);
+      sums.add(sample.weight.is_zero() ? nowhere : sample.wi);
     }
   }
 }

@@ -19,7 +19,9 @@ struct SceneFingerprint {
   uint64_t numbers = 0;
   std::array<double, sum_count> sums{};  ///< places relative to the size of the scene
 
-  /// Whether both are of one scene, last bits apart.
+  /// Whether both are of one scene, last bits apart. Not told is a change of all numbers together
+  /// by less than 2e-6 times the root of their number (some 25 for each shape): in a scene of 1000
+  /// shapes a ball that moves by 0.03 % of the scene's size.
   bool matches(const SceneFingerprint& other) const;
 };
 

@@ -8,7 +8,7 @@ namespace kaustik {
 namespace {
 
 /// Of the sampler's fork for what is visible.
-constexpr uint32_t visibility_key = 7;
+constexpr uint32_t visibility_key = 0x70000007;
 
 using PhotonTree = KdTree<3, Vec3f, uint32_t>;
 

@@ -99,7 +99,8 @@ struct LightPathCounts {
   uint64_t rays = 0;
   uint64_t escaped = 0, absorbed = 0, too_long = 0;
   uint64_t absorbed_in_media = 0;
-  uint64_t stopped = 0;  ///< by the handler, or in a medium by LightPathLimits::in_media
+  uint64_t stopped = 0;  ///< by the handler, in a medium by LightPathLimits::in_media, or at
+                         ///< most_null_boundaries
 };
 
 /// Scatters `path` at `vertex`, by the lobes `follow`: true if it goes on. Russian roulette
