@@ -12,12 +12,17 @@ struct PhotonSurroundings {
   Lobes keeping;
 };
 
+/// Points of a disk that are tried at most: more of them cost more than what small shares are
+/// worth.
+inline constexpr int most_covering_tries = 16;
+
 /// An estimate of one over the share of a disk around the vertex, by the weights of the kernel,
-/// where photons that lie on a surface count: within the ball of the radius, and not hidden
-/// (SurfaceSight). Times it an estimate of density does not lose what would lie beyond the end of
-/// the surface or behind a wall. Unbiased but for small shares: 63 tries at most leave 4 % too
-/// little at a share of a twentieth. Counts its rays; where the disk is flat and whole, that is
-/// one.
+/// where a surface that keeps photons is seen from over the vertex, as far below its plane as the
+/// radius. Times it an estimate of density does not lose what would lie beyond the end of the
+/// surface or behind a wall. A step that is less deep counts as covered: some of its photons do not
+/// count, the more the deeper it is. In the mean it is (1 − (1 − p)^16)/p of a share p: 1 % too
+/// little at a quarter, a corner, and 19 % at a tenth. Counts its rays; where the disk is whole,
+/// that is one.
 float inverse_covered_share(const PhotonSurroundings& around, const EstimateSettings& kernel,
                             float radius, Sampler numbers, uint64_t& rays);
 

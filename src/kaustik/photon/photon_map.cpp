@@ -191,18 +191,6 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   return estimate;
 }
 
-float kernel_falloff(const EstimateSettings& settings, float distance) {
-  switch (settings.kernel) {
-    case Kernel::constant:
-      return 1;
-    case Kernel::cone:
-      return 1 - distance / settings.cone_constant;
-    case Kernel::epanechnikov:
-      return 1 - sqr(distance);
-  }
-  return 0;
-}
-
 float kernel_distance(const EstimateSettings& settings, float u) {
   switch (settings.kernel) {
     case Kernel::constant:

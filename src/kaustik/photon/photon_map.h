@@ -32,9 +32,6 @@ struct PhotonVisibility {
 /// A distance from the centre, relative to the disk's radius, distributed as the kernel's weight on
 /// the disk; from an even number in [0, 1).
 float kernel_distance(const EstimateSettings& settings, float u);
-/// The kernel's weight at a distance, relative to the disk's radius and to the weight at its
-/// centre.
-float kernel_falloff(const EstimateSettings& settings, float distance);
 
 /// What an estimate was made of.
 struct DensityEstimate {

@@ -7,7 +7,7 @@ namespace {
 
 /// Of the distance: how high the straight way lies over the surface, and that over its bend.
 constexpr float straight_height = 1e-3f, bend_height = 0.25f;
-/// Normals that enclose more than this are those of a surface that bends, radians.
+/// By so much normals part over the way where a surface bends away, radians.
 constexpr float bent = 0.02f;
 /// What is between is looked through so many times; then it hides what lies behind.
 constexpr int most_layers = 16;
@@ -54,8 +54,8 @@ bool SurfaceSight::sees(const Vec3f& normal, const Vec3f& other, const Vec3f& ot
     return is_free({from, over - from, 1}) && is_free({over, to - over, 1});
   };
   // The more promising first.
-  return length_sq(normal - other_normal) > sqr(bent) ? over_bend() || straight()
-                                                      : straight() || over_bend();
+  const bool bends_away = dot(other_normal - normal, other - position_) > bent * distance;
+  return bends_away ? over_bend() || straight() : straight() || over_bend();
 }
 
 }  // namespace kaustik
