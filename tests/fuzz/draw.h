@@ -2,9 +2,18 @@
 #include <cstdint>
 #include <initializer_list>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace kaustik::fuzz {
+
+/// One after the other. A list in braces is evaluated from the left to the right; the operands of
+/// `+` and the arguments of a call are not, and what draws numbers there differs by the compiler.
+inline std::string joined(std::initializer_list<std::string> parts) {
+  std::string result;
+  for (const std::string& part : parts) result += part;
+  return result;
+}
 
 /// Random choices that are the same with every standard library.
 class Draw {

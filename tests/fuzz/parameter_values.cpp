@@ -85,11 +85,14 @@ std::string ParameterValues::color(const Parameter& parameter) {
     case 0:
       return element("float", parameter.name, fmt::format("{}", one()));
     case 1:
-      return element("spectrum", parameter.name,
-                     fmt::format("{}:{}, {}:{}", draw_.one_of({1, 400, 500}), one(),
-                                 draw_.one_of({600, 700, 100000}), one()));
+      return element(
+          "spectrum", parameter.name,
+          joined({fmt::format("{}:", draw_.one_of({1, 400, 500})), fmt::format("{}, ", one()),
+                  fmt::format("{}:", draw_.one_of({600, 700, 100000})), fmt::format("{}", one())}));
     default:
-      return element("rgb", parameter.name, fmt::format("{}, {}, {}", one(), one(), one()));
+      return element("rgb", parameter.name,
+                     joined({fmt::format("{}, ", one()), fmt::format("{}, ", one()),
+                             fmt::format("{}", one())}));
   }
 }
 
@@ -116,8 +119,8 @@ std::string ParameterValues::transform_step() {
     case 0:
       return fmt::format("<translate value=\"{}\"/>", triple(1));
     case 1:
-      return fmt::format("<rotate value=\"{}\" angle=\"{:.6g}\"/>", triple(1),
-                         draw_.between(-180, 180));
+      return joined({fmt::format("<rotate value=\"{}\"", triple(1)),
+                     fmt::format(" angle=\"{:.6g}\"/>", draw_.between(-180, 180))});
     default:
       return fmt::format("<scale value=\"{:.6g}\"/>", draw_.between(0.2, 1.5));
   }
@@ -137,8 +140,8 @@ std::string ParameterValues::wild_transform_step() {
       return "<matrix value=\"" + rows + (draw_.chance(0.8) ? "0 0 0 1" : "0 1e-6 0 2") + "\"/>";
     }
     default:
-      return fmt::format("<lookat origin=\"{}\" target=\"{}\" up=\"0, 1, 0\"/>", triple(3),
-                         triple(3));
+      return joined({fmt::format("<lookat origin=\"{}\"", triple(3)),
+                     fmt::format(" target=\"{}\" up=\"0, 1, 0\"/>", triple(3))});
   }
 }
 

@@ -60,7 +60,7 @@ class Grammar {
 
   GeneratedScene scene() {
     GeneratedScene result;
-    result.begin = "<scene version=\"3.0.0\">\n" + sensor() + definitions() + content();
+    result.begin = joined({"<scene version=\"3.0.0\">\n", sensor(), definitions(), content()});
     result.end = "</scene>\n";
     for (const IntegratorType& type : integrator_types())
       result.integrators.push_back({type.info.name, integrator(type.info)});
@@ -171,9 +171,10 @@ class Grammar {
 
   /// A room around everything.
   std::string room() {
-    return "<shape type=\"cube\"><boolean name=\"flip_normals\" value=\"true\"/>"
-           "<transform name=\"to_world\"><scale value=\"4\"/></transform>" +
-           bsdf() + (draw_.chance(0.1) ? medium("interior") : "") + "</shape>\n";
+    return joined(
+        {"<shape type=\"cube\"><boolean name=\"flip_normals\" value=\"true\"/>"
+         "<transform name=\"to_world\"><scale value=\"4\"/></transform>",
+         bsdf(), draw_.chance(0.1) ? medium("interior") : "", "</shape>\n"});
   }
 
   std::string group(const std::string& id) {
@@ -184,8 +185,8 @@ class Grammar {
   }
 
   std::string instance() {
-    return fmt::format("<shape type=\"instance\"><ref id=\"g{}\"/>{}</shape>\n",
-                       draw_.below(groups_), values_.transform("to_world"));
+    return joined({fmt::format("<shape type=\"instance\"><ref id=\"g{}\"/>", draw_.below(groups_)),
+                   values_.transform("to_world"), "</shape>\n"});
   }
 
   /// What others refer to: each may refer to those before it.
@@ -215,13 +216,15 @@ class Grammar {
 
   std::string sensor() {
     std::string result = "<sensor type=\"perspective\">";
-    if (draw_.chance(values_.wildness))
+    if (draw_.chance(values_.wildness)) {
       result += values_.transform("to_world");
-    else
+    } else {
+      const Vec3d from{draw_.between(-1, 1), draw_.between(-1, 1), draw_.between(-3.5, -2)};
       result += fmt::format(
           "<transform name=\"to_world\"><lookat origin=\"{:.3g}, {:.3g}, {:.3g}\" target=\"0, 0, "
           "0\" up=\"0, 1, 0\"/></transform>",
-          draw_.between(-1, 1), draw_.between(-1, 1), draw_.between(-3.5, -2));
+          from.x, from.y, from.z);
+    }
     result += properties(Camera::info(), {"to_world", "focal_length"});
     if (draw_.chance(0.15)) result += medium("");
     return result + film() + "</sensor>\n";
