@@ -67,7 +67,10 @@ class SdfShape : public Shape {
     double begin, end;
   };
   static std::optional<Span> clip(const Vec3d& o, const Vec3d& d, double t_max);
-  double refine(const Vec3d& o, const Vec3d& d, double t, double step, double side) const;
+  std::optional<double> enter(const Vec3d& o, const Vec3d& d, const Span& span) const;
+  std::optional<double> leave(const Vec3d& o, const Vec3d& d, const Span& span) const;
+  double refine(const Vec3d& o, const Vec3d& d, double t, double step) const;
+  double crossing(const Vec3d& o, const Vec3d& d, double from, double to, bool from_inside) const;
   Bounds3f cell_bounds(const Vec3d& middle, double half_width) const;
   bool may_hold_surface(const Vec3d& middle, double half_width) const {
     return field_.value(middle) <= half_width * std::sqrt(3.0);
@@ -112,40 +115,57 @@ std::optional<ShapeHit> SdfShape::intersect(const Ray& ray) const {
   if (!span) return std::nullopt;
 
   // The sign at the start tells the side that the ray is on; it stops where the other one begins.
+  const bool is_inside = field_.value(o + d * span->begin) < 0;
+  const auto t = is_inside ? leave(o, d, *span) : enter(o, d, *span);
+  if (!t) return std::nullopt;
+  const double t_hit = std::min(*t, span->end) / scale;
+  if (!(t_hit > 0) || !(t_hit < double(ray.t_max))) return std::nullopt;
+  return ShapeHit{float(t_hit), 0, 0, Vec3f(world_normal(field_.gradient(o + d * *t)))};
+}
+
+/// Where a ray from outside meets the surface.
+std::optional<double> SdfShape::enter(const Vec3d& o, const Vec3d& d, const Span& span) const {
   constexpr double smallest_step = 0.25 * precision;
-  constexpr double step_inside = 1e-3;  // there the value is no distance
-  constexpr int most_steps = 100000;
-  const double side = field_.value(o + d * span->begin) < 0 ? -1 : 1;
-  double t = span->begin;
-  for (int i = 0; i < most_steps && t < span->end; ++i) {
+  constexpr int most_steps = 4096;
+  double t = span.begin;
+  for (int i = 0; i < most_steps && t < span.end; ++i) {
     const Vec3d p = o + d * t;
-    const double distance = side * field_.value(p);
-    const double step =
-        std::max(smallest_step, side > 0 ? distance : std::min(distance, step_inside));
+    const double distance = field_.value(p);
+    const double step = std::max(smallest_step, distance);
     // Within `precision` of the surface only what goes toward it is a hit: rays start here, too.
-    if (distance < precision && side * d.dot(field_.gradient(p)) < 0) {
-      const double t_hit = std::min(refine(o, d, t, step, side), span->end) / scale;
-      if (!(t_hit > 0) || !(t_hit < double(ray.t_max))) return std::nullopt;
-      return ShapeHit{float(t_hit), 0, 0, Vec3f(world_normal(field_.gradient(p)))};
-    }
+    if (distance < precision && d.dot(field_.gradient(p)) < 0) return refine(o, d, t, step);
     t += step;
   }
   return std::nullopt;
 }
 
-/// From a point within reach of the surface to the surface itself, by bisection if it is passed
-/// soon, else where it is.
-double SdfShape::refine(const Vec3d& o, const Vec3d& d, double t, double step, double side) const {
-  double outside = t, inside = t;
+/// Where a ray from inside meets the surface: there the value is no distance to step by, and what
+/// is thinner than a step may be missed.
+std::optional<double> SdfShape::leave(const Vec3d& o, const Vec3d& d, const Span& span) const {
+  constexpr double step = 1e-3;
+  for (double t = span.begin; t < span.end; t += step)
+    if (field_.value(o + d * (t + step)) >= 0) return crossing(o, d, t, t + step, true);
+  return std::nullopt;
+}
+
+/// From a point outside within reach of the surface to the surface itself, if it is passed soon,
+/// else where it is.
+double SdfShape::refine(const Vec3d& o, const Vec3d& d, double t, double step) const {
   double reach = std::max(step, precision);
-  for (int i = 0; i < 5 && inside == t; ++i, reach *= 2)
-    if (side * field_.value(o + d * (t + reach)) < 0) inside = t + reach;
-  if (inside == t) return t;
-  for (int i = 0; i < 16; ++i) {
-    const double middle = 0.5 * (outside + inside);
-    (side * field_.value(o + d * middle) < 0 ? inside : outside) = middle;
+  for (int i = 0; i < 5; ++i, reach *= 2)
+    if (field_.value(o + d * (t + reach)) < 0) return crossing(o, d, t, t + reach, false);
+  return t;
+}
+
+/// By bisection; the side of `from` is `from_inside`, and what is returned lies on it.
+double SdfShape::crossing(const Vec3d& o, const Vec3d& d, double from, double to,
+                          bool from_inside) const {
+  while (to - from > 1e-4 * precision) {
+    const double middle = 0.5 * (from + to);
+    if (!(from < middle && middle < to)) break;
+    ((field_.value(o + d * middle) < 0) == from_inside ? from : to) = middle;
   }
-  return outside;
+  return from;
 }
 
 SurfacePoint SdfShape::surface_point(const Ray& ray, const Hit& hit) const {
