@@ -432,22 +432,11 @@ VcmCameraPath::MergedLight VcmCameraPath::reached_matt(const MergeDisk& disk,
   const SurfaceVertex& vertex = walk_.vertex();
   const Spectrum reflected = vertex.diffuse_value();
   Draws draws = draws_of(light);
-  const auto draw_of = [&](bool specular) -> std::optional<LaneDraw>& {
-    return draws[size_t(walk_.component_of(Lobes::diffuse, specular))];
-  };
-  const auto is_decided = [](const std::optional<LaneDraw>& draw) {
-    return !draw || draw->is_decided();
-  };
-  in_.matt.visit(
-      each,
-      [&](uint32_t number, const Spectrum& flux, bool specular) {
-        if (auto& draw = draw_of(specular)) draw->offer(number, flux * reflected);
-        return !is_decided(draw_of(false)) || !is_decided(draw_of(true));
-      },
-      [&](uint32_t number, const Spectrum& flux, bool specular) {
-        auto& draw = draw_of(specular);
-        return !draw || draw->pass_over(number, flux * reflected);
-      });
+  for (const auto kind : {MattMerging::other, MattMerging::after_specular}) {
+    const bool specular = kind == MattMerging::after_specular;
+    if (auto& draw = draws[size_t(walk_.component_of(Lobes::diffuse, specular))])
+      in_.matt.offer(each, kind, reflected, *draw);
+  }
   leave_drawn(
       draws,
       [&](size_t number) {

@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/photon/matt_merging.h"
@@ -73,7 +74,7 @@ struct Sums {
 };
 
 HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Block& block,
-                          const MattDisk& disk, Sums& sums, float* factors) {
+                          const MattDisk& disk, Sums& sums, MattMerging::Factors* factors) {
   const Tag d;
   const auto dot_with = [&](const Vec3f& v, Vec x, Vec y, Vec z) HWY_ATTR {
     return hn::MulAdd(x, hn::Set(d, v.x),
@@ -131,7 +132,6 @@ HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Bl
     // Last, since points that fill up a bucket are infinitely far away.
     wide = hn::IfThenElseZero(counts, wide);
     narrow = hn::IfThenElseZero(counts, narrow);
-    if (factors) hn::StoreU(wide, d, factors + i);
     // Buckets hold what is near one another, which often came alike.
     const uint32_t specular = uint32_t(block.after_specular) >> i;
     uint8_t bits[8] = {uint8_t(specular), uint8_t(specular >> 8)};
@@ -141,6 +141,49 @@ HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Bl
     if (block.after_specular != 0)
       sums.after_specular.add(block, i, hn::IfThenElseZero(after_specular, wide),
                               hn::IfThenElseZero(after_specular, narrow));
+    if (!factors) continue;
+    hn::StoreU(wide, d, factors->wide + i);
+    uint8_t counting[8] = {};
+    hn::StoreMaskBits(d, hn::Gt(wide, hn::Zero(d)), counting);
+    factors->counting = uint16_t(factors->counting | (counting[0] | counting[1] << 8) << i);
+  }
+}
+
+/// Flux times factor of the vertices of a block whose bits are set.
+HWY_INLINE Spectrum sum_of(const MattMerging::Block& block, const MattMerging::Factors& factors,
+                           unsigned counting) {
+  const Tag d;
+  Vec sums[Spectrum::lane_count];
+  for (Vec& sum : sums) sum = hn::Zero(d);
+  for (size_t i = 0; i < MattMerging::Block::size; i += hn::Lanes(d)) {
+    uint8_t bits[8] = {uint8_t(counting >> i), uint8_t(counting >> i >> 8)};
+    const Vec wide = hn::IfThenElseZero(hn::LoadMaskBits(d, bits), hn::LoadU(d, factors.wide + i));
+    for (size_t lane = 0; lane < size_t(Spectrum::lane_count); ++lane)
+      sums[lane] = hn::MulAdd(hn::Load(d, block.flux[lane] + i), wide, sums[lane]);
+  }
+  Spectrum result;
+  for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+    result.set(lane, hn::GetLane(hn::SumOfLanes(d, sums[lane])));
+  return result;
+}
+
+void Offer(const MattMerging::Block* blocks, const EachFactors& each, MattMerging::Kind kind,
+           const Spectrum& reflected, LaneDraw& draw) {
+  const unsigned others = kind == MattMerging::other ? 0xffff : 0;
+  for (size_t f = 0; f < each.size() && !draw.is_decided(); ++f) {
+    const MattMerging::Factors& factors = each[f];
+    const MattMerging::Block& block = blocks[factors.bucket];
+    unsigned counting = factors.counting & (block.after_specular ^ others);
+    if (counting == 0) continue;
+    const auto number = [&] {
+      return factors.bucket * KdBuckets::bucket_size + uint32_t(std::countr_zero(counting));
+    };
+    if (draw.pass_over(number(), sum_of(block, factors, counting) * reflected)) continue;
+    for (; counting != 0; counting &= counting - 1) {
+      const int i = std::countr_zero(counting);
+      const Spectrum flux(block.flux[0][i], block.flux[1][i], block.flux[2][i], block.flux[3][i]);
+      draw.offer(number(), flux * factors.wide[i] * reflected);
+    }
   }
 }
 
@@ -158,9 +201,10 @@ MattLight Merge(const KdBuckets& buckets, const MattMerging::Block* blocks, cons
   const auto take = [](void* context, const uint32_t* numbers, size_t count) HWY_ATTR {
     Search& in = *static_cast<Search*>(context);
     for (size_t i = 0; i < count; ++i) {
-      float* factors = nullptr;
-      if (in.each) factors = in.each->emplace_back(MattMerging::Factors{numbers[i], {}}).wide;
+      MattMerging::Factors* factors = nullptr;
+      if (in.each) factors = &in.each->emplace_back(MattMerging::Factors{numbers[i], 0, {}});
       add_block(in.buckets.bucket(numbers[i]), in.blocks[numbers[i]], in.disk, in.sums, factors);
+      if (factors && factors->counting == 0) in.each->pop_back();
     }
   };
   buckets.overlapping(disk.center, sqr(disk.radius), {take, &search});
@@ -175,6 +219,7 @@ HWY_AFTER_NAMESPACE();
 namespace kaustik {
 namespace {
 HWY_EXPORT(Merge);
+HWY_EXPORT(Offer);
 
 /// What the light path tells of the weights at its vertex, on a matt surface.
 PathWeights::MattMerge matt_merge(const LightVertices& light, const LightVertexData& data,
@@ -230,6 +275,11 @@ MattMerging::MattMerging(const LightVertices& light, const PathWeights& weights)
 MattLight MattMerging::merge(const MattDisk& disk, std::vector<Factors>* each) const {
   if (blocks_.empty()) return {};
   return HWY_DYNAMIC_DISPATCH(Merge)(*buckets_, blocks_.data(), disk, each);
+}
+
+void MattMerging::offer(const std::vector<Factors>& each, Kind kind, const Spectrum& reflected,
+                        LaneDraw& draw) const {
+  if (!each.empty()) HWY_DYNAMIC_DISPATCH(Offer)(blocks_.data(), each, kind, reflected, draw);
 }
 
 }  // namespace kaustik

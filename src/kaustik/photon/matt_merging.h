@@ -1,8 +1,10 @@
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include "kaustik/photon/disk_kernel.h"
 #include "kaustik/photon/kd_tree_buckets.h"
+#include "kaustik/photon/lane_draw.h"
 #include "kaustik/photon/light_vertices.h"
 
 namespace kaustik {
@@ -46,35 +48,20 @@ class MattMerging {
   /// `light` must outlive this.
   MattMerging(const LightVertices& light, const PathWeights& weights);
 
+  /// Light that came by specular events only, and the rest.
+  enum Kind : size_t { other, after_specular, kinds };
   /// The factors of flux in MattLight::Sum::wide of the vertices of a bucket.
   struct Factors {
     uint32_t bucket;
+    uint16_t counting;  ///< bit i: that of vertex i is not 0
     float wide[KdBuckets::bucket_size];
   };
   /// Adds to `each`, if there is one, the factors of all vertices that count.
   MattLight merge(const MattDisk& disk, std::vector<Factors>* each = nullptr) const;
-  /// offer(number, flux, whether it came by specular events only) for all of which merge() told the
-  /// factors, until it answers false; flux times factor. Leaves out buckets where pass_over(number
-  /// of one, flux of all, whether they came by specular events only) answers true.
-  template <typename Offer, typename PassOver>
-  void visit(const std::vector<Factors>& each, const Offer& offer,
-             const PassOver& pass_over) const {
-    for (const Factors& factors : each) {
-      const Block& block = blocks_[factors.bucket];
-      const uint32_t begin = factors.bucket * KdBuckets::bucket_size;
-      uint32_t first = 0;
-      while (first < KdBuckets::bucket_size && factors.wide[first] == 0) ++first;
-      if (first == KdBuckets::bucket_size) continue;
-      const bool all_alike = block.after_specular == 0 || block.after_specular == 0xffff;
-      if (all_alike && pass_over(begin + first, block.sum(factors), block.after_specular != 0))
-        continue;
-      for (uint32_t i = first; i < KdBuckets::bucket_size; ++i) {
-        if (factors.wide[i] == 0) continue;
-        const Spectrum flux(block.flux[0][i], block.flux[1][i], block.flux[2][i], block.flux[3][i]);
-        if (!offer(begin + i, flux * factors.wide[i], (block.after_specular >> i & 1) != 0)) return;
-      }
-    }
-  }
+  /// Offers the vertices of a kind, of which merge() told the factors, by their numbers: flux times
+  /// factor times `reflected`.
+  void offer(const std::vector<Factors>& each, Kind kind, const Spectrum& reflected,
+             LaneDraw& draw) const;
   Vec3f position(uint32_t number) const { return buckets_->position(number); }
 
   /// Of 16 vertices, those of one bucket of the tree.
@@ -88,21 +75,6 @@ class MattMerging {
     uint16_t most_before = 0;     ///< of all
     uint16_t after_specular = 0;  ///< bit i: that of vertex i
     bool same_side = false;       ///< all sides are alike
-
-    /// Of flux times factor.
-    Spectrum sum(const Factors& factors) const {
-      Spectrum result;
-      for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
-        // In vectors, as far as that goes.
-        std::array<float, size / 4> partial{};
-        for (size_t part = 0; part < 4; ++part)
-          for (size_t i = 0; i < partial.size(); ++i)
-            partial[i] +=
-                factors.wide[part * partial.size() + i] * flux[lane][part * partial.size() + i];
-        result.set(lane, (partial[0] + partial[1]) + (partial[2] + partial[3]));
-      }
-      return result;
-    }
   };
 
  private:
