@@ -52,6 +52,20 @@ TEST(LaneDraw, AllOrNothingIsNoNoise) {
   }
 }
 
+TEST(LaneDraw, ByRunningSums) {
+  std::vector<Spectrum> running_sums;
+  Spectrum sum;
+  for (const Spectrum& part : parts) running_sums.push_back(sum += part);
+  for (int i = 0; i <= 1000; ++i) {
+    const float u = i < 1000 ? (float(i) + 0.5f) / 1000 : 0x1.fffffep-1f;
+    for (size_t only = 0; only < parts.size(); ++only) {
+      const auto holds = [&](size_t part) { return part == only; };
+      EXPECT_EQ(LaneDraw(running_sums, u).remaining(sum, holds), drawn(u).remaining(sum, holds))
+          << u << " " << only;
+    }
+  }
+}
+
 /// Parts that are passed over together change nothing.
 TEST(LaneDraw, PassesOverManyAtOnce) {
   const Spectrum sum = sum_of(parts);

@@ -69,6 +69,13 @@ class PathSet {
   size_t mask_ = 0;
 };
 
+/// What photons up to each of them add to an estimate; one list for each thread.
+std::vector<Spectrum>& empty_running_sums() {
+  static thread_local std::vector<Spectrum> sums;
+  sums.clear();
+  return sums;
+}
+
 }  // namespace
 
 PhotonMap::PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons) {
@@ -111,14 +118,11 @@ PhotonMap::Disk PhotonMap::find_disk(const Vec3f& position, const Vec3f& side, b
   }
 }
 
-template <typename Part>
-Spectrum PhotonMap::visible(const Spectrum& sum, const Disk& disk, const Neighbors& neighbors,
-                            const Vec3f& normal, const PhotonVisibility& visibility,
-                            const Part& part) const {
+Spectrum PhotonMap::visible(const std::vector<Spectrum>& running_sums, const Neighbors& neighbors,
+                            const Vec3f& normal, const PhotonVisibility& visibility) const {
+  const Spectrum& sum = running_sums.back();
   if (!visibility.sight || sum.is_zero()) return sum;
-  LaneDraw draw(sum, visibility.u);
-  for (size_t i = 0; i < disk.count; ++i) draw.offer(i, part(i));
-  return draw.remaining(sum, [&](size_t i) {
+  return LaneDraw(running_sums, visibility.u).remaining(sum, [&](size_t i) {
     const uint32_t index = neighbors.index(i);
     const Vec3f side = tree().data(index).side.unpack();
     return visibility.sight->sees(dot(side, normal) < 0 ? -normal : normal, tree().key(index),
@@ -137,11 +141,13 @@ DensityEstimate PhotonMap::irradiance(const Vec3f& position, const Vec3f& side,
   estimate.radius = std::sqrt(disk.radius_sq);
   if (disk.count == 0 || !std::isfinite(disk.radius_sq) || !(disk.radius_sq > 0)) return estimate;
   const KernelWeight weight(settings, disk.radius_sq);
-  const auto part = [&](size_t i) {
-    return tree().data(neighbors.index(i)).flux_spectrum() * weight(neighbors.distance_sq(i));
-  };
-  for (size_t i = 0; i < disk.count; ++i) estimate.value += part(i);
-  estimate.value = visible(estimate.value, disk, neighbors, side, visibility, part);
+  Spectrum sum;
+  std::vector<Spectrum>& running_sums = empty_running_sums();
+  for (size_t i = 0; i < disk.count; ++i) {
+    sum += tree().data(neighbors.index(i)).flux_spectrum() * weight(neighbors.distance_sq(i));
+    running_sums.push_back(sum);
+  }
+  estimate.value = visible(running_sums, neighbors, side, visibility);
   return estimate;
 }
 
@@ -174,8 +180,8 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   if (disk.count == 0 || !std::isfinite(disk.radius_sq) || !(disk.radius_sq > 0)) return estimate;
   const KernelWeight weight(settings, disk.radius_sq);
   const Spectrum diffuse = is_opaque_matt ? vertex.diffuse_value() : Spectrum();
-  static thread_local std::vector<Spectrum> parts;
-  parts.clear();
+  Spectrum sum;
+  std::vector<Spectrum>& running_sums = empty_running_sums();
   for (size_t i = 0; i < disk.count; ++i) {
     const uint32_t index = neighbors.index(i);
     const Photon& photon = tree().data(index);
@@ -183,11 +189,10 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
     const Spectrum f = is_opaque_matt ? diffuse : vertex.eval(wi, asked);
     const float share = weight(neighbors.distance_sq(i)) *
                         (vertex.has_relief() ? vertex.irradiance_factor(wi) : 1.0f);
-    parts.push_back(f * photon.flux_spectrum() * share);
-    estimate.value += parts.back();
+    sum += f * photon.flux_spectrum() * share;
+    running_sums.push_back(sum);
   }
-  estimate.value = visible(estimate.value, disk, neighbors, side, visibility,
-                           [&](size_t i) { return parts[i]; });
+  estimate.value = visible(running_sums, neighbors, side, visibility);
   return estimate;
 }
 

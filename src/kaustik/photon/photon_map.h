@@ -99,10 +99,10 @@ class PhotonMap {
   /// `both_sides` as for SidedTree::nearest().
   Disk find_disk(const Vec3f& position, const Vec3f& side, bool both_sides,
                  const EstimateSettings& settings, Neighbors& neighbors) const;
-  /// What is left of the sum of part(i) over the photons of the disk. `normal`: of the surface.
-  template <typename Part>
-  Spectrum visible(const Spectrum& sum, const Disk& disk, const Neighbors& neighbors,
-                   const Vec3f& normal, const PhotonVisibility& visibility, const Part& part) const;
+  /// What is left of what the first neighbours add; running sums, one for each of them. `normal`:
+  /// of the surface.
+  Spectrum visible(const std::vector<Spectrum>& running_sums, const Neighbors& neighbors,
+                   const Vec3f& normal, const PhotonVisibility& visibility) const;
   /// How many of the first `count` neighbours there are until `paths` different paths are met;
   /// count + 1: there are fewer.
   size_t count_until(const Neighbors& neighbors, size_t count, size_t paths) const;
