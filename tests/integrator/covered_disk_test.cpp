@@ -32,7 +32,7 @@ double share_beyond(double d) {
 
 /// Mean estimates of one over the share, around the origin seen from above.
 RunningStatistics inverse_shares(const std::string& inside, uint64_t& rays,
-                                 Lobes keeping = Lobes::diffuse) {
+                                 Lobes keeping = Lobes::diffuse, float asked = 1) {
   const TestScene scene(camera("0, 0, 9", "0, 0, 0", 30, 4, "0, 1, 0") + inside);
   const Ray ray{{0, 0, 0.4f}, {0, 0, -1}, infinity};
   Hit hit;
@@ -46,12 +46,13 @@ RunningStatistics inverse_shares(const std::string& inside, uint64_t& rays,
   RunningStatistics inverse;
   for (int i = 0; i < samples; ++i)
     inverse.add(double(inverse_covered_share(
-        around, kernel, radius, Sampler::at(1, 0, Stream::training, 0, uint32_t(i)), rays)));
+        around, kernel, radius, asked, Sampler::at(1, 0, Stream::training, 0, uint32_t(i)), rays)));
   return inverse;
 }
-void expect_share(const std::string& what, const std::string& inside, double share) {
+void expect_share(const std::string& what, const std::string& inside, double share,
+                  float asked = 1) {
   uint64_t rays = 0;
-  const RunningStatistics inverse = inverse_shares(inside, rays);
+  const RunningStatistics inverse = inverse_shares(inside, rays, Lobes::diffuse, asked);
   // As far as so many tries tell.
   const double expected = (1 - std::pow(1 - share, most_covering_tries)) / share;
   EXPECT_GT(t_test_p_value(inverse, expected), check_level()) << what << ": " << inverse.mean();
@@ -65,6 +66,15 @@ TEST(CoveredDisk, IsWhole) {
   EXPECT_EQ(inverse.mean(), 1);
   EXPECT_EQ(inverse.variance(), 0);
   EXPECT_EQ(rays, uint64_t(samples));
+}
+
+/// Where it is likely to be whole it is looked for seldom.
+TEST(CoveredDisk, IsTheSameInTheMeanByFewLooks) {
+  uint64_t rays = 0;
+  EXPECT_EQ(inverse_shares(rectangle(scale("5, 5, 1")), rays, Lobes::diffuse, 0.125f).mean(), 1);
+  EXPECT_LT(rays, uint64_t(samples) / 6);
+  expect_share("few looks", rectangle(scale("5, 5, 1") + translate("-4.85, 0, 0")),
+               1 - share_beyond(0.3), 0.125f);
 }
 
 TEST(CoveredDisk, EndsWithTheSurface) {

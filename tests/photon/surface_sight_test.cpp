@@ -63,6 +63,29 @@ TEST(SurfaceSight, RoundBodies) {
   EXPECT_FALSE(floor.sees(center + at(0), center + at(3), at(0), at(3)));
 }
 
+/// Where it is known to be clear nobody looks; beyond that, and on the other side, somebody does.
+TEST(SurfaceSight, LooksOnlyWhereItIsNotKnown) {
+  const auto scene = make_scene({box(Vec3d(0.5, 0, 0), Vec3d(0.005, 2, 2)), light("point")});
+  ClearDisk clear;
+  clear.normal = {0, 0, 1};
+  clear.radius = 0.4f;
+  clear.flatness = 0.01f;
+  clear.edges.count = 1;
+  clear.edges.edges[0] = {{0, 1, 0}, 0.2f};
+  const auto rays_to = [&](const Vec3f& other, float side) {
+    uint64_t rays = 0;
+    const SurfaceSight sight(*scene, {0, 0, 0}, SurfaceSight::no_shape, rays, clear);
+    EXPECT_TRUE(sight.sees({0, 0, side}, other, {0, 0, side}));
+    return rays;
+  };
+  EXPECT_EQ(rays_to({0.3f, 0.2f, 0.005f}, 1), 0u);
+  EXPECT_EQ(rays_to({0.3f, -0.1f, 0}, 1), 0u);
+  EXPECT_GT(rays_to({0.3f, -0.3f, 0}, 1), 0u) << "beyond the edge";
+  EXPECT_GT(rays_to({-0.45f, 0, 0}, 1), 0u) << "beyond the radius";
+  EXPECT_GT(rays_to({0.3f, 0, 0.02f}, 1), 0u) << "out of the plane";
+  EXPECT_GT(rays_to({0.3f, 0, 0}, -1), 0u) << "below";
+}
+
 TEST(SurfaceSight, WhatLightPassesThroughHidesNothing) {
   const auto glass = object("bsdf", "dielectric");
   Floor panes({box(Vec3d(0, 0, 1), Vec3d(0.005, 2, 1), glass),

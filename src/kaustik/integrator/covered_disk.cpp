@@ -35,7 +35,8 @@ bool finds_photons(const PhotonSurroundings& around, const Vec3f& side, Ray ray,
 }  // namespace
 
 float inverse_covered_share(const PhotonSurroundings& around, const EstimateSettings& kernel,
-                            float radius, Sampler numbers, uint64_t& rays) {
+                            float radius, float asked, Sampler numbers, uint64_t& rays) {
+  if (asked < 1 && !(numbers.next_1d() < asked)) return 1;
   const SurfaceVertex& vertex = around.vertex;
   const Frame frame(vertex.on_front() ? vertex.point().ng : -vertex.point().ng);
   const Vec3f over = spawn_ray(vertex.point(), frame.z).origin + frame.z * (height_share * radius);
@@ -50,7 +51,7 @@ float inverse_covered_share(const PhotonSurroundings& around, const EstimateSett
     const Ray ray{over, (aim - over) * (1 / way), way * (1 + 1 / height_share)};
     if (finds_photons(around, frame.z, ray, rays)) break;
   }
-  return float(tries);
+  return 1 + float(tries - 1) / asked;
 }
 
 }  // namespace kaustik

@@ -19,6 +19,9 @@ constexpr size_t coarse_volume_stride = 8;
 /// Of the sampler's forks for what is visible of each map, and for what covers disks.
 /// Lights fork by their numbers, which are smaller.
 constexpr uint32_t caustic_key = 0x70000001, global_key = 0x70000002, coverage_key = 0x70000003;
+/// Chance of looking for what covers a disk where edges tell that it is whole: they may have missed
+/// a small hole.
+constexpr float asked_where_whole = 0.125f;
 
 }  // namespace
 
@@ -64,35 +67,40 @@ EstimateSettings PhotonLight::at_level(const EstimateSettings& settings, float r
 
 DensityEstimate PhotonLight::estimate(const PhotonMap& map, const SurfaceVertex& vertex,
                                       Lobes lobes, const EstimateSettings& settings,
-                                      const Sampler& numbers, uint64_t& rays) const {
+                                      const Sampler& numbers, const ClearDisk& clear,
+                                      uint64_t& rays) const {
   if (map.empty()) return {};
   if (!settings_.visibility) return map.radiance(vertex, lobes, settings);
-  const SurfaceSight sight(scene_, vertex.position(), vertex.point().shape, rays);
+  const SurfaceSight sight(scene_, vertex.position(), vertex.point().shape, rays, clear);
   return map.radiance(vertex, lobes, settings, {&sight, Sampler(numbers).next_1d()});
 }
 
 DensityEstimate PhotonLight::caustic_estimate(const SurfaceVertex& vertex, Lobes lobes,
                                               int recursion, const Sampler& sampler,
-                                              uint64_t& rays) const {
+                                              const ClearDisk& clear, uint64_t& rays) const {
   return estimate(maps_.caustic, vertex, lobes,
                   at_level(settings_.caustic, radii_.caustic, recursion), sampler.fork(caustic_key),
-                  rays);
+                  clear, rays);
 }
 
 Spectrum PhotonLight::seen_caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion,
-                                   const Sampler& sampler, uint64_t& rays) const {
-  const DensityEstimate found = caustic_estimate(vertex, lobes, recursion, sampler, rays);
+                                   const Sampler& sampler, const SurfaceEdges* edges,
+                                   uint64_t& rays) const {
+  const ClearDisk clear = edges ? edges->clear_disk(vertex.position()) : ClearDisk();
+  const DensityEstimate found = caustic_estimate(vertex, lobes, recursion, sampler, clear, rays);
   if (!settings_.visibility || found.value.is_zero()) return found.value;
   const bool keep_everywhere = scene_.film().quantity == Quantity::irradiance;
   const PhotonSurroundings around{scene_, vertex, keep_everywhere ? Lobes::all : settings_.local()};
+  const bool likely_whole = edges && edges->are_none(vertex.position(), found.radius);
   return found.value * inverse_covered_share(around, settings_.caustic, found.radius,
+                                             likely_whole ? asked_where_whole : 1.0f,
                                              sampler.fork(coverage_key), rays);
 }
 
 Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int recursion,
                              const Sampler& sampler, uint64_t& rays) const {
   return estimate(maps_.global, vertex, lobes, at_level(settings_.global, radii_.global, recursion),
-                  sampler.fork(global_key), rays)
+                  sampler.fork(global_key), {}, rays)
       .value;
 }
 

@@ -2,6 +2,7 @@
 #include <atomic>
 
 #include "kaustik/integrator/photon_map_settings.h"
+#include "kaustik/integrator/surface_edges.h"
 #include "kaustik/photon/irradiance_map.h"
 
 namespace kaustik {
@@ -25,11 +26,12 @@ class PhotonLight final : public RadianceSource {
   /// `sampler` tells where it is drawn what is visible; its numbers are not used up. Counts rays.
   Spectrum caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion, const Sampler& sampler,
                    uint64_t& rays) const {
-    return caustic_estimate(vertex, lobes, recursion, sampler, rays).value;
+    return caustic_estimate(vertex, lobes, recursion, sampler, {}, rays).value;
   }
   /// The same where the camera looks: as if the disk were whole where the surface ends within it.
+  /// `edges`: what is known of the surface there, if anything.
   Spectrum seen_caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion,
-                        const Sampler& sampler, uint64_t& rays) const;
+                        const Sampler& sampler, const SurfaceEdges* edges, uint64_t& rays) const;
   /// The same by global photons: the approximate solution for diffuse indirect light.
   Spectrum global(const SurfaceVertex& vertex, Lobes lobes, int recursion, const Sampler& sampler,
                   uint64_t& rays) const;
@@ -68,7 +70,8 @@ class PhotonLight final : public RadianceSource {
 
  private:
   DensityEstimate caustic_estimate(const SurfaceVertex& vertex, Lobes lobes, int recursion,
-                                   const Sampler& sampler, uint64_t& rays) const;
+                                   const Sampler& sampler, const ClearDisk& clear,
+                                   uint64_t& rays) const;
   EstimateSettings at_level(const EstimateSettings& settings, float radius, int recursion) const;
   /// Diffuse indirect light at the end of a gather ray: gathered once more, or from the map.
   Spectrum gathered_indirect(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
@@ -79,7 +82,7 @@ class PhotonLight final : public RadianceSource {
   /// Radiance by the photons of a map.
   DensityEstimate estimate(const PhotonMap& map, const SurfaceVertex& vertex, Lobes lobes,
                            const EstimateSettings& settings, const Sampler& numbers,
-                           uint64_t& rays) const;
+                           const ClearDisk& clear, uint64_t& rays) const;
   Spectrum reflected_direct_light(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
                                   int recursion, Sampler& sampler, uint64_t& rays) const;
   void make_volume_maps(uint32_t pass);

@@ -8,6 +8,8 @@
 namespace kaustik {
 namespace {
 
+/// Of the picture's longer side: how far around what pixels show edges are looked for.
+constexpr float reach_share = 0.04f;
 /// Events before roulette on specular paths.
 constexpr int roulette_depth = 4;
 /// Distances between the pixels whose surfaces fill the cache, round by round: down to a third of
@@ -57,7 +59,8 @@ struct PhotonMapIntegrator::State final : PassState {
   ShadowReport shadow_report;
   ShadowSettings shadow_settings;
   std::unique_ptr<PhotonLight> light;
-  std::unique_ptr<IrradianceCache> cache;  ///< null: not used
+  std::unique_ptr<IrradianceCache> cache;          ///< null: not used
+  std::shared_ptr<const PixelPlans> surroundings;  ///< null: not known
 };
 
 PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene& scene)
@@ -110,6 +113,22 @@ std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(uint64_t seed) 
   return light_pass_;
 }
 
+std::shared_ptr<const PixelPlans> PhotonMapIntegrator::surroundings(
+    uint64_t& rays, const std::stop_token& stop) const {
+  {
+    const std::lock_guard lock(surroundings_mutex_);
+    if (surroundings_) return surroundings_;
+  }
+  // Outside the lock, as above. Not by the photons of a pass: passes don't know of one another.
+  auto found = std::make_shared<PixelPlans>(scene());
+  const Vec2i size = scene().film().size;
+  found->find_edges(scene(), reach_share * float(std::max(size.x, size.y)), 0, rays, stop);
+  if (stop.stop_requested()) return nullptr;
+  const std::lock_guard lock(surroundings_mutex_);
+  surroundings_ = std::move(found);
+  return surroundings_;
+}
+
 GatherRadii PhotonMapIntegrator::pass_radii(const PhotonMaps& maps, uint32_t index) const {
   const auto radius = [&](const PhotonMap& map, const EstimateSettings& estimate, float given) {
     const float first =
@@ -155,6 +174,8 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
     fill_cache(*state, pass, stop, [&](double share) {
       if (progress) progress(0.5 + 0.5 * share);
     });
+  if (settings_.visibility && !state->maps->caustic.empty())
+    state->surroundings = surroundings(state->report.rays, stop);
   state->report.rays += state->light->rays();
   if (!stop.stop_requested()) add_warnings(*state);
   return state;
@@ -283,10 +304,13 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
   const SurfaceVertex& vertex = walk.vertex();
   const Lobes local = vertex.lobes() & settings_.local();
   if (!any(local)) return;
-  if (walk.wants_photon_light(Component::caustic))
-    walk.add_photon_light(
-        Component::caustic,
-        state.light->seen_caustic(vertex, local, walk.events(), walk.sampler(), walk.rays()));
+  if (walk.wants_photon_light(Component::caustic)) {
+    const SurfaceEdges* const edges =
+        state.surroundings ? state.surroundings->edges_at(walk.raster(), vertex) : nullptr;
+    walk.add_photon_light(Component::caustic,
+                          state.light->seen_caustic(vertex, local, walk.events(), walk.sampler(),
+                                                    edges, walk.rays()));
+  }
   if (settings_.global.neighbors <= 0 || !walk.wants_photon_light(Component::indirect)) return;
   const bool gathers = any(local & Lobes::diffuse) && !settings_.approximates(level_of(walk));
   if (gathers)

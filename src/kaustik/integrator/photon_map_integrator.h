@@ -3,6 +3,7 @@
 
 #include "kaustik/integrator/illumination_model.h"
 #include "kaustik/integrator/photon_gather.h"
+#include "kaustik/integrator/pixel_plans.h"
 
 namespace kaustik {
 
@@ -46,12 +47,16 @@ class PhotonMapIntegrator final : public IlluminationModel {
 
   /// The light pass of a seed, its budgets trained when it is first asked for.
   std::shared_ptr<const LightPass> light_pass(uint64_t seed) const;
+  /// What the pixels show, with edges. Counts its rays when it is first asked for.
+  std::shared_ptr<const PixelPlans> surroundings(uint64_t& rays, const std::stop_token& stop) const;
 
   PhotonMapSettings settings_;
   std::shared_ptr<const PhotonMaps> stored_maps_;  ///< null: every pass traces its own
   mutable std::mutex light_pass_mutex_;
   mutable std::shared_ptr<const LightPass> light_pass_;
   mutable uint64_t light_pass_seed_ = 0;
+  mutable std::mutex surroundings_mutex_;
+  mutable std::shared_ptr<const PixelPlans> surroundings_;
 };
 
 }  // namespace kaustik

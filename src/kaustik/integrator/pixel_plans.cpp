@@ -107,21 +107,23 @@ void PixelPlans::find_edges(const Scene& scene, float widths, float given, uint6
   edges_ = std::move(edges);
 }
 
-PixelPlans::Surroundings PixelPlans::surroundings(const Vec2f& raster, const SurfaceVertex& vertex,
-                                                  float radius) const {
-  if (!edges_) return {};
-  const auto known = [&](const SurfaceEdges& edges) {
-    return surroundings_by(edges, vertex.position(), radius);
-  };
+const SurfaceEdges* PixelPlans::edges_at(const Vec2f& raster, const SurfaceVertex& vertex) const {
+  if (!edges_) return nullptr;
   const Vec2i block = block_at(raster);
   const SurfaceEdges& own = (*edges_)[index_of(block)];
-  if (own.hold_at(vertex)) return known(own);
+  if (own.hold_at(vertex)) return &own;
   for (int y = std::max(0, block.y - 1); y <= std::min(blocks_.y - 1, block.y + 1); ++y)
     for (int x = std::max(0, block.x - 1); x <= std::min(blocks_.x - 1, block.x + 1); ++x) {
       const SurfaceEdges& other = (*edges_)[index_of({x, y})];
-      if (other.hold_at(vertex)) return known(other);
+      if (other.hold_at(vertex)) return &other;
     }
-  return {};
+  return nullptr;
+}
+
+PixelPlans::Surroundings PixelPlans::surroundings(const Vec2f& raster, const SurfaceVertex& vertex,
+                                                  float radius) const {
+  const SurfaceEdges* const edges = edges_at(raster, vertex);
+  return edges ? surroundings_by(*edges, vertex.position(), radius) : Surroundings();
 }
 
 PixelPlans::Surroundings PixelPlans::surroundings(size_t probe, float radius) const {

@@ -66,7 +66,9 @@ class PixelPlans {
   };
   /// Of a disk around a vertex that a pixel shows, by the probes around.
   Surroundings surroundings(const Vec2f& raster, const SurfaceVertex& vertex, float radius) const;
-  /// The same around a probe.
+  /// The edges that hold at a vertex that a pixel shows; null: none are known.
+  const SurfaceEdges* edges_at(const Vec2f& raster, const SurfaceVertex& vertex) const;
+  /// Surroundings around a probe.
   Surroundings surroundings(size_t probe, float radius) const;
   /// One per block of pixels, row by row.
   const std::vector<PixelProbe>& probes() const { return *probes_; }

@@ -218,6 +218,11 @@ bool SurfaceEdges::hold_at(const SurfaceVertex& vertex) const {
   return true;
 }
 
+ClearDisk SurfaceEdges::clear_disk(const Vec3f& position) const {
+  const float radius = std::max(0.0f, clear_ - length(position - position_));
+  return {normal_, radius, flatness(), around(position, radius)};
+}
+
 float SurfaceEdges::flatness() const { return 2 * same_height * reach_; }
 
 DiskEdges SurfaceEdges::around(const Vec3f& position, float radius) const {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "kaustik/photon/disk_kernel.h"
+#include "kaustik/photon/clear_disk.h"
 #include "kaustik/transport/vertex.h"
 
 namespace kaustik {
@@ -28,6 +28,13 @@ class SurfaceEdges {
   /// rays, which may miss what is small: no surface nearby is left out.
   bool are_clear(const Vec3f& position, float radius) const {
     return length(position - position_) + radius <= clear_;
+  }
+  /// The largest disk around such a position that is clear.
+  ClearDisk clear_disk(const Vec3f& position) const;
+  /// Whether a disk is clear, nothing ends the surface within it, and no edge cuts it.
+  bool are_none(const Vec3f& position, float radius) const {
+    return are_complete(position, radius) && are_clear(position, radius) &&
+           !around(position, radius).cut(radius);
   }
   /// How far points of the plane may lie from one of them where they hold, m.
   float flatness() const;

@@ -41,6 +41,7 @@ bool SurfaceSight::is_free(Ray ray) const {
 }
 
 bool SurfaceSight::sees(const Vec3f& normal, const Vec3f& other, const Vec3f& other_normal) const {
+  if (dot(normal, clear_.normal) > 0 && clear_.holds(other - position_)) return true;
   const float distance = length(other - position_);
   // Positions are rounded, by hits and by transforms.
   const float rounding =

@@ -1,4 +1,5 @@
 #pragma once
+#include "kaustik/photon/clear_disk.h"
 #include "kaustik/scene/scene.h"
 
 namespace kaustik {
@@ -11,9 +12,11 @@ class SurfaceSight {
   /// Of a shape without a number.
   static constexpr uint32_t no_shape = 0xffffffffu;
 
-  /// `position` lies on the shape of that number. Counts its rays. Holds references.
-  SurfaceSight(const Scene& scene, const Vec3f& position, uint32_t shape, uint64_t& rays)
-      : scene_(scene), position_(position), shape_(shape), rays_(rays) {}
+  /// `position` lies on the shape of that number, at the center of a disk of which it is known what
+  /// is clear. Counts its rays. Holds references.
+  SurfaceSight(const Scene& scene, const Vec3f& position, uint32_t shape, uint64_t& rays,
+               const ClearDisk& clear = {})
+      : scene_(scene), position_(position), shape_(shape), rays_(rays), clear_(clear) {}
 
   /// Whether the points see one another along the surface or over it: straight from a little above
   /// the one to a little above the other, or by way of a point over the middle, as high as a
@@ -31,6 +34,7 @@ class SurfaceSight {
   const Vec3f position_;
   const uint32_t shape_;
   uint64_t& rays_;
+  const ClearDisk clear_;
 };
 
 }  // namespace kaustik
