@@ -1,9 +1,10 @@
 // Whether what merges finds the light that `bdpt` finds beside walls, doors, furniture and bodies
 // on a floor: in the mean of the picture and in each block of 8 x 8 pixels, on eight scenes in
-// pictures of several sizes. `wall_tool [SECONDS [SIZE ...]]`: for each seed and method, four times
-// as long for `bdpt`.
+// pictures of several sizes. `wall_tool [SECONDS [SIZE ...]] [SCENE ...]`: for each seed and
+// method, four times as long for `bdpt`; scenes by name, all without one.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -88,20 +89,33 @@ Blocks compare(const Measured& measured, const Measured& reference) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const double seconds = argc > 1 ? std::atof(argv[1]) : 2;
-  std::vector<int> sizes;
-  for (int i = 2; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
-  if (sizes.empty()) sizes = {64, 128, 256, 512};
-  if (!(seconds > 0) || *std::min_element(sizes.begin(), sizes.end()) <= 0) {
-    fmt::print(stderr, "wall_tool [SECONDS [SIZE ...]]: asks for positive numbers\n");
-    return 2;
+  std::set<std::string> names;
+  for (const auto& [name, text] : test::wall_scenes(1)) names.insert(name);
+  std::vector<double> numbers;
+  std::set<std::string> wanted;
+  for (int i = 1; i < argc; ++i) {
+    const std::string text = argv[i];
+    if (names.contains(text)) {
+      wanted.insert(text);
+      continue;
+    }
+    numbers.push_back(std::atof(argv[i]));
+    if (!(numbers.back() > 0)) {
+      fmt::print(stderr, "wall_tool: '{}' is neither a positive number nor a scene\n", text);
+      return 2;
+    }
   }
+  const double seconds = numbers.empty() ? 2 : numbers[0];
+  std::vector<int> sizes;
+  for (size_t i = 1; i < numbers.size(); ++i) sizes.push_back(int(numbers[i]));
+  if (sizes.empty()) sizes = {64, 128, 256, 512};
   bool agree = true;
   fmt::print("{:<14}{:>5} {:<10}{:>20}{:>14}{:>16}{:>14}\n", "scene", "size", "method",
              "mean / bdpt", "wrong blocks", "least likely", "its p");
   try {
     for (const int size : sizes)
       for (const auto& [name, text] : test::wall_scenes(size)) {
+        if (!wanted.empty() && !wanted.contains(name)) continue;
         const Measured reference = measure(text, "bdpt", 1, 4 * seconds);
         uint64_t seed = 1;
         for (const char* method : merging) {
