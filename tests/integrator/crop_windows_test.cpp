@@ -74,16 +74,20 @@ TEST(LightPathCount, CropWindowsHaveThoseOfTheWholePicture) {
   EXPECT_EQ(light_path_count(film_of(large, {{0, 0}, {2000, 2000}}), 4, 0.25f), 4000000u);
 }
 
-/// Balls of glass and metal on the floor, in a room with a lamp below its ceiling.
+/// A room with a lamp below its ceiling.
 std::string room() {
   return flat("rectangle", scale("0.3, 0.3, 1") + rotate("1, 0, 0", 180) + translate("0, 0, 0.99"),
               diffuse("0, 0, 0") + area_light("10, 10, 10")) +
          "<shape type=\"cube\"><boolean name=\"flip_normals\" value=\"true\"/>" +
-         diffuse("0.6, 0.6, 0.6") + "</shape>" + sphere("0.3, 0, -0.6", 0.35, glass()) +
+         diffuse("0.6, 0.6, 0.6") + "</shape>";
+}
+/// Balls of glass and metal on the floor.
+std::string balls() {
+  return sphere("0.3, 0, -0.6", 0.35, glass()) +
          sphere("-0.4, 0.3, -0.6", 0.35, "<bsdf type=\"roughconductor\"/>");
 }
 
-TestScene shown(int size, const Window& window) {
+TestScene shown(int size, const Window& window, const std::string& inside = room() + balls()) {
   const auto integer = [](const char* name, int value) {
     return fmt::format(R"(<integer name="{}" value="{}"/>)", name, value);
   };
@@ -93,7 +97,7 @@ TestScene shown(int size, const Window& window) {
       <film type="hdrfilm"><rfilter type="box"/>)" +
       integer("width", size) + integer("height", size) + integer("crop_offset_x", window.offset.x) +
       integer("crop_offset_y", window.offset.y) + integer("crop_width", window.size.x) +
-      integer("crop_height", window.size.y) + "</film></sensor>" + room());
+      integer("crop_height", window.size.y) + "</film></sensor>" + inside);
 }
 
 /// Largest distance between the probes of a window and those of the whole picture `shift` blocks
@@ -129,6 +133,34 @@ TEST(CropWindows, ArePlannedByTheProbesOfTheWholePicture) {
   const PixelPlans part(shown(size, wall).scene());
   EXPECT_LT(probe_distance(whole, part, wall, 0), 1e-4);
   EXPECT_GT(probe_distance(whole, part, wall, 1), 0.05) << "a block's shift goes unseen";
+}
+
+/// A corner, and a strip from one side to the other: parts of one picture go together without
+/// seams.
+TEST(CropWindows, AreAsBrightAsTheWholePictureIsThere) {
+  constexpr int size = 48;
+  const std::string inside =
+      room() +
+      flat("cube", scale("0.3, 0.3, 0.3") + translate("0.2, 0.3, -0.7"), diffuse("0.3, 0.5, 0.3"));
+  const TestScene whole = shown(size, {{0, 0}, {size, size}}, inside);
+  RenderOptions options, others;
+  options.samples = 16;
+  others.samples = 64;
+  others.seed = 2;
+  for (const char* type : {"photonmap", "auto"}) {
+    const Passes picture = render(whole, type, "", options);
+    for (const Window& window : std::vector<Window>{{{36, 36}, {8, 12}}, {{0, 20}, {size, 8}}}) {
+      const Vec2i end = window.offset + window.size;
+      const auto is_inside = [&](int x, int y) {
+        return x >= window.offset.x && x < end.x && y >= window.offset.y && y < end.y ? 1.0 : 0.0;
+      };
+      const Comparison there(render(shown(size, window, inside), type, "", others).mean({""}),
+                             picture.mean({""}, is_inside));
+      expect_near_means(fmt::format("{}, {} x {} from {}, {}", type, window.size.x, window.size.y,
+                                    window.offset.x, window.offset.y),
+                        there, 0.02, 2 * sharp);
+    }
+  }
 }
 
 }  // namespace
