@@ -4,7 +4,10 @@
 // method, four times as long for `bdpt`; scenes by name, all without one.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -99,9 +102,13 @@ int main(int argc, char** argv) {
       wanted.insert(text);
       continue;
     }
-    numbers.push_back(std::atof(argv[i]));
-    if (!(numbers.back() > 0)) {
-      fmt::print(stderr, "wall_tool: '{}' is neither a positive number nor a scene\n", text);
+    char* end = nullptr;
+    numbers.push_back(std::strtod(argv[i], &end));
+    const bool is_size = numbers.size() > 1;
+    const double least = is_size ? 1 : 1e-3, most = is_size ? 4096 : 1e6;
+    if (*end != 0 || !(numbers.back() >= least && numbers.back() <= most)) {
+      fmt::print(stderr, "wall_tool: '{}' is neither a number of seconds or pixels nor a scene\n",
+                 text);
       return 2;
     }
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "kaustik/base/vec.h"
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/scene/camera.h"
 #include "tests/fuzz/parameter_values.h"

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "geometry_support.h"
+#include "kaustik/geometry/sdf_field.h"
 
 namespace kaustik::test {
 namespace {
@@ -243,6 +244,53 @@ TEST(SignedDistanceField, RefractedRaysLeaveTheInside) {
   Hit hit;
   ASSERT_TRUE(tracer->intersect({{0.8f, 0.8f, 0.8f}, {0, 0, 1}, infinity}, hit));
   EXPECT_NEAR(hit.t, 0.2f, 1e-4f);
+}
+
+/// A ray that ends before the surface meets nothing, from inside and from outside, at any size.
+TEST(SignedDistanceField, RaysEndBeforeTheSurface) {
+  Random random(8);
+  for (int i = 0; i < 2000; ++i) {
+    const double size = std::pow(10, 4 * random.uniform() - 2);
+    const auto sponge = make_shape("sdf", {{"iterations", int64_t(1), {}}, {"size", size, {}}});
+    const auto half = float(0.5 * size);
+    const float x = i % 2 == 0 ? 0.8f : 1.2f, way = 0.2f * half;
+    const Ray ray{Vec3f(x, 0.8f, 0.8f) * half, {i % 2 == 0 ? 1.0f : -1.0f, 0, 0}, infinity};
+    const auto meets = [&](float share) {
+      Ray part = ray;
+      part.t_max = share * way;
+      return sponge->intersect(part).has_value();
+    };
+    EXPECT_FALSE(meets(0.9985f)) << size << ' ' << x;
+    EXPECT_TRUE(meets(1.0015f)) << size << ' ' << x;
+  }
+}
+
+/// From inside a ray passes nothing that is as wide as a step.
+TEST(SignedDistanceField, RaysFromInsideStayInside) {
+  for (const SdfField& field : {SdfField{SdfKind::menger, 8}, SdfField{SdfKind::mandelbulb, 4}}) {
+    const bool is_menger = field.kind == SdfKind::menger;
+    const auto shape = make_shape("sdf", {{"field", is_menger ? "menger" : "mandelbulb", {}},
+                                          {"iterations", int64_t(field.iterations), {}}});
+    const double step = is_menger ? 1e-4 : 1e-3;
+    Random random(9);
+    int rays = 0;
+    while (rays < 100) {
+      const auto coordinate = [&] { return 2 * random.uniform() - 1; };
+      const Vec3d from(coordinate(), coordinate(), coordinate());
+      const Vec3d way = Vec3d(coordinate(), coordinate(), coordinate()).normalized();
+      if (field.value(from) > -1e-4) continue;
+      ++rays;
+      const auto hit = shape->intersect({Vec3f(from), Vec3f(way), infinity});
+      ASSERT_TRUE(hit);
+      const double t_hit = double(hit->t);
+      EXPECT_GT(field.value(from + way * (t_hit + 2e-5)), -1e-5);
+      double passed = 0;  // of what is not inside
+      for (double t = 0; t < t_hit - 2e-5; t += 0.05 * step) {
+        passed = field.value(from + way * t) > 1e-6 ? passed + 0.05 * step : 0;
+        EXPECT_LT(passed, 1.2 * step);
+      }
+    }
+  }
 }
 
 TEST(SignedDistanceField, HitsLieInItsBoxesAndNearItsTessellation) {

@@ -135,8 +135,7 @@ TEST(CropWindows, ArePlannedByTheProbesOfTheWholePicture) {
   EXPECT_GT(probe_distance(whole, part, wall, 1), 0.05) << "a block's shift goes unseen";
 }
 
-/// A corner, and a strip from one side to the other: parts of one picture go together without
-/// seams.
+/// A corner, and a strip from one side to the other.
 TEST(CropWindows, AreAsBrightAsTheWholePictureIsThere) {
   constexpr int size = 48;
   const std::string inside =

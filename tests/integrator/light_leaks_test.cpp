@@ -15,10 +15,12 @@ const std::string grey = diffuse("0.7, 0.7, 0.7");
 /// the wall between them, where disks of some pixels are decimetres long.
 class Rooms {
  public:
-  /// `wall` stands at x = 0.
-  Rooms(const std::string& wall, const std::string& floor, int pixels)
+  /// `wall` stands at x = 0. `inside`: more in the rooms.
+  Rooms(const std::string& wall, const std::string& floor, int pixels,
+        const std::string& inside = "")
       : scene_(camera("1.9, -0.9, 0.2", "0, -0.2, 0.6", 60, pixels, "0, 0, 1") +
-               flat("cube", scale("2, 1, 1"), set("flip_normals", true) + floor) + wall + lamp()) {}
+               flat("cube", scale("2, 1, 1"), set("flip_normals", true) + floor) + wall + lamp() +
+               inside) {}
 
   /// Mean radiance of the picture.
   double light(const std::string& type, const std::string& parameters = "") const {
@@ -62,6 +64,20 @@ void expect_dark(const std::string& what, const Rooms& rooms) {
 TEST(LightLeaks, WallsOfAnyThickness) {
   for (const double thickness : {0.001, 0.01, 0.04, 0.2})
     expect_dark(fmt::format("{} m", thickness), Rooms(slab(thickness), grey, 48));
+}
+
+/// Caustics of balls in the bright room, beside the wall.
+TEST(LightLeaks, Caustics) {
+  const std::string balls =
+      sphere("-0.4, 0, -0.6", 0.35, glass()) + sphere("-0.4, -0.6, -0.7", 0.25, mirror());
+  for (const double thickness : {0.001, 0.01})
+    for (const int pixels : {16, 48, 128})
+      expect_dark(fmt::format("{} m, {} pixels", thickness, pixels),
+                  Rooms(slab(thickness), grey, pixels, balls));
+  EXPECT_GT(Rooms(slab(0.001), grey, 48, balls)
+                .light("photonmap", parameters_of("photonmap") + set("components", "caustic") +
+                                        set("visibility", false)),
+            0);
 }
 
 /// Disks of few pixels are the widest.

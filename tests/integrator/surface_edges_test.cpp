@@ -159,6 +159,25 @@ TEST(SurfaceEdges, ClearDisks) {
   EXPECT_LT(clear(sphere("0.5, 0, 0.2", 0.2, grey)), 0.301);
 }
 
+/// The clear disk around a vertex beside the probe: less by the distance, cut by the same edges.
+TEST(SurfaceEdges, ClearDisksAround) {
+  const Seen seen(floor_ +
+                  flat("rectangle", rotate("0, 1, 0", -90) + translate("0.2, 0, 1"), grey));
+  const ClearDisk disk = seen.edges().clear_disk({-0.1f, 0, 0});
+  EXPECT_NEAR(disk.radius, 0.4, 0.002);
+  EXPECT_EQ(disk.normal, Vec3f(0, 0, 1));
+  ASSERT_EQ(disk.edges.count, 1u);
+  EXPECT_NEAR(disk.edges.edges[0].distance, 0.3, 0.002);
+  EXPECT_TRUE(disk.holds({0.25f, 0, 0}));
+  EXPECT_FALSE(disk.holds({0.35f, 0, 0})) << "behind the wall";
+  EXPECT_FALSE(disk.holds({-0.45f, 0, 0})) << "not looked at";
+  EXPECT_FALSE(disk.holds({0.1f, 0, 0.01f})) << "on something else";
+  EXPECT_EQ(seen.edges().clear_disk({-0.6f, 0, 0}).radius, 0);
+  EXPECT_TRUE(seen.edges().is_whole({-0.1f, 0, 0}, 0.25f));
+  EXPECT_FALSE(seen.edges().is_whole({-0.1f, 0, 0}, 0.35f)) << "at the wall";
+  EXPECT_FALSE(seen.edges().is_whole({-0.3f, 0, 0}, 0.25f)) << "not looked at";
+}
+
 /// A mirror in the floor keeps no light.
 TEST(SurfaceEdges, WhereNothingMerges) {
   const Seen seen(flat("rectangle", scale("2, 5, 1") + translate("-1.9, 0, 0"), grey) +

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <vector>
 
 namespace kaustik {
@@ -64,6 +65,14 @@ TEST(LaneDraw, ByRunningSums) {
           << u << " " << only;
     }
   }
+}
+
+/// Where u of the sum is rounded to all of it.
+TEST(LaneDraw, OfTheLeastFloats) {
+  const std::vector<Spectrum> running_sums = {Spectrum(0.0f), Spectrum(1e-45f), Spectrum(1e-45f)};
+  const Spectrum sum = running_sums.back();
+  for (const float u : {0.0f, 0.9f, 0x1.fffffep-1f})
+    EXPECT_EQ(LaneDraw(running_sums, u).remaining(sum, [](size_t part) { return part == 1; }), sum);
 }
 
 /// Parts that are passed over together change nothing.

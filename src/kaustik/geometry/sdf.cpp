@@ -117,16 +117,18 @@ std::optional<ShapeHit> SdfShape::intersect(const Ray& ray) const {
   // The sign at the start tells the side that the ray is on; it stops where the other one begins.
   const bool is_inside = field_.value(o + d * span->begin) < 0;
   const auto t = is_inside ? leave(o, d, *span) : enter(o, d, *span);
-  if (!t) return std::nullopt;
-  const double t_hit = std::min(*t, span->end) / scale;
+  if (!t || !(*t < span->end)) return std::nullopt;
+  const double t_hit = *t / scale;
   if (!(t_hit > 0) || !(t_hit < double(ray.t_max))) return std::nullopt;
   return ShapeHit{float(t_hit), 0, 0, Vec3f(world_normal(field_.gradient(o + d * *t)))};
 }
 
-/// Where a ray from outside meets the surface.
+/// Where a ray from outside meets the surface. It passes through what it has not reached after so
+/// many steps, which is finer than `precision` or lies along it.
 std::optional<double> SdfShape::enter(const Vec3d& o, const Vec3d& d, const Span& span) const {
   constexpr double smallest_step = 0.25 * precision;
-  constexpr int most_steps = 4096;
+  // A mandelbulb is as fine as that all over, and each of its steps costs much more.
+  const int most_steps = field_.kind == SdfKind::mandelbulb ? 4096 : 100'000;
   double t = span.begin;
   for (int i = 0; i < most_steps && t < span.end; ++i) {
     const Vec3d p = o + d * t;
@@ -139,12 +141,16 @@ std::optional<double> SdfShape::enter(const Vec3d& o, const Vec3d& d, const Span
   return std::nullopt;
 }
 
-/// Where a ray from inside meets the surface: there the value is no distance to step by, and what
-/// is thinner than a step may be missed.
+/// Where a ray from inside meets the surface. What is thinner than a step may be missed.
 std::optional<double> SdfShape::leave(const Vec3d& o, const Vec3d& d, const Span& span) const {
-  constexpr double step = 1e-3;
-  for (double t = span.begin; t < span.end; t += step)
-    if (field_.value(o + d * (t + step)) >= 0) return crossing(o, d, t, t + step, true);
+  constexpr double even_step = 1e-3, smallest_step = 1e-4;
+  double depth = -field_.value(o + d * span.begin);
+  for (double t = span.begin; t < span.end;) {
+    const double next = t + (field_.knows_depth() ? std::max(smallest_step, depth) : even_step);
+    depth = -field_.value(o + d * next);
+    if (depth <= 0) return crossing(o, d, t, next, true);
+    t = next;
+  }
   return std::nullopt;
 }
 

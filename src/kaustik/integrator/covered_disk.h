@@ -21,9 +21,11 @@ inline constexpr int most_covering_tries = 16;
 /// radius. Times it an estimate of density does not lose what would lie beyond the end of the
 /// surface or behind a wall. A step that is less deep counts as covered: some of its photons do not
 /// count, the more the deeper it is. In the mean it is (1 − (1 − p)^16)/p of a share p: 1 % too
-/// little at a quarter, a corner, and 19 % at a tenth. Looks by the chance of `asked`; else it is
-/// 1, and what is more than that counts for more where it looks: for disks that are likely to be
-/// whole. Counts its rays; where the disk is whole, that is one.
+/// little at a quarter, a corner, and 19 % at a tenth.
+///
+/// `asked`, in (0, 1]: the chance of looking at all, for disks that are likely to be whole. Without
+/// a look the answer is 1; what a look finds above 1 is divided by `asked`, so the mean stays.
+/// Counts its rays, of which a disk that is whole takes one at most.
 float inverse_covered_share(const PhotonSurroundings& around, const EstimateSettings& kernel,
                             float radius, float asked, Sampler numbers, uint64_t& rays);
 

@@ -60,9 +60,8 @@ float DiskCoverage::highest(float radius) {
 float DiskCoverage::clear_radius() const { return per_clearance * free_; }
 
 bool DiskCoverage::merges_at(const SurfacePoint& point) const {
-  const bool keeps_light =
-      scene_.film().quantity == Quantity::irradiance ||
-      any(scene_.surface(point.shape).lobes & (Lobes::diffuse | Lobes::glossy));
+  const bool keeps_light = scene_.film().quantity == Quantity::irradiance ||
+                           any(scene_.surface(point.shape).lobes & MergeDisk::keeping());
   const float cosine = dot(point.ng, vertex_.point().ng);
   return keeps_light && (both_sides_ ? cosine : std::fabs(cosine)) > MergeDisk::least_cosine();
 }

@@ -40,6 +40,8 @@ class MergeDisk {
   /// Whether light counts that arrives on either side: then surfaces whose own normal is turned
   /// away do not count, else the side on which light arrives tells.
   bool both_sides() const { return vertex_.transmits(); }
+  /// Light vertices are kept at surfaces with any of these.
+  static constexpr Lobes keeping() { return Lobes::diffuse | Lobes::glossy; }
   /// Farthest that something may lie from the plane, m …
   float flatness() const { return depth_; }
   /// … and the least cosine between its normal and the vertex's.

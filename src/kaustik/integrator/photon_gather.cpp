@@ -2,6 +2,7 @@
 
 #include "kaustik/base/to_integer.h"
 #include "kaustik/integrator/covered_disk.h"
+#include "kaustik/integrator/merge_disk.h"
 #include "kaustik/transport/direct_light.h"
 #include "kaustik/transport/null_boundaries.h"
 #include "kaustik/transport/roulette.h"
@@ -39,6 +40,11 @@ PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
                                settings.visibility ? &scene : nullptr);
   rays_ = precomputed_.rays();
   if (!maps.volume.empty()) make_volume_maps(pass);
+  for (uint32_t shape = 0; shape < scene.surface_count(); ++shape) {
+    const Lobes lobes = scene.surface(shape).lobes;
+    if (any(lobes & MergeDisk::keeping()) && !any(lobes & keeping()))
+      edges_tell_what_keeps_ = false;
+  }
 }
 
 void PhotonLight::make_volume_maps(uint32_t pass) {
@@ -89,12 +95,16 @@ Spectrum PhotonLight::seen_caustic(const SurfaceVertex& vertex, Lobes lobes, int
   const ClearDisk clear = edges ? edges->clear_disk(vertex.position()) : ClearDisk();
   const DensityEstimate found = caustic_estimate(vertex, lobes, recursion, sampler, clear, rays);
   if (!settings_.visibility || found.value.is_zero()) return found.value;
-  const bool keep_everywhere = scene_.film().quantity == Quantity::irradiance;
-  const PhotonSurroundings around{scene_, vertex, keep_everywhere ? Lobes::all : settings_.local()};
-  const bool likely_whole = edges && edges->are_none(vertex.position(), found.radius);
+  const PhotonSurroundings around{scene_, vertex, keeping()};
+  const bool likely_whole =
+      edges && edges_tell_what_keeps_ && edges->is_whole(vertex.position(), found.radius);
   return found.value * inverse_covered_share(around, settings_.caustic, found.radius,
                                              likely_whole ? asked_where_whole : 1.0f,
                                              sampler.fork(coverage_key), rays);
+}
+
+Lobes PhotonLight::keeping() const {
+  return scene_.film().quantity == Quantity::irradiance ? Lobes::all : settings_.local();
 }
 
 Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int recursion,

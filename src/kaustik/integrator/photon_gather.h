@@ -29,7 +29,7 @@ class PhotonLight final : public RadianceSource {
     return caustic_estimate(vertex, lobes, recursion, sampler, {}, rays).value;
   }
   /// The same where the camera looks: as if the disk were whole where the surface ends within it.
-  /// `edges`: what is known of the surface there, if anything.
+  /// `edges`: of the surface there; null: nothing is known.
   Spectrum seen_caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion,
                         const Sampler& sampler, const SurfaceEdges* edges, uint64_t& rays) const;
   /// The same by global photons: the approximate solution for diffuse indirect light.
@@ -86,6 +86,8 @@ class PhotonLight final : public RadianceSource {
   Spectrum reflected_direct_light(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
                                   int recursion, Sampler& sampler, uint64_t& rays) const;
   void make_volume_maps(uint32_t pass);
+  /// Surfaces with any of these lobes keep photons.
+  Lobes keeping() const;
 
   const Scene& scene_;
   const PhotonMapSettings& settings_;
@@ -94,6 +96,8 @@ class PhotonLight final : public RadianceSource {
   const ShadowMap* shadows_;
   const ShadowSettings& shadow_settings_;
   IrradianceMap precomputed_;
+  /// Whether all surfaces keep photons beyond which SurfaceEdges sees no end.
+  bool edges_tell_what_keeps_ = true;
   VolumePhotonMap volume_;                 ///< for the camera's rays …
   VolumePhotonMap coarse_volume_;          ///< … and with fewer photons for gather rays
   mutable std::atomic<uint64_t> rays_{0};  ///< counts only; changes no result

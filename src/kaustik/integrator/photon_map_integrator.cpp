@@ -28,7 +28,7 @@ constexpr float blurred_pixels = 2;
 constexpr size_t cache_points_per_path = 4;
 
 /// The radius that `neighbors` photons take at three quarters of the photons. What is sparser is
-/// better estimated from fewer photons than from far ones: where the dim surroundings of a focus
+/// better estimated from fewer photons than from far ones: where the dim seen_edges of a focus
 /// reach into it for their neighbours, its light is counted twice. Their noise goes with the
 /// passes; for stored maps, where it does not, the radius is twice that of 95 % of the photons.
 float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
@@ -59,8 +59,8 @@ struct PhotonMapIntegrator::State final : PassState {
   ShadowReport shadow_report;
   ShadowSettings shadow_settings;
   std::unique_ptr<PhotonLight> light;
-  std::unique_ptr<IrradianceCache> cache;          ///< null: not used
-  std::shared_ptr<const PixelPlans> surroundings;  ///< null: not known
+  std::unique_ptr<IrradianceCache> cache;        ///< null: not used
+  std::shared_ptr<const PixelPlans> seen_edges;  ///< null: not known
 };
 
 PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene& scene)
@@ -113,20 +113,21 @@ std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(uint64_t seed) 
   return light_pass_;
 }
 
-std::shared_ptr<const PixelPlans> PhotonMapIntegrator::surroundings(
+std::shared_ptr<const PixelPlans> PhotonMapIntegrator::seen_edges(
     uint64_t& rays, const std::stop_token& stop) const {
   {
-    const std::lock_guard lock(surroundings_mutex_);
-    if (surroundings_) return surroundings_;
+    const std::lock_guard lock(seen_edges_mutex_);
+    if (seen_edges_) return seen_edges_;
   }
+  if (stop.stop_requested()) return nullptr;
   // Outside the lock, as above. Not by the photons of a pass: passes don't know of one another.
   auto found = std::make_shared<PixelPlans>(scene());
   const Vec2i size = scene().film().size;
   found->find_edges(scene(), reach_share * float(std::max(size.x, size.y)), 0, rays, stop);
   if (stop.stop_requested()) return nullptr;
-  const std::lock_guard lock(surroundings_mutex_);
-  surroundings_ = std::move(found);
-  return surroundings_;
+  const std::lock_guard lock(seen_edges_mutex_);
+  seen_edges_ = std::move(found);
+  return seen_edges_;
 }
 
 GatherRadii PhotonMapIntegrator::pass_radii(const PhotonMaps& maps, uint32_t index) const {
@@ -175,7 +176,7 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
       if (progress) progress(0.5 + 0.5 * share);
     });
   if (settings_.visibility && !state->maps->caustic.empty())
-    state->surroundings = surroundings(state->report.rays, stop);
+    state->seen_edges = seen_edges(state->report.rays, stop);
   state->report.rays += state->light->rays();
   if (!stop.stop_requested()) add_warnings(*state);
   return state;
@@ -306,7 +307,7 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
   if (!any(local)) return;
   if (walk.wants_photon_light(Component::caustic)) {
     const SurfaceEdges* const edges =
-        state.surroundings ? state.surroundings->edges_at(walk.raster(), vertex) : nullptr;
+        state.seen_edges ? state.seen_edges->edges_at(walk.raster(), vertex) : nullptr;
     walk.add_photon_light(Component::caustic,
                           state.light->seen_caustic(vertex, local, walk.events(), walk.sampler(),
                                                     edges, walk.rays()));

@@ -47,16 +47,17 @@ class PhotonMapIntegrator final : public IlluminationModel {
 
   /// The light pass of a seed, its budgets trained when it is first asked for.
   std::shared_ptr<const LightPass> light_pass(uint64_t seed) const;
-  /// What the pixels show, with edges. Counts its rays when it is first asked for.
-  std::shared_ptr<const PixelPlans> surroundings(uint64_t& rays, const std::stop_token& stop) const;
+  /// What the pixels show, with edges, found when it is first asked for; null after a stop. Counts
+  /// the rays that look for edges.
+  std::shared_ptr<const PixelPlans> seen_edges(uint64_t& rays, const std::stop_token& stop) const;
 
   PhotonMapSettings settings_;
   std::shared_ptr<const PhotonMaps> stored_maps_;  ///< null: every pass traces its own
   mutable std::mutex light_pass_mutex_;
   mutable std::shared_ptr<const LightPass> light_pass_;
   mutable uint64_t light_pass_seed_ = 0;
-  mutable std::mutex surroundings_mutex_;
-  mutable std::shared_ptr<const PixelPlans> surroundings_;
+  mutable std::mutex seen_edges_mutex_;
+  mutable std::shared_ptr<const PixelPlans> seen_edges_;
 };
 
 }  // namespace kaustik

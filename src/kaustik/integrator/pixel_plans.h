@@ -56,6 +56,9 @@ class PixelPlans {
   void find_edges(const Scene& scene, float widths, float given, uint64_t& rays,
                   const std::stop_token& stop = {});
 
+  /// What was found that holds at a vertex that a pixel shows, by the probes around; null: nothing.
+  const SurfaceEdges* edges_at(const Vec2f& raster, const SurfaceVertex& vertex) const;
+
   struct Surroundings {
     DiskEdges edges;
     bool are_complete = false;  ///< nothing else was seen to end the surface
@@ -66,9 +69,7 @@ class PixelPlans {
   };
   /// Of a disk around a vertex that a pixel shows, by the probes around.
   Surroundings surroundings(const Vec2f& raster, const SurfaceVertex& vertex, float radius) const;
-  /// The edges that hold at a vertex that a pixel shows; null: none are known.
-  const SurfaceEdges* edges_at(const Vec2f& raster, const SurfaceVertex& vertex) const;
-  /// Surroundings around a probe.
+  /// The same around a probe.
   Surroundings surroundings(size_t probe, float radius) const;
   /// One per block of pixels, row by row.
   const std::vector<PixelProbe>& probes() const { return *probes_; }

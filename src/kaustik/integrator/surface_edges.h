@@ -31,10 +31,10 @@ class SurfaceEdges {
   }
   /// The largest disk around such a position that is clear.
   ClearDisk clear_disk(const Vec3f& position) const;
-  /// Whether a disk is clear, nothing ends the surface within it, and no edge cuts it.
-  bool are_none(const Vec3f& position, float radius) const {
+  /// Whether a disk is clear, nothing was seen to end the surface within it, and no edge cuts it.
+  bool is_whole(const Vec3f& position, float radius) const {
     return are_complete(position, radius) && are_clear(position, radius) &&
-           !around(position, radius).cut(radius);
+           around(position, radius).count == 0;
   }
   /// How far points of the plane may lie from one of them where they hold, m.
   float flatness() const;

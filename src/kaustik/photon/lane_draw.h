@@ -21,7 +21,7 @@ class LaneDraw {
         drawn_{none, none, none, none} {}
 
   /// The same by what the parts up to each of them add, the last of which is the sum: all of them
-  /// were offered.
+  /// were offered. At least one; sums don't fall.
   LaneDraw(std::span<const Spectrum> running_sums, float u) : LaneDraw(running_sums.back(), u) {
     for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
       const float at = left_[lane];
@@ -34,7 +34,7 @@ class LaneDraw {
         drawn_[lane] = drawn_[lane - 1];
         continue;
       }
-      // u of the sum may be rounded to all of it.
+      // u of a sum close to the least float may be rounded to all of it.
       const float below = std::min(at, std::nextafter(running_sums.back()[lane], 0.0f));
       const auto part =
           std::partition_point(running_sums.begin(), running_sums.end(),

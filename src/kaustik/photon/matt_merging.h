@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <vector>
 
 #include "kaustik/photon/disk_kernel.h"
@@ -49,17 +48,18 @@ class MattMerging {
   MattMerging(const LightVertices& light, const PathWeights& weights);
 
   /// Light that came by specular events only, and the rest.
-  enum Kind : size_t { other, after_specular, kinds };
+  enum Kind { other, after_specular };
   /// The factors of flux in MattLight::Sum::wide of the vertices of a bucket.
   struct Factors {
     uint32_t bucket;
-    uint16_t counting;  ///< bit i: that of vertex i is not 0
+    uint16_t counting;  ///< bit i: that of vertex i is more than 0
     float wide[KdBuckets::bucket_size];
   };
-  /// Adds to `each`, if there is one, the factors of all vertices that count.
+  /// Adds to `each`, if there is one, the factors of all buckets where any is more than 0. Slopes
+  /// make some of them negative.
   MattLight merge(const MattDisk& disk, std::vector<Factors>* each = nullptr) const;
   /// Offers the vertices of a kind, of which merge() told the factors, by their numbers: flux times
-  /// factor times `reflected`.
+  /// factor times `reflected`. Of a disk without slopes.
   void offer(const std::vector<Factors>& each, Kind kind, const Spectrum& reflected,
              LaneDraw& draw) const;
   Vec3f position(uint32_t number) const { return buckets_->position(number); }
