@@ -3,6 +3,7 @@
 #include <bit>
 #include <limits>
 
+#include "kaustik/base/memory.h"
 #include "tests/apps/program.h"
 
 namespace kaustik::test {
@@ -25,6 +26,15 @@ std::string pixels(const std::string& ppm) {
   size_t at = 0;
   for (int line = 0; line < 3; ++line) at = ppm.find_first_of(" \n", at) + 1;
   return ppm.substr(ppm.find('\n', at) + 1);
+}
+
+/// A grey HDR of old runs that claims 494 million pixels in 91 KB.
+std::string bomb() {
+  std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 7600 +X 65000\n";
+  // A pixel, and as often again as two digits to the base of 256 tell: 231 + 253 · 256.
+  const std::string line("\200\200\200\200\1\1\1\347\1\1\1\375", 12);
+  for (int y = 0; y < 7600; ++y) file += line;
+  return file;
 }
 
 class Tonemap : public ProgramTest {
@@ -130,6 +140,20 @@ TEST_F(Tonemap, FalseColour) {
   expect_refused({"tonemap", "a.pfm", "-o", "g.png", "--operator", "falsecolor", "--set",
                   "minimum=5", "--set", "maximum=4"},
                  "from 5 to 4");
+}
+
+/// What a command needs beside a picture counts: it is refused before the machine's memory is
+/// spent.
+TEST_F(Tonemap, PicturesThatWouldTakeAllMemory) {
+  if (physical_memory_bytes() > int64_t(40) << 30) GTEST_SKIP() << "this machine has enough";
+  write("bomb.hdr", bomb());
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"tonemap", "bomb.hdr", "-o", "c.png"},
+        {"compare", "bomb.hdr", "bomb.hdr"}}) {
+    const RunResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_NE(result.err.find("65000 x 7600 pixels"), std::string::npos) << result.err;
+  }
 }
 
 }  // namespace

@@ -140,6 +140,12 @@ Image decode(ByteView file, const std::string& path, const ReadOptions& options)
 
 }  // namespace
 
+Image read_image_to_keep(const std::string& path, int64_t kept_bytes_per_pixel) {
+  ReadOptions options;
+  options.kept_bytes_per_pixel = kept_bytes_per_pixel;
+  return read_image(path, options);
+}
+
 Image read_image(const std::string& path, const ReadOptions& options) {
   const auto refuse = [&](const std::string& reason) {
     throw Error(ErrorKind::input, fmt::format("cannot read image '{}': {}", path, reason),
