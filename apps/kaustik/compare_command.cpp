@@ -27,11 +27,11 @@ void compare(const CompareOptions& options) {
     check_writable(options.difference);
     roles.writes(options.difference);
   }
-  // Beside each of the two, the other one and what is compared (measured on 16 million pixels).
-  constexpr int64_t kept_bytes_per_pixel = 36;
-  Image given = read_image_to_keep(options.image, kept_bytes_per_pixel);
-  const auto [image, reference] =
-      same_pixels(std::move(given), read_image_to_keep(options.reference, kept_bytes_per_pixel));
+  // What comparing takes beside the two images, measured on 16 million pixels.
+  constexpr int64_t compared_bytes_per_pixel = 12;
+  Image given = read_image_beside(options.image, compared_bytes_per_pixel, 2);
+  const auto [image, reference] = same_pixels(
+      std::move(given), read_image_beside(options.reference, compared_bytes_per_pixel, 2));
   const ImageComparison c = compare_images(image, reference, options.layer);
   fmt::print("mse                  {:.6g}\n", c.mse);
   fmt::print("relative_mse         {:.6g}\n", c.relative_mse);

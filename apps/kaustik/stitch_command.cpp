@@ -24,7 +24,7 @@ void stitch(const StitchOptions& options) {
     roles.writes(output);
   }
   Stitcher stitcher;
-  for (const std::string& part : options.parts) stitcher.add(part, read_image(part));
+  for (const std::string& part : options.parts) stitcher.add(part, read_image_beside(part, 0, 2));
   for (const std::string& key : stitcher.differing())
     warn(fmt::format("the parts do not agree on '{}', which is left out", key));
   const Image whole = std::move(stitcher).finish();

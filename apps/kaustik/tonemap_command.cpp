@@ -84,12 +84,12 @@ void warn_of_bad_pixels(const std::string& input, const BadPixels& bad) {
   tell(bad.negative, "of negative luminance: shown black");
 }
 
-/// Beside the image, at most: of falsecolor, as measured on 16 million pixels.
-constexpr int64_t kept_bytes_per_pixel = 56;
+/// What tone mapping takes beside the image: most by falsecolor, measured on 16 million pixels.
+constexpr int64_t tone_bytes_per_pixel = 56;
 
 /// An input as the display shows it; tells what is odd about it.
 Image shown(const TonemapOptions& options, const std::string& input, const ToneOperator& tone) {
-  Image image = read_image_to_keep(input, kept_bytes_per_pixel);
+  Image image = read_image_beside(input, tone_bytes_per_pixel);
   // Beyond a crop window nothing is known, but other pictures are black where they have no pixels.
   const bool is_crop = image.find_metadata(crop_window_key) != nullptr;
   const bool in_frame = options.display_window || (!options.data_window && !is_crop);

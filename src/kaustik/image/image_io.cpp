@@ -140,8 +140,9 @@ Image decode(ByteView file, const std::string& path, const ReadOptions& options)
 
 }  // namespace
 
-Image read_image_to_keep(const std::string& path, int64_t kept_bytes_per_pixel) {
+Image read_image_beside(const std::string& path, int64_t kept_bytes_per_pixel, int images) {
   ReadOptions options;
+  options.memory_bytes /= images;
   options.kept_bytes_per_pixel = kept_bytes_per_pixel;
   return read_image(path, options);
 }

@@ -29,8 +29,9 @@ struct ReadOptions {
 /// truncated, corrupt or not an image, Error(system) if the picture takes more memory than it may
 /// or than there is: never more than some 100 MB beyond what the image has to hold.
 Image read_image(const std::string& path, const ReadOptions& options = {});
-/// The same for one who needs so many bytes per pixel beside the image.
-Image read_image_to_keep(const std::string& path, int64_t kept_bytes_per_pixel);
+/// The same for a caller that needs so many bytes per pixel beside the image, and that holds so
+/// many images like it at a time: they share the memory.
+Image read_image_beside(const std::string& path, int64_t kept_bytes_per_pixel, int images = 1);
 
 struct WriteOptions {
   /// EXR channels as 16-bit floats. One is kept at 32 bits if it holds a finite value above 65504,

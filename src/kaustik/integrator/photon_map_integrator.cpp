@@ -28,7 +28,7 @@ constexpr float blurred_pixels = 2;
 constexpr size_t cache_points_per_path = 4;
 
 /// The radius that `neighbors` photons take at three quarters of the photons. What is sparser is
-/// better estimated from fewer photons than from far ones: where the dim seen_edges of a focus
+/// better estimated from fewer photons than from far ones: where the dim surroundings of a focus
 /// reach into it for their neighbours, its light is counted twice. Their noise goes with the
 /// passes; for stored maps, where it does not, the radius is twice that of 95 % of the photons.
 float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
