@@ -11,6 +11,7 @@
 #include "benchmarks/report.h"
 #include "benchmarks/shipped_scenes.h"
 #include "kaustik/base/statistics.h"
+#include "kaustik/integrator/override_integrator.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"
 #include "kaustik/transport/component.h"

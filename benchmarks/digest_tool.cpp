@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "kaustik/integrator/override_integrator.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"
@@ -35,8 +36,7 @@ std::vector<std::string> shipped_scene_names() {
 
 std::vector<std::string> integrator_names() {
   std::vector<std::string> names;
-  for (const IntegratorType& type : integrator_types())
-    if (type.known_here_as.empty()) names.push_back(type.info.name);
+  for (const IntegratorType& type : integrator_types()) names.push_back(type.info.name);
   return names;
 }
 

@@ -14,6 +14,7 @@
 #include "benchmarks/report.h"
 #include "benchmarks/welch.h"
 #include "kaustik/base/statistics.h"
+#include "kaustik/integrator/override_integrator.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"

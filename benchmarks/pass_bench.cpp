@@ -3,6 +3,7 @@
 #include "benchmarks/report.h"
 #include "benchmarks/shipped_scenes.h"
 #include "kaustik/base/parallel.h"
+#include "kaustik/integrator/override_integrator.h"
 #include "kaustik/integrator/vcm_light_pass.h"
 #include "kaustik/integrator/vcm_plans.h"
 #include "kaustik/photon/matt_merging.h"

@@ -7,6 +7,7 @@
 #include "benchmarks/shipped_scenes.h"
 #include "kaustik/image/image_io.h"
 #include "kaustik/image/metrics.h"
+#include "kaustik/integrator/override_integrator.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"
 

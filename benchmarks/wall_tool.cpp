@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "benchmarks/welch.h"
+#include "kaustik/integrator/override_integrator.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"

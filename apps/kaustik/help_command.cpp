@@ -3,7 +3,7 @@
 #include "commands.h"
 #include "kaustik/base/limits.h"
 #include "kaustik/image/tone_mapping.h"
-#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/scene/camera.h"
 #include "thesis_settings.h"
 
@@ -17,6 +17,7 @@ std::vector<const TypeInfo*> all_types() {
     for (const auto& row : rows) types.push_back(&row.info);
   };
   add(integrator_types());
+  add(foreign_integrators());
   add(shape_types());
   add(bsdf_types());
   add(texture_types());
@@ -64,8 +65,9 @@ void help(const std::string& name) {
   if (name == "thesis") return print_thesis_variables();
   std::vector<std::string> names;
   bool found = false;
+  const ForeignIntegrator* foreign = find_foreign_integrator(name);
   for (const TypeInfo* info : all_types()) {
-    if (info->name == name || info->family == name) {
+    if (info->name == name || info->family == name || (foreign && info == &foreign->info)) {
       if (found) fmt::print("\n");
       print_table(*info);
       found = true;

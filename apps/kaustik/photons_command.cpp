@@ -116,7 +116,7 @@ void trace_photons(const PhotonsOptions& options) {
   roles.reads(description);
   roles.check();
   // Before the settings, so that they speak of the integrator that is used.
-  override_integrator(description, "photonmap");
+  use_integrator(description, "photonmap");
   apply_settings(description, options.levels, options.settings);
   tell_of_memory(description);
   const auto scene = build_scene(description, options.build);

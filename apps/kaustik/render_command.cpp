@@ -86,7 +86,7 @@ void render(RenderOptions options) {
   // What the thesis sets is a photon map's.
   if (!find_integrator(description) && sets_thesis_photon_map(options.levels)) {
     recipe.integrator = "photonmap";
-    override_integrator(description, recipe.integrator);
+    use_integrator(description, recipe.integrator);
   }
   recipe.settings = collected_settings(description, options.levels, options.settings);
   const RenderJob job =
@@ -101,8 +101,8 @@ void render(RenderOptions options) {
 std::string integrator_names() {
   std::string names;
   for (const IntegratorType& type : integrator_types())
-    if (type.known_here_as.empty()) names += (names.empty() ? "" : ", ") + type.info.name;
-  return names;
+    names += (names.empty() ? "" : ", ") + type.info.name;
+  return names + " (and other renderers' names: kaustik help integrator)";
 }
 
 }  // namespace

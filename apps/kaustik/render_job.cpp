@@ -10,6 +10,7 @@
 #include "exit_codes.h"
 #include "failures.h"
 #include "kaustik/base/memory.h"
+#include "kaustik/integrator/override_integrator.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/scene/mesh_memory.h"
 #include "picture_output.h"
@@ -56,11 +57,16 @@ Description load_scene(const std::string& path, const LoadOptions& options) {
   return parse_mitsuba_xml(read_standard_input(), "standard input", "", options);
 }
 
+void use_integrator(Description& description, const std::string& type) {
+  const std::string left_out = override_integrator(description, type);
+  if (!left_out.empty()) note(left_out);
+}
+
 Description load_description(const RenderRecipe& recipe) {
   LoadOptions load;
   load.definitions = recipe.definitions;
   Description description = load_scene(recipe.scene, load);
-  if (!recipe.integrator.empty()) override_integrator(description, recipe.integrator);
+  if (!recipe.integrator.empty()) use_integrator(description, recipe.integrator);
   return description;
 }
 

@@ -22,6 +22,9 @@ void tell_of_memory(const Description& description);
 /// Reads a scene file, or standard input ("-"). Throws Error.
 Description load_scene(const std::string& path, const LoadOptions& options);
 
+/// Takes another integrator than the file's, and tells what the file says that it has no use for.
+void use_integrator(Description& description, const std::string& type);
+
 /// The recipe's scene file with its definitions and its integrator, before its settings.
 Description load_description(const RenderRecipe& recipe);
 

@@ -7,7 +7,7 @@
 #include <charconv>
 
 #include "console.h"
-#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/scene/overrides.h"
 #include "numbers.h"
 
@@ -131,7 +131,7 @@ std::vector<Setting> thesis_settings(const Description& description,
     const std::string name = entry.substr(0, equals);
     const Variable* variable = find_variable(name);
     if (!variable && !is_of_thesis(name)) continue;
-    if (integrator && integrator->type != "photonmap") {
+    if (integrator && native_type(*integrator) != "photonmap") {
       report.push_back(fmt::format("the environment's {} has no effect with integrator '{}'", name,
                                    integrator->type));
       return {};

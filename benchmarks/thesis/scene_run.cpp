@@ -4,6 +4,7 @@
 
 #include "benchmarks/shipped_scenes.h"
 #include "kaustik/image/image_io.h"
+#include "kaustik/integrator/override_integrator.h"
 #include "kaustik/scene/overrides.h"
 
 namespace kaustik::thesis {

@@ -2,7 +2,7 @@
 
 #include "kaustik/image/image_io.h"
 #include "kaustik/image/metrics.h"
-#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/photon/photon_file.h"
 #include "tests/apps/program.h"
 
@@ -21,6 +21,7 @@ class Commands : public ProgramTest {
 std::vector<const TypeInfo*> registered_types() {
   std::vector<const TypeInfo*> types = {&Camera::info(), &film_info()};
   for (const auto& row : integrator_types()) types.push_back(&row.info);
+  for (const auto& row : foreign_integrators()) types.push_back(&row.info);
   for (const auto& row : shape_types()) types.push_back(&row.info);
   for (const auto& row : bsdf_types()) types.push_back(&row.info);
   for (const auto& row : texture_types()) types.push_back(&row.info);
@@ -250,9 +251,9 @@ TEST_F(Commands, CtrlCLeavesNoHalfPhotonMap) {
 
 TEST_F(Commands, RenderNamesEveryIntegrator) {
   const std::string help = run_well({"render", "--help"}).out;
-  // Mitsuba's names of the same methods are left out.
+  // Other renderers' names of the same methods are left out.
   for (const IntegratorType& type : integrator_types())
-    EXPECT_TRUE(contains(help, type.info.name) || !type.known_here_as.empty()) << type.info.name;
+    EXPECT_TRUE(contains(help, type.info.name)) << type.info.name;
   EXPECT_FALSE(contains(help, "volpath"));
 }
 

@@ -89,45 +89,28 @@ TEST(Overrides, WrongValuesAreToldWithTheirOrigin) {
   }
 }
 
-TEST(Overrides, Integrators) {
-  Description description = description_of(objects);
-  override_integrator(description, "path");
-  EXPECT_EQ(find_integrator(description)->properties.size(), 1u);  // stays as it is
-  override_integrator(description, "lighttracer");
-  EXPECT_EQ(find_integrator(description)->type, "lighttracer");
-  EXPECT_TRUE(find_integrator(description)->properties.empty());
-  override_property(description, "integrator.max_depth=5");
-  EXPECT_EQ(find_integrator(description)->properties.size(), 1u);
-
+TEST(Overrides, SceneWithoutIntegratorGetsTheDefault) {
   Description without = description_of(std::string(any_camera) + any_shape);
   EXPECT_EQ(find_integrator(without), nullptr);
   override_property(without, "integrator.max_depth=5");
   ASSERT_NE(find_integrator(without), nullptr);
   EXPECT_EQ(find_integrator(without)->type, default_integrator);
+  EXPECT_EQ(find_integrator(without)->properties.size(), 1u);
 }
 
 /// What is said of the scene's integrator leaves a shape alone that refers to it.
 TEST(Overrides, IntegratorsOfShapesStay) {
-  const std::string shared =
+  Description description = description_of(
       "<integrator type=\"localphong\" id=\"plain\"><float name=\"ambient\" value=\"0.5\"/>"
       "</integrator>" +
-      std::string(any_camera) + "<shape type=\"sphere\"><ref id=\"plain\"/></shape>";
-  const auto of_shape = [](const Description& description) {
-    return build_scene(description)->surface(0).illumination;
-  };
-  Description type = description_of(shared);
-  override_integrator(type, "path");
-  EXPECT_EQ(find_integrator(type)->type, "path");
-  EXPECT_EQ(of_shape(type)->type, "localphong");
-  EXPECT_EQ(of_shape(type)->properties.size(), 1u);
-
-  Description property = description_of(shared);
-  override_property(property, "integrator.light_samples=3");
-  EXPECT_EQ(find_integrator(property)->properties.size(), 2u);
-  EXPECT_EQ(of_shape(property)->properties.size(), 1u);
-  override_property(property, "plain.shadows=false");  // by its id: the shape's
-  EXPECT_EQ(find_integrator(property)->properties.size(), 2u);
-  EXPECT_EQ(of_shape(property)->properties.size(), 2u);
+      std::string(any_camera) + "<shape type=\"sphere\"><ref id=\"plain\"/></shape>");
+  const auto of_shape = [&] { return build_scene(description)->surface(0).illumination; };
+  override_property(description, "integrator.light_samples=3");
+  EXPECT_EQ(find_integrator(description)->properties.size(), 2u);
+  EXPECT_EQ(of_shape()->properties.size(), 1u);
+  override_property(description, "plain.shadows=false");  // by its id: the shape's
+  EXPECT_EQ(find_integrator(description)->properties.size(), 2u);
+  EXPECT_EQ(of_shape()->properties.size(), 2u);
 }
 
 }  // namespace

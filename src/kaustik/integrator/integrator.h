@@ -116,13 +116,12 @@ struct IntegratorType {
   bool is_model;  ///< an IlluminationModel, which single surfaces may have as their own
   /// `scene` must outlive the integrator.
   std::unique_ptr<Integrator> (*create)(const Arguments&, const Scene& scene);
-  std::string known_here_as{};  ///< of other renderers' names: what it is here
   /// It follows paths from the camera alone: light of lamps that no path can meet (point, spot,
   /// directional) it never finds behind glass.
   bool is_from_camera_alone = false;
 };
-/// "auto", "path", "lighttracer", "photonmap", "vcm", "bdpt", "ppm", "localphong", "raytracing";
-/// and what Mitsuba calls some of them.
+/// "auto", "path", "lighttracer", "photonmap", "vcm", "bdpt", "ppm", "localphong", "raytracing".
+/// Other renderers' names are foreign_integrators().
 const std::vector<IntegratorType>& integrator_types();
 
 /// The row `components`, which every integrator has, and its reading; throws Error for an unknown

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/surface_models.h"
 
 namespace kaustik {
@@ -14,12 +15,15 @@ std::vector<std::string> type_names(bool models_only) {
   std::vector<std::string> names;
   for (const IntegratorType& row : integrator_types())
     if (row.is_model || !models_only) names.push_back(row.info.name);
+  if (!models_only)
+    for (const ForeignIntegrator& foreign : foreign_integrators())
+      if (foreign.refusal.empty())
+        names.insert(names.end(), foreign.names.begin(), foreign.names.end());
   return names;
 }
 
 const IntegratorType& type_of(const Object& object, bool of_surface = false) {
-  for (const IntegratorType& row : integrator_types())
-    if (row.info.name == object.type) return row;
+  if (const IntegratorType* type = find_integrator_type(native_type(object))) return *type;
   throw Error(ErrorKind::input, fmt::format("unknown integrator type '{}'", object.type),
               suggest(object.type, type_names(of_surface)), object.place);
 }
@@ -38,8 +42,11 @@ void tell_once(const std::string& warning, std::vector<std::string>& warnings) {
   if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
 }
 
-std::unique_ptr<Integrator> create(const Object& object, const Scene& scene, bool of_surface,
+std::unique_ptr<Integrator> create(const Object& given, const Scene& scene, bool of_surface,
                                    std::vector<std::string>& warnings) {
+  std::vector<std::string> notes;
+  const Object object = native_integrator(given, notes);
+  for (const std::string& note : notes) tell_once(note, warnings);
   const IntegratorType& type = type_of(object);
   Problems problems;
   const Arguments arguments(type.info, object.properties, object.place, problems);
@@ -50,9 +57,6 @@ std::unique_ptr<Integrator> create(const Object& object, const Scene& scene, boo
   problems.throw_if_any();
   for (const std::string& ignored : arguments.ignored())
     tell_once(fmt::format("'{}' of integrator '{}' has no effect here", ignored, object.type),
-              warnings);
-  if (!type.known_here_as.empty())
-    tell_once(fmt::format("integrator '{}' is called {} here", object.type, type.known_here_as),
               warnings);
   return type.create(arguments, scene);
 }

@@ -1,15 +1,8 @@
 #include "kaustik/integrator/path.h"
 
-#include "kaustik/integrator/mitsuba_integrators.h"
 #include "kaustik/integrator/path_parameters.h"
 
 namespace kaustik {
-namespace {
-
-/// Mitsuba's `direct`: one event, and no depth to choose.
-bool is_direct(const Arguments& arguments) { return arguments.info().name == direct_info().name; }
-
-}  // namespace
 
 const TypeInfo& PathIntegrator::info() {
   static const TypeInfo info{
@@ -26,8 +19,8 @@ const TypeInfo& PathIntegrator::info() {
 PathIntegrator::PathIntegrator(const Arguments& arguments, const Scene& scene)
     : IlluminationModel(scene),
       components_(read_components(arguments)),
-      maximum_events_(is_direct(arguments) ? 1 : read_maximum_events(arguments)),
-      roulette_depth_(is_direct(arguments) ? 1 : int(arguments.integer("rr_depth"))) {}
+      maximum_events_(read_maximum_events(arguments)),
+      roulette_depth_(int(arguments.integer("rr_depth"))) {}
 
 bool PathIntegrator::advance(const PassState&, CameraWalk& walk) const {
   for (;;) {

@@ -4,7 +4,6 @@
 #include "kaustik/integrator/integrator.h"
 #include "kaustik/integrator/light_tracer.h"
 #include "kaustik/integrator/local_phong.h"
-#include "kaustik/integrator/mitsuba_integrators.h"
 #include "kaustik/integrator/path.h"
 #include "kaustik/integrator/photon_map_integrator.h"
 #include "kaustik/integrator/ray_tracing.h"
@@ -14,12 +13,11 @@ namespace kaustik {
 namespace {
 
 template <typename T>
-IntegratorType row(const TypeInfo& info, const std::string& known_here_as = {}) {
+IntegratorType row(const TypeInfo& info) {
   return {info, std::is_base_of_v<IlluminationModel, T>,
           [](const Arguments& arguments, const Scene& scene) -> std::unique_ptr<Integrator> {
             return std::make_unique<T>(arguments, scene);
-          },
-          known_here_as};
+          }};
 }
 
 IntegratorType from_camera_alone(IntegratorType type) {
@@ -44,11 +42,6 @@ const std::vector<IntegratorType>& integrator_types() {
       row<VcmIntegrator>(ppm_info()),
       from_camera_alone(row<LocalPhong>(LocalPhong::info())),
       from_camera_alone(row<RayTracing>(RayTracing::info())),
-      from_camera_alone(row<PathIntegrator>(volpath_info(), "path")),
-      from_camera_alone(row<PathIntegrator>(volpathmis_info(), "path")),
-      from_camera_alone(row<PathIntegrator>(volpath_simple_info(), "path")),
-      from_camera_alone(row<PathIntegrator>(direct_info(), "path with max_depth = 2")),
-      row<LightTracer>(ptracer_info(), "lighttracer"),
   };
   return types;
 }

@@ -1,6 +1,7 @@
 #include "kaustik/render/photon_tracing.h"
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/make_integrator.h"
 #include "kaustik/integrator/photon_map_settings.h"
 #include "kaustik/photon/photon_parts.h"
@@ -11,14 +12,15 @@ namespace {
 
 /// A copy of the description's photonmap integrator that traces its photons, or one with the
 /// default parameters.
-std::shared_ptr<Object> photonmap_of(const Description& description) {
+std::shared_ptr<Object> photonmap_of(const Description& description,
+                                     std::vector<std::string>& notes) {
   const std::string& type = PhotonMapSettings::info().name;
   const auto given = find_integrator(description);
   auto object = std::make_shared<Object>();
   object->family = "integrator";
   object->type = type;
-  if (!given || given->type != type) return object;
-  *object = *given;
+  if (!given || native_type(*given) != type) return object;
+  *object = native_integrator(*given, notes);
   // The map that it asks for may be the one that is about to be written.
   std::erase_if(object->properties, [](const Property& p) { return p.name == "photon_map"; });
   return object;
@@ -44,7 +46,7 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
                                 int threads, std::stop_token stop, const ProgressFunction& progress,
                                 PhotonPart part) {
   TracedPhotons traced;
-  const auto object = photonmap_of(description);
+  const auto object = photonmap_of(description, traced.warnings);
   // Checks the object as a render would, but not the surfaces' own, which photons don't know.
   make_integrator_alone(*object, scene, traced.warnings);
   Problems problems;

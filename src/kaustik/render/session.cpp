@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/make_integrator.h"
 #include "kaustik/render/session_monitor.h"
 #include "kaustik/scene/scene_report.h"
@@ -132,7 +133,8 @@ SessionReport Session::run(std::stop_token stop,
 }
 
 std::string integrator_type(const Description& description, const Scene& scene) {
-  if (const std::shared_ptr<Object> given = find_integrator(description)) return given->type;
+  if (const std::shared_ptr<Object> given = find_integrator(description))
+    return native_type(*given);
   for (uint32_t i = 0; i < scene.surface_count(); ++i)
     if (scene.surface(i).illumination) return "photonmap";
   return default_integrator;

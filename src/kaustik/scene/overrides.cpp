@@ -19,18 +19,8 @@ void collect(const std::shared_ptr<Object>& object, std::vector<std::shared_ptr<
   }
 }
 
-std::shared_ptr<Object> integrator_of(Description& description) {
-  if (auto object = own_integrator(description)) return object;
-  auto object = std::make_shared<Object>();
-  object->family = "integrator";
-  object->type = default_integrator;
-  object->place = place_in("command line");
-  description.scene->children.push_back({"", object});
-  return object;
-}
-
 std::shared_ptr<Object> find_object(Description& description, const std::string& name) {
-  if (name == "integrator") return integrator_of(description);
+  if (name == "integrator") return made_integrator(description);
   std::vector<std::shared_ptr<Object>> objects;
   std::set<const Object*> seen;
   collect(description.scene, objects, seen);
@@ -54,6 +44,16 @@ std::shared_ptr<Object> find_object(Description& description, const std::string&
 }
 
 }  // namespace
+
+std::shared_ptr<Object> made_integrator(Description& description) {
+  if (auto object = own_integrator(description)) return object;
+  auto object = std::make_shared<Object>();
+  object->family = "integrator";
+  object->type = default_integrator;
+  object->place = place_in("command line");
+  description.scene->children.push_back({"", object});
+  return object;
+}
 
 void override_property(Description& description, const std::string& assignment) {
   override_property(description, setting_of_command_line(assignment));
@@ -79,15 +79,6 @@ void override_property(Description& description, const std::string& assignment,
   std::erase_if(object->properties, [&](const Property& p) { return p.name == name; });
   std::erase_if(object->children, [&](const Child& c) { return c.name == name; });
   object->properties.push_back({name, Untyped{assignment.substr(equals + 1)}, origin});
-}
-
-void override_integrator(Description& description, const std::string& type) {
-  const auto object = integrator_of(description);
-  if (object->type == type) return;
-  object->type = type;
-  object->properties.clear();
-  object->children.clear();
-  object->place = place_in("command line: --integrator");
 }
 
 }  // namespace kaustik

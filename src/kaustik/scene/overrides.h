@@ -22,7 +22,7 @@ void override_property(Description& description, const Setting& setting);
 /// As --set gives it.
 Setting setting_of_command_line(const std::string& assignment);
 
-/// Replaces the integrator by one of `type`; the file's properties stay if the type is the same.
-void override_integrator(Description& description, const std::string& type);
+/// own_integrator(); the description gets the default one if it has none.
+std::shared_ptr<Object> made_integrator(Description& description);
 
 }  // namespace kaustik

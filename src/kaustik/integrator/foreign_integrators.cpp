@@ -1,0 +1,144 @@
+#include "kaustik/integrator/foreign_integrators.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kaustik {
+namespace {
+
+/// The one that renders the picture: the first that is not only there for a layer; null: none.
+const Object* held_by(const Object& object) {
+  for (const Child& child : object.children) {
+    if (child.object->family != "integrator") continue;
+    const ForeignIntegrator* foreign = find_foreign_integrator(child.object->type);
+    if (!foreign || foreign->refusal.empty()) return child.object.get();
+  }
+  return nullptr;
+}
+
+/// The native table with the rows beside it.
+TypeInfo whole_table(const ForeignIntegrator& foreign, const std::string& name) {
+  TypeInfo info = foreign.info;
+  info.name = name;
+  if (const IntegratorType* type = find_integrator_type(foreign.native))
+    for (const Parameter& row : type->info.parameters)
+      if (!info.find(row.name)) info.parameters.push_back(row);
+  return info;
+}
+
+void set_property(Object& object, Property property) {
+  std::erase_if(object.properties, [&](const Property& p) { return p.name == property.name; });
+  object.properties.push_back(std::move(property));
+}
+
+/// What it holds, with what is said of the holder and the holder does not know.
+Object unwrapped(const Object& object, const ForeignIntegrator& foreign,
+                 std::vector<std::string>& notes) {
+  for (const Child& child : object.children)
+    if (child.object->family != "integrator")
+      throw Error(
+          ErrorKind::input,
+          fmt::format("integrator '{}' cannot hold a {}", object.type, child.object->family),
+          "remove it", child.object->place);
+  const Object* held = held_by(object);
+  Object result = held ? *held : Object{"integrator", default_integrator, "", {}, {}, object.place};
+  for (const Property& property : object.properties)
+    if (!foreign.info.find(property.name)) set_property(result, property);
+  notes.push_back(fmt::format(
+      "integrator '{}' is left out: the picture is that of {} '{}'; the layers of an EXR hold "
+      "depth, normals, albedo and errors anyway",
+      object.type, held ? "the integrator in it," : "the default,", result.type));
+  size_t others = 0;
+  for (const Child& child : object.children)
+    others += child.object->family == "integrator" && child.object.get() != held;
+  if (others > 0)
+    notes.push_back(fmt::format("of the integrators in '{}', {} after '{}' {} left out",
+                                object.type, others, result.type, others == 1 ? "is" : "are"));
+  return result;
+}
+
+/// Checks what is given against their table, and gives it our names.
+Object translated(const Object& object, const ForeignIntegrator& foreign,
+                  std::vector<std::string>& notes) {
+  const TypeInfo table = whole_table(foreign, object.type);
+  Problems problems;
+  const Arguments arguments(table, object.properties, object.place, problems);
+  problems.throw_if_any();
+  Object result = object;
+  result.type = foreign.native;
+  result.properties.clear();
+  for (const Property& property : object.properties) {
+    bool is_renamed = false;
+    for (const auto& [theirs, ours] : foreign.renamed)
+      if (property.name == theirs) {
+        is_renamed = true;
+        // Who gives ours, too, means that.
+        if (!arguments.given(ours))
+          result.properties.push_back({ours, property.value, property.place});
+      }
+    const Parameter* beside = foreign.info.find(property.name);
+    if (!is_renamed && !beside) result.properties.push_back(property);
+    if (beside && beside->no_effect)
+      notes.push_back(
+          fmt::format("'{}' of integrator '{}' has no effect here", property.name, object.type));
+  }
+  for (const Property& implied : foreign.implied)
+    if (!arguments.given(implied.name)) result.properties.push_back(implied);
+  return result;
+}
+
+std::string choice_note(const Object& object, const Object& native,
+                        const ForeignIntegrator& foreign) {
+  std::string what = native.type;
+  for (const Property& property : native.properties)
+    if (is_implied(property))
+      what += fmt::format(" with {} = {}", property.name, std::get<int64_t>(property.value));
+  return foreign.is_same ? fmt::format("integrator '{}' is called {} here", object.type, what)
+                         : fmt::format("there is no integrator '{}' here: {} renders the picture",
+                                       object.type, what);
+}
+
+}  // namespace
+
+const ForeignIntegrator* find_foreign_integrator(const std::string& type) {
+  for (const ForeignIntegrator& foreign : foreign_integrators())
+    if (std::ranges::find(foreign.names, type) != foreign.names.end()) return &foreign;
+  return nullptr;
+}
+
+const IntegratorType* find_integrator_type(const std::string& native) {
+  for (const IntegratorType& type : integrator_types())
+    if (type.info.name == native) return &type;
+  return nullptr;
+}
+
+bool is_implied(const Property& property) {
+  for (const ForeignIntegrator& foreign : foreign_integrators())
+    for (const Property& implied : foreign.implied)
+      if (implied.place.file == property.place.file) return true;
+  return false;
+}
+
+std::string native_type(const Object& object) {
+  const ForeignIntegrator* foreign = find_foreign_integrator(object.type);
+  if (!foreign || !foreign->refusal.empty()) return object.type;
+  if (!foreign->holds_another()) return foreign->native;
+  const Object* held = held_by(object);
+  return held ? native_type(*held) : default_integrator;
+}
+
+Object native_integrator(const Object& object, std::vector<std::string>& notes) {
+  const ForeignIntegrator* foreign = find_foreign_integrator(object.type);
+  if (!foreign) return object;
+  if (!foreign->refusal.empty())
+    throw Error(ErrorKind::input,
+                fmt::format("integrator '{}' does not render a picture of light", object.type),
+                foreign->refusal, object.place);
+  if (foreign->holds_another()) return native_integrator(unwrapped(object, *foreign, notes), notes);
+  Object native = translated(object, *foreign, notes);
+  if (object.type != native.type) notes.push_back(choice_note(object, native, *foreign));
+  return native;
+}
+
+}  // namespace kaustik
