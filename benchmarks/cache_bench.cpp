@@ -13,9 +13,9 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/image_io.h"
 #include "kaustik/image/metrics.h"
-#include "kaustik/integrator/camera_walk.h"
-#include "kaustik/integrator/photon_gather.h"
+#include "kaustik/photonmap/photon_light.h"
 #include "kaustik/scene/overrides.h"
+#include "kaustik/transport/camera_walk.h"
 
 namespace {
 

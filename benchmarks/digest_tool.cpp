@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "kaustik/integrator/override_integrator.h"
+#include "kaustik/integrator/registry.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"

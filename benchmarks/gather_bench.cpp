@@ -15,10 +15,10 @@
 
 #include "benchmarks/report.h"
 #include "benchmarks/shipped_scenes.h"
-#include "kaustik/integrator/camera_walk.h"
-#include "kaustik/integrator/merge_disk.h"
-#include "kaustik/integrator/vcm_light_pass.h"
-#include "kaustik/integrator/vcm_plans.h"
+#include "kaustik/photon/coverage/merge_disk.h"
+#include "kaustik/transport/camera_walk.h"
+#include "kaustik/vcm/light_pass.h"
+#include "kaustik/vcm/plan/plans.h"
 
 namespace {
 

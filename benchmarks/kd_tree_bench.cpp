@@ -18,7 +18,7 @@
 #include "benchmarks/report.h"
 #include "benchmarks/shipped_scenes.h"
 #include "kaustik/base/parallel.h"
-#include "kaustik/photon/kd_tree.h"
+#include "kaustik/photon/kd_tree/kd_tree.h"
 
 namespace {
 

@@ -4,11 +4,11 @@
 #include "benchmarks/shipped_scenes.h"
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/override_integrator.h"
-#include "kaustik/integrator/vcm_light_pass.h"
-#include "kaustik/integrator/vcm_plans.h"
-#include "kaustik/photon/matt_merging.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"
+#include "kaustik/vcm/light_pass.h"
+#include "kaustik/vcm/merging/matt_merging.h"
+#include "kaustik/vcm/plan/plans.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 
 #include "benchmarks/report.h"
 #include "benchmarks/shipped_scenes.h"
-#include "kaustik/integrator/vcm_camera_path.h"
-#include "kaustik/photon/matt_merging.h"
+#include "kaustik/vcm/camera_path/camera_path.h"
+#include "kaustik/vcm/merging/matt_merging.h"
 
 namespace {
 

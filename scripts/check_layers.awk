@@ -77,28 +77,32 @@ BEGIN {
   allow("transport", "base image geometry material medium light scene")
   allow("photon", "base image geometry material medium light scene transport")
   allow("irradiance", "base image geometry material medium light scene transport")
-  allow("integrator", "base image geometry material medium light scene transport photon irradiance")
+  # Two methods over photons, which know nothing of each other.
+  allow("vcm", "base image geometry material medium light scene transport photon")
+  allow("photonmap", "base image geometry material medium light scene transport photon irradiance")
+  allow("integrator", "base image geometry material medium light scene transport photon irradiance vcm photonmap")
   allow("render", \
-    "base image geometry material medium light scene transport photon irradiance integrator")
+    "base image geometry material medium light scene transport photon irradiance vcm photonmap " \
+    "integrator")
   allow("loader", "base scene")
   # The front ends get at the lower rooms through render; these are what its interface speaks of.
   allow("apps", "base image scene integrator render loader")
   # Tests of whole pictures and benchmarks may look everywhere.
-  sees_all["integrator"]; sees_all["render"]; sees_all["apps"]; sees_all["benchmarks"]
+  sees_all["vcm"]; sees_all["photonmap"]; sees_all["integrator"]; sees_all["render"]; sees_all["apps"]; sees_all["benchmarks"]
   sees_all["support"]; sees_all["fuzz"]; sees_all["scene"]; sees_all["transport"]
 
   not_in_word = "[^A-Za-z0-9_]"
   own("Imath", "^Imath/", "base", "")
   own("oneTBB", "^(tbb|oneapi)/", "base photon", "")
   own("fmt", "^fmt/", "base image geometry material medium light scene transport photon irradiance " \
-    "integrator render loader apps", "")
+    "vcm photonmap integrator render loader apps", "")
   own("OpenEXR", "^(OpenEXR/)?(Imf|Iex)", "image", not_in_word "(Imf|OPENEXR_IMF_NAMESPACE)::")
   own("libtiff", "^tiff", "image", not_in_word "TIFF[A-Z]?[a-z]*[ (*]")
   own("libpng", "^png", "image", not_in_word "png_(structp?|infop?|bytep?)" not_in_word)
   own("libjpeg", "^j(peglib|error|config|morecfg)\\.h", "image", not_in_word "jpeg_[a-z]+_struct")
   own("libwebp", "^webp/", "image", not_in_word "(WebP[A-Z]|VP8)[A-Za-z_]+[ (;]")
   own("Embree", "^embree[34]/", "geometry", not_in_word "(RTC[A-Z][A-Za-z]+|rtc[A-Z][A-Za-z]+)")
-  own("Highway", "^hwy/", "light photon", not_in_word "hwy::")
+  own("Highway", "^hwy/", "light photon vcm", not_in_word "hwy::")
   own("pugixml", "^pugi", "loader", not_in_word "pugi::")
   own("CLI11", "^CLI/", "apps", not_in_word "CLI::")
   own("spdlog", "^spdlog/", "apps", not_in_word "spdlog::")

@@ -4,6 +4,7 @@
 #include "kaustik/base/limits.h"
 #include "kaustik/image/tone_mapping.h"
 #include "kaustik/integrator/foreign_integrators.h"
+#include "kaustik/integrator/registry.h"
 #include "kaustik/scene/camera.h"
 #include "thesis_settings.h"
 

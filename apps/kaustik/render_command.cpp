@@ -11,7 +11,7 @@
 #include "console.h"
 #include "file_roles.h"
 #include "kaustik/image/tone_mapping.h"
-#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/registry.h"
 #include "numbers.h"
 #include "picture_output.h"
 #include "render_job.h"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/registry.h"
 
 namespace kaustik::app {
 namespace {

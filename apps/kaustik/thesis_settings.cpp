@@ -8,6 +8,7 @@
 
 #include "console.h"
 #include "kaustik/integrator/foreign_integrators.h"
+#include "kaustik/integrator/registry.h"
 #include "kaustik/scene/overrides.h"
 #include "numbers.h"
 

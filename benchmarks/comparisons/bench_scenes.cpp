@@ -13,6 +13,7 @@
 #include "benchmarks/comparisons/bench_scene.h"
 #include "benchmarks/comparisons/measurement.h"
 #include "benchmarks/comparisons/snapshots.h"
+#include "kaustik/integrator/registry.h"
 #include "kaustik/scene/description_digest.h"
 
 namespace kaustik::bench {

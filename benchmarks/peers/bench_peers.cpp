@@ -1,3 +1,4 @@
+#include "kaustik/integrator/registry.h"
 // Kaustik beside Blender Cycles and POV-Ray: `bench_peers` renders three scenes that ship with each
 // of them for the same time on the same threads, start-up excluded, and prints the errors against
 // the stored references, one line of JSON per pair, which it also appends to a results file, then a

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "hemisphere_drawing.h"
-#include "kaustik/integrator/photon_gather.h"
 #include "kaustik/photon/light_pass.h"
+#include "kaustik/photonmap/photon_light.h"
 #include "kaustik/render/photon_tracing.h"
 #include "photon_picture.h"
 #include "scene_run.h"

@@ -3,6 +3,7 @@
 #include "kaustik/image/image_io.h"
 #include "kaustik/image/metrics.h"
 #include "kaustik/integrator/foreign_integrators.h"
+#include "kaustik/integrator/registry.h"
 #include "kaustik/photon/photon_file.h"
 #include "tests/apps/program.h"
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "kaustik/base/vec.h"
-#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/registry.h"
 #include "kaustik/scene/camera.h"
 #include "tests/fuzz/parameter_values.h"
 

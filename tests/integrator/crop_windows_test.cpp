@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "kaustik/integrator/vcm_plans.h"
+#include "kaustik/vcm/plan/plans.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
 
@@ -24,7 +24,7 @@ FilmSettings film_of(const Vec2i& size, const Window& window) {
   return film;
 }
 
-constexpr int block_size = PixelPlans::block_size;
+constexpr int block_size = SeenSurfaces::block_size;
 const Vec2i whole_size(43, 38);
 const std::vector<Window> windows{{{10, 20}, {16, 12}}, {{0, 0}, {1, 1}},    {{42, 37}, {1, 1}},
                                   {{21, 18}, {1, 1}},   {{3, 1}, {40, 3}},   {{40, 0}, {3, 38}},
@@ -40,10 +40,9 @@ TEST(PlanWindow, BlocksAreThoseOfTheWholePicture) {
   for (const Window& crop : windows) {
     const PlanWindow window(film_of(whole_size, crop), block_size);
     const Vec2i begin = crop.offset - window.before, end = begin + window.size;
-    const Vec2i blocks = window.blocks(block_size);
+    const BlockGrid grid(window, block_size);
     int pixels = 0;
-    for (int y = 0; y < blocks.y; ++y)
-      for (int x = 0; x < blocks.x; ++x) pixels += window.crop_pixels({x, y}, block_size);
+    for (size_t i = 0; i < grid.size(); ++i) pixels += grid.crop_pixels(i);
     EXPECT_EQ(pixels, crop.size.x * crop.size.y);
     for (int axis = 0; axis < 2; ++axis) {
       EXPECT_EQ(begin[axis] % block_size, 0);
@@ -102,15 +101,15 @@ TestScene shown(int size, const Window& window, const std::string& inside = room
 
 /// Largest distance between the probes of a window and those of the whole picture `shift` blocks
 /// beside them, m.
-double probe_distance(const PixelPlans& whole, const PixelPlans& part, const Window& window,
+double probe_distance(const SeenSurfaces& whole, const SeenSurfaces& part, const Window& window,
                       int shift) {
-  const Vec2i first = (window.offset - part.window().before) / block_size;
+  const Vec2i first = (window.offset - part.grid().window().before) / block_size;
+  const Vec2i blocks = part.grid().count();
   double most = 0;
-  for (int y = 0; y < part.blocks().y; ++y)
-    for (int x = 0; x + shift < part.blocks().x; ++x) {
-      const auto& own = part.probes()[size_t(y * part.blocks().x + x)];
-      const auto& other =
-          whole.probes()[size_t((first.y + y) * whole.blocks().x + first.x + x + shift)];
+  for (int y = 0; y < blocks.y; ++y)
+    for (int x = 0; x + shift < blocks.x; ++x) {
+      const auto& own = part.probes()[part.grid().index_of({x, y})];
+      const auto& other = whole.probes()[whole.grid().index_of(first + Vec2i(x + shift, y))];
       EXPECT_EQ(own.found, other.found);
       if (own.found)
         most = std::max(most, double(length(own.vertex.position() - other.vertex.position())));
@@ -120,17 +119,17 @@ double probe_distance(const PixelPlans& whole, const PixelPlans& part, const Win
 
 TEST(CropWindows, ArePlannedByTheProbesOfTheWholePicture) {
   const int size = 37;
-  const PixelPlans whole(shown(size, {{0, 0}, {size, size}}).scene());
+  const SeenSurfaces whole(shown(size, {{0, 0}, {size, size}}).scene());
   for (const Window& window : std::vector<Window>{
            {{10, 20}, {16, 12}}, {{0, 0}, {1, 1}}, {{36, 36}, {1, 1}}, {{33, 3}, {4, 31}}}) {
-    const PixelPlans part(shown(size, window).scene());
+    const SeenSurfaces part(shown(size, window).scene());
     // Delta events choose at random, so only what is met first has to be the same: no ball here.
     EXPECT_NEAR(part.mean_distance(), whole.mean_distance(), 1e-5f);
     for (int axis = 0; axis < 2; ++axis)
-      EXPECT_EQ((window.offset - part.window().before)[axis] % block_size, 0);
+      EXPECT_EQ((window.offset - part.grid().window().before)[axis] % block_size, 0);
   }
   const Window wall{{1, 2}, {14, 9}};
-  const PixelPlans part(shown(size, wall).scene());
+  const SeenSurfaces part(shown(size, wall).scene());
   EXPECT_LT(probe_distance(whole, part, wall, 0), 1e-4);
   EXPECT_GT(probe_distance(whole, part, wall, 1), 0.05) << "a block's shift goes unseen";
 }

@@ -1,7 +1,7 @@
 // Lamps with textures: every method finds the same light from them.
 
 #include "kaustik/base/warp.h"
-#include "kaustik/photon/emission.h"
+#include "kaustik/photon/emission/emission.h"
 #include "kaustik/transport/direct_light.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"

@@ -1,6 +1,6 @@
 // Kernels over disks that straight edges cut: what they integrate to, by a fine grid.
 
-#include "kaustik/photon/disk_kernel.h"
+#include "kaustik/photon/coverage/disk_kernel.h"
 
 #include <gtest/gtest.h>
 

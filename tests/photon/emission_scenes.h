@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kaustik/photon/emission.h"
+#include "kaustik/photon/emission/emission.h"
 
 namespace kaustik::test {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "kaustik/photon/aim_spheres.h"
+#include "kaustik/photon/emission/aim_spheres.h"
 #include "tests/photon/emission_scenes.h"
 
 namespace kaustik {

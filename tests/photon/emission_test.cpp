@@ -1,4 +1,4 @@
-#include "kaustik/photon/emission.h"
+#include "kaustik/photon/emission/emission.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The kd-tree against brute force.
 
-#include "kaustik/photon/kd_tree.h"
+#include "kaustik/photon/kd_tree/kd_tree.h"
 
 #include <gtest/gtest.h>
 #include <hwy/highway.h>

@@ -146,13 +146,13 @@ class Sight : public testing::Test {
     positions_.push_back(Vec3f(float(x), 0, 0));
     photons_.push_back(photon);
   }
-  LightSight seen(int light, int level = 0) {
+  VisibilityEstimate seen(int light, int level = 0) {
     const ShadowMap map(positions_, photons_);
     const Ray ray{Vec3f(0, 0, 1), Vec3f(0, 0, -1)};
     Hit hit;
     EXPECT_TRUE(scene_->intersect(ray, hit));
     const SurfaceVertex vertex(*scene_, ray, hit, TransportMode::radiance);
-    return ShadowSight(&map, settings_, vertex, level).of(light);
+    return ShadowVisibility(&map, settings_, vertex, level).of(light);
   }
   std::shared_ptr<const Scene> scene_ = make_scene({floor_at(0, white())});
   ShadowSettings settings_{8, 1, 1};
@@ -160,7 +160,7 @@ class Sight : public testing::Test {
   std::vector<ShadowPhoton> photons_;
 };
 
-void expect_sight(const LightSight& sight, float known, float by_ray) {
+void expect_sight(const VisibilityEstimate& sight, float known, float by_ray) {
   EXPECT_FLOAT_EQ(sight.known, known);
   EXPECT_FLOAT_EQ(sight.by_ray, by_ray);
 }
@@ -198,7 +198,7 @@ TEST_F(Sight, KnowsNothingWithoutPhotons) { expect_sight(seen(0), 0, 1); }
 
 /// Over the states of n photons, each lit with probability p, the mean answer is p if rays say p;
 /// that of deciding wherever all agree, and by a ray elsewhere, is not.
-TEST(LightSight, MeanIsTheVisibility) {
+TEST(VisibilityEstimate, MeanIsTheVisibility) {
   for (const bool accurate : {true, false})
     for (int n = 1; n <= 8; ++n)
       for (const double p : {0.0, 0.1, 0.5, 0.8, 1.0}) {
@@ -207,7 +207,7 @@ TEST(LightSight, MeanIsTheVisibility) {
           const double binomial = std::tgamma(n + 1) / std::tgamma(lit + 1) /
                                   std::tgamma(n - lit + 1) * std::pow(p, lit) *
                                   std::pow(1 - p, n - lit);
-          const LightSight sight = sight_of(lit, n - lit, accurate);
+          const VisibilityEstimate sight = sight_of(lit, n - lit, accurate);
           mean += binomial * (double(sight.known) + double(sight.by_ray) * p);
           naive += binomial * (lit == n ? 1 : lit == 0 ? 0 : p);
         }

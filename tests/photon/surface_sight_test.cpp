@@ -1,4 +1,4 @@
-#include "kaustik/photon/surface_sight.h"
+#include "kaustik/photon/coverage/surface_sight.h"
 
 #include <gtest/gtest.h>
 

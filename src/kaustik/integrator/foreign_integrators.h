@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "kaustik/integrator/integrator.h"
+#include "kaustik/integrator/registry.h"
 #include "kaustik/scene/description.h"
 
 namespace kaustik {

@@ -3,7 +3,7 @@
 #include <atomic>
 
 #include "kaustik/base/parallel.h"
-#include "kaustik/integrator/path_parameters.h"
+#include "kaustik/transport/integrator_parameters.h"
 #include "kaustik/transport/light_path.h"
 #include "kaustik/transport/visibility.h"
 

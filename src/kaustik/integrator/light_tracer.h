@@ -1,8 +1,8 @@
 #pragma once
 #include <optional>
 
-#include "kaustik/integrator/integrator.h"
-#include "kaustik/photon/emission.h"
+#include "kaustik/photon/emission/emission.h"
+#include "kaustik/transport/integrator.h"
 
 namespace kaustik {
 

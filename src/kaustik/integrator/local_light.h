@@ -1,7 +1,7 @@
 #pragma once
 // What the classical illumination models know of the light at a surface: what comes straight from
 // the lamps, and a constant for all the rest.
-#include "kaustik/integrator/illumination_model.h"
+#include "kaustik/transport/illumination_model.h"
 
 namespace kaustik {
 

@@ -1,4 +1,5 @@
 #include "kaustik/integrator/local_phong.h"
+#include "kaustik/transport/integrator_parameters.h"
 
 namespace kaustik {
 namespace {

@@ -1,4 +1,5 @@
 #include "kaustik/integrator/make_integrator.h"
+#include "kaustik/integrator/registry.h"
 
 #include <fmt/format.h>
 

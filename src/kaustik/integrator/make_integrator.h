@@ -1,5 +1,5 @@
 #pragma once
-#include "kaustik/integrator/integrator.h"
+#include "kaustik/transport/integrator.h"
 
 namespace kaustik {
 

@@ -1,6 +1,6 @@
 #include "kaustik/integrator/path.h"
 
-#include "kaustik/integrator/path_parameters.h"
+#include "kaustik/transport/integrator_parameters.h"
 
 namespace kaustik {
 

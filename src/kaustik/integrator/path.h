@@ -1,5 +1,5 @@
 #pragma once
-#include "kaustik/integrator/illumination_model.h"
+#include "kaustik/transport/illumination_model.h"
 
 namespace kaustik {
 

@@ -3,7 +3,7 @@
 #include <bit>
 #include <numeric>
 
-#include "kaustik/photon/kd_tree.h"
+#include "kaustik/photon/kd_tree/kd_tree.h"
 
 namespace kaustik {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kaustik/base/progress.h"
-#include "kaustik/photon/emission.h"
+#include "kaustik/photon/emission/emission.h"
 #include "kaustik/photon/irradiance_map.h"
 #include "kaustik/photon/photon_map.h"
 #include "kaustik/photon/volume_photon_map.h"

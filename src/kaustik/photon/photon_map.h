@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "kaustik/photon/sided_tree.h"
-#include "kaustik/photon/surface_sight.h"
+#include "kaustik/photon/coverage/surface_sight.h"
+#include "kaustik/photon/kd_tree/sided_tree.h"
 #include "kaustik/transport/vertex.h"
 
 namespace kaustik {

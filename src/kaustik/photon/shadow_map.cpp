@@ -2,12 +2,12 @@
 
 namespace kaustik {
 
-std::vector<ShadowSight::Counts>& ShadowSight::workspace() {
+std::vector<ShadowVisibility::Counts>& ShadowVisibility::workspace() {
   static thread_local std::vector<Counts> counts;
   return counts;
 }
 
-void ShadowSight::look() {
+void ShadowVisibility::look() {
   static thread_local SidedTree<ShadowPhoton>::Neighbors neighbors;
   std::vector<Counts>& counts = workspace();
   counts.clear();
@@ -25,7 +25,7 @@ void ShadowSight::look() {
   }
 }
 
-LightSight sight_of(int lit, int shadowed, bool accurate) {
+VisibilityEstimate sight_of(int lit, int shadowed, bool accurate) {
   if (lit + shadowed == 0) return {};
   const auto total = float(lit + shadowed);
   if (!accurate) return {float(lit) / total, 0};
@@ -35,7 +35,7 @@ LightSight sight_of(int lit, int shadowed, bool accurate) {
   return {float(lit - unsure_lit) / total, float(unsure_lit + unsure_shadowed) / total};
 }
 
-LightSight ShadowSight::of(int light) {
+VisibilityEstimate ShadowVisibility::of(int light) {
   if (!map_ || map_->empty()) return {};
   if (!looked_) look();
   looked_ = true;

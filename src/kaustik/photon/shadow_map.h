@@ -1,8 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "kaustik/photon/sided_tree.h"
+#include "kaustik/photon/kd_tree/sided_tree.h"
 #include "kaustik/transport/vertex.h"
+#include "kaustik/transport/visibility_estimator.h"
 
 namespace kaustik {
 
@@ -41,31 +42,25 @@ class ShadowMap {
   SidedTree<ShadowPhoton> tree_;
 };
 
-/// What is known of a light's visibility: the share `known` arrives anyhow, the share `by_ray` if a
-/// shadow ray finds nothing in its way.
-struct LightSight {
-  float known = 0, by_ray = 1;
-};
-
 /// What `lit` and `shadowed` photons of a light say: all of one kind decide; where they mix, a
 /// shadow ray does (`accurate`), or else the share of the lit. A photon that all the others
 /// contradict still has its say of 1/n: without it the accurate solution is too sure of itself (it
 /// makes p + pⁿ(1 − p) − (1 − p)ⁿp of the visibility p, however many photons there are).
 /// With it each photon decides where the others agree, and they are independent of it: the mean is
 /// p.
-LightSight sight_of(int lit, int shadowed, bool accurate);
+VisibilityEstimate sight_of(int lit, int shadowed, bool accurate);
 
 /// What the shadow photons near a vertex say of the lights there. They are looked up at the first
 /// question. Biased as far as visibility varies within the search radius, and only so far.
-class ShadowSight {
+class ShadowVisibility final : public VisibilityEstimator {
  public:
   /// `map` null: nothing is known. All must outlive this; one at a time per thread.
-  ShadowSight(const ShadowMap* map, const ShadowSettings& settings, const SurfaceVertex& vertex,
-              int level)
+  ShadowVisibility(const ShadowMap* map, const ShadowSettings& settings,
+                   const SurfaceVertex& vertex, int level)
       : map_(map), settings_(settings), vertex_(vertex), level_(level) {}
 
   /// Of a light without photons nearby nothing is known.
-  LightSight of(int light);
+  VisibilityEstimate of(int light) override;
 
  private:
   struct Counts {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kaustik/photon/emission.h"
+#include "kaustik/photon/emission/emission.h"
 #include "kaustik/photon/shadow_map.h"
 
 namespace kaustik {

@@ -1,7 +1,7 @@
 #include "kaustik/photon/volume_photon_map.h"
 
 #include "kaustik/base/parallel.h"
-#include "kaustik/photon/kd_tree.h"
+#include "kaustik/photon/kd_tree/kd_tree.h"
 #include "kaustik/photon/volume_sight.h"
 
 namespace kaustik {

@@ -4,8 +4,8 @@
 
 #include "kaustik/base/exact_sum.h"
 #include "kaustik/image/image.h"
-#include "kaustik/integrator/integrator.h"
 #include "kaustik/render/pass_set.h"
+#include "kaustik/transport/integrator.h"
 
 namespace kaustik {
 

@@ -3,8 +3,8 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/make_integrator.h"
-#include "kaustik/integrator/photon_map_settings.h"
 #include "kaustik/photon/photon_parts.h"
+#include "kaustik/photonmap/photon_map_settings.h"
 #include "kaustik/scene/scene_report.h"
 
 namespace kaustik {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "kaustik/integrator/integrator.h"
 #include "kaustik/render/film.h"
+#include "kaustik/transport/integrator.h"
 
 namespace kaustik {
 

@@ -1,0 +1,24 @@
+#pragma once
+#include <vector>
+
+#include "kaustik/scene/scene.h"
+#include "kaustik/transport/block_grid.h"
+#include "kaustik/transport/path_class.h"
+#include "kaustik/transport/vertex.h"
+
+namespace kaustik {
+
+/// A point that a block of pixels shows: the first vertex whose event is not delta.
+struct PixelProbe {
+  bool found = false;
+  Vec2f raster{0, 0};  ///< where it is looked for, in the crop window's raster
+  SurfaceVertex vertex;
+  float pixel_width = 0;  ///< on the surface, m
+  float distance = 0;     ///< from the camera to what is hit first, m
+  CameraPathClass path;   ///< of the events before the vertex
+};
+
+/// One for each block.
+std::vector<PixelProbe> make_pixel_probes(const Scene& scene, const BlockGrid& grid);
+
+}  // namespace kaustik

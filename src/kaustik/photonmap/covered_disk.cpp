@@ -1,0 +1,57 @@
+#include "kaustik/photonmap/covered_disk.h"
+
+#include <cmath>
+
+namespace kaustik {
+namespace {
+
+/// Share of the radius: height over the vertex from which its surroundings are seen.
+constexpr float height_share = 0.5f;
+/// Cosine between the vertex's normal and those of surfaces whose photons count.
+constexpr float least_cosine = 0.05f;
+/// Of glass and the like that is looked through.
+constexpr int most_layers = 16;
+
+/// Whether the first surface that the ray meets, but for those that light passes through, keeps
+/// photons on that side.
+bool finds_photons(const PhotonSurroundings& around, const Vec3f& side, Ray ray, uint64_t& rays) {
+  for (int layer = 0; layer < most_layers && ray.t_max > 0; ++layer) {
+    Hit hit;
+    ++rays;
+    if (!around.scene.intersect(ray, hit)) return false;
+    const SurfacePoint point = around.scene.tracer().surface_point(ray, hit);
+    const Surface& surface = around.scene.surface(hit.shape);
+    if (any(surface.lobes & around.keeping)) {
+      const float cosine = dot(point.ng, side);
+      return (dot(point.ng, ray.direction) < 0 ? cosine : -cosine) > least_cosine;
+    }
+    if (!surface.transmits) return false;
+    ray.t_max -= hit.t;
+    ray.origin = spawn_ray(point, ray.direction).origin;
+  }
+  return false;
+}
+
+}  // namespace
+
+float inverse_covered_share(const PhotonSurroundings& around, const EstimateSettings& kernel,
+                            float radius, float asked, Sampler numbers, uint64_t& rays) {
+  if (asked < 1 && !(numbers.next_1d() < asked)) return 1;
+  const SurfaceVertex& vertex = around.vertex;
+  const Frame frame(vertex.on_front() ? vertex.point().ng : -vertex.point().ng);
+  const Vec3f over = spawn_ray(vertex.point(), frame.z).origin + frame.z * (height_share * radius);
+  int tries = 1;
+  for (; tries < most_covering_tries; ++tries) {
+    const Vec2f u = numbers.next_2d();
+    const float distance = radius * kernel_distance(kernel, u.x), angle = 2 * pi * u.y;
+    const Vec3f aim = vertex.position() + frame.x * (distance * std::cos(angle)) +
+                      frame.y * (distance * std::sin(angle));
+    const float way = length(aim - over);
+    // As deep below the plane as photons may count.
+    const Ray ray{over, (aim - over) * (1 / way), way * (1 + 1 / height_share)};
+    if (finds_photons(around, frame.z, ray, rays)) break;
+  }
+  return 1 + float(tries - 1) / asked;
+}
+
+}  // namespace kaustik

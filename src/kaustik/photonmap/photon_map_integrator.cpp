@@ -1,0 +1,346 @@
+#include "kaustik/photonmap/photon_map_integrator.h"
+
+#include <algorithm>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/photon/photon_file.h"
+
+namespace kaustik {
+namespace {
+
+/// Of the picture's longer side: how far around what pixels show edges are looked for.
+constexpr float reach_share = 0.04f;
+/// Events before roulette on specular paths.
+constexpr int roulette_depth = 4;
+/// Distances between the pixels whose surfaces fill the cache, round by round: down to a third of
+/// the least spacing of records, closer ones would find next to nothing that is not served.
+constexpr int cache_strides[] = {8, 4, 2, 1};
+bool is_last_stride(int stride, float minimum_spacing) {
+  return stride == 1 || float(3 * stride) <= minimum_spacing;
+}
+/// Surfaces that a camera path sees blurred, behind a glossy event, ask for records in the rounds
+/// of this stride and larger ones alone: what such records don't serve is gathered, for blurred
+/// points may lie anywhere, and a record of its own for each would cost more than it serves.
+constexpr int least_blurred_stride = 4;
+/// Beams wider than so many pixels are blurred.
+constexpr float blurred_pixels = 2;
+/// Surfaces of one camera path that ask for records.
+constexpr size_t cache_points_per_path = 4;
+
+/// The radius that `neighbors` photons take at three quarters of the photons. What is sparser is
+/// better estimated from fewer photons than from far ones: where the dim surroundings of a focus
+/// reach into it for their neighbours, its light is counted twice. Their noise goes with the
+/// passes; for stored maps, where it does not, the radius is twice that of 95 % of the photons.
+float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
+  return stored ? 2 * map.typical_radius(neighbors, 0.95f) : map.typical_radius(neighbors, 0.75f);
+}
+
+/// The walk's vertex as the cache sees it, on the side of `normal`.
+CachePoint cache_point_of(const CameraWalk& walk, const Vec3f& normal,
+                          const PhotonMapSettings& settings) {
+  const Footprint& footprint = walk.footprint();
+  return {walk.vertex().point(), normal, 2 * std::min(footprint.width, footprint.sharp_width),
+          settings.cache_tolerance(walk.events()),
+          walk.vertex().medium_toward(normal, walk.medium())};
+}
+
+bool is_blurred(const CameraWalk& walk) {
+  return walk.footprint().width > blurred_pixels * walk.footprint().sharp_width;
+}
+
+/// Of the walk's vertex: the camera's side gathers nothing on its way.
+EyeLevel level_of(const CameraWalk& walk) { return {walk.events(), 0}; }
+
+}  // namespace
+
+struct PhotonMapIntegrator::State final : PassState {
+  std::shared_ptr<const PhotonMaps> maps;
+  std::unique_ptr<ShadowMap> shadows;  ///< null: shadow rays alone
+  ShadowReport shadow_report;
+  ShadowSettings shadow_settings;
+  std::unique_ptr<PhotonLight> light;
+  std::unique_ptr<IrradianceCache> cache;          ///< null: not used
+  std::shared_ptr<const SeenSurfaces> seen_edges;  ///< null: not known
+};
+
+PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene& scene)
+    : IlluminationModel(scene), settings_(arguments) {
+  if (scene.has_media() && settings_.shadow_photons > 0)
+    throw Error(ErrorKind::input,
+                "shadow photons know nothing of media and null boundaries, and the scene has some",
+                "set 'shadow_photons' to 0", arguments.place_of("shadow_photons"));
+  if (settings_.photon_file.empty()) return;
+  StoredPhotons stored = read_photon_file(settings_.photon_file);
+  const auto refuse = [&](const std::string& message) {
+    throw Error(ErrorKind::input, settings_.photon_file + " " + message,
+                "make the maps anew with `kaustik photons` from this scene and these settings",
+                settings_.photon_file_place);
+  };
+  if (!stored.fingerprint.matches(fingerprint_of(scene)))
+    refuse(
+        "holds photons of another scene, of this one before it was changed, or of another version "
+        "of Kaustik (" +
+        stored.scene + ", " + stored.fingerprint.counts + ")");
+  if (!stored.settings.part.is_whole())
+    throw Error(ErrorKind::input, settings_.photon_file + " holds only a part of the photons",
+                "put all parts together with: kaustik merge PART.kpm ... -o MAP.kpm",
+                settings_.photon_file_place);
+  if (stored.settings.traced != settings_.light_pass.traced)
+    refuse("was traced with another specular_sampling");
+  if ((settings_.light_pass.caustic_photons > 0 && stored.settings.caustic_photons == 0) ||
+      (settings_.light_pass.global_photons > 0 && stored.settings.global_photons == 0))
+    refuse("was traced without photons that are needed here");
+  if (scene.has_scattering() && settings_.light_pass.volume_photons > 0)
+    throw Error(ErrorKind::input,
+                "stored maps hold no photons of media, and a medium of this scene scatters light",
+                "leave out 'photon_map', or set 'volume_photons' to 0 for a picture without that "
+                "light",
+                settings_.photon_file_place);
+  stored_maps_ = std::make_shared<const PhotonMaps>(std::move(stored.maps));
+}
+
+std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(uint64_t seed) const {
+  {
+    const std::lock_guard lock(light_pass_mutex_);
+    if (light_pass_ && light_pass_seed_ == seed) return light_pass_;
+  }
+  // Outside the lock: it runs in parallel, and a thread that waits for the others may take up any
+  // work meanwhile, this one's too.
+  auto trained = std::make_shared<const LightPass>(scene(), settings_.light_pass, seed);
+  const std::lock_guard lock(light_pass_mutex_);
+  light_pass_ = std::move(trained);
+  light_pass_seed_ = seed;
+  return light_pass_;
+}
+
+std::shared_ptr<const SeenSurfaces> PhotonMapIntegrator::seen_edges(
+    uint64_t& rays, const std::stop_token& stop) const {
+  {
+    const std::lock_guard lock(seen_edges_mutex_);
+    if (seen_edges_) return seen_edges_;
+  }
+  if (stop.stop_requested()) return nullptr;
+  // Outside the lock, as above. Not by the photons of a pass: passes don't know of one another.
+  auto found = std::make_shared<SeenSurfaces>(scene());
+  const Vec2i size = scene().film().size;
+  found->find_edges(scene(), reach_share * float(std::max(size.x, size.y)), 0, rays, stop);
+  if (stop.stop_requested()) return nullptr;
+  const std::lock_guard lock(seen_edges_mutex_);
+  seen_edges_ = std::move(found);
+  return seen_edges_;
+}
+
+GatherRadii PhotonMapIntegrator::pass_radii(const PhotonMaps& maps, uint32_t index) const {
+  const auto radius = [&](const PhotonMap& map, const EstimateSettings& estimate, float given) {
+    const float first =
+        given > 0 ? given : typical_radius(map, estimate.neighbors, stored_maps_ != nullptr);
+    return std::min(
+        pass_radius(first, index),
+        radius_of_least_radiance(estimate.neighbors, map.mean_flux(), settings_.minimum_radiance));
+  };
+  return {radius(maps.caustic, settings_.caustic, settings_.caustic_radius),
+          radius(maps.global, settings_.global, settings_.global_radius)};
+}
+
+std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
+    const Pass& pass, PassReport& report, std::stop_token stop,
+    const ProgressFunction& progress) const {
+  if (stored_maps_) return stored_maps_;
+  const auto lights = light_pass(pass.seed);
+  auto maps =
+      std::make_shared<const PhotonMaps>(lights->trace(pass.seed, pass.index, stop, progress));
+  report.photons = maps->global.size() + maps->caustic.size() + maps->volume.size();
+  report.rays = maps->global_report.rays + maps->caustic_report.rays + maps->volume_report.rays;
+  if (!stop.stop_requested()) report.warnings = lights->warnings(*maps);
+  return maps;
+}
+
+std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatBuffer&,
+                                                        std::stop_token stop,
+                                                        const ProgressFunction& progress) const {
+  auto state = std::make_unique<State>();
+  // The light pass counts as one half, the cache as the other.
+  state->maps = maps_of(pass, state->report, stop, [&](double share) {
+    if (progress) progress(0.5 * share);
+  });
+  add_shadow_photons(*state, pass, stop);
+  // Stored maps are the same in every pass: shrinking their radii would trade bias for noise that
+  // no number of passes removes.
+  state->light = std::make_unique<PhotonLight>(
+      scene(), settings_, *state->maps, pass_radii(*state->maps, stored_maps_ ? 0 : pass.index),
+      state->shadows.get(), state->shadow_settings, pass.index);
+  const bool wants_indirect = settings_.components.has(Component::indirect) ||
+                              settings_.components.has(Component::specular);
+  if (settings_.cache && wants_indirect && settings_.global.neighbors > 0)
+    fill_cache(*state, pass, stop, [&](double share) {
+      if (progress) progress(0.5 + 0.5 * share);
+    });
+  if (settings_.visibility && !state->maps->caustic.empty())
+    state->seen_edges = seen_edges(state->report.rays, stop);
+  state->report.rays += state->light->rays();
+  if (!stop.stop_requested()) add_warnings(*state);
+  return state;
+}
+
+void PhotonMapIntegrator::add_shadow_photons(State& state, const Pass& pass,
+                                             std::stop_token stop) const {
+  if (settings_.shadow_photons == 0) return;
+  state.shadows = std::make_unique<ShadowMap>(trace_shadow_photons(
+      scene(), settings_.shadow_photons, pass.seed, pass.index, stop, state.shadow_report));
+  state.report.rays += state.shadow_report.rays;
+  state.report.photons += state.shadows->size();
+  state.shadow_settings = settings_.shadows;
+  const float first = settings_.shadow_radius > 0 ? settings_.shadow_radius
+                                                  : state.shadows->tree().typical_radius(
+                                                        settings_.shadows.neighbors, 0.75f);
+  state.shadow_settings.maximum_radius = pass_radius(first, pass.index);
+}
+
+/// What those of the light pass don't know of.
+void PhotonMapIntegrator::add_warnings(State& state) const {
+  std::vector<std::string>& warnings = state.report.warnings;
+  warnings.insert(warnings.end(), settings_.notes.begin(), settings_.notes.end());
+  if (state.shadows)
+    for (const std::string& warning : state.shadow_report.warnings()) warnings.push_back(warning);
+  if (state.cache && state.cache->rays_dropped() > 0)
+    warnings.emplace_back(
+        "the irradiance cache left out gather rays whose radiance is not finite: the light there "
+        "is too dark; look for lights or reflectances that are far too large");
+}
+
+void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_token stop,
+                                     const ProgressFunction& progress) const {
+  // Its errors have to vanish as well: all lengths shrink as the gather radii do.
+  const float shrinkage = pass_radius(1, stored_maps_ ? 0 : pass.index);
+  CacheSettings cache_settings = settings_.cache_settings;
+  cache_settings.quality *= shrinkage;
+  cache_settings.minimum_spacing *= shrinkage;
+  cache_settings.maximum_spacing *= shrinkage;
+  state.cache = std::make_unique<IrradianceCache>(cache_settings);
+  const Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::cache, 0, 0);
+  uint32_t round = 0;
+  for (const int stride : cache_strides) {
+    const Vec2i first = scene().film().crop_offset / stride;
+    const Vec2i end =
+        (scene().film().crop_offset + scene().film().crop_size + Vec2i(stride - 1)) / stride;
+    std::vector<std::vector<CachePoint>> rows(size_t(end.y - first.y));
+    parallel_blocks(rows.size(), 1, [&](size_t row, size_t, size_t) {
+      for (int x = first.x; x < end.x && !stop.stop_requested(); ++x)
+        collect_cache_points(Vec2i(x, first.y + int(row)) * stride, stride, pass, round, rows[row]);
+    });
+    std::vector<CachePoint> points;
+    for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
+    if (stop.stop_requested()) return;
+    state.cache->fill_round(points, *state.light, sampler, round++, stop);
+    progress(double(round) / double(std::size(cache_strides)));
+    if (is_last_stride(stride, cache_settings.minimum_spacing)) return;
+  }
+}
+
+void PhotonMapIntegrator::collect_cache_points(const Vec2i& pixel, int stride, const Pass& pass,
+                                               uint32_t round,
+                                               std::vector<CachePoint>& points) const {
+  const FilmSettings& film = scene().film();
+  const uint64_t address = uint64_t(pixel.y) * uint64_t(film.size.x) + uint64_t(pixel.x) + 1;
+  Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::cache, address, round);
+  const Vec2i corner = pixel - film.crop_offset;
+  const Vec2f raster = Vec2f(float(corner.x), float(corner.y)) + sampler.next_2d() * float(stride);
+  SampleSink nowhere{ComponentSet()};
+  CameraWalk walk(scene(), raster, sampler, nowhere, settings_.traced());
+  const size_t first = points.size();
+  while (walk.advance()) {
+    const SurfaceVertex& vertex = walk.vertex();
+    if (is_blurred(walk) && stride < least_blurred_stride) return;
+    if (any(vertex.lobes() & Lobes::diffuse) && !settings_.approximates(level_of(walk))) {
+      const Vec3f normal = vertex.facing_normal();
+      points.push_back(cache_point_of(walk, normal, settings_));
+      if (gathers_through(vertex)) points.push_back(cache_point_of(walk, -normal, settings_));
+      if (points.size() - first >= cache_points_per_path) return;
+    }
+    if (specular_rays(walk) == 0 || !scatter_specular(walk, 1)) return;
+  }
+}
+
+int PhotonMapIntegrator::specular_rays(const CameraWalk& walk) const {
+  if (!any(walk.vertex().lobes() & settings_.traced()) ||
+      !settings_.traces_specular(level_of(walk)))
+    return 0;
+  return walk.events() == 0 ? settings_.specular_samples : 1;
+}
+
+bool PhotonMapIntegrator::advance(const PassState& state, CameraWalk& walk) const {
+  return walk.advance(&static_cast<const State&>(state).light->volume());
+}
+
+bool PhotonMapIntegrator::reflect(const PassState& pass_state, CameraWalk& walk,
+                                  const RadianceTracer& tracer) const {
+  const auto& state = static_cast<const State&>(pass_state);
+  const int rays = specular_rays(walk);
+  const bool traces_glossy = settings_.specular_sampling == SpecularSampling::importance;
+  const int lights = settings_.count_at(settings_.light_samples, walk.events());
+  ShadowVisibility visibility(state.shadows.get(), state.shadow_settings, walk.vertex(),
+                              walk.events());
+  LightRules rules;
+  rules.visibility = &visibility;
+  walk.add_direct_light(0, traces_glossy ? float(rays) : 0.0f, {settings_.light_choice, lights},
+                        rules);
+  add_photon_light(state, walk);
+  if (rays == 0) return false;
+  if (rays == 1) return scatter_specular(walk, 1);
+  for (int i = 0; i < rays; ++i) {
+    Sampler sampler = walk.sampler().split(2, uint32_t(i));
+    CameraWalk branch(walk, sampler);
+    if (scatter_specular(branch, rays)) tracer.follow(branch);
+  }
+  return false;
+}
+
+bool PhotonMapIntegrator::scatter_specular(CameraWalk& walk, int rays) const {
+  const Vec2f u = walk.sampler().next_2d(), u_choice = walk.sampler().next_2d();
+  if (!walk.scatter(walk.vertex().lobes() & settings_.traced(), float(rays), u_choice.x, u))
+    return false;
+  return walk.events() <= roulette_depth || walk.survive(u_choice.y);
+}
+
+void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk) const {
+  const SurfaceVertex& vertex = walk.vertex();
+  const Lobes local = vertex.lobes() & settings_.local();
+  if (!any(local)) return;
+  if (walk.wants_photon_light(Component::caustic)) {
+    const SurfaceEdges* const edges =
+        state.seen_edges ? state.seen_edges->edges_at(walk.raster(), vertex) : nullptr;
+    walk.add_photon_light(Component::caustic,
+                          state.light->seen_caustic(vertex, local, walk.events(), walk.sampler(),
+                                                    edges, walk.rays()));
+  }
+  if (settings_.global.neighbors <= 0 || !walk.wants_photon_light(Component::indirect)) return;
+  const bool gathers = any(local & Lobes::diffuse) && !settings_.approximates(level_of(walk));
+  if (gathers)
+    walk.add_photon_light(Component::indirect, diffuse_radiance(vertex, [&](const Vec3f& normal) {
+                            return diffuse_irradiance(state, walk, normal);
+                          }));
+  // Glossy lobes that are not traced: the approximate solution is all that is left for them.
+  const Lobes approximated = gathers ? local & Lobes::glossy : local;
+  if (any(approximated))
+    walk.add_photon_light(
+        Component::indirect,
+        state.light->global(vertex, approximated, walk.events(), walk.sampler(), walk.rays()));
+}
+
+Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk& walk,
+                                                 const Vec3f& normal) const {
+  Spectrum irradiance;
+  if (state.cache) {
+    const CachePoint point = cache_point_of(walk, normal, settings_);
+    // What is seen sharply was looked at while the cache was filled, so what few points slipped
+    // through lie beside records that serve.
+    const bool serves = !is_blurred(walk) || state.cache->serves(point);
+    if (serves && state.cache->interpolate(point, irradiance)) return irradiance;
+    if (!is_blurred(walk) && state.cache->interpolate(point, irradiance, 2)) return irradiance;
+  }
+  const SurfaceVertex& vertex = walk.vertex();
+  return state.light->gather_irradiance(vertex, normal, vertex.medium_toward(normal, walk.medium()),
+                                        walk.sampler(), level_of(walk));
+}
+
+}  // namespace kaustik

@@ -1,0 +1,309 @@
+#include "kaustik/transport/camera_walk.h"
+
+#include "kaustik/transport/null_boundaries.h"
+#include "kaustik/transport/roulette.h"
+
+namespace kaustik {
+namespace {
+
+/// Light sampled at `vertex` and reflected by `lobes`, weighted against sampling those lobes,
+/// if there are no other weights.
+Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes lobes,
+                   float lobe_probability, const LightWeights* weights) {
+  if (!any(vertex.lobes() & lobes)) return {};
+  const Spectrum f = vertex.eval_cosine(light.wi, lobes);
+  if (f.is_zero()) return {};
+  if (weights) return f * light.radiance * weights->sampled(vertex, light);
+  if (light.pdf_solid_angle == 0 || lobe_probability == 0) return f * light.radiance;
+  return f * light.radiance *
+         mis_weight(light.pdf_solid_angle, lobe_probability * vertex.pdf(light.wi, lobes));
+}
+
+/// What the classes of lobes of a vertex send back of direct light.
+struct ReflectedLight {
+  Spectrum by_diffuse, by_glossy;
+
+  ReflectedLight& operator+=(const ReflectedLight& other) {
+    by_diffuse += other.by_diffuse;
+    by_glossy += other.by_glossy;
+    return *this;
+  }
+  ReflectedLight& operator*=(float factor) {
+    by_diffuse *= factor;
+    by_glossy *= factor;
+    return *this;
+  }
+};
+
+}  // namespace
+
+CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler, SampleSink& sink,
+                       Lobes traced)
+    : scene_(scene),
+      sampler_(sampler),
+      sink_(sink),
+      class_(traced),
+      raster_(raster),
+      ray_(scene.camera().sample_ray(raster)) {
+  state_.footprint = Footprint::of_camera(scene.camera().pixel_spread());
+  state_.medium = scene.camera_medium();
+  if (seeks_irradiance()) {
+    state_.throughput = Spectrum(pi);
+    // Roulette is to find paths as likely as those of radiance.
+    state_.roulette_scale = inv_pi;
+  }
+}
+
+CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
+    : scene_(other.scene_),
+      sampler_(sampler),
+      sink_(other.sink_),
+      state_(other.state_),
+      class_(other.class_),
+      weights_(other.weights_),
+      light_choice_(other.light_choice_),
+      raster_(other.raster_),
+      ray_(other.ray_),
+      vertex_(other.vertex_),
+      in_medium_(other.in_medium_),
+      is_in_medium_(other.is_in_medium_),
+      previous_(other.previous_),
+      distance_(other.distance_),
+      only_delta_(other.only_delta_),
+      segments_(other.segments_) {}
+
+void CameraWalk::describe_what_is_seen(const SurfaceVertex& vertex, float distance) {
+  FirstHit seen;
+  seen.albedo = vertex.albedo(Lobes::all);
+  seen.normal = vertex.facing_normal();
+  seen.depth = state_.depth == 0 ? distance : sink_.first_hit().depth;
+  sink_.set_first_hit(seen);
+}
+
+/// Goes on until `pass_medium(length)`, asked about every segment through a medium, answers that
+/// the path is scattered, or until a surface that is more than a boundary of media.
+template <typename PassMedium>
+CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
+  const bool only_arrives = seeks_irradiance();
+  is_in_medium_ = false;
+  for (int boundary = 0;; ++boundary) {
+    sampler_.start_vertex(segments_++);
+    Hit hit;
+    ++rays_;
+    const bool found = scene_.intersect(ray_, hit);
+    if (state_.medium && !only_arrives && pass_medium(hit.t)) {
+      if (meets_lamps_only_) return Arrival::nothing;
+      if (found && only_delta_)
+        describe_what_is_seen(SurfaceVertex(scene_, ray_, hit, TransportMode::radiance),
+                              distance_ + hit.t);
+      return Arrival::medium;
+    }
+    if (!found) {
+      if (!only_arrives) add_background();
+      return Arrival::nothing;
+    }
+    if (meets_lamps_only_) {
+      const Surface& surface = scene_.surface(hit.shape);
+      if (surface.light < 0 && !surface.is_null) return Arrival::nothing;
+    }
+    distance_ += hit.t;
+    state_.footprint.travel(hit.t);
+    vertex_.meet(scene_, ray_, hit, TransportMode::radiance, state_.footprint);
+    if (!vertex_.is_null()) break;
+    if (boundary == most_null_boundaries) return Arrival::nothing;
+    state_.medium = vertex_.medium_toward(ray_.direction, state_.medium);
+    ray_ = spawn_ray(vertex_.point(), ray_.direction);
+  }
+  if (only_delta_) describe_what_is_seen(vertex_, distance_);
+  if (only_arrives)
+    vertex_.paint_white();
+  else if (vertex_.light() >= 0)
+    add_emission();
+  return meets_lamps_only_ ? Arrival::nothing : Arrival::surface;
+}
+
+bool CameraWalk::advance(const VolumeLight* volume) {
+  const Component in_medium = class_.component_in_medium();
+  if (!sink_.wants(in_medium)) volume = nullptr;
+  return travel([&](float length) {
+           if (volume && state_.medium->scatters())
+             sink_.add(in_medium, state_.throughput * volume->radiance(ray_, length, *state_.medium,
+                                                                       sampler_, rays_));
+           state_.throughput *= state_.medium->transmittance(length);
+           return false;
+         }) == Arrival::surface;
+}
+
+CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume) {
+  const Component in_medium = class_.component_in_medium();
+  if (!sink_.wants(in_medium)) volume = nullptr;
+  return travel([&](float length) {
+    if (volume && state_.medium->scatters())
+      sink_.add(in_medium, state_.throughput *
+                               volume->radiance(ray_, length, *state_.medium, sampler_, rays_));
+    const Medium::Flight flight =
+        state_.medium->sample_flight(length, state_.throughput, sampler_.next_2d());
+    state_.throughput *= flight.weight;
+    if (!flight.scattered) return false;
+    // As for light paths, which don't know the depth.
+    in_medium_ =
+        Receiver(ray_.origin + ray_.direction * flight.distance, weights_ ? 1 : state_.depth);
+    is_in_medium_ = true;
+    distance_ += flight.distance;
+    state_.footprint.travel(flight.distance);
+    return true;
+  });
+}
+
+/// Weight of light found by the last event against sampling it (a point of an area light or a
+/// direction) from the previous vertex.
+template <typename Where>
+float CameraWalk::emission_weight(int light, const Where& where) const {
+  if (state_.pdf_forward == 0) return 1;
+  return mis_weight(state_.pdf_forward,
+                    direct_light_pdf(scene_, previous_, light_choice_, light, where));
+}
+
+void CameraWalk::add_emission() {
+  const Light& light = *scene_.lights()[size_t(vertex_.light())];
+  const Spectrum emitted = light.emitted(vertex_.point(), vertex_.wo());
+  if (emitted.is_zero()) return;
+  const float weight = weights_ ? weights_->met(vertex_.light(), vertex_)
+                                : emission_weight(vertex_.light(), vertex_.point());
+  sink_.add(class_.component(), state_.throughput * emitted * weight);
+}
+
+void CameraWalk::add_background() {
+  for (const int index : scene_.environment_lights()) {
+    const Light& light = *scene_.lights()[size_t(index)];
+    if (light.is_delta() || (light.is_only_seen() && state_.pdf_forward > 0)) continue;
+    const float weight =
+        weights_ ? weights_->met(index, ray_) : emission_weight(index, ray_.direction);
+    sink_.add(class_.component(), state_.throughput * light.background(ray_.direction) * weight);
+  }
+}
+
+void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probability,
+                                  const LightSampling& sampling, const LightRules& rules) {
+  light_choice_ = sampling.choice;
+  if (!any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
+  // What nobody wants costs no shadow ray; its random numbers are drawn, so that the others stay.
+  const auto wanted = [&](Lobes lobe) { return sink_.wants(class_.component_after(lobe)); };
+  const auto reflect = [&](const DirectLight& light, ShadowAnswer& answer) {
+    ReflectedLight result;
+    if (wanted(Lobes::diffuse))
+      result.by_diffuse = reflected(vertex_, light, Lobes::diffuse, diffuse_probability, weights_);
+    if (wanted(Lobes::glossy))
+      result.by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability, weights_);
+    if (result.by_diffuse.is_zero() && result.by_glossy.is_zero()) return result;
+    VisibilityEstimate seen;
+    if (!rules.shadows)
+      seen = {1, 0};
+    else if (rules.visibility)
+      seen = rules.visibility->of(light.light);
+    Spectrum factor(seen.known);
+    if (seen.by_ray > 0)
+      factor += trace_shadow_ray(scene_, light, vertex_.medium_toward(light.wi, state_.medium),
+                                 rays_, answer) *
+                seen.by_ray;
+    if (rules.classical_attenuation)
+      factor *= scene_.lights()[size_t(light.light)]->classical_attenuation(vertex_.position());
+    return ReflectedLight{result.by_diffuse * factor, result.by_glossy * factor};
+  };
+  // Light paths don't know how many events lie before the vertex, only that there are some.
+  const int level = weights_ ? std::min(state_.depth, 1) : state_.depth;
+  const auto light = sample_direct_lights<ReflectedLight>(scene_, Receiver(vertex_, level),
+                                                          sampling, sampler_, reflect);
+  add_reflected(Lobes::diffuse, light.by_diffuse);
+  add_reflected(Lobes::glossy, light.by_glossy);
+}
+
+void CameraWalk::add_medium_light() {
+  const Component component = class_.component_in_medium();
+  const Scatterer here = scatterer();
+  const auto scatter = [&](const DirectLight& light, ShadowAnswer& answer) {
+    if (!sink_.wants(component)) return Spectrum();
+    const float phase = state_.medium->phase().eval(-ray_.direction, light.wi);
+    float weight = 1;
+    if (weights_)
+      weight = weights_->sampled(here, light);
+    else if (light.pdf_solid_angle > 0)
+      weight = mis_weight(light.pdf_solid_angle, phase);
+    const Spectrum visible = trace_shadow_ray(scene_, light, state_.medium, rays_, answer);
+    return light.radiance * visible * (phase * weight);
+  };
+  light_choice_ = LightChoice::one;
+  sink_.add(component,
+            state_.throughput * sample_direct_lights<Spectrum>(
+                                    scene_, in_medium_, {light_choice_, 1}, sampler_, scatter));
+}
+
+void CameraWalk::scatter_in_medium(const Vec2f& u) {
+  const PhaseFunction& phase = state_.medium->phase();
+  const Vec3f wo = -ray_.direction, wi = phase.sample(wo, u);
+  state_.pdf_forward = phase.eval(wo, wi);
+  state_.footprint.scatter(Lobes::diffuse, state_.pdf_forward);
+  state_.depth += 1;
+  only_delta_ = false;
+  class_.add_medium_event();
+  previous_ = in_medium_.query();
+  ray_ = {in_medium_.point.position, wi, infinity};
+}
+
+bool CameraWalk::scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u) {
+  const BsdfSample sample = vertex_.sample(u_lobe, u, lobes);
+  if (sample.event == Lobes::none || sample.weight.is_zero()) return false;
+  go_on(sample, probability);
+  return true;
+}
+
+std::optional<CameraWalk::DeltaEvents> CameraWalk::delta_events() const {
+  constexpr float least = 0, most = 0.99999994f;
+  if (vertex_.lobes() != Lobes::delta || !vertex_.transmits()) return std::nullopt;
+  const DeltaEvents events{vertex_.sample(least, {0, 0}, Lobes::delta),
+                           vertex_.sample(most, {0, 0}, Lobes::delta)};
+  const auto is_some = [](const BsdfSample& sample) {
+    return sample.event == Lobes::delta && !sample.weight.is_zero();
+  };
+  if (!is_some(events.reflection) || !is_some(events.transmission) ||
+      events.reflection.transmission || !events.transmission.transmission)
+    return std::nullopt;
+  // A mask over glass has a third.
+  constexpr float rounding = 1e-6f;
+  if (events.reflection.pdf_solid_angle + events.transmission.pdf_solid_angle < 1 - rounding)
+    return std::nullopt;
+  return events;
+}
+
+void CameraWalk::branch(const BsdfSample& event) {
+  state_.throughput *= event.pdf_solid_angle;
+  state_.roulette_scale *= 1 / event.pdf_solid_angle;
+  go_on(event, 1);
+}
+
+void CameraWalk::go_on(const BsdfSample& sample, float probability) {
+  state_.throughput *= sample.weight * (1 / probability);
+  // Roulette must not see that this is one of several branches.
+  state_.roulette_scale *= sqr(sample.eta) * std::max(1.0f, probability);
+  state_.pdf_forward = sample.event == Lobes::delta ? 0 : probability * sample.pdf_solid_angle;
+  state_.footprint.scatter(sample.event, sample.pdf_solid_angle);
+  previous_ = light_query(vertex_, state_.depth);
+  state_.depth += 1;
+  only_delta_ = only_delta_ && !any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy));
+  class_.add_event(sample.event);
+  state_.medium = vertex_.medium_toward(sample.wi, state_.medium);
+  ray_ = spawn_ray(vertex_.point(), sample.wi);
+}
+
+bool CameraWalk::survive(float u) {
+  // By the square root of the throughput: longer paths for less variance, by a tenth at equal time
+  // in a room of bright walls.
+  const float survival =
+      std::min(1.0f, std::sqrt(state_.throughput.max_lane() * state_.roulette_scale)) *
+      length_survival(state_.depth);
+  if (!(u < survival)) return false;
+  state_.throughput *= 1 / survival;
+  return true;
+}
+
+}  // namespace kaustik

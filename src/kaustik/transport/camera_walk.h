@@ -1,0 +1,199 @@
+#pragma once
+#include <optional>
+
+#include "kaustik/base/sampler.h"
+#include "kaustik/transport/direct_light.h"
+#include "kaustik/transport/integrator.h"
+#include "kaustik/transport/path_class.h"
+#include "kaustik/transport/path_state.h"
+#include "kaustik/transport/scatterer.h"
+#include "kaustik/transport/visibility.h"
+#include "kaustik/transport/visibility_estimator.h"
+#include "kaustik/transport/volume_light.h"
+
+namespace kaustik {
+
+/// What a model changes in direct light.
+struct LightRules {
+  bool shadows = true;                 ///< without, nothing holds light off
+  bool classical_attenuation = false;  ///< see Light::classical_attenuation
+  VisibilityEstimator* visibility =
+      nullptr;  ///< where it knows whether light arrives, no ray is traced
+};
+
+/// How much light counts where it is found in one of several ways; see PathWeights.
+class LightWeights {
+ public:
+  virtual ~LightWeights() = default;
+  /// Of light sampled at `vertex`.
+  virtual float sampled(const Scatterer& vertex, const DirectLight& light) const = 0;
+  /// Of light that the path meets, on the surface of `vertex` …
+  virtual float met(int light, const SurfaceVertex& vertex) const = 0;
+  /// … or beyond the scene.
+  virtual float met(int light, const Ray& ray) const = 0;
+};
+
+/// A path that is followed from the camera, vertex by vertex. Knows the component of everything
+/// that it finds and weighs light found by scattering against light found by sampling lights; the
+/// integrators differ in what they do at a vertex and in where they go on.
+class CameraWalk {
+ public:
+  /// `traced`: lobes whose events count as specular. Starts with the ray through `raster`. Where
+  /// the film asks for irradiance, the first surface is painted white (SurfaceVertex::paint_white)
+  /// and what it sends is counted π times; nothing before it counts.
+  CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler, SampleSink& sink,
+             Lobes traced = Lobes::specular);
+  ~CameraWalk() { sink_.count_rays(rays_); }
+  /// A branch: the same path so far, to go on with numbers of its own.
+  CameraWalk(const CameraWalk& other, Sampler& sampler);
+  CameraWalk(const CameraWalk&) = delete;
+  CameraWalk& operator=(const CameraWalk&) = delete;
+
+  /// Goes to the next surface and adds the light that shines from there or from beyond the scene.
+  /// False if there is no surface. Media on the way take their share; what they scatter into the
+  /// path is added where `volume` is given.
+  bool advance(const VolumeLight* volume = nullptr);
+  /// The same by free flight: the path may also come to a point in a medium, where the next event
+  /// is add_medium_light() and scatter_in_medium() instead of what there is for surfaces.
+  enum class Arrival { nothing, surface, medium };
+  Arrival fly(const VolumeLight* volume = nullptr);
+  /// On its next way the walk meets lamps alone: where there is none, as beyond what it finds, it
+  /// ends (Arrival::nothing), and nothing more is looked at. Media take their share as ever.
+  void meet_lamps_only() { meets_lamps_only_ = true; }
+  const SurfaceVertex& vertex() const { return vertex_; }
+  /// The surface, or the point of a medium, that the walk has come to: until it is scattered.
+  Scatterer scatterer() const {
+    if (!is_in_medium_) return vertex_;
+    return {in_medium_.point.position, -ray_.direction, *state_.medium};
+  }
+  /// That the path arrived at the vertex through; null: vacuum.
+  const Medium* medium() const { return state_.medium; }
+  /// Where it began.
+  const Vec2f& raster() const { return raster_; }
+  /// Of what the camera sees, relative to what the vertex sends back.
+  const Spectrum& throughput() const { return state_.throughput; }
+  /// Scattering events so far.
+  int events() const { return state_.depth; }
+  /// Whether the camera sees the vertex directly or by specular events alone.
+  bool all_events_specular() const { return class_.all_specular(); }
+  /// The beam that the walk stands for; its width at the vertex begins as half a pixel's: many
+  /// samples share a pixel, so that textures are filtered by half of it.
+  const Footprint& footprint() const { return state_.footprint; }
+  Sampler& sampler() { return sampler_; }
+
+  /// Adds light sampled at the vertex and reflected by its lobes. The probabilities are those that
+  /// scatter() will be told there (0: never, then light sampling alone has to find the light).
+  void add_direct_light(float diffuse_probability, float glossy_probability,
+                        const LightSampling& sampling = {}, const LightRules& rules = {});
+  /// Adds radiance that the vertex sends back of light that is `component` (caustic or indirect)
+  /// to it; seen by another event it counts as that event's.
+  void add_photon_light(Component component, const Spectrum& radiance) {
+    sink_.add(seen(component), state_.throughput * radiance);
+  }
+  bool wants_photon_light(Component component) const { return sink_.wants(seen(component)); }
+
+  /// Weighs light by `weights`, which must outlive the walk, in place of path tracing's.
+  void weigh_by(const LightWeights& weights) { weights_ = &weights; }
+  /// Density per solid angle with which the last event was sampled; 0: delta, or none yet.
+  float last_pdf() const { return state_.pdf_forward; }
+  /// Along which the next advance() goes.
+  const Ray& ray() const { return ray_; }
+  /// The component of light that arrives at the vertex, after specular events only or others, and
+  /// leaves it by `event`.
+  Component component_of(Lobes event, bool after_specular_events) const {
+    CameraPathClass path = class_;
+    path.add_event(event);
+    path.add_event(after_specular_events ? Lobes::glossy : Lobes::diffuse);
+    return path.component();
+  }
+  /// Of the events before the vertex.
+  const CameraPathClass& path_class() const { return class_; }
+  /// Adds radiance that the vertex sends back.
+  void add(Component component, const Spectrum& radiance) {
+    sink_.add(component, state_.throughput * radiance);
+  }
+  /// An estimate of the bias of what add() was given.
+  void add_bias(const Spectrum& radiance) { sink_.add_bias(state_.throughput * radiance); }
+  bool wants(Component component) const { return sink_.wants(component); }
+  /// What layers show of the surface that is seen, by this walk and its branches.
+  const FirstHit& first_hit() const { return sink_.first_hit(); }
+  void set_first_hit(const FirstHit& seen) { sink_.set_first_hit(seen); }
+  uint64_t& rays() { return rays_; }
+
+  /// Whether anything that is wanted may be found further on.
+  bool may_find_more() const { return class_.may_find(sink_.wanted()); }
+
+  /// Of light that a medium scatters into the path on its next segment.
+  Component component_in_medium() const { return class_.component_in_medium(); }
+  /// Adds light sampled at the point in the medium and scattered there.
+  void add_medium_light();
+  /// Chooses a direction by the medium's phase function for the next fly().
+  void scatter_in_medium(const Vec2f& u);
+
+  /// Chooses a direction by `lobes` for the next advance(); false if the light is absorbed.
+  /// `probability` is that of having chosen these lobes, or the number of branches that do so.
+  bool scatter(Lobes lobes, float probability, float u_lobe, const Vec2f& u);
+  /// The two events between which chance chooses where a smooth transparent surface both reflects
+  /// and transmits, and does nothing else; pdf_solid_angle is the chance.
+  struct DeltaEvents {
+    BsdfSample reflection, transmission;
+  };
+  std::optional<DeltaEvents> delta_events() const;
+  /// The path goes on by one of these as the one of several branches that always does.
+  void branch(const BsdfSample& event);
+  /// Russian roulette on the throughput; false if the path ends.
+  bool survive(float u);
+  /// The same with a chance that does not come from the throughput.
+  bool survive_with(float chance, float u) {
+    if (!(u < chance)) return false;
+    has_survived(chance);
+    return true;
+  }
+  /// Such roulette, asked before, is over.
+  void has_survived(float chance) {
+    state_.throughput *= 1 / chance;
+    state_.roulette_scale *= chance;
+  }
+
+ private:
+  Component seen(Component component) const {
+    return state_.depth == 0 ? component : class_.component_after(Lobes::diffuse);
+  }
+  void go_on(const BsdfSample& event, float probability);
+  void add_reflected(Lobes event, const Spectrum& radiance) {
+    sink_.add(class_.component_after(event), state_.throughput * radiance);
+  }
+  template <typename Where>
+  float emission_weight(int light, const Where& where) const;
+  /// Whether the walk is still on its way to the surface whose irradiance is asked for.
+  bool seeks_irradiance() const {
+    return state_.depth == 0 && scene_.film().quantity == Quantity::irradiance;
+  }
+  void add_background();
+  void add_emission();
+  void describe_what_is_seen(const SurfaceVertex& vertex, float distance);
+  template <typename PassMedium>
+  Arrival travel(const PassMedium& pass_medium);
+
+  const Scene& scene_;
+  Sampler& sampler_;
+  SampleSink& sink_;
+  PathState state_;
+  CameraPathClass class_;
+  const LightWeights* weights_ = nullptr;        ///< null: those of path tracing
+  LightChoice light_choice_ = LightChoice::one;  ///< of the last add_direct_light()
+  Vec2f raster_;                                 ///< where it began
+  Ray ray_;
+  SurfaceVertex vertex_;
+  Receiver in_medium_;             ///< the point where fly() came to in a medium
+  bool is_in_medium_ = false;      ///< the walk is there
+  bool meets_lamps_only_ = false;  ///< meet_lamps_only()
+  LightQuery previous_;            ///< of where the last event was
+  float distance_ = 0;
+  bool only_delta_ = true;  ///< every surface so far has delta lobes alone
+  uint32_t segments_ = 0;   ///< traced so far: those across null boundaries count, each has a block
+                            ///< of random numbers
+  uint64_t rays_ = 0;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,114 @@
+#pragma once
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "kaustik/base/progress.h"
+#include "kaustik/base/sampler.h"
+#include "kaustik/scene/scene.h"
+#include "kaustik/transport/component.h"
+#include "kaustik/transport/splat_buffer.h"
+
+namespace kaustik {
+
+/// Number of independent replicates; pass i belongs to replicate i mod 16.
+inline constexpr uint32_t replicate_count = 16;
+
+/// What makes a pass: its results are a function of this (and of the scene) alone.
+struct Pass {
+  uint64_t seed = 0;
+  uint32_t index = 0;              ///< from 0
+  uint32_t samples_per_pixel = 1;  ///< of this pass and every other
+};
+
+/// Camera samples of a pixel in a pass: how many, and which of its replicate's sequence. No index
+/// may come twice in a replicate.
+struct PixelSamples {
+  uint32_t first_index = 0;
+  uint32_t count = 1;
+};
+
+/// What is known of the surface that a pixel shows, for denoisers and compositing.
+struct FirstHit {
+  // Of the first surface that is more than a mirror or clear glass; of the last of those if none is
+  // behind them. Where rays branch, of the branch that was followed last.
+  Spectrum albedo;
+  Vec3f normal{0, 0, 0};  ///< unit (of a pixel: the mean), facing the viewer
+  float depth = 0;        ///< distance of the first surface of all, m; 0: nothing hit
+};
+
+/// Where one camera sample's results go.
+class SampleSink {
+ public:
+  explicit SampleSink(ComponentSet wanted) : wanted_(wanted) {}
+  void add(Component component, const Spectrum& radiance) {
+    if (wanted_.has(component)) radiance_[size_t(component)] += radiance;
+  }
+  /// An estimate of the bias (expectation minus truth) of what the sample has added, of wanted
+  /// components; may be as noisy as that and of either sign. Only if estimates_bias().
+  void add_bias(const Spectrum& bias) { bias_ += bias; }
+  void set_first_hit(const FirstHit& hit) { first_hit_ = hit; }
+  void count_rays(uint64_t rays) { rays_ += rays; }
+
+  const Spectrum& radiance(Component component) const { return radiance_[size_t(component)]; }
+  const Spectrum& bias() const { return bias_; }
+  const FirstHit& first_hit() const { return first_hit_; }
+  uint64_t rays() const { return rays_; }
+  bool wants(Component component) const { return wanted_.has(component); }
+  ComponentSet wanted() const { return wanted_; }
+
+ private:
+  ComponentSet wanted_;
+  std::array<Spectrum, component_count> radiance_{};
+  Spectrum bias_;
+  FirstHit first_hit_;
+  uint64_t rays_ = 0;
+};
+
+/// Counters of a light pass, for progress and for the report.
+struct PassReport {
+  uint64_t rays = 0;
+  uint64_t photons = 0;                ///< stored or splatted
+  std::vector<std::string> warnings;   ///< a map that stayed empty, and why
+  std::vector<std::string> decisions;  ///< what the integrator has chosen by itself, and why
+};
+
+/// The immutable state of one pass (photon maps, caches).
+class PassState {
+ public:
+  virtual ~PassState() = default;
+  PassReport report;
+};
+
+/// A method of computing the picture. Const and thread-safe; owns no loop, no film, no clock.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  /// The light pass: what the samples of this pass need; may add to `splats`. Runs in parallel
+  /// inside; returns early (state unusable) once `stop` is requested.
+  virtual std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
+                                             std::stop_token stop,
+                                             const ProgressFunction& progress) const = 0;
+  /// The visualisation pass for one point of the raster.
+  virtual void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
+                      SampleSink& sink) const = 0;
+  /// Whether prepare() splats, so that the session provides the buffer.
+  virtual bool splats() const { return false; }
+  /// Whether sample() does anything.
+  virtual bool samples_camera() const { return true; }
+  /// Camera samples of a pixel in the pass of that state; their mean over the pixels is at most
+  /// the pass's. All passes count alike.
+  virtual PixelSamples pixel_samples(const PassState&, const Pass& pass,
+                                     const Vec2i& /*pixel*/) const {
+    return {pass.index / replicate_count * pass.samples_per_pixel, pass.samples_per_pixel};
+  }
+  /// Samples per pixel and pass if the user asks for nothing else.
+  virtual uint32_t default_samples_per_pass() const { return 4; }
+  /// The components that its results hold.
+  virtual ComponentSet components() const { return ComponentSet::all(); }
+  /// Whether sample() estimates its bias: SampleSink::add_bias().
+  virtual bool estimates_bias() const { return false; }
+};
+
+}  // namespace kaustik

@@ -1,0 +1,118 @@
+#include "kaustik/vcm/lessons/emission_learning.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kaustik {
+namespace {
+
+/// Share of the light paths that what was learned never takes from the others: whatever was not
+/// seen has at least so much of the chance that it would have without.
+constexpr double plain_share = 0.2;
+/// Directions of a light are learned from so many of its paths on …
+constexpr size_t least_paths = 64;
+/// … and where the second moment falls at least to this share.
+constexpr double worthwhile = 0.8;
+/// All of it is taken up where it falls at least to this share: learned paths bring more vertices,
+/// which take their time.
+constexpr double worth_its_time = 0.65;
+
+}  // namespace
+
+/// What is known of a light.
+struct EmissionLearning::OfLight {
+  std::vector<GuideSquare::Point> points;
+  size_t paths = 0;
+  double plain_moment = 0;  ///< Σ f² q/p by the plain emission of this light alone
+  double root = 0;          ///< of the least moment that is known
+};
+
+EmissionLearning::EmissionLearning(const LightPathEmission& plain)
+    : plain_(plain), maps_(plain.scene().lights().size()) {}
+
+EmissionLearning::~EmissionLearning() = default;
+
+void EmissionLearning::add(const LightPathStart& start, double use) {
+  const double density = double(start.density.endpoint) * double(start.density.rest);
+  const SurfacePoint& origin = start.emitted.origin;
+  const Vec3f& direction = start.emitted.ray.direction;
+  Path path;
+  path.light = start.light;
+  path.weight = use * use * density;
+  path.plain = plain_.plain_pdf(start.light, origin, direction);
+  if (!(path.weight > 0 && path.plain > 0) || !std::isfinite(path.weight)) return;
+  auto& map = maps_[size_t(start.light)];
+  const Scene& scene = plain_.scene();
+  const Light& light = *scene.lights()[size_t(start.light)];
+  if (!map)
+    map = std::make_shared<const GuideMap>(light, shape_of(scene, light), scene.tracer().bounds());
+  path.place = map->place_of(origin, direction);
+  paths_.push_back(path);
+}
+
+/// By every `step`th path from `first` on.
+LightPathEmission EmissionLearning::learn(size_t first, size_t step) const {
+  std::vector<OfLight> lights(maps_.size());
+  size_t count = 0;
+  for (size_t i = first; i < paths_.size(); i += step, ++count) {
+    const Path& path = paths_[i];
+    OfLight& of = lights[size_t(path.light)];
+    ++of.paths;
+    of.plain_moment += path.weight / double(path.plain);
+    if (path.place.scale > 0)
+      of.points.push_back({path.place.u, path.weight / double(path.place.scale)});
+  }
+  std::vector<LightPathEmission::Guide> guides(lights.size());
+  double roots = 0;
+  size_t only_once = 0;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    OfLight& of = lights[i];
+    double moment = of.plain_moment;
+    if (of.points.size() >= least_paths) {
+      GuideSquare square(std::move(of.points));
+      if (square.expected_sum() < worthwhile * moment) {
+        moment = square.expected_sum();
+        guides[i].rays = std::make_shared<const GuidedLight>(maps_[i], std::move(square));
+      }
+    }
+    of.root = std::sqrt(moment);
+    roots += of.root;
+    only_once += of.paths == 1 ? 1 : 0;
+  }
+  // How likely the next path of use comes from a light that none came from yet (Good 1953).
+  const double unseen = count > 0 ? double(only_once) / double(count) : 1.0;
+  const double left = plain_share + (1 - plain_share) * unseen;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const double by_use = roots > 0 ? (1 - left) * lights[i].root / roots : 0.0;
+    const double chance = left * double(plain_.chance(int(i))) + by_use;
+    guides[i].chance = float(chance);
+    if (guides[i].rays) guides[i].share = float(by_use / chance);
+  }
+  return {plain_, guides};
+}
+
+double EmissionLearning::second_moment(const LightPathEmission& emission, size_t first,
+                                       size_t step) const {
+  double sum = 0;
+  for (size_t i = first; i < paths_.size(); i += step) {
+    const Path& path = paths_[i];
+    const double density = double(emission.chance(path.light)) *
+                           double(emission.pdf_of_chosen(path.light, path.plain, path.place));
+    sum += path.weight / density;
+  }
+  return sum;
+}
+
+double EmissionLearning::second_moment(const LightPathEmission& emission) const {
+  return second_moment(emission, 0, 1);
+}
+
+std::shared_ptr<const LightPathEmission> EmissionLearning::learned() const {
+  if (paths_.size() < least_paths) return nullptr;
+  double guided = 0;
+  for (size_t half = 0; half < 2; ++half) guided += second_moment(learn(half, 2), 1 - half, 2);
+  if (!(guided < worth_its_time * second_moment(plain_))) return nullptr;
+  return std::make_shared<const LightPathEmission>(learn(0, 1));
+}
+
+}  // namespace kaustik

@@ -1,0 +1,277 @@
+#include "kaustik/vcm/lessons/radius_learning.h"
+
+#include <algorithm>
+#include <atomic>
+#include <numbers>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/base/sampler.h"
+#include "kaustik/photon/coverage/merge_disk.h"
+#include "kaustik/vcm/lessons/probe_light.h"
+
+namespace kaustik {
+namespace {
+
+/// Of the random numbers' addresses.
+constexpr uint64_t coverage_element = uint64_t(2) << 40;
+/// Points that tell how much is covered of the smallest disk, and of what each has beyond the one
+/// before: so many, and more where only some of them are.
+constexpr uint32_t points_per_ring = 8, points_per_cut_ring = 32;
+/// Points that are looked for: edges may leave little of a ring.
+constexpr uint32_t most_points = 256;
+/// Disks disagree where the squared differences of their lights are so many times their variance.
+constexpr double tolerated = 2.5;
+/// The light of a disk, and its variance, are known from this many directions on.
+constexpr double least_directions = 12;
+/// A kind of light with a smaller share of both disks doesn't count. (Of the widest one alone a
+/// line of light is little, and was blurred by what little else there was to see.)
+constexpr double least_share = 0.05;
+/// Disks of which edges leave less tell nothing of those that the block's other vertices have.
+constexpr double least_left = 0.125;
+/// What merges at a vertex costs time: more than so many per pass are not worth theirs.
+constexpr double most_vertices = 600;
+
+double level_radius(const PixelProbe& probe, int level) {
+  return double(probe.pixel_width) * std::exp2(0.5 * level);
+}
+
+/// Areas of disks, in pixels, as geometric means of those around a probe, near ones twice: seams
+/// show where one block's disks are many times as wide as the next one's.
+std::vector<PixelPlan> smoothed(const PixelPlans& at, const std::vector<PixelPlan>& plans) {
+  const std::vector<PixelProbe>& probes = at.seen().probes();
+  const BlockGrid& grid = at.seen().grid();
+  const auto is_known = [&](size_t i) {
+    return probes[i].found && probes[i].pixel_width > 0 && plans[i].merge_area > 0;
+  };
+  std::vector<PixelPlan> result = plans;
+  for (size_t own = 0; own < plans.size(); ++own) {
+    if (!is_known(own)) continue;
+    double log_radii = 0, weights = 0;
+    grid.visit_around(own, [&](size_t i) {
+      if (!is_known(i)) return;
+      const Vec2i away = grid.block(i) - grid.block(own);
+      const double weight = (away.x == 0 ? 2 : 1) * (away.y == 0 ? 2 : 1);
+      log_radii +=
+          weight * std::log(std::sqrt(double(plans[i].merge_area)) / double(probes[i].pixel_width));
+      weights += weight;
+    });
+    const double widths = std::exp(log_radii / weights);
+    result[own].merge_area = float(sqr(widths * double(probes[own].pixel_width)));
+  }
+  return result;
+}
+
+constexpr size_t probes_per_block = 256;
+constexpr auto levels = size_t(RadiusLearning::level_count);
+
+}  // namespace
+
+RadiusLearning::Disagreement::Pairs RadiusLearning::disagreement_of(const KindSums& sums,
+                                                                    const Levels& of) {
+  Disagreement::Pairs result{};
+  // Where next to nothing has arrived, a single vertex more would do.
+  const double of_one =
+      sums.light[levels - 1] > 0 ? sums.squares[levels - 1] / sums.light[levels - 1] : 0.0;
+  std::array<double, levels> area{}, share{}, light{};
+  for (size_t i = 0; i < levels; ++i) {
+    const Level& level = of[i];
+    area[i] = level.moments.one * sqr(level.radius);
+    share[i] = std::max(0.05, level.share);
+    light[i] = (sums.light[i] + level.slope_x * sums.x[i] + level.slope_y * sums.y[i]) *
+               level.scale / share[i];
+  }
+  for (size_t i = 1; i < levels; ++i)
+    for (size_t j = 0; j < i; ++j) {
+      if (sqr(sums.light[j]) < least_directions * sums.squares[j]) continue;
+      if (!(area[i] > area[j])) continue;
+      // ∫ of the squared factor of the wide disk over the narrow one; over its own disk that is its
+      // scale, and so is that of the product with the factor of the narrow one over that.
+      const DiskMoments& m = of[j].moments;
+      const double x = of[i].slope_x * of[j].radius, y = of[i].slope_y * of[j].radius;
+      const double within =
+          sqr(of[i].scale * of[j].radius) *
+          (m.one + 2 * (x * m.x + y * m.y) + x * x * m.xx + 2 * x * y * m.xy + y * y * m.yy);
+      const double inside = std::max(sums.squares[j], of_one * of_one) / area[j];
+      const double outside = (sums.squares[i] - sums.squares[j]) / (area[i] - area[j]);
+      const double variance = inside * std::max(0.0, of[j].scale / sqr(share[j]) -
+                                                         2 * of[i].scale / (share[i] * share[j]) +
+                                                         within / sqr(share[i])) +
+                              outside * std::max(0.0, of[i].scale - within) / sqr(share[i]);
+      result[i][j] = variance > 0 ? float(sqr(light[i] - light[j]) / variance) : 0.0f;
+    }
+  return result;
+}
+
+RadiusLearning::Disagreement RadiusLearning::disagreement_of(const Sums& sums, const Levels& of) {
+  std::array<double, levels> all{};
+  for (const KindSums& kind : sums.of)
+    for (size_t i = 0; i < levels; ++i) all[i] += kind.light[i];
+  Disagreement result;
+  for (size_t k = 0; k < kind_count; ++k) {
+    const auto counts = [&](size_t i) { return sums.of[k].light[i] > least_share * all[i]; };
+    Disagreement::Pairs& pairs = result.of[k] = disagreement_of(sums.of[k], of);
+    for (size_t i = 1; i < levels; ++i)
+      for (size_t j = 0; j < i; ++j)
+        if (!counts(i) && !counts(j)) pairs[i][j] = 0;
+  }
+  return result;
+}
+
+/// Ring by ring: each disk has twice the area of the one before.
+RadiusLearning::Levels RadiusLearning::levels_of(const Scene& scene, const PixelProbe& probe,
+                                                 const PixelPlans& first, size_t number,
+                                                 uint64_t& rays) {
+  const MergeDisk widest(probe.vertex, float(level_radius(probe, int(levels) - 1)));
+  const DiskCoverage coverage(scene, widest, rays);
+  const Frame frame(widest.side());
+  const DiskEdges edges = first.seen().disk_bounds(number, widest.radius()).edges;
+  Levels result;
+  double covered = 0, area = 0;  // of what edges leave, m²
+  for (size_t i = 0; i < levels; ++i) {
+    Level& level = result[i];
+    level.radius = level_radius(probe, int(i));
+    const auto radius = float(level.radius);
+    level.moments = disk_moments(frame, radius, edges, KernelShape::flat);
+    DiskKernel kernel(frame, radius, edges, KernelShape::flat);
+    if (!first.seen().disk_bounds(number, radius).are_complete) kernel.level();
+    level.scale = double(kernel.scale);
+    level.slope_x = double(dot(kernel.slope, frame.x));
+    level.slope_y = double(dot(kernel.slope, frame.y));
+    const double inner_sq = i == 0 ? 0 : sqr(result[i - 1].radius);
+    uint32_t held = 0, count = 0, points = 0;
+    for (uint32_t wanted = points_per_ring; count < wanted && points < most_points; ++points) {
+      Sampler sampler =
+          Sampler::at(0, uint32_t(i), Stream::training, coverage_element + number, points);
+      const Vec2f u = sampler.next_2d();
+      const auto distance =
+          float(std::sqrt(inner_sq + (sqr(level.radius) - inner_sq) * double(u.x)));
+      const float angle = 2 * pi * u.y;
+      if (!edges.hold((frame.x * std::cos(angle) + frame.y * std::sin(angle)) * distance)) continue;
+      if (coverage.holds(radius, distance, angle)) ++held;
+      if (++count == points_per_ring && held > 0 && held < points_per_ring)
+        wanted = points_per_cut_ring;
+    }
+    const double whole = level.moments.one * sqr(level.radius);
+    if (count > 0) covered += (whole - area) * held / count;
+    area = whole;
+    level.share = area > 0 ? covered / area : 0.0;
+  }
+  return result;
+}
+
+RadiusLearning::RadiusLearning(const Scene& scene, const PixelPlans& first, uint64_t& rays,
+                               const std::stop_token& stop)
+    : levels_(first.seen().probes().size()) {
+  std::atomic<uint64_t> counted{0};
+  parallel_blocks(levels_.size(), 16, [&](size_t begin, size_t end, size_t) {
+    uint64_t block_rays = 0;
+    for (size_t p = begin; p < end && !stop.stop_requested(); ++p)
+      if (first.seen().probes()[p].found)
+        levels_[p] = levels_of(scene, first.seen().probes()[p], first, p, block_rays);
+    counted += block_rays;
+  });
+  rays += counted;
+}
+
+std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& first,
+                                                          const LightVertices& light,
+                                                          ComponentSet wanted) {
+  std::vector<Sums> result(first.seen().probes().size());
+  if (light.tree.empty()) return result;
+  parallel_blocks(result.size(), 16, [&](size_t begin, size_t end, size_t) {
+    for (size_t p = begin; p < end; ++p) {
+      const PixelProbe& probe = first.seen().probes()[p];
+      if (!probe.found || !(probe.pixel_width > 0)) continue;
+      const double least_sq = sqr(level_radius(probe, 0));
+      const auto widest = float(level_radius(probe, level_count - 1));
+      const MergeDisk disk(probe.vertex, widest);
+      const Frame frame(disk.side());
+      const DiskEdges edges = first.seen().disk_bounds(p, widest).edges;
+      Sums& sums = result[p];
+      light.tree.within(
+          probe.vertex.position(), disk.side(), false, sqr(widest), [&](uint32_t index, float) {
+            const LightVertexData& photon = light.tree.tree().data(index);
+            const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
+            const float share = disk.share(offset, photon.side);
+            if (!(share > 0)) return;
+            const double reach_sq = double(disk.least_radius_sq(offset));
+            size_t level = 0;
+            for (double limit = least_sq; reach_sq > limit; limit *= 2) ++level;
+            if (level >= levels) return;
+            // The block's other vertices may have no edges.
+            sums.vertices[level] += 1;
+            if (!edges.hold(offset)) return;
+            const auto value = double(sent_to_camera(probe, photon, wanted).sum() * share);
+            auto& kind = sums.of[photon.specular ? 0 : 1];
+            kind.light[level] += value;
+            kind.squares[level] += value * value;
+            kind.x[level] += value * double(dot(offset, frame.x));
+            kind.y[level] += value * double(dot(offset, frame.y));
+          });
+      for (size_t level = 1; level < levels; ++level)
+        sums.vertices[level] += sums.vertices[level - 1];
+      for (auto& kind : sums.of)
+        for (size_t level = 1; level < levels; ++level) {
+          kind.light[level] += kind.light[level - 1];
+          kind.squares[level] += kind.squares[level - 1];
+          kind.x[level] += kind.x[level - 1];
+          kind.y[level] += kind.y[level - 1];
+        }
+    }
+  });
+  return result;
+}
+
+/// The widest disk that agrees with all smaller ones, by the mean over the probes around: a single
+/// one's noise would choose among its levels by chance.
+int RadiusLearning::widest_level(const std::vector<Disagreement>& disagreements,
+                                 const PixelPlans& first, size_t probe) const {
+  Disagreement sum;
+  int count = 0;
+  first.seen().grid().visit_around(probe, [&](size_t i) {
+    if (!first.seen().probes()[i].found) return;
+    ++count;
+    for (size_t k = 0; k < kind_count; ++k)
+      for (size_t level = 1; level < levels; ++level)
+        for (size_t smaller = 0; smaller < level; ++smaller)
+          sum.of[k][level][smaller] += disagreements[i].of[k][level][smaller];
+  });
+  for (size_t level = 1; level < levels; ++level)
+    for (size_t smaller = 0; smaller < level; ++smaller)
+      for (const auto& kind : sum.of)
+        if (double(kind[level][smaller]) > tolerated * count) return int(level) - 1;
+  return int(levels) - 1;
+}
+
+std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std::vector<Sums>& sums,
+                                             uint32_t passes, float shrinkage) const {
+  std::vector<PixelPlan> result = first.plans();
+  std::vector<float> most(sums.size(), float(infinity));  // areas
+  std::vector<Disagreement> disagreements(sums.size());
+  parallel_blocks(sums.size(), probes_per_block, [&](size_t begin, size_t end, size_t) {
+    for (size_t p = begin; p < end; ++p) disagreements[p] = disagreement_of(sums[p], levels_[p]);
+  });
+  parallel_blocks(sums.size(), probes_per_block, [&](size_t begin, size_t end, size_t) {
+    for (size_t p = begin; p < end; ++p) {
+      const PixelProbe& probe = first.seen().probes()[p];
+      if (!probe.found) continue;
+      const auto area_of = [&](int level) {
+        return float(pi * sqr(level_radius(probe, level))) / shrinkage;
+      };
+      const auto is_too_wide = [&](size_t i) {
+        return sums[p].vertices[i] > most_vertices * passes ||
+               levels_[p][i].moments.one < least_left * std::numbers::pi;
+      };
+      int level = int(levels) - 1;
+      while (level > 0 && is_too_wide(size_t(level))) --level;
+      most[p] = area_of(level);
+      result[p].merge_area = area_of(std::min(level, widest_level(disagreements, first, p)));
+    }
+  });
+  result = smoothed(first, result);
+  for (size_t p = 0; p < result.size(); ++p)
+    result[p].merge_area = std::min(result[p].merge_area, most[p]);
+  return result;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,34 @@
+#include "kaustik/vcm/merging/medium_disks.h"
+
+#include <algorithm>
+
+#include "kaustik/transport/scatterer.h"
+
+namespace kaustik {
+MediumDisks::MediumDisks(const Scene& scene, float widths, float given, float mean_length)
+    : camera_(scene.camera().position()),
+      per_distance_(widths * 2 * scene.camera().pixel_spread()),
+      given_(given),
+      mean_length_(mean_length) {}
+
+MediumDisks MediumDisks::shrunk(float shrinkage) const {
+  MediumDisks result = *this;
+  result.per_distance_ *= std::sqrt(shrinkage);
+  result.given_ *= std::sqrt(shrinkage);
+  result.mean_free_paths_ *= std::sqrt(shrinkage);
+  return result;
+}
+
+float MediumDisks::radius(const Vec3f& position, const Medium& medium) const {
+  if (given_ > 0) return given_;
+  return std::min(per_distance_ * length(position - camera_),
+                  mean_free_paths_ / mean_extinction(medium));
+}
+
+float MediumDisks::merge_volume(const Vec3f& position, const Medium& medium) const {
+  const float extinction = mean_extinction(medium);
+  const float collision_chance = -std::expm1(-extinction * mean_length_);
+  return pi * sqr(radius(position, medium)) / (extinction * collision_chance);
+}
+
+}  // namespace kaustik

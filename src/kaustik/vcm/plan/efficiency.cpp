@@ -1,0 +1,153 @@
+#include "kaustik/vcm/plan/efficiency.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kaustik/base/parallel.h"
+
+namespace kaustik {
+namespace {
+
+/// Chances of going on that are tried. Of two that are as good the first is taken: where pilot
+/// paths have met nothing it costs nothing to go on.
+constexpr std::array<double, 8> chances{1, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05, double(least_survival)};
+/// Times as much as samples whose variance is their mean square, even samples count at most.
+constexpr double most_evenness = 30;
+/// Rays that take as long as finding what merges at a vertex and how much of its disk is covered,
+/// and as adding one light vertex of it up.
+constexpr double rays_of_merging = 3, rays_of_merged = 0.1;
+/// A light path's ray, its vertices sorted and learned from, takes as long as so many rays.
+constexpr double rays_of_light_ray = 3;
+/// Errors count relative to a pixel's light, and this share of the picture's mean light.
+constexpr double even_share_of_mean = 0.1;
+constexpr int rounds = 6;
+constexpr size_t probes_per_block = 256;
+
+/// What a few paths have found nothing beyond is taken to have this share of the mean there: the
+/// paths of a picture, which are many more, may find light.
+constexpr double share_of_mean_unknown = 0.1;
+
+bool has_found_nothing(const ProbeStatistics& probe) {
+  return probe.rays_beyond > 0 && probe.merged_alone == 0 &&
+         std::all_of(probe.squares.begin(), probe.squares.end(), [](double s) { return s == 0; });
+}
+
+struct Candidate {
+  double squared_error = 0, rays = 0, evenness = 1;
+};
+using Candidates = std::array<Candidate, chances.size()>;
+
+double evenness_at(const ProbeStatistics& probe, double chance) {
+  if (!(probe.path_mean_square > 0)) return 1;
+  const double share = std::clamp(1 - probe.path_variance / probe.path_mean_square, 0.0, 1.0);
+  return std::min(most_evenness, 1 / std::max(1e-9, 1 - chance * share));
+}
+
+double variance(const ProbeStatistics& probe, double kappa, const MergeScale& scale) {
+  const double nu = scale.area * scale.light_paths;
+  double sum = probe.merged_alone > 0 ? probe.merged_alone / nu : 0.0;
+  for (int i = 0; i < ProbeStatistics::bin_count; ++i)
+    sum += probe.squares[size_t(i)] /
+           (kappa + nu * std::exp2(double(i - ProbeStatistics::bin_of_one)));
+  return sum;
+}
+
+double rays_to_merge(const ProbeStatistics& probe, const MergeScale& scale) {
+  if (!(scale.light_paths > 0)) return 0;
+  return rays_of_merging + rays_of_merged * probe.merged * scale.area * scale.light_paths;
+}
+
+Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, const MergeScale& scale,
+                      double least_radiance) {
+  Candidates result;
+  const double merging = rays_to_merge(probe, scale);
+  const double relative = 1 / (probe.radiance * probe.radiance + least_radiance * least_radiance);
+  for (size_t i = 0; i < chances.size(); ++i) {
+    Candidate& candidate = result[i];
+    candidate.evenness = evenness_at(probe, chances[i]);
+    const double kappa = costs.camera_samples * chances[i] * candidate.evenness;
+    candidate.squared_error =
+        (probe.direct_variance / costs.camera_samples + variance(probe, kappa, scale)) * relative;
+    candidate.rays = probe.rays + merging + chances[i] * probe.rays_beyond;
+  }
+  return result;
+}
+
+}  // namespace
+
+void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
+  for (size_t i = 0; i < squares.size(); ++i) squares[i] += weight * other.squares[i];
+  merged_alone += weight * other.merged_alone;
+  path_mean_square += weight * other.path_mean_square;
+  path_variance += weight * other.path_variance;
+  direct_variance += weight * other.direct_variance;
+  radiance += weight * other.radiance;
+  merged += weight * other.merged;
+  rays += weight * other.rays;
+  rays_beyond += weight * other.rays_beyond;
+}
+
+double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
+                                const std::vector<MergeScale>& scales) {
+  double merging = 0, light_paths = 0;
+  for (size_t p = 0; p < probes.size(); ++p) {
+    merging += rays_to_merge(probes[p], scales[p]);
+    light_paths = std::max(light_paths, scales[p].light_paths);
+  }
+  return merging / double(std::max<size_t>(1, probes.size())) +
+         rays_of_light_ray * costs.light_rays * light_paths;
+}
+
+Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
+                           const std::vector<MergeScale>& scales, std::vector<PixelPlan>& plans) {
+  if (probes.empty()) return {};
+  double radiance = 0;
+  for (const ProbeStatistics& probe : probes) radiance += probe.radiance;
+  const double least = std::max(1e-30, even_share_of_mean * radiance / double(probes.size()));
+  ProbeStatistics mean;
+  for (const ProbeStatistics& probe : probes) mean.add(probe, 1 / double(probes.size()));
+  std::vector<Candidates> all(probes.size());
+  parallel_blocks(probes.size(), probes_per_block, [&](size_t begin, size_t end, size_t) {
+    for (size_t p = begin; p < end; ++p) {
+      ProbeStatistics probe = probes[p];
+      if (has_found_nothing(probe)) {
+        probe.squares = mean.squares;
+        for (double& squares : probe.squares) squares *= share_of_mean_unknown;
+      }
+      all[p] = candidates(probe, costs, scales[p], least);
+    }
+  });
+
+  // The least product of two sums is the least weighted sum for weights that are found by turns.
+  std::vector<size_t> chosen(all.size(), chances.size() / 2);
+  Efficiency total;
+  for (int round = 0;; ++round) {
+    total = {};
+    double light_paths = 0;
+    for (size_t p = 0; p < all.size(); ++p) {
+      total.squared_error += all[p][chosen[p]].squared_error;
+      total.rays += all[p][chosen[p]].rays;
+      light_paths = std::max(light_paths, scales[p].light_paths);
+    }
+    total.squared_error /= double(all.size());
+    total.rays /= double(all.size());
+    total.rays += rays_of_light_ray * costs.light_rays * light_paths;
+    if (round == rounds) break;
+    for (size_t p = 0; p < all.size(); ++p) {
+      const auto time = [&](const Candidate& c) {
+        return c.squared_error * total.rays + c.rays * total.squared_error;
+      };
+      const auto best = std::min_element(
+          all[p].begin(), all[p].end(),
+          [&](const Candidate& a, const Candidate& b) { return time(a) < time(b); });
+      chosen[p] = size_t(best - all[p].begin());
+    }
+  }
+  for (size_t p = 0; p < all.size(); ++p) {
+    plans[p].survival = float(chances[chosen[p]]);
+    plans[p].evenness = float(all[p][chosen[p]].evenness);
+  }
+  return total;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,67 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "kaustik/vcm/plan/pixel_plans.h"
+
+namespace kaustik {
+
+/// What pilot paths tell, at one probe, of the light that the probed vertex sends to the camera.
+/// f is such light by paths of at least one more event, p the density with which a camera path that
+/// goes on from the vertex finds it, m the number of vertices of a pass's light paths that merge
+/// there for it.
+struct ProbeStatistics {
+  static constexpr int bin_count = 32;
+  static constexpr int bin_of_one = 12;  ///< where m/p is 1; each bin is twice the one before
+  /// ∫ f²/p in bins of m/p: all that variances of mixtures of both depend on.
+  std::array<double, bin_count> squares{};
+  double merged_alone = 0;                         ///< ∫ f²/m where no camera path goes
+  double path_mean_square = 0, path_variance = 0;  ///< of what a camera path finds, but for what
+                                                   ///< merging finds far more often
+  double direct_variance = 0;                      ///< of one sample of the vertex's direct light,
+                                                   ///< with the lamp that the path meets next
+  double radiance = 0;                             ///< of everything
+  double merged = 0;                               ///< light vertices of a pass within the disk
+  double rays = 0;         ///< per camera sample up to the lamp that the path may meet next …
+  double rays_beyond = 0;  ///< … and of a path that goes on there
+
+  void add(const ProbeStatistics& other, double weight);
+};
+
+/// How merging at a probe differs from what the statistics were taken with.
+struct MergeScale {
+  double area = 1;         ///< of the disk, relative
+  double light_paths = 1;  ///< of a pass, relative
+};
+
+/// What all probes of a picture have in common.
+struct PassCosts {
+  double camera_samples = 1;  ///< per pixel and pass
+  double light_rays = 0;      ///< of a pass per camera sample, with MergeScale::light_paths 1
+};
+
+/// What a pass is expected to cost, in rays per camera sample, and to leave as mean squared error
+/// relative to the picture.
+struct Efficiency {
+  double squared_error = 0;
+  double rays = 0;
+  /// Of what a given error takes.
+  double time() const { return squared_error * rays; }
+};
+
+/// What a camera sample takes beside the rays of its path, in rays, on average: merging, and its
+/// part of the light paths. `scales` by probe.
+double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
+                                const std::vector<MergeScale>& scales);
+
+/// Chooses for every probe how often camera paths go on from its vertex, so that the product of the
+/// picture's variance and its cost is least (Grittmann et al. 2022 choose techniques that way).
+/// With κ = S s v and ν the light paths relative to the pilot's the variance of a pass is that of
+/// the balance heuristic, ∫ f² / (κ p + ν m): S camera samples, of which a share s goes on, and v
+/// the ratio of their mean square to their variance (variance-aware weights, Grittmann et al.
+/// 2019). Writes survival and evenness of `plans`, one for each probe, and returns what is
+/// expected. `scales` by probe; light_paths 0: nothing merges.
+Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
+                           const std::vector<MergeScale>& scales, std::vector<PixelPlan>& plans);
+
+}  // namespace kaustik

@@ -1,0 +1,213 @@
+#include "kaustik/vcm/plan/path_pilot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/base/to_integer.h"
+#include "kaustik/photon/coverage/merge_disk.h"
+
+namespace kaustik {
+namespace {
+
+constexpr uint32_t paths_per_probe = 8;
+/// Of the random numbers' addresses.
+constexpr uint64_t pilot_element = uint64_t(4) << 40;
+/// The kernel of merging weighs its vertices unevenly: they are worth so many of equal weight.
+constexpr double kernel_efficiency = 0.75;
+/// Light that merging finds more often than this, per camera path of a pass, says nothing about how
+/// even what camera paths find is: a single path that happens upon it would.
+constexpr double most_merged = 64;
+/// Most of m/p.
+const double most_ratio =
+    std::exp2(double(ProbeStatistics::bin_count - 1 - ProbeStatistics::bin_of_one));
+
+int bin_of(double ratio) {
+  if (!(ratio > 0)) return 0;
+  return to_integer(std::round(std::log2(ratio)) + ProbeStatistics::bin_of_one, 0,
+                    ProbeStatistics::bin_count - 1);
+}
+
+double all_light(const SampleSink& sink) {
+  double sum = 0;
+  for (int c = 0; c < component_count; ++c) sum += double(sink.radiance(Component(c)).sum());
+  return sum;
+}
+
+/// Weighs light as path tracing does, and notes of each contribution what its weight would be
+/// beside merging: from both follows how much more merging would find it.
+class Recorder final : public LightWeights {
+ public:
+  Recorder(VcmCameraPath& path, const SampleSink& sink, float camera_samples,
+           ProbeStatistics& result)
+      : path_(path), sink_(sink), camera_samples_(double(camera_samples)), result_(result) {}
+
+  float sampled(const Scatterer& vertex, const DirectLight& light) const override {
+    return weigh([&] { return path_.sampled(vertex, light); });
+  }
+  float met(int light, const SurfaceVertex& vertex) const override {
+    return weigh([&] { return path_.met(light, vertex); });
+  }
+  float met(int light, const Ray& ray) const override {
+    return weigh([&] { return path_.met(light, ray); });
+  }
+  /// What has been found since the last look belongs to the last weight.
+  void note() const {
+    const double now = all_light(sink_), light = now - seen_;
+    seen_ = now;
+    if (light == 0) return;
+    if (!goes_on_) {
+      direct_ += light;
+      return;
+    }
+    // Split between the ways as the balance heuristic does.
+    const double share = camera_samples_ / (camera_samples_ + ratio_);
+    beyond_ += light * share;
+    even_ += light * most_merged * camera_samples_ / (most_merged * camera_samples_ + ratio_);
+    result_.squares[size_t(bin_of(ratio_))] += light * light * share / paths_per_probe;
+  }
+  /// The path has left the probed vertex, and found what every path looks for there.
+  void go_on() {
+    note();
+    goes_on_ = true;
+  }
+  double direct() const { return direct_; }
+  double beyond() const { return beyond_; }
+  double even() const { return even_; }
+
+ private:
+  template <typename Weight>
+  float weigh(const Weight& weight) const {
+    note();
+    const float beside_merging = weight();
+    path_.leave_out_light_paths(true);
+    const float alone = weight();
+    path_.leave_out_light_paths(false);
+    ratio_ = beside_merging > 0 && alone > beside_merging
+                 ? kernel_efficiency * camera_samples_ *
+                       std::sqrt(double(alone) / double(beside_merging) - 1)
+                 : 0;
+    return alone;
+  }
+
+  VcmCameraPath& path_;
+  const SampleSink& sink_;
+  double camera_samples_;
+  ProbeStatistics& result_;
+  bool goes_on_ = false;
+  mutable double seen_ = 0, ratio_ = 0, direct_ = 0, beyond_ = 0, even_ = 0;
+};
+
+/// Light that merges there, as what a camera path that goes on would have to find.
+void add_merged(const VcmCameraPath& path, float samples, double light_share,
+                ProbeStatistics& result) {
+  const double camera_samples = double(samples);
+  for (const auto& [beyond, spectrum] : path.merged_vertices()) {
+    const double light = double(spectrum.sum());
+    result.merged += 1 / light_share;
+    if (light == 0) continue;
+    // Of each of the vertices that a real pass has in place of this one.
+    const double squares = light * light * light_share;
+    const double ratio =
+        beyond > 0
+            ? std::min(most_ratio, kernel_efficiency * camera_samples / std::sqrt(double(beyond)))
+            : 0.0;
+    if (!(ratio > 0)) {
+      result.merged_alone += squares;
+      result.radiance += light;
+      continue;
+    }
+    const double share = ratio / (camera_samples + ratio);
+    result.squares[size_t(bin_of(ratio))] += squares * ratio * share;
+    result.radiance += light * share;
+  }
+}
+
+/// Unbiased variance of values of this sum and these squares.
+double variance_of(double sum, double squares, double count) {
+  return std::max(0.0, squares - sum * sum / count) / (count - 1);
+}
+
+ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe, PixelPlan plan,
+                              size_t index, const PilotLimits& limits) {
+  ProbeStatistics result;
+  plan.survival = plan.evenness = 1;
+  constexpr double count = paths_per_probe;
+  double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
+  for (uint32_t i = 0; i < paths_per_probe; ++i) {
+    Sampler sampler = Sampler::at(0, 0, Stream::training, pilot_element + index, i);
+    SampleSink sink(limits.components);
+    CameraWalk walk(in.scene, probe.raster, sampler, sink);
+    VcmCameraPath path(in, walk, plan);
+    Recorder recorder(path, sink, in.camera_samples, result);
+    walk.weigh_by(recorder);
+    uint64_t rays_before = 0;
+    bool is_behind = false;
+    const auto go_beyond = [&] {
+      recorder.go_on();
+      rays_before = walk.rays();
+      is_behind = false;
+    };
+    while (path.go_on(false) != CameraWalk::Arrival::nothing) {
+      if (is_behind) go_beyond();
+      if (walk.events() >= limits.maximum_events) break;
+      walk.add_direct_light(1, 1);
+      const bool was_before = path.is_at_first();
+      // Of the first path alone: which vertex paths come to may be up to chance.
+      if (was_before && i == 0 && any(walk.vertex().lobes() & (Lobes::diffuse | Lobes::glossy)))
+        add_merged(path, in.camera_samples, limits.light_share, result);
+      const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
+      if (!walk.scatter(Lobes::all, 1, u_choice.x, u)) break;
+      path.leave();
+      if (path.has_left_first()) {
+        is_behind = path.may_end_at_lamp();
+        if (!is_behind) go_beyond();
+      }
+      if (!walk.may_find_more()) break;
+      if (walk.events() > limits.roulette_depth && !walk.survive(u_choice.y)) break;
+    }
+    recorder.note();
+    if (rays_before == 0) rays_before = walk.rays();
+    result.rays += double(rays_before) / count;
+    rays_beyond += double(walk.rays() - rays_before) / count;
+    direct += recorder.direct();
+    direct_squares += recorder.direct() * recorder.direct();
+    beyond += recorder.beyond();
+    even += recorder.even();
+    even_squares += recorder.even() * recorder.even();
+  }
+  result.rays_beyond = rays_beyond;
+  result.path_mean_square = even_squares / count;
+  result.path_variance = variance_of(even, even_squares, count);
+  result.direct_variance = variance_of(direct, direct_squares, count);
+  result.radiance += (direct + beyond) / count;
+  return result;
+}
+
+}  // namespace
+
+std::vector<ProbeStatistics> probe_statistics(const VcmCameraInputs& inputs,
+                                              const PixelPlans& plans, const PilotLimits& limits,
+                                              uint64_t& rays, const std::stop_token& stop) {
+  const std::vector<PixelProbe>& probes = plans.seen().probes();
+  std::vector<ProbeStatistics> single(probes.size());
+  parallel_blocks(probes.size(), 16, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end && !stop.stop_requested(); ++i)
+      single[i] = statistics_at(inputs, probes[i], plans.plans()[i], i, limits);
+  });
+  double counted = 0;
+  for (const ProbeStatistics& s : single) counted += paths_per_probe * (s.rays + s.rays_beyond);
+  rays += to_integer(std::round(counted), uint64_t(0), uint64_t(1) << 53);
+  std::vector<ProbeStatistics> result(probes.size());
+  const BlockGrid& grid = plans.seen().grid();
+  parallel_blocks(probes.size(), 256, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) {
+      int count = 0;
+      grid.visit_around(i, [&](size_t) { ++count; });
+      grid.visit_around(i, [&](size_t near) { result[i].add(single[near], 1.0 / double(count)); });
+    }
+  });
+  return result;
+}
+
+}  // namespace kaustik

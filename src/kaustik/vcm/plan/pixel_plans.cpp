@@ -1,0 +1,94 @@
+#include "kaustik/vcm/plan/pixel_plans.h"
+
+#include <algorithm>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/base/to_integer.h"
+
+namespace kaustik {
+namespace {
+
+/// Bounds of a pixel's radius, in widths of the pixel on the surface.
+constexpr float least_widths = 1, most_widths = 6;
+/// Most of the radius at later vertices, in distances of what the camera sees.
+constexpr float most_other_radius = 0.03f;
+
+Vec3f side_of(const SurfaceVertex& vertex) {
+  return vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
+}
+
+}  // namespace
+
+PixelPlans::PixelPlans(const Scene& scene)
+    : seen_(std::make_shared<const SeenSurfaces>(scene)), plans_(seen_->probes().size()) {}
+
+void PixelPlans::choose_disks(const LightVertices& pilot, uint32_t paths, int wanted_neighbors,
+                              float given, const std::stop_token& stop) {
+  if (given > 0) {
+    other_area_ = pi * sqr(given);
+    for (PixelPlan& plan : plans_) plan.merge_area = other_area_;
+    return;
+  }
+  const double share = double(pilot.path_count) / double(std::max(1u, paths));
+  const int neighbors = to_integer(std::round(wanted_neighbors * share), 2, 1 << 30);
+  parallel_blocks(plans_.size(), 16, [&](size_t begin, size_t end, size_t) {
+    SidedTree<LightVertexData>::Neighbors found;
+    for (size_t i = begin; i < end && !stop.stop_requested(); ++i) {
+      const PixelProbe& probe = seen_->probes()[i];
+      if (!probe.found || pilot.tree.empty()) continue;
+      pilot.tree.nearest(probe.vertex.position(), side_of(probe.vertex), false, neighbors,
+                         most_widths * probe.pixel_width, found);
+      const float radius = found.complete() ? std::sqrt(found.farthest_sq()) : float(infinity);
+      plans_[i].merge_area = pi * sqr(std::clamp(radius, least_widths * probe.pixel_width,
+                                                 most_widths * probe.pixel_width));
+    }
+  });
+  fill_gaps();
+  const float typical = pilot.tree.typical_radius(neighbors, 0.5f);
+  other_area_ = pi * sqr(std::min(typical, most_other_radius * seen_->mean_distance()));
+}
+
+void PixelPlans::find_edges(const Scene& scene, float widths, float given, uint64_t& rays,
+                            const std::stop_token& stop) {
+  auto seen = std::make_shared<SeenSurfaces>(*seen_);
+  seen->find_edges(scene, widths, given, rays, stop);
+  seen_ = std::move(seen);
+}
+
+PixelPlans PixelPlans::with(std::vector<PixelPlan> plans) const {
+  PixelPlans result = *this;
+  result.plans_ = std::move(plans);
+  result.fill_gaps();
+  return result;
+}
+
+void PixelPlans::fill_gaps() {
+  const Vec2i blocks = seen_->grid().count();
+  const auto width = size_t(blocks.x), height = size_t(blocks.y);
+  std::vector<bool> row_is_known(height);
+  for (size_t y = 0; y < height; ++y) {
+    // From the left, and what comes before the first of a row from the right.
+    size_t first = width;
+    for (size_t x = 0; x < width; ++x) {
+      const size_t i = y * width + x;
+      if (seen_->probes()[i].found)
+        first = std::min(first, x);
+      else if (first < width)
+        plans_[i] = plans_[i - 1];
+    }
+    if (first == width) continue;
+    row_is_known[y] = true;
+    for (size_t x = 0; x < first; ++x) plans_[y * width + x] = plans_[y * width + first];
+  }
+  // Rows of which nothing is known, from above, and the first ones from below.
+  const auto copy_row = [&](size_t to, size_t from) {
+    if (row_is_known[to] || !row_is_known[from]) return;
+    std::copy_n(plans_.begin() + std::ptrdiff_t(from * width), width,
+                plans_.begin() + std::ptrdiff_t(to * width));
+    row_is_known[to] = true;
+  };
+  for (size_t y = 1; y < height; ++y) copy_row(y, y - 1);
+  for (size_t y = height - 1; y-- > 0;) copy_row(y, y + 1);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,87 @@
+#pragma once
+#include <algorithm>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "kaustik/photon/coverage/seen_surfaces.h"
+#include "kaustik/vcm/light_vertices.h"
+
+namespace kaustik {
+
+/// Where paths go on seldom they are worth less than they cost; more seldom than this, never.
+inline constexpr float least_survival = 0.02f;
+
+/// What is decided for the first vertex of a pixel's camera paths whose event is not delta.
+struct PixelPlan {
+  float merge_area = 0;  ///< of the disk of merging, m²
+  float survival = 1;    ///< chance of going on from there, but to look for lamps
+  /// Mean square over variance of what a path that goes on finds: samples that hardly differ are
+  /// worth more than their number (variance-aware weights, Grittmann et al. 2019).
+  float evenness = 1;
+  float connected = 1;  ///< whether camera vertices are connected to those of light paths: 0 or 1
+
+  // What weights go by (PathHalves):
+  /// All samples of a pixel merge with the same light vertices, which count but once.
+  float counted_area(float camera_samples) const { return merge_area / camera_samples; }
+  float counted_survival() const { return survival * evenness; }
+};
+
+/// Camera samples per pixel, by blocks of pixels, of the passes of an epoch.
+struct SampleSpread {
+  uint32_t begin = 0;                   ///< first pass of the epoch
+  std::vector<uint32_t> counts;         ///< of a pass
+  std::vector<uint32_t> first_indices;  ///< of a replicate's first pass of the epoch
+  std::vector<uint32_t> next_indices;   ///< the same of the next epoch
+};
+
+/// The plans of the first pass: a table over blocks of pixels, and one radius for all vertices but
+/// the first. The pixel's radius is that which some light vertices of a pilot pass take, within
+/// bounds from the pixel's footprint: smaller ones would blur less than the pixel does anyway,
+/// larger ones show. Whether paths go on is up to choose_survival().
+class PixelPlans {
+ public:
+  PixelPlans() = default;
+  /// For what the picture shows; no disks yet.
+  explicit PixelPlans(const Scene& scene);
+  /// So many vertices of a pass set a radius, as a pilot pass tells, which may have fewer paths.
+  /// `given` > 0 is taken for all, m. `paths`: light paths of a pass.
+  void choose_disks(const LightVertices& pilot, uint32_t paths, int neighbors, float given,
+                    const std::stop_token& stop = {});
+
+  /// SeenSurfaces::find_edges()
+  void find_edges(const Scene& scene, float widths, float given, uint64_t& rays,
+                  const std::stop_token& stop = {});
+
+  /// By a probe for each block of pixels.
+  const SeenSurfaces& seen() const { return *seen_; }
+  /// Those of the probes.
+  const std::vector<PixelPlan>& plans() const { return plans_; }
+  /// The same with other plans, one for each probe.
+  PixelPlans with(std::vector<PixelPlan> plans) const;
+
+  /// Null: all pixels get as many camera samples.
+  const std::shared_ptr<const SampleSpread>& spread() const { return spread_; }
+  void set_spread(std::shared_ptr<const SampleSpread> spread) { spread_ = std::move(spread); }
+
+  /// With disks of `shrinkage` times the area of those of the first pass.
+  PixelPlan at(const Vec2f& raster, float shrinkage) const {
+    PixelPlan plan = plans_[seen_->grid().index_at(raster)];
+    plan.merge_area *= shrinkage;
+    return plan;
+  }
+  /// Area of the disk at all other vertices, m².
+  float other_area() const { return other_area_; }
+
+ private:
+  /// Blocks whose probe found nothing get what is known of others nearby: a pixel may show more
+  /// than its probe.
+  void fill_gaps();
+
+  std::shared_ptr<const SeenSurfaces> seen_ = std::make_shared<const SeenSurfaces>();
+  std::shared_ptr<const SampleSpread> spread_;
+  std::vector<PixelPlan> plans_{PixelPlan()};
+  float other_area_ = 0;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,337 @@
+#include "kaustik/vcm/plan/plans.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "kaustik/vcm/camera_path/camera_path.h"
+#include "kaustik/vcm/lessons/radius_learning.h"
+#include "kaustik/vcm/light_pass.h"
+#include "kaustik/vcm/plan/path_pilot.h"
+
+namespace kaustik {
+namespace {
+
+/// Light paths of a pilot pass: half of a pass's, within these bounds.
+constexpr uint32_t fewest_pilot_paths = 1 << 13, most_pilot_paths = 1 << 18;
+/// Pilot passes, each guided by those before, that there are at most; another one is traced where
+/// what was learned takes off so much of the second moment.
+constexpr uint32_t most_pilots = 4;
+constexpr double worth_a_pilot = 0.7;
+/// Or where no more paths than that were of use.
+constexpr size_t few_paths = 1024;
+/// Trials whether to guide scattering have so small a part of the pilot passes' paths.
+constexpr uint32_t trial_part = 4;
+/// Light paths are guided where they are scattered if no more than this is left of noise times
+/// rays.
+constexpr double worth_guiding = 0.8;
+/// Light paths of a pass at most, of which each takes about a kilobyte: passes of many samples have
+/// no more of them, unless a pass of so few samples as is usual has.
+constexpr double most_light_paths = 1 << 21, most_usual_light_paths = 1 << 24;
+constexpr double usual_samples = 4;
+/// Light paths of a crop window at most, relative to those of a picture of its size, which so takes
+/// a few times as long; and how many any window may have.
+constexpr double most_times_own = 16, paths_of_any_crop = 1 << 16;
+/// Light paths that are tried beside those that are asked for, relative to them.
+constexpr std::array<float, 3> light_path_factors{1, 4, 0.25f};
+/// Fewer have wider disks, whose bias is not counted: they must be so much better.
+constexpr double worth_fewer = 1.25;
+constexpr float near_per_distance = 0.01746f;  // tan 1°
+
+/// Whether there is a vertex that light of a point, or of something else that is never met, has
+/// come to after a delta event: nothing but light paths will find such light.
+bool has_hidden_light(const LightVertices& light) {
+  const auto all = light.tree.tree().data();
+  const auto is_hidden = [&](const auto& data) {
+    const PathVertex& first = light.vertices[size_t(data.path) + 1];
+    return data.before >= 2 && first.to_previous == 0 && first.delta;
+  };
+  return std::any_of(all.begin(), all.end(), is_hidden) ||
+         std::any_of(light.in_media.data.begin(), light.in_media.data.end(), is_hidden);
+}
+
+/// As many vertices as on surfaces, were those in media spread over the picture, in discs that blur
+/// by no more than theirs.
+MediumDisks medium_disks(const Scene& scene, const VcmSettings& settings,
+                         const LightVertices& pilot, uint32_t of_pass, float mean_length) {
+  constexpr float least_widths = 1, most_widths = 6;
+  const Vec2i size = scene.film().size;
+  const double per_pixel = double(pilot.in_media.size()) / double(pilot.path_count) *
+                           double(of_pass) / (double(size.x) * double(size.y));
+  const double wanted = std::sqrt(double(settings.merge_neighbors) * double(inv_pi) / per_pixel);
+  const float widths = wanted < double(most_widths) ? float(wanted) : most_widths;
+  return {scene, std::max(least_widths, widths), settings.radius, mean_length};
+}
+
+/// Whether light of these components may merge.
+bool is_merging_wanted(ComponentSet components) {
+  return components.has(Component::caustic) || components.has(Component::indirect) ||
+         components.has(Component::specular) || components.has(Component::volume);
+}
+
+std::string described(const VcmPlans& plans, double gain) {
+  if (!plans.techniques.merging)
+    return "auto: paths from the camera alone, light paths would not pay";
+  const std::vector<PixelPlan>& pixels = plans.pixels.plans();
+  double going_on = 0;
+  for (const PixelPlan& plan : pixels) going_on += double(plan.survival);
+  going_on /= double(std::max<size_t>(1, pixels.size()));
+  const std::string why =
+      std::isfinite(gain)
+          ? fmt::format(
+                "{:.2g} times less to do than for paths from the camera alone, by a pilot's "
+                "estimate",
+                gain)
+          : std::string("they alone might not find all light");
+  return fmt::format(
+      "auto: {:.3g} light paths per camera sample, camera paths go on in {:.0f} % of cases: {}",
+      plans.light_paths, 100 * going_on, why);
+}
+
+/// Settles how many light paths there are, if any, and says so.
+void choose_light_paths(VcmPlans& plans) {
+  const std::vector<PixelPlan> disks = plans.pixels.plans();
+  const auto with = [&](float light_paths) {
+    VcmPlans result = plans;
+    result.light_paths = light_paths;
+    if (light_paths == 0) result.techniques = result.techniques.of_camera_paths();
+    const Efficiency expected = result.settle(disks, 1);
+    return std::pair(std::move(result), expected);
+  };
+  const auto of_paths_alone = with(0);
+  const bool needs_merging = plans.pilot->needs_merging;
+  auto best = of_paths_alone;
+  if (needs_merging) best.second.squared_error = std::numeric_limits<double>::infinity();
+  for (const float factor : light_path_factors) {
+    auto other = with(plans.pilot->light_paths * factor);
+    const double handicap = factor < 1 && best.first.techniques.merging ? worth_fewer : 1;
+    if (other.second.time() * handicap < best.second.time()) best = std::move(other);
+  }
+  const double gain = needs_merging ? std::numeric_limits<double>::infinity()
+                                    : of_paths_alone.second.time() / best.second.time();
+  plans = std::move(best.first);
+  plans.decisions.push_back(described(plans, gain));
+}
+
+}  // namespace
+
+void VcmPlans::guide_by(const LightPathUse& learned) {
+  if (const auto found = learned.emission().learned()) emission = found;
+  if (!scattering) return;
+  const LightPathUse::Noise& noise = learned.noise();
+  const bool pays = noise.guided < noise.unguided;
+  scattering = pays ? learned.scattering().learned() : nullptr;
+}
+
+std::vector<MergeScale> VcmPlans::merge_scales(const std::vector<PixelPlan>& disks,
+                                               float shrinkage) const {
+  std::vector<MergeScale> scales(disks.size());
+  for (size_t i = 0; i < disks.size(); ++i) {
+    scales[i].light_paths =
+        techniques.merging ? double(light_paths) / double(pilot->light_paths) : 0.0;
+    if (pilot->areas[i] > 0)
+      scales[i].area = double(disks[i].merge_area * shrinkage) / double(pilot->areas[i]);
+  }
+  return scales;
+}
+
+Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
+  Efficiency result;
+  if (chooses_survival)
+    result = choose_survival(pilot->probes, pilot->costs, merge_scales(disks, shrinkage), disks);
+  if (!connects.empty())
+    for (size_t i = 0; i < disks.size(); ++i) disks[i].connected = connects[i] ? 1.0f : 0.0f;
+  pixels = pixels.with(std::move(disks));
+  return result;
+}
+
+uint32_t light_path_count(const Vec2i& size, uint32_t samples_per_pixel, float light_paths) {
+  const double of_sample = double(light_paths) * double(size.x) * double(size.y);
+  const double most =
+      std::clamp(of_sample * usual_samples, most_light_paths, most_usual_light_paths);
+  return uint32_t(std::clamp(of_sample * double(samples_per_pixel), 1.0, most));
+}
+
+uint32_t light_path_count(const FilmSettings& film, uint32_t samples_per_pixel, float light_paths) {
+  const uint32_t own = light_path_count(film.crop_size, samples_per_pixel, light_paths);
+  const uint32_t whole = light_path_count(film.size, samples_per_pixel, light_paths);
+  const double most =
+      std::min(most_light_paths, std::max(most_times_own * double(own), paths_of_any_crop));
+  return std::max(own, uint32_t(std::min(double(whole), most)));
+}
+
+float accepted_area(const PixelPlans& pixels) {
+  return pi * sqr(near_per_distance * pixels.seen().mean_distance());
+}
+
+VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& stop) const {
+  VcmPlans plans = plan(samples_per_pixel, stop);
+  if (plans.scattering && plans.techniques.needs_light_paths())
+    plans.decisions.push_back(fmt::format(
+        "light paths are guided where matt surfaces scatter them: {:.2g} times less to do for what "
+        "they bring, by a pilot's estimate",
+        1 / plans.noise_of_guided));
+  return plans;
+}
+
+VcmPlans VcmPlanner::plan(uint32_t samples_per_pixel, const std::stop_token& stop) const {
+  VcmPlans plans;
+  plans.samples_per_pixel = samples_per_pixel;
+  plans.emission = plain_;
+  plans.techniques = settings_.techniques;
+  plans.light_paths = settings_.light_paths;
+  plans.chooses_survival = settings_.choose_survival;
+  if (!settings_.techniques.merging && !settings_.techniques.connections) return plans;
+  if (settings_.techniques.merging) plans.pixels = PixelPlans(scene_);
+  const uint32_t of_pass =
+      light_path_count(scene_.film(), samples_per_pixel, settings_.light_paths);
+  const uint32_t count =
+      std::min({of_pass, most_pilot_paths, std::max(fewest_pilot_paths, of_pass / 2)});
+  const PilotLight light = search_light(plans, count, stop);
+  if (!light.vertices.connectible.empty())
+    plans.connectible_per_path =
+        float(light.vertices.connectible.size()) / float(light.vertices.connectible_paths());
+  if (!settings_.techniques.merging || stop.stop_requested()) return plans;
+  plans.pixels.choose_disks(light.vertices, of_pass, settings_.merge_neighbors, settings_.radius,
+                            stop);
+  plans.media =
+      medium_disks(scene_, settings_, light.vertices, of_pass, plans.pixels.seen().mean_distance());
+  plans.pilot = std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass, stop));
+  if (stop.stop_requested()) return plans;
+  if (settings_.chooses_connections)
+    plans.connects.assign(plans.pixels.seen().probes().size(), false);
+  if (settings_.chooses_light_paths)
+    choose_light_paths(plans);
+  else
+    plans.settle(plans.pixels.plans(), 1);
+  if (plans.techniques.merging && settings_.edges)
+    plans.pixels.find_edges(scene_, RadiusLearning::widest_widths(), settings_.radius,
+                            plans.pilot_rays, stop);
+  return plans;
+}
+
+VcmPlanner::PilotLight VcmPlanner::search_light(VcmPlans& plans, uint32_t count,
+                                                const std::stop_token& stop) const {
+  if (!settings_.guiding) return trace_pilot({plain_, nullptr}, 0, count, plans, stop);
+  const auto use = std::make_shared<LightPathUse>(scene_, *plain_, settings_.components);
+  plans.use = use;
+  const auto searching = std::make_shared<const LightPathEmission>(*plain_, use->targets());
+  std::shared_ptr<const LightPathEmission> emission = searching;
+  for (uint32_t pilots = 1;; ++pilots) {
+    PilotLight light = trace_pilot({emission, nullptr}, pilots - 1, count, plans, stop);
+    if (stop.stop_requested()) return light;
+    use->learn(light.vertices);
+    const EmissionLearning& learning = use->emission();
+    const double before = learning.second_moment(*plans.emission);
+    plans.guide_by(*use);
+    const double after = learning.second_moment(*plans.emission);
+    const bool searches = plans.emission == plain_ && learning.size() < few_paths;
+    if (pilots == most_pilots || !(searches || after < worth_a_pilot * before)) {
+      // All else is to be told by light as passes will have it.
+      if (emission != plans.emission) {
+        light = trace_pilot({plans.emission, nullptr}, pilots, count, plans, stop);
+        if (!stop.stop_requested()) use->learn(light.vertices);
+      }
+      return guide_scattering(plans, *use, std::move(light), pilots + 1, count, stop);
+    }
+    emission = searches ? searching : plans.emission;
+  }
+}
+
+VcmPlanner::PilotLight VcmPlanner::guide_scattering(VcmPlans& plans, LightPathUse& use,
+                                                    PilotLight light, uint32_t round,
+                                                    uint32_t count,
+                                                    const std::stop_token& stop) const {
+  if (!settings_.guided_scattering) return light;
+  const uint32_t of_trial = std::max(1u, count / trial_part);
+  const double unguided_rays = double(light.rays) / double(count) * double(of_trial);
+  for (const uint32_t end = round + most_pilots; round < end; ++round) {
+    const auto learned = use.scattering().learned();
+    if (!learned) break;
+    const PilotLight trial = trace_pilot({plans.emission, learned}, round, of_trial, plans, stop);
+    if (stop.stop_requested()) return light;
+    use.learn_scattering(trial.vertices);
+    const LightPathUse::Noise& noise = use.noise();
+    const double guided = noise.guided * double(trial.rays);
+    const double least = plans.scattering ? plans.noise_of_guided : worth_guiding;
+    if (!(guided < least * noise.unguided * unguided_rays)) break;
+    plans.noise_of_guided = guided / (noise.unguided * unguided_rays);
+    plans.scattering = learned;
+  }
+  if (!plans.scattering) return light;
+  light = trace_pilot({plans.emission, plans.scattering}, round + 1, count, plans, stop);
+  use.forget_emission();
+  if (!stop.stop_requested()) use.learn(light.vertices);
+  return light;
+}
+
+VcmPlanner::PilotLight VcmPlanner::trace_pilot(const Guides& guides, uint32_t round, uint32_t count,
+                                               VcmPlans& plans, const std::stop_token& stop) const {
+  PathWeights::Settings pilot;
+  pilot.techniques.merging = settings_.techniques.merging;
+  pilot.techniques.connections = settings_.techniques.connections || settings_.chooses_connections;
+  pilot.accepted_area = accepted_area(plans.pixels);
+  const PathWeights weights(pilot);
+  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  Pass pass;
+  pass.index = round;
+  PassReport report;
+  PilotLight light;
+  light.vertices = trace_light_vertices(
+      {scene_, *guides.emission, weights, settings_.components, settings_.maximum_events, count, 1,
+       PixelPlans(), 1, settings_.guiding ? LightPathUse::most_pilot_paths : 0, MediumDisks(),
+       guides.scattering.get(), settings_.guided_scattering},
+      pass, Stream::training, nowhere, stop, {}, report);
+  light.guides = guides;
+  light.rays = report.rays;
+  plans.pilot_rays += report.rays;
+  return light;
+}
+
+VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light, uint32_t light_paths,
+                                const std::stop_token& stop) const {
+  VcmPilot pilot;
+  PathWeights::Settings settings;
+  settings.techniques = settings_.techniques;
+  settings.techniques.splats = settings.techniques.connections = false;
+  settings.light_paths = float(light_paths);
+  settings.merge_area = plans.pixels.other_area();
+  settings.accepted_area = accepted_area(plans.pixels);
+  const PathWeights weights(settings);
+  const auto samples = double(plans.samples_per_pixel);
+  const VcmCameraInputs inputs{scene_,
+                               *light.guides.emission,
+                               weights,
+                               light.vertices,
+                               MattMerging(),
+                               plans.pixels,
+                               float(samples),
+                               0,
+                               settings.merge_area * inv_pi,
+                               plans.media,
+                               settings_.maximum_events,
+                               light.guides.scattering.get()};
+  const double light_share = double(light.vertices.path_count) / double(light_paths);
+  pilot.probes = probe_statistics(
+      inputs, plans.pixels,
+      {light_share, settings_.maximum_events, settings_.roulette_depth, settings_.components},
+      plans.pilot_rays, stop);
+  for (const PixelPlan& plan : plans.pixels.plans()) pilot.areas.push_back(plan.merge_area);
+  pilot.light_paths = plans.light_paths;
+  pilot.needs_merging = scene_.has_scattering() || (is_merging_wanted(settings_.components) &&
+                                                    has_hidden_light(light.vertices));
+  const Vec2i size = scene_.film().crop_size;
+  // Chances of going on are to be those of the whole picture, so what light paths a crop window has
+  // beyond its own size's are taken for its neighbours'.
+  const double shared_by =
+      double(light_paths) /
+      double(light_path_count(size, plans.samples_per_pixel, settings_.light_paths));
+  pilot.costs = {samples, double(light.rays) / light_share /
+                              (samples * double(size.x) * double(size.y) * shared_by)};
+  return pilot;
+}
+
+}  // namespace kaustik

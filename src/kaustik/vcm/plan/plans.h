@@ -1,0 +1,110 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kaustik/transport/integrator.h"
+#include "kaustik/vcm/lessons/light_path_emission.h"
+#include "kaustik/vcm/lessons/light_path_use.h"
+#include "kaustik/vcm/light_vertices.h"
+#include "kaustik/vcm/merging/medium_disks.h"
+#include "kaustik/vcm/plan/efficiency.h"
+#include "kaustik/vcm/plan/pixel_plans.h"
+#include "kaustik/vcm/settings.h"
+
+namespace kaustik {
+
+/// What the paths of a pilot pass tell of each probe.
+struct VcmPilot {
+  std::vector<ProbeStatistics> probes;
+  std::vector<float> areas;  ///< of the disks that they were taken with, m²
+  PassCosts costs;
+  float light_paths = 0;  ///< per camera sample, of the passes that it speaks of
+  /// Light arrives somewhere in the scene that no path from the camera can find, or media scatter
+  /// it, of which the pilot knows nothing.
+  bool needs_merging = false;
+};
+
+/// What connection and merging know before a pass, from pilot passes and from finished ones.
+struct VcmPlans {
+  uint32_t samples_per_pixel = 0;
+  std::shared_ptr<const LightPathEmission> emission;
+  std::shared_ptr<const ScatterGuide> scattering;  ///< of light paths; null: not guided
+  /// Its noise times rays, relative to that without, in the trial of the pilot's last guide.
+  double noise_of_guided = 1;
+  Techniques techniques;
+  float light_paths = 0;  ///< per camera sample
+  PixelPlans pixels;
+  MediumDisks media;                      ///< of the first pass
+  std::shared_ptr<const VcmPilot> pilot;  ///< null: nothing merges
+  uint64_t pilot_rays = 0;
+  std::vector<std::string> decisions;  ///< what was chosen by itself, for the user
+  /// Vertices that may be connected, per light path: what the weights go by.
+  float connectible_per_path = 1;
+  /// Of the light paths of the pilot passes; null: emission is not guided.
+  std::shared_ptr<const LightPathUse> use;
+
+  bool chooses_survival = true;  ///< else camera paths always go on
+  /// Of each probe's block, whether camera paths are connected to light paths where that is one of
+  /// the techniques; empty: all are.
+  std::vector<bool> connects;
+
+  /// Guides the light paths of passes to come by what was learned.
+  void guide_by(const LightPathUse& learned);
+  /// Gives the probes these disks and, as the pilot tells if that is wanted, chances of going on,
+  /// for passes whose disks have `shrinkage` times the area; and connections.
+  Efficiency settle(std::vector<PixelPlan> disks, float shrinkage);
+  /// How merging in such disks differs from the pilot's, by probe.
+  std::vector<MergeScale> merge_scales(const std::vector<PixelPlan>& disks, float shrinkage) const;
+};
+
+/// Light paths of a pass of a picture of that size, with so many per camera sample.
+uint32_t light_path_count(const Vec2i& size, uint32_t samples_per_pixel, float light_paths);
+/// The same of what the film shows. A crop window gets the light paths of the whole picture, for
+/// disks are as wide as light paths are few and their bias is to be the same in all parts; but no
+/// more than some times those of its own size, and no more than memory may well go.
+uint32_t light_path_count(const FilmSettings& film, uint32_t samples_per_pixel, float light_paths);
+
+/// Makes the plans of the first pass, by pilot passes.
+class VcmPlanner {
+ public:
+  /// `plain` is not guided. All must outlive this.
+  VcmPlanner(const Scene& scene, const VcmSettings& settings,
+             const std::shared_ptr<const LightPathEmission>& plain)
+      : scene_(scene), settings_(settings), plain_(plain) {}
+
+  /// Worth nothing if it was stopped.
+  VcmPlans make(uint32_t samples_per_pixel, const std::stop_token& stop) const;
+
+ private:
+  struct Guides {
+    std::shared_ptr<const LightPathEmission> emission;
+    std::shared_ptr<const ScatterGuide> scattering;
+  };
+  VcmPlans plan(uint32_t samples_per_pixel, const std::stop_token& stop) const;
+  /// The light paths of a pilot pass.
+  struct PilotLight {
+    Guides guides;
+    LightVertices vertices;
+    uint64_t rays = 0;
+  };
+  /// Guides, and the light paths that tell all else, of pilot passes of so many paths.
+  PilotLight search_light(VcmPlans& plans, uint32_t count, const std::stop_token& stop) const;
+  /// Guides scattering, too, if that leaves less noise than `light`; the light of the plans then.
+  /// The pilot passes are numbered from `round` on.
+  PilotLight guide_scattering(VcmPlans& plans, LightPathUse& use, PilotLight light, uint32_t round,
+                              uint32_t count, const std::stop_token& stop) const;
+  PilotLight trace_pilot(const Guides& guides, uint32_t round, uint32_t count, VcmPlans& plans,
+                         const std::stop_token& stop) const;
+  VcmPilot make_pilot(VcmPlans& plans, const PilotLight& light, uint32_t light_paths,
+                      const std::stop_token& stop) const;
+
+  const Scene& scene_;
+  const VcmSettings& settings_;
+  const std::shared_ptr<const LightPathEmission>& plain_;
+};
+
+/// What counts as near in the weights of merging, by the distances from the camera, m².
+float accepted_area(const PixelPlans& pixels);
+
+}  // namespace kaustik

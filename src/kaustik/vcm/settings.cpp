@@ -1,0 +1,140 @@
+#include "kaustik/vcm/settings.h"
+
+#include "kaustik/transport/integrator.h"
+#include "kaustik/transport/integrator_parameters.h"
+
+namespace kaustik {
+namespace {
+
+Parameter adaptive_parameter() {
+  return boolean_parameter("adaptive", true,
+                           "Pixels whose samples differed in the passes before get more of them, "
+                           "at the cost of others; where light paths may merge.");
+}
+
+/// The table of a preset.
+std::vector<Parameter> parameters(const Techniques& preset) {
+  std::vector<Parameter> rows = {
+      components_parameter(),
+      max_depth_parameter(),
+      rr_depth_parameter(),
+      aim_parameter(),
+      boolean_parameter("guiding", true,
+                        "Light paths are learned from those that reach what the camera sees: which "
+                        "lights they begin at, and where they go. A share of them goes on as "
+                        "without."),
+      boolean_parameter("guided_scattering", true,
+                        "Where light paths are learned, so is where they go on from matt "
+                        "surfaces."),
+      boolean_parameter("unidirectional", preset.unidirectional,
+                        "Light that the camera's paths meet by chance counts."),
+      boolean_parameter("next_event", preset.next_event,
+                        "Every vertex of the camera's paths samples a light."),
+      boolean_parameter("splats", preset.splats,
+                        "Vertices of light paths are connected to the camera."),
+      boolean_parameter("connections", preset.connections,
+                        "Vertices of the camera's paths are connected to vertices of light "
+                        "paths."),
+      boolean_parameter("merging", preset.merging,
+                        "Vertices of light paths near a vertex of the camera's path count as if "
+                        "they were there (photon mapping)."),
+      number_parameter("light_paths", 0.25, "Light paths per camera sample.").range(0.001, 1000),
+      integer_parameter("connection_samples", 1,
+                        "Vertices of light paths that each vertex of the camera's paths is "
+                        "connected to.")
+          .range(1, 1024),
+      integer_parameter("merge_neighbors", 30,
+                        "Vertices of light paths that the first radius of merging is made for.")
+          .range(1, 1 << 20),
+      number_parameter("radius", 0,
+                       "Radius of merging in the first pass; it shrinks from pass to pass. 0: from "
+                       "the size of the pixels and the density of the light paths.")
+          .range(0, 1e30)
+          .in("m"),
+      boolean_parameter("correlation", true,
+                        "Weights of merging take into account that what is merged shares the "
+                        "camera's path."),
+      boolean_parameter("learn_radii", true,
+                        "Radii are learned from the light paths of the passes before; else those "
+                        "of the first pass shrink."),
+      boolean_parameter("edges", true,
+                        "Disks of merging end at the straight edges around them, with kernels that "
+                        "light's gradient does not bias."),
+      boolean_parameter("visibility", true,
+                        "Vertices of light paths merge only where nothing opaque hides them."),
+      boolean_parameter("choose_survival", true,
+                        "A pilot chooses, place by place, how often the camera's paths go on "
+                        "beside what merges; else they always do."),
+      integer_parameter("samples_per_pass", 4, "Samples per pixel and pass.").range(1, 1 << 20),
+      adaptive_parameter(),
+      ignored_parameter("hide_emitters", ParameterKind::boolean)};
+  return rows;
+}
+
+}  // namespace
+
+const TypeInfo& vcm_info() {
+  static const TypeInfo info{
+      "integrator", "vcm",
+      "Vertex connection and merging: paths from the camera and from the lights, combined in every "
+      "way; each way can be switched off.",
+      parameters({true, true, true, true, true})};
+  return info;
+}
+
+const TypeInfo& bdpt_info() {
+  static const TypeInfo info{"integrator", "bdpt",
+                             "Bidirectional path tracing: vcm without merging, unbiased.",
+                             parameters({true, true, true, true, false})};
+  return info;
+}
+
+const TypeInfo& ppm_info() {
+  static const TypeInfo info{
+      "integrator", "ppm",
+      "Progressive photon mapping: vcm with merging at the camera's vertices, light sampling and "
+      "lights met by chance.",
+      parameters({true, true, false, false, true})};
+  return info;
+}
+
+const TypeInfo& auto_info() {
+  static const TypeInfo info{
+      "integrator",
+      "auto",
+      "Chooses by itself, region by region, between paths from the camera and light paths that "
+      "merge with them; needs no parameter.",
+      {components_parameter(), max_depth_parameter(), rr_depth_parameter(), adaptive_parameter(),
+       ignored_parameter("hide_emitters", ParameterKind::boolean)}};
+  return info;
+}
+
+VcmSettings::VcmSettings(const Arguments& arguments)
+    : components(read_components(arguments)),
+      maximum_events(read_maximum_events(arguments)),
+      roulette_depth(int(arguments.integer("rr_depth"))),
+      adaptive(arguments.boolean("adaptive")) {
+  if (&arguments.info() == &auto_info()) {
+    techniques.merging = true;
+    chooses_light_paths = chooses_connections = true;
+    return;
+  }
+  aim = read_aim(arguments.text("aim"));
+  guiding = arguments.boolean("guiding");
+  guided_scattering = arguments.boolean("guided_scattering");
+  light_paths = float(arguments.number("light_paths"));
+  connections = int(arguments.integer("connection_samples"));
+  merge_neighbors = int(arguments.integer("merge_neighbors"));
+  radius = float(arguments.number("radius"));
+  correlation = arguments.boolean("correlation");
+  learn_radii = arguments.boolean("learn_radii");
+  edges = arguments.boolean("edges");
+  visibility = arguments.boolean("visibility");
+  choose_survival = arguments.boolean("choose_survival");
+  samples_per_pass = uint32_t(arguments.integer("samples_per_pass"));
+  techniques = {arguments.boolean("unidirectional"), arguments.boolean("next_event"),
+                arguments.boolean("splats"), arguments.boolean("connections"),
+                arguments.boolean("merging")};
+}
+
+}  // namespace kaustik

@@ -1,0 +1,45 @@
+#pragma once
+#include "kaustik/photon/emission/emission.h"
+#include "kaustik/transport/component.h"
+#include "kaustik/transport/path_weights.h"
+
+namespace kaustik {
+
+/// All parameters of the integrators that combine paths from the camera with paths from the lights.
+struct VcmSettings {
+  ComponentSet components = ComponentSet::all();
+  Techniques techniques;
+  int maximum_events = 1 << 20;
+  int roulette_depth = 5;
+  Aim aim = default_aim;
+  bool guiding = true;
+  bool guided_scattering = true;  ///< beside emission
+  float light_paths = 0.25f;      ///< per camera sample
+  int connections = 1;            ///< per vertex of the camera's path
+  int merge_neighbors = 30;       ///< light vertices that the first radius is made for
+  float radius = 0;             ///< of merging in pass 0, m; 0: from the pixels and the light paths
+  bool correlation = true;      ///< see PathWeights
+  bool learn_radii = true;      ///< from the passes before; else the first pass's shrink
+  bool edges = true;            ///< disks of merging end at the straight edges around them
+  bool visibility = true;       ///< what is hidden does not merge
+  bool choose_survival = true;  ///< of camera paths beside what merges; else they always go on
+  uint32_t samples_per_pass = 4;
+  bool adaptive = true;              ///< camera samples go where passes before find them to differ
+  bool chooses_light_paths = false;  ///< how many, or none at all, by what a pilot tells
+  bool chooses_connections = false;  ///< where there are any, by what a trial tells
+
+  /// Of one of the tables below.
+  explicit VcmSettings(const Arguments& arguments);
+};
+
+/// "vcm": all techniques, each of which can be switched off.
+const TypeInfo& vcm_info();
+/// "bdpt": all but merging.
+const TypeInfo& bdpt_info();
+/// "ppm": merging alone, for what light paths bring; direct light as ever.
+const TypeInfo& ppm_info();
+
+/// "auto": as ppm, and all else by what a pilot tells.
+const TypeInfo& auto_info();
+
+}  // namespace kaustik

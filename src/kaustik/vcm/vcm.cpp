@@ -1,0 +1,310 @@
+#include "kaustik/vcm/vcm.h"
+
+#include <algorithm>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/photon/photon_map.h"
+#include "kaustik/vcm/camera_path/camera_path.h"
+#include "kaustik/vcm/light_pass.h"
+
+namespace kaustik {
+namespace {
+
+/// Progress of part `i` of `count` alike.
+ProgressFunction part_of(const ProgressFunction& whole, uint32_t i, uint32_t count) {
+  if (!whole) return {};
+  return [&whole, i, count](double share) { whole((i + share) / count); };
+}
+
+/// Events after which paths no longer branch.
+constexpr int most_split_events = 4;
+/// Of the sampler's forks: for a branch.
+constexpr uint32_t branch_key = 4;
+
+}  // namespace
+
+VcmIntegrator::Branch VcmIntegrator::Branch::by(float chance) const {
+  // Followed so many times more often than chance would have it.
+  constexpr float most_often = 8;
+  Branch result;
+  result.survival = survival * std::min(1.0f, most_often * share * chance);
+  result.share = share * chance * survival / result.survival;
+  return result;
+}
+
+struct VcmIntegrator::State final : PassState {
+  std::shared_ptr<const VcmPlans> plans;
+  PathWeights weights;
+  LightVertices light;
+  MattMerging matt;
+  float shrinkage = 1;  ///< of the disks of merging
+  MediumDisks media;    ///< shrunk
+  float connection_scale = 0;
+  /// Per pixel, on average: what all weights go by, so those of all ways of finding a path still
+  /// sum to 1 where a pixel gets more or fewer.
+  float camera_samples = 1;
+
+  State(std::shared_ptr<const VcmPlans> of_pass, const PathWeights& weights_of_pass,
+        const Pass& pass)
+      : plans(std::move(of_pass)),
+        weights(weights_of_pass),
+        shrinkage(sqr(pass_radius(1, pass.index))),
+        media(plans->media.shrunk(shrinkage)),
+        camera_samples(float(pass.samples_per_pixel)) {}
+};
+
+VcmIntegrator::VcmIntegrator(const Arguments& arguments, const Scene& scene)
+    : scene_(scene),
+      settings_(arguments),
+      plain_(std::make_shared<const LightPathEmission>(scene, settings_.aim)) {
+  if (!scene.has_scattering()) return;
+  // It knows of what use paths are on surfaces alone.
+  settings_.guiding = false;
+  // So does the pilot, which then can't choose. What few vertices merge in thin media leaves bright
+  // dots that connections take off.
+  if (settings_.chooses_light_paths)
+    settings_.techniques.splats = settings_.techniques.connections = true;
+  settings_.chooses_connections = false;
+}
+
+std::shared_ptr<const VcmPlans> VcmIntegrator::plans(uint32_t samples_per_pixel,
+                                                     const std::stop_token& stop,
+                                                     PassReport& report) const {
+  const std::lock_guard lock(plans_mutex_);
+  if (plans_ && plans_->samples_per_pixel == samples_per_pixel) return plans_;
+  auto made = isolated([&] {
+    return std::make_shared<const VcmPlans>(
+        VcmPlanner(scene_, settings_, plain_).make(samples_per_pixel, stop));
+  });
+  report.rays += made->pilot_rays;
+  if (!stop.stop_requested()) plans_ = made;
+  return made;
+}
+
+std::shared_ptr<const VcmPlans> VcmIntegrator::plans_for(const Pass& pass, std::stop_token stop,
+                                                         const ProgressFunction& progress,
+                                                         uint32_t& made_up,
+                                                         PassReport& report) const {
+  const auto first = plans(pass.samples_per_pixel, stop, report);
+  if (stop.stop_requested()) return first;
+  if (VcmLearning::learned_passes(*first, settings_) == 0) return first;
+  const std::lock_guard lock(learning_mutex_);
+  return isolated([&] {
+    const bool is_new = !learning_ || learning_->first() != first;
+    if (is_new) learning_ = std::make_unique<VcmLearning>(first, settings_);
+    if (is_new || learning_->seed() != pass.seed) learning_->begin(pass.seed);
+    const uint32_t learned = VcmLearning::learned_passes(*first, settings_);
+    const auto plans_of = [&](uint32_t index) {
+      return learning_->plans_of(VcmLearning::epoch_begin(index, learned), scene_, stop,
+                                 report.rays);
+    };
+    // Passes that were not rendered here are made up for, as far as learning goes.
+    const uint32_t begin = VcmLearning::epoch_begin(pass.index, learned);
+    const uint32_t missing_count = begin - std::min(begin, learning_->passes());
+    for (made_up = 0; made_up < missing_count; ++made_up) {
+      Pass missing = pass;
+      missing.index = learning_->passes();
+      learn_missing(plans_of(missing.index), missing, stop,
+                    part_of(progress, made_up, missing_count + 1), report);
+      if (stop.stop_requested()) return first;
+    }
+    return plans_of(pass.index);
+  });
+}
+
+void VcmIntegrator::learn_missing(std::shared_ptr<const VcmPlans> plans, const Pass& missing,
+                                  std::stop_token stop, const ProgressFunction& progress,
+                                  PassReport& report) const {
+  if (!learning_->wants_next()) return learning_->learn({}, {});
+  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  State state(plans, weights_for(*plans, missing), missing);
+  // Nobody sees its splats; what camera samples connect to is of use for these alone.
+  PathWeights::Settings unseen = state.weights.settings();
+  unseen.techniques.splats = false;
+  unseen.techniques.connections =
+      unseen.techniques.connections &&
+      (VcmLearning::wants_samples(missing.index, *learning_->first(), settings_) ||
+       VcmLearning::tries_connections(missing.index, *learning_->first(), settings_));
+  trace_light(state, missing, PathWeights(unseen), nowhere, stop, progress);
+  const VcmLearning::Samples samples = learning_samples(state, missing, stop);
+  report.rays += state.report.rays;
+  report.photons += state.report.photons;
+  if (!stop.stop_requested()) learning_->learn(state.light, samples);
+}
+
+VcmLearning::Samples VcmIntegrator::learning_samples(State& state, const Pass& pass,
+                                                     const std::stop_token& stop) const {
+  VcmLearning::Samples result;
+  if (VcmLearning::wants_samples(pass.index, *learning_->first(), settings_))
+    result.spread =
+        learning_->samples().take_samples(scene_, *this, state, pass, stop, state.report.rays);
+  if (VcmLearning::tries_connections(pass.index, *learning_->first(), settings_))
+    result.trial = learning_->connections().take_samples(
+        scene_.film().filter, settings_.components, pass,
+        [&](ConnectionLearning::Way way, const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
+          const Vec2f at = state.plans->pixels.seen().grid().window().in_crop(raster);
+          PixelPlan plan = state.plans->pixels.at(at, state.shrinkage);
+          plan.connected = way == ConnectionLearning::connected ? 1.0f : 0.0f;
+          trace_sample(state, at, plan, sampler, sink);
+        },
+        stop, state.report.rays);
+  return result;
+}
+
+void VcmIntegrator::learn_from(State& state, const Pass& pass, const std::stop_token& stop) const {
+  const std::lock_guard lock(learning_mutex_);
+  isolated([&] {
+    // Passes out of order are traced anew where they are needed.
+    if (!learning_->expects(pass)) return;
+    const VcmLearning::Samples samples = learning_samples(state, pass, stop);
+    if (!stop.stop_requested()) learning_->learn(state.light, samples);
+  });
+}
+
+PathWeights VcmIntegrator::weights_for(const VcmPlans& plans, const Pass& pass) const {
+  PathWeights::Settings weights;
+  weights.techniques = plans.techniques;
+  weights.light_paths =
+      float(light_path_count(scene_.film(), pass.samples_per_pixel, plans.light_paths));
+  weights.connections = float(settings_.connections) / plans.connectible_per_path;
+  weights.merge_area = plans.pixels.other_area() * sqr(pass_radius(1, pass.index));
+  weights.accepted_area = accepted_area(plans.pixels);
+  weights.first_medium_share = 1 / float(pass.samples_per_pixel);
+  weights.correlation = settings_.correlation;
+  return PathWeights(weights);
+}
+
+LightVertices VcmIntegrator::trace(const VcmPlans& plans, const PathWeights& weights,
+                                   const Pass& pass, SplatBuffer& splats, std::stop_token stop,
+                                   const ProgressFunction& progress, PassReport& report) const {
+  const float shrinkage = sqr(pass_radius(1, pass.index));
+  return trace_light_vertices(
+      {scene_, *plans.emission, weights, settings_.components, settings_.maximum_events,
+       light_path_count(scene_.film(), pass.samples_per_pixel, plans.light_paths),
+       float(pass.samples_per_pixel), plans.pixels, shrinkage,
+       VcmLearning::remembered_paths(pass.index, plans), plans.media.shrunk(shrinkage),
+       plans.scattering.get(), plans.scattering != nullptr},
+      pass, Stream::light_path, splats, stop, progress, report);
+}
+
+void VcmIntegrator::trace_light(State& state, const Pass& pass, const PathWeights& weights,
+                                SplatBuffer& splats, std::stop_token stop,
+                                const ProgressFunction& progress) const {
+  if (!state.plans->techniques.needs_light_paths()) return;
+  state.light = trace(*state.plans, weights, pass, splats, stop, progress, state.report);
+  if (state.plans->techniques.merging) state.matt = MattMerging(state.light, state.weights);
+  state.connection_scale =
+      float(double(state.light.connectible.size()) /
+            (double(settings_.connections) * double(state.light.connectible_paths())));
+}
+
+std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer& splats,
+                                                  std::stop_token stop,
+                                                  const ProgressFunction& progress) const {
+  uint32_t made_up = 0;
+  PassReport report;
+  const auto plans = plans_for(pass, stop, progress, made_up, report);
+  auto state = std::make_unique<State>(plans, weights_for(*plans, pass), pass);
+  state->report = std::move(report);
+  state->report.decisions.insert(state->report.decisions.end(), plans->decisions.begin(),
+                                 plans->decisions.end());
+  if (!plans->techniques.any())
+    state->report.warnings.emplace_back(
+        "all techniques are switched off: only lights that the camera sees straight are there; "
+        "switch on unidirectional, next_event, splats, connections or merging");
+  trace_light(*state, pass, state->weights, splats, stop, part_of(progress, made_up, made_up + 1));
+  if (VcmLearning::learned_passes(*plans, settings_) > 0 && !stop.stop_requested())
+    learn_from(*state, pass, stop);
+  return state;
+}
+
+PixelSamples VcmIntegrator::pixel_samples(const PassState& state, const Pass& pass,
+                                          const Vec2i& pixel) const {
+  const PixelPlans& pixels = static_cast<const State&>(state).plans->pixels;
+  const SampleSpread* spread = pixels.spread().get();
+  if (!spread) return Integrator::pixel_samples(state, pass, pixel);
+  const size_t block = pixels.seen().grid().index_at(Vec2f(float(pixel.x), float(pixel.y)));
+  const uint32_t count = spread->counts[block];
+  const uint32_t rounds = (pass.index - spread->begin) / replicate_count;
+  return {spread->first_indices[block] + rounds * count, count};
+}
+
+void VcmIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sampler& sampler,
+                           SampleSink& sink) const {
+  const auto& state = static_cast<const State&>(pass_state);
+  trace_sample(state, raster, state.plans->pixels.at(raster, state.shrinkage), sampler, sink);
+}
+
+void VcmIntegrator::trace_sample(const State& state, const Vec2f& raster, const PixelPlan& plan,
+                                 Sampler& sampler, SampleSink& sink) const {
+  CameraWalk walk(scene_, raster, sampler, sink);
+  const VcmCameraInputs inputs{scene_,
+                               *state.plans->emission,
+                               state.weights,
+                               state.light,
+                               state.matt,
+                               state.plans->pixels,
+                               state.camera_samples,
+                               state.connection_scale,
+                               state.weights.settings().merge_area * inv_pi,
+                               state.media,
+                               settings_.maximum_events,
+                               state.plans->scattering.get(),
+                               settings_.visibility};
+  VcmCameraPath path(inputs, walk, plan);
+  follow(state.plans->techniques, walk, path, {});
+}
+
+void VcmIntegrator::follow(const Techniques& techniques, CameraWalk& walk, VcmCameraPath& path,
+                           Branch branch) const {
+  Sampler& sampler = walk.sampler();
+  for (;;) {
+    const CameraWalk::Arrival arrival = path.go_on(scene_.has_scattering());
+    if (arrival == CameraWalk::Arrival::nothing) return;
+    // Lamps that a branch shows it shows always; all else as often as it is worth.
+    if (branch.survival < 1) {
+      if (!walk.survive_with(branch.survival, sampler.next_1d())) return;
+      branch.survival = 1;
+    }
+    const bool in_medium = arrival == CameraWalk::Arrival::medium;
+    if (walk.events() >= settings_.maximum_events) return;
+    if (techniques.next_event) in_medium ? walk.add_medium_light() : walk.add_direct_light(1, 1);
+    if (techniques.merging && !in_medium) path.merge();
+    if (techniques.connections) path.connect(settings_.connections);
+    const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
+    const bool may_split = !in_medium && path.is_at_first() && walk.events() < most_split_events;
+    if (const auto events = may_split ? walk.delta_events() : std::nullopt) {
+      split(techniques, walk, path, *events, branch);
+    } else if (in_medium) {
+      walk.scatter_in_medium(u);
+    } else if (!walk.scatter(Lobes::all, 1, u_choice.x, u)) {
+      return;
+    }
+    path.leave();
+    if (!walk.may_find_more()) return;
+    if (!path.survives_first(sampler.next_1d())) return;
+    if (walk.events() > settings_.roulette_depth && !walk.survive(u_choice.y)) return;
+  }
+}
+
+void VcmIntegrator::split(const Techniques& techniques, CameraWalk& stem, VcmCameraPath& path,
+                          const CameraWalk::DeltaEvents& events, Branch& branch) const {
+  const bool mirrors = events.reflection.pdf_solid_angle > events.transmission.pdf_solid_angle;
+  const BsdfSample& likely = mirrors ? events.reflection : events.transmission;
+  const BsdfSample& other = mirrors ? events.transmission : events.reflection;
+  // Layers of what is seen show the likely one.
+  const FirstHit seen = stem.first_hit();
+  {
+    Sampler numbers = stem.sampler().fork(branch_key);
+    CameraWalk walk(stem, numbers);
+    VcmCameraPath of_branch(path, walk);
+    walk.branch(other);
+    of_branch.leave();
+    if (walk.may_find_more()) follow(techniques, walk, of_branch, branch.by(other.pdf_solid_angle));
+  }
+  stem.set_first_hit(seen);
+  stem.branch(likely);
+  branch = branch.by(likely.pdf_solid_angle);
+}
+
+}  // namespace kaustik

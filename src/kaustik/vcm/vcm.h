@@ -1,0 +1,82 @@
+#pragma once
+#include <mutex>
+
+#include "kaustik/transport/camera_walk.h"
+#include "kaustik/transport/integrator.h"
+#include "kaustik/vcm/camera_path/camera_path.h"
+#include "kaustik/vcm/lessons/learning.h"
+#include "kaustik/vcm/plan/plans.h"
+#include "kaustik/vcm/settings.h"
+
+namespace kaustik {
+
+/// Vertex connection and merging (Georgiev et al. 2012; Hachisuka et al. 2012): paths from the
+/// camera and paths from the lights, combined by all techniques that are switched on. Its presets
+/// `bdpt` and `ppm` differ in these alone.
+class VcmIntegrator final : public Integrator {
+ public:
+  VcmIntegrator(const Arguments& arguments, const Scene& scene);
+
+  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token stop,
+                                     const ProgressFunction& progress) const override;
+  void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
+              SampleSink& sink) const override;
+  PixelSamples pixel_samples(const PassState& state, const Pass& pass,
+                             const Vec2i& pixel) const override;
+  bool splats() const override { return settings_.techniques.splats; }
+  uint32_t default_samples_per_pass() const override { return settings_.samples_per_pass; }
+  ComponentSet components() const override { return settings_.components; }
+  bool estimates_bias() const override { return settings_.techniques.merging; }
+
+ private:
+  struct State;
+  /// A path of several that camera paths branch into at smooth transparent surfaces.
+  struct Branch {
+    float share = 1;     ///< what chance would have left of such paths, over what was followed
+    float survival = 1;  ///< with which it is followed beyond the next vertex
+
+    /// One that chance would choose that often.
+    Branch by(float chance) const;
+  };
+  /// A camera sample of a pixel with that plan.
+  void trace_sample(const State& state, const Vec2f& raster, const PixelPlan& plan,
+                    Sampler& sampler, SampleSink& sink) const;
+  void follow(const Techniques& techniques, CameraWalk& walk, VcmCameraPath& path,
+              Branch branch) const;
+  /// Follows the less likely of two events and lets `stem` go on by the other.
+  void split(const Techniques& techniques, CameraWalk& stem, VcmCameraPath& path,
+             const CameraWalk::DeltaEvents& events, Branch& branch) const;
+  /// `made_up`: passes that had to be traced for it, in whose progress one more part is left.
+  std::shared_ptr<const VcmPlans> plans_for(const Pass& pass, std::stop_token stop,
+                                            const ProgressFunction& progress, uint32_t& made_up,
+                                            PassReport& report) const;
+  /// The pass's light paths, and all that samples need of them.
+  void trace_light(State& state, const Pass& pass, const PathWeights& weights, SplatBuffer& splats,
+                   std::stop_token stop, const ProgressFunction& progress) const;
+  /// A pass that is not rendered here, as far as learning goes.
+  void learn_missing(std::shared_ptr<const VcmPlans> plans, const Pass& missing,
+                     std::stop_token stop, const ProgressFunction& progress,
+                     PassReport& report) const;
+  /// What a pass has to teach beside its light paths.
+  VcmLearning::Samples learning_samples(State& state, const Pass& pass,
+                                        const std::stop_token& stop) const;
+  void learn_from(State& state, const Pass& pass, const std::stop_token& stop) const;
+  LightVertices trace(const VcmPlans& plans, const PathWeights& weights, const Pass& pass,
+                      SplatBuffer& splats, std::stop_token stop, const ProgressFunction& progress,
+                      PassReport& report) const;
+  PathWeights weights_for(const VcmPlans& plans, const Pass& pass) const;
+  /// Those for passes of so many samples, made when they are first asked for; worth nothing if that
+  /// was stopped.
+  std::shared_ptr<const VcmPlans> plans(uint32_t samples_per_pixel, const std::stop_token& stop,
+                                        PassReport& report) const;
+
+  const Scene& scene_;
+  VcmSettings settings_;
+  std::shared_ptr<const LightPathEmission> plain_;  ///< not guided
+  mutable std::mutex plans_mutex_;
+  mutable std::shared_ptr<const VcmPlans> plans_;
+  mutable std::mutex learning_mutex_;
+  mutable std::unique_ptr<VcmLearning> learning_;
+};
+
+}  // namespace kaustik

@@ -1,0 +1,241 @@
+// How often camera paths go on: by variances and costs, on paper, and the pilot's variances against
+// those of pictures, of paths alone and of merging.
+
+#include "kaustik/vcm/plan/efficiency.h"
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/vcm/light_pass.h"
+#include "kaustik/vcm/plan/path_pilot.h"
+#include "kaustik/vcm/plan/plans.h"
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+/// Light of 1 of which camera paths find all, merging a vertex of a pass for each 1/ratio of them.
+ProbeStatistics light(int log2_ratio, double path_variance = 1) {
+  ProbeStatistics probe;
+  probe.squares[size_t(ProbeStatistics::bin_of_one + log2_ratio)] = 1;
+  probe.path_mean_square = 1;
+  probe.path_variance = path_variance;
+  probe.radiance = 1;
+  probe.rays = 2;
+  probe.rays_beyond = 6;
+  return probe;
+}
+
+struct Chosen {
+  std::vector<PixelPlan> plans;
+  Efficiency expected;
+};
+Chosen choose(const std::vector<ProbeStatistics>& probes, double light_paths = 1, double area = 1,
+              double light_rays = 1) {
+  Chosen result;
+  result.plans.resize(probes.size());
+  result.expected =
+      choose_survival(probes, {4, light_rays},
+                      std::vector<MergeScale>(probes.size(), {area, light_paths}), result.plans);
+  return result;
+}
+
+TEST(Efficiency, PathsGoOnWhereNothingElseFindsTheLight) {
+  EXPECT_EQ(choose({light(-12)}).plans[0].survival, 1);
+  EXPECT_EQ(choose({light(12)}).plans[0].survival, least_survival);
+  // Each probe by itself.
+  const Chosen both = choose({light(-12), light(12)});
+  EXPECT_EQ(both.plans[0].survival, 1);
+  EXPECT_EQ(both.plans[1].survival, least_survival);
+  // Disks of 1/4096 of the area find as much less.
+  EXPECT_EQ(choose({light(0)}, 1, 1.0 / 4096).plans[0].survival, 1);
+}
+
+/// With 4 samples, all of which go on, and no light paths the error is the variance of 4 samples.
+TEST(Efficiency, VarianceOfPathsAlone) {
+  ProbeStatistics probe = light(-12, 0.25);
+  probe.direct_variance = 0.5;
+  const Chosen chosen = choose({probe}, 0);
+  ASSERT_EQ(chosen.plans[0].survival, 1);
+  EXPECT_NEAR(chosen.plans[0].evenness, 4, 1e-6);
+  // Relative to light of 1, and a tenth of the picture's mean.
+  EXPECT_NEAR(chosen.expected.squared_error, (0.5 + 0.25) / 4 / 1.01, 1e-4);
+  EXPECT_NEAR(chosen.expected.rays, 8, 1e-9);
+}
+
+/// Of light that merging alone finds, the variance falls with the number of light paths.
+TEST(Efficiency, LightThatNoCameraPathFinds) {
+  ProbeStatistics probe;
+  probe.merged_alone = 0.1;
+  probe.radiance = 1;
+  probe.rays = 2;
+  EXPECT_TRUE(std::isinf(choose({probe}, 0).expected.squared_error));
+  EXPECT_NEAR(choose({probe}, 1).expected.squared_error, 0.1 / 1.01, 1e-6);
+  EXPECT_NEAR(choose({probe}, 4).expected.squared_error, 0.025 / 1.01, 1e-6);
+  EXPECT_GT(choose({probe}, 4).expected.rays, choose({probe}, 1).expected.rays + 3);
+}
+
+/// Both ways together are better than each alone, by the sum of their densities.
+TEST(Efficiency, MixtureOfBothWays) {
+  const double expected = choose({light(2)}).expected.squared_error;
+  const double kappa = 4 * double(choose({light(2)}).plans[0].survival);
+  EXPECT_NEAR(expected, 1 / (kappa + 4) / 1.01, 1e-6);
+}
+
+/// The error that a pilot expects of path tracing is that of path tracing.
+TEST(PathPilot, ExpectsTheVarianceOfPathTracing) {
+  const std::string grey = diffuse("0.6, 0.6, 0.6");
+  const TestScene test(
+      camera("0, -0.9, 1", "0, 1, 0.8", 70, 32) + flat("rectangle", "", grey) +
+      flat("rectangle", rotate("1, 0, 0", 180) + translate("0, 0, 2"), grey) +
+      flat("rectangle", rotate("1, 0, 0", 90) + translate("0, 1, 1"), grey) +
+      flat("rectangle", rotate("0, 1, 0", 90) + translate("-1, 0, 1"), grey) +
+      flat("rectangle", scale("0.3, 0.3, 1") + rotate("1, 0, 0", 180) + translate("0, 0.2, 1.9"),
+           diffuse("0, 0, 0") + area_light("5")));
+  const Scene& scene = test.scene();
+  const LightPathEmission emission(scene);
+  PathWeights::Settings settings;
+  settings.techniques.merging = true;
+  settings.light_paths = 4096;
+  const PathWeights weights(settings);
+  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  PassReport report;
+  const LightVertices vertices = trace_light_vertices(
+      {scene, emission, weights, ComponentSet::all(), 1 << 20, 4096, 1, PixelPlans(), 1}, Pass{},
+      Stream::training, nowhere, {}, {}, report);
+  PixelPlans plans(scene);
+  plans.choose_disks(vertices, 4096, 30, 0);
+  const VcmCameraInputs inputs{scene, emission, weights, vertices, MattMerging(), plans, 1, 0, 0};
+  uint64_t rays = 0;
+  auto probes = probe_statistics(inputs, plans, {}, rays);
+  for (ProbeStatistics& probe : probes) probe.rays_beyond = 0;  // so that all go on
+  std::vector<PixelPlan> pixels = plans.plans();
+  const Efficiency expected =
+      choose_survival(probes, {1, 0}, std::vector<MergeScale>(probes.size(), {1, 0}), pixels);
+
+  // Of the pixels that the probes look at, in as many passes of one sample.
+  const Passes passes = render(test, "path", "", {1, 3, 512});
+  double mean = 0, error = 0;
+  std::vector<RunningStatistics> values(probes.size());
+  for (const Image& image : passes.images())
+    for (size_t p = 0; p < probes.size(); ++p) {
+      const Vec2f at = plans.seen().probes()[p].raster;
+      double sum = 0;
+      for (int c = 0; c < 3; ++c) sum += double(image.at(int(at.x), int(at.y), c));
+      values[p].add(sum);
+    }
+  for (const RunningStatistics& v : values) mean += v.mean() / double(values.size());
+  for (const RunningStatistics& v : values)
+    error += v.variance() / (v.mean() * v.mean() + 0.01 * mean * mean) / double(values.size());
+  EXPECT_EQ(pixels[0].survival, 1);
+  // The pilot has 8 paths for every 16 pixels; factors like 2, π or the number of lanes would show.
+  EXPECT_NEAR(expected.squared_error / error, 1, 0.35)
+      << expected.squared_error << " expected, " << error << " measured";
+  double radiance = 0;
+  for (const ProbeStatistics& p : probes) radiance += p.radiance / double(probes.size());
+  EXPECT_NEAR(radiance / mean, 1, 0.1);
+}
+
+/// Matt from within, without an edge that would make the samples of a pixel differ.
+std::string hollow() {
+  return camera("0.2, -0.6, 0.1", "0, 1, 0.1", 50, 24) +
+         sphere("0, 0, 0", 1, diffuse("0.6, 0.6, 0.6"), true) + point_light("0.4, 0.1, 0.3", 1);
+}
+
+constexpr uint32_t samples_of_pass = 4;
+constexpr float light_paths = 4;       // per camera sample
+constexpr float merge_radius = 0.15f;  // some pixels wide
+
+/// What ppm expects of a pass, by a pilot with `light_share` of its light paths.
+struct Forecast {
+  double squared_error = 0, radiance = 0;
+  std::vector<PixelPlan> plans;
+};
+Forecast forecast(const Scene& scene, const Techniques& techniques, double light_share) {
+  const LightPathEmission emission(scene);
+  PixelPlans plans(scene);
+  const uint32_t of_pass = light_path_count(scene.film().crop_size, samples_of_pass, light_paths);
+  PathWeights::Settings settings;
+  settings.techniques = techniques;
+  settings.light_paths = float(of_pass);
+  settings.merge_area = pi * sqr(merge_radius);
+  settings.accepted_area = accepted_area(plans);
+  const PathWeights weights(settings);
+  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  PassReport report;
+  const LightVertices vertices =
+      trace_light_vertices({scene, emission, weights, ComponentSet::all(), 1 << 20,
+                            uint32_t(light_share * of_pass), 1, PixelPlans(), 1},
+                           Pass{}, Stream::training, nowhere, {}, {}, report);
+  plans.choose_disks(vertices, of_pass, 30, merge_radius);
+  const VcmCameraInputs inputs{scene, emission,        weights, vertices,         MattMerging(),
+                               plans, samples_of_pass, 0,       sqr(merge_radius)};
+  PilotLimits limits;
+  limits.light_share = light_share;
+  uint64_t rays = 0;
+  const auto probes = probe_statistics(inputs, plans, limits, rays);
+  const double camera_samples = double(of_pass) / double(light_paths);
+  Forecast result;
+  result.plans = plans.plans();
+  result.squared_error =
+      choose_survival(probes, {samples_of_pass, double(report.rays) / light_share / camera_samples},
+                      std::vector<MergeScale>(probes.size(), {1, 1}), result.plans)
+          .squared_error;
+  for (const ProbeStatistics& p : probes) result.radiance += p.radiance / double(probes.size());
+  return result;
+}
+
+/// The same of pictures. All are first passes, whose disks have not shrunk, of as many seeds.
+Forecast measured(const TestScene& test, const Integrator& integrator) {
+  constexpr uint64_t seeds = slow_build ? 12 : 64;
+  std::vector<RunningStatistics> values(test.scene().film().crop_size.x *
+                                        size_t(test.scene().film().crop_size.y));
+  for (uint64_t seed = 1; seed <= seeds; ++seed) {
+    SessionSettings settings;
+    settings.seed = seed;
+    settings.passes = 1;
+    settings.samples_per_pass = samples_of_pass;
+    Session session(test.scene(), integrator, settings);
+    session.run();
+    const Image image = session.film().image();
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i].add(double(image.channel(0)[i]) + double(image.channel(1)[i]) +
+                    double(image.channel(2)[i]));
+  }
+  Forecast result;
+  const auto count = double(values.size());
+  for (const RunningStatistics& v : values) result.radiance += v.mean() / count;
+  const double least = 0.01 * result.radiance * result.radiance;
+  for (const RunningStatistics& v : values)
+    result.squared_error += v.variance() / (v.mean() * v.mean() + least) / count;
+  return result;
+}
+
+/// The error that a pilot expects of merging beside paths that all go on, and of merging alone, is
+/// that of passes of ppm. Four light paths per camera sample make merging's share in it the larger.
+TEST(PathPilot, ExpectsTheVarianceOfMerging) {
+  const TestScene test(hollow());
+  for (const bool next_event : {true, false}) {
+    SCOPED_TRACE(next_event ? "both ways" : "merging alone");
+    const auto ppm = test.integrator(
+        "ppm", set("guiding", false) + set("radius", double(merge_radius)) +
+                   set("light_paths", double(light_paths)) + set("next_event", next_event));
+    const Forecast found = measured(test, *ppm);
+    for (const double light_share : {1.0, 0.25}) {
+      SCOPED_TRACE(light_share);
+      const Forecast expected =
+          forecast(test.scene(), {true, next_event, false, false, true}, light_share);
+      // A lamp that is a point is met by none of them.
+      for (const PixelPlan& plan : expected.plans)
+        EXPECT_EQ(plan.survival, next_event ? 1.0f : least_survival);
+      // A picture knows its error to 2 %, a pilot expects it to 4 %. What is within a third is not
+      // when it is doubled or halved.
+      EXPECT_NEAR(expected.squared_error / found.squared_error, 1, 1.0 / 3);
+      EXPECT_NEAR(expected.radiance / found.radiance, 1, 0.15);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kaustik

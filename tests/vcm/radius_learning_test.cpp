@@ -1,0 +1,232 @@
+// Learned radii: wide where light is even, narrow at the edge of a shadow, and narrower the more is
+// known.
+
+#include "kaustik/vcm/lessons/radius_learning.h"
+
+#include <mutex>
+#include <random>
+
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+/// A floor of 2 m seen from above, every pixel 1/32 m wide.
+TestScene floor_scene() {
+  return TestScene(camera("0, 0, 10", "0, 0, 0", 11.42, 64, "0, 1, 0") +
+                   flat("rectangle", scale("3, 3, 1"), diffuse("0.5, 0.5, 0.5")) +
+                   point_light("0, 0, 5", 1));
+}
+
+/// Light from above on the floor, of density `density(x, y)` relative to the largest; what of that
+/// is above `plain` came by specular events only.
+template <typename Density>
+LightVertices light_of(const Density& density, size_t count, unsigned seed, float plain = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> place(-1.5f, 1.5f), unit(0, 1);
+  std::vector<Vec3f> positions;
+  std::vector<LightVertexData> data;
+  while (positions.size() < count) {
+    const Vec3f at(place(random), place(random), 0);
+    const float u = unit(random);
+    if (u > density(at.x, at.y)) continue;
+    LightVertexData vertex;
+    vertex.specular = u > plain;
+    vertex.flux = {1, 1, 1, 0};
+    vertex.direction = PackedDirection({0, 0, 1});
+    vertex.side = CoarseNormal({0, 0, 1});
+    positions.push_back(at);
+    data.push_back(vertex);
+  }
+  LightVertices light;
+  light.tree = {std::move(positions), std::move(data)};
+  light.path_count = uint32_t(count);
+  return light;
+}
+
+enum class Edges { found, not_looked_for };
+
+/// Plans after `passes` of this light.
+template <typename Density>
+PixelPlans learned(const Scene& scene, const Density& density, size_t count, uint32_t passes,
+                   Edges edges = Edges::not_looked_for, unsigned seed = 0, float plain = 1) {
+  PixelPlans first(scene);
+  first.choose_disks(light_of(density, count, 99, plain), uint32_t(count), 20, 0);
+  uint64_t rays = 0;
+  if (edges == Edges::found) first.find_edges(scene, RadiusLearning::widest_widths(), 0, rays);
+  const RadiusLearning learning(scene, first, rays);
+  std::vector<RadiusLearning::Sums> sums(first.seen().probes().size());
+  for (uint32_t pass = 0; pass < passes; ++pass) {
+    const auto added = RadiusLearning::sums_of(first, light_of(density, count, seed + pass, plain),
+                                               ComponentSet::all());
+    for (size_t i = 0; i < sums.size(); ++i) sums[i].add(added[i]);
+  }
+  return first.with(learning.plans(first, sums, passes, 1));
+}
+
+double mean_radius(const PixelPlans& plans, int x0, int x1) {
+  double sum = 0;
+  int count = 0;
+  for (int y = 8; y < 56; y += 4)
+    for (int x = x0; x < x1; x += 4, ++count)
+      sum += std::sqrt(double(plans.at({float(x) + 2, float(y) + 2}, 1).merge_area) /
+                       std::numbers::pi);
+  return sum / count;
+}
+
+TEST(RadiusLearning, WideInEvenLightAndNarrowAtAnEdge) {
+  const TestScene scene = floor_scene();
+  constexpr double pixel = 2.0 / 64, widest = pixel * 5.65;
+  const auto even = [](float, float) { return 1.0f; };
+  const auto edge = [](float x, float) { return x > 0 ? 1.0f : 0.1f; };
+  // Some levels are lost by chance, since disks are compared at 1.5 standard errors.
+  EXPECT_GT(mean_radius(learned(scene.scene(), even, 3000, 4), 8, 56), 0.5 * widest);
+  const PixelPlans few = learned(scene.scene(), edge, 1500, 1);
+  const PixelPlans many = learned(scene.scene(), edge, 3000, 64);
+  const double at_edge = mean_radius(many, 28, 36), beside = mean_radius(many, 8, 20);
+  EXPECT_LT(at_edge, 0.6 * beside);
+  EXPECT_LT(at_edge, mean_radius(few, 28, 36));
+}
+
+/// A line of focused light, a thirtieth of what the widest disk holds and nearly half of what the
+/// narrowest does, is not blurred because all else is even.
+TEST(RadiusLearning, NarrowAtALineOfFocusedLight) {
+  const TestScene scene = floor_scene();
+  constexpr float plain = 0.5f;
+  const auto line = [](float x, float) { return std::fabs(x) < 0.02f ? 1.0f : plain; };
+  const PixelPlans plans = learned(scene.scene(), line, 3000, 64, Edges::not_looked_for, 0, plain);
+  EXPECT_LT(mean_radius(plans, 28, 36), 0.6 * mean_radius(plans, 8, 20));
+}
+
+/// Beyond its end a surface has no light, which is no reason for small disks: what is there is
+/// divided by what is covered.
+TEST(RadiusLearning, EndsOfSurfacesAreNoEdgesOfLight) {
+  const TestScene scene(camera("0, 0, 10", "0, 0, 0", 11.42, 64, "0, 1, 0") +
+                        flat("rectangle", scale("0.5, 3, 1"), diffuse("0.5, 0.5, 0.5")) +
+                        point_light("0, 0, 5", 1));
+  const auto even = [](float x, float) { return std::fabs(x) < 0.5f ? 1.0f : 0.0f; };
+  const PixelPlans plans = learned(scene.scene(), even, 3000, 4);
+  // The end lies at pixels 16 and 48.
+  EXPECT_GT(mean_radius(plans, 44, 48), 0.6 * mean_radius(plans, 28, 36));
+}
+
+/// A floor that a thin wall parts at pixel 48, as low as its top is thin.
+TestScene floor_with_wall() {
+  return TestScene(camera("0, 0, 10", "0, 0, 0", 11.42, 64, "0, 1, 0") +
+                   flat("rectangle", scale("3, 3, 1"), diffuse("0.5, 0.5, 0.5")) +
+                   flat("rectangle",
+                        scale("0.05, 3, 1") + rotate("0, 1, 0", -90) + translate("0.5, 0, 0.05"),
+                        diffuse("0.5, 0.5, 0.5")) +
+                   point_light("0, 0, 5", 1));
+}
+
+/// Mean over some seeds of the radii of the two blocks on either side of pixel 48. So few light
+/// vertices that none of the disks has more than are worth their time.
+template <typename Density>
+RunningStatistics radii_there(const TestScene& scene, const Density& density,
+                              Edges edges = Edges::found, int end = 56, size_t count = 1500) {
+  RunningStatistics result;
+  for (unsigned seed = 1; seed <= (slow_build ? 2 : 24); ++seed)
+    result.add(mean_radius(learned(scene.scene(), density, count, 8, edges, 1000 * seed), 40, end));
+  return result;
+}
+
+/// Disks that a wall cuts are as wide as others: their noise is known, which is that of fewer light
+/// vertices with uneven factors, and neither even nor linear light looks different in half a disk.
+TEST(RadiusLearning, DisksAtAWallAreAsWideAsOthers) {
+  const TestScene open = floor_scene(), wall = floor_with_wall();
+  const auto expect_alike = [&](const char* what, const auto& density) {
+    const Comparison radii(radii_there(wall, density), radii_there(open, density));
+    std::printf("  %s: %.4f m at a wall, %.3f ± %.3f times that of an open floor\n", what,
+                radii.mean(), radii.ratio(), radii.relative_error());
+    if (!slow_build) {
+      EXPECT_NEAR(radii.ratio(), 1, 0.1) << what;
+    }
+  };
+  expect_alike("even light", [](float, float) { return 1.0f; });
+  expect_alike("linear light", [](float x, float) { return 0.5f + 0.3f * x; });
+}
+
+/// The same of disks of which a part is covered, where no edges are known.
+TEST(RadiusLearning, DisksThatAreHalfCoveredAreAsWideAsOthers) {
+  const TestScene open = floor_scene(),
+                  strip(camera("0, 0, 10", "0, 0, 0", 11.42, 64, "0, 1, 0") +
+                        flat("rectangle", scale("2.5, 3, 1") + translate("-2, 0, 0"),
+                             diffuse("0.5, 0.5, 0.5")) +
+                        point_light("0, 0, 5", 1));
+  const auto on_strip = [](float x, float) { return x < 0.5f ? 1.0f : 0.0f; };
+  // As dense: 1000 of them in two thirds of what 1500 lie in.
+  const Comparison radii(radii_there(strip, on_strip, Edges::not_looked_for, 48, 1000),
+                         radii_there(
+                             open, [](float, float) { return 1.0f; }, Edges::not_looked_for, 48));
+  std::printf("  %.4f m at the end, %.3f ± %.3f times that of an open floor\n", radii.mean(),
+              radii.ratio(), radii.relative_error());
+  if (!slow_build) {
+    EXPECT_NEAR(radii.ratio(), 1, 0.1);
+  }
+}
+
+TEST(RadiusLearning, RaysAreCountedAndStopRequestsSeen) {
+  const TestScene scene = floor_scene();
+  const auto even = [](float, float) { return 1.0f; };
+  PixelPlans first(scene.scene());
+  first.choose_disks(light_of(even, 3000, 99), 3000, 20, 0);
+  uint64_t rays = 0;
+  const RadiusLearning learning(scene.scene(), first, rays);
+  // One ray upward, and two for each of eight points in ten rings.
+  EXPECT_EQ(rays, first.seen().probes().size() * (1 + 2 * 8 * 10));
+  std::stop_source source;
+  source.request_stop();
+  uint64_t rays_after_stop = 0;
+  const RadiusLearning stopped(scene.scene(), first, rays_after_stop, source.get_token());
+  EXPECT_EQ(rays_after_stop, 0u);
+}
+
+/// The rays of light passes, in this order.
+uint64_t light_rays(const TestScene& scene, const Integrator& integrator, uint64_t seed,
+                    uint32_t pass) {
+  SplatBuffer splats(scene.scene().film(), integrator.components());
+  return integrator.prepare({seed, pass, 4}, splats, {}, {})->report.rays;
+}
+
+/// What disks cover is looked at when the first pass that needs it comes, and once for all seeds.
+TEST(RadiusLearning, LooksOnceAndNotBeforeItIsNeeded) {
+  const TestScene scene = floor_scene();
+  const auto learning = scene.integrator("ppm"),
+             given = scene.integrator("ppm", set("radius", 0.1));
+  const auto more_rays = [&](uint64_t seed, uint32_t pass) {
+    return light_rays(scene, *learning, seed, pass) - light_rays(scene, *given, seed, pass);
+  };
+  EXPECT_EQ(more_rays(1, 0), 0u);
+  EXPECT_GT(more_rays(1, 1), 0u);
+  EXPECT_EQ(more_rays(1, 2), 0u);
+  EXPECT_EQ(more_rays(2, 0), 0u);
+  EXPECT_EQ(more_rays(2, 1), 0u);
+}
+
+/// Passes that were not rendered before are made up for: that is light traced, and told of.
+TEST(RadiusLearning, MadeUpPassesAreCountedAndToldOf) {
+  const TestScene scene = floor_scene();
+  const auto learning = scene.integrator("vcm");
+  SplatBuffer splats(scene.scene().film(), learning->components());
+  std::vector<double> told;
+  std::mutex mutex;
+  const auto state = learning->prepare({1, 4, 4}, splats, {}, [&](double share) {
+    const std::lock_guard lock(mutex);
+    told.push_back(share);
+  });
+  // Passes 0 to 3, then the pass itself.
+  ASSERT_FALSE(told.empty());
+  EXPECT_LE(told.front(), 0.2);
+  EXPECT_DOUBLE_EQ(*std::max_element(told.begin(), told.end()), 1);
+  EXPECT_GE(std::count_if(told.begin(), told.end(), [](double share) { return share <= 0.8; }), 4);
+  SplatBuffer again(scene.scene().film(), learning->components());
+  const uint64_t of_one = learning->prepare({1, 4, 4}, again, {}, {})->report.rays;
+  EXPECT_GT(state->report.rays, 3 * of_one);
+}
+
+}  // namespace
+}  // namespace kaustik
