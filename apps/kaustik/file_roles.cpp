@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "kaustik/base/file.h"
+#include "kaustik/integrator/description_types.h"
 #include "standard_streams.h"
 
 namespace kaustik::app {
@@ -55,7 +56,7 @@ void FileRoles::reads(const Description& description) {
   for (const std::string& file : description.sources) reads_scene(file);
   std::error_code ignored;
   // Whoever reads it tells of one that is not there.
-  for (const std::string& file : named_files(description))
+  for (const std::string& file : named_files(description, description_types()))
     if (fs::exists(file, ignored)) reads(file);
 }
 

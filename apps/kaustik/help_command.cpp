@@ -5,7 +5,7 @@
 #include "kaustik/image/tone_mapping.h"
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/registry.h"
-#include "kaustik/scene/camera.h"
+#include "kaustik/scene/type_tables.h"
 #include "thesis_settings.h"
 
 namespace kaustik::app {
@@ -13,27 +13,16 @@ namespace {
 
 /// Every type that has a table, family by family.
 std::vector<const TypeInfo*> all_types() {
-  std::vector<const TypeInfo*> types;
-  const auto add = [&](const auto& rows) {
-    for (const auto& row : rows) types.push_back(&row.info);
-  };
-  add(integrator_types());
-  add(foreign_integrators());
-  add(shape_types());
-  add(bsdf_types());
-  add(texture_types());
-  add(light_types());
-  add(medium_types());
-  add(phase_function_types());
-  types.push_back(&Camera::info());
-  types.push_back(&film_info());
-  for (const TypeInfo& info : filter_infos()) types.push_back(&info);
-  for (const TypeInfo& info : sampler_infos()) types.push_back(&info);
-  add(tone_operator_types());
-  return types;
+  TypeTables types;
+  types.add_rows(integrator_types());
+  types.add_rows(foreign_integrators());
+  types.add(scene_types());
+  types.add_rows(tone_operator_types());
+  return types.all();
 }
 
 std::string range_text(const Parameter& p) {
+  if (p.kind == ParameterKind::array) return extents_text(p);
   // What holds for every coordinate goes without saying.
   if (p.kind == ParameterKind::point && p.maximum == largest_length) return {};
   const bool low = std::isfinite(p.minimum), high = std::isfinite(p.maximum) && p.maximum < 1e30;

@@ -10,6 +10,7 @@
 #include "exit_codes.h"
 #include "failures.h"
 #include "kaustik/base/memory.h"
+#include "kaustik/integrator/description_types.h"
 #include "kaustik/integrator/override_integrator.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/scene/mesh_memory.h"
@@ -79,7 +80,7 @@ RenderJob make_job(Description description, const RenderRecipe& recipe, bool wit
   std::optional<GuardedDigest> digest;
   if (with_digest) {
     try {
-      digest.emplace(description);
+      digest.emplace(description, description_types());
     } catch (const Error&) {
       unreadable = std::current_exception();
     }

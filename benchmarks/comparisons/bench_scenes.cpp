@@ -13,6 +13,7 @@
 #include "benchmarks/comparisons/bench_scene.h"
 #include "benchmarks/comparisons/measurement.h"
 #include "benchmarks/comparisons/snapshots.h"
+#include "kaustik/integrator/description_types.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/scene/description_digest.h"
 
@@ -152,7 +153,8 @@ class SceneBench {
     m.threads = options_.threads;
     m.program = program_;
     m.reference_mean_ratio = reference_mean_ratio_;
-    const DescriptionDigest digest = description_digest(describe(scene_, integrator, reference_));
+    const DescriptionDigest digest =
+        description_digest(describe(scene_, integrator, reference_), description_types());
     m.inputs =
         fmt::format("{:016x} {:016x} {}", digest.scene, digest.integrator, reference_checksum_);
     return m;

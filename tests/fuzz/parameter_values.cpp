@@ -175,6 +175,8 @@ std::string ParameterValues::property(const TypeInfo& info, const Parameter& p) 
       return color(p);
     case ParameterKind::transform:
       return transform(p.name);
+    case ParameterKind::array:
+      break;  // text has none
   }
   return "";
 }

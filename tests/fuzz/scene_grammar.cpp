@@ -166,7 +166,13 @@ class Grammar {
   }
 
   std::string shape(bool shines) {
-    const TypeInfo& info = draw_.one_of(shape_types()).info;
+    // Text has no buffers.
+    const auto types = rows_that(shape_types(), [](const ShapeType& type) {
+      return std::none_of(
+          type.info.parameters.begin(), type.info.parameters.end(),
+          [](const Parameter& p) { return p.required && p.kind == ParameterKind::array; });
+    });
+    const TypeInfo& info = draw_.one_of(types)->info;
     return shape_in(info, shines && info.name != "sdf", values_.transform("to_world"));
   }
 

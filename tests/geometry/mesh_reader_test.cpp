@@ -157,7 +157,7 @@ void survive_damage(const std::string& bytes, const Read& read, int least_errors
       expect_sound(mesh);
       // What reads must also trace.
       MeshOptions options;
-      const auto shape = std::make_shared<MeshShape>(prepare_mesh(mesh, options, "mesh"));
+      const auto shape = std::make_shared<MeshShape>(prepare_mesh(mesh, options, place_in("mesh")));
       EXPECT_TRUE(std::isfinite(shape->area()));
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input) << error.what();

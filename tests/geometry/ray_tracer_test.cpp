@@ -290,8 +290,8 @@ TEST(RayTracer, RegistryNamesEveryTypeOnce) {
     EXPECT_FALSE(type.info.sentence.empty());
     names.push_back(type.info.name);
   }
-  const std::vector<std::string> expected = {"obj",  "ply",    "rectangle", "cube",
-                                             "disk", "sphere", "cylinder",  "sdf"};
+  const std::vector<std::string> expected = {"obj",  "ply",    "mesh",     "rectangle", "cube",
+                                             "disk", "sphere", "cylinder", "sdf"};
   EXPECT_EQ(names, expected);
 }
 

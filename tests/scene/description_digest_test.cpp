@@ -10,6 +10,7 @@
 #include "kaustik/base/error.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/scene/overrides.h"
+#include "kaustik/scene/type_tables.h"
 #include "tests/support/temporary_folder.h"
 
 namespace kaustik {
@@ -19,7 +20,7 @@ Description described(const std::string& inside) {
   return parse_mitsuba_xml("<scene version=\"3.0.0\">" + inside + "</scene>", "test.xml", "");
 }
 DescriptionDigest digest_of(const std::string& inside) {
-  return description_digest(described(inside));
+  return description_digest(described(inside), scene_types());
 }
 
 constexpr const char* ball = "<shape type=\"sphere\"><float name=\"radius\" value=\"2\"/></shape>";
@@ -44,10 +45,11 @@ TEST(DescriptionDigest, EveryPropertyCounts) {
 
 TEST(DescriptionDigest, SettingsCountAsWhatTheyChange) {
   Description changed = described(ball);
-  const DescriptionDigest plain = description_digest(changed);
+  const TypeTables& types = scene_types();
+  const DescriptionDigest plain = description_digest(changed, types);
   override_property(changed, "integrator.max_depth=3");
-  EXPECT_EQ(description_digest(changed).scene, plain.scene);
-  EXPECT_NE(description_digest(changed).integrator, plain.integrator);
+  EXPECT_EQ(description_digest(changed, types).scene, plain.scene);
+  EXPECT_NE(description_digest(changed, types).integrator, plain.integrator);
   const DescriptionDigest path = digest_of(std::string(ball) + "<integrator type=\"path\"/>");
   EXPECT_EQ(path.scene, plain.scene);
   EXPECT_NE(path.integrator, plain.integrator);
@@ -62,8 +64,8 @@ TEST(DescriptionDigest, FilesThatChangeWhileTheyAreReadAreTold) {
   write(path, text);
   const Description mesh =
       described("<shape type=\"obj\"><string name=\"filename\" value=\"" + path + "\"/></shape>");
-  const GuardedDigest guarded(mesh);
-  EXPECT_EQ(guarded.digest(), description_digest(mesh));
+  const GuardedDigest guarded(mesh, scene_types());
+  EXPECT_EQ(guarded.digest(), description_digest(mesh, scene_types()));
   EXPECT_NO_THROW(guarded.check(mesh));
   // As long as before, and put in its place as editors do.
   write(folder.path("new.obj"), "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");

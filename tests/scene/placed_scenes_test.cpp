@@ -121,6 +121,25 @@ TEST(PlacedScenes, BringTheirLamps) {
     }
 }
 
+/// Of suns the direction is turned, whether their type has a transform beside it or not.
+TEST(PlacedScenes, DirectionsTurnWithTheirScene) {
+  const std::string quarter = "<rotate x=\"1\" angle=\"30\"/>";
+  for (const std::string& sun :
+       {std::string("<emitter type=\"directional\"><vector name=\"direction\" value=\"0, 1, 2\"/>"
+                    "</emitter>"),
+        std::string("<emitter type=\"sun\"><vector name=\"sun_direction\" value=\"0, 1, 2\"/>"
+                    "</emitter>")}) {
+    const auto placed = scene_of(any_camera + group("g", sun) + instance("g", quarter));
+    const auto plain = scene_of(any_camera + sun);
+    ASSERT_EQ(placed->lights().size(), 1u);
+    const auto toward = [](const Scene& scene) {
+      return scene.lights()[0]->sample_toward({}, {0.5f, 0.5f}).direction;
+    };
+    const Vec3f expected = Transform::rotate({1, 0, 0}, 30).vector(toward(*plain));
+    EXPECT_LT(length(toward(*placed) - expected), 0.02f) << sun;  // the sun's own width
+  }
+}
+
 TEST(PlacedScenes, GroupsWithoutScenesStayWhatTheyAre) {
   const Description before =
       description_of(any_camera + group("g", shape("cube", small)) + instance("g", left));

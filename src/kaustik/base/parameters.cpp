@@ -71,6 +71,7 @@ std::optional<Value> typed(const std::string& text, ParameterKind kind) {
       return std::nullopt;
     }
     case ParameterKind::transform:
+    case ParameterKind::array:
       return std::nullopt;
   }
   return std::nullopt;
@@ -113,6 +114,10 @@ std::optional<Value> coerce(const Value& value, ParameterKind kind) {
       return same(static_cast<Rgb*>(nullptr));
     case ParameterKind::transform:
       return same(static_cast<Transform*>(nullptr));
+    case ParameterKind::array: {
+      const auto* array = std::get_if<std::shared_ptr<const Array>>(&value);
+      return array && *array ? std::optional(value) : std::nullopt;
+    }
   }
   return std::nullopt;
 }
@@ -146,8 +151,21 @@ bool is_within_lengths(const Transform& transform) {
   return largest <= largest_length;  // false for what is no number
 }
 
+/// The same of an array.
+std::string complaint(const Parameter& parameter, const Array& array) {
+  const std::vector<size_t>&wanted = parameter.extents, &found = array.extents();
+  bool fits = wanted.empty() || wanted.size() == found.size();
+  for (size_t i = 0; fits && i < wanted.size(); ++i) fits = wanted[i] == 0 || wanted[i] == found[i];
+  if (!fits) return fmt::format("'{}' has the extents {}", parameter.name, extents_text(found));
+  if (parameter.of_integers && !is_integer(array.type()))
+    return fmt::format("'{}' holds {}", parameter.name, element_name(array.type()));
+  return {};
+}
+
 /// What is wrong with a value of the right type; empty if nothing.
 std::string complaint(const Parameter& parameter, const Value& value) {
+  if (const auto* array = std::get_if<std::shared_ptr<const Array>>(&value))
+    return complaint(parameter, **array);
   const auto* transform = std::get_if<Transform>(&value);
   if (transform && !is_within_lengths(*transform))
     return fmt::format("'{}' moves, grows or shrinks things beyond what single floats carry",
@@ -171,6 +189,8 @@ std::string remedy_for(const Parameter& parameter, const Value& value) {
   if (std::holds_alternative<Transform>(value))
     return fmt::format("keep its factors between {:g} and {:g}, and its distances below {:g} m",
                        smallest_length, largest_length, largest_length);
+  if (parameter.kind == ParameterKind::array)
+    return fmt::format("give an array {}", extents_text(parameter));
   return fmt::format("give a value from {} to {}{}{}", parameter.minimum, parameter.maximum,
                      parameter.unit.empty() ? "" : " ", parameter.unit);
 }
@@ -205,6 +225,8 @@ Value empty_value(ParameterKind kind) {
       return Rgb{};
     case ParameterKind::transform:
       return Transform();
+    case ParameterKind::array:
+      return std::shared_ptr<const Array>();
   }
   return false;
 }
@@ -249,6 +271,14 @@ Parameter color_parameter(std::string name, double value, std::string sentence) 
 Parameter transform_parameter(std::string name, std::string sentence) {
   return row(std::move(name), ParameterKind::transform, Value(Transform()), std::move(sentence));
 }
+Parameter to_world_parameter(std::string sentence) {
+  return transform_parameter("to_world", std::move(sentence)).moved(WhenMoved::composed);
+}
+Parameter array_parameter(std::string name, std::vector<size_t> extents, std::string sentence) {
+  Parameter p = row(std::move(name), ParameterKind::array, std::monostate{}, std::move(sentence));
+  p.extents = std::move(extents);
+  return p;
+}
 Parameter file_parameter(std::string name, std::string sentence) {
   return required(row(std::move(name), ParameterKind::file, std::monostate{}, std::move(sentence)));
 }
@@ -290,11 +320,38 @@ Arguments::Arguments(const TypeInfo& info, const std::vector<Property>& given, c
         {coerced ? *coerced : empty_value(parameter.kind), value != nullptr, false, {}});
   }
   for (const Property& property : given) accept(property, problems);
+  check_stand_ins(problems);
+  for (size_t i = 0; i < slots_.size(); ++i) {
+    const Parameter& parameter = info.parameters[i];
+    if (parameter.required && !slots_[i].given && !stand_in_of(parameter))
+      problems.add(fmt::format("{} '{}' needs '{}'", info.family, info.name, parameter.name),
+                   parameter.sentence, place);
+  }
+}
+
+void Arguments::check_stand_ins(Problems& problems) const {
+  for (const Parameter& parameter : info_->parameters)
+    if (const Parameter* other = stand_in_of(parameter); other && slot(parameter.name).given)
+      problems.add(fmt::format("{} '{}' has both '{}' and '{}'", info_->family, info_->name,
+                               other->name, parameter.name),
+                   "give one of them", place_of(other->name));
+}
+
+const Parameter* Arguments::stand_in_of(const Parameter& parameter) const {
   for (size_t i = 0; i < slots_.size(); ++i)
-    if (info.parameters[i].required && !slots_[i].given)
-      problems.add(
-          fmt::format("{} '{}' needs '{}'", info.family, info.name, info.parameters[i].name),
-          info.parameters[i].sentence, place);
+    if (slots_[i].given && info_->parameters[i].stands_for == parameter.name)
+      return &info_->parameters[i];
+  return nullptr;
+}
+
+bool Arguments::is_complete() const {
+  for (size_t i = 0; i < slots_.size(); ++i) {
+    const Parameter& parameter = info_->parameters[i];
+    if (!parameter.required || slots_[i].present) continue;
+    const Parameter* other = stand_in_of(parameter);
+    if (!other || !slot(other->name).present) return false;
+  }
+  return true;
 }
 
 void Arguments::accept(const Property& property, Problems& problems) {
@@ -368,6 +425,9 @@ std::variant<Rgb, SpectralCurve> Arguments::color(std::string_view name) const {
 const Transform& Arguments::transform(std::string_view name) const {
   return std::get<Transform>(slot(name).value);
 }
+const std::shared_ptr<const Array>& Arguments::array(std::string_view name) const {
+  return std::get<std::shared_ptr<const Array>>(slot(name).value);
+}
 
 std::string kind_name(ParameterKind kind) {
   switch (kind) {
@@ -391,8 +451,19 @@ std::string kind_name(ParameterKind kind) {
       return "transform";
     case ParameterKind::file:
       return "file name (string)";
+    case ParameterKind::array:
+      return "array";
   }
   return "value";
+}
+
+std::string extents_text(const Parameter& parameter) {
+  std::vector<std::string> extents;
+  for (const size_t extent : parameter.extents)
+    extents.push_back(extent > 0 ? std::to_string(extent) : extents.empty() ? "n" : "m");
+  std::string text = extents.empty() ? "" : fmt::format("[{}]", fmt::join(extents, ", "));
+  if (parameter.of_integers) text += text.empty() ? "of integers" : " of integers";
+  return text;
 }
 
 std::string default_text(const Parameter& parameter) {

@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "kaustik/base/array.h"
 #include "kaustik/base/error.h"
 #include "kaustik/base/transform.h"
 
@@ -30,8 +32,9 @@ struct Untyped {
   friend bool operator==(const Untyped&, const Untyped&) = default;
 };
 
-using Value =
-    std::variant<bool, int64_t, double, std::string, Vec3d, Rgb, SpectralCurve, Transform, Untyped>;
+/// An array is never null. No text format has arrays: programs put them into descriptions.
+using Value = std::variant<bool, int64_t, double, std::string, Vec3d, Rgb, SpectralCurve, Transform,
+                           Untyped, std::shared_ptr<const Array>>;
 
 /// A named value and where it was given.
 struct Property {
@@ -50,7 +53,16 @@ enum class ParameterKind {
   point,           ///< also serves vectors
   color,           ///< rgb, a spectrum, or one number for all lanes
   transform,
-  file  ///< a path, relative to the file that names it; given as text
+  file,  ///< a path, relative to the file that names it; given as text
+  array  ///< a buffer, from programs only
+};
+
+/// What becomes of a value when its object is moved in the world.
+enum class WhenMoved : uint8_t {
+  stays,     ///< it lies in the object's own space, or is no place at all
+  composed,  ///< the transform from the object's space to the world: the movement comes after it
+  origin,    ///< a point that stands for the translation there instead of that transform
+  turned     ///< a direction in the world
 };
 
 /// One row of a table.
@@ -67,10 +79,19 @@ struct Parameter {
   std::vector<std::string> choices;
   bool no_effect = false;        ///< accepted because Mitsuba has it; reported once
   bool accepts_texture = false;  ///< a nested texture object may stand instead of the value
+  /// The parameter that this one stands instead of: not both can be given, and where that one is
+  /// required this one will do. "" for none.
+  std::string stands_for;
+  WhenMoved when_moved = WhenMoved::stays;
+  std::vector<size_t> extents;  ///< of arrays, 0 for any number; none: any shape
+  bool of_integers = false;     ///< of arrays: no floats
 
   Parameter& range(double low, double high) { return minimum = low, maximum = high, *this; }
   Parameter& in(std::string unit_name) { return unit = std::move(unit_name), *this; }
   Parameter& textured() { return accepts_texture = true, *this; }
+  Parameter& instead_of(std::string other) { return stands_for = std::move(other), *this; }
+  Parameter& moved(WhenMoved how) { return when_moved = how, *this; }
+  Parameter& integers() { return of_integers = true, *this; }
 };
 
 Parameter boolean_parameter(std::string name, bool default_value, std::string sentence);
@@ -85,8 +106,12 @@ Parameter number_or_name_parameter(std::string name, Value default_value,
 Parameter point_parameter(std::string name, Vec3d default_value, std::string sentence);
 Parameter color_parameter(std::string name, double default_value, std::string sentence);
 Parameter transform_parameter(std::string name, std::string sentence);
+/// `to_world`, which places an object in the world.
+Parameter to_world_parameter(std::string sentence);
 /// Required.
 Parameter file_parameter(std::string name, std::string sentence);
+/// Optional; `extents` as of the row.
+Parameter array_parameter(std::string name, std::vector<size_t> extents, std::string sentence);
 /// A parameter of Mitsuba's that means nothing here.
 Parameter ignored_parameter(std::string name, ParameterKind kind);
 /// The same row without a default: it may be absent (ask Arguments::has) …
@@ -120,6 +145,8 @@ class Arguments {
   bool has(std::string_view name) const;
   /// Given by the user.
   bool given(std::string_view name) const;
+  /// Whether all that must be given was, and is right: what is not has been told.
+  bool is_complete() const;
   /// Where it was given; the object's place if it was not.
   Place place_of(std::string_view name) const;
 
@@ -134,6 +161,8 @@ class Arguments {
   /// As given: number → Rgb{x, x, x}, Rgb or SpectralCurve.
   std::variant<Rgb, SpectralCurve> color(std::string_view name) const;
   const Transform& transform(std::string_view name) const;
+  /// Of the extents that the row asks for; null if it was not given.
+  const std::shared_ptr<const Array>& array(std::string_view name) const;
 
   /// Names of accepted parameters without effect that were given.
   const std::vector<std::string>& ignored() const { return ignored_; }
@@ -147,6 +176,9 @@ class Arguments {
   };
   const Slot& slot(std::string_view name) const;
   void accept(const Property& property, Problems& problems);
+  void check_stand_ins(Problems& problems) const;
+  /// The row that is given instead of one; null if there is none.
+  const Parameter* stand_in_of(const Parameter& parameter) const;
 
   const TypeInfo* info_;
   Place place_;
@@ -156,6 +188,8 @@ class Arguments {
 
 /// "number", "boolean", … for messages and help.
 std::string kind_name(ParameterKind kind);
+/// Of arrays: "[n, 3] of integers"; "" where any will do.
+std::string extents_text(const Parameter& parameter);
 /// The default as text; "" for none.
 std::string default_text(const Parameter& parameter);
 

@@ -170,7 +170,7 @@ const TypeInfo& cylinder_info() {
        number_parameter("radius", 1.0, "Radius of the cylinder.")
            .range(smallest_length, largest_length)
            .in("m"),
-       transform_parameter("to_world", "Places the cylinder in the world; one scale for all axes."),
+       to_world_parameter("Places the cylinder in the world; one scale for all axes."),
        boolean_parameter("flip_normals", false, "The inside is the front.")}};
   return info;
 }

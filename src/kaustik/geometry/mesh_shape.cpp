@@ -144,7 +144,7 @@ std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh) {
   return normals;
 }
 
-TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const std::string& file) {
+TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const Place& place) {
   constexpr float largest = 1e18f;  // what Embree can hold
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     Vec3f& p = mesh.positions[i];
@@ -152,7 +152,7 @@ TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const s
     if (!is_finite(p) || max_abs(p) > largest)
       throw Error(ErrorKind::input,
                   "vertex " + std::to_string(i) + " is too far away once placed by 'to_world'",
-                  "coordinates must stay below 1e18", place_in(file));
+                  "coordinates must stay below 1e18", place);
   }
   // Mirrored, what ran anticlockwise round the front runs clockwise.
   if (options.to_world.determinant3() < 0) turn_round(mesh);

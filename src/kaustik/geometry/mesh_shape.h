@@ -56,8 +56,8 @@ struct MeshOptions {
 
 /// `mesh` placed in the world. Its front stays the front under mirroring transforms, too: Mitsuba
 /// transforms normals, not the winding. A mesh without normals gets smooth ones unless
-/// `face_normals`, as in Mitsuba 3. Throws Error(input) naming `file` if a vertex becomes infinite.
-TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const std::string& file);
+/// `face_normals`, as in Mitsuba 3. Throws Error(input) at `place` if a vertex becomes infinite.
+TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const Place& place);
 
 /// Unit vertex normals: the face normals weighted by the angle at the vertex (Thürmer and Wüthrich,
 /// "Computing Vertex Normals from Polygonal Facets", JGT 1998). Vertices of no area get +z.

@@ -1,5 +1,6 @@
-// The shapes that are meshes: `obj` and `ply` files, `rectangle` and `cube`.
+// The shapes that are meshes: `obj` and `ply` files, `mesh` buffers, `rectangle` and `cube`.
 
+#include "kaustik/geometry/mesh_buffers.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/geometry/shape_creators.h"
@@ -8,12 +9,12 @@
 namespace kaustik {
 namespace {
 
-std::vector<Parameter> file_mesh_parameters(bool flip_tex_coords) {
+/// The rows that say what becomes of a mesh, wherever it comes from.
+std::vector<Parameter> mesh_option_parameters(bool flip_tex_coords) {
   return {
-      file_parameter("filename", "Mesh file."),
-      transform_parameter("to_world", "Places the mesh in the world."),
+      to_world_parameter("Places the mesh in the world."),
       boolean_parameter("face_normals", false,
-                        "Flat faces: normals of the file are dropped. Otherwise a file without "
+                        "Flat faces: normals that are given are dropped. Otherwise a mesh without "
                         "normals gets smooth ones."),
       boolean_parameter("flip_normals", false, "Turns the surface inside out."),
       boolean_parameter("flip_tex_coords", flip_tex_coords,
@@ -21,16 +22,28 @@ std::vector<Parameter> file_mesh_parameters(bool flip_tex_coords) {
   };
 }
 
+std::vector<Parameter> with_options(std::vector<Parameter> rows, bool flip_tex_coords) {
+  for (Parameter& row : mesh_option_parameters(flip_tex_coords)) rows.push_back(std::move(row));
+  return rows;
+}
+
+MeshOptions mesh_options(const Arguments& arguments) {
+  return {.to_world = affine_to_world(arguments),
+          .face_normals = arguments.boolean("face_normals"),
+          .flip_normals = arguments.boolean("flip_normals"),
+          .flip_tex_coords = arguments.boolean("flip_tex_coords")};
+}
+
+std::vector<Parameter> file_mesh_parameters(bool flip_tex_coords) {
+  return with_options({file_parameter("filename", "Mesh file.")}, flip_tex_coords);
+}
+
 std::unique_ptr<Shape> create_from_file(const Arguments& arguments,
                                         MeshFile (*read)(const std::string&)) {
   const std::string& path = arguments.text("filename");
-  MeshOptions options;
-  options.to_world = affine_to_world(arguments);
-  options.face_normals = arguments.boolean("face_normals");
-  options.flip_normals = arguments.boolean("flip_normals");
-  options.flip_tex_coords = arguments.boolean("flip_tex_coords");
+  const MeshOptions options = mesh_options(arguments);
   MeshFile file = read(path);
-  return std::make_unique<MeshShape>(prepare_mesh(std::move(file.mesh), options, path),
+  return std::make_unique<MeshShape>(prepare_mesh(std::move(file.mesh), options, place_in(path)),
                                      std::move(file.remarks));
 }
 
@@ -39,11 +52,12 @@ std::unique_ptr<Shape> create_built_in(const Arguments& arguments, TriangleMesh 
   options.to_world = affine_to_world(arguments);
   options.face_normals = true;
   options.flip_normals = arguments.boolean("flip_normals");
-  return std::make_unique<MeshShape>(prepare_mesh(std::move(mesh), options, arguments.info().name));
+  return std::make_unique<MeshShape>(
+      prepare_mesh(std::move(mesh), options, arguments.place_of("to_world")));
 }
 
 std::vector<Parameter> built_in_parameters() {
-  return {transform_parameter("to_world", "Places the shape in the world."),
+  return {to_world_parameter("Places the shape in the world."),
           boolean_parameter("flip_normals", false, "Turns the surface inside out.")};
 }
 
@@ -76,6 +90,18 @@ const TypeInfo& ply_info() {
 }
 std::unique_ptr<Shape> create_ply(const Arguments& arguments) {
   return create_from_file(arguments, read_ply);
+}
+
+const TypeInfo& mesh_info() {
+  static const TypeInfo info{"shape", "mesh",
+                             "Triangle mesh from the buffers of a program; scene files have none.",
+                             with_options(mesh_buffer_parameters(), false)};
+  return info;
+}
+std::unique_ptr<Shape> create_mesh(const Arguments& arguments) {
+  const MeshOptions options = mesh_options(arguments);
+  return std::make_unique<MeshShape>(
+      prepare_mesh(mesh_of_buffers(arguments), options, arguments.place_of("positions")));
 }
 
 const TypeInfo& rectangle_info() {

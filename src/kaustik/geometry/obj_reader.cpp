@@ -11,6 +11,7 @@
 
 #include "kaustik/base/file.h"
 #include "kaustik/base/sampler.h"
+#include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/polygon_cutter.h"
 
@@ -40,7 +41,8 @@ class ObjReader {
     while (at_ < bytes_.size()) read_line(next_line());
     if (mesh_.triangles.empty()) {
       line_ = 0;
-      fail("the mesh has no faces", "export the object as a mesh with faces");
+      const MeshFault fault = fault_of_no_faces();
+      fail(fault.message, fault.remedy);
     }
     finish();
     return {std::move(mesh_), std::move(remarks_)};

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "kaustik/base/file.h"
+#include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/polygon_cutter.h"
 
@@ -72,8 +73,7 @@ class PlyReader {
       else
         for (uint64_t i = 0; i < element.count; ++i) skip(element);
     }
-    if (mesh_.triangles.empty())
-      fail("the mesh has no faces", "export the object as a mesh with faces");
+    if (mesh_.triangles.empty()) check(fault_of_no_faces());
     MeshFile file{std::move(mesh_), {}};
     if (small_faces_ > 0) file.remarks.push_back(remark_on_small_faces(small_faces_, path_));
     return file;
@@ -82,6 +82,9 @@ class PlyReader {
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& remedy) const {
     throw Error(ErrorKind::input, "PLY: " + what, remedy, place_in(path_, line_));
+  }
+  void check(const std::optional<MeshFault>& fault) const {
+    if (fault) fail(fault->message, fault->remedy);
   }
   [[noreturn]] void fail_truncated() const {
     fail("the file ends too early", "it is truncated: export or copy it again");
@@ -229,9 +232,7 @@ void PlyReader::check_count(const PlyElement& element) const {
     fail(fmt::format("the header announces {} elements '{}', more than the file can hold",
                      element.count, element.name),
          "it is truncated: export or copy it again");
-  if (element.count >= 0xffffffffull)
-    fail(fmt::format("{} elements '{}' are too many", element.count, element.name),
-         "split the mesh: at most 2^32 - 2");
+  check(fault_of_count(element.count, element.name));
 }
 
 double PlyReader::text_value() {
@@ -326,22 +327,16 @@ void PlyReader::read_vertices(const PlyElement& element) {
     }
     const auto at = [&](int i) { return values[size_t(i)]; };
     const Vec3f p(at(position[0]), at(position[1]), at(position[2]));
-    if (!is_finite(p))
-      fail(fmt::format("vertex {} is not finite ({}, {}, {})", vertex, p.x, p.y, p.z),
-           "repair the mesh: all coordinates must be numbers");
+    check(fault_of_position(vertex, p));
     mesh_.positions.push_back(p);
     if (has_normals) {
       const Vec3f n(at(normal[0]), at(normal[1]), at(normal[2]));
-      if (!is_finite(n))
-        fail(fmt::format("the normal of vertex {} is not finite", vertex),
-             "export the mesh without normals, or repair them");
+      check(fault_of_normal(vertex, n));
       mesh_.normals.push_back(n);
     }
     if (has_uvs) {
       const Vec2f t(at(uv[0]), at(uv[1]));
-      if (!std::isfinite(t.x) || !std::isfinite(t.y))
-        fail(fmt::format("the texture coordinate of vertex {} is not finite", vertex),
-             "export the mesh without texture coordinates, or repair them");
+      check(fault_of_uv(vertex, t));
       mesh_.uvs.push_back(t);
     }
   }
@@ -369,9 +364,7 @@ void PlyReader::read_polygon(const PlyProperty& property, uint64_t face) {
   corners_.clear();
   for (uint64_t i = 0; i < corners; ++i) {
     const double index = value(property.type);
-    if (!(index >= 0) || index >= double(vertex_count_) || index != std::floor(index))
-      fail(fmt::format("face {} refers to vertex {} of {}", face, index, vertex_count_),
-           "the file is damaged: export it again");
+    check(fault_of_index(face, index, vertex_count_, "the file is damaged: export it again"));
     corners_.push_back(uint32_t(index));
   }
   if (corners_.size() < 3)

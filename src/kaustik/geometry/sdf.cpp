@@ -292,7 +292,7 @@ const TypeInfo& sdf_info() {
        number_parameter("size", 2.0, "Edge of the cube that holds the solid.")
            .range(smallest_length, largest_length)
            .in("m"),
-       transform_parameter("to_world", "Places the solid in the world.")}};
+       to_world_parameter("Places the solid in the world.")}};
   return info;
 }
 

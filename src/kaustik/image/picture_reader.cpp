@@ -4,17 +4,21 @@
 
 #include <algorithm>
 
+#include "kaustik/image/array_image.h"
+
 namespace kaustik {
 namespace {
 
-/// Errors of reading get the place of the file name.
+/// Errors of reading get the place of the file name or of the buffer.
 Image read_at(const Arguments& arguments, const ReadOptions& options) {
+  const Array* buffer = arguments.array("data").get();
   try {
-    return read_image(arguments.text("filename"), options);
+    return buffer ? image_of_array(*buffer, options)
+                  : read_image(arguments.text("filename"), options);
   } catch (const Error& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems)
-      if (!problem.place.file) problem.place = arguments.place_of("filename");
+      if (!problem.place.file) problem.place = picture_place(arguments);
     throw Error(error.kind(), std::move(problems));
   }
 }
@@ -27,10 +31,10 @@ std::array<int, 3> colours_of(const Image& image, const Arguments& arguments) {
     rgb_view(image);
   } catch (const Error& error) {
     throw Error(ErrorKind::input,
-                fmt::format("picture '{}' has no colours: {}", arguments.text("filename"),
+                fmt::format("{} has no colours: {}", picture_name(arguments),
                             error.problems().front().remedy),
                 "save it with the channels R, G and B, or with one that is called Y",
-                arguments.place_of("filename"));
+                picture_place(arguments));
   }
   return {};
 }
@@ -72,6 +76,29 @@ BadColours repair(Image& image, const std::array<int, 3>& channels) {
 
 }  // namespace
 
+std::vector<Parameter> picture_parameters(const std::string& of_file,
+                                          std::vector<Parameter> others) {
+  std::vector<Parameter> rows = {
+      file_parameter("filename",
+                     "EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA or PPM file" + of_file),
+      array_parameter(
+          "data", {},
+          "A picture [rows, columns] or [rows, columns, 1, 3 or 4] from the buffer of a "
+          "program instead of the file: uint8, uint16, float32 or float64.")
+          .instead_of("filename")};
+  for (Parameter& other : others) rows.push_back(std::move(other));
+  return rows;
+}
+
+std::string picture_name(const Arguments& arguments) {
+  if (arguments.array("data")) return "picture 'data'";
+  return fmt::format("picture '{}'", arguments.text("filename"));
+}
+
+Place picture_place(const Arguments& arguments) {
+  return arguments.place_of(arguments.array("data") ? "data" : "filename");
+}
+
 PictureReader::PictureReader(int64_t memory_bytes)
     : budget_bytes_(memory_bytes), left_bytes_(memory_bytes) {}
 
@@ -91,9 +118,9 @@ Image PictureReader::read(const Arguments& arguments, int64_t kept_bytes_per_pix
   const BadColours bad = repair(image, colours_of(image, arguments));
   if (bad.count > 0)
     warnings_.push_back(fmt::format(
-        "picture '{}': {} of its {} pixels {} negative or not finite, the first at ({}, {}): "
+        "{}: {} of its {} pixels {} negative or not finite, the first at ({}, {}): "
         "taken as {}",
-        arguments.text("filename"), bad.count, image.pixel_count(), bad.count == 1 ? "is" : "are",
+        picture_name(arguments), bad.count, image.pixel_count(), bad.count == 1 ? "is" : "are",
         bad.first % size_t(image.width()), bad.first / size_t(image.width()),
         bad.has_infinite ? fmt::format("0, infinite ones as {:.4g}, the largest of the others",
                                        double(bad.largest))

@@ -4,6 +4,14 @@
 
 namespace kaustik {
 
+/// The rows `filename` and `data`, which say what picture an object shows, and then the others;
+/// `of_file` ends the sentence about the file.
+std::vector<Parameter> picture_parameters(const std::string& of_file,
+                                          std::vector<Parameter> others);
+/// "picture 'sky.exr'", for messages, and where the picture was given.
+std::string picture_name(const Arguments& arguments);
+Place picture_place(const Arguments& arguments);
+
 /// Reads the pictures that a scene names, whole and only their colours, within one budget of
 /// memory, and collects what is odd about them.
 class PictureReader {
@@ -11,11 +19,12 @@ class PictureReader {
   /// `memory_bytes`: that all pictures may take together.
   explicit PictureReader(int64_t memory_bytes = default_picture_memory());
 
-  /// The picture that argument `filename` names, of which the caller keeps so many bytes per pixel.
+  /// The picture that argument `filename` names, or that is in the buffer `data`; the caller keeps
+  /// so many bytes per pixel of it.
   /// All its colours are finite and at least 0, for others would poison every path that meets them:
   /// negative and undefined ones become 0, infinite ones the largest value that there is; a warning
-  /// tells their number. Throws Error(input) at the place of the file name where it cannot be read
-  /// or has no colours, Error(system) there where the budget is spent.
+  /// tells their number. Throws Error(input) at the place of the name or buffer where it cannot be
+  /// read or has no colours, Error(system) there where the budget is spent.
   Image read(const Arguments& arguments, int64_t kept_bytes_per_pixel, bool srgb_to_linear = true);
 
   const std::vector<std::string>& warnings() const { return warnings_; }

@@ -59,7 +59,6 @@ class DirectionalLight final : public Light {
 };
 
 Vec3f travel_direction(const LightInputs& inputs) {
-  reject_beside_to_world(inputs, "direction");
   if (!inputs.arguments.given("direction"))
     return normalize(emitter_transform(inputs).vector({0, 0, 1}));
   const Vec3d given = inputs.arguments.point("direction");
@@ -86,8 +85,10 @@ LightType directional_light_type() {
       "Parallel light from infinitely far away.",
       {color_parameter("irradiance", 1, "What a surface across the direction receives.").in("W/m²"),
        optional(point_parameter("direction", {0, 0, 1},
-                                "In which light travels; instead of `to_world`.")),
-       transform_parameter("to_world", "World from the light, which shines along its +z."),
+                                "In which light travels; instead of `to_world`."))
+           .instead_of("to_world")
+           .moved(WhenMoved::turned),
+       to_world_parameter("World from the light, which shines along its +z."),
        ignored_sampling_weight()}};
   return {info, false, create_directional};
 }

@@ -162,9 +162,8 @@ std::unique_ptr<Light> create_distributed(const LightInputs& inputs) {
   if (is_spot) {
     settings.cone = spot_cone_argument(arguments);
     settings.axis = normalize(to_world.vector({0, 0, 1}));
-  } else {
-    reject_beside_to_world(inputs, "position");
-    if (arguments.given("position")) settings.position = Vec3f(arguments.point("position"));
+  } else if (arguments.given("position")) {
+    settings.position = Vec3f(arguments.point("position"));
   }
   settings.radius = float(arguments.number("radius") * double(length(to_world.vector({0, 0, 1}))));
   settings.intensity =
@@ -184,7 +183,7 @@ std::vector<Parameter> with_shared_rows(std::vector<Parameter> rows) {
           .in("W/sr"),
       optional(
           color_parameter("power", 1, "All the light it gives; instead of `intensity`.").in("W")),
-      transform_parameter("to_world", "World from the light, whose centre is the origin."),
+      to_world_parameter("World from the light, whose centre is the origin."),
       attenuation_parameter(),
       shadow_samples_parameter(),
       ignored_sampling_weight()};
@@ -199,8 +198,10 @@ LightType distributed_light_type() {
       "emitter", "distributed",
       "A glowing ball that is no part of the scene: invisible, without a shadow of its own, but "
       "with soft ones behind what it lights.",
-      with_shared_rows({optional(
-          point_parameter("position", {0, 0, 0}, "Its centre; instead of `to_world`."))})};
+      with_shared_rows(
+          {optional(point_parameter("position", {0, 0, 0}, "Its centre; instead of `to_world`."))
+               .instead_of("to_world")
+               .moved(WhenMoved::origin)})};
   return {info, false, create_distributed};
 }
 

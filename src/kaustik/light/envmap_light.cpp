@@ -155,10 +155,9 @@ std::unique_ptr<Light> create_envmap(const LightInputs& inputs) {
                                              float(arguments.number("scale")), to_world,
                                              EmissionDisk(inputs.scene_bounds));
   if (!light->shines())
-    throw Error(ErrorKind::input,
-                "picture '" + arguments.text("filename") + "' is black: it would light nothing",
+    throw Error(ErrorKind::input, picture_name(arguments) + " is black: it would light nothing",
                 "give a picture with some light in it, or remove the emitter",
-                arguments.place_of("filename"));
+                picture_place(arguments));
   return with_finite_power(std::move(light), inputs);
 }
 
@@ -166,14 +165,12 @@ std::unique_ptr<Light> create_envmap(const LightInputs& inputs) {
 
 LightType envmap_light_type() {
   static const TypeInfo info{
-      "emitter",
-      "envmap",
-      "A picture of the light around the scene, in latitude and longitude.",
-      {file_parameter("filename",
-                      "EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA or PPM file: radiance."),
-       number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
-       transform_parameter("to_world", "World from the picture, whose upper edge is +y."),
-       ignored_parameter("mis_compensation", ParameterKind::boolean), ignored_sampling_weight()}};
+      "emitter", "envmap", "A picture of the light around the scene, in latitude and longitude.",
+      picture_parameters(": radiance.",
+                         {number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
+                          to_world_parameter("World from the picture, whose upper edge is +y."),
+                          ignored_parameter("mis_compensation", ParameterKind::boolean),
+                          ignored_sampling_weight()})};
   return {info, false, create_envmap};
 }
 

@@ -24,15 +24,6 @@ const Transform& emitter_transform(const LightInputs& inputs) {
                                             : inputs.to_world;
 }
 
-void reject_beside_to_world(const LightInputs& inputs, std::string_view name) {
-  const Arguments& arguments = inputs.arguments;
-  if (arguments.given(name) && arguments.given("to_world"))
-    throw Error(
-        ErrorKind::input,
-        fmt::format("emitter '{}' has both '{}' and 'to_world'", arguments.info().name, name),
-        "give one of them", arguments.place_of(name));
-}
-
 std::unique_ptr<Light> with_finite_power(std::unique_ptr<Light> light, const LightInputs& inputs) {
   if (!light->power().is_finite())
     throw Error(ErrorKind::input,

@@ -27,8 +27,6 @@ bool keeps_angles(const Transform& t);
 Spectrum emission_argument(const LightInputs& inputs, std::string_view name);
 /// The emitter's own `to_world` if the arguments give it, else that of the inputs.
 const Transform& emitter_transform(const LightInputs& inputs);
-/// Throws where both `to_world` and its stand-in `name` are given, as Mitsuba does.
-void reject_beside_to_world(const LightInputs& inputs, std::string_view name);
 /// The finished light; throws where its power overflows.
 std::unique_ptr<Light> with_finite_power(std::unique_ptr<Light> light, const LightInputs& inputs);
 /// What Light::shadow_samples is read from.

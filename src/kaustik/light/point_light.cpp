@@ -70,7 +70,6 @@ class PointLight final : public Light {
 };
 
 std::unique_ptr<Light> create_point(const LightInputs& inputs) {
-  reject_beside_to_world(inputs, "position");
   const Vec3f position = inputs.arguments.given("position")
                              ? Vec3f(inputs.arguments.point("position"))
                              : emitter_transform(inputs).point({0, 0, 0});
@@ -88,9 +87,11 @@ LightType point_light_type() {
       "point",
       "Light from a point, alike in all directions.",
       {color_parameter("intensity", 1, "Radiant intensity.").in("W/sr"),
-       optional(point_parameter("position", {0, 0, 0}, "Where it is; instead of `to_world`.")),
-       transform_parameter("to_world", "World from the light, which is at the origin."),
-       attenuation_parameter(), ignored_sampling_weight()}};
+       optional(point_parameter("position", {0, 0, 0}, "Where it is; instead of `to_world`."))
+           .instead_of("to_world")
+           .moved(WhenMoved::origin),
+       to_world_parameter("World from the light, which is at the origin."), attenuation_parameter(),
+       ignored_sampling_weight()}};
   return {info, false, create_point};
 }
 

@@ -104,8 +104,7 @@ LightType spot_light_type() {
     std::vector<Parameter> rows = spot_cone_parameters();
     rows.insert(rows.begin(),
                 color_parameter("intensity", 1, "Radiant intensity within the beam.").in("W/sr"));
-    rows.push_back(
-        transform_parameter("to_world", "World from the light, which shines along its +z."));
+    rows.push_back(to_world_parameter("World from the light, which shines along its +z."));
     rows.push_back(attenuation_parameter());
     rows.push_back(ignored_sampling_weight());
     return TypeInfo{"emitter", "spot", "Light from a point into a cone about its +z axis.", rows};

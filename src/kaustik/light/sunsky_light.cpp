@@ -304,7 +304,8 @@ std::vector<Parameter> parameters(Parts parts) {
       number_parameter("minute", 0, "By the clock of the place.").range(0, 60),
       number_parameter("second", 0, "By the clock of the place.").range(0, 60),
       optional(point_parameter("sun_direction", {0, 0, 1},
-                               "Toward the sun, in the world; instead of place and time."))};
+                               "Toward the sun, in the world; instead of place and time."))
+          .moved(WhenMoved::turned)};
   if (parts != Parts::sky) {
     table.push_back(
         number_parameter("sun_scale", 1, "Factor on the sun's radiance.").range(0, 1e30));
@@ -316,8 +317,8 @@ std::vector<Parameter> parameters(Parts parts) {
   if (parts != Parts::sun)
     table.push_back(
         number_parameter("sky_scale", 1, "Factor on the sky's radiance.").range(0, 1e30));
-  table.push_back(transform_parameter(
-      "to_world", "World from the sky, whose +z is the zenith, +x south and +y west."));
+  table.push_back(
+      to_world_parameter("World from the sky, whose +z is the zenith, +x south and +y west."));
   table.push_back(ignored_parameter("complex_sun", ParameterKind::boolean));
   table.push_back(ignored_sampling_weight());
   return table;

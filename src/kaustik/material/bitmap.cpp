@@ -51,18 +51,16 @@ class Bitmap final : public Texture {
 
 const TypeInfo& info() {
   static const TypeInfo info{
-      "texture",
-      "bitmap",
-      "A picture, filtered by the footprint of the ray.",
-      {file_parameter("filename", "EXR, HDR, PFM, TIFF, PNG, JPEG, WebP, BMP, TGA or PPM file."),
-       choice_parameter("filter_type", "bilinear", {"bilinear", "nearest"},
-                        "How values between pixels come about."),
-       choice_parameter("wrap_mode", "repeat", {"repeat", "mirror", "clamp"},
-                        "What is outside of the picture."),
-       boolean_parameter("raw", false, "Take 8-bit values as linear ones, not as sRGB."),
-       transform_parameter("to_uv", "Applied to the coordinates before the lookup."),
-       ignored_parameter("format", ParameterKind::text),
-       ignored_parameter("accel", ParameterKind::boolean)}};
+      "texture", "bitmap", "A picture, filtered by the footprint of the ray.",
+      picture_parameters(
+          ".", {choice_parameter("filter_type", "bilinear", {"bilinear", "nearest"},
+                                 "How values between pixels come about."),
+                choice_parameter("wrap_mode", "repeat", {"repeat", "mirror", "clamp"},
+                                 "What is outside of the picture."),
+                boolean_parameter("raw", false, "Take 8-bit values as linear ones, not as sRGB."),
+                transform_parameter("to_uv", "Applied to the coordinates before the lookup."),
+                ignored_parameter("format", ParameterKind::text),
+                ignored_parameter("accel", ParameterKind::boolean)})};
   return info;
 }
 

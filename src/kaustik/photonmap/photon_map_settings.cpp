@@ -74,10 +74,10 @@ std::vector<Parameter> parameters() {
       choice_parameter("preset", "default", {"default", "thesis"},
                        "Defaults of the parameters below: Kaustik's, or those of Schregle's thesis "
                        "(1998, appendix A)."),
-      text_parameter(
-          "photon_map", "",
+      optional(file_parameter(
+          "photon_map",
           "Maps made by `kaustik photons` to use in every pass instead of tracing new ones; "
-          "the error that is told is then the noise of the view alone."),
+          "the error that is told is then the noise of the view alone.")),
       integer_parameter("caustic_neighbors", 60,
                         "Caustic photons to find [numCaustic]; 0: no caustics.")
           .range(0, 100000),

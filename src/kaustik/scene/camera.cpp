@@ -19,7 +19,7 @@ const TypeInfo& Camera::info() {
       "sensor",
       "perspective",
       "Pinhole camera that looks along +z of its own space; +x points to the left of the picture.",
-      {transform_parameter("to_world", "From the camera's space to the world."),
+      {to_world_parameter("From the camera's space to the world."),
        optional(number_parameter("fov", 50, "Field of view along fov_axis.")
                     .range(1e-4, 179.9)
                     .in("degrees")),

@@ -3,27 +3,29 @@
 namespace kaustik {
 namespace {
 
-void collect_files(const Object& object, std::set<const Object*>& seen,
+void collect_files(const Object& object, const TypeTables& types, std::set<const Object*>& seen,
                    std::set<std::string>& files) {
   if (!seen.insert(&object).second) return;
+  const TypeInfo* info = types.find(object.family, object.type);
   for (const Property& property : object.properties)
-    if (const std::string file = file_of(property); !file.empty()) files.insert(file);
-  for (const Child& child : object.children) collect_files(*child.object, seen, files);
+    if (const std::string file = file_of(property, info); !file.empty()) files.insert(file);
+  for (const Child& child : object.children) collect_files(*child.object, types, seen, files);
 }
 
 }  // namespace
 
-std::string file_of(const Property& property) {
-  if (property.name != "filename" && property.name != "photon_map") return {};
+std::string file_of(const Property& property, const TypeInfo* info) {
+  const Parameter* row = info ? info->find(property.name) : nullptr;
+  if (!row || row->kind != ParameterKind::file) return {};
   if (const auto* text = std::get_if<std::string>(&property.value)) return *text;
   if (const auto* untyped = std::get_if<Untyped>(&property.value)) return untyped->text;
   return {};
 }
 
-std::set<std::string> named_files(const Description& description) {
+std::set<std::string> named_files(const Description& description, const TypeTables& types) {
   std::set<const Object*> seen;
   std::set<std::string> files;
-  collect_files(*description.scene, seen, files);
+  collect_files(*description.scene, types, seen, files);
   return files;
 }
 

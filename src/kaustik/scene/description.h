@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kaustik/base/parameters.h"
+#include "kaustik/base/type_tables.h"
 
 namespace kaustik {
 
@@ -37,10 +38,12 @@ struct Description {
   std::vector<std::string> sources = {};
 };
 
-/// The path of the file that a property `filename` or `photon_map` names, "" for all others.
-std::string file_of(const Property& property);
+/// The path of the file that a property names where the table of its object's type says that it
+/// names one; "" for all others, and where the table is null.
+std::string file_of(const Property& property, const TypeInfo* info);
 
-/// The files that properties of the scene name: meshes, pictures, photon maps, scenes.
-std::set<std::string> named_files(const Description& description);
+/// The files that properties of the scene name: meshes, pictures, photon maps. Those of types
+/// without a table do not count.
+std::set<std::string> named_files(const Description& description, const TypeTables& types);
 
 }  // namespace kaustik

@@ -32,6 +32,9 @@ std::string text_of(const SpectralCurve& curve) {
     text += fmt::format("{}:{} ", wavelength, value);
   return text;
 }
+std::string text_of(const std::shared_ptr<const Array>& array) {
+  return array ? fmt::format("a{:016x}", array->digest()) : "a";
+}
 std::string text_of(const Transform& transform) {
   std::string text = "t";
   for (int row = 0; row < 4; ++row)
@@ -43,14 +46,15 @@ std::string text_of(const Transform& transform) {
 class Digester {
  public:
   /// `left_out` counts as if it were not there.
-  explicit Digester(const Object* left_out) : left_out_(left_out) {}
+  Digester(const TypeTables& types, const Object* left_out) : types_(types), left_out_(left_out) {}
 
   uint64_t of(const Object& object) {
     const auto known = objects_.find(&object);
     if (known != objects_.end()) return known->second;
+    const TypeInfo* info = types_.find(object.family, object.type);
     std::string text = text_of(object.family) + text_of(object.type) + text_of(object.id);
     for (const Property& property : object.properties)
-      text += text_of(property.name) + "=" + value_of(property) + ";";
+      text += text_of(property.name) + "=" + value_of(property, info) + ";";
     for (const Child& child : object.children)
       if (child.object.get() != left_out_)
         text += fmt::format("{}:{:016x};", text_of(child.name), of(*child.object));
@@ -58,8 +62,8 @@ class Digester {
   }
 
  private:
-  std::string value_of(const Property& property) {
-    const std::string file = file_of(property);
+  std::string value_of(const Property& property, const TypeInfo* info) {
+    const std::string file = file_of(property, info);
     if (!file.empty()) return fmt::format("file {:016x}", of_file(file));
     return std::visit([](const auto& value) { return text_of(value); }, property.value);
   }
@@ -69,6 +73,7 @@ class Digester {
     return files_[path] = checksum(read_file(path));
   }
 
+  const TypeTables& types_;
   const Object* left_out_;
   std::map<const Object*, uint64_t> objects_;  // shared ones need not be gone through again
   std::map<std::string, uint64_t> files_;
@@ -76,16 +81,16 @@ class Digester {
 
 }  // namespace
 
-DescriptionDigest description_digest(const Description& description) {
+DescriptionDigest description_digest(const Description& description, const TypeTables& types) {
   const auto integrator = find_integrator(description);
-  Digester digester(integrator.get());
+  Digester digester(types, integrator.get());
   return {digester.of(*description.scene), integrator ? digester.of(*integrator) : 0};
 }
 
-std::map<std::string, GuardedDigest::Stamp> GuardedDigest::stamps_of(
-    const Description& description) {
+std::map<std::string, GuardedDigest::Stamp> GuardedDigest::stamps_of(const Description& description,
+                                                                     const TypeTables& types) {
   std::map<std::string, Stamp> stamps;
-  for (const std::string& file : named_files(description)) {
+  for (const std::string& file : named_files(description, types)) {
     struct stat status;
     if (::stat(file.c_str(), &status) != 0) continue;  // who reads it will tell
     const auto nanoseconds = [](const timespec& t) {
@@ -97,12 +102,14 @@ std::map<std::string, GuardedDigest::Stamp> GuardedDigest::stamps_of(
   return stamps;
 }
 
-GuardedDigest::GuardedDigest(const Description& description)
-    : stamps_(stamps_of(description)), digest_(description_digest(description)) {}
+GuardedDigest::GuardedDigest(const Description& description, const TypeTables& types)
+    : types_(&types),
+      stamps_(stamps_of(description, types)),
+      digest_(description_digest(description, types)) {}
 
 void GuardedDigest::check(const Description& description) const {
-  const auto now = stamps_of(description);
-  if (now == stamps_ || description_digest(description) == digest_) return;
+  const auto now = stamps_of(description, *types_);
+  if (now == stamps_ || description_digest(description, *types_) == digest_) return;
   std::string changed;
   for (const auto& [file, stamp] : stamps_)
     if (const auto found = now.find(file); found == now.end() || found->second != stamp)

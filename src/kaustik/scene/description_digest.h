@@ -16,23 +16,26 @@ struct DescriptionDigest {
 };
 
 /// Of every object, its type, id, properties and children in their order, and of the bytes of the
-/// files that properties `filename` and `photon_map` name; where those lie makes no difference, nor
-/// do comments and spaces in the scene file. Throws Error if such a file cannot be read.
-DescriptionDigest description_digest(const Description& description);
+/// files and buffers that properties name, as `types` tell; where those lie makes no difference,
+/// nor do comments and spaces in the scene file. Throws Error if such a file cannot be read.
+DescriptionDigest description_digest(const Description& description, const TypeTables& types);
 
 /// A digest, and whether it still is that of the files when all of them have been read again: one
 /// that somebody writes meanwhile must not pass for another.
 class GuardedDigest {
  public:
-  explicit GuardedDigest(const Description& description);
+  /// `types` must outlive this.
+  GuardedDigest(const Description& description, const TypeTables& types);
   const DescriptionDigest& digest() const { return digest_; }
   /// Throws Error(input) if a file has other contents than those of the digest.
   void check(const Description& description) const;
 
  private:
   using Stamp = std::array<int64_t, 5>;
-  static std::map<std::string, Stamp> stamps_of(const Description& description);
+  static std::map<std::string, Stamp> stamps_of(const Description& description,
+                                                const TypeTables& types);
 
+  const TypeTables* types_;
   std::map<std::string, Stamp> stamps_;  ///< what the system tells of the files, by path
   DescriptionDigest digest_;
 };

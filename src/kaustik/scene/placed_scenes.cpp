@@ -7,6 +7,7 @@
 #include <set>
 
 #include "kaustik/light/light.h"
+#include "kaustik/scene/type_tables.h"
 
 namespace kaustik {
 namespace {
@@ -42,12 +43,6 @@ const Property* find_property(const Object& object, const std::string& name) {
     if (property.name == name) return &property;
   return nullptr;
 }
-/// The identity where none is given, and where it is none: that will be told when it is read.
-Transform to_world_of(const Object& object) {
-  const Property* property = find_property(object, "to_world");
-  const Transform* given = property ? std::get_if<Transform>(&property->value) : nullptr;
-  return given ? *given : Transform();
-}
 void set_property(Object& object, const std::string& name, const Value& value) {
   const Property* old = find_property(object, name);
   const Place place = old ? old->place : object.place;
@@ -55,8 +50,23 @@ void set_property(Object& object, const std::string& name, const Value& value) {
   object.properties.push_back({name, value, place});
 }
 
-Transform compose(const Transform& outer, const Object& object) {
-  const Transform composed = outer * to_world_of(object);
+/// The value of a property if it has the type; null if not, which will be told when it is read.
+template <typename T>
+const T* value_in(const Object& object, const std::string& name) {
+  const Property* property = find_property(object, name);
+  return property ? std::get_if<T>(&property->value) : nullptr;
+}
+
+/// The row that places objects of a type in the world; null if there is none.
+const Parameter* placing_row(const TypeInfo& info) {
+  for (const Parameter& row : info.parameters)
+    if (row.when_moved == WhenMoved::composed) return &row;
+  return nullptr;
+}
+
+/// First `inner`, then `outer`.
+Transform compose(const Transform& outer, const Transform& inner, const Place& place) {
+  const Transform composed = outer * inner;
   double rows[4][4];
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) rows[i][j] = composed.at(i, j);
@@ -64,43 +74,55 @@ Transform compose(const Transform& outer, const Object& object) {
     return Transform(rows);
   } catch (const std::invalid_argument&) {
     throw Error(ErrorKind::input, "the transforms of a placed scene shrink or grow it to nothing",
-                "use less extreme scales", object.place);
+                "use less extreme scales", place);
   }
 }
 
-std::shared_ptr<Object> with_to_world(const Object& object, const Transform& to_world) {
+/// The object brought to where `world` puts it, as its table says.
+std::shared_ptr<Object> moved(const Object& object, const TypeInfo& info, const Transform& world) {
   auto copy = std::make_shared<Object>(object);
-  set_property(*copy, "to_world", to_world);
+  const Parameter* placing = placing_row(info);
+  Transform own;  // the identity where no transform is given
+  if (placing)
+    if (const auto* given = value_in<Transform>(object, placing->name)) own = *given;
+  bool has_stand_in = false;
+  for (const Parameter& row : info.parameters) {
+    const auto* value = value_in<Vec3d>(object, row.name);
+    if (!value || row.when_moved == WhenMoved::stays) continue;
+    if (row.when_moved == WhenMoved::origin) {
+      own = Transform::translate(*value);
+      std::erase_if(copy->properties, [&](const Property& p) { return p.name == row.name; });
+    } else if (row.when_moved == WhenMoved::turned) {
+      set_property(*copy, row.name, Vec3d(world.vector(Vec3f(*value))));
+      has_stand_in = has_stand_in || (placing && row.stands_for == placing->name);
+    }
+  }
+  if (placing && !has_stand_in)
+    set_property(*copy, placing->name, compose(world, own, object.place));
   return copy;
 }
 
-/// An emitter brought to where `world` puts it.
+/// An emitter of a group brought to where `world` puts it.
 std::shared_ptr<Object> placed_emitter(const Object& emitter, const Transform& world) {
-  for (const LightType& type : light_types()) {
-    if (type.info.name != emitter.type || type.needs_shape) continue;
-    const Parameter* to_world = type.info.find("to_world");
-    if (!to_world || to_world->no_effect)
-      throw Error(ErrorKind::input,
-                  fmt::format("emitter '{}' lights the whole world: it cannot stand in a shape "
-                              "group",
-                              emitter.type),
-                  "put it at the top of the scene", emitter.place);
-  }
-  const auto point_of = [&](const char* name) -> const Vec3d* {
-    const Property* given = find_property(emitter, name);
-    return given ? std::get_if<Vec3d>(&given->value) : nullptr;
-  };
-  if (const Vec3d* position = point_of("position")) {
-    auto copy = with_to_world(emitter, world * Transform::translate(*position));
-    std::erase_if(copy->properties, [](const Property& p) { return p.name == "position"; });
-    return copy;
-  }
-  if (const Vec3d* direction = point_of("direction")) {
-    auto copy = std::make_shared<Object>(emitter);
-    set_property(*copy, "direction", Vec3d(world.vector(Vec3f(*direction))));
-    return copy;
-  }
-  return with_to_world(emitter, compose(world, emitter));
+  const auto& types = light_types();
+  const auto type = std::find_if(types.begin(), types.end(), [&](const LightType& row) {
+    return row.info.name == emitter.type;
+  });
+  // What is wrong with it will be told when it is made.
+  if (type == types.end() || type->needs_shape) return std::make_shared<Object>(emitter);
+  if (!placing_row(type->info))
+    throw Error(ErrorKind::input,
+                fmt::format("emitter '{}' lights the whole world: it cannot stand in a shape "
+                            "group",
+                            emitter.type),
+                "put it at the top of the scene", emitter.place);
+  return moved(emitter, type->info, world);
+}
+
+/// A shape, of whatever type, brought to where `world` puts it.
+std::shared_ptr<Object> placed_shape(const Object& shape, const Transform& world) {
+  const TypeInfo* info = scene_types().find(shape.family, shape.type);
+  return info ? moved(shape, *info, world) : std::make_shared<Object>(shape);
 }
 
 class Flattener {
@@ -180,10 +202,12 @@ class Flattener {
 
   void place(const Object& instance, const Transform& outer, int level) {
     check_level(instance, level);
-    const Transform world = compose(outer, instance);
+    const auto* own = value_in<Transform>(instance, placing_row(instance_info())->name);
+    const Transform world = compose(outer, own ? *own : Transform(), instance.place);
     const Object& group = *group_of(instance);
     if (const auto dark = dark_part(instance.children[0].object)) {
-      auto placed = with_to_world(instance, world);
+      auto placed = std::make_shared<Object>(instance);
+      set_property(*placed, placing_row(instance_info())->name, world);
       placed->children[0].object = dark;
       top_->children.push_back({"", placed});
     }
@@ -196,7 +220,7 @@ class Flattener {
     else if (part.family == "emitter")
       top_->children.push_back({"", placed_emitter(part, world)});
     else if (shines(part))
-      top_->children.push_back({"", with_to_world(part, compose(world, part))});
+      top_->children.push_back({"", placed_shape(part, world)});
     else if (is_shape(part, "instance"))
       top_->children.push_back({"", std::make_shared<Object>(part)});  // the builder refuses it
     else if (is_of_whole_picture(part) && reported_.insert(&part).second)

@@ -9,6 +9,7 @@
 #include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/texture_emission.h"
+#include "kaustik/scene/type_tables.h"
 
 namespace kaustik {
 namespace {
@@ -27,34 +28,9 @@ std::vector<std::string> names_of(const std::vector<Row>& rows) {
   return names;
 }
 
-const TypeInfo& shapegroup_info() {
-  static const TypeInfo info{
-      "shape",
-      "shapegroup",
-      "Shapes, or a whole scene with lamps and instances of other groups, that appear only "
-      "through instances.",
-      {}};
-  return info;
-}
-
-const TypeInfo& instance_info() {
-  static const TypeInfo info{
-      "shape",
-      "instance",
-      "Places a shape group once more.",
-      {transform_parameter("to_world", "From the group's space to the world.")}};
-  return info;
-}
-
 std::string display_name(const Object& object) {
   if (!object.id.empty()) return object.id;
   return fmt::format("{} '{}' on line {}", object.family, object.type, object.place.line);
-}
-
-/// Whether all that must be given was: what is missing has been reported already.
-bool has_all_required(const Arguments& arguments) {
-  return std::all_of(arguments.info().parameters.begin(), arguments.info().parameters.end(),
-                     [&](const Parameter& p) { return !p.required || arguments.has(p.name); });
 }
 
 std::vector<std::string> texture_parameters(const TypeInfo& info) {
@@ -100,9 +76,13 @@ void check_size(const Shape& shape, const Place& place) {
       fmt::format("let its sizes, scaled by to_world, be at least {:g} m", smallest_length), place);
 }
 
-/// Where an object names its file; without one its own place.
-Place file_place(const Arguments& arguments) {
-  return arguments.info().find("filename") ? arguments.place_of("filename") : arguments.place();
+/// Where an object names its file or gives its buffer; without one its own place.
+Place source_place(const Arguments& arguments) {
+  for (const Parameter& row : arguments.info().parameters)
+    if ((row.kind == ParameterKind::file || row.kind == ParameterKind::array) &&
+        arguments.given(row.name))
+      return arguments.place_of(row.name);
+  return arguments.place();
 }
 
 }  // namespace
@@ -250,10 +230,10 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   }
   if (built.surface.bsdf) built.surface.ask_bsdf();
   read_media(object, built.surface);
-  if (!has_all_required(arguments)) return std::nullopt;
-  collecting(file_place(arguments), [&] {
+  if (!arguments.is_complete()) return std::nullopt;
+  collecting(source_place(arguments), [&] {
     built.shape = type->create(arguments);
-    check_size(*built.shape, file_place(arguments));
+    check_size(*built.shape, source_place(arguments));
   });
   if (const auto* mesh = dynamic_cast<const MeshShape*>(built.shape.get()))
     for (const std::string& remark : mesh->remarks())
@@ -320,8 +300,8 @@ std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<
   if (const TextureType* type = find_row(texture_types(), object->type)) {
     refuse_children(*object, {});
     const Arguments arguments = arguments_of(type->info, *object);
-    if (has_all_required(arguments))
-      collecting(file_place(arguments), [&] { texture = type->create(arguments, pictures_); });
+    if (arguments.is_complete())
+      collecting(source_place(arguments), [&] { texture = type->create(arguments, pictures_); });
   } else {
     unknown_type(*object, names_of(texture_types()));
   }
@@ -453,6 +433,7 @@ void SceneBuilder::make_lights() {
       continue;
     }
     const Arguments arguments = arguments_of(type->info, *pending.object);
+    if (!arguments.is_complete()) continue;
     static const Transform identity;
     const Transform& to_world =
         type->info.find("to_world") ? arguments.transform("to_world") : identity;

@@ -1,0 +1,109 @@
+#include "kaustik/geometry/mesh_buffers.h"
+
+#include <fmt/format.h>
+
+#include "kaustik/geometry/mesh_checks.h"
+
+namespace kaustik {
+namespace {
+
+/// Makes what a mesh consists of, one buffer at a time.
+class BufferReader {
+ public:
+  explicit BufferReader(const Arguments& arguments) : arguments_(arguments) {}
+
+  std::vector<Vec3f> positions() {
+    start("positions");
+    return tuples<Vec3f>(fault_of_position);
+  }
+  std::vector<Vec3f> normals(size_t vertices) {
+    if (!start("normals")) return {};
+    expect_one_per_vertex(vertices);
+    return tuples<Vec3f>(fault_of_normal);
+  }
+  std::vector<Vec2f> uvs(size_t vertices) {
+    if (!start("uv")) return {};
+    expect_one_per_vertex(vertices);
+    return tuples<Vec2f>(fault_of_uv);
+  }
+  std::vector<std::array<uint32_t, 3>> faces(size_t vertices) {
+    start("faces");
+    if (rows() == 0) fail(fault_of_no_faces());
+    std::vector<std::array<uint32_t, 3>> faces(rows());
+    array_->visit([&](auto values) {
+      for (size_t i = 0; i < values.size(); ++i) {
+        check(fault_of_index(i / 3, double(values[i]), vertices,
+                             "indices count the rows of 'positions' from 0"));
+        faces[i / 3][i % 3] = uint32_t(values[i]);
+      }
+    });
+    return faces;
+  }
+
+ private:
+  /// False: it was not given.
+  bool start(const char* name) {
+    name_ = name;
+    array_ = arguments_.array(name).get();
+    if (!array_) return false;
+    check(fault_of_count(rows(), name));
+    return true;
+  }
+  size_t rows() const { return array_->extents()[0]; }
+
+  [[noreturn]] void fail(const MeshFault& fault) const {
+    throw Error(ErrorKind::input, fmt::format("'{}': {}", name_, fault.message), fault.remedy,
+                arguments_.place_of(name_));
+  }
+  void check(const std::optional<MeshFault>& fault) const {
+    if (fault) fail(*fault);
+  }
+  void expect_one_per_vertex(size_t vertices) const {
+    if (rows() == vertices) return;
+    fail({fmt::format("it has {} rows, and 'positions' has {}", rows(), vertices),
+          "give one row for each vertex"});
+  }
+
+  template <typename Tuple>
+  std::vector<Tuple> tuples(std::optional<MeshFault> (*fault_of)(uint64_t, const Tuple&)) const {
+    constexpr size_t size = sizeof(Tuple) / sizeof(float);
+    std::vector<Tuple> result;
+    result.reserve(rows() + 1);  // see MeshShape
+    array_->visit([&](auto values) {
+      for (size_t row = 0; row < rows(); ++row) {
+        Tuple tuple;
+        for (size_t i = 0; i < size; ++i) tuple[int(i)] = float(values[row * size + i]);
+        check(fault_of(row, tuple));
+        result.push_back(tuple);
+      }
+    });
+    return result;
+  }
+
+  const Arguments& arguments_;
+  const char* name_ = "";
+  const Array* array_ = nullptr;
+};
+
+}  // namespace
+
+TriangleMesh mesh_of_buffers(const Arguments& arguments) {
+  BufferReader reader(arguments);
+  TriangleMesh mesh;
+  mesh.positions = reader.positions();
+  mesh.triangles = reader.faces(mesh.positions.size());
+  mesh.normals = reader.normals(mesh.positions.size());
+  mesh.uvs = reader.uvs(mesh.positions.size());
+  return mesh;
+}
+
+std::vector<Parameter> mesh_buffer_parameters() {
+  return {required(array_parameter("positions", {0, 3}, "Vertices, in the mesh's own space.")),
+          required(array_parameter("faces", {0, 3},
+                                   "The three vertices of each triangle, counted from 0.")
+                       .integers()),
+          array_parameter("normals", {0, 3}, "Of each vertex, of any length."),
+          array_parameter("uv", {0, 2}, "Texture coordinates of each vertex.")};
+}
+
+}  // namespace kaustik

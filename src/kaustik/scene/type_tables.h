@@ -1,0 +1,13 @@
+#pragma once
+#include "kaustik/base/type_tables.h"
+
+namespace kaustik {
+
+/// The tables of all that build_scene() makes: everything but integrators.
+const TypeTables& scene_types();
+
+/// Of the shapes that only a scene knows: groups, and what places them.
+const TypeInfo& shapegroup_info();
+const TypeInfo& instance_info();
+
+}  // namespace kaustik
