@@ -13,6 +13,7 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/image_io.h"
 #include "kaustik/image/metrics.h"
+#include "kaustik/loader/scene_format.h"
 #include "kaustik/photonmap/photon_light.h"
 #include "kaustik/scene/overrides.h"
 #include "kaustik/transport/camera_walk.h"
@@ -120,10 +121,10 @@ void provide_reference(Subject& subject, const std::filesystem::path& directory)
 }
 
 Description description_of(const std::string& name) {
-  Description description = name == "cornell_box"
-                                ? bench::load_shipped(name)
-                                : load_mitsuba_xml(std::string(KAUSTIK_SOURCE_DIR) +
-                                                   "/benchmarks/scenes/" + name + ".xml");
+  Description description =
+      name == "cornell_box"
+          ? bench::load_shipped(name)
+          : load_scene(std::string(KAUSTIK_SOURCE_DIR) + "/benchmarks/scenes/" + name + ".xml");
   for (const char* side : {"film.width", "film.height"})
     override_property(description, fmt::format("{}={}", side, size));
   return description;

@@ -1,14 +1,13 @@
 #pragma once
 // The scenes that ship, for benchmarks.
-#include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/scene_format.h"
 #include "kaustik/photon/light_pass.h"
 #include "kaustik/scene/scene.h"
 
 namespace kaustik::bench {
 
 inline Description load_shipped(const std::string& name) {
-  return load_mitsuba_xml(std::string(KAUSTIK_SOURCE_DIR) + "/scenes/" + name + "/" + name +
-                          ".xml");
+  return load_scene(std::string(KAUSTIK_SOURCE_DIR) + "/scenes/" + name + "/" + name + ".xml");
 }
 
 /// The caustic photons of the metal ring: at least `count` of them.

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/scene/scene_report.h"
 #include "render_job.h"
 #include "scene_warnings.h"
@@ -14,7 +13,7 @@ void info(const std::string& path, const std::vector<std::string>& definitions,
           const BuildOptions& build) {
   LoadOptions load;
   load.definitions = parse_definitions(definitions);
-  const Description description = load_scene(path, load);
+  const Description description = read_scene(path, load);
   tell_of_memory(description);
   const auto scene = build_scene(description, build);
   SceneReport report = describe_scene(*scene);

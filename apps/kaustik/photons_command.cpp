@@ -8,7 +8,7 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "file_roles.h"
-#include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/load_options.h"
 #include "kaustik/render/photon_tracing.h"
 #include "kaustik/scene/overrides.h"
 #include "numbers.h"
@@ -112,7 +112,7 @@ void trace_photons(const PhotonsOptions& options) {
                options.force ? Replacing::anything : Replacing::own_kind, "");
   LoadOptions load;
   load.definitions = parse_definitions(options.definitions);
-  Description description = load_scene(options.scene, load);
+  Description description = read_scene(options.scene, load);
   roles.reads(description);
   roles.check();
   // Before the settings, so that they speak of the integrator that is used.

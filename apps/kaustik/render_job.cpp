@@ -12,7 +12,7 @@
 #include "kaustik/base/memory.h"
 #include "kaustik/integrator/description_types.h"
 #include "kaustik/integrator/override_integrator.h"
-#include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/scene_format.h"
 #include "kaustik/scene/mesh_memory.h"
 #include "picture_output.h"
 #include "scene_warnings.h"
@@ -53,9 +53,9 @@ void tell_of_memory(const Description& description) {
                      gigabytes(physical_memory_bytes())));
 }
 
-Description load_scene(const std::string& path, const LoadOptions& options) {
-  if (!is_standard_stream(path)) return load_mitsuba_xml(path, options);
-  return parse_mitsuba_xml(read_standard_input(), "standard input", "", options);
+Description read_scene(const std::string& path, const LoadOptions& options) {
+  if (!is_standard_stream(path)) return load_scene(path, options);
+  return parse_scene(read_standard_input(), "standard input", "", options);
 }
 
 void use_integrator(Description& description, const std::string& type) {
@@ -66,7 +66,7 @@ void use_integrator(Description& description, const std::string& type) {
 Description load_description(const RenderRecipe& recipe) {
   LoadOptions load;
   load.definitions = recipe.definitions;
-  Description description = load_scene(recipe.scene, load);
+  Description description = read_scene(recipe.scene, load);
   if (!recipe.integrator.empty()) use_integrator(description, recipe.integrator);
   return description;
 }

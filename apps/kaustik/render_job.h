@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/load_options.h"
 #include "kaustik/render/checkpoint.h"
 #include "kaustik/render/session.h"
 
@@ -20,7 +20,7 @@ struct RenderJob {
 void tell_of_memory(const Description& description);
 
 /// Reads a scene file, or standard input ("-"). Throws Error.
-Description load_scene(const std::string& path, const LoadOptions& options);
+Description read_scene(const std::string& path, const LoadOptions& options);
 
 /// Takes another integrator than the file's, and tells what the file says that it has no use for.
 void use_integrator(Description& description, const std::string& type);

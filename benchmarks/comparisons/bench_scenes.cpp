@@ -15,6 +15,7 @@
 #include "benchmarks/comparisons/snapshots.h"
 #include "kaustik/integrator/description_types.h"
 #include "kaustik/integrator/registry.h"
+#include "kaustik/loader/scene_format.h"
 #include "kaustik/scene/description_digest.h"
 
 namespace kaustik::bench {
@@ -92,7 +93,7 @@ std::optional<ChosenReference> choose_reference(const BenchScene& scene,
 /// The scene's description in the size of its reference.
 Description describe(const BenchScene& scene, const std::string& integrator,
                      const Image& reference) {
-  Description description = load_mitsuba_xml(scene.file);
+  Description description = load_scene(scene.file);
   set_integrator(description, integrator);
   override_property(description, fmt::format("film.width={}", reference.width()));
   override_property(description, fmt::format("film.height={}", reference.height()));

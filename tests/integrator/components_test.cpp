@@ -5,6 +5,7 @@
 
 #include <gtest/gtest-spi.h>
 
+#include "kaustik/loader/scene_format.h"
 #include "kaustik/scene/overrides.h"
 #include "tests/support/forgetful.h"
 #include "tests/support/measure.h"
@@ -71,8 +72,8 @@ const std::string lamp_behind_glass =
 
 /// One of the scenes that ship, as a picture of 20 pixels.
 Description shipped(const std::string& name, int size = 20) {
-  return load_mitsuba_xml(fmt::format("{}/scenes/{}/{}.xml", KAUSTIK_SOURCE_DIR, name, name),
-                          {{{"size", std::to_string(size)}}});
+  return load_scene(fmt::format("{}/scenes/{}/{}.xml", KAUSTIK_SOURCE_DIR, name, name),
+                    {{{"size", std::to_string(size)}}});
 }
 
 /// Parameters for pictures of 20 pixels, whose cache would be too coarse, and few neighbours, whose

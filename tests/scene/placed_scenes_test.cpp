@@ -6,6 +6,7 @@
 #include <fstream>
 #include <random>
 
+#include "kaustik/loader/scene_format.h"
 #include "tests/scene/scene_support.h"
 
 namespace kaustik {
@@ -202,7 +203,7 @@ TEST_F(SceneFiles, ASceneOfItsOwnIsPlaced) {
   const std::string house =
       write("house.xml", any_camera + group("room", include("room.xml")) + instance("room", left) +
                              instance("room", right));
-  const auto scene = build_scene(load_mitsuba_xml(house));
+  const auto scene = build_scene(load_scene(house));
   EXPECT_EQ(scene->surface_count(), 1u);
   EXPECT_EQ(scene->tracer().geometry().instances.size(), 4u);
   EXPECT_EQ(scene->lights().size(), 2u);
@@ -213,7 +214,7 @@ TEST_F(SceneFiles, NoFileHoldsItself) {
   const std::string house =
       write("house.xml", any_camera + group("room", include("house.xml")) + instance("room", left));
   try {
-    load_mitsuba_xml(house);
+    load_scene(house);
     FAIL();
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("circular <include>"), std::string::npos);

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/scene_format.h"
 #include "kaustik/scene/scene.h"
 
 namespace kaustik {
@@ -32,7 +32,7 @@ TEST(ShippedScenes, Build) {
   size_t known = 0;
   for (const fs::path& file : shipped_scenes()) {
     SCOPED_TRACE(file.string());
-    const auto scene = build_scene(load_mitsuba_xml(file.string()));
+    const auto scene = build_scene(load_scene(file.string()));
     EXPECT_FALSE(scene->lights().empty());
     const auto size = sizes.find(file.stem().string());
     if (size == sizes.end()) continue;

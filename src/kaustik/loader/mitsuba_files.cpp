@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kaustik/base/file.h"
+#include "kaustik/loader/gzip.h"
 #include "kaustik/loader/mitsuba_reader.h"
 #include "kaustik/loader/mitsuba_tags.h"
 
@@ -66,10 +67,12 @@ std::string Reader::text_of(const fs::path& path, const Place& where) {
     const Problem& problem = error.problems().front();
     throw Error(error.kind(), problem.message, problem.remedy, where);
   }
+  const size_t file_bytes = bytes.size();
+  bytes = unpacked(std::move(bytes), allowed, where);
   if (bytes.size() > allowed) refuse();
   sources_.insert(path.string());
   read_bytes_ += bytes.size();
-  budget_.allow_file(bytes.size());
+  budget_.allow_file(std::min(bytes.size(), usual_growth * file_bytes));
   return {bytes.begin(), bytes.end()};
 }
 

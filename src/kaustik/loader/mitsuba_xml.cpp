@@ -1,8 +1,11 @@
 #include "kaustik/loader/mitsuba_xml.h"
 
 #include "kaustik/loader/mitsuba_reader.h"
+#include "kaustik/loader/xml_document.h"
 
 namespace kaustik {
+
+bool is_mitsuba_xml(std::string_view head) { return root_tag(head) == "scene"; }
 
 Description load_mitsuba_xml(const std::string& path, const LoadOptions& options) {
   return mitsuba::Reader(options).read_file(path);

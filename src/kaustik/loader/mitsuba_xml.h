@@ -4,25 +4,21 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
+#include "kaustik/loader/load_options.h"
 #include "kaustik/scene/description.h"
 
 namespace kaustik {
 
-struct LoadOptions {
-  /// Name and value of each `-D name=value`: what stands for `$name` in attributes, before the
-  /// file's own `<default>`.
-  std::vector<std::pair<std::string, std::string>> definitions;
-};
+/// Whether text begins as such a file does: with the tag <scene>, which comments may stand before.
+bool is_mitsuba_xml(std::string_view head);
 
-/// Reads a scene file and what it includes. Properties `filename` and `photon_map` are
-/// searched in the folders of the file's `<path>` elements (the last one first), in the file's own
-/// folder, then in those of the files that include it; what is nowhere gets the own folder. A
-/// constant `<spectrum>` becomes a number, a list or file a SpectralCurve. Objects nest at most 100
-/// levels deep, also by reference, and never in circles. Throws Error(input) with all the problems
-/// that were found.
+/// Reads a scene file and what it includes, packed by gzip or not. Properties `filename` and
+/// `photon_map` are searched in the folders of the file's `<path>` elements (the last one first),
+/// in the file's own folder, then in those of the files that include it; what is nowhere gets the
+/// own folder. A constant `<spectrum>` becomes a number, a list or file a SpectralCurve. Objects
+/// nest at most 100 levels deep, also by reference, and never in circles. Throws Error(input) with
+/// all the problems that were found.
 Description load_mitsuba_xml(const std::string& path, const LoadOptions& options = {});
 
 /// The same from text: `name_for_messages` takes the place of the file's name in messages and
