@@ -137,13 +137,13 @@ std::shared_ptr<const Scene> glossy_square(const std::string& bsdf) {
 
 /// Merges at the first vertices of camera paths or, to know what that takes alone, only goes there;
 /// returns the sum of what was found.
-double merge_along(const VcmCameraInputs& inputs, const PixelPlan& plan, bool merges) {
+double merge_along(const CameraPathInputs& inputs, const PixelPlan& plan, bool merges) {
   double sum = 0;
   for (size_t q = 0; q < glossy_queries; ++q) {
     Sampler sampler = Sampler::at(1, 0, Stream::camera, q, 0);
     SampleSink sink(ComponentSet::all());
-    CameraWalk walk(inputs.scene, sampler.next_2d() * picture_size, sampler, sink);
-    VcmCameraPath path(inputs, walk, plan);
+    const Vec2f raster = sampler.next_2d() * picture_size;
+    CameraPath path(inputs, plan, raster, sampler, sink);
     if (path.go_on(false) != CameraWalk::Arrival::surface) continue;
     if (merges) path.merge();
     for (int c = 0; c < component_count; ++c) sum += double(sink.radiance(Component(c)).sum());
@@ -162,10 +162,16 @@ void measure_glossy_merging(const LightVertices& light, const std::string& name,
   settings.light_paths = float(light.path_count);
   const PathWeights weights(settings);
   const MattMerging no_matt;
-  const PixelPlans pixels;
+  const SeenSurfaces seen;
   PixelPlan plan;
   plan.merge_area = float(per_point / double(light.path_count));
-  const VcmCameraInputs inputs{*scene, emission, weights, light, no_matt, pixels, 1, 1, 0};
+  const CameraPathInputs inputs{.scene = *scene,
+                                .emission = emission,
+                                .weights = weights,
+                                .light = light,
+                                .matt = no_matt,
+                                .seen = seen,
+                                .connection_scale = 1};
   double sum = 0;
   std::vector<double> times;
   for (int i = 0; i < repeats; ++i) {

@@ -106,7 +106,13 @@ TEST(PathPilot, ExpectsTheVarianceOfPathTracing) {
       Stream::training, nowhere, {}, {}, report);
   PixelPlans plans(scene);
   plans.choose_disks(vertices, 4096, 30, 0);
-  const VcmCameraInputs inputs{scene, emission, weights, vertices, MattMerging(), plans, 1, 0, 0};
+  const MattMerging no_matt;
+  const CameraPathInputs inputs{.scene = scene,
+                                .emission = emission,
+                                .weights = weights,
+                                .light = vertices,
+                                .matt = no_matt,
+                                .seen = plans.seen()};
   uint64_t rays = 0;
   auto probes = probe_statistics(inputs, plans, {}, rays);
   for (ProbeStatistics& probe : probes) probe.rays_beyond = 0;  // so that all go on
@@ -169,8 +175,15 @@ Forecast forecast(const Scene& scene, const Techniques& techniques, double light
                             uint32_t(light_share * of_pass), 1, PixelPlans(), 1},
                            Pass{}, Stream::training, nowhere, {}, {}, report);
   plans.choose_disks(vertices, of_pass, 30, merge_radius);
-  const VcmCameraInputs inputs{scene, emission,        weights, vertices,         MattMerging(),
-                               plans, samples_of_pass, 0,       sqr(merge_radius)};
+  const MattMerging no_matt;
+  const CameraPathInputs inputs{.scene = scene,
+                                .emission = emission,
+                                .weights = weights,
+                                .light = vertices,
+                                .matt = no_matt,
+                                .seen = plans.seen(),
+                                .camera_samples = samples_of_pass,
+                                .merge_radius_sq = sqr(merge_radius)};
   PilotLimits limits;
   limits.light_share = light_share;
   uint64_t rays = 0;

@@ -89,7 +89,7 @@ class Finder {
               : direct_light_pdf(rules_.scene, query, LightChoice::one, light.light,
                                  light.on_light);
     light.pdf_solid_angle = lamp().is_delta() ? 0 : light.pdf_sampled;
-    return double(steered.path().sampled(vertex, light));
+    return double(steered.path().weights().sampled(vertex, light));
   }
 
   std::optional<double> splat() const {
@@ -118,7 +118,7 @@ class Finder {
                            other.vertex.eval_cosine(-direction, Lobes::all) *
                            other.record.data.flux_spectrum() * (1 / length_sq(between));
     if (alone.is_zero()) return std::nullopt;
-    steered.path().connect(1);
+    steered.path().connect();
     return steered.found() / double(alone.sum());
   }
 

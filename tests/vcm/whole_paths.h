@@ -156,22 +156,19 @@ class SteeredWalk {
   SteeredWalk(const WholePathRules& rules, const WholePath& path, const LightVertices& light)
       : path_(path),
         matt_(light, rules.weights),
-        inputs_{rules.scene,
-                *rules.emission,
-                rules.weights,
-                light,
-                matt_,
-                rules.plans,
-                rules.camera_samples,
-                1,
-                rules.weights.settings().merge_area * inv_pi,
-                {},
-                1 << 20,
-                rules.scattering.get()},
+        inputs_{.scene = rules.scene,
+                .emission = *rules.emission,
+                .weights = rules.weights,
+                .light = light,
+                .matt = matt_,
+                .seen = rules.plans.seen(),
+                .camera_samples = rules.camera_samples,
+                .connection_scale = 1,
+                .merge_radius_sq = rules.weights.settings().merge_area * inv_pi,
+                .scattering = rules.scattering.get()},
         sampler_(Sampler::at(1, 0, Stream::camera, 0, 1)),
         sink_(ComponentSet::all()),
-        walk_(rules.scene, path.raster(), sampler_, sink_),
-        of_walk_(inputs_, walk_, rules.plans.at(path.raster(), 1)) {}
+        camera_path_(inputs_, rules.plans.at(path.raster(), 1), path.raster(), sampler_, sink_) {}
 
   /// To xₜ; false if the walk went astray, or would have no chance of coming
   /// there.
@@ -185,28 +182,27 @@ class SteeredWalk {
     BsdfSample event;
     event.wi = step.direction;
     event.event = step.delta ? Lobes::delta : Lobes::diffuse;
-    event.pdf_solid_angle = step.delta ? 1.0f : walk_.vertex().pdf(event.wi, Lobes::all);
+    event.pdf_solid_angle = step.delta ? 1.0f : walk().vertex().pdf(event.wi, Lobes::all);
     if (!(event.pdf_solid_angle > 0)) return false;
     // The throughput stays 1, but for roulette.
     event.weight = Spectrum(1 / event.pdf_solid_angle);
-    walk_.branch(event);
-    of_walk_.leave();
+    walk().branch(event);
+    camera_path_.leave();
     return true;
   }
-  bool go_on() { return of_walk_.go_on(false) == CameraWalk::Arrival::surface; }
+  bool go_on() { return camera_path_.go_on(false) == CameraWalk::Arrival::surface; }
 
-  CameraWalk& walk() { return walk_; }
-  VcmCameraPath& path() { return of_walk_; }
+  CameraWalk& walk() { return camera_path_.walk(); }
+  CameraPath& path() { return camera_path_; }
   double found() const { return sum_of(sink_); }
 
  private:
   const WholePath& path_;
   MattMerging matt_;
-  VcmCameraInputs inputs_;
+  CameraPathInputs inputs_;
   Sampler sampler_;
   SampleSink sink_;
-  CameraWalk walk_;
-  VcmCameraPath of_walk_;
+  CameraPath camera_path_;
 };
 
 enum class Found { unidirectional, next_event, splat, connection, merge };

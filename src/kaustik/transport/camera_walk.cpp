@@ -9,7 +9,7 @@ namespace {
 /// Light sampled at `vertex` and reflected by `lobes`, weighted against sampling those lobes,
 /// if there are no other weights.
 Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes lobes,
-                   float lobe_probability, const LightWeights* weights) {
+                   float lobe_probability, LightWeights* weights) {
   if (!any(vertex.lobes() & lobes)) return {};
   const Spectrum f = vertex.eval_cosine(light.wi, lobes);
   if (f.is_zero()) return {};
@@ -60,7 +60,6 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
       sink_(other.sink_),
       state_(other.state_),
       class_(other.class_),
-      weights_(other.weights_),
       light_choice_(other.light_choice_),
       raster_(other.raster_),
       ray_(other.ray_),
@@ -83,7 +82,7 @@ void CameraWalk::describe_what_is_seen(const SurfaceVertex& vertex, float distan
 /// Goes on until `pass_medium(length)`, asked about every segment through a medium, answers that
 /// the path is scattered, or until a surface that is more than a boundary of media.
 template <typename PassMedium>
-CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
+CameraWalk::Arrival CameraWalk::travel(LightWeights* weights, const PassMedium& pass_medium) {
   const bool only_arrives = seeks_irradiance();
   is_in_medium_ = false;
   for (int boundary = 0;; ++boundary) {
@@ -99,7 +98,7 @@ CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
       return Arrival::medium;
     }
     if (!found) {
-      if (!only_arrives) add_background();
+      if (!only_arrives) add_background(weights);
       return Arrival::nothing;
     }
     if (meets_lamps_only_) {
@@ -118,14 +117,14 @@ CameraWalk::Arrival CameraWalk::travel(const PassMedium& pass_medium) {
   if (only_arrives)
     vertex_.paint_white();
   else if (vertex_.light() >= 0)
-    add_emission();
+    add_emission(weights);
   return meets_lamps_only_ ? Arrival::nothing : Arrival::surface;
 }
 
-bool CameraWalk::advance(const VolumeLight* volume) {
+bool CameraWalk::advance(const VolumeLight* volume, LightWeights* weights) {
   const Component in_medium = class_.component_in_medium();
   if (!sink_.wants(in_medium)) volume = nullptr;
-  return travel([&](float length) {
+  return travel(weights, [&](float length) {
            if (volume && state_.medium->scatters())
              sink_.add(in_medium, state_.throughput * volume->radiance(ray_, length, *state_.medium,
                                                                        sampler_, rays_));
@@ -134,10 +133,10 @@ bool CameraWalk::advance(const VolumeLight* volume) {
          }) == Arrival::surface;
 }
 
-CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume) {
+CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume, LightWeights* weights) {
   const Component in_medium = class_.component_in_medium();
   if (!sink_.wants(in_medium)) volume = nullptr;
-  return travel([&](float length) {
+  return travel(weights, [&](float length) {
     if (volume && state_.medium->scatters())
       sink_.add(in_medium, state_.throughput *
                                volume->radiance(ray_, length, *state_.medium, sampler_, rays_));
@@ -147,7 +146,7 @@ CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume) {
     if (!flight.scattered) return false;
     // As for light paths, which don't know the depth.
     in_medium_ =
-        Receiver(ray_.origin + ray_.direction * flight.distance, weights_ ? 1 : state_.depth);
+        Receiver(ray_.origin + ray_.direction * flight.distance, weights ? 1 : state_.depth);
     is_in_medium_ = true;
     distance_ += flight.distance;
     state_.footprint.travel(flight.distance);
@@ -164,21 +163,21 @@ float CameraWalk::emission_weight(int light, const Where& where) const {
                     direct_light_pdf(scene_, previous_, light_choice_, light, where));
 }
 
-void CameraWalk::add_emission() {
+void CameraWalk::add_emission(LightWeights* weights) {
   const Light& light = *scene_.lights()[size_t(vertex_.light())];
   const Spectrum emitted = light.emitted(vertex_.point(), vertex_.wo());
   if (emitted.is_zero()) return;
-  const float weight = weights_ ? weights_->met(vertex_.light(), vertex_)
-                                : emission_weight(vertex_.light(), vertex_.point());
+  const float weight = weights ? weights->met(vertex_.light(), vertex_)
+                               : emission_weight(vertex_.light(), vertex_.point());
   sink_.add(class_.component(), state_.throughput * emitted * weight);
 }
 
-void CameraWalk::add_background() {
+void CameraWalk::add_background(LightWeights* weights) {
   for (const int index : scene_.environment_lights()) {
     const Light& light = *scene_.lights()[size_t(index)];
     if (light.is_delta() || (light.is_only_seen() && state_.pdf_forward > 0)) continue;
     const float weight =
-        weights_ ? weights_->met(index, ray_) : emission_weight(index, ray_.direction);
+        weights ? weights->met(index, ray_) : emission_weight(index, ray_.direction);
     sink_.add(class_.component(), state_.throughput * light.background(ray_.direction) * weight);
   }
 }
@@ -192,9 +191,11 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
   const auto reflect = [&](const DirectLight& light, ShadowAnswer& answer) {
     ReflectedLight result;
     if (wanted(Lobes::diffuse))
-      result.by_diffuse = reflected(vertex_, light, Lobes::diffuse, diffuse_probability, weights_);
+      result.by_diffuse =
+          reflected(vertex_, light, Lobes::diffuse, diffuse_probability, rules.weights);
     if (wanted(Lobes::glossy))
-      result.by_glossy = reflected(vertex_, light, Lobes::glossy, glossy_probability, weights_);
+      result.by_glossy =
+          reflected(vertex_, light, Lobes::glossy, glossy_probability, rules.weights);
     if (result.by_diffuse.is_zero() && result.by_glossy.is_zero()) return result;
     VisibilityEstimate seen;
     if (!rules.shadows)
@@ -211,22 +212,22 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
     return ReflectedLight{result.by_diffuse * factor, result.by_glossy * factor};
   };
   // Light paths don't know how many events lie before the vertex, only that there are some.
-  const int level = weights_ ? std::min(state_.depth, 1) : state_.depth;
+  const int level = rules.weights ? std::min(state_.depth, 1) : state_.depth;
   const auto light = sample_direct_lights<ReflectedLight>(scene_, Receiver(vertex_, level),
                                                           sampling, sampler_, reflect);
   add_reflected(Lobes::diffuse, light.by_diffuse);
   add_reflected(Lobes::glossy, light.by_glossy);
 }
 
-void CameraWalk::add_medium_light() {
+void CameraWalk::add_medium_light(LightWeights* weights) {
   const Component component = class_.component_in_medium();
   const Scatterer here = scatterer();
   const auto scatter = [&](const DirectLight& light, ShadowAnswer& answer) {
     if (!sink_.wants(component)) return Spectrum();
     const float phase = state_.medium->phase().eval(-ray_.direction, light.wi);
     float weight = 1;
-    if (weights_)
-      weight = weights_->sampled(here, light);
+    if (weights)
+      weight = weights->sampled(here, light);
     else if (light.pdf_solid_angle > 0)
       weight = mis_weight(light.pdf_solid_angle, phase);
     const Spectrum visible = trace_shadow_ray(scene_, light, state_.medium, rays_, answer);

@@ -13,10 +13,13 @@
 
 namespace kaustik {
 
+class LightWeights;
+
 /// What a model changes in direct light.
 struct LightRules {
   bool shadows = true;                 ///< without, nothing holds light off
   bool classical_attenuation = false;  ///< see Light::classical_attenuation
+  LightWeights* weights = nullptr;     ///< in place of path tracing's
   VisibilityEstimator* visibility =
       nullptr;  ///< where it knows whether light arrives, no ray is traced
 };
@@ -26,11 +29,11 @@ class LightWeights {
  public:
   virtual ~LightWeights() = default;
   /// Of light sampled at `vertex`.
-  virtual float sampled(const Scatterer& vertex, const DirectLight& light) const = 0;
+  virtual float sampled(const Scatterer& vertex, const DirectLight& light) = 0;
   /// Of light that the path meets, on the surface of `vertex` …
-  virtual float met(int light, const SurfaceVertex& vertex) const = 0;
+  virtual float met(int light, const SurfaceVertex& vertex) = 0;
   /// … or beyond the scene.
-  virtual float met(int light, const Ray& ray) const = 0;
+  virtual float met(int light, const Ray& ray) = 0;
 };
 
 /// A path that is followed from the camera, vertex by vertex. Knows the component of everything
@@ -52,11 +55,12 @@ class CameraWalk {
   /// Goes to the next surface and adds the light that shines from there or from beyond the scene.
   /// False if there is no surface. Media on the way take their share; what they scatter into the
   /// path is added where `volume` is given.
-  bool advance(const VolumeLight* volume = nullptr);
+  /// Light that the walk meets counts by `weights`, where given, in place of path tracing's.
+  bool advance(const VolumeLight* volume = nullptr, LightWeights* weights = nullptr);
   /// The same by free flight: the path may also come to a point in a medium, where the next event
   /// is add_medium_light() and scatter_in_medium() instead of what there is for surfaces.
   enum class Arrival { nothing, surface, medium };
-  Arrival fly(const VolumeLight* volume = nullptr);
+  Arrival fly(const VolumeLight* volume = nullptr, LightWeights* weights = nullptr);
   /// On its next way the walk meets lamps alone: where there is none, as beyond what it finds, it
   /// ends (Arrival::nothing), and nothing more is looked at. Media take their share as ever.
   void meet_lamps_only() { meets_lamps_only_ = true; }
@@ -92,8 +96,6 @@ class CameraWalk {
   }
   bool wants_photon_light(Component component) const { return sink_.wants(seen(component)); }
 
-  /// Weighs light by `weights`, which must outlive the walk, in place of path tracing's.
-  void weigh_by(const LightWeights& weights) { weights_ = &weights; }
   /// Density per solid angle with which the last event was sampled; 0: delta, or none yet.
   float last_pdf() const { return state_.pdf_forward; }
   /// Along which the next advance() goes.
@@ -126,7 +128,7 @@ class CameraWalk {
   /// Of light that a medium scatters into the path on its next segment.
   Component component_in_medium() const { return class_.component_in_medium(); }
   /// Adds light sampled at the point in the medium and scattered there.
-  void add_medium_light();
+  void add_medium_light(LightWeights* weights = nullptr);
   /// Chooses a direction by the medium's phase function for the next fly().
   void scatter_in_medium(const Vec2f& u);
 
@@ -169,18 +171,17 @@ class CameraWalk {
   bool seeks_irradiance() const {
     return state_.depth == 0 && scene_.film().quantity == Quantity::irradiance;
   }
-  void add_background();
-  void add_emission();
+  void add_background(LightWeights* weights);
+  void add_emission(LightWeights* weights);
   void describe_what_is_seen(const SurfaceVertex& vertex, float distance);
   template <typename PassMedium>
-  Arrival travel(const PassMedium& pass_medium);
+  Arrival travel(LightWeights* weights, const PassMedium& pass_medium);
 
   const Scene& scene_;
   Sampler& sampler_;
   SampleSink& sink_;
   PathState state_;
   CameraPathClass class_;
-  const LightWeights* weights_ = nullptr;        ///< null: those of path tracing
   LightChoice light_choice_ = LightChoice::one;  ///< of the last add_direct_light()
   Vec2f raster_;                                 ///< where it began
   Ray ray_;

@@ -16,21 +16,7 @@ ProgressFunction part_of(const ProgressFunction& whole, uint32_t i, uint32_t cou
   return [&whole, i, count](double share) { whole((i + share) / count); };
 }
 
-/// Events after which paths no longer branch.
-constexpr int most_split_events = 4;
-/// Of the sampler's forks: for a branch.
-constexpr uint32_t branch_key = 4;
-
 }  // namespace
-
-VcmIntegrator::Branch VcmIntegrator::Branch::by(float chance) const {
-  // Followed so many times more often than chance would have it.
-  constexpr float most_often = 8;
-  Branch result;
-  result.survival = survival * std::min(1.0f, most_often * share * chance);
-  result.share = share * chance * survival / result.survival;
-  return result;
-}
 
 struct VcmIntegrator::State final : PassState {
   std::shared_ptr<const VcmPlans> plans;
@@ -237,74 +223,23 @@ void VcmIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sam
 
 void VcmIntegrator::trace_sample(const State& state, const Vec2f& raster, const PixelPlan& plan,
                                  Sampler& sampler, SampleSink& sink) const {
-  CameraWalk walk(scene_, raster, sampler, sink);
-  const VcmCameraInputs inputs{scene_,
-                               *state.plans->emission,
-                               state.weights,
-                               state.light,
-                               state.matt,
-                               state.plans->pixels,
-                               state.camera_samples,
-                               state.connection_scale,
-                               state.weights.settings().merge_area * inv_pi,
-                               state.media,
-                               settings_.maximum_events,
-                               state.plans->scattering.get(),
-                               settings_.visibility};
-  VcmCameraPath path(inputs, walk, plan);
-  follow(state.plans->techniques, walk, path, {});
-}
-
-void VcmIntegrator::follow(const Techniques& techniques, CameraWalk& walk, VcmCameraPath& path,
-                           Branch branch) const {
-  Sampler& sampler = walk.sampler();
-  for (;;) {
-    const CameraWalk::Arrival arrival = path.go_on(scene_.has_scattering());
-    if (arrival == CameraWalk::Arrival::nothing) return;
-    // Lamps that a branch shows it shows always; all else as often as it is worth.
-    if (branch.survival < 1) {
-      if (!walk.survive_with(branch.survival, sampler.next_1d())) return;
-      branch.survival = 1;
-    }
-    const bool in_medium = arrival == CameraWalk::Arrival::medium;
-    if (walk.events() >= settings_.maximum_events) return;
-    if (techniques.next_event) in_medium ? walk.add_medium_light() : walk.add_direct_light(1, 1);
-    if (techniques.merging && !in_medium) path.merge();
-    if (techniques.connections) path.connect(settings_.connections);
-    const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
-    const bool may_split = !in_medium && path.is_at_first() && walk.events() < most_split_events;
-    if (const auto events = may_split ? walk.delta_events() : std::nullopt) {
-      split(techniques, walk, path, *events, branch);
-    } else if (in_medium) {
-      walk.scatter_in_medium(u);
-    } else if (!walk.scatter(Lobes::all, 1, u_choice.x, u)) {
-      return;
-    }
-    path.leave();
-    if (!walk.may_find_more()) return;
-    if (!path.survives_first(sampler.next_1d())) return;
-    if (walk.events() > settings_.roulette_depth && !walk.survive(u_choice.y)) return;
-  }
-}
-
-void VcmIntegrator::split(const Techniques& techniques, CameraWalk& stem, VcmCameraPath& path,
-                          const CameraWalk::DeltaEvents& events, Branch& branch) const {
-  const bool mirrors = events.reflection.pdf_solid_angle > events.transmission.pdf_solid_angle;
-  const BsdfSample& likely = mirrors ? events.reflection : events.transmission;
-  const BsdfSample& other = mirrors ? events.transmission : events.reflection;
-  // Layers of what is seen show the likely one.
-  const FirstHit seen = stem.first_hit();
-  {
-    Sampler numbers = stem.sampler().fork(branch_key);
-    CameraWalk walk(stem, numbers);
-    VcmCameraPath of_branch(path, walk);
-    walk.branch(other);
-    of_branch.leave();
-    if (walk.may_find_more()) follow(techniques, walk, of_branch, branch.by(other.pdf_solid_angle));
-  }
-  stem.set_first_hit(seen);
-  stem.branch(likely);
-  branch = branch.by(likely.pdf_solid_angle);
+  const PathWeights::Settings& weights = state.weights.settings();
+  trace_camera_path({.scene = scene_,
+                     .emission = *state.plans->emission,
+                     .weights = state.weights,
+                     .light = state.light,
+                     .matt = state.matt,
+                     .seen = state.plans->pixels.seen(),
+                     .camera_samples = state.camera_samples,
+                     .connection_scale = state.connection_scale,
+                     .merge_radius_sq = weights.merge_area * inv_pi,
+                     .media = state.media,
+                     .maximum_events = settings_.maximum_events,
+                     .roulette_depth = settings_.roulette_depth,
+                     .connections = settings_.connections,
+                     .scattering = state.plans->scattering.get(),
+                     .visibility = settings_.visibility},
+                    plan, raster, sampler, sink);
 }
 
 }  // namespace kaustik

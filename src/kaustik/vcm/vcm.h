@@ -1,9 +1,7 @@
 #pragma once
 #include <mutex>
 
-#include "kaustik/transport/camera_walk.h"
 #include "kaustik/transport/integrator.h"
-#include "kaustik/vcm/camera_path/camera_path.h"
 #include "kaustik/vcm/lessons/learning.h"
 #include "kaustik/vcm/plan/plans.h"
 #include "kaustik/vcm/settings.h"
@@ -30,22 +28,9 @@ class VcmIntegrator final : public Integrator {
 
  private:
   struct State;
-  /// A path of several that camera paths branch into at smooth transparent surfaces.
-  struct Branch {
-    float share = 1;     ///< what chance would have left of such paths, over what was followed
-    float survival = 1;  ///< with which it is followed beyond the next vertex
-
-    /// One that chance would choose that often.
-    Branch by(float chance) const;
-  };
   /// A camera sample of a pixel with that plan.
   void trace_sample(const State& state, const Vec2f& raster, const PixelPlan& plan,
                     Sampler& sampler, SampleSink& sink) const;
-  void follow(const Techniques& techniques, CameraWalk& walk, VcmCameraPath& path,
-              Branch branch) const;
-  /// Follows the less likely of two events and lets `stem` go on by the other.
-  void split(const Techniques& techniques, CameraWalk& stem, VcmCameraPath& path,
-             const CameraWalk::DeltaEvents& events, Branch& branch) const;
   /// `made_up`: passes that had to be traced for it, in whose progress one more part is left.
   std::shared_ptr<const VcmPlans> plans_for(const Pass& pass, std::stop_token stop,
                                             const ProgressFunction& progress, uint32_t& made_up,

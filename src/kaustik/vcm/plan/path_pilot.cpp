@@ -38,21 +38,24 @@ double all_light(const SampleSink& sink) {
 /// beside merging: from both follows how much more merging would find it.
 class Recorder final : public LightWeights {
  public:
-  Recorder(VcmCameraPath& path, const SampleSink& sink, float camera_samples,
-           ProbeStatistics& result)
-      : path_(path), sink_(sink), camera_samples_(double(camera_samples)), result_(result) {}
+  Recorder(CameraPath& path, const SampleSink& sink, ProbeStatistics& result)
+      : beside_merging_(path.weights()),
+        alone_(path.inputs(), path.vertices(), false),
+        sink_(sink),
+        camera_samples_(double(path.inputs().camera_samples)),
+        result_(result) {}
 
-  float sampled(const Scatterer& vertex, const DirectLight& light) const override {
-    return weigh([&] { return path_.sampled(vertex, light); });
+  float sampled(const Scatterer& vertex, const DirectLight& light) override {
+    return weigh([&](CameraPathWeights& weights) { return weights.sampled(vertex, light); });
   }
-  float met(int light, const SurfaceVertex& vertex) const override {
-    return weigh([&] { return path_.met(light, vertex); });
+  float met(int light, const SurfaceVertex& vertex) override {
+    return weigh([&](CameraPathWeights& weights) { return weights.met(light, vertex); });
   }
-  float met(int light, const Ray& ray) const override {
-    return weigh([&] { return path_.met(light, ray); });
+  float met(int light, const Ray& ray) override {
+    return weigh([&](CameraPathWeights& weights) { return weights.met(light, ray); });
   }
   /// What has been found since the last look belongs to the last weight.
-  void note() const {
+  void note() {
     const double now = all_light(sink_), light = now - seen_;
     seen_ = now;
     if (light == 0) return;
@@ -77,12 +80,9 @@ class Recorder final : public LightWeights {
 
  private:
   template <typename Weight>
-  float weigh(const Weight& weight) const {
+  float weigh(const Weight& weight) {
     note();
-    const float beside_merging = weight();
-    path_.leave_out_light_paths(true);
-    const float alone = weight();
-    path_.leave_out_light_paths(false);
+    const float beside_merging = weight(beside_merging_), alone = weight(alone_);
     ratio_ = beside_merging > 0 && alone > beside_merging
                  ? kernel_efficiency * camera_samples_ *
                        std::sqrt(double(alone) / double(beside_merging) - 1)
@@ -90,17 +90,17 @@ class Recorder final : public LightWeights {
     return alone;
   }
 
-  VcmCameraPath& path_;
+  CameraPathWeights& beside_merging_;
+  CameraPathWeights alone_;
   const SampleSink& sink_;
   double camera_samples_;
   ProbeStatistics& result_;
   bool goes_on_ = false;
-  mutable double seen_ = 0, ratio_ = 0, direct_ = 0, beyond_ = 0, even_ = 0;
+  double seen_ = 0, ratio_ = 0, direct_ = 0, beyond_ = 0, even_ = 0;
 };
 
 /// Light that merges there, as what a camera path that goes on would have to find.
-void add_merged(const VcmCameraPath& path, float samples, double light_share,
-                ProbeStatistics& result) {
+void add_merged(CameraPath& path, float samples, double light_share, ProbeStatistics& result) {
   const double camera_samples = double(samples);
   for (const auto& [beyond, spectrum] : path.merged_vertices()) {
     const double light = double(spectrum.sum());
@@ -128,7 +128,7 @@ double variance_of(double sum, double squares, double count) {
   return std::max(0.0, squares - sum * sum / count) / (count - 1);
 }
 
-ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe, PixelPlan plan,
+ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& probe, PixelPlan plan,
                               size_t index, const PilotLimits& limits) {
   ProbeStatistics result;
   plan.survival = plan.evenness = 1;
@@ -137,10 +137,9 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
   for (uint32_t i = 0; i < paths_per_probe; ++i) {
     Sampler sampler = Sampler::at(0, 0, Stream::training, pilot_element + index, i);
     SampleSink sink(limits.components);
-    CameraWalk walk(in.scene, probe.raster, sampler, sink);
-    VcmCameraPath path(in, walk, plan);
-    Recorder recorder(path, sink, in.camera_samples, result);
-    walk.weigh_by(recorder);
+    CameraPath path(in, plan, probe.raster, sampler, sink);
+    CameraWalk& walk = path.walk();
+    Recorder recorder(path, sink, result);
     uint64_t rays_before = 0;
     bool is_behind = false;
     const auto go_beyond = [&] {
@@ -148,23 +147,23 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
       rays_before = walk.rays();
       is_behind = false;
     };
-    while (path.go_on(false) != CameraWalk::Arrival::nothing) {
+    while (path.go_on(false, &recorder) != CameraWalk::Arrival::nothing) {
       if (is_behind) go_beyond();
-      if (walk.events() >= limits.maximum_events) break;
-      walk.add_direct_light(1, 1);
-      const bool was_before = path.is_at_first();
+      if (walk.events() >= in.maximum_events) break;
+      path.add_direct_light(&recorder);
+      const bool was_before = path.vertices().is_at_first();
       // Of the first path alone: which vertex paths come to may be up to chance.
       if (was_before && i == 0 && any(walk.vertex().lobes() & (Lobes::diffuse | Lobes::glossy)))
         add_merged(path, in.camera_samples, limits.light_share, result);
       const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
       if (!walk.scatter(Lobes::all, 1, u_choice.x, u)) break;
       path.leave();
-      if (path.has_left_first()) {
+      if (path.vertices().has_left_first()) {
         is_behind = path.may_end_at_lamp();
         if (!is_behind) go_beyond();
       }
       if (!walk.may_find_more()) break;
-      if (walk.events() > limits.roulette_depth && !walk.survive(u_choice.y)) break;
+      if (walk.events() > in.roulette_depth && !walk.survive(u_choice.y)) break;
     }
     recorder.note();
     if (rays_before == 0) rays_before = walk.rays();
@@ -186,7 +185,7 @@ ProbeStatistics statistics_at(const VcmCameraInputs& in, const PixelProbe& probe
 
 }  // namespace
 
-std::vector<ProbeStatistics> probe_statistics(const VcmCameraInputs& inputs,
+std::vector<ProbeStatistics> probe_statistics(const CameraPathInputs& inputs,
                                               const PixelPlans& plans, const PilotLimits& limits,
                                               uint64_t& rays, const std::stop_token& stop) {
   const std::vector<PixelProbe>& probes = plans.seen().probes();

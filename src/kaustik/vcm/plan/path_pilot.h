@@ -9,8 +9,6 @@ namespace kaustik {
 
 struct PilotLimits {
   double light_share = 1;  ///< light paths of the pilot for each of a real pass
-  int maximum_events = 1 << 20;
-  int roulette_depth = 5;
   ComponentSet components = ComponentSet::all();  ///< that are wanted
 };
 
@@ -18,7 +16,7 @@ struct PilotLimits {
 /// either way finds the light. `inputs`: of the pilot pass; its weights know merging alone of what
 /// light paths do, and count those of a real pass. What comes back is averaged over the probes
 /// around; one for each probe. Counts the rays. Returns early once `stop` is requested.
-std::vector<ProbeStatistics> probe_statistics(const VcmCameraInputs& inputs,
+std::vector<ProbeStatistics> probe_statistics(const CameraPathInputs& inputs,
                                               const PixelPlans& plans, const PilotLimits& limits,
                                               uint64_t& rays, const std::stop_token& stop = {});
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "kaustik/vcm/camera_path/camera_path.h"
 #include "kaustik/vcm/lessons/radius_learning.h"
 #include "kaustik/vcm/light_pass.h"
 #include "kaustik/vcm/plan/path_pilot.h"
@@ -302,23 +301,23 @@ VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light, uint32
   settings.accepted_area = accepted_area(plans.pixels);
   const PathWeights weights(settings);
   const auto samples = double(plans.samples_per_pixel);
-  const VcmCameraInputs inputs{scene_,
-                               *light.guides.emission,
-                               weights,
-                               light.vertices,
-                               MattMerging(),
-                               plans.pixels,
-                               float(samples),
-                               0,
-                               settings.merge_area * inv_pi,
-                               plans.media,
-                               settings_.maximum_events,
-                               light.guides.scattering.get()};
+  const MattMerging no_matt;
+  const CameraPathInputs inputs{.scene = scene_,
+                                .emission = *light.guides.emission,
+                                .weights = weights,
+                                .light = light.vertices,
+                                .matt = no_matt,
+                                .seen = plans.pixels.seen(),
+                                .camera_samples = float(samples),
+                                .merge_radius_sq = settings.merge_area * inv_pi,
+                                .media = plans.media,
+                                .maximum_events = settings_.maximum_events,
+                                .roulette_depth = settings_.roulette_depth,
+                                .scattering = light.guides.scattering.get()};
   const double light_share = double(light.vertices.path_count) / double(light_paths);
-  pilot.probes = probe_statistics(
-      inputs, plans.pixels,
-      {light_share, settings_.maximum_events, settings_.roulette_depth, settings_.components},
-      plans.pilot_rays, stop);
+  pilot.probes = probe_statistics(inputs, plans.pixels,
+                                  {.light_share = light_share, .components = settings_.components},
+                                  plans.pilot_rays, stop);
   for (const PixelPlan& plan : plans.pixels.plans()) pilot.areas.push_back(plan.merge_area);
   pilot.light_paths = plans.light_paths;
   pilot.needs_merging = scene_.has_scattering() || (is_merging_wanted(settings_.components) &&

@@ -1,0 +1,319 @@
+#include "kaustik/vcm/camera_path/merge.h"
+
+#include <algorithm>
+
+#include "kaustik/base/prefetch.h"
+#include "kaustik/photon/coverage/merge_disk.h"
+
+namespace kaustik {
+namespace {
+
+/// Where many light vertices merge one by one, the samples of a pixel share them out, in parts that
+/// are no smaller: all samples merge with the same vertices, and a part costs about as much as the
+/// way there.
+constexpr size_t least_in_part = 64;
+
+/// Of the sampler's forks for the coverage of the disk of merging, for the bias of merging (two),
+/// for the part of what merges, and for that which tells what is reached.
+constexpr uint32_t coverage_key = 1, bias_key = 2, part_key = 4, reached_key = 5;
+
+/// Chance with which the bias is estimated: it takes rays.
+constexpr float bias_chance = 0.25f;
+
+/// Lists that would else be made anew at every vertex; what is in them is of no use afterwards.
+struct Scratch {
+  std::vector<uint32_t> indices;
+  std::vector<MattMerging::Factors> factors;
+};
+Scratch& scratch() {
+  static thread_local Scratch of_thread;
+  return of_thread;
+}
+template <typename T>
+std::vector<T>& empty(std::vector<T>& list) {
+  list.clear();
+  return list;
+}
+
+}  // namespace
+
+void SurfaceMerging::merge() {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const Lobes lobes = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
+  if (!any(lobes) || in_.light.tree.empty() || !in_.weights.merges_at(vertices_.list())) return;
+  const auto wanted = [&](Lobes lobe) {
+    return any(lobes & lobe) && (walk_.wants(walk_.component_of(lobe, true)) ||
+                                 walk_.wants(walk_.component_of(lobe, false)));
+  };
+  if (!wanted(Lobes::diffuse) && !wanted(Lobes::glossy)) return;
+  const float widest = vertices_.merge_radius();
+  if (!(widest > 0)) return;
+  const DiskCoverage covered(in_.scene, MergeDisk(vertex, widest), walk_.rays(),
+                             disk_bounds(widest).clear_flatness);
+  const float radius = std::min(widest, std::max(covered.clear_radius(), walk_.footprint().width));
+  const DiskBounds bounds = disk_bounds(radius);
+  const MergeDisk disk = bounds.are_clear() ? MergeDisk(vertex, radius, bounds.clear_flatness)
+                                            : MergeDisk(vertex, radius);
+  const DiskWeights weights = disk_weights(disk, bounds);
+  const bool is_matt = vertices_.is_at_first() && lobes == Lobes::diffuse && !vertex.transmits() &&
+                       !vertex.has_relief();
+  const bool is_all_reached = bounds.are_clear() || !in_.visibility;
+  MergedLight light;
+  if (is_matt)
+    light =
+        is_all_reached ? merged_matt(disk, weights, nullptr) : reached_matt(disk, weights, covered);
+  else
+    light = is_all_reached ? merged(disk, weights, lobes, nullptr)
+                           : reached(disk, weights, lobes, covered);
+  if (light.is_zero()) return;
+  const auto paths = float(in_.light.path_count);
+  // Numbers of their own: how many there are is not known beforehand.
+  light.scale(
+      weights.wide.scale *
+      covered.inverse_share(radius, weights.bounds.edges, walk_.sampler().fork(coverage_key)) /
+      paths);
+  Spectrum total;
+  for (int c = 0; c < component_count; ++c) {
+    const Spectrum& sum = light.of[size_t(c)];
+    if (!sum.is_zero()) walk_.add(Component(c), sum);
+    total += sum;
+  }
+  // The bias is estimated as if it grew by the radius, as it does where light has an edge: where it
+  // is smooth it grows by the area, and is two thirds of that.
+  if (!(walk_.sampler().fork(bias_key).next_1d() < bias_chance)) return;
+  const float narrow_coverage = covered.inverse_share(radius * narrow_radius, weights.bounds.edges,
+                                                      walk_.sampler().fork(bias_key + 1));
+  const Spectrum narrow = light.narrow * (weights.narrow.scale * narrow_coverage / paths);
+  walk_.add_bias((total - narrow) * (1 / ((1 - narrow_radius) * bias_chance)));
+}
+
+std::vector<SurfaceMerging::MergedPart>& SurfaceMerging::empty_parts() {
+  static thread_local std::vector<MergedPart> parts;
+  parts.clear();
+  return parts;
+}
+
+bool SurfaceMerging::MergedLight::is_zero() const {
+  return std::all_of(of.begin(), of.end(), [](const Spectrum& sum) { return sum.is_zero(); });
+}
+
+SurfaceMerging::Draws SurfaceMerging::draws_of(const MergedLight& light) const {
+  const float u = walk_.sampler().fork(reached_key).next_1d();
+  Draws draws;
+  for (size_t c = 0; c < draws.size(); ++c)
+    if (!light.of[c].is_zero()) draws[c].emplace(light.of[c], u);
+  return draws;
+}
+
+template <typename IsReached>
+void SurfaceMerging::leave_drawn(const Draws& draws, const IsReached& is_reached,
+                                 MergedLight& light) {
+  // Most often components draw the same part too.
+  size_t asked = ~size_t(0);
+  bool answer = false;
+  const auto ask = [&](size_t part) {
+    if (part != asked) answer = is_reached(part);
+    asked = part;
+    return answer;
+  };
+  Spectrum before, after;
+  for (size_t c = 0; c < draws.size(); ++c) {
+    if (!draws[c]) continue;
+    before += light.of[c];
+    light.of[c] = draws[c]->remaining(light.of[c], ask);
+    after += light.of[c];
+  }
+  for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+    light.narrow.set(lane,
+                     before[lane] > 0 ? light.narrow[lane] * (after[lane] / before[lane]) : 0.0f);
+}
+
+SurfaceMerging::MergedLight SurfaceMerging::reached_matt(const MergeDisk& disk,
+                                                         const DiskWeights& weights,
+                                                         const DiskCoverage& covered) const {
+  std::vector<MattMerging::Factors>& each = empty(scratch().factors);
+  MergedLight light = merged_matt(disk, weights, &each);
+  if (light.is_zero()) return light;
+  const SurfaceVertex& vertex = walk_.vertex();
+  const Spectrum reflected = vertex.diffuse_value();
+  Draws draws = draws_of(light);
+  for (const auto kind : {MattMerging::other, MattMerging::after_specular}) {
+    const bool specular = kind == MattMerging::after_specular;
+    if (auto& draw = draws[size_t(walk_.component_of(Lobes::diffuse, specular))])
+      in_.matt.offer(each, kind, reflected, *draw);
+  }
+  leave_drawn(
+      draws,
+      [&](size_t number) {
+        return covered.reaches(disk.radius(),
+                               in_.matt.position(uint32_t(number)) - vertex.position());
+      },
+      light);
+  return light;
+}
+
+SurfaceMerging::MergedLight SurfaceMerging::reached(const MergeDisk& disk,
+                                                    const DiskWeights& weights, Lobes lobes,
+                                                    const DiskCoverage& covered) const {
+  std::vector<MergedPart>& each = empty_parts();
+  MergedLight light = merged(disk, weights, lobes, &each);
+  if (light.is_zero()) return light;
+  Draws draws = draws_of(light);
+  for (size_t i = 0; i < each.size(); ++i)
+    if (auto& draw = draws[size_t(each[i].component)]) draw->offer(i, each[i].light);
+  leave_drawn(
+      draws, [&](size_t i) { return covered.reaches(disk.radius(), each[i].offset); }, light);
+  return light;
+}
+
+void SurfaceMerging::MergedLight::scale(float factor) {
+  for (Spectrum& sum : of) sum *= factor;
+}
+
+DiskBounds SurfaceMerging::disk_bounds(float radius) const {
+  if (!vertices_.is_at_first()) return {};
+  return in_.seen.disk_bounds(walk_.raster(), walk_.vertex(), radius);
+}
+
+SurfaceMerging::DiskWeights SurfaceMerging::disk_weights(const MergeDisk& disk,
+                                                         const DiskBounds& bounds) const {
+  const DiskEdges& edges = bounds.edges;
+  const Frame frame(disk.side());
+  DiskWeights weights{
+      bounds, DiskKernel(frame, disk.radius(), edges, KernelShape::parabolic),
+      DiskKernel(frame, disk.radius() * narrow_radius, edges, KernelShape::parabolic)};
+  // Slopes are for all of what edges leave, not for a part of it that is covered.
+  if (!bounds.are_complete || !(bounds.are_clear() || !in_.visibility)) {
+    weights.wide.level();
+    weights.narrow.level();
+  }
+  return weights;
+}
+
+SurfaceMerging::MergedLight SurfaceMerging::merged_matt(
+    const MergeDisk& disk, const DiskWeights& weights,
+    std::vector<MattMerging::Factors>* each) const {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const MattLight light = in_.matt.merge(
+      {vertex.position(), disk.side(), disk.radius(), disk.flatness(), disk.least_cosine(),
+       in_.maximum_events - walk_.events(), weights.bounds.edges, weights.wide.slope,
+       weights.narrow.slope,
+       in_.weights.matt_vertex(vertices_.list(), vertices_.plan().counted_area(in_.camera_samples),
+                               vertices_.plan().counted_survival(), vertices_.plan().connected)},
+      each);
+  const Spectrum reflected = vertex.diffuse_value();
+  MergedLight result;
+  const auto add = [&](Component component, const MattLight::Sum& sum) {
+    if (!walk_.wants(component)) return;
+    result.of[size_t(component)] += sum.wide * reflected;
+    result.narrow += sum.narrow * reflected;
+  };
+  add(walk_.component_of(Lobes::diffuse, true), light.after_specular);
+  add(walk_.component_of(Lobes::diffuse, false), light.other);
+  return result;
+}
+
+template <typename Visit>
+void SurfaceMerging::visit_merging(const MergeDisk& disk, uint32_t most_parts,
+                                   const Visit& visit) const {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const bool both_sides = disk.both_sides();
+  const Vec3f& ng = vertex.point().ng;
+  const Vec3f side = both_sides || vertex.on_front() ? ng : -ng;
+  const auto& tree = in_.light.tree.tree();
+  std::vector<uint32_t>& near = empty(scratch().indices);
+  in_.light.tree.within(vertex.position(), side, both_sides, sqr(disk.radius()),
+                        [&](uint32_t index, float) { near.push_back(index); });
+  // Neighbours in the tree are neighbours in the disk: one in so many is spread over it.
+  const size_t parts = std::clamp(near.size() / least_in_part, size_t(1), size_t(most_parts));
+  size_t first = 0;
+  if (parts > 1)
+    first = std::min(size_t(walk_.sampler().fork(part_key).next_1d() * float(parts)), parts - 1);
+  // Paths lie anywhere in memory: waiting for one after the other took half the time.
+  for (size_t i = first; i < near.size(); i += parts) {
+    const LightVertexData& photon = tree.data(near[i]);
+    const PathVertex* before = in_.light.vertices.data() + photon.path;
+    prefetch(before);
+    prefetch(before + photon.before);
+  }
+  PathHalves path = vertices_.halves();
+  for (size_t i = first; i < near.size(); i += parts) {
+    const uint32_t index = near[i];
+    const LightVertexData& photon = tree.data(index);
+    const Vec3f offset = tree.key(index) - vertex.position();
+    const float cover = disk.share(offset, photon.side);
+    if (!(cover > 0)) continue;
+    if (walk_.events() + int(photon.before) > in_.maximum_events) continue;
+    const Vec3f wi = photon.direction.unpack();
+    const BsdfValues bsdf = vertex.values(wi);
+    const PathVertex* before = in_.light.vertices.data() + photon.path;
+    const PathVertex& merged = before[photon.before];
+    path.light = {before, photon.before};
+    path.pdf_light_last = merged.pdf_light;
+    path.pdf_light_before_last = vertices_.pdf_light_before(wi, bsdf.pdf_reverse);
+    path.pdf_camera_last = bsdf.pdf * merged.to_previous;
+    path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
+    path.pdf_next_event = photon.pdf_next_event;
+    visit(photon, photon.flux_spectrum() * (cover * float(parts)), offset, wi, bsdf, path);
+  }
+}
+
+SurfaceMerging::MergedLight SurfaceMerging::merged(const MergeDisk& disk,
+                                                   const DiskWeights& weights, Lobes lobes,
+                                                   std::vector<MergedPart>* each) const {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const float radius_sq = sqr(disk.radius());
+  MergedLight result;
+  // Farther on every sample is somewhere else.
+  const uint32_t most_parts =
+      vertices_.is_at_first() ? uint32_t(std::max(1.0f, in_.camera_samples)) : 1;
+  visit_merging(disk, most_parts,
+                [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset,
+                    const Vec3f& wi, const BsdfValues& bsdf, const PathHalves& path) {
+                  if (!weights.bounds.edges.hold(offset)) return;
+                  const float weight = in_.weights.merge(path);
+                  if (!(weight > 0)) return;
+                  const Spectrum arriving =
+                      flux * (vertex.has_relief() ? weight * vertex.irradiance_factor(wi) : weight);
+                  const float share = length_sq(offset) / radius_sq;
+                  const float kernel = (1 - share) * weights.wide.factor(offset);
+                  const float narrow_kernel = std::max(0.0f, 1 - share / sqr(narrow_radius)) *
+                                              weights.narrow.factor(offset);
+                  for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
+                    if (!any(lobes & lobe)) continue;
+                    const Component component = walk_.component_of(lobe, photon.specular);
+                    if (!walk_.wants(component)) continue;
+                    const Spectrum reflected = arriving * bsdf.of(lobe);
+                    result.of[size_t(component)] += reflected * kernel;
+                    result.narrow += reflected * narrow_kernel;
+                    if (each) each->push_back({offset, component, reflected * kernel});
+                  }
+                });
+  return result;
+}
+
+std::vector<SurfaceMerging::MergedVertex> SurfaceMerging::merged_vertices() const {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const float radius = vertices_.merge_radius();
+  std::vector<MergedVertex> result;
+  if (!(radius > 0)) return result;
+  const MergeDisk disk(vertex, radius);
+  visit_merging(
+      disk, 1,
+      [&](const LightVertexData& photon, const Spectrum& flux, const Vec3f& offset, const Vec3f& wi,
+          const BsdfValues& bsdf, const PathHalves& path) {
+        const float distance_sq = length_sq(offset);
+        const float kernel =
+            2 * (1 - distance_sq / sqr(radius)) / (pi * sqr(radius) * float(in_.light.path_count));
+        const float factor = vertex.has_relief() ? kernel * vertex.irradiance_factor(wi) : kernel;
+        Spectrum reflected;
+        for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
+          if (any(vertex.lobes() & lobe) && walk_.wants(walk_.component_of(lobe, photon.specular)))
+            reflected += bsdf.of(lobe);
+        result.push_back(
+            {in_.weights.beyond_merge(path), walk_.throughput() * reflected * flux * factor});
+      });
+  return result;
+}
+
+}  // namespace kaustik

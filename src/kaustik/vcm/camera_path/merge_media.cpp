@@ -1,0 +1,76 @@
+#include "kaustik/vcm/camera_path/merge_media.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kaustik/photon/volume_sight.h"
+
+namespace kaustik {
+namespace {
+
+constexpr uint32_t reached_in_medium_key = 6;
+
+/// Weight of merging with `light`, which lies beside the last vertex of `camera`.
+float merge_weight(const CameraPathInputs& in, PathHalves path, const MergeableMediumVertex& light,
+                   float phase, float phase_back) {
+  const PathVertex* before = in.light.vertices.data() + light.path;
+  path.light = {before, light.before};
+  path.pdf_light_last = light.pdf_light;
+  path.pdf_light_before_last = phase_back * path.camera.back().to_previous;
+  path.pdf_camera_last = phase * light.to_previous;
+  if (light.before >= 2) path.pdf_camera_before_last = before[light.before - 2].pdf_camera;
+  path.pdf_next_event = light.pdf_next_event;
+  return in.weights.merge(path);
+}
+
+}  // namespace
+
+float MediumMerging::merging_length() const {
+  const PathWeights::Settings& settings = in_.weights.settings();
+  if (!settings.techniques.merging) return 0;
+  if (vertices_.is_at_first()) return infinity;
+  const float spread = vertices_.list().back().spread;
+  if (vertices_.list().back().delta) return spread >= settings.least_spread ? infinity : 0.0f;
+  if (!(settings.least_spread > 0)) return infinity;
+  // Across the segment its density is pdf / length².
+  if (spread < settings.least_spread) return 0;
+  return std::sqrt(spread * vertices_.pdf_of_way() * settings.accepted_area /
+                   settings.least_spread);
+}
+
+Spectrum MediumMerging::radiance(const Ray& ray, float length, const Medium& medium,
+                                 const Sampler& sampler, uint64_t& rays) const {
+  Spectrum sum;
+  const float merging = std::min(length, merging_length());
+  if (in_.light.in_media.empty() || !(merging > 0)) return sum;
+  const PhaseFunction& phase_function = medium.phase();
+  const Vec3f wo = -ray.direction;
+  const auto count = float(in_.light.path_count);
+  std::vector<VolumePart>& parts = empty_volume_parts();
+  // All vertices before have been left by an event.
+  const auto events = int(vertices_.list().size());
+  std::vector<PathVertex> path = vertices_.list();
+  path.emplace_back();
+  PathHalves halves = vertices_.halves();
+  halves.camera = path;
+  in_.light.in_media.discs.visit_met(ray, merging, [&](size_t i, float along, float distance_sq) {
+    const MergeableMediumVertex& light = in_.light.in_media.data[i];
+    if (!light.medium->is_like(medium) || events + int(light.before) > in_.maximum_events) return;
+    const Vec3f position = ray.origin + ray.direction * along;
+    const float radius_sq = sqr(in_.light.in_media.discs.radius(i));
+    const Vec3f wi = light.direction.unpack();
+    const float phase = phase_function.eval(wo, wi);
+    path.back() = vertices_.next_in_medium(position, medium);
+    const float weight = merge_weight(in_, halves, light, phase, phase_function.eval(wi, wo));
+    const float kernel = 2 * inv_pi * (1 - distance_sq / radius_sq) / radius_sq;
+    parts.push_back(
+        {i, position,
+         light.flux_spectrum() * medium.transmittance(along) * (kernel * phase * weight / count)});
+    sum += parts.back().light;
+  });
+  if (!in_.visibility || sum.is_zero()) return sum;
+  return visible_from_segment(in_.scene, in_.light.in_media.discs, parts, sum,
+                              sampler.fork(reached_in_medium_key).next_1d(), rays);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,94 @@
+#include <algorithm>
+
+#include "kaustik/vcm/camera_path/camera_path.h"
+
+namespace kaustik {
+namespace {
+
+/// Events after which paths no longer branch.
+constexpr int most_split_events = 4;
+/// Of the sampler's forks: for a branch.
+constexpr uint32_t branch_key = 4;
+
+/// A path of several that camera paths branch into at smooth transparent surfaces.
+struct Branch {
+  float share = 1;     ///< what chance would have left of such paths, over what was followed
+  float survival = 1;  ///< with which it is followed beyond the next vertex
+
+  /// One that chance would choose that often.
+  Branch by(float chance) const {
+    // Followed so many times more often than chance would have it.
+    constexpr float most_often = 8;
+    Branch result;
+    result.survival = survival * std::min(1.0f, most_often * share * chance);
+    result.share = share * chance * survival / result.survival;
+    return result;
+  }
+};
+
+void follow(CameraPath& path, Branch branch);
+
+/// Follows the less likely of two events and lets `stem` go on by the other.
+void split(CameraPath& stem, const CameraWalk::DeltaEvents& events, Branch& branch) {
+  const bool mirrors = events.reflection.pdf_solid_angle > events.transmission.pdf_solid_angle;
+  const BsdfSample& likely = mirrors ? events.reflection : events.transmission;
+  const BsdfSample& other = mirrors ? events.transmission : events.reflection;
+  // Layers of what is seen show the likely one.
+  const FirstHit seen = stem.walk().first_hit();
+  {
+    Sampler numbers = stem.walk().sampler().fork(branch_key);
+    CameraPath path(stem, numbers);
+    path.walk().branch(other);
+    path.leave();
+    if (path.walk().may_find_more()) follow(path, branch.by(other.pdf_solid_angle));
+  }
+  stem.walk().set_first_hit(seen);
+  stem.walk().branch(likely);
+  branch = branch.by(likely.pdf_solid_angle);
+}
+
+/// Takes the path to its end.
+void follow(CameraPath& path, Branch branch) {
+  const CameraPathInputs& in = path.inputs();
+  const Techniques& techniques = in.techniques();
+  CameraWalk& walk = path.walk();
+  Sampler& sampler = walk.sampler();
+  for (;;) {
+    const CameraWalk::Arrival arrival = path.go_on(in.scene.has_scattering());
+    if (arrival == CameraWalk::Arrival::nothing) return;
+    // Lamps that a branch shows it shows always; all else as often as it is worth.
+    if (branch.survival < 1) {
+      if (!walk.survive_with(branch.survival, sampler.next_1d())) return;
+      branch.survival = 1;
+    }
+    const bool in_medium = arrival == CameraWalk::Arrival::medium;
+    if (walk.events() >= in.maximum_events) return;
+    if (techniques.next_event) path.add_direct_light();
+    if (techniques.merging && !in_medium) path.merge();
+    if (techniques.connections) path.connect();
+    const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
+    const bool may_split =
+        !in_medium && path.vertices().is_at_first() && walk.events() < most_split_events;
+    if (const auto events = may_split ? walk.delta_events() : std::nullopt) {
+      split(path, *events, branch);
+    } else if (in_medium) {
+      walk.scatter_in_medium(u);
+    } else if (!walk.scatter(Lobes::all, 1, u_choice.x, u)) {
+      return;
+    }
+    path.leave();
+    if (!walk.may_find_more()) return;
+    if (!path.survives_first(sampler.next_1d())) return;
+    if (walk.events() > in.roulette_depth && !walk.survive(u_choice.y)) return;
+  }
+}
+
+}  // namespace
+
+void trace_camera_path(const CameraPathInputs& inputs, const PixelPlan& plan, const Vec2f& raster,
+                       Sampler& sampler, SampleSink& sink) {
+  CameraPath path(inputs, plan, raster, sampler, sink);
+  follow(path, {});
+}
+
+}  // namespace kaustik
