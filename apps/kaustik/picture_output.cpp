@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <new>
 
 #include "console.h"
@@ -20,7 +21,9 @@ void set_metadata(Image& image, const Film& film, const RenderRecord& record,
   image.set_metadata("integrator", record.view.integrator);
   image.set_metadata("seed", int64_t(record.recipe.seed));
   image.set_metadata("passes", int64_t(film.pass_count()));
-  image.set_metadata("samples_per_pixel", int64_t(film.samples_per_pixel()));
+  image.set_metadata("samples_per_pixel",
+                     int64_t(film.samples_per_pixel()) +
+                         std::llround(options.part * record.recipe.samples_per_pass));
   image.set_metadata("horizontal_fov", record.view.horizontal_fov);
   image.set_metadata("vertical_fov", record.view.vertical_fov);
   image.set_metadata(
@@ -60,14 +63,14 @@ void check_outputs(const OutputPlan& outputs, FileRoles& roles) {
 }
 
 void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,
-                    Failures& failures) {
+                    Failures& failures, const std::function<Image()>& picture) {
   WriteOptions write;
   write.exr_half = !record.outputs.full_float;
   Image image;
   bool is_made = false;
   failures.attempt_to("make the picture", [&] {
     write.tone = make_tone_operator(record.outputs.tone, record.outputs.tone_settings);
-    image = film.image();
+    image = picture ? picture() : film.image();
     if (record.view.frame.width > 0) image.set_frame(record.view.frame);
     set_metadata(image, film, record, options);
     if (record.outputs.denoise) smooth_noise(image, options.threads);

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "failures.h"
 #include "file_roles.h"
 #include "kaustik/render/checkpoint.h"
@@ -9,16 +11,17 @@ struct OutputOptions {
   int threads = 0;               ///< for smoothing; 0: all
   bool quiet = false;            ///< says nothing of the files
   bool incomplete_pass = false;  ///< the film holds fewer samples than a pass has
+  double part = 0;               ///< of a pass that the picture has beside the film's
 };
 
 /// Checks, before long work, that the files can be written, each once, and the tone mapping can be
 /// made; throws Error.
 void check_outputs(const OutputPlan& outputs, FileRoles& roles);
 
-/// Writes the film's picture to all the files of the record's plan, with what is known of it as
-/// metadata; those that cannot be made or written go to `failures`.
+/// Writes the film's picture, or what `picture` makes of it, to all the files of the record's plan,
+/// with what is known of it as metadata; those that cannot be made or written go to `failures`.
 void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,
-                    Failures& failures);
+                    Failures& failures, const std::function<Image()>& picture = {});
 
 /// Tells how well the picture is known, on standard error.
 void print_errors(const Film& film);

@@ -51,6 +51,7 @@ void sort_settings(RenderOptions& options) {
 }
 
 void render(RenderOptions options) {
+  JobOptions job_options;
   RenderRecipe& recipe = options.recipe;
   FileRoles roles;
   roles.reads_scene(recipe.scene);
@@ -73,7 +74,6 @@ void render(RenderOptions options) {
   settings.samples_per_pixel = options.spp;
   if (options.time) settings.seconds = parse_duration(*options.time, "--time");
   if (options.error) settings.error = parse_error_bound(*options.error);
-  JobOptions job_options;
   job_options.quiet = options.quiet;
   job_options.checkpoint = options.checkpoint.value_or("");
   job_options.every_s = parse_duration(options.every, "--every");
@@ -203,7 +203,8 @@ void add_render(CLI::App& program) {
       ->add_option("--first-pass", options->first_pass,
                    "Number of the first pass; --passes and --spp count from it [0]")
       ->check(whole_number(0, 1 << 30));
-  command->add_option("--time", options->time, "Stop in time: 60s, 5m, 1h30m (one pass at least)");
+  command->add_option("--time", options->time,
+                      "Stop then: 60s, 5m, 1h30m (a sample of each pixel at least)");
   auto* checkpoint = command->add_option(
       "--checkpoint", options->checkpoint,
       "Keep the finished passes in this file, .kpt: kaustik resume, kaustik merge");

@@ -37,6 +37,10 @@ void tell_of_first_seconds(const std::string& integrator, std::optional<double> 
                   first_seconds));
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 PictureFrame frame_of(const FilmSettings& film) {
   return {film.size.x, film.size.y, film.crop_offset.x, film.crop_offset.y};
 }
@@ -105,10 +109,15 @@ RenderJob make_job(Description description, const RenderRecipe& recipe, bool wit
   return job;
 }
 
-void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& settings,
+void run_job(const RenderJob& job, RenderRecord record, SessionSettings settings,
              std::optional<Film> begun, const JobOptions& options) {
   // Large films take a while to be made.
   const InterruptGuard interrupt;
+  settings.keeps_passes = !options.checkpoint.empty();
+  // What it took to read the scene is of the time that there is.
+  constexpr double least_s = 1e-3;
+  if (settings.seconds)
+    settings.seconds = std::max(least_s, *settings.seconds - seconds_since(options.start));
   Session session = begun ? Session(*job.scene, *job.integrator, settings, *std::move(begun))
                           : Session(*job.scene, *job.integrator, settings);
   const bool keeps = !options.checkpoint.empty();
@@ -141,8 +150,9 @@ void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& s
     warn("no pass was finished: there is no checkpoint");
   else if (keeps)
     failures.attempt(options.checkpoint, [&] { keeper.write_last(session.film()); });
-  write_pictures(session.film(), record, {settings.threads, options.quiet, report.incomplete_pass},
-                 failures);
+  write_pictures(session.film(), record,
+                 {settings.threads, options.quiet, report.incomplete_pass, report.part}, failures,
+                 [&] { return session.image(); });
   failures.throw_if_any();
   if (report.cancelled) throw EndedEarly{};
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <optional>
 
 #include "kaustik/loader/load_options.h"
@@ -38,12 +39,14 @@ struct JobOptions {
   bool quiet = false;
   std::string checkpoint;  ///< file; "": none
   double every_s = 30;     ///< between two checkpoints
+  /// From when on the session's time counts.
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 };
 
 /// Renders with progress, keeps the checkpoint and writes the pictures; goes on with `begun` if it
 /// is there. A checkpoint needs the job's digest. What `record` lacks is filled in: samples per
 /// pass, plan, digest, view. Throws Error, of all that could not be written, and EndedEarly.
-void run_job(const RenderJob& job, RenderRecord record, const SessionSettings& settings,
+void run_job(const RenderJob& job, RenderRecord record, SessionSettings settings,
              std::optional<Film> begun, const JobOptions& options);
 
 }  // namespace kaustik::app

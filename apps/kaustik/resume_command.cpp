@@ -147,6 +147,7 @@ SessionSettings session_settings(const ResumeOptions& options, const Limits& lim
 }
 
 void resume(const ResumeOptions& options) {
+  JobOptions job_options;
   const Limits limits = limits_of(options);
   FileRoles roles;
   roles.reads(options.checkpoint);
@@ -177,7 +178,6 @@ void resume(const ResumeOptions& options) {
   if (!options.quiet)
     say("{} goes on: passes {} are there; to be written: {}", record.recipe.scene,
         checkpoint.film.passes().text(), replacements(record.outputs.files));
-  JobOptions job_options;
   job_options.quiet = options.quiet;
   job_options.checkpoint = options.checkpoint;
   job_options.every_s = limits.every_s;

@@ -10,43 +10,12 @@
 #include <mutex>
 #include <thread>
 
-#include "kaustik/loader/mitsuba_xml.h"
+#include "tests/support/scripted_integrator.h"
 
 namespace kaustik {
 namespace {
 
-std::shared_ptr<const Scene> scene_with(const std::string& film, const std::string& objects) {
-  return build_scene(parse_mitsuba_xml(
-      "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"45\"/>"
-      "<transform name=\"to_world\"><lookat origin=\"0,-4,2\" target=\"0,0,0.5\" up=\"0,0,1\"/>"
-      "</transform>" +
-          film + "</sensor>" + objects + "</scene>",
-      "test.xml", ""));
-}
-
-std::string film_of(int width, int height, const std::string& inside = "") {
-  return "<film type=\"hdrfilm\"><integer name=\"width\" value=\"" + std::to_string(width) +
-         "\"/><integer name=\"height\" value=\"" + std::to_string(height) + "\"/>" + inside +
-         "</film>";
-}
-
-constexpr const char* room =
-    "<shape type=\"rectangle\"><transform name=\"to_world\"><scale "
-    "value=\"3\"/></transform></shape>"
-    "<shape type=\"sphere\"><point name=\"center\" x=\"0\" y=\"0\" z=\"0.6\"/>"
-    "<float name=\"radius\" value=\"0.6\"/><bsdf type=\"dielectric\"/></shape>"
-    "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.5\"/>"
-    "<rotate x=\"1\" angle=\"180\"/><translate z=\"3\"/></transform>"
-    "<emitter type=\"area\"><rgb name=\"radiance\" value=\"9\"/></emitter></shape>";
-
-std::shared_ptr<const Scene> plain_scene(int sample_count = 0) {
-  return scene_with(
-      film_of(20, 18) + (sample_count > 0 ? "<sampler type=\"independent\"><integer name=\""
-                                            "sample_count\" value=\"" +
-                                                std::to_string(sample_count) + "\"/></sampler>"
-                                          : std::string()),
-      room);
-}
+using namespace test;
 
 std::unique_ptr<Integrator> integrator_for(const Scene& scene, const std::string& type,
                                            const std::string& parameters = "") {
@@ -56,39 +25,6 @@ std::unique_ptr<Integrator> integrator_for(const Scene& scene, const std::string
                                            "test.xml", ""),
                          scene, warnings);
 }
-
-/// What a test wants to happen in an integrator.
-struct Script {
-  std::function<void(const Pass&, SplatBuffer&)> prepare = [](const Pass&, SplatBuffer&) {};
-  std::function<void(const Vec2f&, Sampler&, SampleSink&)> sample = [](const Vec2f&, Sampler&,
-                                                                       SampleSink& sink) {
-    sink.add(Component::direct, {1, 2, 3, 0});
-  };
-  bool splats = false, estimates_bias = false;
-  std::vector<std::string> warnings;
-};
-
-class Scripted final : public Integrator {
- public:
-  explicit Scripted(Script script) : script_(std::move(script)) {}
-  std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token,
-                                     const ProgressFunction& progress) const override {
-    script_.prepare(pass, splats);
-    progress(0.5);
-    auto state = std::make_unique<PassState>();
-    state->report.warnings = script_.warnings;
-    return state;
-  }
-  void sample(const PassState&, const Vec2f& raster, Sampler& sampler,
-              SampleSink& sink) const override {
-    script_.sample(raster, sampler, sink);
-  }
-  bool splats() const override { return script_.splats; }
-  bool estimates_bias() const override { return script_.estimates_bias; }
-
- private:
-  Script script_;
-};
 
 Image rendered(const Scene& scene, const Integrator& integrator, const SessionSettings& settings) {
   Session session(scene, integrator, settings);
@@ -393,7 +329,7 @@ TEST(Session, ManySamplesMakeManyPasses) {
   EXPECT_EQ(plan(*small, settings), std::pair(2u, 50000u));
 }
 
-// A large first pass is cut when the time is over, but not below the usual samples.
+// A large first pass is cut when the time is over, but not below a sample of each pixel.
 TEST(Session, ALargeFirstPassEndsInTime) {
   const auto scene = scene_with(film_of(2, 2, "<rfilter type=\"box\"/>"), room);
   Script script;
@@ -413,7 +349,7 @@ TEST(Session, ALargeFirstPassEndsInTime) {
     EXPECT_FALSE(report.cancelled);
     EXPECT_TRUE(report.incomplete_pass);
     EXPECT_EQ(report.passes, 1u);
-    EXPECT_GE(session.film().samples_per_pixel(), 4u);
+    EXPECT_GE(session.film().samples_per_pixel(), 1u);
     EXPECT_LT(session.film().samples_per_pixel(), 200u);
     EXPECT_EQ(session.film().image().at(1, 1, 0), 1);
   }

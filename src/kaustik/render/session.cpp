@@ -22,6 +22,9 @@ constexpr uint32_t least_passes = 4;
 /// kept, grow with them.
 constexpr uint32_t most_times_default = 4;
 constexpr uint64_t most_samples_of_pass = uint64_t(1) << 22;
+/// Of pictures that there is less time for passes have fewer samples in proportion: light passes
+/// are shorter then.
+constexpr double pixels_per_second = 1 << 16;
 
 uint32_t divided_up(uint32_t a, uint32_t b) { return a / b + (a % b > 0 ? 1 : 0); }
 
@@ -38,7 +41,10 @@ Session::Session(const Scene& scene, const Integrator& integrator, const Session
       film_(std::move(begun)),
       splats_(integrator.splats() ? scene.film() : FilmSettings{{1, 1}, {0, 0}, {1, 1}, {}, 0},
               integrator.components()),
-      pixels_(film_.pixel_count()) {
+      pixels_(film_.pixel_count()),
+      tile_mutexes_(
+          std::make_unique<std::mutex[]>(size_t(tile_count().x) * size_t(tile_count().y))),
+      has_picture_(film_.pass_count() > 0) {
   plan();
 }
 
@@ -49,6 +55,16 @@ uint32_t Session::most_samples_per_pass() const {
   return uint32_t(
       std::clamp<uint64_t>(most_samples_of_pass / std::max<uint64_t>(1, film_.pixel_count()), usual,
                            most_times_default * usual));
+}
+
+uint32_t Session::samples_by_time() const {
+  const uint32_t usual = integrator_.default_samples_per_pass();
+  if (settings_.keeps_passes) return usual;
+  // A pass that can't be taken in parts.
+  if (!integrator_.samples_camera()) return 1;
+  const double pixels = double(std::max<size_t>(1, film_.pixel_count()));
+  return uint32_t(
+      std::clamp(usual * *settings_.seconds * pixels_per_second / pixels, 1.0, double(usual)));
 }
 
 void Session::plan() {
@@ -75,7 +91,7 @@ void Session::plan() {
     samples_per_pass_ = divided_up(*samples, std::max(1u, pass_count_));
     if (!settings_.passes) pass_count_ = divided_up(*samples, samples_per_pass_);
   } else {
-    samples_per_pass_ = by_integrator;
+    samples_per_pass_ = settings_.seconds && !settings_.passes ? samples_by_time() : by_integrator;
     pass_count_ = settings_.passes.value_or(is_open ? 0 : default_passes);
   }
 }
@@ -93,15 +109,19 @@ bool Session::is_good_enough(double error) const {
 bool Session::goes_on(uint32_t index, const Monitor& monitor) const {
   if (pass_count_ > 0 && index >= planned().end) return false;
   if (is_good_enough(monitor.error())) return false;
+  // A part of it will do, with a sample of each pixel.
   return !settings_.seconds || monitor.passes_done() == 0 ||
-         monitor.elapsed() + monitor.last_pass_seconds() <= *settings_.seconds;
+         monitor.elapsed() + monitor.least_pass_seconds() <= *settings_.seconds;
 }
 
 SessionReport Session::run(std::stop_token stop,
                            const std::function<void(const Progress&)>& progress,
                            const std::function<void()>& pass_done) {
-  report_ = {};
-  report_.samples_per_pass = samples_per_pass_;
+  {
+    const std::lock_guard lock(picture_mutex_);
+    report_ = {};
+    report_.samples_per_pass = samples_per_pass_;
+  }
   const uint64_t refused_before = scene_.tracer().refused_rays();
   Monitor monitor(*this, progress);
   with_threads(settings_.threads, [&] {

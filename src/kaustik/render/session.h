@@ -1,6 +1,8 @@
 #pragma once
+#include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -25,10 +27,12 @@ struct SessionSettings {
   std::optional<uint32_t> samples_per_pixel;
   /// Of each pass, whatever is said above; then `samples_per_pixel` only says how many passes.
   std::optional<uint32_t> samples_per_pass;
-  /// Stop before the pass that would end later than this. At least one pass is always finished if
-  /// one is left to do, but of a first pass of more than the integrator's default samples no more
-  /// than these.
+  /// Stop then. A pass that is not finished until then counts as the part that it is, where each
+  /// pixel has a sample: Session::image(). Of the first pass so much is always rendered.
   std::optional<double> seconds;
+  /// Others will go on with the passes, so one at least is finished whatever the time, and all have
+  /// the samples that they would have without a limit of time.
+  bool keeps_passes = false;
   /// Stop when Film::picture_error() is at most this. It is looked at after 16, 32, 64, … passes
   /// only: who looks all the time, and stops when the error happens to look small, stops too early.
   std::optional<double> error;
@@ -47,6 +51,7 @@ struct Progress {
   double photons_per_s = 0;   ///< stored or splatted, over the time of the light passes
   size_t memory_bytes = 0;    ///< resident, of the whole program
   double relative_error = 0;  ///< Film::picture_error(); infinite: not known yet
+  bool has_picture = false;   ///< there is something for Session::snapshot()
 };
 
 /// What came out of a session.
@@ -62,6 +67,8 @@ struct SessionReport {
   bool cancelled = false;    ///< a stop request came before what was asked for was done
   /// The film holds fewer samples than its one pass was to have: each pixel at least one.
   bool incomplete_pass = false;
+  /// Share of a pass that was taken after those of the film: Session::image() has it, too.
+  double part = 0;
   std::vector<std::string> warnings;
   std::vector<std::string> decisions;  ///< PassReport::decisions
 };
@@ -81,12 +88,21 @@ class Session {
 
   /// Renders until a stop rule holds or `stop` is requested; then the film holds what is finished:
   /// whole passes, or fewer samples of the first pass where each pixel has at least one, or
-  /// nothing. `progress` is called from one thread at a time, a few times per second. `pass_done`
+  /// nothing. What throws in it, callbacks included, ends it, and the film holds the passes before.
+  /// `progress` is called from one thread at a time, a few times per second. `pass_done`
   /// is called after every finished pass, when no thread works: film() may be looked at then, and
   /// `stop` requested. What it takes counts as time of the session.
   SessionReport run(std::stop_token stop = {},
                     const std::function<void(const Progress&)>& progress = {},
                     const std::function<void()>& pass_done = {});
+
+  /// From any thread, at any time, in callbacks too: a whole picture of what there is. Of finished
+  /// passes; in the first one of the samples so far, and pixels without any show those of a pixel
+  /// near by. None: not even that is there.
+  std::optional<Image> snapshot() const;
+  bool has_picture() const { return has_picture_; }
+  /// Not while run() goes on: the film's image, with the part of a pass at its end.
+  Image image() const;
 
   const Film& film() const { return film_; }
   uint32_t samples_per_pass() const { return samples_per_pass_; }
@@ -96,25 +112,37 @@ class Session {
  private:
   class Monitor;
   struct CameraPass;
+  struct Round;
   enum class PassEnd { complete, incomplete, discarded };
   void plan();
   /// Of a pass of a plan that does not say how many passes there are.
   uint32_t most_samples_per_pass() const;
+  /// Of a plan that says nothing but how much time there is.
+  uint32_t samples_by_time() const;
   PassRange planned() const;  ///< empty: limited by time or error
   /// Whether the error is small enough, where it is looked at.
   bool is_good_enough(double error) const;
   /// Whether pass `index`, the next one, is to be rendered.
   bool goes_on(uint32_t index, const Monitor& monitor) const;
+  /// Whether the pass is to be rendered whole, or one sample of each pixel at least if there is no
+  /// picture yet, however late that is.
+  bool must_be_finished(const Monitor& monitor) const;
   PassEnd render_pass(uint32_t index, std::stop_token stop, Monitor& monitor);
   /// Takes the pass's samples. False if it was halted: then pixels have fewer, maybe none.
   bool render_camera(const Pass& pass, const PassState& state, const std::stop_token& stop,
                      Monitor& monitor);
-  /// Samples of the tile's pixels up to number `end` of each, until it is halted.
-  void render_tile(CameraPass& camera, const Vec2i& tile, uint32_t end);
+  /// The tile's samples of the round, until it is halted.
+  void render_tile(CameraPass& camera, const Vec2i& tile, const Round& round);
   /// The same of a pixel, added to `sum`; returns rays.
   uint64_t render_pixel(CameraPass& camera, int x, int y, uint32_t end, PassPixel& sum) const;
+  Vec2i tile_count() const;
   /// Means over the samples from their sums, and the splats.
+  PassPixel finished(int x, int y) const;
   void finish_pixels();
+  void clear_pixels();
+  /// Share of the pass's samples that its pixels have.
+  double share_taken(const Pass& pass, const PassState& state) const;
+  Image first_samples(std::unique_lock<std::mutex> lock) const;
 
   const Scene& scene_;
   const Integrator& integrator_;
@@ -125,6 +153,11 @@ class Session {
   uint32_t pass_count_ = 0;  ///< 0: limited by time or error
   uint32_t samples_per_pass_ = 1;
   SessionReport report_;
+
+  // For snapshots.
+  mutable std::mutex picture_mutex_;            ///< the film, and whether pixels are sums or means
+  std::unique_ptr<std::mutex[]> tile_mutexes_;  ///< the pixels of a first pass
+  std::atomic<bool> has_picture_;
 };
 
 /// Type of the integrator that make_integrator() makes: what the description asks for; else the

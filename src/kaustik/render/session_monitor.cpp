@@ -35,6 +35,7 @@ void Session::Monitor::tell(Progress::Stage stage, bool force) {
   p.photons_per_s = light_seconds > 0 ? double(photons) / light_seconds : 0;
   p.memory_bytes = resident_bytes();
   p.relative_error = error_;
+  p.has_picture = session_.has_picture_;
   listener_(p);
 }
 

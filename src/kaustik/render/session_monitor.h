@@ -34,7 +34,8 @@ class Session::Monitor {
     tell(Progress::Stage::light, false);
   }
   void light_pass_done(const PassReport& report) {
-    light_seconds += seconds_since(pass_start_);
+    last_light_seconds_ = seconds_since(pass_start_);
+    light_seconds += last_light_seconds_;
     light_done_ = 1;
     if (passes_done_ == 0 && light_seconds < 0.1) light_share_ = 0;
     rays += report.rays;
@@ -63,6 +64,13 @@ class Session::Monitor {
   double elapsed() const { return seconds_since(start_); }
   /// Of the last pass: the first may hold plans that are made once, the mean would too.
   double last_pass_seconds() const { return last_pass_seconds_; }
+  /// Of a pass like the last one until each pixel has a sample.
+  double least_pass_seconds() const {
+    const double camera = last_pass_seconds_ - last_light_seconds_;
+    return last_light_seconds_ + (session_.integrator_.samples_camera()
+                                      ? camera / std::max(1u, session_.samples_per_pass_)
+                                      : camera);
+  }
 
   /// Tells the listener if it is time, or if `force`.
   void tell(Progress::Stage stage, bool force);
@@ -79,7 +87,7 @@ class Session::Monitor {
   const Session& session_;
   const std::function<void(const Progress&)>& listener_;
   Clock::time_point start_, pass_start_, last_;
-  double last_pass_seconds_ = 0;
+  double last_pass_seconds_ = 0, last_light_seconds_ = 0;
   bool told_ = false;
   std::mutex mutex_;
   uint32_t passes_at_start_;

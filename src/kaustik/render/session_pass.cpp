@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/render/part_picture.h"
 #include "kaustik/render/session.h"
 #include "kaustik/render/session_monitor.h"
 
@@ -11,6 +12,14 @@ namespace kaustik {
 namespace {
 
 constexpr int tile_size = 16;
+
+/// Of the first samples of a first pass one pixel in so many squared gets the first ones, so that
+/// there is a picture early.
+constexpr int first_stride = 4;
+
+/// A pass is taken in rounds, so that it may be cut, where so many like the one before would not
+/// end in time.
+constexpr double passes_ahead = 2;
 
 /// Samples of a pixel that are summed before their sum is added to the others: a float would lose
 /// single ones in a sum of millions.
@@ -63,14 +72,18 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
   monitor.start_pass();
   const Pass pass{settings_.seed, index, samples_per_pass_};
   if (integrator_.splats()) splats_.clear();
-  parallel_blocks(pixels_.size(), 4096, [&](size_t begin, size_t end, size_t) {
-    std::fill(pixels_.data() + begin, pixels_.data() + end, PassPixel{});
-  });
+  clear_pixels();
   monitor.tell(Progress::Stage::light, false);
-  const auto state =
-      integrator_.prepare(pass, splats_, stop, [&](double share) { monitor.light_pass_at(share); });
+  const bool may_be_late = must_be_finished(monitor);
+  std::stop_source halt;
+  const std::stop_callback forward(stop, [&] { halt.request_stop(); });
+  const auto state = integrator_.prepare(pass, splats_, halt.get_token(), [&](double share) {
+    monitor.light_pass_at(share);
+    if (settings_.seconds && !may_be_late && monitor.elapsed() > *settings_.seconds)
+      halt.request_stop();
+  });
   // Half a light pass is of no use: what it has brought is a part of the light only.
-  if (stop.stop_requested()) return PassEnd::discarded;
+  if (halt.stop_requested()) return PassEnd::discarded;
   monitor.light_pass_done(state->report);
   add_new(state->report.warnings, report_.warnings);
   add_new(state->report.decisions, report_.decisions);
@@ -81,14 +94,56 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
         pixels_.begin(), pixels_.end(),
         [](const PassPixel& a, const PassPixel& b) { return a.samples < b.samples; });
     samples = fewest->samples;
-    // What is there already is the better picture.
-    if (samples == 0 || film_.pass_count() > 0) return PassEnd::discarded;
+    if (samples == 0) return PassEnd::discarded;
   }
-  finish_pixels();
-  film_.add_pass(pixels_, index, samples);
-  report_.incomplete_pass = !complete;
+  const std::lock_guard lock(picture_mutex_);
+  isolated([&] {
+    // Beside whole passes it is a part, by itself it is the picture.
+    const bool is_part = !complete && film_.pass_count() > 0;
+    if (is_part) report_.part = share_taken(pass, *state);
+    finish_pixels();
+    if (!is_part) film_.add_pass(pixels_, index, samples);
+    report_.incomplete_pass = !complete && !is_part;
+    has_picture_ = true;
+  });
   return complete ? PassEnd::complete : PassEnd::incomplete;
 }
+
+void Session::clear_pixels() {
+  const std::lock_guard lock(picture_mutex_);
+  has_picture_ = film_.pass_count() > 0;
+  isolated([&] {
+    parallel_blocks(pixels_.size(), 4096, [&](size_t begin, size_t end, size_t) {
+      std::fill(pixels_.data() + begin, pixels_.data() + end, PassPixel{});
+    });
+  });
+}
+
+double Session::share_taken(const Pass& pass, const PassState& state) const {
+  uint64_t taken = 0, all = 0;
+  for (int y = 0; y < film_.height(); ++y)
+    for (int x = 0; x < film_.width(); ++x) {
+      taken += pixels_[size_t(y) * size_t(film_.width()) + size_t(x)].samples;
+      all += integrator_.pixel_samples(state, pass, {x, y}).count;
+    }
+  return double(taken) / double(std::max<uint64_t>(1, all));
+}
+
+bool Session::must_be_finished(const Monitor& monitor) const {
+  return film_.pass_count() == 0 || (settings_.keeps_passes && monitor.passes_done() == 0);
+}
+
+/// Samples that all pixels get before any gets more.
+struct Session::Round {
+  int stride = 1;  ///< only pixels whose coordinates are multiples of it
+  uint32_t end = std::numeric_limits<uint32_t>::max();
+
+  /// As many again as there have been.
+  Round next() const {
+    if (stride > 1) return {stride / 2, end};
+    return {1, end > std::numeric_limits<uint32_t>::max() / 2 ? end : 2 * end};
+  }
+};
 
 /// What the threads of a pass share that takes camera samples.
 struct Session::CameraPass {
@@ -112,35 +167,51 @@ bool Session::render_camera(const Pass& pass, const PassState& state, const std:
                             Monitor& monitor) {
   CameraPass camera{pass, state, stop, monitor};
   // If there is no picture yet, all pixels get a sample, then another, two more, four more …, so
-  // that there is one as soon as can be.
-  const bool in_rounds = film_.pass_count() == 0;
-  uint32_t end = in_rounds ? 1 : std::numeric_limits<uint32_t>::max();
-  const uint32_t always = integrator_.default_samples_per_pass();
-  const Vec2i tiles((film_.width() + tile_size - 1) / tile_size,
-                    (film_.height() + tile_size - 1) / tile_size);
-  do {
+  // that there is one as soon as can be; and if it may not be finished, so that it is one then.
+  const bool is_first = film_.pass_count() == 0, must_end = must_be_finished(monitor);
+  const bool may_be_cut =
+      settings_.seconds && !must_end &&
+      (monitor.passes_done() == 0 ||
+       monitor.elapsed() + passes_ahead * monitor.last_pass_seconds() > *settings_.seconds);
+  Round round;
+  if (is_first) round = {first_stride, 1};
+  if (may_be_cut) round = {1, 1};
+  if (!must_end) camera.last_second = settings_.seconds;
+  // Those that must be there.
+  const uint32_t always = settings_.keeps_passes ? integrator_.default_samples_per_pass() : 1;
+  const Vec2i tiles = tile_count();
+  for (bool more = true; more && !camera.halted; round = round.next()) {
     camera.more = false;
-    if (in_rounds && end > always) camera.last_second = settings_.seconds;
+    if (is_first && round.end > always) camera.last_second = settings_.seconds;
     parallel_blocks(size_t(tiles.x) * size_t(tiles.y), 1, [&](size_t tile, size_t, size_t) {
-      render_tile(camera, {int(tile) % tiles.x, int(tile) / tiles.x}, end);
+      render_tile(camera, {int(tile) % tiles.x, int(tile) / tiles.x}, round);
     });
-    end = end > std::numeric_limits<uint32_t>::max() / 2 ? end : 2 * end;
-  } while (camera.more && !camera.halted);
+    if (is_first && !camera.halted) has_picture_ = true;
+    more = camera.more || round.stride > 1;
+  }
   return !camera.halted;
 }
 
-void Session::render_tile(CameraPass& camera, const Vec2i& tile, uint32_t end) {
+Vec2i Session::tile_count() const {
+  return {(film_.width() + tile_size - 1) / tile_size,
+          (film_.height() + tile_size - 1) / tile_size};
+}
+
+void Session::render_tile(CameraPass& camera, const Vec2i& tile, const Round& round) {
   const int x0 = tile.x * tile_size, y0 = tile.y * tile_size;
   const int x1 = std::min(x0 + tile_size, film_.width());
   const int y1 = std::min(y0 + tile_size, film_.height());
   uint64_t rays = 0, samples = 0;
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1 && !camera.halted; ++x) {
+  // A snapshot may want to see them.
+  std::unique_lock lock(tile_mutexes_[size_t(tile.y) * size_t(tile_count().x) + size_t(tile.x)]);
+  for (int y = y0; y < y1; y += round.stride)
+    for (int x = x0; x < x1 && !camera.halted; x += round.stride) {
       PassPixel& pixel = pixels_[size_t(y) * size_t(film_.width()) + size_t(x)];
       const uint32_t before = pixel.samples;
-      rays += render_pixel(camera, x, y, end, pixel);
+      rays += render_pixel(camera, x, y, round.end, pixel);
       samples += pixel.samples - before;
     }
+  lock.unlock();
   camera.monitor.samples_done(samples, rays);
 }
 
@@ -180,19 +251,72 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end,
   return rays;
 }
 
+PassPixel Session::finished(int x, int y) const {
+  const PassPixel& pixel = pixels_[size_t(y) * size_t(film_.width()) + size_t(x)];
+  PassPixel mean;
+  mean.samples = pixel.samples;
+  if (pixel.samples > 0) add_scaled(pixel, 1.0f / float(pixel.samples), mean);
+  for (int c = 0; c < component_count; ++c)
+    if (integrator_.splats() && splats_.wants(Component(c)))
+      mean.radiance[size_t(c)] += splats_.value(x, y, Component(c));
+  return mean;
+}
+
 void Session::finish_pixels() {
   parallel_blocks(size_t(film_.height()), 1, [&](size_t row, size_t, size_t) {
-    for (int x = 0; x < film_.width(); ++x) {
-      PassPixel& pixel = pixels_[row * size_t(film_.width()) + size_t(x)];
-      PassPixel mean;
-      mean.samples = pixel.samples;
-      if (pixel.samples > 0) add_scaled(pixel, 1.0f / float(pixel.samples), mean);
-      for (int c = 0; c < component_count; ++c)
-        if (integrator_.splats() && splats_.wants(Component(c)))
-          mean.radiance[size_t(c)] += splats_.value(x, int(row), Component(c));
-      pixel = mean;
-    }
+    for (int x = 0; x < film_.width(); ++x)
+      pixels_[row * size_t(film_.width()) + size_t(x)] = finished(x, int(row));
   });
+}
+
+std::optional<Image> Session::snapshot() const {
+  std::unique_lock lock(picture_mutex_);
+  if (!has_picture_) return std::nullopt;
+  // Callbacks come from within parallel work, of which nothing may be taken up meanwhile.
+  return isolated([&]() -> std::optional<Image> {
+    if (film_.pass_count() > 0) return image();
+    return first_samples(std::move(lock));
+  });
+}
+
+Image Session::image() const {
+  Image image = film_.image();
+  if (!(report_.part > 0)) return image;
+  PartPicture picture(image, film_.pass_count(), report_.part);
+  parallel_blocks(size_t(film_.height()), 1, [&](size_t row, size_t, size_t) {
+    for (int x = 0; x < film_.width(); ++x)
+      picture.put(x, int(row), pixels_[row * size_t(film_.width()) + size_t(x)]);
+  });
+  return image;
+}
+
+Image Session::first_samples(std::unique_lock<std::mutex> lock) const {
+  Image image = film_.image();
+  PartPicture picture(image, 0, 1);
+  std::vector<uint8_t> is_shown(pixels_.size());
+  const auto index = [&](int x, int y) { return size_t(y) * size_t(film_.width()) + size_t(x); };
+  const Vec2i tiles = tile_count();
+  // One lock at a time: who holds it waits for nothing.
+  for (int tile = 0; tile < tiles.x * tiles.y; ++tile) {
+    const std::lock_guard of_tile(tile_mutexes_[size_t(tile)]);
+    const int x0 = tile % tiles.x * tile_size, y0 = tile / tiles.x * tile_size;
+    for (int y = y0; y < std::min(y0 + tile_size, film_.height()); ++y)
+      for (int x = x0; x < std::min(x0 + tile_size, film_.width()); ++x)
+        if (pixels_[index(x, y)].samples > 0) {
+          picture.put(x, y, finished(x, y));
+          is_shown[index(x, y)] = 1;
+        }
+  }
+  lock.unlock();
+  const auto seen = [&](int at, int stride) { return at - at % stride; };
+  for (int y = 0; y < film_.height(); ++y)
+    for (int x = 0; x < film_.width(); ++x) {
+      int stride = 1;
+      while (stride < first_stride && !is_shown[index(seen(x, stride), seen(y, stride))])
+        stride *= 2;
+      if (stride > 1) picture.copy(x, y, seen(x, stride), seen(y, stride));
+    }
+  return image;
 }
 
 }  // namespace kaustik

@@ -1,0 +1,75 @@
+#include "kaustik/render/part_picture.h"
+
+#include <cmath>
+
+namespace kaustik {
+namespace {
+
+// The numbers of a pixel: [picture 3][component][lane], [albedo 3, normal 3, depth 1], [bias 3].
+constexpr int lanes = 3;
+constexpr int components = lanes, albedo = components + component_count * lanes;
+constexpr int normal = albedo + 3, depth = normal + 3, bias = depth + 1, number_count = bias + 3;
+
+constexpr int scaled_error = -2;  ///< no number, but falls with the passes
+
+std::array<float, number_count> numbers_of(const PassPixel& pixel) {
+  std::array<float, number_count> numbers{};
+  for (int lane = 0; lane < lanes; ++lane) {
+    for (int c = 0; c < component_count; ++c) {
+      const float value = pixel.radiance[size_t(c)][lane];
+      numbers[size_t(components + c * lanes + lane)] = value;
+      numbers[size_t(lane)] += value;
+    }
+    numbers[size_t(albedo + lane)] = pixel.first_hit.albedo[lane];
+    numbers[size_t(normal + lane)] = pixel.first_hit.normal[lane];
+    numbers[size_t(bias + lane)] = pixel.bias[lane];
+  }
+  numbers[size_t(depth)] = pixel.first_hit.depth;
+  return numbers;
+}
+
+/// Which number the channel shows: "R", "caustic.G", "N.X" …
+int source_of(const std::string& channel) {
+  const size_t dot = channel.rfind('.');
+  const std::string layer = dot == std::string::npos ? "" : channel.substr(0, dot);
+  const char last = channel.back();
+  if (layer == "depth") return depth;
+  if (layer == "error" || layer == "noise") return scaled_error;
+  if (layer == "N") return normal + (last - 'X');
+  const int lane = last == 'R' ? 0 : last == 'G' ? 1 : 2;
+  if (layer.empty()) return lane;
+  if (layer == "albedo") return albedo + lane;
+  if (layer == "bias") return bias + lane;
+  for (int c = 0; c < component_count; ++c)
+    if (layer == component_names[size_t(c)]) return components + c * lanes + lane;
+  return -1;
+}
+
+}  // namespace
+
+PartPicture::PartPicture(Image& image, double passes, double share)
+    : image_(image),
+      passes_(passes),
+      share_(share),
+      error_scale_(float(std::sqrt(passes / (passes + share)))) {
+  for (const std::string& channel : image.channel_names()) sources_.push_back(source_of(channel));
+}
+
+void PartPicture::put(int x, int y, const PassPixel& mean) {
+  const std::array<float, number_count> numbers = numbers_of(mean);
+  for (int channel = 0; channel < image_.channel_count(); ++channel) {
+    const int source = sources_[size_t(channel)];
+    float& value = image_.at(x, y, channel);
+    if (source == scaled_error) value *= error_scale_;
+    if (source >= 0)
+      value = float((passes_ * double(value) + share_ * double(numbers[size_t(source)])) /
+                    (passes_ + share_));
+  }
+}
+
+void PartPicture::copy(int x, int y, int from_x, int from_y) {
+  for (int channel = 0; channel < image_.channel_count(); ++channel)
+    image_.at(x, y, channel) = image_.at(from_x, from_y, channel);
+}
+
+}  // namespace kaustik

@@ -1,0 +1,29 @@
+#pragma once
+#include <vector>
+
+#include "kaustik/image/image.h"
+#include "kaustik/render/film.h"
+
+namespace kaustik {
+
+/// Adds a part of a pass to a film's image, which holds the mean of the passes before. It counts as
+/// the share of the pass that was taken, wherever the samples lie: a share that follows from the
+/// clock does not bias what they tell. Errors fall as they do with so many passes; their layers say
+/// nothing where there is no whole pass.
+class PartPicture {
+ public:
+  /// `passes`: that the image holds; `share` of the part, 0 to 1.
+  PartPicture(Image& image, double passes, double share);
+  /// `mean` of the pixel's samples in the part, with its splats. From any thread.
+  void put(int x, int y, const PassPixel& mean);
+  /// Gives the pixel what another one shows.
+  void copy(int x, int y, int from_x, int from_y);
+
+ private:
+  Image& image_;
+  double passes_, share_;
+  float error_scale_;
+  std::vector<int> sources_;  ///< number of the pixel that each channel shows; −1: none
+};
+
+}  // namespace kaustik

@@ -1,0 +1,230 @@
+// Sessions that are limited by time, and what is to be seen of them meanwhile.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "kaustik/render/part_picture.h"
+#include "kaustik/render/session.h"
+#include "tests/support/scripted_integrator.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+void sleep_ms(double ms) {
+  std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms));
+}
+
+bool is_everywhere(const Image& image, float value) {
+  for (const float pixel : image.channel(0))
+    if (std::abs(pixel - value) > 1e-5f * value) return false;
+  return true;
+}
+
+bool same_bits(const Image& a, const Image& b) {
+  if (a.channel_names() != b.channel_names()) return false;
+  for (int c = 0; c < a.channel_count(); ++c)
+    if (!std::equal(a.channel(c).begin(), a.channel(c).end(), b.channel(c).begin())) return false;
+  return true;
+}
+
+/// 256 pixels in four tiles whose samples take 1 ms each on two threads: 0.5 s a pass of 4.
+struct Slow {
+  std::shared_ptr<const Scene> scene = scene_with(film_of(64, 4), room);
+  SessionSettings settings;
+  Script script;
+
+  Slow() {
+    settings.threads = 2;
+    script.sample = [](const Vec2f&, Sampler&, SampleSink& sink) {
+      sleep_ms(1);
+      sink.add(Component::direct, Spectrum(2));
+    };
+  }
+};
+
+TEST(SessionTime, EndsInTimeWithAPart) {
+  Slow slow;
+  const Scripted integrator(slow.script);
+  slow.settings.seconds = 0.9;
+  slow.settings.samples_per_pass = 4;
+  Session session(*slow.scene, integrator, slow.settings);
+  const SessionReport report = session.run();
+  EXPECT_GE(report.seconds, 0.7);
+  EXPECT_LE(report.seconds, 1.2);
+  EXPECT_FALSE(report.cancelled);
+  EXPECT_FALSE(report.incomplete_pass);
+  ASSERT_GT(report.passes, 0u);
+  EXPECT_EQ(report.passes, session.film().pass_count());
+  EXPECT_TRUE(is_everywhere(session.image(), 2));
+  EXPECT_GT(report.part, 0);
+  EXPECT_LT(report.part, 1);
+}
+
+/// The part of a pass counts as what it is: pass 0 shows 1, pass 1 shows 4.
+TEST(SessionTime, PartsCountAsTheShareOfTheirSamples) {
+  const auto scene = scene_with(film_of(32, 4), room);
+  std::atomic<uint32_t> pass_index = 0;
+  Script script;
+  script.prepare = [&](const Pass& pass, SplatBuffer&) { pass_index = pass.index; };
+  script.sample = [&](const Vec2f&, Sampler&, SampleSink& sink) {
+    sleep_ms(pass_index == 0 ? 0.5 : 2);  // slower than the first: it is cut
+    sink.add(Component::direct, Spectrum(pass_index == 0 ? 1 : 4));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.threads = 2;
+  settings.seconds = 0.36;
+  settings.samples_per_pass = 4;
+  Session session(*scene, integrator, settings);
+  const SessionReport report = session.run();
+  if (report.passes == 0) GTEST_SKIP() << "the machine is too busy";
+  ASSERT_EQ(report.passes, 1u);
+  if (report.part == 0) GTEST_SKIP() << "the machine is too busy";
+  const double expected = (1 + 4 * report.part) / (1 + report.part);
+  EXPECT_TRUE(is_everywhere(session.image(), float(expected)))
+      << session.image().at(0, 0, 0) << " instead of " << expected;
+  EXPECT_TRUE(is_everywhere(session.film().image(), 1));
+}
+
+TEST(SessionTime, LightPassesThatWouldBeLateAreGivenUp) {
+  const auto scene = plain_scene();
+  Script script;
+  script.prepare = [](const Pass& pass, SplatBuffer&) { sleep_ms(pass.index == 2 ? 600 : 10); };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.seconds = 0.3;
+  settings.samples_per_pass = 1;
+  Session session(*scene, integrator, settings);
+  // The script can't be stopped, but what it has made is not used any more.
+  const SessionReport report = session.run();
+  EXPECT_LE(report.passes, 2u);
+  EXPECT_EQ(report.part, 0);
+  EXPECT_FALSE(report.cancelled);
+}
+
+TEST(SessionTime, PlansNoLongerPassesThanThereIsTime) {
+  const auto samples = [](double seconds, int size, bool keeps) {
+    const auto scene = scene_with(film_of(size, size), room);
+    const Scripted integrator{Script()};
+    SessionSettings settings;
+    settings.seconds = seconds;
+    settings.keeps_passes = keeps;
+    return Session(*scene, integrator, settings).samples_per_pass();
+  };
+  EXPECT_EQ(samples(1, 200, false), 4u);  // the integrator's
+  EXPECT_EQ(samples(0.06, 200, false), 1u);
+  EXPECT_EQ(samples(0.45, 200, false), 2u);
+  EXPECT_EQ(samples(1e-6, 8, false), 1u);
+  EXPECT_EQ(samples(0.06, 200, true), 4u);  // others will go on with them
+}
+
+TEST(SessionTime, SnapshotsOfTheFirstPassAreWholePictures) {
+  Slow slow;
+  const Scripted integrator(slow.script);
+  slow.settings.passes = 1;
+  slow.settings.samples_per_pixel = 4;
+  Session session(*slow.scene, integrator, slow.settings);
+  EXPECT_FALSE(session.snapshot());
+  std::atomic<bool> ended = false;
+  int whole = 0, other = 0, none = 0;
+  std::thread viewer([&] {
+    while (!ended) {
+      if (const auto image = session.snapshot())
+        ++(is_everywhere(*image, 2) ? whole : other);
+      else
+        ++none;
+      sleep_ms(3);
+    }
+  });
+  session.run();
+  ended = true;
+  viewer.join();
+  EXPECT_GE(whole, 2);
+  EXPECT_EQ(other, 0);
+  EXPECT_TRUE(same_bits(*session.snapshot(), session.film().image()));
+}
+
+/// Nor do they change what is rendered, whoever asks for them.
+TEST(SessionTime, SnapshotsChangeNothing) {
+  const auto scene = scene_with(film_of(40, 40), room);
+  Script script;
+  script.sample = [](const Vec2f&, Sampler& sampler, SampleSink& sink) {
+    sink.add(Component::direct, Spectrum(sampler.next_1d()));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.passes = 3;
+  settings.samples_per_pixel = 1200;
+  Session alone(*scene, integrator, settings);
+  alone.run();
+  Session seen(*scene, integrator, settings);
+  std::atomic<bool> ended = false;
+  std::thread viewer([&] {
+    while (!ended) seen.snapshot();
+  });
+  int in_callbacks = 0;
+  seen.run(
+      {}, [&](const Progress&) { in_callbacks += seen.snapshot() ? 1 : 0; },
+      [&] { in_callbacks += seen.snapshot() ? 1 : 0; });
+  ended = true;
+  viewer.join();
+  EXPECT_GE(in_callbacks, 3);
+  EXPECT_TRUE(same_bits(alone.film().image(), seen.film().image()));
+  // The twin: another seed is another picture.
+  settings.seed = 1;
+  Session other(*scene, integrator, settings);
+  other.run();
+  EXPECT_FALSE(same_bits(alone.film().image(), other.film().image()));
+}
+
+TEST(SessionTime, ExceptionsOfCallbacksEndIt) {
+  Slow slow;
+  const Scripted integrator(slow.script);
+  slow.settings.passes = 5;
+  slow.settings.samples_per_pass = 2;
+  for (const bool in_progress : {true, false}) {
+    Session session(*slow.scene, integrator, slow.settings);
+    int passes = 0;
+    const auto fail = [&] { throw std::runtime_error("enough"); };
+    EXPECT_THROW(session.run(
+                     {},
+                     [&](const Progress& progress) {
+                       if (in_progress && progress.passes_done >= 2) fail();
+                     },
+                     [&] {
+                       if (++passes == 2 && !in_progress) fail();
+                     }),
+                 std::runtime_error);
+    EXPECT_GE(session.film().pass_count(), 2u);
+    EXPECT_LT(session.film().pass_count(), 5u);
+    EXPECT_TRUE(is_everywhere(*session.snapshot(), 2));
+  }
+}
+
+TEST(PartPicture, WeighsByShares) {
+  Image image(1, 1,
+              {"R", "G", "B", "caustic.G", "albedo.B", "N.Y", "depth.Z", "error.R", "bias.B",
+               "noise.mirrored"});
+  for (int c = 0; c < image.channel_count(); ++c) image.at(0, 0, c) = 3;
+  PassPixel pixel;
+  pixel.radiance[size_t(Component::caustic)] = {1, 2, 3, 0};
+  pixel.radiance[size_t(Component::direct)] = {10, 20, 30, 0};
+  pixel.first_hit.albedo = {0.1f, 0.2f, 0.3f, 0};
+  pixel.first_hit.normal = {4, 5, 6};
+  pixel.first_hit.depth = 7;
+  pixel.bias = {8, 9, 10, 0};
+  PartPicture(image, 3, 0.5).put(0, 0, pixel);
+  const auto mean = [](double part) { return float((3 * 3 + 0.5 * part) / 3.5); };
+  const float fallen = 3 * std::sqrt(3 / 3.5f);
+  const float expected[] = {mean(11), mean(22), mean(33), mean(2),  mean(0.3),
+                            mean(5),  mean(7),  fallen,   mean(10), fallen};
+  for (int c = 0; c < image.channel_count(); ++c)
+    EXPECT_NEAR(image.at(0, 0, c), expected[c], 1e-5f) << image.channel_names()[size_t(c)];
+}
+
+}  // namespace
+}  // namespace kaustik
