@@ -139,8 +139,9 @@ Subject make_subject(const std::string& name, const std::filesystem::path& direc
   subject.settings = std::make_unique<PhotonMapSettings>(arguments);
   subject.maps = std::make_unique<PhotonMaps>(
       LightPass(*subject.scene, subject.settings->light_pass, seed).trace(seed, 0));
-  subject.light = std::make_unique<PhotonLight>(*subject.scene, *subject.settings, *subject.maps,
-                                                GatherRadii{}, nullptr, *subject.no_shadows, 0);
+  subject.light =
+      std::make_unique<PhotonLight>(*subject.scene, *subject.settings, *subject.maps, GatherRadii{},
+                                    nullptr, *subject.no_shadows, Pass{});
   collect_probes(subject);
   provide_reference(subject, directory);
   return subject;

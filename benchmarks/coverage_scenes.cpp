@@ -161,7 +161,8 @@ std::vector<KnownPixel> closed_form(const CoverageScene& of) {
           float(i % size_t(of.size)) + (float(k % rays_per_axis) + 0.5f) / rays_per_axis,
           float(i / size_t(of.size)) + (float(k / rays_per_axis) + 0.5f) / rays_per_axis);
       result[i].mean +=
-          of.radiance(setup.scene->camera().sample_ray(raster)) / sqr(double(rays_per_axis));
+          of.radiance(setup.scene->camera().sample_ray(raster, Camera::middle_of_lens())) /
+          sqr(double(rays_per_axis));
     }
   return result;
 }

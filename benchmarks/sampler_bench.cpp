@@ -96,7 +96,7 @@ Errors errors_with(Points points, const Scene& scene, const Integrator& integrat
   const Vec2i size = scene.film().size;
   std::vector<Spectrum> sum(size_t(size.x) * size_t(size.y));
   Pass pass;
-  pass.samples_per_pixel = integrator.default_samples_per_pass();
+  pass.samples_per_pixel = integrator.traits().default_samples_per_pass;
   for (; pass.index < passes; ++pass.index) add_pass(scene, integrator, points, pass, sum);
   const Image picture = picture_of(sum, size, passes);
   return {bench::error_of(picture, reference),

@@ -50,7 +50,7 @@ PhotonPart parse_part(const std::string& text) {
 }
 
 std::string light_name(const Scene& scene, size_t light) {
-  const int shape = scene.lights()[light]->shape();
+  const int shape = scene.lights()[light]->traits().shape;
   if (shape >= 0) return scene.surface(uint32_t(shape)).name;
   return scene.lights()[light]->is_infinite() ? "at infinity" : "without a surface";
 }

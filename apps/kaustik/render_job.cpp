@@ -103,8 +103,8 @@ RenderJob make_job(Description description, const RenderRecipe& recipe, bool wit
   for (const std::string& dark :
        {darkness_warning(*job.scene), hidden_lamps_warning(*job.scene, type)})
     if (!dark.empty()) warn(dark);
-  job.view = {type, double(job.scene->camera().horizontal_fov()),
-              double(job.scene->camera().vertical_fov()), job.scene->film().quantity,
+  job.view = {type, double(job.scene->camera().traits().horizontal_fov),
+              double(job.scene->camera().traits().vertical_fov), job.scene->film().quantity,
               frame_of(job.scene->film())};
   return job;
 }

@@ -22,7 +22,8 @@ constexpr int most_lamps = 64;
 
 /// Light goes through it straight or bent, but by nothing that can be sampled toward a lamp.
 bool is_clear(const Surface& surface) {
-  return !surface.is_null && surface.transmits && any(surface.lobes & Lobes::delta);
+  return !surface.traits.is_null && surface.traits.transmits &&
+         any(surface.traits.lobes & Lobes::delta);
 }
 
 /// The first surface along a ray of the camera that scatters light by more than delta lobes.
@@ -31,8 +32,8 @@ std::optional<SurfacePoint> seen_point(const Scene& scene, Ray ray) {
   for (int i = 0; i < longest_probe && scene.tracer().intersect(ray, hit); ++i) {
     const SurfacePoint point = scene.tracer().surface_point(ray, hit);
     const Surface& surface = scene.surface(point.shape);
-    if (any(surface.lobes & (Lobes::diffuse | Lobes::glossy))) return point;
-    if (!surface.transmits) return std::nullopt;
+    if (any(surface.traits.lobes & (Lobes::diffuse | Lobes::glossy))) return point;
+    if (!surface.traits.transmits) return std::nullopt;
     ray = spawn_ray(point, ray.direction);
   }
   return std::nullopt;
@@ -53,7 +54,7 @@ const Surface* clear_surface_before(const Scene& scene, const SurfacePoint& poin
     const Surface& surface = scene.surface(from.shape);
     if (is_clear(surface))
       clear = &surface;
-    else if (!surface.is_null)
+    else if (!surface.traits.is_null)
       return nullptr;
   }
   return nullptr;
@@ -80,7 +81,7 @@ std::string hidden_lamps_warning(const Scene& scene, const std::string& integrat
   if (type == types.end() || !type->is_from_camera_alone) return {};
   std::vector<const Light*> lamps;
   for (const auto& light : scene.lights())
-    if (light->is_delta() && !light->is_only_seen() && int(lamps.size()) < most_lamps)
+    if (light->traits().is_delta && !light->traits().is_only_seen && int(lamps.size()) < most_lamps)
       lamps.push_back(light.get());
   if (lamps.empty()) return {};
   int points = 0, hidden = 0;
@@ -89,7 +90,7 @@ std::string hidden_lamps_warning(const Scene& scene, const std::string& integrat
   for (int i = 0; i < probes_per_side * probes_per_side; ++i) {
     const Vec2f raster((float(i % probes_per_side) + 0.5f) / probes_per_side * float(size.x),
                        (float(i / probes_per_side) + 0.5f) / probes_per_side * float(size.y));
-    const Ray ray = scene.camera().sample_ray(raster);
+    const Ray ray = scene.camera().sample_ray(raster, Camera::middle_of_lens());
     const std::optional<SurfacePoint> point = seen_point(scene, ray);
     if (!point) continue;
     ++points;
@@ -125,7 +126,7 @@ std::string darkness_warning(const Scene& scene) {
   if (scene.lights().empty())
     return "the scene has no light: the picture will be black; add an <emitter> to it";
   const bool may_shine = std::ranges::any_of(scene.lights(), [](const auto& light) {
-    return light->is_only_seen() || light->power().sum() > 0;
+    return light->traits().is_only_seen || light->traits().power.sum() > 0;
   });
   // Lamps without a surface are not seen themselves.
   if (may_shine && scene.surface_count() == 0 && scene.environment_lights().empty() &&

@@ -57,13 +57,13 @@ void set_material(const Bsdf& bsdf, PeerSurface& surface) {
   const auto albedo = [&](float cosine) {
     return bsdf.albedo({}, {std::sqrt(std::max(0.0f, 1 - sqr(cosine))), 0, cosine}, Lobes::all);
   };
-  if (bsdf.lobes() == Lobes::diffuse && !bsdf.transmits()) {
+  if (bsdf.traits().lobes == Lobes::diffuse && !bsdf.traits().transmits) {
     surface.material = PeerMaterial::diffuse;
     surface.reflectance = {albedo(1)};
-  } else if (bsdf.lobes() == Lobes::delta && bsdf.transmits()) {
+  } else if (bsdf.traits().lobes == Lobes::delta && bsdf.traits().transmits) {
     surface.material = PeerMaterial::glass;
     surface.ior = ior_of(bsdf);
-  } else if (bsdf.lobes() == Lobes::delta) {
+  } else if (bsdf.traits().lobes == Lobes::delta) {
     surface.material = PeerMaterial::mirror;
     for (int i = 0; i <= cosine_steps; ++i)
       surface.reflectance.push_back(albedo(std::max(1e-3f, float(i) / cosine_steps)));
@@ -82,7 +82,7 @@ PeerSurface surface_of(const Scene& scene, uint32_t index) {
   surface.radiance = Spectrum(0);
   if (given.light >= 0) {
     const SurfacePoint point = shape.sample_area({0.5f, 0.5f}).point;
-    surface.radiance = scene.lights()[size_t(given.light)]->emitted(point, point.ng);
+    surface.radiance = scene.lights()[size_t(given.light)]->emitted(point, point.ng, {});
   }
   surface.ball = ball_of(shape);
   if (surface.ball)
@@ -102,11 +102,12 @@ PeerScene peer_scene_of(const Scene& scene) {
   const Camera& camera = scene.camera();
   const Vec2i size = scene.film().size;
   const auto direction = [&](float x, float y) {
-    return camera.sample_ray({x * float(size.x), y * float(size.y)}).direction;
+    return camera.sample_ray({x * float(size.x), y * float(size.y)}, Camera::middle_of_lens())
+        .direction;
   };
   PeerScene peer{size,
-                 double(camera.horizontal_fov() * pi / 180),
-                 camera.position(),
+                 double(camera.traits().horizontal_fov * pi / 180),
+                 camera.traits().position,
                  direction(0.5f, 0.5f),
                  normalize(direction(0.5f, 0) - direction(0.5f, 1)),
                  {}};

@@ -139,7 +139,7 @@ void count_rays(const ThesisScene& scene, int threads, Row& row) {
   RayCounter counter;
   const SceneRun run(scene.name, {"photonmap", settings_of(scene), scene.width, scene.height, true},
                      &counter);
-  run.render(in_passes(run.integrator().default_samples_per_pass(), 1, 1, threads));
+  run.render(in_passes(run.integrator().traits().default_samples_per_pass, 1, 1, threads));
   const double pixels = double(scene.width) * scene.height;
   row.shadow_rays = double(counter.shadow_rays) * scene.passes / pixels;
   row.rays = double(counter.closest_rays + counter.shadow_rays) * scene.passes / pixels;

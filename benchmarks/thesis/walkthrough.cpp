@@ -38,9 +38,9 @@ Image picture_of_direct(const SceneRun& run, const Image& first_hits, uint32_t c
   const auto emit = [&](uint32_t i) -> std::optional<LightPath> {
     Sampler sampler = Sampler::at(1, 0, Stream::photon_global, 0, i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
-    const EmittedRay ray = emission.sample(0, u_position, u_direction, sampler.next_1d());
+    const EmittedRay ray = emission.sample(0, u_position, u_direction, sampler.next_1d(), {});
     if (ray.flux.is_zero()) return std::nullopt;
-    return LightPath(ray.ray, ray.flux, nullptr, Lobes::specular, sampler);
+    return LightPath(ray.ray, ray.flux, nullptr, Lobes::specular, sampler, {});
   };
   trace_light_paths(run.scene(), 0, count, {}, emit, [&](const LightVertex& at) {
     picture.add(at.vertex.position(), color_of(at.state.throughput));
@@ -51,7 +51,7 @@ Image picture_of_direct(const SceneRun& run, const Image& first_hits, uint32_t c
 
 /// The surface behind a pixel.
 std::optional<SurfaceVertex> vertex_behind(const Scene& scene, const Vec2f& raster) {
-  const Ray ray = scene.camera().sample_ray(raster);
+  const Ray ray = scene.camera().sample_ray(raster, Camera::middle_of_lens());
   Hit hit;
   if (!scene.intersect(ray, hit)) return std::nullopt;
   return SurfaceVertex(scene, ray, hit, TransportMode::radiance);
@@ -93,7 +93,7 @@ Image picture_of_records(const SceneRun& run, const Image& first_hits, const Pho
   Problems problems;
   const Arguments arguments(PhotonMapSettings::info(), {}, {}, problems);
   const PhotonMapSettings settings(arguments);
-  const PhotonLight light(run.scene(), settings, maps, GatherRadii{}, nullptr, {}, 0);
+  const PhotonLight light(run.scene(), settings, maps, GatherRadii{}, nullptr, {}, Pass{});
   IrradianceCache cache(settings.cache_settings);
   uint32_t round = 0;
   for (const int stride : {8, 4, 2, 1}) {
@@ -103,8 +103,8 @@ Image picture_of_records(const SceneRun& run, const Image& first_hits, const Pho
         const auto vertex = vertex_behind(run.scene(), {float(x) + 0.5f, float(y) + 0.5f});
         if (!vertex || !any(vertex->lobes() & Lobes::diffuse)) continue;
         CachePoint point{vertex->point(), vertex->facing_normal()};
-        point.pixel_width = 2 * run.scene().camera().pixel_spread() *
-                            length(vertex->position() - run.scene().camera().position());
+        point.pixel_width = 2 * run.scene().camera().traits().pixel_spread *
+                            length(vertex->position() - run.scene().camera().traits().position);
         points.push_back(point);
       }
     cache.fill_round(points, light, Sampler::at(1, 0, Stream::cache, 0, 0), round++, {});

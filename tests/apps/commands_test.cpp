@@ -20,7 +20,9 @@ class Commands : public ProgramTest {
 
 /// The tables of all registries.
 std::vector<const TypeInfo*> registered_types() {
-  std::vector<const TypeInfo*> types = {&Camera::info(), &film_info()};
+  std::vector<const TypeInfo*> types;
+  for (const auto& row : camera_types()) types.push_back(&row.info);
+  for (const auto& row : film_types()) types.push_back(&row.info);
   for (const auto& row : integrator_types()) types.push_back(&row.info);
   for (const auto& row : foreign_integrators()) types.push_back(&row.info);
   for (const auto& row : shape_types()) types.push_back(&row.info);

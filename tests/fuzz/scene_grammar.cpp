@@ -232,7 +232,7 @@ class Grammar {
           "0\" up=\"0, 1, 0\"/></transform>",
           from.x, from.y, from.z);
     }
-    result += properties(Camera::info(), {"to_world", "focal_length"});
+    result += properties(camera_types().front().info, {"to_world", "focal_length"});
     if (draw_.chance(0.15)) result += medium("");
     return result + film() + "</sensor>\n";
   }

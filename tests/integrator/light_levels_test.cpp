@@ -28,15 +28,15 @@ struct Levels {
 };
 
 /// A light that notes at which levels it is asked.
-class NotingLight final : public Light {
+class NotingLight final : public PlacedLight {
  public:
   NotingLight(std::unique_ptr<Light> light, Levels& levels)
-      : light_(std::move(light)), levels_(levels) {}
+      : light_(std::move(light)), levels_(levels) {
+    traits_ = light_->traits();
+    traits_.shadow_samples = 1;
+    traits_.ball.reset();
+  }
 
-  Spectrum power() const override { return light_->power(); }
-  LightBounds bounds() const override { return light_->bounds(); }
-  bool is_delta() const override { return light_->is_delta(); }
-  int shape() const override { return light_->shape(); }
   float expected_irradiance(const LightQuery& query) const override {
     return light_->expected_irradiance(query);
   }
@@ -44,15 +44,17 @@ class NotingLight final : public Light {
     ++levels_.sampled.at(size_t(query.level));
     return light_->sample_toward(query, u);
   }
-  float pdf_toward(const LightQuery& query, const SurfacePoint& point) const override {
+  float pdf_toward(const LightQuery& query, const LightTarget& target) const override {
     ++levels_.asked.at(size_t(query.level));
-    return light_->pdf_toward(query, point);
+    return light_->pdf_toward(query, target);
   }
-  Spectrum emitted(const SurfacePoint& point, const Vec3f& direction) const override {
-    return light_->emitted(point, direction);
+  Spectrum emitted(const SurfacePoint& point, const Vec3f& direction,
+                   const Wavelengths& wavelengths) const override {
+    return light_->emitted(point, direction, wavelengths);
   }
-  EmissionSample sample_emission(const Vec2f& u, const Vec2f& v) const override {
-    return light_->sample_emission(u, v);
+  EmissionSample sample_emission(const Vec2f& u, const Vec2f& v,
+                                 const Wavelengths& wavelengths) const override {
+    return light_->sample_emission(u, v, wavelengths);
   }
   float emission_pdf_position(const SurfacePoint& point) const override {
     return light_->emission_pdf_position(point);
@@ -60,9 +62,8 @@ class NotingLight final : public Light {
   float emission_pdf_direction(const SurfacePoint& point, const Vec3f& direction) const override {
     return light_->emission_pdf_direction(point, direction);
   }
-  EmissionSample sample_origin(const Vec2f& u) const override { return light_->sample_origin(u); }
-  Spectrum emitted_from(const SurfacePoint& point, const Vec3f& direction) const override {
-    return light_->emitted_from(point, direction);
+  EmissionSample sample_origin(const Vec2f& u) const override {
+    return light_->placed().sample_origin(u);
   }
 
  private:

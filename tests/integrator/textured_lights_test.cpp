@@ -84,7 +84,8 @@ TEST(TexturedLights, AreFoundWithAndWithoutLightSampling) {
       sampled_sum += sample_direct_lights<double>(
           scene, floor, {LightChoice::all, 1}, sampler,
           [&](const DirectLight& light, ShadowAnswer& answer) {
-            const Spectrum seen = trace_shadow_ray(scene, light, nullptr, rays, answer);
+            const Spectrum seen =
+                trace_shadow_ray(scene, light, nullptr, {{}, sampler}, rays, answer);
             return double((light.radiance * seen)[0]) * std::max(0.0, double(light.wi.z));
           });
       const Ray ray = spawn_ray(floor.point(), square_to_cosine_hemisphere(sampler.next_2d()));
@@ -92,7 +93,7 @@ TEST(TexturedLights, AreFoundWithAndWithoutLightSampling) {
       const SurfaceVertex lamp(scene, ray, hit, TransportMode::radiance);
       if (lamp.light() < 0) continue;
       const Light& light = *scene.lights()[size_t(lamp.light())];
-      met_sum += std::numbers::pi * double(light.emitted(lamp.point(), -ray.direction)[0]);
+      met_sum += std::numbers::pi * double(light.emitted(lamp.point(), -ray.direction, {})[0]);
     }
     sampled.add(sampled_sum / samples_of_a_replicate);
     met.add(met_sum / samples_of_a_replicate);
@@ -109,7 +110,7 @@ RunningStatistics flux_to_glass(const Scene& scene, const EmissionSampler& emiss
     for (uint32_t i = 0; i < count; ++i) {
       Sampler sampler(hash_mix(99, replicate), i);
       const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
-      const EmittedRay ray = emission.sample(0, u_position, u_direction, sampler.next_1d());
+      const EmittedRay ray = emission.sample(0, u_position, u_direction, sampler.next_1d(), {});
       Hit hit;
       if (!ray.flux.is_zero() && scene.intersect(ray.ray, hit) && hit.shape == 0)
         sum += double(ray.flux[0]);

@@ -67,12 +67,12 @@ TEST(LightArguments, TransformsPlaceAndTurnLights) {
   const Value world(Transform::translate({1, 2, 3}) * Transform::rotate({0, 1, 0}, 90) *
                     Transform::scale({2, 2, 2}));
   const auto point = make_light("point", {{"to_world", world, {}}});
-  EXPECT_EQ(point->sample_origin({0, 0}).point.position, Vec3f(1, 2, 3));
+  EXPECT_EQ(point->placed().sample_origin({0, 0}).point.position, Vec3f(1, 2, 3));
   const auto sun = make_light("directional", {{"to_world", world, {}}});
   EXPECT_NEAR(length(sun->sample_toward({}, {}).direction - Vec3f(-1, 0, 0)), 0, 1e-6);
   const auto spot = make_light("spot", {{"to_world", world, {}}});
-  EXPECT_EQ(spot->sample_origin({0, 0}).point.position, Vec3f(1, 2, 3));
-  EXPECT_NEAR(length(spot->bounds().axis - Vec3f(1, 0, 0)), 0, 1e-6);
+  EXPECT_EQ(spot->placed().sample_origin({0, 0}).point.position, Vec3f(1, 2, 3));
+  EXPECT_NEAR(length(spot->traits().bounds.axis - Vec3f(1, 0, 0)), 0, 1e-6);
 }
 
 TEST(LightArguments, TheTransformOfTheInputsServesWhereNoneIsGiven) {
@@ -82,7 +82,7 @@ TEST(LightArguments, TheTransformOfTheInputsServesWhereNoneIsGiven) {
     const Arguments arguments(type.info, {}, {}, problems);
     const Transform moved = Transform::translate({0, 5, 0});
     const auto light = type.create({arguments, moved, nullptr, -1, test_bounds()});
-    EXPECT_EQ(light->sample_origin({0, 0}).point.position, Vec3f(0, 5, 0));
+    EXPECT_EQ(light->placed().sample_origin({0, 0}).point.position, Vec3f(0, 5, 0));
   }
 }
 
@@ -90,7 +90,7 @@ TEST(LightArguments, ScenesWithoutExtentGiveFiniteLights) {
   for (const Bounds3f& bounds : {Bounds3f(), Bounds3f({1, 1, 1}, {1, 1, 1})})
     for (const std::string type : {"constant", "directional"}) {
       const auto light = make_light(type, {}, nullptr, bounds);
-      const EmissionSample s = light->sample_emission({0.2f, 0.9f}, {0.3f, 0.1f});
+      const EmissionSample s = light->sample_emission({0.2f, 0.9f}, {0.3f, 0.1f}, {});
       EXPECT_TRUE(is_finite(s.point.position));
       EXPECT_TRUE(std::isfinite(s.pdf_position) && s.flux.is_finite());
     }

@@ -76,12 +76,12 @@ TEST(DistributedLight, GivesWhatAPointOfItsIntensityGives) {
   const auto light = make_distributed({{"intensity", Value(7.0), {}}});
   for (const Vec3f& reference : {Vec3f(1, 2, 5), Vec3f(1, 2, 3.8f)})
     expect_mean(irradiance(*light, reference), 7 / length_sq(reference - middle));
-  EXPECT_NEAR(light->power()[0], 28 * pi, 1e-4);
+  EXPECT_NEAR(light->traits().power[0], 28 * pi, 1e-4);
 }
 
 TEST(DistributedLight, TakesItsPowerInstead) {
   const auto light = make_distributed({{"power", Value(4.0 * std::numbers::pi), {}}});
-  EXPECT_NEAR(light->power()[1], 4 * pi, 1e-5);
+  EXPECT_NEAR(light->traits().power[1], 4 * pi, 1e-5);
   expect_mean(irradiance(*light, {1, 2, 5}), 0.25);
 }
 
@@ -97,7 +97,7 @@ TEST(DistributedSpot, ShinesIntoItsCone) {
   EXPECT_EQ(irradiance(*light, {1, 2, 5}).mean(), 0);
   EXPECT_EQ(irradiance(*light, {4, 2, 3}).mean(), 0);
   const auto plain = make_light("spot", {{"cutoff_angle", Value(40.0), {}}});
-  EXPECT_FLOAT_EQ(light->power()[0], plain->power()[0]);
+  EXPECT_FLOAT_EQ(light->traits().power[0], plain->traits().power[0]);
 }
 
 /// Light that leaves the ball by emitted rays arrives on a plane as light that is asked for.
@@ -109,7 +109,7 @@ TEST(DistributedSpot, EmitsWhatItPromises) {
     const float side = cutoff > 30 ? 5.0f : 1.0f;  // of a square on the floor z = 0
     for (int i = 0; i < 1'000'000 / sample_share; ++i) {
       const Vec2f u = random.next_2d();
-      const EmissionSample s = light->sample_emission(u, random.next_2d());
+      const EmissionSample s = light->sample_emission(u, random.next_2d(), {});
       double flux = 0;
       if (s.direction.z < 0) {
         const Vec3f p = s.point.position + s.direction * (-s.point.position.z / s.direction.z);
@@ -137,8 +137,8 @@ TEST(DistributedSpot, EmitsWhatItPromises) {
 
 TEST(DistributedLight, AttenuationIsForClassicalRayTracing) {
   const auto light = make_distributed({{"attenuation", Value(Vec3d(1, 0, 0)), {}}});
-  EXPECT_FLOAT_EQ(light->classical_attenuation(middle + Vec3f(0, 0, 3)), 9);
-  EXPECT_FLOAT_EQ(make_distributed()->classical_attenuation({0, 0, 0}), 1);
+  EXPECT_FLOAT_EQ(light->traits().attenuation.factor(middle + Vec3f(0, 0, 3)), 9);
+  EXPECT_FLOAT_EQ(make_distributed()->traits().attenuation.factor({0, 0, 0}), 1);
 }
 
 TEST(DistributedLight, RefusesContradictions) {

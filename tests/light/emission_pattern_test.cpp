@@ -16,7 +16,7 @@ using namespace kaustik::testing;
 /// Four fields of the uv square, each with a radiance of its own.
 class Fields final : public EmissionPattern {
  public:
-  Spectrum radiance(const SurfacePoint& at) const override {
+  Spectrum radiance(const SurfacePoint& at, const Wavelengths&) const override {
     return spectrum_from_rgb(1, 2, 3) * of(at.uv.x > 0.5f, at.uv.y > 0.5f);
   }
   float maximum() const override { return 15; }
@@ -66,7 +66,7 @@ TEST(EmissionPattern, IrradianceIsTheSumOverTheParts) {
   expect_mean(irradiance, expected);
   // By a quadrature that edges of the pattern cut through.
   const double power = 2 * 3 * std::numbers::pi * 4 * a * b * (6.2 / 4);
-  EXPECT_NEAR(light->power()[1], power, 1e-3 * power);
+  EXPECT_NEAR(light->traits().power[1], power, 1e-3 * power);
 }
 
 /// What leaves by emitted rays is the power, from each field its own share.
@@ -78,15 +78,15 @@ TEST(EmissionPattern, EmitsItsPower) {
     RunningStatistics total, field;
     for (int i = 0; i < 400'000 / sample_share; ++i) {
       const Vec2f u = random.next_2d();
-      const EmissionSample s = light->sample_emission(u, random.next_2d());
+      const EmissionSample s = light->sample_emission(u, random.next_2d(), {});
       total.add(s.flux[0]);
       field.add(s.point.position.x < 1 && s.point.position.y > 0.5f ? s.flux[0] : 0);
-      ASSERT_NEAR((light->emitted_from(s.point, s.direction) *
+      ASSERT_NEAR((light->emitted(s.point, s.direction, {}) *
                    (dot(s.point.ng, s.direction) / (s.pdf_position * s.pdf_direction)))[0],
                   s.flux[0], 1e-4f * s.flux[0]);
     }
     const double sides = two_sided ? 2 : 1;
-    expect_mean(total, double(light->power()[0]));
+    expect_mean(total, double(light->traits().power[0]));
     expect_mean(field, sides * std::numbers::pi * 0.5 * 5);
   }
 }
@@ -95,7 +95,7 @@ TEST(EmissionPattern, EmitsItsPower) {
 TEST(EmissionPattern, IsTheSameForWhoeverAsks) {
   class Waves final : public EmissionPattern {
    public:
-    Spectrum radiance(const SurfacePoint& at) const override {
+    Spectrum radiance(const SurfacePoint& at, const Wavelengths&) const override {
       return Spectrum(2 + std::sin(7 * at.uv.x + 5 * at.uv.y));
     }
     float maximum() const override { return 3; }
@@ -120,17 +120,17 @@ TEST(EmissionPattern, IsTheSameForWhoeverAsks) {
       // Where the coordinates start anew either side may be met.
       if (std::fabs(seen.uv.x - point.uv.x) + std::fabs(seen.uv.y - point.uv.y) > 0.5f) return;
       ++met;
-      ASSERT_NEAR(light->emitted(seen, -direction)[0], radiance, 2e-2f);
+      ASSERT_NEAR(light->emitted(seen, -direction, {})[0], radiance, 2e-2f);
     };
     const Vec3f reference(2.5f, 1.3f, 2);
     for (int i = 0; i < 2000; ++i) {
       const LightSample s = light->sample_toward(reference, random.next_2d());
       if (s.pdf_solid_angle > 0) expect_seen(reference, s.direction, s.point, s.radiance[0]);
       const Vec2f u = random.next_2d();
-      const EmissionSample e = light->sample_emission(u, random.next_2d());
+      const EmissionSample e = light->sample_emission(u, random.next_2d(), {});
       if (e.pdf_direction > 0)
         expect_seen(e.point.position + e.direction * 0.01f, -e.direction, e.point,
-                    light->emitted_from(e.point, e.direction)[0]);
+                    light->emitted(e.point, e.direction, {})[0]);
     }
     EXPECT_GT(met, 1000);
   }
@@ -141,7 +141,7 @@ TEST(EmissionPattern, IsTheSameForWhoeverAsks) {
 TEST(EmissionPattern, MeshesAreSampledByRadiance) {
   class Corner final : public EmissionPattern {
    public:
-    Spectrum radiance(const SurfacePoint& at) const override {
+    Spectrum radiance(const SurfacePoint& at, const Wavelengths&) const override {
       return Spectrum(at.position.x < 0.25f && at.position.y < 0.25f ? 8.0f : 0.5f);
     }
     float maximum() const override { return 8; }
@@ -167,7 +167,7 @@ TEST(EmissionPattern, MeshesAreSampledByRadiance) {
     by_light.add(s.radiance[0] * s.direction.z / s.pdf_solid_angle);
     const ShapeSample a = sheet->sample_area(random.next_2d());
     const Vec3f to_light = a.point.position - query.reference;
-    by_area.add(Corner().radiance(a.point)[0] * sqr(to_light.z) / sqr(length_sq(to_light)));
+    by_area.add(Corner().radiance(a.point, {})[0] * sqr(to_light.z) / sqr(length_sq(to_light)));
   }
   const double error = std::hypot(by_light.standard_error(), by_area.standard_error());
   EXPECT_GT(z_test_p_value(by_light.mean(), error, by_area.mean()), failure_level);
@@ -180,7 +180,7 @@ TEST(EmissionPattern, IsNotDarkWhereOnlyASpotShines) {
   class Spot final : public EmissionPattern {
    public:
     explicit Spot(float value) : value_(value) {}
-    Spectrum radiance(const SurfacePoint&) const override { return {}; }
+    Spectrum radiance(const SurfacePoint&, const Wavelengths&) const override { return {}; }
     float maximum() const override { return value_; }
 
    private:
@@ -188,9 +188,10 @@ TEST(EmissionPattern, IsNotDarkWhereOnlyASpotShines) {
   };
   const auto quad = make_quad({0, 0, 0}, {2, 0, 0}, {0, 1, 0});
   const auto spotted = make_patterned(quad, 1, false, std::make_shared<Spot>(1e4f));
-  EXPECT_GT(spotted->power()[0], 0);
+  EXPECT_GT(spotted->traits().power[0], 0);
   EXPECT_GT(spotted->expected_irradiance({{1, 0.5f, 1}, {0, 0, -1}}), 0);
-  EXPECT_TRUE(make_patterned(quad, 1, false, std::make_shared<Spot>(0.0f))->power().is_zero());
+  EXPECT_TRUE(
+      make_patterned(quad, 1, false, std::make_shared<Spot>(0.0f))->traits().power.is_zero());
 }
 
 }  // namespace

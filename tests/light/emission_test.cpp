@@ -61,8 +61,8 @@ std::vector<LightCase> every_light() {
 /// Where directions of sample_emission from `point` can lie.
 DirectionGrid emission_grid(const Light& light, const SurfacePoint& point) {
   DirectionGrid grid;
-  const LightBounds bounds = light.bounds();
-  if (light.shape() >= 0) {
+  const LightBounds bounds = light.traits().bounds;
+  if (light.traits().shape >= 0) {
     grid.axis = point.ng;
     grid.one_minus_cos = 1;
   } else if (!light.is_infinite()) {
@@ -76,11 +76,11 @@ TEST(Emission, DirectionsFollowTheirDensity) {
   for (const LightCase& test : every_light()) {
     if (test.name == "directional") continue;
     SCOPED_TRACE(test.name);
-    const SurfacePoint point = test.light->sample_emission({0.3f, 0.8f}, {0.5f, 0.5f}).point;
+    const SurfacePoint point = test.light->sample_emission({0.3f, 0.8f}, {0.5f, 0.5f}, {}).point;
     const DirectionGrid grid = emission_grid(*test.light, point);
     Random random(23);
     const auto sample = [&] {
-      return test.light->sample_emission({0.3f, 0.8f}, random.next_2d()).direction;
+      return test.light->sample_emission({0.3f, 0.8f}, random.next_2d(), {}).direction;
     };
     const auto pdf = [&](const Vec3f& d) {
       return double(test.light->emission_pdf_direction(point, d));
@@ -100,8 +100,8 @@ Vec2f position_coordinates(const LightCase& test, const EmissionSample& sample) 
     return {0.5f * (1 - n.z), std::atan2(n.y, n.x) / (2 * pi) + 0.5f};
   }
   if (test.name.starts_with("distributed")) {
-    const Vec3f origin = center(test.light->bounds().position);
-    const Vec3f n = Frame(test.light->bounds().axis).to_local((p - origin) * (1 / 0.3f));
+    const Vec3f origin = center(test.light->traits().bounds.position);
+    const Vec3f n = Frame(test.light->traits().bounds.axis).to_local((p - origin) * (1 / 0.3f));
     const float area = 1 / test.light->emission_pdf_position(sample.point);
     return {(1 - n.z) * (2 * pi * sqr(0.3f)) / area, std::atan2(n.y, n.x) / (2 * pi) + 0.5f};
   }
@@ -115,13 +115,13 @@ Vec2f position_coordinates(const LightCase& test, const EmissionSample& sample) 
 
 TEST(Emission, PositionsAreUniform) {
   for (const LightCase& test : every_light()) {
-    if (test.light->is_delta() && !test.light->is_infinite()) continue;
+    if (test.light->traits().is_delta && !test.light->is_infinite()) continue;
     SCOPED_TRACE(test.name);
     const auto p_value = [&](bool planted_error) {
       Random random(29);
       return square_p_value(1'000'000 / sample_share, planted_error, [&] {
         const Vec2f u = random.next_2d();
-        return position_coordinates(test, test.light->sample_emission(u, random.next_2d()));
+        return position_coordinates(test, test.light->sample_emission(u, random.next_2d(), {}));
       });
     };
     EXPECT_GT(p_value(false), failure_level);
@@ -136,13 +136,14 @@ TEST(Emission, ReportsTheDensitiesThatItAnswersLater) {
     Random random(31);
     for (int i = 0; i < 1000; ++i) {
       const Vec2f u = random.next_2d();
-      const EmissionSample s = light.sample_emission(u, random.next_2d());
+      const EmissionSample s = light.sample_emission(u, random.next_2d(), {});
       EXPECT_NEAR(length(s.direction), 1, 1e-5);
       EXPECT_FLOAT_EQ(s.pdf_position, light.emission_pdf_position(s.point));
       const double pdf = light.emission_pdf_direction(s.point, s.direction);
       // At the rim the density vanishes, and its relative error grows.
-      EXPECT_NEAR(s.pdf_direction, pdf, 1e-3 * pdf + 1e-4 / (1 - light.bounds().cos_angle + 1e-3));
-      EXPECT_EQ(s.on_surface, light.shape() >= 0);
+      EXPECT_NEAR(s.pdf_direction, pdf,
+                  1e-3 * pdf + 1e-4 / (1 - light.traits().bounds.cos_angle + 1e-3));
+      EXPECT_EQ(s.on_surface, light.traits().shape >= 0);
       if (s.on_surface) {
         EXPECT_EQ(s.point.shape, 7u);
       } else {
@@ -172,9 +173,9 @@ TEST(Emission, MeanFluxIsThePower) {
     RunningStatistics flux;
     for (int i = 0; i < 400'000 / sample_share; ++i) {
       const Vec2f u = random.next_2d();
-      flux.add(test.light->sample_emission(u, random.next_2d()).flux[1]);
+      flux.add(test.light->sample_emission(u, random.next_2d(), {}).flux[1]);
     }
-    expect_power(flux, test.light->power()[1]);
+    expect_power(flux, test.light->traits().power[1]);
   }
 }
 
@@ -183,25 +184,25 @@ TEST(Emission, PowerIsTheIntegralOfWhatLeavesThePlace) {
     if (test.light->is_infinite()) continue;
     SCOPED_TRACE(test.name);
     const Light& light = *test.light;
-    const LightBounds bounds = light.bounds();
+    const LightBounds bounds = light.traits().bounds;
     const float one_minus_cos = 1 - bounds.cos_angle;
     Random random(41);
     RunningStatistics flux;
     for (int i = 0; i < 1'600'000 / sample_share; ++i) {
-      const EmissionSample s = light.sample_origin(random.next_2d());
+      const EmissionSample s = light.placed().sample_origin(random.next_2d());
       const Vec3f direction =
           Frame(bounds.axis).to_world(square_to_cone(random.next_2d(), one_minus_cos));
       const double cosine = s.on_surface ? abs_dot(s.point.ng, direction) : 1.0;
-      flux.add(light.emitted_from(s.point, direction)[1] * cosine /
+      flux.add(light.emitted(s.point, direction, {})[1] * cosine /
                (double(s.pdf_position) * cone_pdf(one_minus_cos)));
     }
-    expect_power(flux, light.power()[1]);
+    expect_power(flux, light.traits().power[1]);
   }
 }
 
 TEST(Emission, PowerInClosedForm) {
   const double p = std::numbers::pi;
-  const auto power = [](const std::unique_ptr<Light>& light) { return light->power()[0]; };
+  const auto power = [](const std::unique_ptr<Light>& light) { return light->traits().power[0]; };
   const std::vector<Property> radiance = {{"radiance", Value(3.0), {}}};
   EXPECT_NEAR(power(make_light("area", radiance, make_ball({0, 0, 0}, 2))), 3 * p * 16 * p, 1e-3);
   EXPECT_NEAR(power(make_light("point", {{"intensity", Value(3.0), {}}})), 12 * p, 1e-4);
@@ -229,7 +230,7 @@ TEST(Emission, RaysFromInfinityStartOutsideAndCoverTheScene) {
       Random random(43);
       for (int i = 0; i < 2000; ++i) {
         const Vec2f u = random.next_2d();
-        const EmissionSample s = light->sample_emission(u, random.next_2d());
+        const EmissionSample s = light->sample_emission(u, random.next_2d(), {});
         const float radius = std::sqrt(1 / (pi * s.pdf_position));
         for (int corner = 0; corner < 8; ++corner) {
           const Vec3f c(corner & 1 ? bounds.min.x : bounds.max.x,
@@ -244,22 +245,23 @@ TEST(Emission, RaysFromInfinityStartOutsideAndCoverTheScene) {
 }
 
 TEST(Emission, TravelDirectionsOfInfiniteLights) {
-  float pdf = 0;
   const auto sun = make_light("directional", {{"irradiance", Value(2.0), {}}});
-  EXPECT_EQ(sun->sample_travel_direction({0.1f, 0.2f}, pdf), Vec3f(0, 0, 1));
-  EXPECT_EQ(pdf, 1);
-  EXPECT_FLOAT_EQ(sun->emitted_from({}, {0, 0, 1})[0], 2);
+  const TravelDirection from_sun = sun->distant().sample_travel_direction({0.1f, 0.2f});
+  EXPECT_EQ(from_sun.direction, Vec3f(0, 0, 1));
+  EXPECT_EQ(from_sun.pdf, 1);
+  EXPECT_FLOAT_EQ(sun->emitted({}, {0, 0, 1}, {})[0], 2);
   const auto sky = make_light("constant", {{"radiance", Value(2.0), {}}});
-  const EmissionSample s = sky->sample_emission({0.5f, 0.5f}, {0.1f, 0.2f});
-  EXPECT_EQ(sky->sample_travel_direction({0.1f, 0.2f}, pdf), s.direction);
-  EXPECT_FLOAT_EQ(pdf, s.pdf_direction);
-  EXPECT_FLOAT_EQ(sky->emitted_from(s.point, s.direction)[0], 2);
+  const EmissionSample s = sky->sample_emission({0.5f, 0.5f}, {0.1f, 0.2f}, {});
+  const TravelDirection from_sky = sky->distant().sample_travel_direction({0.1f, 0.2f});
+  EXPECT_EQ(from_sky.direction, s.direction);
+  EXPECT_FLOAT_EQ(from_sky.pdf, s.pdf_direction);
+  EXPECT_FLOAT_EQ(sky->emitted(s.point, s.direction, {})[0], 2);
 }
 
 TEST(Bounds, HoldWhereLightGoes) {
   for (const LightCase& test : every_light()) {
     SCOPED_TRACE(test.name);
-    const LightBounds bounds = test.light->bounds();
+    const LightBounds bounds = test.light->traits().bounds;
     EXPECT_EQ(bounds.infinite, test.light->is_infinite());
     EXPECT_EQ(bounds.position.isEmpty(), bounds.infinite);
     if (bounds.infinite) continue;
@@ -267,7 +269,7 @@ TEST(Bounds, HoldWhereLightGoes) {
     Random random(47);
     for (int i = 0; i < 1000; ++i) {
       const Vec2f u = random.next_2d();
-      const EmissionSample s = test.light->sample_emission(u, random.next_2d());
+      const EmissionSample s = test.light->sample_emission(u, random.next_2d(), {});
       EXPECT_GE(dot(s.direction, bounds.axis), bounds.cos_angle - 1e-5f);
       for (int axis = 0; axis < 3; ++axis) {
         EXPECT_GE(s.point.position[axis], bounds.position.min[axis] - 1e-5f);
@@ -276,11 +278,11 @@ TEST(Bounds, HoldWhereLightGoes) {
     }
   }
   const auto flat = make_light("area", {}, make_disk({0, 0, 0}, {0, 1, 0}, 1));
-  EXPECT_NEAR(flat->bounds().axis.y, 1, 1e-6);
-  EXPECT_NEAR(flat->bounds().cos_angle, 0, 1e-2);
+  EXPECT_NEAR(flat->traits().bounds.axis.y, 1, 1e-6);
+  EXPECT_NEAR(flat->traits().bounds.cos_angle, 0, 1e-2);
   const auto mesh = make_light("area", {}, make_quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}));
-  EXPECT_NEAR(mesh->bounds().axis.z, 1, 1e-6);
-  EXPECT_NEAR(mesh->bounds().cos_angle, 0, 1e-2);
+  EXPECT_NEAR(mesh->traits().bounds.axis.z, 1, 1e-6);
+  EXPECT_NEAR(mesh->traits().bounds.cos_angle, 0, 1e-2);
 }
 
 }  // namespace

@@ -22,7 +22,9 @@ std::vector<Rgb> numbered_pixels() {
 
 TEST(Envmap, StandsAsInMitsuba) {
   const auto light = make_envmap(12, 7, numbered_pixels());
-  const auto red = [&](const Vec3f& direction) { return light->background(direction)[0]; };
+  const auto red = [&](const Vec3f& direction) {
+    return light->distant().background(direction, {})[0];
+  };
   // The upper row is one direction, +y, and the lower one −y: what is seen there is a mean.
   EXPECT_NEAR(red({0, 1, 0}), 6.5, 5.51);
   EXPECT_NEAR(red({0, -1, 0}), 78.5, 5.51);
@@ -44,8 +46,8 @@ TEST(Envmap, StandsAsInMitsuba) {
 TEST(Envmap, IsTurnedByToWorld) {
   const Value turned(Transform::rotate({1, 0, 0}, 90));  // its +y becomes +z
   const auto light = make_envmap(12, 7, numbered_pixels(), {{"to_world", turned, {}}});
-  EXPECT_LT(light->background({0, 0, 1})[0], 13);
-  EXPECT_GT(light->background({0, 0, -1})[0], 72);
+  EXPECT_LT(light->distant().background({0, 0, 1}, {})[0], 13);
+  EXPECT_GT(light->distant().background({0, 0, -1}, {})[0], 72);
 }
 
 TEST(Envmap, OfOneColorIsConstant) {
@@ -53,7 +55,8 @@ TEST(Envmap, OfOneColorIsConstant) {
   const auto light = make_envmap(32, 16, pixels, {{"scale", Value(0.5), {}}});
   const auto constant = make_light("constant", {{"radiance", Value(Rgb{0.5, 1, 1.5}), {}}});
   for (int lane = 0; lane < 3; ++lane)
-    EXPECT_NEAR(light->power()[lane], constant->power()[lane], 1e-4 * light->power()[lane]);
+    EXPECT_NEAR(light->traits().power[lane], constant->traits().power[lane],
+                1e-4 * light->traits().power[lane]);
   Random random(3);
   for (int i = 0; i < 1000; ++i) {
     const LightSample s = light->sample_toward(Vec3f(0, 0, 0), random.next_2d());
@@ -98,9 +101,7 @@ TEST(Environment, DirectionsFollowTheirDensity) {
       const auto sample = [&] {
         return test.light->sample_toward(query, random.next_2d()).direction;
       };
-      const auto pdf = [&](const Vec3f& d) {
-        return double(test.light->pdf_toward_direction(query, d));
-      };
+      const auto pdf = [&](const Vec3f& d) { return double(test.light->pdf_toward(query, d)); };
       const int count = 500'000 / sample_share;
       EXPECT_GT(direction_p_value({}, count, sample, pdf), failure_level);
       expect_twin_fails(direction_p_value({}, count, sample, with_planted_error({}, pdf)));
@@ -116,9 +117,9 @@ TEST(Environment, ReportsTheDensityThatItAnswersLater) {
       for (int i = 0; i < 2000; ++i) {
         const LightSample s = test.light->sample_toward(query, random.next_2d());
         ASSERT_NEAR(length(s.direction), 1, 1e-5);
-        ASSERT_NEAR(s.pdf_solid_angle, test.light->pdf_toward_direction(query, s.direction),
+        ASSERT_NEAR(s.pdf_solid_angle, test.light->pdf_toward(query, s.direction),
                     1e-5f * s.pdf_solid_angle);
-        ASSERT_EQ(s.radiance, test.light->background(s.direction));
+        ASSERT_EQ(s.radiance, test.light->distant().background(s.direction, {}));
         ASSERT_EQ(s.distance, infinity);
       }
     }
@@ -131,10 +132,10 @@ TEST(Environment, NoLightIsOutOfReach) {
     Random random(7);
     for (int i = 0; i < 20'000; ++i) {
       const Vec3f d = square_to_sphere(random.next_2d());
-      if (test.light->background(d).is_zero()) continue;
+      if (test.light->distant().background(d, {}).is_zero()) continue;
       for (const Vec3f& normal : receiving_normals) {
         if (dot(normal, d) < 0) continue;
-        ASSERT_GT(test.light->pdf_toward_direction({Vec3f(0, 0, 0), normal}, d), 0);
+        ASSERT_GT(test.light->pdf_toward({Vec3f(0, 0, 0), normal}, d), 0);
       }
       ASSERT_GT(test.light->emission_pdf_direction({}, -d), 0);
     }
@@ -150,9 +151,10 @@ TEST(Environment, SamplingFindsAllTheLight) {
     for (int i = 0; i < 400'000 / sample_share; ++i) {
       const LightSample s = test.light->sample_toward(Vec3f(0, 0, 0), random.next_2d());
       sampled.add(s.pdf_solid_angle > 0 ? s.radiance[1] / s.pdf_solid_angle : 0.0);
-      uniform.add(test.light->background(square_to_sphere(random.next_2d()))[1] / sphere_pdf);
+      uniform.add(test.light->distant().background(square_to_sphere(random.next_2d()), {})[1] /
+                  sphere_pdf);
     }
-    const double fluence = test.light->power()[1] / (pi * 12.0);  // of the test's bounds
+    const double fluence = test.light->traits().power[1] / (pi * 12.0);  // of the test's bounds
     EXPECT_LT(sampled.variance(), 0.4 * uniform.variance() + 1e-6 * fluence * fluence);
     if (uniform.standard_error() > 1e-5 * fluence) {
       EXPECT_GT(z_test_p_value(uniform, fluence), failure_level);
@@ -174,7 +176,7 @@ TEST(Environment, ExpectedIrradianceIsNearTheIntegral) {
   for (const EnvironmentCase& test : environments()) {
     SCOPED_TRACE(test.name);
     Random random(11);
-    const double mean = 0.25 * test.light->power().sum() / (pi * 12.0);
+    const double mean = 0.25 * test.light->traits().power.sum() / (pi * 12.0);
     for (int k = 0; k < 20; ++k) {
       const LightQuery query({0, 0, 0}, square_to_sphere(random.next_2d()));
       double irradiance = 0;
@@ -204,7 +206,7 @@ TEST(Envmap, RepairsBadPixels) {
   const auto right = make_envmap(2, 1, {{1, 1, 1}, {0, 0, 0}});
   for (const Rgb& bad : {Rgb{nan, 0, 0}, Rgb{0, -1, 0}}) {
     const auto light = make_envmap(2, 1, {{1, 1, 1}, bad});
-    EXPECT_EQ(light->power().sum(), right->power().sum());
+    EXPECT_EQ(light->traits().power.sum(), right->traits().power.sum());
   }
 }
 
@@ -236,7 +238,7 @@ TEST(Envmap, RefusesATruncatedPicture) {
 TEST(Envmap, WithoutScaleIsNoLight) {
   const auto dark =
       make_envmap(2, 2, std::vector<Rgb>(4, Rgb{1, 1, 1}), {{"scale", Value(0.0), {}}});
-  EXPECT_TRUE(dark->power().is_zero());
+  EXPECT_TRUE(dark->traits().power.is_zero());
   EXPECT_EQ(dark->expected_irradiance(Vec3f(0, 0, 0)), 0);
 }
 
@@ -248,12 +250,12 @@ TEST(LatLongDistribution, OfNothingHasNoDensity) {
 
 TEST(Background, IsSeenAndNothingElse) {
   const auto light = make_light("background", {{"radiance", Value(3.0), {}}});
-  EXPECT_TRUE(light->is_only_seen());
-  EXPECT_FLOAT_EQ(light->background({0, 0, 1})[0], 3);
-  EXPECT_TRUE(light->power().is_zero());
+  EXPECT_TRUE(light->traits().is_only_seen);
+  EXPECT_FLOAT_EQ(light->distant().background({0, 0, 1}, {})[0], 3);
+  EXPECT_TRUE(light->traits().power.is_zero());
   EXPECT_EQ(light->expected_irradiance(Vec3f(0, 0, 0)), 0);
   EXPECT_EQ(light->sample_toward(Vec3f(0, 0, 0), {0.5f, 0.5f}).pdf_solid_angle, 0);
-  EXPECT_TRUE(light->sample_emission({0.5f, 0.5f}, {0.5f, 0.5f}).flux.is_zero());
+  EXPECT_TRUE(light->sample_emission({0.5f, 0.5f}, {0.5f, 0.5f}, {}).flux.is_zero());
 }
 
 }  // namespace

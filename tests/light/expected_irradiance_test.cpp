@@ -101,14 +101,14 @@ TEST(ClassicalAttenuation, ReplacesTheInverseSquare) {
     const auto light = lamp(type, {0.5, 0.25, 0.125});
     const Vec3f at(0, 0, 4);
     const float given =
-        light->sample_toward(at, {0, 0}).radiance[0] * light->classical_attenuation(at);
+        light->sample_toward(at, {0, 0}).radiance[0] * light->traits().attenuation.factor(at);
     EXPECT_FLOAT_EQ(given, float(1 / (0.5 + 0.25 * 4 + 0.125 * 16)));
-    EXPECT_EQ(make_light(type, {})->classical_attenuation(at), 1);
+    EXPECT_EQ(make_light(type, {})->traits().attenuation.factor(at), 1);
     // What is physical does not see it.
-    EXPECT_EQ(light->power(), make_light(type, {})->power());
+    EXPECT_EQ(light->traits().power, make_light(type, {})->traits().power);
     EXPECT_FLOAT_EQ(light->sample_toward(at, {0, 0}).radiance[0], 1.0f / 16);
   }
-  EXPECT_EQ(make_light("constant", {})->classical_attenuation({1, 2, 3}), 1);
+  EXPECT_EQ(make_light("constant", {})->traits().attenuation.factor({1, 2, 3}), 1);
 }
 
 TEST(ClassicalAttenuation, RefusesWhatGrowsWithoutBound) {

@@ -121,7 +121,7 @@ TEST(LightSelector, ChoiceReportsItsProbabilityExactly) {
       ASSERT_GE(choice.light, 0);
       ASSERT_GT(choice.probability, 0);
       ASSERT_EQ(choice.probability, selector.probability(q.reference, q.normal, choice.light));
-      ASSERT_GT(lights[size_t(choice.light)]->power().sum(), 0);
+      ASSERT_GT(lights[size_t(choice.light)]->traits().power.sum(), 0);
       ASSERT_TRUE(u >= 0 && u < 1);
     }
   }
@@ -250,12 +250,12 @@ TEST(LightSelector, TheTreeIsFarBetterThanPowerForManyLights) {
     const Lights lights = random_lights(count, 0, 37);
     const LightSelector selector(lights);
     double power = 0;
-    for (const auto& light : lights) power += light->power().sum();
+    for (const auto& light : lights) power += light->traits().power.sum();
     const double by_tree = relative_variance(lights, [&](const Query& q, int light) {
       return selector.probability(q.reference, q.normal, light);
     });
     const double by_power = relative_variance(lights, [&](const Query&, int light) {
-      return lights[size_t(light)]->power().sum() / power;
+      return lights[size_t(light)]->traits().power.sum() / power;
     });
     std::printf("  relative variance, %d lights: by tree %.3g, by power %.3g\n", count, by_tree,
                 by_power);
@@ -339,7 +339,7 @@ TEST(LightSelector, OneLightCostsNoChoice) {
 
 /// A wall at x = 5 parts the lights with a place, and the points, into two rooms.
 bool is_seen(const Light& light, const Vec3f& from) {
-  return light.is_infinite() || (center(light.bounds().position).x < 5) == (from.x < 5);
+  return light.is_infinite() || (center(light.traits().bounds.position).x < 5) == (from.x < 5);
 }
 
 /// What probes find in the two rooms.

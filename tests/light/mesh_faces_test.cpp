@@ -140,12 +140,12 @@ TEST(TwoSided, ShinesBothWays) {
       const LightSample s = sheet->sample_toward(Vec3f(0, 0, z), random.next_2d());
       below.add(s.radiance[0] * std::fabs(s.direction.z) / s.pdf_solid_angle);
       ASSERT_FLOAT_EQ(s.pdf_solid_angle, sheet->pdf_toward(Vec3f(0, 0, z), s.point));
-      ASSERT_EQ(s.radiance, sheet->emitted(s.point, -s.direction));
+      ASSERT_EQ(s.radiance, sheet->emitted(s.point, -s.direction, {}));
     }
     EXPECT_GT(z_test_p_value(below, expected), failure_level);
     expect_twin_fails(z_test_p_value(below, 1.02 * expected));
   }
-  EXPECT_NEAR(sheet->power()[0], 2 * pi * pi * 0.25, 1e-4);
+  EXPECT_NEAR(sheet->traits().power[0], 2 * pi * pi * 0.25, 1e-4);
 }
 
 TEST(TwoSided, EmitsAsMuchBehindAsBefore) {
@@ -154,13 +154,13 @@ TEST(TwoSided, EmitsAsMuchBehindAsBefore) {
   RunningStatistics before, behind;
   for (int i = 0; i < 400'000 / sample_share; ++i) {
     const Vec2f u = random.next_2d();
-    const EmissionSample s = sheet->sample_emission(u, random.next_2d());
+    const EmissionSample s = sheet->sample_emission(u, random.next_2d(), {});
     ASSERT_FLOAT_EQ(s.pdf_position, sheet->emission_pdf_position(s.point));
     ASSERT_NEAR(s.pdf_direction, sheet->emission_pdf_direction(s.point, s.direction), 1e-5);
     before.add(s.direction.z > 0 ? s.flux[0] : 0.0);
     behind.add(s.direction.z < 0 ? s.flux[0] : 0.0);
   }
-  const double half = 0.5 * sheet->power()[0];
+  const double half = 0.5 * sheet->traits().power[0];
   for (const RunningStatistics& side : {before, behind}) {
     EXPECT_GT(z_test_p_value(side, half), failure_level);
     expect_twin_fails(z_test_p_value(side, 1.02 * half));

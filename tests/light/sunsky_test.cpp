@@ -121,7 +121,8 @@ TEST(SunSky, IsTheSumOfItsParts) {
   for (int i = 0; i < 20'000; ++i) {
     const Vec3f d = i % 2 == 0 ? square_to_sphere(random.next_2d())
                                : sun->sample_toward(Vec3f(0, 0, 0), random.next_2d()).direction;
-    ASSERT_EQ(both->background(d), sky->background(d) + sun->background(d));
+    ASSERT_EQ(both->distant().background(d, {}),
+              sky->distant().background(d, {}) + sun->distant().background(d, {}));
   }
   const RunningStatistics whole = illuminance(*both, {0, 0, 1}),
                           of_sun = illuminance(*sun, {0, 0, 1}),
@@ -131,7 +132,8 @@ TEST(SunSky, IsTheSumOfItsParts) {
                                   std::hypot(of_sun.standard_error(), of_sky.standard_error()));
   EXPECT_LT(error, 0.01 * parts);
   EXPECT_GT(z_test_p_value(whole.mean() - parts, error, 0), 0.001);
-  EXPECT_NEAR(both->power()[1], sun->power()[1] + sky->power()[1], 1e-4 * both->power()[1]);
+  EXPECT_NEAR(both->traits().power[1], sun->traits().power[1] + sky->traits().power[1],
+              1e-4 * both->traits().power[1]);
 }
 
 TEST(SunSky, LightOfTheSkyIsWhatTheModelLeavesOver) {
@@ -165,8 +167,8 @@ TEST(SunSky, TheSunIsADiskOfHalfADegree) {
     return frame.to_world(
         {float(std::sin(degrees * degree)), 0, float(std::cos(degrees * degree))});
   };
-  EXPECT_GT(sun->background(at(0.26))[1], 0);
-  EXPECT_EQ(sun->background(at(0.28))[1], 0);
+  EXPECT_GT(sun->distant().background(at(0.26), {})[1], 0);
+  EXPECT_EQ(sun->distant().background(at(0.28), {})[1], 0);
   // A wider sun gives the same light.
   const auto wide = make_light("sun", {{"sun_direction", Value(Vec3d(toward_sun(40))), {}},
                                        {"sun_aperture", Value(30.0), {}}});
@@ -175,11 +177,12 @@ TEST(SunSky, TheSunIsADiskOfHalfADegree) {
 }
 
 TEST(SunSky, IsRedAtSunsetAndBlueAbove) {
-  const Spectrum evening = make_day("sun", 4)->power(), noon = make_day("sun", 60)->power();
+  const Spectrum evening = make_day("sun", 4)->traits().power,
+                 noon = make_day("sun", 60)->traits().power;
   EXPECT_GT(evening[0] / evening[2], 2 * noon[0] / noon[2]);
-  const Spectrum zenith = make_day("sky", 40)->background({0, 0, 1});
+  const Spectrum zenith = make_day("sky", 40)->distant().background({0, 0, 1}, {});
   EXPECT_GT(zenith[2], 1.3f * zenith[0]);
-  EXPECT_TRUE(make_day("sunsky", 40)->background({0, 0.6f, -0.8f}).is_zero());
+  EXPECT_TRUE(make_day("sunsky", 40)->distant().background({0, 0.6f, -0.8f}, {}).is_zero());
 }
 
 TEST(SunSky, IsPositiveForAllParameters) {
@@ -187,11 +190,11 @@ TEST(SunSky, IsPositiveForAllParameters) {
   for (const double turbidity : {2.0, 3.0, 6.0, 10.0})
     for (const double elevation : {0.1, 5.0, 45.0, 90.0}) {
       const auto sky = make_day("sky", elevation, turbidity);
-      ASSERT_GT(sky->power()[1], 0);
+      ASSERT_GT(sky->traits().power[1], 0);
       for (int i = 0; i < 2000; ++i) {
         Vec3f d = square_to_sphere(random.next_2d());
         d.z = std::fabs(d.z);
-        const Spectrum radiance = sky->background(d);
+        const Spectrum radiance = sky->distant().background(d, {});
         ASSERT_TRUE(radiance.is_finite());
         ASSERT_GT(radiance[1], 0);
       }
@@ -203,8 +206,8 @@ TEST(SunSky, StandsInTheFrameOfToWorld) {
   const Value turned(Transform::rotate({1, 0, 0}, -90));
   const auto light = make_light(
       "sunsky", {{"to_world", turned, {}}, {"sun_direction", Value(Vec3d(0, 1, 0.5)), {}}});
-  EXPECT_GT(light->background(normalize(Vec3f(0, 1, 0.5f)))[1], 1000);
-  EXPECT_TRUE(light->background(normalize(Vec3f(0.5f, -0.1f, 0.5f))).is_zero());
+  EXPECT_GT(light->distant().background(normalize(Vec3f(0, 1, 0.5f)), {})[1], 1000);
+  EXPECT_TRUE(light->distant().background(normalize(Vec3f(0.5f, -0.1f, 0.5f)), {}).is_zero());
   // By place and time: Tokyo in the afternoon, the sun in the west (+y), as high as it was then.
   const auto tokyo = make_light("sun", {});
   const Vec3f to_sun = tokyo->sample_toward(Vec3f(0, 0, 0), {0.5f, 0.5f}).direction;

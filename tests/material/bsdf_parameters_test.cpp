@@ -100,7 +100,7 @@ TEST(bsdf_parameters, spectra_become_colours) {
 TEST(bsdf_parameters, phong_scales_textures_that_reflect_too_much) {
   class Ramp final : public Texture {
    public:
-    Spectrum eval(const TextureCoordinates& c) const override {
+    Spectrum eval(const TextureCoordinates& c, const Wavelengths&) const override {
       return Spectrum(c.uv.x, c.uv.x, c.uv.x, 0);
     }
     float maximum() const override { return 1; }
@@ -113,11 +113,11 @@ TEST(bsdf_parameters, phong_scales_textures_that_reflect_too_much) {
     const Arguments arguments(type.info, {}, {}, problems);
     const auto texture = [](std::string_view name) -> std::shared_ptr<const Texture> {
       if (name == "diffuse_reflectance") return std::make_shared<Ramp>();
-      return make_constant_texture(Spectrum(0.5f, 0.5f, 0.5f, 0));
+      return make_constant_texture(SpectralValue::reflectance(Rgb{0.5, 0.5, 0.5}));
     };
     const auto bsdf = type.create({arguments, {}, texture});
     BsdfContext right;
-    right.move_to({.uv = {1, 0}});
+    right.move_to({.uv = {1, 0}}, {});
     EXPECT_NEAR(bsdf->albedo(right, {0, 0, 1}, Lobes::diffuse)[0], 1 / 1.5f, 1e-6f);
     const BsdfContext left;
     EXPECT_EQ(bsdf->albedo(left, {0, 0, 1}, Lobes::diffuse)[0], 0);

@@ -223,7 +223,7 @@ const std::vector<Vec3f>& outgoing_directions() {
 std::vector<Lobes> lobe_sets(const Bsdf& bsdf) {
   std::vector<Lobes> sets = {Lobes::all};
   for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy, Lobes::delta})
-    if (any(bsdf.lobes() & lobe) && bsdf.lobes() != lobe) sets.push_back(lobe);
+    if (any(bsdf.traits().lobes & lobe) && bsdf.traits().lobes != lobe) sets.push_back(lobe);
   return sets;
 }
 

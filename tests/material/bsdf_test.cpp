@@ -63,7 +63,7 @@ BsdfSample draw(const Bsdf& bsdf, const BsdfContext& context, const Case& c, Sam
 class EveryBsdf : public testing::TestWithParam<BsdfInstance> {
  protected:
   const Bsdf& bsdf() const { return *GetParam().bsdf; }
-  bool has_density() const { return any(bsdf().lobes() & (Lobes::diffuse | Lobes::glossy)); }
+  bool has_density() const { return any(bsdf().traits().lobes & (Lobes::diffuse | Lobes::glossy)); }
 };
 
 // ---- what many samples give ----
@@ -99,7 +99,7 @@ Drawn draw_many(const Bsdf& bsdf, const Case& c) {
   Drawn result;
   result.cells.resize(grid.size() + 1);
   for (int i = 0; i < samples_for(bsdf); ++i) {
-    const BsdfSample s = draw(bsdf, {{}, TransportMode::flux}, c, sampler_of(1, i));
+    const BsdfSample s = draw(bsdf, {{}, TransportMode::flux, {}}, c, sampler_of(1, i));
     const bool has_density = s.event == Lobes::diffuse || s.event == Lobes::glossy;
     result.cells[has_density ? grid.cell_of(s.wi) : grid.size()] += 1;
     for (size_t lane = 0; lane < 3; ++lane) {
@@ -166,7 +166,7 @@ TEST_P(EveryBsdf, samples_as_its_density_says) {
 TEST_P(EveryBsdf, weight_is_value_times_cosine_over_density) {
   for (const Case& c : cases_of(bsdf())) {
     SCOPED_TRACE(c.text);
-    const Lobes asked = c.lobes & bsdf().lobes();
+    const Lobes asked = c.lobes & bsdf().traits().lobes;
     const bool one_lobe =
         asked == Lobes::diffuse || asked == Lobes::glossy || asked == Lobes::delta;
     for (int i = 0; i < 2000; ++i) {
@@ -213,7 +213,7 @@ TEST_P(EveryBsdf, mean_weight_of_each_event_is_the_integral_of_its_lobe) {
   if (!has_density()) return;  // delta lobes have none
   for (const Case& c : cases_of(bsdf()))
     for (size_t event = 0; event < 2; ++event) {
-      if (!any(single_lobes[event] & c.lobes & bsdf().lobes())) continue;
+      if (!any(single_lobes[event] & c.lobes & bsdf().traits().lobes)) continue;
       SCOPED_TRACE(c.text + ", event " + std::to_string(event));
       const Vec3d expected = integral_of_value(bsdf(), c.wo, single_lobes[event]);
       for (int lane = 0; lane < 3; ++lane) {
@@ -236,7 +236,7 @@ TEST_P(EveryBsdf, albedo_is_the_mean_weight_and_at_most_one) {
     const Spectrum albedo = bsdf().albedo({}, c.wo, c.lobes);
     EXPECT_LE(albedo.max_lane(), 1.0f + 1e-5f);
     EXPECT_EQ(albedo[3], 0);
-    const bool estimated = any(c.lobes & bsdf().lobes() & Lobes::glossy);
+    const bool estimated = any(c.lobes & bsdf().traits().lobes & Lobes::glossy);
     for (size_t lane = 0; lane < 3; ++lane) {
       const RunningStatistics& weight = drawn(bsdf(), c).all_weights[lane];
       const double noise = 5 * weight.standard_error() + 2e-6;
@@ -309,7 +309,7 @@ TEST_P(EveryBsdf, lobes_add_up) {
     for (const Lobes part : parts) {
       f += bsdf().eval({}, wo, wi, part);
       albedo += bsdf().albedo({}, wo, part);
-      if (!any(part & bsdf().lobes())) {
+      if (!any(part & bsdf().traits().lobes)) {
         EXPECT_TRUE(bsdf().eval({}, wo, wi, part).is_zero());
       }
     }
@@ -327,7 +327,7 @@ TEST_P(EveryBsdf, answers_nothing_where_nothing_is_scattered) {
     for (const float side : {1.0f, -1.0f})
       for (const Lobes lobes : {Lobes::none, Lobes::diffuse, Lobes::glossy, Lobes::delta}) {
         const Vec3f wo(outside.x, outside.y, side * outside.z), wi(0.1f, -0.3f, std::sqrt(0.9f));
-        const bool has_lobe = any(lobes & bsdf().lobes());
+        const bool has_lobe = any(lobes & bsdf().traits().lobes);
         if (has_lobe && !bsdf().albedo({}, wo, lobes).is_zero()) continue;
         EXPECT_TRUE(bsdf().albedo({}, wo, lobes).is_zero());
         EXPECT_TRUE(bsdf().eval({}, wo, wi, lobes).is_zero());
@@ -367,9 +367,7 @@ INSTANTIATE_TEST_SUITE_P(Instances, EveryBsdf, testing::ValuesIn(bsdf_instances(
 /// Counts how often it is asked.
 class Counting final : public Bsdf {
  public:
-  Lobes lobes() const override { return ++asked, Lobes::diffuse; }
-  SurfaceNeeds needs() const override { return ++asked, SurfaceNeeds::none; }
-  bool transmits() const override { return ++asked, false; }
+  Counting() : Bsdf({.lobes = Lobes::diffuse}) {}
   Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes lobes) const override {
     return ++asked, Spectrum(any(lobes & Lobes::diffuse) ? inv_pi : 0.0f);
   }
@@ -386,16 +384,14 @@ class Counting final : public Bsdf {
   mutable int64_t asked = 0;
 };
 
-/// Wrappers know their traits, and a sample of a chain of blends asks each bsdf a few times,
+/// A sample of a chain of blends asks each bsdf a few times,
 /// however deep the chain is.
 TEST(blendbsdf, a_chain_asks_each_bsdf_a_few_times) {
   const auto leaf = std::make_shared<Counting>();
   std::shared_ptr<const Bsdf> chain = leaf;
   for (int i = 0; i < 60; ++i) chain = make_bsdf("blendbsdf", {}, {chain, leaf});
-  EXPECT_EQ(chain->size(), 121);
+  EXPECT_EQ(chain->traits().size, 121);
   leaf->asked = 0;
-  chain->lobes(), chain->needs(), chain->transmits();
-  EXPECT_EQ(leaf->asked, 0);
   for (const float u : {0.0f, 0.3f, 0.999f}) {  // by the leaf at the bottom, and by outer ones
     leaf->asked = 0;
     EXPECT_EQ(chain->sample({}, {0, 0, 1}, u, {0.5f, 0.5f}, Lobes::all).event, Lobes::diffuse);

@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-const BsdfContext radiance{{}, TransportMode::radiance}, flux{{}, TransportMode::flux};
+const BsdfContext radiance{{}, TransportMode::radiance, {}}, flux{{}, TransportMode::flux, {}};
 
 std::shared_ptr<const Bsdf> glass() {
   return make_bsdf("dielectric", {property("int_ior", 1.5), property("ext_ior", 1.0)});

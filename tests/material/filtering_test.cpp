@@ -259,7 +259,7 @@ TEST(ProceduralTextures, TellTheirMeanAndMaximum) {
     std::mt19937 random(10);
     RunningStatistics green;
     for (int i = 0; i < 20000; ++i) {
-      const Spectrum s = t.texture->eval(somewhere(random, 40 * t.scale, 0));
+      const Spectrum s = t.texture->eval(somewhere(random, 40 * t.scale, 0), {});
       ASSERT_TRUE(s.is_finite());
       for (int lane = 0; lane < 3; ++lane) ASSERT_GE(s[lane], 0);
       ASSERT_LE(s.max_lane(), t.texture->maximum() + 1e-6f);
@@ -277,13 +277,13 @@ TEST(ProceduralTextures, FadeToTheirMean) {
     std::mt19937 random(11);
     for (int i = 0; i < 4000; ++i) {
       TextureCoordinates at = somewhere(random, 40 * t.scale, 0);
-      fine.add(double(t.texture->eval(at)[1]));
+      fine.add(double(t.texture->eval(at, {})[1]));
       at.width = 0.5f * t.scale;
       at.uv_width = {at.width, at.width};
-      middle.add(double(t.texture->eval(at)[1]));
+      middle.add(double(t.texture->eval(at, {})[1]));
       at.width = 20 * t.scale;
       at.uv_width = {at.width, at.width};
-      coarse.add(double(t.texture->eval(at)[1]));
+      coarse.add(double(t.texture->eval(at, {})[1]));
     }
     EXPECT_LT(middle.variance(), fine.variance());
     EXPECT_LT(coarse.variance(), 0.02 * fine.variance());
@@ -298,13 +298,13 @@ TEST(ProceduralTextures, FilterAsAMeanOfManyPoints) {
   const auto uniform = [&] { return float(random() >> 8) * 0x1p-24f; };
   for (int i = 0; i < 40; ++i) {
     TextureCoordinates at = somewhere(random, 2, 0.05f);
-    const float filtered = tiles->eval(at)[1];
+    const float filtered = tiles->eval(at, {})[1];
     RunningStatistics points;
     TextureCoordinates p = at;
     p.width = 0;
     for (int j = 0; j < 20000; ++j) {
       p.position = at.position + Vec3f(uniform() - 0.5f, uniform() - 0.5f, 0) * 0.05f;
-      points.add(double(tiles->eval(p)[1]));
+      points.add(double(tiles->eval(p, {})[1]));
     }
     EXPECT_NEAR(double(filtered), points.mean(), 5 * points.standard_error() + 1e-5);
   }
@@ -342,8 +342,8 @@ TEST(ProceduralTextures, AreTheSameOnEveryMachineAndSeedsDiffer) {
     int differ = 0;
     for (int i = 0; i < 100; ++i) {
       const TextureCoordinates at = somewhere(random, 3, 0);
-      EXPECT_EQ(a->eval(at), b->eval(at));
-      differ += a->eval(at) == other->eval(at) ? 0 : 1;
+      EXPECT_EQ(a->eval(at, {}), b->eval(at, {}));
+      differ += a->eval(at, {}) == other->eval(at, {}) ? 0 : 1;
     }
     EXPECT_GT(differ, 50) << type;
   }
@@ -359,7 +359,7 @@ TEST(ProceduralTextures, SurviveAnyCoordinates) {
         at.normal = {0, 0, 1};
         at.width = width;
         at.uv_width = {width, width};
-        EXPECT_TRUE(t.texture->eval(at).is_finite()) << t.name << far << " " << width;
+        EXPECT_TRUE(t.texture->eval(at, {}).is_finite()) << t.name << far << " " << width;
       }
 }
 
@@ -376,7 +376,7 @@ TEST(ProceduralTextures, ArePlacedByToWorld) {
     there.position = placed.point(at.position);
     there.width = 0.002f;
     for (int lane = 0; lane < 3; ++lane)
-      EXPECT_NEAR(plain->eval(at)[lane], moved->eval(there)[lane], 1e-4f) << type;
+      EXPECT_NEAR(plain->eval(at, {})[lane], moved->eval(there, {})[lane], 1e-4f) << type;
     // Twice as large at the same height: half as steep.
     const Vec3f a = plain->height_gradient(at).position, b = moved->height_gradient(there).position;
     EXPECT_LT(length(a * 0.5f - b), 1e-3f + 0.02f * length(a)) << type;
@@ -389,11 +389,11 @@ TEST(Checkerboard, FiltersExactly) {
   TextureCoordinates at;
   at.uv = {0.5f, 0.25f};  // on an edge
   at.uv_width = {0.2f, 0.01f};
-  EXPECT_NEAR(board->eval(at)[0], 0.5f, 1e-5f);
+  EXPECT_NEAR(board->eval(at, {})[0], 0.5f, 1e-5f);
   at.uv = {0.45f, 0.25f};
-  EXPECT_NEAR(board->eval(at)[0], 0.75f, 1e-5f);
+  EXPECT_NEAR(board->eval(at, {})[0], 0.75f, 1e-5f);
   at.uv_width = {16, 16};
-  EXPECT_NEAR(board->eval(at)[0], 0.5f, 1e-3f);
+  EXPECT_NEAR(board->eval(at, {})[0], 0.5f, 1e-3f);
 }
 
 }  // namespace

@@ -48,16 +48,16 @@ std::shared_ptr<const Texture> bitmap(const Picture& picture, std::vector<Proper
 }
 
 float value(const std::shared_ptr<const Texture>& texture, float u, float v) {
-  const Spectrum s = texture->eval(point(u, v));
+  const Spectrum s = texture->eval(point(u, v), {});
   EXPECT_EQ(s[0], s[2]);
   EXPECT_EQ(s[3], 0);
   return s[0];
 }
 
 TEST(constant_texture, is_the_same_everywhere) {
-  const auto texture = make_constant_texture(Spectrum(0.1f, 0.2f, 0.3f, 0));
+  const auto texture = make_constant_texture(SpectralValue::reflectance(Rgb{0.1, 0.2, 0.3}));
   EXPECT_TRUE(texture->is_constant());
-  EXPECT_EQ(texture->eval(point(3, -7)), Spectrum(0.1f, 0.2f, 0.3f, 0));
+  EXPECT_EQ(texture->eval(point(3, -7), {}), Spectrum(0.1f, 0.2f, 0.3f, 0));
   EXPECT_EQ(texture->mean(), Spectrum(0.1f, 0.2f, 0.3f, 0));
   EXPECT_FLOAT_EQ(texture->maximum(), 0.3f);
 }
@@ -135,7 +135,7 @@ TEST(bitmap, channels_of_the_file) {
   };
   for (const std::vector<std::string>& channels :
        {std::vector<std::string>{"Y", "A"}, {"Y"}, {"mask"}}) {
-    const Spectrum value = written(channels)->eval(point(0.5f, 0.5f));
+    const Spectrum value = written(channels)->eval(point(0.5f, 0.5f), {});
     for (int lane = 0; lane < 3; ++lane) EXPECT_EQ(value[lane], 0.25f) << channels[0];
   }
   for (const std::vector<std::string>& channels :

@@ -33,7 +33,7 @@ constexpr int sample_divisor = 1;
 
 EmittedRay draw(const EmissionSampler& sampler, Random& random) {
   const Vec2f a = random.pair(), b = random.pair();
-  return sampler.sample(0, a, b, random.number());
+  return sampler.sample(0, a, b, random.number(), {});
 }
 
 constexpr Aim aims[] = {Aim::boxes, Aim::projection_map};
@@ -62,7 +62,7 @@ struct Cells {
     center = kaustik::center(bounds);
     radius = 1.1f * bounding_radius(bounds);
     if (infinite) return;
-    const Bounds3f place = source.bounds().position;
+    const Bounds3f place = source.traits().bounds.position;
     const Vec3f to = center - kaustik::center(place);
     const float sine = 1.1f * (radius + bounding_radius(place)) / length(to);
     cone = Frame(normalize(to));
@@ -94,12 +94,14 @@ EmittedRay ray_at(const Light& source, const Cells& cells, const Vec2f& u, Rando
                   float& other_pdf) {
   EmittedRay ray;
   if (cells.infinite) {
-    ray.ray.direction = source.sample_travel_direction(random.pair(), other_pdf);
+    const TravelDirection travel = source.distant().sample_travel_direction(random.pair());
+    ray.ray.direction = travel.direction;
+    other_pdf = travel.pdf;
     const Vec3f local((2.0f * u.x - 1.0f) * cells.radius, (2.0f * u.y - 1.0f) * cells.radius, 0);
     ray.origin.position = cells.center + Frame(ray.ray.direction).to_world(local);
     return ray;
   }
-  const EmissionSample origin = source.sample_origin(random.pair());
+  const EmissionSample origin = source.placed().sample_origin(random.pair());
   other_pdf = origin.pdf_position;
   ray.origin = origin.point;
   ray.on_surface = origin.on_surface;
@@ -120,7 +122,7 @@ double density_p_value(const Scene& scene, const EmissionSampler& sampler, float
   Random random(7);
   // Origins vary on lights with a surface.
   const int samples = 100'000 / sample_divisor;
-  const int per_cell = (source.shape() >= 0 ? 5000 : 1000) / sample_divisor;
+  const int per_cell = (source.traits().shape >= 0 ? 5000 : 1000) / sample_divisor;
   std::vector<double> found(Cells::count, 0), expected(Cells::count, 0), variance(Cells::count, 0);
   for (int i = 0; i < samples; ++i) {
     const EmittedRay ray = draw(sampler, random);
@@ -218,7 +220,7 @@ TEST(EmissionDensity, IsZeroOnlyWhereNoBoxIsMet) {
         const EmittedRay ray = draw(by_power, random);
         Hit hit;
         if (!scene->intersect(ray.ray, hit)) continue;
-        if (!any(scene->surface(hit.shape).bsdf->lobes() & Lobes::specular)) continue;
+        if (!any(scene->surface(hit.shape).bsdf->traits().lobes & Lobes::specular)) continue;
         ++met;
         EXPECT_GT(aimed.pdf(0, ray.origin, ray.ray.direction), 0) << kind << " " << targets.name;
         EXPECT_GT(mapped.pdf(0, ray.origin, ray.ray.direction), 0) << kind << " " << targets.name;
@@ -237,7 +239,7 @@ TEST(EmissionDensity, IsZeroOnlyWhereNoBoxIsMet) {
 using Filter = std::function<bool(float cosine)>;
 
 bool is_target(const Scene& scene, uint32_t shape) {
-  return any(scene.surface(shape).bsdf->lobes() & Lobes::specular);
+  return any(scene.surface(shape).bsdf->traits().lobes & Lobes::specular);
 }
 
 void add_flux(const Scene& scene, const EmissionSampler& sampler, const Filter& filter, int count,

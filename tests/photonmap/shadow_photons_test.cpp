@@ -49,7 +49,7 @@ double pixel_radiance(const Scene& scene, int x, int y) {
   for (int i = 0; i < steps * steps; ++i) {
     const Vec2f raster(float(x) + (float(i % steps) + 0.5f) / steps,
                        float(y) + (float(i / steps) + 0.5f) / steps);
-    const Ray ray = scene.camera().sample_ray(raster);
+    const Ray ray = scene.camera().sample_ray(raster, Camera::middle_of_lens());
     const float t = -ray.origin.z / ray.direction.z;
     const Vec3f at = ray.origin + ray.direction * t;
     sum += floor_radiance(double(at.x), double(at.y));

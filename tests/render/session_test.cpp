@@ -210,7 +210,7 @@ Script unit_script(const std::function<void(int)>& cancel, std::atomic<int>& sam
     for (int i = 0; i < 4; ++i)
       for (int y = 0; y < 40; ++y)
         for (int x = 0; x < 40; ++x)
-          splats.add({float(x) + 0.5f, float(y) + 0.5f}, Component::caustic, Spectrum(0.5f));
+          splats.add({float(x) + 0.5f, float(y) + 0.5f}, Component::caustic, Spectrum(0.5f), {});
     cancel(0);
   };
   script.sample = [&](const Vec2f&, Sampler&, SampleSink& sink) {
@@ -518,7 +518,7 @@ TEST(Session, SplatsCountOncePerPass) {
   Script script;
   script.splats = true;
   script.prepare = [](const Pass& pass, SplatBuffer& splats) {
-    splats.add({3.5f, 4.5f}, Component::caustic, Spectrum(float(pass.index + 1)));
+    splats.add({3.5f, 4.5f}, Component::caustic, Spectrum(float(pass.index + 1)), {});
   };
   const Scripted integrator(script);
   SessionSettings settings;
@@ -533,8 +533,8 @@ TEST(MakeIntegrator, ChoosesAndChecks) {
   const auto scene = plain_scene();
   std::vector<std::string> warnings;
   const Description nothing = parse_mitsuba_xml("<scene version=\"3.0.0\"/>", "test.xml", "");
-  EXPECT_EQ(make_integrator(nothing, *scene, warnings)->default_samples_per_pass(),
-            integrator_for(*scene, "auto")->default_samples_per_pass());
+  EXPECT_EQ(make_integrator(nothing, *scene, warnings)->traits().default_samples_per_pass,
+            integrator_for(*scene, "auto")->traits().default_samples_per_pass);
   EXPECT_EQ(integrator_type(nothing, *scene), "auto");
   EXPECT_TRUE(warnings.empty());
   const auto refused = [&](const std::string& inside) -> std::string {

@@ -92,12 +92,12 @@ TEST(Arrays, AnEnvironmentIsThatOfTheSameFile) {
   const auto of_array = build_scene(described(
       {object("emitter", "envmap", {{"data", Value(Array::of<float>({5, 8, 3}, values)), {}}})}));
   const Light &a = *of_file->lights()[0], &b = *of_array->lights()[0];
-  EXPECT_EQ(a.power()[1], b.power()[1]);
+  EXPECT_EQ(a.traits().power[1], b.traits().power[1]);
   for (float x = -1; x < 1; x += 0.13f)
     for (float y = -1; y < 1; y += 0.17f) {
       const Vec3f direction = normalize({x, y, 0.3f});
-      EXPECT_EQ(a.background(direction)[0], b.background(direction)[0]);
-      EXPECT_EQ(a.pdf_toward_direction({}, direction), b.pdf_toward_direction({}, direction));
+      EXPECT_EQ(a.distant().background(direction, {})[0], b.distant().background(direction, {})[0]);
+      EXPECT_EQ(a.pdf_toward({}, direction), b.pdf_toward({}, direction));
     }
 }
 

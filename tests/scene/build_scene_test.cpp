@@ -22,14 +22,14 @@ TEST(BuildScene, Defaults) {
   EXPECT_EQ(scene->film().crop_offset, Vec2i(0, 0));
   EXPECT_EQ(scene->film().sample_count, 0);
   EXPECT_FLOAT_EQ(scene->film().filter.radius(), 2.0f);  // Gaussian, 4 × 0.5 pixels
-  EXPECT_EQ(scene->camera().position(), Vec3f(0, 0, 0));
+  EXPECT_EQ(scene->camera().traits().position, Vec3f(0, 0, 0));
   EXPECT_TRUE(scene->lights().empty());
   EXPECT_TRUE(scene->warnings().empty());
   ASSERT_EQ(scene->surface_count(), 1u);
   // Without a bsdf a shape is diffuse with reflectance one half, as in Mitsuba.
   const Surface& surface = scene->surface(0);
   EXPECT_EQ(surface.light, -1);
-  EXPECT_EQ(surface.bsdf->lobes(), Lobes::diffuse);
+  EXPECT_EQ(surface.bsdf->traits().lobes, Lobes::diffuse);
   EXPECT_FLOAT_EQ(surface.bsdf->albedo({}, {0, 0, 1}, Lobes::all)[0], 0.5f);
 }
 
@@ -76,7 +76,7 @@ TEST(BuildScene, LightsKnowTheirShapesAndShapesTheirLights) {
   for (uint32_t shape : {1u, 2u}) {
     const int light = scene->surface(shape).light;
     ASSERT_GE(light, 0);
-    EXPECT_EQ(scene->lights()[size_t(light)]->shape(), int(shape));
+    EXPECT_EQ(scene->lights()[size_t(light)]->traits().shape, int(shape));
   }
   EXPECT_EQ(scene->environment_lights(), std::vector<int>{0});
 }
@@ -156,8 +156,8 @@ TEST(BuildScene, WhatIsThereTwice) {
 TEST(BuildScene, ScenesWithoutShapes) {
   const auto scene = scene_of(camera + "<emitter type=\"constant\"/>");
   EXPECT_EQ(scene->surface_count(), 0u);
-  EXPECT_TRUE(std::isfinite(scene->lights().at(0)->power().sum()));
-  EXPECT_GT(scene->lights().at(0)->power().sum(), 0);
+  EXPECT_TRUE(std::isfinite(scene->lights().at(0)->traits().power.sum()));
+  EXPECT_GT(scene->lights().at(0)->traits().power.sum(), 0);
   EXPECT_NO_THROW(scene_of(camera));
   EXPECT_NO_THROW(scene_of(camera + "<shape type=\"shapegroup\" id=\"g\"/>"));
 }
@@ -263,13 +263,16 @@ TEST(BuildScene, BsdfsThatShareNestedOnesStayFew) {
   expect_problem(camera + shape + "\n" + nested_bsdfs("blendbsdf", 60, true), "11:1",
                  "nests 510 bsdfs", "at most 255");
   // What asks one of its nested bsdfs at a time may share them.
-  EXPECT_EQ(scene_of(camera + nested_bsdfs("twosided", 60, true) + shape)->surface(0).bsdf->size(),
-            61);
-  EXPECT_EQ(scene_of(camera + nested_bsdfs("mask", 60, false) + shape)->surface(0).bsdf->size(),
-            61);
+  EXPECT_EQ(
+      scene_of(camera + nested_bsdfs("twosided", 60, true) + shape)->surface(0).bsdf->traits().size,
+      61);
+  EXPECT_EQ(
+      scene_of(camera + nested_bsdfs("mask", 60, false) + shape)->surface(0).bsdf->traits().size,
+      61);
   const std::string seven = "<shape type=\"sphere\"><ref id=\"b7\"/></shape>";
-  EXPECT_EQ(scene_of(camera + nested_bsdfs("blendbsdf", 7, true) + seven)->surface(0).bsdf->size(),
-            255);
+  EXPECT_EQ(
+      scene_of(camera + nested_bsdfs("blendbsdf", 7, true) + seven)->surface(0).bsdf->traits().size,
+      255);
 }
 
 TEST(BuildScene, WhatMeshFilesLeaveOutIsReportedOnce) {

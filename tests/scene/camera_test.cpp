@@ -63,14 +63,15 @@ TEST(Camera, FieldsOfViewByAxis) {
       if (view.name == name) {
         const auto scene = seen_by(view.inside);
         const double aspect = double(scene->film().size.x) / scene->film().size.y;
-        EXPECT_NEAR(scene->camera().horizontal_fov(), horizontal(tangent), 1e-3) << name;
-        EXPECT_NEAR(scene->camera().vertical_fov(), horizontal(tangent / aspect), 1e-3) << name;
+        EXPECT_NEAR(scene->camera().traits().horizontal_fov, horizontal(tangent), 1e-3) << name;
+        EXPECT_NEAR(scene->camera().traits().vertical_fov, horizontal(tangent / aspect), 1e-3)
+            << name;
       }
 }
 
 TEST(Camera, FocalLength) {
   const auto scene = seen_by("<string name=\"focal_length\" value=\"35mm\"/>" + film(36, 24));
-  EXPECT_NEAR(scene->camera().horizontal_fov(), 2 * std::atan(18.0 / 35) * degrees, 1e-3);
+  EXPECT_NEAR(scene->camera().traits().horizontal_fov, 2 * std::atan(18.0 / 35) * degrees, 1e-3);
   expect_problem(
       "<sensor type=\"perspective\">\n<string name=\"focal_length\" value=\"wide\"/></sensor>" +
           std::string(any_shape),
@@ -81,7 +82,9 @@ TEST(Camera, LooksAlongZWithXToTheLeft) {
   const auto scene = seen_by("<float name=\"fov\" value=\"90\"/>" + film(32, 32));
   const Camera& camera = scene->camera();
   const auto expect_direction = [&](const Vec2f& raster, const Vec3f& direction) {
-    EXPECT_LT(length(camera.sample_ray(raster).direction - normalize(direction)), 1e-6f);
+    EXPECT_LT(length(camera.sample_ray(raster, Camera::middle_of_lens()).direction -
+                     normalize(direction)),
+              1e-6f);
   };
   expect_direction({16, 16}, {0, 0, 1});
   expect_direction({0, 16}, {1, 0, 1});
@@ -95,11 +98,12 @@ TEST(Camera, LookAtPutsTheTargetInTheMiddle) {
       "<transform name=\"to_world\"><lookat origin=\"1,2,3\" target=\"-4,0.5,1\" up=\"0,0,1\"/>"
       "</transform>" +
       film(32, 24));
-  EXPECT_EQ(scene->camera().position(), Vec3f(1, 2, 3));
-  const CameraConnection seen = scene->camera().connect({-4, 0.5f, 1});
+  EXPECT_EQ(scene->camera().traits().position, Vec3f(1, 2, 3));
+  const CameraConnection seen = scene->camera().connect({-4, 0.5f, 1}, Camera::middle_of_lens());
   EXPECT_NEAR(seen.raster.x, 16, 1e-3);
   EXPECT_NEAR(seen.raster.y, 12, 1e-3);
-  EXPECT_LT(scene->camera().connect({-4, 0.5f, 1.2f}).raster.y, 12);  // up is up
+  EXPECT_LT(scene->camera().connect({-4, 0.5f, 1.2f}, Camera::middle_of_lens()).raster.y,
+            12);  // up is up
 }
 
 // As in Mitsuba: the picture's centre is what an unshifted camera sees at 0.5 + offset.
@@ -109,8 +113,8 @@ TEST(Camera, PrincipalPoint) {
       "<float name=\"principal_point_offset_x\" value=\"0.25\"/>"
       "<float name=\"principal_point_offset_y\" value=\"-0.125\"/>" +
       film(32, 24));
-  EXPECT_LT(length(shifted->camera().sample_ray({16, 12}).direction -
-                   straight->camera().sample_ray({24, 9}).direction),
+  EXPECT_LT(length(shifted->camera().sample_ray({16, 12}, Camera::middle_of_lens()).direction -
+                   straight->camera().sample_ray({24, 9}, Camera::middle_of_lens()).direction),
             1e-6f);
 }
 
@@ -120,15 +124,17 @@ TEST(Camera, CropWindowsSeeTheirPartOfThePicture) {
       "<integer name=\"crop_width\" value=\"20\"/><integer name=\"crop_height\" value=\"11\"/>";
   const auto whole = seen_by(film(32, 24)), part = seen_by(film(32, 24, crop));
   for (const Vec2f& raster : {Vec2f(0, 0), Vec2f(3.5f, 7.25f), Vec2f(20, 11)}) {
-    const Vec3f direction = part->camera().sample_ray(raster).direction;
-    EXPECT_EQ(direction, whole->camera().sample_ray(raster + Vec2f(7, 3)).direction);
+    const Vec3f direction = part->camera().sample_ray(raster, Camera::middle_of_lens()).direction;
+    EXPECT_EQ(direction,
+              whole->camera().sample_ray(raster + Vec2f(7, 3), Camera::middle_of_lens()).direction);
     const Vec3f point = direction * 3.0f;
-    EXPECT_NEAR(part->camera().connect(point).raster.x + 7, whole->camera().connect(point).raster.x,
-                1e-4);
-    EXPECT_EQ(part->camera().connect(point).importance, whole->camera().connect(point).importance);
+    EXPECT_NEAR(part->camera().connect(point, Camera::middle_of_lens()).raster.x + 7,
+                whole->camera().connect(point, Camera::middle_of_lens()).raster.x, 1e-4);
+    EXPECT_EQ(part->camera().connect(point, Camera::middle_of_lens()).importance,
+              whole->camera().connect(point, Camera::middle_of_lens()).importance);
   }
-  EXPECT_EQ(part->camera().pixel_spread(), whole->camera().pixel_spread());
-  EXPECT_EQ(part->camera().horizontal_fov(), whole->camera().horizontal_fov());
+  EXPECT_EQ(part->camera().traits().pixel_spread, whole->camera().traits().pixel_spread);
+  EXPECT_EQ(part->camera().traits().horizontal_fov, whole->camera().traits().horizontal_fov);
 }
 
 TEST(Camera, PointsOnRaysAppearWhereTheRaysStarted) {
@@ -142,10 +148,12 @@ TEST(Camera, PointsOnRaysAppearWhereTheRaysStarted) {
       const Vec2f u = sampler.next_2d();
       const Vec2f raster(u.x * float(size.x), u.y * float(size.y));
       const float distance = std::exp(10 * sampler.next_1d() - 5);
-      const Ray ray = camera.sample_ray(raster);
+      const Ray ray = camera.sample_ray(raster, Camera::middle_of_lens());
       EXPECT_NEAR(length(ray.direction), 1, 1e-6);
-      EXPECT_EQ(ray.origin, camera.position());
-      const CameraConnection seen = camera.connect(ray.origin + ray.direction * distance);
+      EXPECT_EQ(ray.origin, camera.traits().position);
+      EXPECT_FALSE(camera.traits().has_lens);
+      const CameraConnection seen =
+          camera.connect(ray.origin + ray.direction * distance, Camera::middle_of_lens());
       const float rounding = 2e-3f + 2e-5f / distance;  // of points near a camera far from 0
       EXPECT_NEAR(seen.raster.x, raster.x, rounding);
       EXPECT_NEAR(seen.raster.y, raster.y, rounding);
@@ -166,10 +174,13 @@ double solid_angle(const Scene& scene) {
   const Vec2i size = scene.film().crop_size;
   const Camera& camera = scene.camera();
   // In the camera's own frame: its axis and two edges of the picture.
-  const Vec3f upper_left = camera.sample_ray({0, 0}).direction;
-  const Vec3f upper_right = camera.sample_ray({float(size.x), 0}).direction;
-  const Vec3f lower_right = camera.sample_ray({float(size.x), float(size.y)}).direction;
-  const Vec3f lower_left = camera.sample_ray({0, float(size.y)}).direction;
+  const Vec3f upper_left = camera.sample_ray({0, 0}, Camera::middle_of_lens()).direction;
+  const Vec3f upper_right =
+      camera.sample_ray({float(size.x), 0}, Camera::middle_of_lens()).direction;
+  const Vec3f lower_right =
+      camera.sample_ray({float(size.x), float(size.y)}, Camera::middle_of_lens()).direction;
+  const Vec3f lower_left =
+      camera.sample_ray({0, float(size.y)}, Camera::middle_of_lens()).direction;
   // Girard: a spherical quadrilateral's area is the excess of its angles.
   const auto angle = [](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
     const Vec3d at(b), to_a = (at % Vec3d(a)).normalized(), to_c = (at % Vec3d(c)).normalized();
@@ -192,10 +203,11 @@ double integral_of_inverse_importance(const Scene& scene, int power = 0) {
     for (int x = 0; x < steps; ++x) {
       const Vec2f raster((float(x) + 0.5f) / steps * float(size.x),
                          (float(y) + 0.5f) / steps * float(size.y));
-      const Ray ray = camera.sample_ray(raster);
+      const Ray ray = camera.sample_ray(raster, Camera::middle_of_lens());
       const double cosine = power == 0 ? 1 : double(dot(ray.direction, axis));
       sum += std::pow(cosine, power) /
-             double(camera.connect(ray.origin + ray.direction * 2.0f).importance);
+             double(camera.connect(ray.origin + ray.direction * 2.0f, Camera::middle_of_lens())
+                        .importance);
     }
   return sum * size.x * size.y / (double(steps) * steps);
 }
@@ -225,21 +237,21 @@ TEST(Camera, AWrongImportanceWouldBeFound) {
 TEST(Camera, SeesNothingBehindOrFarOutside) {
   const auto scene = seen_by("<float name=\"fov\" value=\"60\"/>" + film(32, 24));
   const Camera& camera = scene->camera();
-  EXPECT_GT(camera.connect({0, 0, 5}).importance, 0);
-  EXPECT_EQ(camera.connect({0, 0, -5}).importance, 0);
-  EXPECT_EQ(camera.connect({0, 0, 0}).importance, 0);
-  EXPECT_EQ(camera.connect({5, 0, 0}).importance, 0);
-  EXPECT_EQ(camera.connect({9, 0, 1}).importance, 0);
+  EXPECT_GT(camera.connect({0, 0, 5}, Camera::middle_of_lens()).importance, 0);
+  EXPECT_EQ(camera.connect({0, 0, -5}, Camera::middle_of_lens()).importance, 0);
+  EXPECT_EQ(camera.connect({0, 0, 0}, Camera::middle_of_lens()).importance, 0);
+  EXPECT_EQ(camera.connect({5, 0, 0}, Camera::middle_of_lens()).importance, 0);
+  EXPECT_EQ(camera.connect({9, 0, 1}, Camera::middle_of_lens()).importance, 0);
   // Just outside counts: the filter reaches in.
-  const Vec3f near_edge = camera.sample_ray({-1, 12}).direction;
-  EXPECT_GT(camera.connect(near_edge).importance, 0);
+  const Vec3f near_edge = camera.sample_ray({-1, 12}, Camera::middle_of_lens()).direction;
+  EXPECT_GT(camera.connect(near_edge, Camera::middle_of_lens()).importance, 0);
 }
 
 TEST(Camera, PixelSpreadIsHalfAPixel) {
   const auto scene = seen_by("<float name=\"fov\" value=\"60\"/>" + film(320, 240));
-  const Vec3f a = scene->camera().sample_ray({160, 120}).direction;
-  const Vec3f b = scene->camera().sample_ray({161, 120}).direction;
-  EXPECT_NEAR(scene->camera().pixel_spread(), 0.5f * length(a - b), 1e-5f);
+  const Vec3f a = scene->camera().sample_ray({160, 120}, Camera::middle_of_lens()).direction;
+  const Vec3f b = scene->camera().sample_ray({161, 120}, Camera::middle_of_lens()).direction;
+  EXPECT_NEAR(scene->camera().traits().pixel_spread, 0.5f * length(a - b), 1e-5f);
 }
 
 TEST(Camera, TransformsThatDoNotFit) {
@@ -249,12 +261,40 @@ TEST(Camera, TransformsThatDoNotFit) {
   };
   expect_problem(placed("<scale x=\"2\"/>"), "3:1", "stretches or shears", "uniform scales");
   const auto scaled = scene_of(placed("<scale value=\"3\"/><translate x=\"1\"/>"));
-  EXPECT_LT(length(scaled->camera().sample_ray({0, 0}).direction -
-                   seen_by("")->camera().sample_ray({0, 0}).direction),
+  EXPECT_LT(length(scaled->camera().sample_ray({0, 0}, Camera::middle_of_lens()).direction -
+                   seen_by("")->camera().sample_ray({0, 0}, Camera::middle_of_lens()).direction),
             1e-6f);
-  EXPECT_EQ(scaled->camera().position(), Vec3f(1, 0, 0));
+  EXPECT_EQ(scaled->camera().traits().position, Vec3f(1, 0, 0));
   // A mirrored camera is fine.
-  EXPECT_LT(scene_of(placed("<scale x=\"-1\"/>"))->camera().sample_ray({0, 288}).direction.x, 0);
+  EXPECT_LT(scene_of(placed("<scale x=\"-1\"/>"))
+                ->camera()
+                .sample_ray({0, 288}, Camera::middle_of_lens())
+                .direction.x,
+            0);
+}
+
+// Whoever takes lens numbers of a pinhole uses up none of the sampler's.
+TEST(Camera, APinholeNeedsNoNumbers) {
+  const auto scene = seen_by(film(32, 24));
+  const Camera& camera = scene->camera();
+  Sampler sampler(1, 2), same(1, 2);
+  EXPECT_EQ(camera.lens_numbers(sampler), Camera::middle_of_lens());
+  EXPECT_EQ(camera.forked_lens_numbers(sampler), Camera::middle_of_lens());
+  EXPECT_EQ(sampler.next_2d(), same.next_2d());
+  for (const Vec2f& u : {Vec2f(0, 0), Vec2f(0.3f, 0.9f)}) {
+    EXPECT_EQ(camera.sample_ray({5, 7}, u).direction,
+              camera.sample_ray({5, 7}, Camera::middle_of_lens()).direction);
+    EXPECT_EQ(camera.connect({0.1f, 0.2f, 4}, u).lens, camera.traits().position);
+  }
+}
+
+TEST(Camera, TypesAndFilmsAreRows) {
+  ASSERT_EQ(camera_types().size(), 1u);
+  EXPECT_EQ(camera_types()[0].info.name, "perspective");
+  ASSERT_EQ(film_types().size(), 1u);
+  EXPECT_EQ(film_types()[0].info.name, "hdrfilm");
+  expect_problem(std::string("<sensor type=\"thinlens\"/>") + any_shape, "2:1", "thinlens",
+                 "perspective");
 }
 
 }  // namespace

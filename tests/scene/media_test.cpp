@@ -26,8 +26,8 @@ const std::string away = "<point name=\"center\" value=\"0, 0, 9\"/>";
 
 TEST(Media, DefaultsAreMitsubas) {
   const auto scene = scene_of(with_medium(""));
-  EXPECT_EQ(interior_of(*scene).extinction(), Spectrum(1));
-  EXPECT_EQ(interior_of(*scene).scattering(), Spectrum(0.75f));
+  EXPECT_EQ(interior_of(*scene).extinction({}, {}), Spectrum(1));
+  EXPECT_EQ(interior_of(*scene).scattering({}, {}), Spectrum(0.75f));
   EXPECT_EQ(interior_of(*scene).phase().mean_cosine(), 0);
   EXPECT_EQ(scene->surface(0).exterior, nullptr);
   EXPECT_TRUE(scene->has_media());
@@ -45,10 +45,12 @@ TEST(Media, CoefficientsByAlbedoOrByParts) {
                                       "<float name=\"scale\" value=\"10\"/>"));
   const auto b = scene_of(with_medium(color("sigma_a", "5, 20, 0") + color("sigma_s", "5, 0, 40")));
   for (int lane = 0; lane < 3; ++lane) {
-    EXPECT_FLOAT_EQ(interior_of(*a).extinction()[lane], interior_of(*b).extinction()[lane]);
-    EXPECT_FLOAT_EQ(interior_of(*a).scattering()[lane], interior_of(*b).scattering()[lane]);
+    EXPECT_FLOAT_EQ(interior_of(*a).extinction({}, {})[lane],
+                    interior_of(*b).extinction({}, {})[lane]);
+    EXPECT_FLOAT_EQ(interior_of(*a).scattering({}, {})[lane],
+                    interior_of(*b).scattering({}, {})[lane]);
   }
-  EXPECT_FLOAT_EQ(interior_of(*a).extinction()[2], 40);
+  EXPECT_FLOAT_EQ(interior_of(*a).extinction({}, {})[2], 40);
 }
 
 TEST(Media, AreSharedByReference) {

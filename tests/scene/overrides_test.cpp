@@ -35,7 +35,7 @@ TEST(Overrides, ReplaceWhatTheFileSays) {
   override_property(description, "sensor.fov=30");
   const auto scene = build_scene(description);
   EXPECT_EQ(scene->film().size, Vec2i(20, 10));
-  EXPECT_NEAR(scene->camera().horizontal_fov(), 30, 1e-4);
+  EXPECT_NEAR(scene->camera().traits().horizontal_fov, 30, 1e-4);
   EXPECT_NEAR(scene->tracer().shape(0).bounds().max.x, 3.5f, 1e-5f);
 }
 
@@ -59,7 +59,7 @@ TEST(Overrides, AValueTakesTheTexturesPlace) {
   const auto scene = build_scene(description);
   for (const float u : {0.1f, 0.6f}) {
     BsdfContext context;
-    context.move_to({.uv = {u, 0.1f}});
+    context.move_to({.uv = {u, 0.1f}}, {});
     EXPECT_FLOAT_EQ(scene->surface(1).bsdf->albedo(context, {0, 0, 1}, Lobes::all)[2], 0.3f);
   }
 }

@@ -106,19 +106,19 @@ TEST(PlacedScenes, BringTheirLamps) {
   ASSERT_EQ(placed->lights().size(), 6u);
   ASSERT_EQ(flat->lights().size(), 6u);
   for (const auto& light : placed->lights()) {
-    const LightBounds here = light->bounds();
+    const LightBounds here = light->traits().bounds;
     const bool found = std::any_of(flat->lights().begin(), flat->lights().end(), [&](auto& other) {
-      const LightBounds there = other->bounds();
+      const LightBounds there = other->traits().bounds;
       return length(here.position.min - there.position.min) < 1e-4f &&
              length(here.position.max - there.position.max) < 1e-4f &&
              dot(here.axis, there.axis) > 0.9999f &&
-             std::fabs(light->power()[1] / other->power()[1] - 1) < 1e-5f;
+             std::fabs(light->traits().power[1] / other->traits().power[1] - 1) < 1e-5f;
     });
     EXPECT_TRUE(found) << here.position.min.x << " " << here.position.min.y;
   }
   for (const auto& light : placed->lights())
-    if (light->shape() >= 0) {
-      EXPECT_GE(placed->surface(uint32_t(light->shape())).light, 0);
+    if (light->traits().shape >= 0) {
+      EXPECT_GE(placed->surface(uint32_t(light->traits().shape)).light, 0);
     }
 }
 

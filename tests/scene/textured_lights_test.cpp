@@ -20,8 +20,8 @@ std::string lamp(const std::string& inside) {
 
 TEST(TexturedLights, HaveThePowerOfTheirTexture) {
   const auto scene = scene_of(lamp(checkerboard + R"(<float name="scale" value="10"/>)"));
-  EXPECT_NEAR(scene->lights()[0]->power()[1], std::numbers::pi * 4 * 5, 1e-2);
-  EXPECT_EQ(scene->lights()[0]->power()[3], 0);
+  EXPECT_NEAR(scene->lights()[0]->traits().power[1], std::numbers::pi * 4 * 5, 1e-2);
+  EXPECT_EQ(scene->lights()[0]->traits().power[3], 0);
 }
 
 /// A picture of two pixels over a rectangle: the left one dark.
@@ -38,11 +38,11 @@ TEST(TexturedLights, ShowTheirPicture) {
     const Ray ray{{x, 0.2f, 1}, {0, 0, -1}};
     Hit hit;
     ASSERT_TRUE(scene->intersect(ray, hit));
-    const Spectrum seen = light.emitted(scene->tracer().surface_point(ray, hit), {0, 0, 1});
+    const Spectrum seen = light.emitted(scene->tracer().surface_point(ray, hit), {0, 0, 1}, {});
     for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(seen[c], x < 0 ? 0.0f : float(4 + c));
-    EXPECT_TRUE(light.emitted(scene->tracer().surface_point(ray, hit), {0, 0, -1}).is_zero());
+    EXPECT_TRUE(light.emitted(scene->tracer().surface_point(ray, hit), {0, 0, -1}, {}).is_zero());
   }
-  EXPECT_NEAR(light.power()[2], 2 * 6 * std::numbers::pi, 0.05);
+  EXPECT_NEAR(light.traits().power[2], 2 * 6 * std::numbers::pi, 0.05);
 }
 
 TEST(TexturedLights, MayBeShared) {
@@ -53,7 +53,7 @@ TEST(TexturedLights, MayBeShared) {
                               <ref id="tiles" name="radiance"/></emitter>
                               <bsdf type="diffuse"><ref id="tiles" name="reflectance"/></bsdf>
                               </shape>)");
-  EXPECT_GT(scene->lights()[0]->power()[1], 0);
+  EXPECT_GT(scene->lights()[0]->traits().power[1], 0);
 }
 
 TEST(TexturedLights, RefuseWhatMakesNoSense) {

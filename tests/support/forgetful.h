@@ -8,8 +8,9 @@ class ForgetfulIntegrator final : public Integrator {
  public:
   enum class Forgets { seed, index };
   /// `right` must outlive this.
-  ForgetfulIntegrator(const Integrator& right, Forgets forgets)
-      : right_(right), forgets_(forgets) {}
+  ForgetfulIntegrator(const Integrator& right, Forgets forgets) : right_(right), forgets_(forgets) {
+    traits_.components = right.traits().components;
+  }
   std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token stop,
                                      const ProgressFunction& progress) const override {
     Pass wrong = pass;
@@ -20,7 +21,6 @@ class ForgetfulIntegrator final : public Integrator {
               SampleSink& sink) const override {
     right_.sample(state, raster, sampler, sink);
   }
-  ComponentSet components() const override { return right_.components(); }
 
  private:
   const Integrator& right_;

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "kaustik/transport/integrator.h"
 #include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/transport/integrator.h"
 
 namespace kaustik::test {
 
@@ -55,7 +55,9 @@ struct Script {
 
 class Scripted final : public Integrator {
  public:
-  explicit Scripted(Script script) : script_(std::move(script)) {}
+  explicit Scripted(Script script) : script_(std::move(script)) {
+    traits_ = {.splats = script_.splats, .estimates_bias = script_.estimates_bias};
+  }
   std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token,
                                      const ProgressFunction& progress) const override {
     script_.prepare(pass, splats);
@@ -68,8 +70,6 @@ class Scripted final : public Integrator {
               SampleSink& sink) const override {
     script_.sample(raster, sampler, sink);
   }
-  bool splats() const override { return script_.splats; }
-  bool estimates_bias() const override { return script_.estimates_bias; }
 
  private:
   Script script_;

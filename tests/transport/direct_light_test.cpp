@@ -139,7 +139,8 @@ Measured measure(const Scene& scene, float x, int level = 0, uint32_t count = 20
     uint64_t rays = 0;
     const auto irradiance = sample_direct_lights<double>(
         scene, receiver, {choice, 1}, sampler, [&](const DirectLight& light, ShadowAnswer& answer) {
-          const Spectrum seen = trace_shadow_ray(scene, light, nullptr, rays, answer);
+          const Spectrum seen =
+              trace_shadow_ray(scene, light, nullptr, {{}, sampler}, rays, answer);
           return double((light.radiance * seen)[0]) * std::max(0.0, double(light.wi.z));
         });
     result.irradiance.add(irradiance);

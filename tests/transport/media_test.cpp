@@ -38,6 +38,9 @@ std::string ball(double radius, const std::string& bsdf, const std::string& sigm
 const std::string null_bsdf = "<bsdf type=\"null\"/>";
 const std::string black = "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0\"/></bsdf>";
 
+const Sampler numbers(1, 2);
+const LightOnItsWay white{{}, numbers};
+
 /// Two balls of haze, one in the other: shadow rays across both, to a point and to infinity.
 TEST(ShadowRays, PassNullBoundariesAndMedia) {
   const auto scene = scene_of(ball(2, null_bsdf, "0.5, 1, 0") + ball(1, null_bsdf, "2, 0, 1"));
@@ -45,23 +48,39 @@ TEST(ShadowRays, PassNullBoundariesAndMedia) {
   outside.position = {0, 0, -5};
   uint64_t rays = 0;
   // After the inner ball the outer medium is unknown to the inner one: its exterior is vacuum.
-  const Spectrum to_point =
-      transmittance_through_media(*scene, spawn_ray_to(outside, Vec3f(0, 0, 5)), nullptr, rays);
+  const Spectrum to_point = transmittance_through_media(
+      *scene, spawn_ray_to(outside, Vec3f(0, 0, 5)), nullptr, white, rays);
   EXPECT_NEAR(to_point[0], std::exp(-0.5 - 4), 1e-6);
   EXPECT_NEAR(to_point[1], std::exp(-1.0), 1e-6);
   EXPECT_NEAR(to_point[2], std::exp(-2.0), 1e-6);
   EXPECT_EQ(rays, 5u);
   const Spectrum to_infinity =
-      transmittance_through_media(*scene, spawn_ray(outside, {0, 0, 1}), nullptr, rays);
+      transmittance_through_media(*scene, spawn_ray(outside, {0, 0, 1}), nullptr, white, rays);
   for (int lane = 0; lane < 3; ++lane) EXPECT_NEAR(to_infinity[lane], to_point[lane], 1e-6);
   // It may end in a medium, and start in one.
-  const Spectrum to_center =
-      transmittance_through_media(*scene, spawn_ray_to(outside, Vec3f(0, 0, 0)), nullptr, rays);
+  const Spectrum to_center = transmittance_through_media(
+      *scene, spawn_ray_to(outside, Vec3f(0, 0, 0)), nullptr, white, rays);
   EXPECT_NEAR(to_center[0], std::exp(-0.5 - 2), 1e-6);
   SurfacePoint center;
-  const Spectrum from_center = transmittance_through_media(
-      *scene, spawn_ray_to(center, Vec3f(0, 0, 0.5f)), scene->surface(1).interior.get(), rays);
+  const Spectrum from_center =
+      transmittance_through_media(*scene, spawn_ray_to(center, Vec3f(0, 0, 0.5f)),
+                                  scene->surface(1).interior.get(), white, rays);
   EXPECT_NEAR(from_center[2], std::exp(-0.5), 1e-6);
+}
+
+/// Each lane loses what its own wavelength loses.
+TEST(ShadowRays, FollowTheWavelengths) {
+  const auto scene = scene_of(
+      R"(<shape type="sphere"><bsdf type="null"/><medium name="interior" type="homogeneous">
+      <spectrum name="sigma_t" value="400:0, 800:1"/></medium></shape>)");
+  SurfacePoint outside;
+  outside.position = {0, 0, -5};
+  uint64_t rays = 0;
+  const Spectrum left = transmittance_through_media(*scene, spawn_ray_to(outside, Vec3f(0, 0, 5)),
+                                                    nullptr, {{440, 500, 580, 660}, numbers}, rays);
+  const double extinctions[] = {0.1, 0.25, 0.45, 0.65};
+  for (int lane = 0; lane < 4; ++lane)
+    EXPECT_NEAR(left[lane], std::exp(-2 * extinctions[lane]), 1e-5) << lane;
 }
 
 TEST(ShadowRays, AreBlockedByWhatIsMoreThanABoundary) {
@@ -70,9 +89,9 @@ TEST(ShadowRays, AreBlockedByWhatIsMoreThanABoundary) {
     SurfacePoint outside;
     outside.position = {0, 0, -5};
     uint64_t rays = 0;
-    EXPECT_TRUE(
-        transmittance_through_media(*scene, spawn_ray_to(outside, Vec3f(0, 0, 5)), nullptr, rays)
-            .is_zero());
+    EXPECT_TRUE(transmittance_through_media(*scene, spawn_ray_to(outside, Vec3f(0, 0, 5)), nullptr,
+                                            white, rays)
+                    .is_zero());
   }
 }
 
@@ -92,7 +111,7 @@ Balance balance_of(const Scene& scene, uint32_t count, double lost_share = 0) {
       Sampler sampler(hash_mix(5, i), 0);
       const Vec3f direction = square_to_sphere(sampler.next_2d());
       return LightPath({{0, 0, 0}, direction, infinity}, Spectrum(1, 1, 1, 0),
-                       scene.surface(0).interior.get(), Lobes::specular, sampler);
+                       scene.surface(0).interior.get(), Lobes::specular, sampler, {});
     };
     const auto surface = [&](const LightVertex& at) {
       arrived += at.state.throughput;
@@ -100,11 +119,11 @@ Balance balance_of(const Scene& scene, uint32_t count, double lost_share = 0) {
     };
     const auto in_medium = [&](const LightMediumVertex& at) {
       // What is absorbed is to what is scattered as σ_a to σ_s.
-      const Spectrum& scattering = at.medium.scattering();
+      const Spectrum scattering = at.medium.scattering(at.position, {});
+      const Spectrum extinction = at.medium.extinction(at.position, {});
       for (int lane = 0; lane < 3; ++lane)
-        absorbed.set(
-            lane,
-            absorbed[lane] + at.flux[lane] * (at.medium.extinction()[lane] / scattering[lane] - 1));
+        absorbed.set(lane,
+                     absorbed[lane] + at.flux[lane] * (extinction[lane] / scattering[lane] - 1));
     };
     const LightPathCounts counts =
         trace_light_paths(scene, begin, begin + block, {}, emit, Handlers{surface, in_medium});
@@ -165,7 +184,7 @@ TEST(LightPaths, EndInAnEndlessWhiteMedium) {
       "test.xml", ""));
   const auto emit = [&](uint32_t i) -> std::optional<LightPath> {
     return LightPath({{0, 0, 5}, {0, 0, 1}, infinity}, Spectrum(1), scene->camera_medium(),
-                     Lobes::specular, Sampler(hash_mix(6, i), 0));
+                     Lobes::specular, Sampler(hash_mix(6, i), 0), {});
   };
   const LightPathCounts counts = trace_light_paths(
       *scene, 0, 1000, {}, emit, [](const LightVertex& at) { return at.vertex.lobes(); });
@@ -178,7 +197,7 @@ TEST(LightPaths, StopWhereTheyMayNotScatter) {
     Sampler sampler(hash_mix(7, i), 0);
     const Vec3f direction = square_to_sphere(sampler.next_2d());
     return LightPath({{0, 0, 0}, direction, infinity}, Spectrum(1),
-                     scene->surface(0).interior.get(), Lobes::specular, sampler);
+                     scene->surface(0).interior.get(), Lobes::specular, sampler, {});
   };
   uint32_t arrived = 0;
   const auto surface = [&](const LightVertex& at) {

@@ -20,7 +20,9 @@ SurfaceVertex seen(const Scene& scene, const Vec3f& at, const Vec3f& from,
   const Ray ray{at + from * 3.0f, -from};
   Hit hit;
   EXPECT_TRUE(scene.intersect(ray, hit));
-  return {scene, ray, hit, mode, footprint};
+  SurfaceVertex vertex;
+  vertex.meet(scene, ray, hit, mode, footprint, {});
+  return vertex;
 }
 
 const std::string waves =
@@ -70,7 +72,7 @@ TEST(BumpMap, FluxOfGrazingLightIsBounded) {
       const Vec3f target(1.6f * u.x - 0.8f, 1.6f * u.y - 0.8f, 0);
       const Vec3f from = target + Vec3f(-2, 0, 0.002f);
       return LightPath(Ray{from, normalize(target - from)}, Spectrum(1), nullptr, Lobes::specular,
-                       sampler);
+                       sampler, {});
     };
     const auto meet = [&](const LightVertex& at) {
       most = std::max(most, at.state.throughput.max_lane());

@@ -20,7 +20,7 @@ FilmSettings film_with(PixelFilter::Kind kind, float radius, float stddev = 0) {
 /// Sum over pixels of what one splat of value 1 leaves.
 double total(const FilmSettings& film, const Vec2f& raster) {
   SplatBuffer buffer(film, ComponentSet::all());
-  buffer.add(raster, Component::direct, Spectrum(1, 1, 1, 0));
+  buffer.add(raster, Component::direct, Spectrum(1, 1, 1, 0), {});
   double sum = 0;
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) sum += double(buffer.value(x, y, Component::direct)[1]);
@@ -60,7 +60,7 @@ TEST(SplatBuffer, WeightsOfGaussiansSumToOneInTheMean) {
 TEST(SplatBuffer, WeightsFollowTheFilter) {
   const FilmSettings film = film_with(PixelFilter::Kind::tent, 1);
   SplatBuffer buffer(film, ComponentSet::all());
-  buffer.add({5.75f, 3.5f}, Component::caustic, {2, 4, 8, 0});
+  buffer.add({5.75f, 3.5f}, Component::caustic, {2, 4, 8, 0}, {});
   EXPECT_FLOAT_EQ(buffer.value(5, 3, Component::caustic)[0], 2 * 0.75f);
   EXPECT_FLOAT_EQ(buffer.value(6, 3, Component::caustic)[0], 2 * 0.25f);
   EXPECT_FLOAT_EQ(buffer.value(5, 3, Component::caustic)[2], 8 * 0.75f);
@@ -77,12 +77,23 @@ TEST(SplatBuffer, EdgesKeepWhatFallsInside) {
   for (const float far : {-1e9f, 1e9f}) EXPECT_EQ(total(film, {far, far}), 0);
 }
 
+// The buffer is an edge: what comes in lanes is kept as RGB.
+TEST(SplatBuffer, TurnsWavelengthsIntoColours) {
+  SplatBuffer buffer(film_with(PixelFilter::Kind::box, 0.5f), ComponentSet::all());
+  const Wavelengths four(440, 500, 580, 660);
+  const Spectrum lanes(1, 2, 3, 4), rgb = rgb_from_lanes(lanes, four);
+  buffer.add({3.5f, 3.5f}, Component::direct, lanes, four);
+  for (int lane = 0; lane < 3; ++lane)
+    EXPECT_NEAR(buffer.value(3, 3, Component::direct)[lane], rgb[lane], 1e-6f) << lane;
+  EXPECT_GT(std::fabs(rgb[0] - lanes[0]), 0.1f);
+}
+
 TEST(SplatBuffer, DropsAndCountsWhatIsNotFinite) {
   SplatBuffer buffer(film_with(PixelFilter::Kind::box, 0.5f), ComponentSet::all());
-  buffer.add({3.5f, 3.5f}, Component::direct, Spectrum(infinity, 0, 0, 0));
+  buffer.add({3.5f, 3.5f}, Component::direct, Spectrum(infinity, 0, 0, 0), {});
   buffer.add({3.5f, 3.5f}, Component::direct,
-             Spectrum(0, std::numeric_limits<float>::quiet_NaN(), 0, 0));
-  buffer.add({3.5f, 3.5f}, Component::direct, Spectrum());
+             Spectrum(0, std::numeric_limits<float>::quiet_NaN(), 0, 0), {});
+  buffer.add({3.5f, 3.5f}, Component::direct, Spectrum(), {});
   EXPECT_EQ(buffer.dropped(), 2u);
   EXPECT_TRUE(buffer.value(3, 3, Component::direct).is_zero());
   buffer.clear();
@@ -95,8 +106,8 @@ TEST(SplatBuffer, IgnoresComponentsThatNobodyWants) {
   SplatBuffer buffer(film_with(PixelFilter::Kind::box, 0.5f), wanted);
   EXPECT_TRUE(buffer.wants(Component::caustic));
   EXPECT_FALSE(buffer.wants(Component::direct));
-  buffer.add({3.5f, 3.5f}, Component::direct, Spectrum(1));
-  buffer.add({3.5f, 3.5f}, Component::caustic, Spectrum(1));
+  buffer.add({3.5f, 3.5f}, Component::direct, Spectrum(1), {});
+  buffer.add({3.5f, 3.5f}, Component::caustic, Spectrum(1), {});
   EXPECT_TRUE(buffer.value(3, 3, Component::direct).is_zero());
   EXPECT_FLOAT_EQ(buffer.value(3, 3, Component::caustic)[0], 1);
   buffer.clear();
@@ -133,15 +144,15 @@ TEST(SplatBuffer, OrderAndThreadsMakeNoDifference) {
   const std::vector<Splat> list = splats(5000);
   SplatBuffer forward(film, ComponentSet::all()), backward(film, ComponentSet::all()),
       parallel(film, ComponentSet::all());
-  for (const Splat& s : list) forward.add(s.raster, s.component, s.value);
+  for (const Splat& s : list) forward.add(s.raster, s.component, s.value, {});
   for (auto s = list.rbegin(); s != list.rend(); ++s)
-    backward.add(s->raster, s->component, s->value);
+    backward.add(s->raster, s->component, s->value, {});
   {
     std::vector<std::jthread> threads;
     for (size_t t = 0; t < 4; ++t)
       threads.emplace_back([&, t] {
         for (size_t i = t; i < list.size(); i += 4)
-          parallel.add(list[i].raster, list[i].component, list[i].value);
+          parallel.add(list[i].raster, list[i].component, list[i].value, {});
       });
   }
   expect_same_bits(forward, backward);

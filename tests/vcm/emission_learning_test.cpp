@@ -115,7 +115,7 @@ Lesson lesson_of(const std::vector<ObjectPointer>& lights) {
   result.learning = std::make_unique<EmissionLearning>(*result.plain);
   for (uint32_t i = 0; i < uint32_t(samples); ++i) {
     Sampler sampler(21, i);
-    const LightPathStart start = result.plain->sample(sampler);
+    const LightPathStart start = result.plain->sample(sampler, {});
     if (meets_target(*result.scene, start))
       result.learning->add(start, double(start.emitted.flux.sum()));
   }
@@ -194,7 +194,7 @@ Emitted emitted(const LightPathEmission& emission, const std::string& kind, uint
   result.part_squares.resize(heights * turns);
   for (uint64_t i = 0; i < uint64_t(count); ++i) {
     Sampler sampler((seed + i) * 0x9e3779b97f4a7c15ull, 0);
-    const LightPathStart start = emission.sample(sampler);
+    const LightPathStart start = emission.sample(sampler, {});
     const bool met = meets_target(emission.scene(), start);
     const double flux = start.light < 0 ? 0.0 : double(start.emitted.flux[1]);
     result.all.add(flux);
@@ -235,7 +235,7 @@ TEST(LearnedEmission, IsUnbiased) {
   for (const std::string& kind : learned_kinds()) {
     const Lesson lesson = lesson_of({light(kind)});
     ASSERT_TRUE(lesson.learned) << kind;
-    const double power = double(lesson.scene->lights()[0]->power()[1]);
+    const double power = double(lesson.scene->lights()[0]->traits().power[1]);
     const Emitted found = emitted(*lesson.learned, kind, 1, unbiased_samples);
     EXPECT_GT(p_value(found, kind, power, 1), level) << kind;
 #ifndef KAUSTIK_SLOW_BUILD
@@ -276,7 +276,7 @@ TEST(GuidedLight, SamplesKnowTheirDensity) {
     int emitting = 0, different = 0;
     for (int i = 0; i < 20'000; ++i) {
       const Vec2f u_position = random.pair(), u_direction = random.pair();
-      const EmittedRay ray = guided.sample(u_position, u_direction, 0.5f);
+      const EmittedRay ray = guided.sample(u_position, u_direction, 0.5f, {});
       if (ray.flux.is_zero()) continue;
       ++emitting;
       const double told = double(ray.pdf_position) * double(ray.pdf_direction);
@@ -295,7 +295,7 @@ TEST(LearnedEmission, LeavesOutNothing) {
     ASSERT_TRUE(lesson.learned) << kind;
     for (uint32_t i = 0; i < 10'000; ++i) {
       Sampler sampler(41, i);
-      const LightPathStart start = lesson.plain->sample(sampler);
+      const LightPathStart start = lesson.plain->sample(sampler, {});
       if (start.light < 0) continue;
       const EmissionDensity learned =
           lesson.learned->pdf(start.light, start.emitted.origin, start.emitted.ray.direction);
@@ -327,7 +327,7 @@ TEST(LearnedEmission, OnlyWhereItPays) {
   EXPECT_FALSE(learning.learned());
   for (uint32_t i = 0; i < 5000; ++i) {
     Sampler sampler(51, i);
-    learning.add(plain.sample(sampler), 1);
+    learning.add(plain.sample(sampler, {}), 1);
   }
   EXPECT_EQ(learning.size(), 5000u);
   EXPECT_FALSE(learning.learned());

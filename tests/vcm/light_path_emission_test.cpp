@@ -55,7 +55,7 @@ double p_value(const LightPathEmission& emission, double planted) {
   RunningStatistics total;
   for (int i = 0; i < sample_count; ++i) {
     Sampler sampler = independent(i);
-    const LightPathStart start = emission.sample(sampler);
+    const LightPathStart start = emission.sample(sampler, {});
     if (start.light < 0) {
       total.add(0);
       continue;
@@ -103,11 +103,11 @@ TEST(LightPathEmission, FluxIsThePowerOfTheLights) {
     RunningStatistics flux;
     for (int i = 0; i < sample_count; ++i) {
       Sampler sampler = independent(i);
-      const LightPathStart start = emission.sample(sampler);
+      const LightPathStart start = emission.sample(sampler, {});
       flux.add(start.light < 0 ? 0.0 : double(start.emitted.flux[1]));
     }
-    const double power =
-        double(scene->lights()[0]->power()[1]) + double(scene->lights()[1]->power()[1]);
+    const double power = double(scene->lights()[0]->traits().power[1]) +
+                         double(scene->lights()[1]->traits().power[1]);
     EXPECT_GT(z_test_p_value(flux, power), sidak_level(0.01, 5)) << targets.name;
 #ifndef KAUSTIK_SLOW_BUILD
     EXPECT_LT(z_test_p_value(flux, power * 1.02), 0.01) << targets.name;
@@ -123,7 +123,7 @@ TEST(LightPathEmission, NoRaysForWhatIsBehindTheLamp) {
     int count = 0;
     for (int i = 0; i < 1000; ++i) {
       Sampler sampler = independent(i);
-      count += emission.sample(sampler).light >= 0 ? 1 : 0;
+      count += emission.sample(sampler, {}).light >= 0 ? 1 : 0;
     }
     return count / 1000.0;
   };

@@ -147,13 +147,13 @@ double caustic_below_lid(double height, float x, double radius, int size) {
                         strip(-0.7, 0.7, 1, glass()) + directional_light("0, 0, -1", 1));
   const auto integrator = scene.integrator(
       "ppm", set("radius", radius) + set("light_paths", 60'000.0 / (4 * size * size)));
-  SplatBuffer splats(scene.scene().film(), integrator->components());
+  SplatBuffer splats(scene.scene().film(), integrator->traits().components);
   const auto state = integrator->prepare({1, 0, 4}, splats, {}, {});
-  const Vec2f raster = scene.scene().camera().connect({x, 0, 0}).raster;
+  const Vec2f raster = scene.scene().camera().connect({x, 0, 0}, Camera::middle_of_lens()).raster;
   RunningStatistics light;
   for (uint32_t i = 0; i < 16; ++i) {
     Sampler sampler = Sampler::at(1, 0, Stream::camera, 0, i);
-    SampleSink sink(integrator->components());
+    SampleSink sink(integrator->traits().components);
     integrator->sample(*state, raster, sampler, sink);
     EXPECT_NEAR(sink.first_hit().depth, 0.6 - double(x), 0.01);
     light.add(double(sink.radiance(Component::caustic).sum()));

@@ -188,7 +188,7 @@ TEST(RadiusLearning, RaysAreCountedAndStopRequestsSeen) {
 /// The rays of light passes, in this order.
 uint64_t light_rays(const TestScene& scene, const Integrator& integrator, uint64_t seed,
                     uint32_t pass) {
-  SplatBuffer splats(scene.scene().film(), integrator.components());
+  SplatBuffer splats(scene.scene().film(), integrator.traits().components);
   return integrator.prepare({seed, pass, 4}, splats, {}, {})->report.rays;
 }
 
@@ -211,7 +211,7 @@ TEST(RadiusLearning, LooksOnceAndNotBeforeItIsNeeded) {
 TEST(RadiusLearning, MadeUpPassesAreCountedAndToldOf) {
   const TestScene scene = floor_scene();
   const auto learning = scene.integrator("vcm");
-  SplatBuffer splats(scene.scene().film(), learning->components());
+  SplatBuffer splats(scene.scene().film(), learning->traits().components);
   std::vector<double> told;
   std::mutex mutex;
   const auto state = learning->prepare({1, 4, 4}, splats, {}, [&](double share) {
@@ -223,7 +223,7 @@ TEST(RadiusLearning, MadeUpPassesAreCountedAndToldOf) {
   EXPECT_LE(told.front(), 0.2);
   EXPECT_DOUBLE_EQ(*std::max_element(told.begin(), told.end()), 1);
   EXPECT_GE(std::count_if(told.begin(), told.end(), [](double share) { return share <= 0.8; }), 4);
-  SplatBuffer again(scene.scene().film(), learning->components());
+  SplatBuffer again(scene.scene().film(), learning->traits().components);
   const uint64_t of_one = learning->prepare({1, 4, 4}, again, {}, {})->report.rays;
   EXPECT_GT(state->report.rays, 3 * of_one);
 }

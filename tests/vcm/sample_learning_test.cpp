@@ -94,9 +94,9 @@ TEST(SampleCounts, AreAlikeWhereDifferencesAreChance) {
 std::vector<PixelSamples> samples_of(const TestScene& scene, const Integrator& integrator,
                                      uint32_t pass_index, uint32_t samples = 4) {
   const Pass pass{3, pass_index, samples};
-  const bool splats = integrator.splats();
+  const bool splats = integrator.traits().splats;
   SplatBuffer buffer(splats ? scene.scene().film() : FilmSettings{{1, 1}, {0, 0}, {1, 1}, {}, 0},
-                     splats ? integrator.components() : ComponentSet());
+                     splats ? integrator.traits().components : ComponentSet());
   const auto state = integrator.prepare(pass, buffer, {}, {});
   std::vector<PixelSamples> result;
   const Vec2i size = scene.scene().film().crop_size;

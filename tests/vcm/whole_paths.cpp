@@ -53,7 +53,7 @@ class Finder {
   }
 
   std::optional<double> unidirectional() const {
-    if (lamp().is_delta()) return 0;
+    if (lamp().traits().is_delta) return 0;
     SteeredWalk steered(rules_, path_, light_.light());
     if (!steered.go_to(n_ - 1) || !steered.leave(path_.steps().back())) return std::nullopt;
     const Vec3f direction = steered.walk().ray().direction;
@@ -61,8 +61,8 @@ class Finder {
     const bool arrives = steered.go_on();
     if (arrives == lamp().is_infinite()) return std::nullopt;
     const Spectrum alone =
-        throughput * (arrives ? lamp().emitted(steered.walk().vertex().point(), -direction)
-                              : lamp().background(direction));
+        throughput * (arrives ? lamp().emitted(steered.walk().vertex().point(), -direction, {})
+                              : lamp().distant().background(direction, {}));
     if (alone.is_zero()) return std::nullopt;
     return steered.found() / double(alone.sum());
   }
@@ -79,7 +79,7 @@ class Finder {
     light.on_light = emitted.origin;
     light.distance =
         lamp().is_infinite() ? infinity : length(emitted.origin.position - vertex.position());
-    if (lamp().is_delta())
+    if (lamp().traits().is_delta)
       light.pdf_sampled =
           rules_.scene.light_selector().probability(query.reference, query.normal, light.light);
     else
@@ -88,13 +88,14 @@ class Finder {
               ? direct_light_pdf(rules_.scene, query, LightChoice::one, light.light, light.wi)
               : direct_light_pdf(rules_.scene, query, LightChoice::one, light.light,
                                  light.on_light);
-    light.pdf_solid_angle = lamp().is_delta() ? 0 : light.pdf_sampled;
+    light.pdf_solid_angle = lamp().traits().is_delta ? 0 : light.pdf_sampled;
     return double(steered.path().weights().sampled(vertex, light));
   }
 
   std::optional<double> splat() const {
     const LonePath::Vertex& at = *light_.at(path_.last());
-    const CameraConnection camera = rules_.scene.camera().connect(at.vertex.position());
+    const CameraConnection camera =
+        rules_.scene.camera().connect(at.vertex.position(), Camera::middle_of_lens());
     const std::optional<double> splatted = light_.splatted(path_.last());
     const Spectrum alone = at.record.data.flux_spectrum() *
                            at.vertex.eval_cosine(camera.direction, Lobes::all) *
@@ -187,7 +188,7 @@ class Finder {
 
 bool WholePath::retrace() {
   const Light& lamp = *rules_.scene.lights()[size_t(light_.start().light)];
-  Ray ray = rules_.scene.camera().sample_ray(raster_);
+  Ray ray = rules_.scene.camera().sample_ray(raster_, Camera::middle_of_lens());
   bool before_last = true;
   size_t i = m_;
   while (i > 0) {
@@ -209,7 +210,7 @@ bool WholePath::retrace() {
     }
     ray = spawn_ray(vertex.point(), steps_.back().direction);
   }
-  return lamp.is_delta() || ends_at_light(ray);
+  return lamp.traits().is_delta || ends_at_light(ray);
 }
 
 WholePathStep WholePath::step_from(size_t i, const SurfaceVertex& vertex,

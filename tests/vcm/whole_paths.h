@@ -77,7 +77,8 @@ class LonePath {
     for (const ConnectibleVertex& record : met.connectible) {
       Vertex at{record, {}, {-1, -1}};
       at.vertex.meet(rules.scene, record.ray, record.hit, TransportMode::flux);
-      const CameraConnection camera = rules.scene.camera().connect(at.vertex.position());
+      const CameraConnection camera =
+          rules.scene.camera().connect(at.vertex.position(), Camera::middle_of_lens());
       const Vec2i size = rules.scene.film().crop_size;
       const bool is_inside = camera.raster.x >= 0 && camera.raster.x < float(size.x) &&
                              camera.raster.y >= 0 && camera.raster.y < float(size.y);

@@ -27,13 +27,11 @@ const TypeInfo& LightTracer::info() {
 }
 
 LightTracer::LightTracer(const Arguments& arguments, const Scene& scene)
-    : scene_(scene),
-      components_(read_components(arguments)),
-      maximum_events_(read_maximum_events(arguments)),
-      emission_(scene) {
-  for (const auto& light : scene.lights()) powers_.push_back(light->power().sum());
+    : scene_(scene), maximum_events_(read_maximum_events(arguments)), emission_(scene) {
+  traits_ = {.splats = true, .samples_camera = false, .components = read_components(arguments)};
+  for (const auto& light : scene.lights()) powers_.push_back(light->traits().power.sum());
   const Aim aim = read_aim(arguments.text("aim"));
-  if (aim == Aim::none || !components_.has(Component::caustic)) return;
+  if (aim == Aim::none || !traits_.components.has(Component::caustic)) return;
   aimed_emission_.emplace(scene, Lobes::specular, default_target_budget, aim);
   if (aimed_emission_->target_count() == 0) aimed_emission_.reset();
 }
@@ -42,7 +40,7 @@ std::vector<LightTracer::Job> LightTracer::jobs(uint32_t total) const {
   ComponentSet caustics, others;
   for (int i = 0; i < component_count; ++i) {
     const auto component = Component(i);
-    if (!components_.has(component)) continue;
+    if (!traits_.components.has(component)) continue;
     (component == Component::caustic && aimed_emission_ ? caustics : others).add(component);
   }
   // Half and half: neither kind is noisier than it would be with twice the time.
@@ -91,36 +89,39 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
   const EmissionSampler& emission = job.aimed ? *aimed_emission_ : emission_;
   const bool wants_irradiance = scene_.film().quantity == Quantity::irradiance;
   const auto splat = [&](const SurfacePoint& point, const Medium* medium, Component component,
-                         const Spectrum& intensity, const CameraConnection& connection) {
+                         const Spectrum& intensity, const CameraConnection& connection,
+                         const LightOnItsWay& of) {
     const Spectrum value =
         intensity * (connection.importance / (sqr(connection.distance) * float(job.count)));
     if (value.is_zero()) return;
-    const Ray sight = spawn_ray_to(point, scene_.camera().position());
+    const Ray sight = spawn_ray_to(point, connection.lens);
     const Spectrum visible = wants_irradiance
                                  ? Spectrum(is_unobstructed(scene_, sight, counts.rays) ? pi : 0.0f)
-                                 : shadow_ray_transmittance(scene_, sight, medium, counts.rays);
+                                 : shadow_ray_transmittance(scene_, sight, medium, of, counts.rays);
     if (visible.is_zero()) return;
     ++counts.splats;
-    splats.add(connection.raster, component, value * visible);
+    splats.add(connection.raster, component, value * visible, of.wavelengths);
   };
   const auto emit = [&](uint32_t i) -> std::optional<LightPath> {
     const uint64_t element = uint64_t(job.light) * 2 + (job.aimed ? 1 : 0);
     Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::light_path, element, i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const EmittedRay emitted =
-        emission.sample(job.light, u_position, u_direction, sampler.next_1d());
+        emission.sample(job.light, u_position, u_direction, sampler.next_1d(), pass.wavelengths);
     if (emitted.on_surface && job.wanted.has(Component::emission) && !wants_irradiance) {
-      const CameraConnection connection = scene_.camera().connect(emitted.origin.position);
+      const CameraConnection connection = scene_.camera().connect(
+          emitted.origin.position, scene_.camera().forked_lens_numbers(sampler));
       const float cosine = dot(connection.direction, emitted.origin.ng);
       if (connection.importance > 0 && cosine > 0 && emitted.pdf_position > 0)
         splat(emitted.origin, scene_.light_medium(job.light), Component::emission,
-              scene_.lights()[size_t(job.light)]->emitted(emitted.origin, connection.direction) *
+              scene_.lights()[size_t(job.light)]->emitted(emitted.origin, connection.direction,
+                                                          pass.wavelengths) *
                   (cosine / emitted.pdf_position),
-              connection);
+              connection, {pass.wavelengths, sampler});
     }
     if (emitted.flux.is_zero() || maximum_events_ < 1) return std::nullopt;
     return LightPath(emitted.ray, emitted.flux, scene_.light_medium(job.light), Lobes::specular,
-                     sampler);
+                     sampler, pass.wavelengths);
   };
   const auto see = [&](const LightVertex& at) {
     // Only specular events lead from the lamp to a caustic.
@@ -133,23 +134,27 @@ LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, u
     const SurfaceVertex& vertex = wants_irradiance ? painted : at.vertex;
     const Lobes seen = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
     if (!any(seen)) return follow;
-    const CameraConnection connection = scene_.camera().connect(vertex.position());
+    const CameraConnection connection =
+        scene_.camera().connect(vertex.position(), scene_.camera().forked_lens_numbers(at.sampler));
     if (!(connection.importance > 0)) return follow;
     for (const Lobes lobes : {Lobes::diffuse, Lobes::glossy})
       if (any(seen & lobes) && job.wanted.has(at.path_class.component_seen_by(lobes)))
         splat(vertex.point(), vertex.medium_toward(connection.direction, at.state.medium),
               at.path_class.component_seen_by(lobes),
-              at.state.throughput * vertex.eval_cosine(connection.direction, lobes), connection);
+              at.state.throughput * vertex.eval_cosine(connection.direction, lobes), connection,
+              {at.state.wavelengths, at.sampler});
     return follow;
   };
   const auto see_in_medium = [&](const LightMediumVertex& at) {
     if (!job.wanted.has(Component::volume) || wants_irradiance) return;
-    const CameraConnection connection = scene_.camera().connect(at.position);
+    const CameraConnection connection =
+        scene_.camera().connect(at.position, scene_.camera().forked_lens_numbers(at.sampler));
     if (!(connection.importance > 0)) return;
     SurfacePoint point;
     point.position = at.position;
     splat(point, &at.medium, Component::volume,
-          at.flux * at.medium.phase().eval(at.wo, connection.direction), connection);
+          at.flux * at.medium.phase().eval(at.wo, connection.direction), connection,
+          {at.state.wavelengths, at.sampler});
   };
   counts.rays +=
       trace_light_paths(scene_, begin, end, limits, emit, Handlers{see, see_in_medium}).rays;

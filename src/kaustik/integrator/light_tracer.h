@@ -18,9 +18,6 @@ class LightTracer final : public Integrator {
   std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats, std::stop_token stop,
                                      const ProgressFunction& progress) const override;
   void sample(const PassState&, const Vec2f&, Sampler&, SampleSink&) const override {}
-  bool splats() const override { return true; }
-  bool samples_camera() const override { return false; }
-  ComponentSet components() const override { return components_; }
 
  private:
   struct Counts;
@@ -36,7 +33,6 @@ class LightTracer final : public Integrator {
                      SplatBuffer& splats) const;
 
   const Scene& scene_;
-  ComponentSet components_;
   int maximum_events_;
   EmissionSampler emission_;
   std::optional<EmissionSampler> aimed_emission_;  ///< where there is anything to aim at

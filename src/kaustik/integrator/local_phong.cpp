@@ -21,7 +21,10 @@ const TypeInfo& LocalPhong::info() {
 }
 
 LocalPhong::LocalPhong(const Arguments& arguments, const Scene& scene)
-    : IlluminationModel(scene), components_(read_components(arguments)), light_(arguments) {}
+    : IlluminationModel(scene), light_(arguments) {
+  traits_.components = read_components(arguments);
+  traits_.default_samples_per_pass = 16;
+}
 
 bool LocalPhong::reflect(const PassState&, CameraWalk& walk, const RadianceTracer&) const {
   light_.add_to(walk, Lobes::all);

@@ -13,11 +13,8 @@ class LocalPhong final : public IlluminationModel {
   bool reflect(const PassState& state, CameraWalk& walk,
                const RadianceTracer& tracer) const override;
   Lobes traced() const override { return Lobes::delta; }
-  uint32_t default_samples_per_pass() const override { return 16; }
-  ComponentSet components() const override { return components_; }
 
  private:
-  ComponentSet components_;
   LocalLight light_;
 };
 

@@ -18,9 +18,11 @@ const TypeInfo& PathIntegrator::info() {
 
 PathIntegrator::PathIntegrator(const Arguments& arguments, const Scene& scene)
     : IlluminationModel(scene),
-      components_(read_components(arguments)),
       maximum_events_(read_maximum_events(arguments)),
-      roulette_depth_(int(arguments.integer("rr_depth"))) {}
+      roulette_depth_(int(arguments.integer("rr_depth"))) {
+  traits_.components = read_components(arguments);
+  traits_.default_samples_per_pass = 16;
+}
 
 bool PathIntegrator::advance(const PassState&, CameraWalk& walk) const {
   for (;;) {

@@ -15,13 +15,10 @@ class PathIntegrator final : public IlluminationModel {
   bool reflect(const PassState& state, CameraWalk& walk,
                const RadianceTracer& tracer) const override;
   /// Samples of one pass stratify one another best.
-  uint32_t default_samples_per_pass() const override { return 16; }
-  ComponentSet components() const override { return components_; }
 
  private:
   bool goes_on(CameraWalk& walk, float u) const;
 
-  ComponentSet components_;
   int maximum_events_;
   int roulette_depth_;
 };

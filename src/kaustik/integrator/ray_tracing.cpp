@@ -32,10 +32,12 @@ const TypeInfo& RayTracing::info() {
 
 RayTracing::RayTracing(const Arguments& arguments, const Scene& scene)
     : IlluminationModel(scene),
-      components_(read_components(arguments)),
       light_(arguments),
       maximum_events_(read_maximum_events(arguments)),
-      roulette_depth_(int(arguments.integer("rr_depth"))) {}
+      roulette_depth_(int(arguments.integer("rr_depth"))) {
+  traits_.components = read_components(arguments);
+  traits_.default_samples_per_pass = 16;
+}
 
 bool RayTracing::reflect(const PassState&, CameraWalk& walk, const RadianceTracer& tracer) const {
   if (walk.events() >= maximum_events_) return false;

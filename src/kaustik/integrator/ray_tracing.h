@@ -14,14 +14,11 @@ class RayTracing final : public IlluminationModel {
   bool reflect(const PassState& state, CameraWalk& walk,
                const RadianceTracer& tracer) const override;
   Lobes traced() const override { return Lobes::delta; }
-  uint32_t default_samples_per_pass() const override { return 16; }
-  ComponentSet components() const override { return components_; }
 
  private:
   bool follow_both_ways(CameraWalk& walk, const RadianceTracer& tracer) const;
   bool follow_one_way(CameraWalk& walk) const;
 
-  ComponentSet components_;
   LocalLight light_;
   int maximum_events_, roulette_depth_;
 };

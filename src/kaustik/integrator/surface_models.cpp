@@ -31,6 +31,7 @@ class SurfaceModels::Tracer final : public RadianceTracer {
 SurfaceModels::SurfaceModels(const Scene& scene, std::unique_ptr<IlluminationModel> of_scene,
                              std::vector<Model> of_surfaces)
     : scene_(scene), model_of_surface_(scene.surface_count(), 0) {
+  traits_ = of_scene->traits();
   models_.push_back(std::move(of_scene));
   for (Model& model : of_surfaces) {
     for (const uint32_t surface : model.surfaces)

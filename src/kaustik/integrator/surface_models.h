@@ -24,10 +24,6 @@ class SurfaceModels final : public Integrator {
                                      const ProgressFunction& progress) const override;
   void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
               SampleSink& sink) const override;
-  uint32_t default_samples_per_pass() const override {
-    return models_[0]->default_samples_per_pass();
-  }
-  ComponentSet components() const override { return models_[0]->components(); }
 
  private:
   struct State;

@@ -1,5 +1,4 @@
 #include "kaustik/base/warp.h"
-#include "kaustik/light/emission_ball.h"
 #include "kaustik/light/light_kinds.h"
 #include "kaustik/light/mesh_faces.h"
 #include "kaustik/light/normal_cone.h"
@@ -10,45 +9,39 @@ namespace {
 
 /// Emits from every point of a shape in every direction on the side of its geometric normal, or on
 /// both: the same radiance everywhere, or that of a pattern. Points are chosen by geometry alone.
-class AreaLight final : public Light {
+class AreaLight final : public PlacedLight {
  public:
   /// `pattern` may be null, else `radiance` is its mean; both are multiplied by `scale`.
-  AreaLight(const Spectrum& radiance, std::shared_ptr<const EmissionPattern> pattern, float scale,
-            std::shared_ptr<const Shape> light_shape, int shape_index, bool two_sided,
+  AreaLight(const SpectralValue& radiance, std::shared_ptr<const EmissionPattern> pattern,
+            float scale, std::shared_ptr<const Shape> light_shape, int shape_index, bool two_sided,
             int shadow_samples)
       : radiance_(radiance * scale),
         pattern_(std::move(pattern)),
         scale_(scale),
         shape_(std::move(light_shape)),
-        shape_index_(shape_index),
-        area_(shape_->area()),
-        two_sided_(two_sided),
-        shadow_samples_(shadow_samples),
-        is_dark_(radiance_.is_zero()) {
+        area_(shape_->area()) {
+    traits_.is_two_sided = two_sided;
+    traits_.shape = shape_index;
+    traits_.shadow_samples = shadow_samples;
+    traits_.power = radiance_.rgb() * (pi * emitting_area());
     const DirectionCone normals = two_sided ? DirectionCone() : cone_of_normals(*shape_);
-    bounds_.position = shape_->bounds();
-    bounds_.axis = normals.axis;
-    bounds_.cos_spread = normals.cos_angle;
+    LightBounds& bounds = traits_.bounds;
+    bounds.position = shape_->bounds();
+    bounds.axis = normals.axis;
+    bounds.cos_spread = normals.cos_angle;
     // The hemispheres about the normals: the cone's angle and another 90°.
-    bounds_.cos_angle = normals.cos_angle > 0 ? -safe_sqrt(1.0f - sqr(normals.cos_angle)) : -1.0f;
+    bounds.cos_angle = normals.cos_angle > 0 ? -safe_sqrt(1.0f - sqr(normals.cos_angle)) : -1.0f;
     // Spread over all directions a sheet's light would seem half of what it is in front of it.
-    ball_ = EmissionBall(bounds_, importance_of(AreaLight::power()) * (two_sided ? 2 : 1));
+    if (!radiance_.rgb().is_zero())
+      traits_.ball = EmissionBall(bounds, importance_of(traits_.power) * (two_sided ? 2 : 1));
     const TriangleMesh* mesh = shape_->mesh();
     if (mesh && mesh->triangles.size() >= MeshFaces::least_triangles)
       faces_ = std::make_unique<MeshFaces>(*shape_, two_sided, pattern_.get());
   }
 
-  Spectrum power() const override { return radiance_ * (pi * emitting_area()); }
-  LightBounds bounds() const override { return bounds_; }
-  bool is_delta() const override { return false; }
-  bool is_two_sided() const override { return two_sided_; }
-  int shape() const override { return shape_index_; }
-  int shadow_samples() const override { return shadow_samples_; }
-
   float expected_irradiance(const LightQuery& query) const override {
-    return is_dark_ ? 0.0f : ball_.irradiance(query.reference, query.normal);
+    return traits_.ball ? traits_.ball->irradiance(query.reference, query.normal) : 0.0f;
   }
-  const EmissionBall* emission_ball() const override { return is_dark_ ? nullptr : &ball_; }
 
   LightSample sample_toward(const LightQuery& query, const Vec2f& u) const override {
     const Vec3f& reference = query.reference;
@@ -64,23 +57,27 @@ class AreaLight final : public Light {
     result.distance = distance;
     result.point = placed(s.point);
     result.on_surface = true;
-    if (two_sided_ || dot(s.point.ng, result.direction) < 0) {
-      result.radiance = radiance_at(result.point);
+    if (traits_.is_two_sided || dot(s.point.ng, result.direction) < 0) {
+      result.radiance = radiance_at(result.point, query.wavelengths);
       result.pdf_solid_angle = pdf_solid_angle;
     }
     return result;
   }
 
-  float pdf_toward(const LightQuery& query, const SurfacePoint& point) const override {
-    if (!two_sided_ && !(dot(point.ng, point.position - query.reference) < 0)) return 0;
+  float pdf_toward(const LightQuery& query, const LightTarget& target) const override {
+    const SurfacePoint& point = *target.point;
+    if (!traits_.is_two_sided && !(dot(point.ng, point.position - query.reference) < 0)) return 0;
     return faces_ ? faces_->pdf_toward(query, point) : shape_->pdf_toward(query.reference, point);
   }
 
-  Spectrum emitted(const SurfacePoint& point, const Vec3f& direction) const override {
-    return two_sided_ || dot(point.ng, direction) > 0 ? radiance_at(point) : Spectrum();
+  Spectrum emitted(const SurfacePoint& point, const Vec3f& direction,
+                   const Wavelengths& wavelengths) const override {
+    return traits_.is_two_sided || dot(point.ng, direction) > 0 ? radiance_at(point, wavelengths)
+                                                                : Spectrum();
   }
 
-  EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction) const override {
+  EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction,
+                                 const Wavelengths& wavelengths) const override {
     EmissionSample result = sample_origin(u_position);
     if (!(result.pdf_position > 0)) return result;
     const Vec3f local = square_to_cosine_hemisphere(u_direction);
@@ -88,7 +85,7 @@ class AreaLight final : public Light {
     result.pdf_direction = cosine_hemisphere_pdf(local.z);
     // Radiance × cosine over (cosine/π) × density of the position.
     if (result.pdf_direction > 0)
-      result.flux = radiance_at(result.point) * (pi / result.pdf_position);
+      result.flux = radiance_at(result.point, wavelengths) * (pi / result.pdf_position);
     return result;
   }
 
@@ -101,8 +98,8 @@ class AreaLight final : public Light {
 
   /// Of a light with two sides on either of them: the normal of the point tells which.
   EmissionSample sample_origin(const Vec2f& u) const override {
-    const bool behind = two_sided_ && u.x < 0.5f;
-    const float u_area = !two_sided_ ? u.x : rescaled(u.x, behind ? 0.0f : 0.5f, 0.5f);
+    const bool behind = traits_.is_two_sided && u.x < 0.5f;
+    const float u_area = !traits_.is_two_sided ? u.x : rescaled(u.x, behind ? 0.0f : 0.5f, 0.5f);
     const ShapeSample s = shape_->sample_area({u_area, u.y});
     EmissionSample result;
     if (!(s.pdf_area > 0)) return result;
@@ -112,37 +109,28 @@ class AreaLight final : public Light {
       result.point.ns = -result.point.ns;
     }
     result.on_surface = true;
-    result.pdf_position = two_sided_ ? 0.5f * s.pdf_area : s.pdf_area;
+    result.pdf_position = traits_.is_two_sided ? 0.5f * s.pdf_area : s.pdf_area;
     return result;
-  }
-  Spectrum emitted_from(const SurfacePoint& point, const Vec3f& direction) const override {
-    return emitted(point, direction);
   }
 
  private:
-  Spectrum radiance_at(const SurfacePoint& point) const {
-    return pattern_ ? pattern_->radiance(point) * scale_ : radiance_;
+  Spectrum radiance_at(const SurfacePoint& point, const Wavelengths& wavelengths) const {
+    return pattern_ ? pattern_->radiance(point, wavelengths) * scale_ : radiance_.at(wavelengths);
   }
-  float emitting_area() const { return two_sided_ ? 2.0f * area_ : area_; }
+  float emitting_area() const { return traits_.is_two_sided ? 2.0f * area_ : area_; }
   /// A point of the shape as a point of the scene.
   SurfacePoint placed(SurfacePoint point) const {
-    if (shape_index_ >= 0) point.shape = uint32_t(shape_index_);
+    if (traits_.shape >= 0) point.shape = uint32_t(traits_.shape);
     return point;
   }
 
-  Spectrum radiance_;  ///< in the mean
+  SpectralValue radiance_;  ///< with a pattern: its mean
   std::shared_ptr<const EmissionPattern> pattern_;
   float scale_;
   std::shared_ptr<const Shape> shape_;
   // Of many lights none is in a cache: what samples ask for lies together.
   std::unique_ptr<const MeshFaces> faces_;  ///< of meshes of more than a few triangles
-  int shape_index_;
   float area_;
-  bool two_sided_;
-  int shadow_samples_;
-  LightBounds bounds_;
-  bool is_dark_;
-  EmissionBall ball_;
 };
 
 std::unique_ptr<Light> create_area(const LightInputs& inputs) {
@@ -154,8 +142,9 @@ std::unique_ptr<Light> create_area(const LightInputs& inputs) {
     throw Error(ErrorKind::input, "this shape cannot be a light: no points can be sampled on it",
                 "use another shape for the light", place);
   const Arguments& arguments = inputs.arguments;
-  const Spectrum radiance = inputs.pattern ? mean_radiance(*inputs.pattern, *inputs.shape)
-                                           : emission_argument(inputs, "radiance");
+  const SpectralValue radiance =
+      inputs.pattern ? SpectralValue().with_rgb(mean_radiance(*inputs.pattern, *inputs.shape))
+                     : emission_argument(inputs, "radiance");
   return with_finite_power(
       std::make_unique<AreaLight>(radiance, inputs.pattern, float(arguments.number("scale")),
                                   inputs.shape, inputs.shape_index, arguments.boolean("two_sided"),

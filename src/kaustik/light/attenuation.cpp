@@ -2,7 +2,8 @@
 
 namespace kaustik {
 
-ClassicalAttenuation::ClassicalAttenuation(const Arguments& arguments) {
+ClassicalAttenuation::ClassicalAttenuation(const Arguments& arguments, const Vec3f& center)
+    : center_(center) {
   if (!arguments.given("attenuation")) return;
   const Vec3d given = arguments.point("attenuation");
   if (!(given.x >= 0 && given.y >= 0 && given.z >= 0 && given.x + given.y + given.z > 0))
@@ -11,13 +12,16 @@ ClassicalAttenuation::ClassicalAttenuation(const Arguments& arguments) {
                 "without bound",
                 "give the constant, the linear and the quadratic part, each at least 0",
                 arguments.place_of("attenuation"));
+  is_inverse_square_ = false;
   constant_ = given.x;
   linear_ = given.y;
   quadratic_ = given.z;
 }
 
-float ClassicalAttenuation::factor(float distance) const {
-  const double d = distance, falloff = constant_ + d * (linear_ + d * quadratic_);
+float ClassicalAttenuation::factor(const Vec3f& reference) const {
+  if (is_inverse_square_) return 1;
+  const double d = length(center_ - reference),
+               falloff = constant_ + d * (linear_ + d * quadratic_);
   return falloff > 0 ? float(d * d / falloff) : 1.0f;
 }
 

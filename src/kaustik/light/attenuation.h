@@ -1,5 +1,6 @@
 #pragma once
 #include "kaustik/base/parameters.h"
+#include "kaustik/base/vec.h"
 
 namespace kaustik {
 
@@ -9,13 +10,17 @@ class ClassicalAttenuation {
  public:
   /// The inverse square.
   ClassicalAttenuation() = default;
-  /// From attenuation_parameter(). Throws Error(input) if a number is negative or all are zero.
-  explicit ClassicalAttenuation(const Arguments& arguments);
+  /// From attenuation_parameter(), of a light about `center`. Throws Error(input) if a number is
+  /// negative or all are zero.
+  ClassicalAttenuation(const Arguments& arguments, const Vec3f& center);
 
-  /// That falloff over the inverse square of `distance`: what physical light is multiplied by.
-  float factor(float distance) const;
+  /// That falloff over the inverse square of the distance of `reference`: what physical light that
+  /// arrives there is multiplied by.
+  float factor(const Vec3f& reference) const;
 
  private:
+  Vec3f center_{0, 0, 0};
+  bool is_inverse_square_ = true;
   double constant_ = 0, linear_ = 0, quadratic_ = 1;
 };
 

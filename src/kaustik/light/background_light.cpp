@@ -4,33 +4,34 @@ namespace kaustik {
 namespace {
 
 /// A colour behind the scene. It is a light only in that rays which leave the scene meet it.
-class Background final : public Light {
+class Background final : public DistantLight {
  public:
-  explicit Background(const Spectrum& radiance) : radiance_(radiance) {}
-
-  Spectrum power() const override { return {}; }
-  LightBounds bounds() const override {
-    LightBounds b;
-    b.infinite = true;
-    return b;
+  explicit Background(const SpectralValue& radiance) : radiance_(radiance) {
+    traits_.is_only_seen = true;
+    traits_.bounds.infinite = true;
   }
-  bool is_delta() const override { return false; }
-  bool is_infinite() const override { return true; }
-  bool is_only_seen() const override { return true; }
-  Spectrum background(const Vec3f&) const override { return radiance_; }
+
+  Spectrum background(const Vec3f&, const Wavelengths& wavelengths) const override {
+    return radiance_.at(wavelengths);
+  }
 
   float expected_irradiance(const LightQuery&) const override { return 0; }
   LightSample sample_toward(const LightQuery&, const Vec2f&) const override { return {}; }
-  EmissionSample sample_emission(const Vec2f&, const Vec2f&) const override {
+  float pdf_toward(const LightQuery&, const LightTarget&) const override { return 0; }
+  Spectrum emitted(const SurfacePoint&, const Vec3f&, const Wavelengths&) const override {
+    return {};
+  }
+  EmissionSample sample_emission(const Vec2f&, const Vec2f&, const Wavelengths&) const override {
     EmissionSample nothing;
     nothing.point = free_point({0, 0, 0});
     return nothing;
   }
   float emission_pdf_position(const SurfacePoint&) const override { return 0; }
   float emission_pdf_direction(const SurfacePoint&, const Vec3f&) const override { return 0; }
+  TravelDirection sample_travel_direction(const Vec2f&) const override { return {}; }
 
  private:
-  Spectrum radiance_;
+  SpectralValue radiance_;
 };
 
 std::unique_ptr<Light> create_background(const LightInputs& inputs) {

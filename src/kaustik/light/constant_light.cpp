@@ -12,14 +12,17 @@ constexpr float even_share = 0.1f;
 /// The same radiance from every direction around the scene.
 class ConstantLight final : public EnvironmentLight {
  public:
-  ConstantLight(const Spectrum& radiance, const EmissionDisk& disk)
-      : EnvironmentLight(disk), radiance_(radiance) {}
+  ConstantLight(const SpectralValue& radiance, const EmissionDisk& disk)
+      : EnvironmentLight(disk), radiance_(radiance) {
+    set_fluence(radiance.rgb() * (4.0f * pi));
+  }
 
-  Spectrum background(const Vec3f&) const override { return radiance_; }
-  float expected_irradiance(const LightQuery&) const override { return pi * radiance_.sum(); }
+  Spectrum background(const Vec3f&, const Wavelengths& wavelengths) const override {
+    return radiance_.at(wavelengths);
+  }
+  float expected_irradiance(const LightQuery&) const override { return pi * radiance_.rgb().sum(); }
 
  private:
-  Spectrum fluence() const override { return radiance_ * (4.0f * pi); }
   Vec3f sample_direction(const Vec2f& u, Purpose purpose) const override {
     if (!has_normal(purpose)) return square_to_sphere(u);
     const Frame frame(purpose.receiver->normal);
@@ -40,7 +43,7 @@ class ConstantLight final : public EnvironmentLight {
     return purpose.receiver && length_sq(purpose.receiver->normal) > 0;
   }
 
-  Spectrum radiance_;
+  SpectralValue radiance_;
 };
 
 std::unique_ptr<Light> create_constant(const LightInputs& inputs) {

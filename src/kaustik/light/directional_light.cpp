@@ -4,56 +4,56 @@ namespace kaustik {
 namespace {
 
 /// Parallel rays from infinity.
-class DirectionalLight final : public Light {
+class DirectionalLight final : public DistantLight {
  public:
-  DirectionalLight(const Spectrum& irradiance, const Vec3f& direction, const EmissionDisk& disk)
-      : irradiance_(irradiance), direction_(direction), disk_(disk) {}
-
-  Spectrum power() const override { return irradiance_ * disk_.area(); }
-  LightBounds bounds() const override {
-    LightBounds b;
-    b.axis = direction_;
-    b.cos_angle = b.cos_spread = 1;
-    b.infinite = true;
-    return b;
+  DirectionalLight(const SpectralValue& irradiance, const Vec3f& direction,
+                   const EmissionDisk& disk)
+      : irradiance_(irradiance), direction_(direction), disk_(disk) {
+    traits_.is_delta = true;
+    traits_.power = irradiance.rgb() * disk.area();
+    LightBounds& bounds = traits_.bounds;
+    bounds.axis = direction;
+    bounds.cos_angle = bounds.cos_spread = 1;
+    bounds.infinite = true;
   }
-  bool is_delta() const override { return true; }
-  bool is_infinite() const override { return true; }
 
   float expected_irradiance(const LightQuery& query) const override {
-    return irradiance_.sum() * receiver_cosine(query, -direction_);
+    return irradiance_.rgb().sum() * receiver_cosine(query, -direction_);
   }
 
-  LightSample sample_toward(const LightQuery&, const Vec2f&) const override {
+  LightSample sample_toward(const LightQuery& query, const Vec2f&) const override {
     LightSample result;
     result.only_sampled = true;
     result.direction = -direction_;
     result.delta = true;
-    result.radiance = irradiance_;
+    result.radiance = irradiance_.at(query.wavelengths);
     result.pdf_solid_angle = 1;
     return result;
   }
 
-  EmissionSample sample_emission(const Vec2f& u_position, const Vec2f&) const override {
+  float pdf_toward(const LightQuery&, const LightTarget&) const override { return 0; }
+  Spectrum background(const Vec3f&, const Wavelengths&) const override { return {}; }
+
+  Spectrum emitted(const SurfacePoint&, const Vec3f&,
+                   const Wavelengths& wavelengths) const override {
+    return irradiance_.at(wavelengths);
+  }
+  EmissionSample sample_emission(const Vec2f& u_position, const Vec2f&,
+                                 const Wavelengths& wavelengths) const override {
     EmissionSample result;
     result.point = free_point(disk_.origin(direction_, u_position));
     result.direction = direction_;
     result.pdf_position = 1.0f / disk_.area();
     result.pdf_direction = 1;
-    result.flux = power();
+    result.flux = irradiance_.at(wavelengths) * disk_.area();
     return result;
   }
   float emission_pdf_position(const SurfacePoint&) const override { return 1.0f / disk_.area(); }
   float emission_pdf_direction(const SurfacePoint&, const Vec3f&) const override { return 1; }
-
-  Spectrum emitted_from(const SurfacePoint&, const Vec3f&) const override { return irradiance_; }
-  Vec3f sample_travel_direction(const Vec2f&, float& pdf) const override {
-    pdf = 1;
-    return direction_;
-  }
+  TravelDirection sample_travel_direction(const Vec2f&) const override { return {direction_, 1}; }
 
  private:
-  Spectrum irradiance_;
+  SpectralValue irradiance_;
   Vec3f direction_;  ///< of travel
   EmissionDisk disk_;
 };

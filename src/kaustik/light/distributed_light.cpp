@@ -7,8 +7,6 @@
 #include "kaustik/base/limits.h"
 #include "kaustik/base/warp.h"
 #include "kaustik/geometry/make_sphere.h"
-#include "kaustik/light/attenuation.h"
-#include "kaustik/light/emission_ball.h"
 #include "kaustik/light/light_kinds.h"
 #include "kaustik/light/power_distribution.h"
 #include "kaustik/light/spot_arguments.h"
@@ -17,7 +15,7 @@ namespace kaustik {
 namespace {
 
 struct DistributedSettings {
-  Spectrum intensity;  ///< from afar, on the axis, W/sr
+  SpectralValue intensity;  ///< from afar, on the axis, W/sr
   Vec3f position{0, 0, 0};
   float radius = 0;
   Vec3f axis{0, 0, 1};
@@ -28,42 +26,35 @@ struct DistributedSettings {
 
 /// Shines outward from a sphere that nothing meets: rays pass through it and it throws no shadow.
 /// Its radiance is the same for all its points; a spot's depends on the direction to the axis.
-class DistributedLight final : public Light {
+class DistributedLight final : public PlacedLight {
  public:
   explicit DistributedLight(const DistributedSettings& settings)
-      : settings_(settings),
+      : radius_(settings.radius),
+        position_(settings.position),
+        cone_(settings.cone),
         radiance_(settings.intensity * (1.0f / (pi * sqr(settings.radius)))),
         frame_(settings.axis),
         sphere_(make_sphere(Vec3d(settings.position), double(settings.radius))) {
-    if (settings_.cone) {
-      bounds_.axis = frame_.z;
-      bounds_.cos_angle = bounds_.cos_spread = settings_.cone->cos_cutoff();
+    const Spectrum& intensity = settings.intensity.rgb();
+    traits_.power = intensity * (cone_ ? cone_->solid_angle() : 4.0f * pi);
+    traits_.shadow_samples = settings.shadow_samples;
+    traits_.attenuation = settings.attenuation;
+    LightBounds& bounds = traits_.bounds;
+    if (cone_) {
+      bounds.axis = frame_.z;
+      bounds.cos_angle = bounds.cos_spread = cone_->cos_cutoff();
       // Points whose whole hemisphere lies outside of the cone stay dark.
-      if (bounds_.cos_angle > 0) cap_height_ = 1.0f + safe_sqrt(1.0f - sqr(bounds_.cos_angle));
+      if (bounds.cos_angle > 0) cap_height_ = 1.0f + safe_sqrt(1.0f - sqr(bounds.cos_angle));
     }
-    bounds_.position = sphere_->bounds();
-    ball_ = settings_.cone ? settings_.cone->emission_ball(bounds_.position, frame_.z,
-                                                           settings.intensity.sum())
-                           : EmissionBall(bounds_, importance_of(DistributedLight::power()));
+    bounds.position = sphere_->bounds();
+    if (radiance_.rgb().is_zero()) return;
+    traits_.ball = cone_ ? cone_->emission_ball(bounds.position, frame_.z, intensity.sum())
+                         : EmissionBall(bounds, importance_of(traits_.power));
   }
-
-  Spectrum power() const override {
-    return settings_.intensity * (settings_.cone ? settings_.cone->solid_angle() : 4.0f * pi);
-  }
-  LightBounds bounds() const override { return bounds_; }
-  bool is_delta() const override { return false; }
 
   float expected_irradiance(const LightQuery& query) const override {
-    return radiance_.is_zero() ? 0.0f : ball_.irradiance(query.reference, query.normal);
+    return traits_.ball ? traits_.ball->irradiance(query.reference, query.normal) : 0.0f;
   }
-  const EmissionBall* emission_ball() const override {
-    return radiance_.is_zero() ? nullptr : &ball_;
-  }
-  float classical_attenuation(const Vec3f& reference) const override {
-    return settings_.attenuation.factor(length(settings_.position - reference));
-  }
-
-  int shadow_samples() const override { return settings_.shadow_samples; }
 
   /// Nothing arrives inside of the sphere.
   LightSample sample_toward(const LightQuery& query, const Vec2f& u) const override {
@@ -78,69 +69,70 @@ class DistributedLight final : public Light {
     result.distance = distance;
     result.point = free_point(s.point.position);
     if (!(dot(s.point.ng, result.direction) < 0)) return result;
-    result.radiance = radiance_ * falloff(-result.direction);
+    result.radiance = radiance_.at(query.wavelengths) * falloff(-result.direction);
     result.pdf_solid_angle = pdf;
     return result;
   }
 
-  float pdf_toward(const LightQuery& query, const SurfacePoint& point) const override {
-    SurfacePoint on_sphere = point;
-    on_sphere.ng = normal_at(point);
-    if (!(dot(on_sphere.ng, query.reference - point.position) > 0)) return 0;
+  float pdf_toward(const LightQuery& query, const LightTarget& target) const override {
+    SurfacePoint on_sphere = *target.point;
+    on_sphere.ng = normal_at(on_sphere);
+    if (!(dot(on_sphere.ng, query.reference - on_sphere.position) > 0)) return 0;
     return sphere_->pdf_toward(query.reference, on_sphere);
   }
   Vec3f emitting_normal(const SurfacePoint& point) const override { return normal_at(point); }
 
-  EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction) const override {
+  EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction,
+                                 const Wavelengths& wavelengths) const override {
     EmissionSample result = sample_origin(u_position);
     const Frame normal(normal_at(result.point));
-    result.direction = settings_.cone ? frame_.to_world(settings_.cone->sample(u_direction))
-                                      : normal.to_world(square_to_cosine_hemisphere(u_direction));
+    result.direction = cone_ ? frame_.to_world(cone_->sample(u_direction))
+                             : normal.to_world(square_to_cosine_hemisphere(u_direction));
     result.pdf_direction = emission_pdf_direction(result.point, result.direction);
     if (result.pdf_direction > 0)
-      result.flux = emitted_from(result.point, result.direction) *
+      result.flux = emitted(result.point, result.direction, wavelengths) *
                     (1.0f / (result.pdf_position * result.pdf_direction));
     return result;
   }
   float emission_pdf_position(const SurfacePoint&) const override {
-    return 1.0f / (2.0f * pi * sqr(settings_.radius) * cap_height_);
+    return 1.0f / (2.0f * pi * sqr(radius_) * cap_height_);
   }
   float emission_pdf_direction(const SurfacePoint& point, const Vec3f& direction) const override {
-    return settings_.cone ? settings_.cone->pdf(frame_.to_local(direction))
-                          : cosine_hemisphere_pdf(dot(normal_at(point), direction));
+    return cone_ ? cone_->pdf(frame_.to_local(direction))
+                 : cosine_hemisphere_pdf(dot(normal_at(point), direction));
   }
 
   EmissionSample sample_origin(const Vec2f& u) const override {
     EmissionSample result;
     const Vec3f normal = frame_.to_world(square_to_cone(u, cap_height_));
-    result.point = free_point(settings_.position + normal * settings_.radius);
+    result.point = free_point(position_ + normal * radius_);
     result.pdf_position = emission_pdf_position(result.point);
     return result;
   }
   /// With the cosine to the sphere's normal, which the point has not got: W/(sr·m²).
-  Spectrum emitted_from(const SurfacePoint& point, const Vec3f& direction) const override {
-    return radiance_ * (falloff(direction) * std::max(0.0f, dot(normal_at(point), direction)));
+  Spectrum emitted(const SurfacePoint& point, const Vec3f& direction,
+                   const Wavelengths& wavelengths) const override {
+    return radiance_.at(wavelengths) *
+           (falloff(direction) * std::max(0.0f, dot(normal_at(point), direction)));
   }
 
  private:
   float falloff(const Vec3f& direction) const {
-    return settings_.cone ? settings_.cone->falloff(frame_.to_local(direction)) : 1.0f;
+    return cone_ ? cone_->falloff(frame_.to_local(direction)) : 1.0f;
   }
-  Vec3f normal_at(const SurfacePoint& point) const {
-    return normalize(point.position - settings_.position);
-  }
+  Vec3f normal_at(const SurfacePoint& point) const { return normalize(point.position - position_); }
 
-  DistributedSettings settings_;
-  Spectrum radiance_;
+  float radius_;
+  Vec3f position_;
+  std::optional<SpotCone> cone_;
+  SpectralValue radiance_;
   Frame frame_;
   std::shared_ptr<const Shape> sphere_;
   float cap_height_ = 2;  ///< 1 − cosine of the part of the sphere around the axis that shines
-  LightBounds bounds_;
-  EmissionBall ball_;
 };
 
 /// From `intensity`, or from `power` over the solid angle that the light shines into.
-Spectrum intensity_argument(const LightInputs& inputs, float solid_angle) {
+SpectralValue intensity_argument(const LightInputs& inputs, float solid_angle) {
   const Arguments& arguments = inputs.arguments;
   if (!arguments.given("power")) return emission_argument(inputs, "intensity");
   if (arguments.given("intensity"))
@@ -168,7 +160,7 @@ std::unique_ptr<Light> create_distributed(const LightInputs& inputs) {
   settings.radius = float(arguments.number("radius") * double(length(to_world.vector({0, 0, 1}))));
   settings.intensity =
       intensity_argument(inputs, settings.cone ? settings.cone->solid_angle() : 4.0f * pi);
-  settings.attenuation = ClassicalAttenuation(arguments);
+  settings.attenuation = ClassicalAttenuation(arguments, settings.position);
   settings.shadow_samples = int(arguments.integer("shadow_samples"));
   return with_finite_power(std::make_unique<DistributedLight>(settings), inputs);
 }

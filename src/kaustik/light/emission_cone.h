@@ -1,5 +1,5 @@
 #pragma once
-#include "kaustik/light/light.h"
+#include "kaustik/light/light_bounds.h"
 
 namespace kaustik {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "kaustik/base/spectrum.h"
+#include "kaustik/base/wavelengths.h"
 #include "kaustik/geometry/shape.h"
 
 namespace kaustik {
@@ -10,13 +10,14 @@ class EmissionPattern {
  public:
   virtual ~EmissionPattern() = default;
   /// W/(sr·m²), finite, no lane negative. Does not ask for the side: `ng` may be of either sign.
-  virtual Spectrum radiance(const SurfacePoint& at) const = 0;
-  /// Upper bound of every lane; zero: dark everywhere.
+  virtual Spectrum radiance(const SurfacePoint& at, const Wavelengths& wavelengths) const = 0;
+  /// Upper bound of every lane in RGB mode; zero: dark everywhere.
   virtual float maximum() const = 0;
 };
 
-/// Mean of the pattern over the shape's area, by 256² stratified points: for choosing among lights
-/// and reports, which need no more. A spot that all of them miss still counts as one of them.
+/// Mean of the pattern over the shape's area in RGB mode, by 256² stratified points: for choosing
+/// among lights and reports, which need no more. A spot that all of them miss still counts as one
+/// of them.
 Spectrum mean_radiance(const EmissionPattern& pattern, const Shape& shape);
 
 }  // namespace kaustik

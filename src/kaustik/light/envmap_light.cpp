@@ -10,7 +10,7 @@ namespace {
 
 /// A picture around the scene in latitude and longitude, as Mitsuba 3 places it: +y is its upper
 /// edge, whose pixels are all one direction, −z its left and right border, +x a quarter from the
-/// left. Bilinear between the centres of columns and between rows.
+/// left. Bilinear between the centres of columns and between rows. RGB.
 class PictureSphere {
  public:
   explicit PictureSphere(const Image& image)
@@ -100,18 +100,20 @@ class EnvmapLight final : public EnvironmentLight {
         scale_(scale),
         to_world_(to_world),
         to_local_(to_world.inverse()) {
+    std::array<double, 4> fluence{};
     picture_.for_each_node([&](const Spectrum& radiance, const Vec3f& local, double solid_angle) {
       const Spectrum weighted = radiance * (scale_ * float(solid_angle));
-      for (size_t lane = 0; lane < 4; ++lane) fluence_[lane] += double(weighted[int(lane)]);
+      for (size_t lane = 0; lane < 4; ++lane) fluence[lane] += double(weighted[int(lane)]);
       harmonics_.add(local, double(weighted.sum()));
     });
+    set_fluence({float(fluence[0]), float(fluence[1]), float(fluence[2]), float(fluence[3])});
   }
 
   /// False for a black picture.
   bool shines() const { return distribution_.integral() > 0; }
 
-  Spectrum background(const Vec3f& direction) const override {
-    return picture_.eval(place_of(direction)) * scale_;
+  Spectrum background(const Vec3f& direction, const Wavelengths& wavelengths) const override {
+    return lanes_from_emission(picture_.eval(place_of(direction)) * scale_, wavelengths);
   }
   float expected_irradiance(const LightQuery& query) const override {
     if (query.normal == Vec3f(0, 0, 0)) return harmonics_.irradiance(query.normal);
@@ -119,9 +121,6 @@ class EnvmapLight final : public EnvironmentLight {
   }
 
  private:
-  Spectrum fluence() const override {
-    return {float(fluence_[0]), float(fluence_[1]), float(fluence_[2]), float(fluence_[3])};
-  }
   Vec3f sample_direction(const Vec2f& u, Purpose) const override {
     return normalize(to_world_.vector(PictureSphere::direction_of(distribution_.sample(u))));
   }
@@ -137,7 +136,6 @@ class EnvmapLight final : public EnvironmentLight {
   float scale_;
   Transform to_world_, to_local_;
   IrradianceHarmonics harmonics_;
-  std::array<double, 4> fluence_{};
 };
 
 /// A texel of four floats and the numbers of its distribution.

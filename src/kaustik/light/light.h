@@ -1,19 +1,20 @@
 #pragma once
+#include <cassert>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "kaustik/base/spectrum.h"
+#include "kaustik/base/wavelengths.h"
 #include "kaustik/geometry/shape.h"
+#include "kaustik/light/attenuation.h"
+#include "kaustik/light/emission_ball.h"
 #include "kaustik/light/emission_pattern.h"
 #include "kaustik/light/light_visibility.h"
 
 namespace kaustik {
 
 class PictureReader;
-
-struct EmissionBall;
 
 /// A point that asks a light for light.
 struct LightQuery {
@@ -22,10 +23,25 @@ struct LightQuery {
   Vec3f normal{0, 0, 0};
   /// Recursion level of the path that asks: the deeper, the more coarsely lights may be sampled.
   int level = 0;
+  /// Of the light that is asked for. Where samples go does not depend on it.
+  Wavelengths wavelengths;
 
   LightQuery() = default;
-  LightQuery(const Vec3f& at, const Vec3f& surface_normal = Vec3f(0, 0, 0), int recursion_level = 0)
-      : reference(at), normal(surface_normal), level(recursion_level) {}
+  LightQuery(const Vec3f& at, const Vec3f& surface_normal = Vec3f(0, 0, 0), int recursion_level = 0,
+             const Wavelengths& at_wavelengths = {})
+      : reference(at),
+        normal(surface_normal),
+        level(recursion_level),
+        wavelengths(at_wavelengths) {}
+};
+
+/// What a ray from the reference point meets of a light.
+struct LightTarget {
+  LightTarget(const SurfacePoint& on_light) : point(&on_light) {}  // NOLINT: a point is one
+  LightTarget(const Vec3f& toward) : direction(toward) {}          // NOLINT: a direction is one
+
+  const SurfacePoint* point = nullptr;  ///< of placed lights; must outlive this
+  Vec3f direction{0, 0, 0};             ///< unit, toward distant lights; else zero
 };
 
 /// Light that a point may receive, found by sampling a light.
@@ -55,89 +71,117 @@ struct EmissionSample {
   float pdf_direction = 0;  ///< per solid angle; 1 for directional lights
 };
 
-/// Bounds on where light goes, for choosing among many lights and for aiming.
-struct LightBounds {
-  Bounds3f position;    ///< empty for lights at infinity
-  Vec3f axis{0, 0, 1};  ///< light leaves only within this angle of the axis
-  float cos_angle = -1;
-  bool infinite = false;
-  /// Cosine of the cone of a surface's normals, about which light falls off by the cosine until it
-  /// ends at `cos_angle`; equal to that where nothing is known to fall off.
-  float cos_spread = -1;
+/// What is the same for a light whoever asks.
+struct LightTraits {
+  bool is_delta = false;  ///< a single point or direction
+  /// Lights nothing: DistantLight::background() is only for rays that leave the scene straight from
+  /// the camera or after delta events.
+  bool is_only_seen = false;
+  bool is_two_sided = false;  ///< both sides of its surface shine
+  int shape = -1;             ///< index into the scene's shapes if it is an area light, else −1
+  /// Most shadow rays for one sample of the light at recursion level 0: where some arrive and some
+  /// don't, up to so many are worth their time. 1: one always does.
+  int shadow_samples = 1;
+  /// Total emitted flux in RGB mode, W. Of distant lights that through the scene's bounding disk.
+  Spectrum power;
+  LightBounds bounds;
+  /// A ball that tells about the same as Light::expected_irradiance(), and is zero no earlier: many
+  /// are asked at once. Distant lights have none.
+  std::optional<EmissionBall> ball;
+  /// In classical ray tracing. Photons, and everything else that is physical, ignore it.
+  ClassicalAttenuation attenuation;
 };
 
-/// A source of light. Immutable. Emission is one-sided on surfaces (the side of the geometric
+class PlacedLight;
+class DistantLight;
+
+/// A source of light, of one of two families: it has a place (PlacedLight), or it shines from
+/// infinity (DistantLight). Immutable. Emission is one-sided on surfaces (the side of the geometric
 /// normal), as in Mitsuba.
 class Light {
  public:
   virtual ~Light() = default;
 
-  /// Total emitted flux, W. For infinite lights that through the scene's bounding disk.
-  virtual Spectrum power() const = 0;
-  virtual LightBounds bounds() const = 0;
-  /// A single point or direction.
-  virtual bool is_delta() const = 0;
-  /// Shines from infinity (directional or environment).
-  virtual bool is_infinite() const { return false; }
-  /// Lights nothing: background() is only for rays that leave the scene straight from the camera or
-  /// after delta events.
-  virtual bool is_only_seen() const { return false; }
-  /// Of area lights: both sides of the surface shine.
-  virtual bool is_two_sided() const { return false; }
-  /// Index into the scene's shapes if it is an area light, else −1.
-  virtual int shape() const { return -1; }
+  const LightTraits& traits() const { return traits_; }
+  bool is_infinite() const { return family_ == Family::distant; }
+  /// Only if is_infinite() says so.
+  const DistantLight& distant() const;
+  /// Only if it does not.
+  const PlacedLight& placed() const;
 
   /// Estimate of the irradiance that the light gives the queried point without shadows, on the
-  /// normal's side (facing the light where there is no normal); W/m², sum of the lanes. What
-  /// samples are shared out by: zero only where no light can arrive, and rather too high than too
-  /// low. This is the thesis's brightness times projection.
+  /// normal's side (facing the light where there is no normal); W/m², sum of the lanes in RGB mode.
+  /// What samples are shared out by: zero only where no light can arrive, and rather too high than
+  /// too low. This is the thesis's brightness times projection.
   virtual float expected_irradiance(const LightQuery& query) const = 0;
-  /// A ball that tells about the same as expected_irradiance(), and is zero no earlier: many are
-  /// asked at once. Null where none does, always of infinite lights.
-  virtual const EmissionBall* emission_ball() const { return nullptr; }
-  /// For classical ray tracing alone: factor on light that arrives at `reference`, which replaces
-  /// the inverse square of the distance by the emitter's `attenuation`. 1 where none is given.
-  /// Photons, and everything else that is physical, ignore it.
-  virtual float classical_attenuation(const Vec3f& reference) const;
-
-  /// Most shadow rays for one sample of the light at recursion level 0: where some arrive and some
-  /// don't, up to so many are worth their time. 1: one always does.
-  virtual int shadow_samples() const { return 1; }
-
   virtual LightSample sample_toward(const LightQuery& query, const Vec2f& u) const = 0;
-  /// Density of sample_toward, for a point on the light (area lights) …
-  virtual float pdf_toward(const LightQuery& query, const SurfacePoint& point) const;
-  /// … or for a direction from the reference (environment lights).
-  virtual float pdf_toward_direction(const LightQuery& query, const Vec3f& direction) const;
+  /// Density of sample_toward, per solid angle. Zero of lights that no ray meets.
+  virtual float pdf_toward(const LightQuery& query, const LightTarget& target) const = 0;
 
-  /// Of the surface that the density of a point on the light is over. Lights with a place.
-  virtual Vec3f emitting_normal(const SurfacePoint& point) const { return point.ng; }
-
-  /// Radiance from a point of the light's surface along `direction` (away from it). Area lights.
-  virtual Spectrum emitted(const SurfacePoint& point, const Vec3f& direction) const;
-  /// Radiance of rays that leave the scene along `direction`. Environment lights.
-  virtual Spectrum background(const Vec3f& direction) const;
-
-  virtual EmissionSample sample_emission(const Vec2f& u_position,
-                                         const Vec2f& u_direction) const = 0;
+  /// What leaves `point` along unit `direction`. Surfaces: radiance, zero on a side that does not
+  /// shine (balls without one: with the cosine applied). Points: intensity, W/sr. Distant lights,
+  /// whatever the point: what travels along `direction`, radiance (environment) or irradiance
+  /// across it (directional, whose only direction it must be).
+  virtual Spectrum emitted(const SurfacePoint& point, const Vec3f& direction,
+                           const Wavelengths& wavelengths) const = 0;
+  virtual EmissionSample sample_emission(const Vec2f& u_position, const Vec2f& u_direction,
+                                         const Wavelengths& wavelengths) const = 0;
   /// Density of sample_emission's position, per area (see EmissionSample::pdf_position).
   virtual float emission_pdf_position(const SurfacePoint& point) const = 0;
   /// Density of sample_emission's direction at `point`, per solid angle.
   virtual float emission_pdf_direction(const SurfacePoint& point, const Vec3f& direction) const = 0;
 
-  // What aimed emission needs. Lights with a place: a position, then any direction whose density
-  // the aim knows.
-  /// Uniform by area on the light; `ng` zero and pdf 1 for points. Not for infinite lights. The
-  /// direction, its density and the flux stay zero.
-  virtual EmissionSample sample_origin(const Vec2f& u) const;
-  /// Radiance (area lights; with the cosine applied by the caller), or intensity W/sr (point
-  /// lights), leaving `point` along `direction`. Infinite lights: what travels along `direction`,
-  /// radiance (environment) or irradiance across it (directional, whose only direction it must be).
-  virtual Spectrum emitted_from(const SurfacePoint& point, const Vec3f& direction) const;
-  // Infinite lights: a direction, then any origin on the plane across it.
-  /// A direction of travel (away from the light) with its density (1 for directional).
-  virtual Vec3f sample_travel_direction(const Vec2f& u, float& pdf) const;
+ protected:
+  enum class Family : uint8_t { placed, distant };
+  explicit Light(Family family) : family_(family) {}
+
+  LightTraits traits_;  ///< complete once the constructors are done
+
+ private:
+  Family family_;
 };
+
+/// A light with a place: a point, a surface, a ball. Emission is a position on it, then a
+/// direction; aimed emission draws the direction by itself.
+class PlacedLight : public Light {
+ public:
+  /// Uniform by area on the light; `ng` zero and pdf 1 for points. The direction, its density and
+  /// the flux stay zero.
+  virtual EmissionSample sample_origin(const Vec2f& u) const = 0;
+  /// Of the surface that the density of a point on the light is over.
+  virtual Vec3f emitting_normal(const SurfacePoint& point) const { return point.ng; }
+
+ protected:
+  PlacedLight() : Light(Family::placed) {}
+};
+
+/// A direction in which light travels, with its density per solid angle (1 where there is only one;
+/// 0: none).
+struct TravelDirection {
+  Vec3f direction{0, 0, 1};
+  float pdf = 0;
+};
+
+/// A light at infinity: a direction or an environment. Emission is a direction of travel, then an
+/// origin on the plane across it.
+class DistantLight : public Light {
+ public:
+  /// Radiance of rays that leave the scene along `direction`; zero where none meets the light.
+  virtual Spectrum background(const Vec3f& direction, const Wavelengths& wavelengths) const = 0;
+  virtual TravelDirection sample_travel_direction(const Vec2f& u) const = 0;
+
+ protected:
+  DistantLight() : Light(Family::distant) {}
+};
+
+inline const DistantLight& Light::distant() const {
+  assert(is_infinite());
+  return static_cast<const DistantLight&>(*this);
+}
+inline const PlacedLight& Light::placed() const {
+  assert(!is_infinite());
+  return static_cast<const PlacedLight&>(*this);
+}
 
 /// What create() gets: the shape for area lights, the scene's bounds for infinite ones.
 struct LightInputs {

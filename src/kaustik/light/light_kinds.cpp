@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "kaustik/base/color.h"
 #include "kaustik/base/warp.h"
-#include "kaustik/light/emission_ball.h"
 
 namespace kaustik {
 
@@ -15,8 +13,8 @@ bool keeps_angles(const Transform& t) {
          abs_dot(x, y) < tolerance && abs_dot(y, z) < tolerance && abs_dot(x, z) < tolerance;
 }
 
-Spectrum emission_argument(const LightInputs& inputs, std::string_view name) {
-  return emission_spectrum(inputs.arguments.color(name));
+SpectralValue emission_argument(const LightInputs& inputs, std::string_view name) {
+  return SpectralValue::emission(inputs.arguments.color(name));
 }
 
 const Transform& emitter_transform(const LightInputs& inputs) {
@@ -25,7 +23,7 @@ const Transform& emitter_transform(const LightInputs& inputs) {
 }
 
 std::unique_ptr<Light> with_finite_power(std::unique_ptr<Light> light, const LightInputs& inputs) {
-  if (!light->power().is_finite())
+  if (!light->traits().power.is_finite())
     throw Error(ErrorKind::input,
                 fmt::format("the power of emitter '{}' overflows", inputs.arguments.info().name),
                 "make it or the scene smaller", inputs.arguments.place());

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string_view>
 
+#include "kaustik/base/spectral_value.h"
 #include "kaustik/light/light.h"
 
 namespace kaustik {
@@ -24,7 +25,7 @@ LightType distributed_spot_light_type();
 /// Whether the map keeps angles, up to rounding of its numbers.
 bool keeps_angles(const Transform& t);
 /// A color argument of something that emits.
-Spectrum emission_argument(const LightInputs& inputs, std::string_view name);
+SpectralValue emission_argument(const LightInputs& inputs, std::string_view name);
 /// The emitter's own `to_world` if the arguments give it, else that of the inputs.
 const Transform& emitter_transform(const LightInputs& inputs);
 /// The finished light; throws where its power overflows.

@@ -23,8 +23,11 @@ class FewLights {
   FewLights() = default;
   /// As many as ChoiceWeights::most at most.
   FewLights(const std::vector<std::unique_ptr<Light>>& lights, std::vector<int> indices) {
-    const auto ball_of = [&](int index) { return lights[size_t(index)]->emission_ball(); };
-    const auto others = std::stable_partition(indices.begin(), indices.end(), ball_of);
+    const auto ball_of = [&](int index) -> const std::optional<EmissionBall>& {
+      return lights[size_t(index)]->traits().ball;
+    };
+    const auto others = std::stable_partition(
+        indices.begin(), indices.end(), [&](int index) { return ball_of(index).has_value(); });
     std::vector<EmissionBall> balls;
     for (auto i = indices.begin(); i != others; ++i) balls.push_back(*ball_of(*i));
     block_ = balls_.add(balls);
@@ -139,14 +142,15 @@ LightSelector::LightSelector(const std::vector<std::unique_ptr<Light>>& lights)
   for (size_t i = 0; i < lights.size(); ++i) {
     const Light& light = *lights[i];
     impl_->is_infinite.push_back(light.is_infinite());
-    const double power = importance_of(light.power());
+    const double power = importance_of(light.traits().power);
     if (!(power > 0)) continue;
     shining.push_back(int(i));
     if (light.is_infinite()) {
       infinite.push_back(int(i));
       impl_->infinite_power += infinite_powers[i] = power;
     } else {
-      items.push_back({int(i), light.bounds(), power, light.emission_ball()});
+      const LightTraits& traits = light.traits();
+      items.push_back({int(i), traits.bounds, power, traits.ball ? &*traits.ball : nullptr});
       impl_->local_power += power;
     }
   }

@@ -24,7 +24,7 @@ void weigh_by_radiance(const TriangleMesh& mesh, const EmissionPattern& pattern,
     Spectrum sum;
     for (uint32_t i = 0; i < points; ++i) {
       const Vec2f b = square_to_triangle(Sampler(uint64_t(item.light), i).next_2d());
-      sum += pattern.radiance(triangle_surface_point(mesh, uint32_t(item.light), b.x, b.y));
+      sum += pattern.radiance(triangle_surface_point(mesh, uint32_t(item.light), b.x, b.y), {});
     }
     radiances.push_back(importance_of(sum));
     power += radiances.back() * item.power;

@@ -1,52 +1,47 @@
 #include "kaustik/base/warp.h"
-#include "kaustik/light/attenuation.h"
-#include "kaustik/light/emission_ball.h"
 #include "kaustik/light/light_kinds.h"
-#include "kaustik/light/power_distribution.h"
 
 namespace kaustik {
 namespace {
 
 /// Shines alike in all directions from a point.
-class PointLight final : public Light {
+class PointLight final : public PlacedLight {
  public:
-  PointLight(const Spectrum& intensity, const Vec3f& position,
+  PointLight(const SpectralValue& intensity, const Vec3f& position,
              const ClassicalAttenuation& attenuation)
-      : intensity_(intensity),
-        point_(free_point(position)),
-        attenuation_(attenuation),
-        ball_(PointLight::bounds(), importance_of(PointLight::power())) {}
-
-  Spectrum power() const override { return intensity_ * (4.0f * pi); }
-  LightBounds bounds() const override {
-    LightBounds b;
-    b.position.extendBy(point_.position);
-    return b;
+      : intensity_(intensity), point_(free_point(position)) {
+    traits_.is_delta = true;
+    traits_.power = intensity.rgb() * (4.0f * pi);
+    traits_.bounds.position.extendBy(position);
+    traits_.attenuation = attenuation;
   }
-  bool is_delta() const override { return true; }
 
   float expected_irradiance(const LightQuery& query) const override {
     const LightSample at = toward_point(point_, query.reference);
     if (!at.delta) return 0;
-    return intensity_.sum() / sqr(at.distance) * receiver_cosine(query, at.direction);
-  }
-  float classical_attenuation(const Vec3f& reference) const override {
-    return attenuation_.factor(length(point_.position - reference));
+    return intensity_.rgb().sum() / sqr(at.distance) * receiver_cosine(query, at.direction);
   }
 
   LightSample sample_toward(const LightQuery& query, const Vec2f&) const override {
     LightSample result = toward_point(point_, query.reference);
     if (!result.delta) return result;
-    result.radiance = intensity_ / sqr(result.distance);
+    result.radiance = intensity_.at(query.wavelengths) / sqr(result.distance);
     result.pdf_solid_angle = 1;
     return result;
   }
 
-  EmissionSample sample_emission(const Vec2f&, const Vec2f& u_direction) const override {
+  float pdf_toward(const LightQuery&, const LightTarget&) const override { return 0; }
+
+  Spectrum emitted(const SurfacePoint&, const Vec3f&,
+                   const Wavelengths& wavelengths) const override {
+    return intensity_.at(wavelengths);
+  }
+  EmissionSample sample_emission(const Vec2f&, const Vec2f& u_direction,
+                                 const Wavelengths& wavelengths) const override {
     EmissionSample result = sample_origin({});
     result.direction = square_to_sphere(u_direction);
     result.pdf_direction = sphere_pdf;
-    result.flux = power();
+    result.flux = intensity_.at(wavelengths) * (4.0f * pi);
     return result;
   }
   float emission_pdf_position(const SurfacePoint&) const override { return 1; }
@@ -60,13 +55,10 @@ class PointLight final : public Light {
     result.pdf_position = 1;
     return result;
   }
-  Spectrum emitted_from(const SurfacePoint&, const Vec3f&) const override { return intensity_; }
 
  private:
-  Spectrum intensity_;
+  SpectralValue intensity_;
   SurfacePoint point_;  ///< without a normal
-  ClassicalAttenuation attenuation_;
-  EmissionBall ball_;
 };
 
 std::unique_ptr<Light> create_point(const LightInputs& inputs) {
@@ -75,7 +67,7 @@ std::unique_ptr<Light> create_point(const LightInputs& inputs) {
                              : emitter_transform(inputs).point({0, 0, 0});
   return with_finite_power(
       std::make_unique<PointLight>(emission_argument(inputs, "intensity"), position,
-                                   ClassicalAttenuation(inputs.arguments)),
+                                   ClassicalAttenuation(inputs.arguments, position)),
       inputs);
 }
 

@@ -1,4 +1,3 @@
-#include "kaustik/light/attenuation.h"
 #include "kaustik/light/light_kinds.h"
 #include "kaustik/light/spot_arguments.h"
 
@@ -6,37 +5,26 @@ namespace kaustik {
 namespace {
 
 /// Shines from a point into a cone about its +z.
-class SpotLight final : public Light {
+class SpotLight final : public PlacedLight {
  public:
-  SpotLight(const Spectrum& intensity, const Vec3f& position, const Vec3f& axis,
+  SpotLight(const SpectralValue& intensity, const Vec3f& position, const Vec3f& axis,
             const SpotCone& cone, const ClassicalAttenuation& attenuation)
-      : intensity_(intensity),
-        point_(free_point(position)),
-        frame_(axis),
-        cone_(cone),
-        attenuation_(attenuation),
-        ball_(cone.emission_ball(SpotLight::bounds().position, frame_.z, intensity.sum())) {}
-
-  Spectrum power() const override { return intensity_ * cone_.solid_angle(); }
-  LightBounds bounds() const override {
-    LightBounds b;
-    b.position.extendBy(point_.position);
-    b.axis = frame_.z;
-    b.cos_angle = cone_.cos_cutoff();
-    b.cos_spread = cone_.cos_cutoff();
-    return b;
+      : intensity_(intensity), point_(free_point(position)), frame_(axis), cone_(cone) {
+    traits_.is_delta = true;
+    traits_.power = intensity.rgb() * cone.solid_angle();
+    LightBounds& bounds = traits_.bounds;
+    bounds.position.extendBy(position);
+    bounds.axis = frame_.z;
+    bounds.cos_angle = bounds.cos_spread = cone.cos_cutoff();
+    traits_.ball = cone.emission_ball(bounds.position, frame_.z, intensity.rgb().sum());
+    traits_.attenuation = attenuation;
   }
-  bool is_delta() const override { return true; }
 
   float expected_irradiance(const LightQuery& query) const override {
     const LightSample at = toward_point(point_, query.reference);
     if (!at.delta) return 0;
-    return intensity_.sum() * cone_.falloff(frame_.to_local(-at.direction)) / sqr(at.distance) *
-           receiver_cosine(query, at.direction);
-  }
-  const EmissionBall* emission_ball() const override { return &ball_; }
-  float classical_attenuation(const Vec3f& reference) const override {
-    return attenuation_.factor(length(point_.position - reference));
+    return intensity_.rgb().sum() * cone_.falloff(frame_.to_local(-at.direction)) /
+           sqr(at.distance) * receiver_cosine(query, at.direction);
   }
 
   LightSample sample_toward(const LightQuery& query, const Vec2f&) const override {
@@ -44,19 +32,26 @@ class SpotLight final : public Light {
     if (!result.delta) return result;
     const float falloff = cone_.falloff(frame_.to_local(-result.direction));
     if (falloff > 0) {
-      result.radiance = intensity_ * (falloff / sqr(result.distance));
+      result.radiance = intensity_.at(query.wavelengths) * (falloff / sqr(result.distance));
       result.pdf_solid_angle = 1;
     }
     return result;
   }
 
-  EmissionSample sample_emission(const Vec2f&, const Vec2f& u_direction) const override {
+  float pdf_toward(const LightQuery&, const LightTarget&) const override { return 0; }
+
+  Spectrum emitted(const SurfacePoint&, const Vec3f& direction,
+                   const Wavelengths& wavelengths) const override {
+    return intensity_.at(wavelengths) * cone_.falloff(frame_.to_local(direction));
+  }
+  EmissionSample sample_emission(const Vec2f&, const Vec2f& u_direction,
+                                 const Wavelengths& wavelengths) const override {
     EmissionSample result = sample_origin({});
     const Vec3f local = cone_.sample(u_direction);
     result.direction = frame_.to_world(local);
     result.pdf_direction = cone_.pdf(local);
     if (result.pdf_direction > 0)
-      result.flux = intensity_ * (cone_.falloff(local) / result.pdf_direction);
+      result.flux = intensity_.at(wavelengths) * (cone_.falloff(local) / result.pdf_direction);
     return result;
   }
   float emission_pdf_position(const SurfacePoint&) const override { return 1; }
@@ -70,17 +65,12 @@ class SpotLight final : public Light {
     result.pdf_position = 1;
     return result;
   }
-  Spectrum emitted_from(const SurfacePoint&, const Vec3f& direction) const override {
-    return intensity_ * cone_.falloff(frame_.to_local(direction));
-  }
 
  private:
-  Spectrum intensity_;
+  SpectralValue intensity_;
   SurfacePoint point_;  ///< without a normal
   Frame frame_;
   SpotCone cone_;
-  ClassicalAttenuation attenuation_;
-  EmissionBall ball_;
 };
 
 std::unique_ptr<Light> create_spot(const LightInputs& inputs) {
@@ -89,11 +79,11 @@ std::unique_ptr<Light> create_spot(const LightInputs& inputs) {
     throw Error(ErrorKind::input, "'to_world' distorts the cone of this spot",
                 "leave out shear and scaling by unequal factors",
                 inputs.arguments.place_of("to_world"));
+  const Vec3f position = to_world.point({0, 0, 0});
   return with_finite_power(
-      std::make_unique<SpotLight>(emission_argument(inputs, "intensity"), to_world.point({0, 0, 0}),
-                                  normalize(to_world.vector({0, 0, 1})),
-                                  spot_cone_argument(inputs.arguments),
-                                  ClassicalAttenuation(inputs.arguments)),
+      std::make_unique<SpotLight>(
+          emission_argument(inputs, "intensity"), position, normalize(to_world.vector({0, 0, 1})),
+          spot_cone_argument(inputs.arguments), ClassicalAttenuation(inputs.arguments, position)),
       inputs);
 }
 

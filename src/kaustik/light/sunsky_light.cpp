@@ -124,21 +124,23 @@ class SunSkyLight final : public EnvironmentLight {
         sun_(Vec3f(settings.to_sun), sun_irradiance(settings, day), 0.5 * settings.sun_aperture),
         to_world_(settings.to_world),
         to_local_(settings.to_world.inverse()) {
+    Spectrum sky_fluence;
     SkyRadiance::for_each_node([&](const Vec3f& direction, double solid_angle) {
       const Spectrum weighted = sky_radiance(direction) * float(solid_angle);
-      sky_fluence_ += weighted;
+      sky_fluence += weighted;
       harmonics_.add(direction, double(weighted.sum()));
     });
-    const double sun = importance_of(sun_.fluence()), sky = importance_of(sky_fluence_);
+    set_fluence(sky_fluence + sun_.fluence());
+    const double sun = importance_of(sun_.fluence()), sky = importance_of(sky_fluence);
     if (!(sun > 0)) return;
     sun_share_when_emitting_ = float(sun / (sun + sky));
     // The sun needs few samples for its smooth shadows, and many surfaces do not face it.
     sun_share_when_seeing_ = sky > 0 ? std::clamp(sun_share_when_emitting_, 0.25f, 0.5f) : 1.0f;
   }
 
-  Spectrum background(const Vec3f& direction) const override {
+  Spectrum background(const Vec3f& direction, const Wavelengths& wavelengths) const override {
     const Vec3f local = to_local(direction);
-    return sky_radiance(local) + sun_.radiance(local);
+    return lanes_from_emission(sky_radiance(local) + sun_.radiance(local), wavelengths);
   }
   float expected_irradiance(const LightQuery& query) const override {
     const bool has_normal = query.normal != Vec3f(0, 0, 0);
@@ -162,7 +164,6 @@ class SunSkyLight final : public EnvironmentLight {
                              std::max(float(rgb.z), 0.0f));
   }
 
-  Spectrum fluence() const override { return sky_fluence_ + sun_.fluence(); }
   float sun_share(Purpose purpose) const {
     return purpose.receiver ? sun_share_when_seeing_ : sun_share_when_emitting_;
   }
@@ -196,7 +197,6 @@ class SunSkyLight final : public EnvironmentLight {
   float sky_scale_;
   SunDisk sun_;
   Transform to_world_, to_local_;
-  Spectrum sky_fluence_;
   IrradianceHarmonics harmonics_;
   float sun_share_when_seeing_ = 0, sun_share_when_emitting_ = 0;
 };

@@ -1,16 +1,12 @@
 #include "kaustik/material/bent_bsdf.h"
 
-#include "kaustik/material/compound_bsdf.h"
-
 namespace kaustik {
 namespace {
 
-class BentBsdf final : public CompoundBsdf {
+class BentBsdf final : public Bsdf {
  public:
   BentBsdf(std::shared_ptr<const Bsdf> nested, std::unique_ptr<const Relief> relief)
-      : CompoundBsdf(bent(traits_of(*nested))),
-        nested_(std::move(nested)),
-        relief_(std::move(relief)) {}
+      : Bsdf(bent(nested->traits())), nested_(std::move(nested)), relief_(std::move(relief)) {}
 
   const Relief* relief(bool) const override { return relief_.get(); }
 

@@ -9,15 +9,17 @@
 namespace kaustik {
 namespace {
 
-/// A picture over the uv square; v = 0 is its upper edge, as in Mitsuba.
+/// A picture over the uv square; v = 0 is its upper edge, as in Mitsuba. It is filtered as RGB: a
+/// mean of colours is one that can be uplifted.
 class Bitmap final : public Texture {
  public:
   Bitmap(MipPyramid pyramid, float maximum, bool nearest, const UvTransform& to_uv)
       : pyramid_(std::move(pyramid)), maximum_(maximum), nearest_(nearest), to_uv_(to_uv) {}
 
-  Spectrum eval(const TextureCoordinates& at) const override {
-    return at_uv(to_uv_(at.uv), to_uv_.width(at.uv_width));
+  Spectrum eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const override {
+    return lanes_from_reflectance(rgb(at), wavelengths);
   }
+  float scalar(const TextureCoordinates& at) const override { return luminance_of(rgb(at)); }
   float maximum() const override { return maximum_; }
   Spectrum mean() const override { return pyramid_.mean(); }
   /// By differences over one texel, which turn the kinks of bilinear interpolation into a gradient
@@ -35,7 +37,8 @@ class Bitmap final : public Texture {
   }
 
  private:
-  Spectrum at_uv(const Vec2f& uv, const Vec2f& width) const {
+  Spectrum rgb(const TextureCoordinates& at) const {
+    const Vec2f uv = to_uv_(at.uv), width = to_uv_.width(at.uv_width);
     // Nearest texels are for those who want to see texels: only where they are larger than the
     // footprint.
     const Vec2f texel = pyramid_.texel_size({0, 0});

@@ -1,18 +1,18 @@
 #include "kaustik/material/bsdf_kinds.h"
-#include "kaustik/material/compound_bsdf.h"
 
 namespace kaustik {
 namespace {
 
 /// Two bsdfs mixed: f = (1 − w) f_0 + w f_1.
-class BlendBsdf final : public CompoundBsdf {
+class BlendBsdf final : public Bsdf {
  public:
   BlendBsdf(std::shared_ptr<const Bsdf> first, std::shared_ptr<const Bsdf> second,
             std::shared_ptr<const Texture> weight)
-      : CompoundBsdf({.lobes = first->lobes() | second->lobes(),
-                      .transmits = first->transmits() || second->transmits(),
-                      .needs = first->needs() | second->needs() | texture_needs({weight.get()}),
-                      .size = first->size() + second->size() + 1}),
+      : Bsdf({.lobes = first->traits().lobes | second->traits().lobes,
+              .transmits = first->traits().transmits || second->traits().transmits,
+              .needs =
+                  first->traits().needs | second->traits().needs | texture_needs({weight.get()}),
+              .size = first->traits().size + second->traits().size + 1}),
         first_(std::move(first)),
         second_(std::move(second)),
         weight_(std::move(weight)),
@@ -116,7 +116,8 @@ class BlendBsdf final : public CompoundBsdf {
   }
   /// With which sample() asks the second bsdf: the weight, unless one has none of the lobes.
   float second_chance(const BsdfContext& context, Lobes lobes) const {
-    const bool first = any(lobes & first_->lobes()), second = any(lobes & second_->lobes());
+    const bool first = any(lobes & first_->traits().lobes),
+               second = any(lobes & second_->traits().lobes);
     if (first != second) return second ? 1.0f : 0.0f;
     return weight(context);
   }

@@ -42,39 +42,67 @@ inline SurfaceNeeds texture_needs(std::initializer_list<const Texture*> textures
   return SurfaceNeeds::none;
 }
 
+/// What is the same for a bsdf wherever it is asked; so whoever holds one need not ask it.
+struct BsdfTraits {
+  Lobes lobes = Lobes::none;  ///< the parts that it has
+  bool transmits = false;     ///< whether light can pass through
+  /// Whether it is the boundary that light does not notice: paths and shadow rays go straight on,
+  /// without an event. Such a bsdf has no lobes.
+  bool is_null = false;
+  SurfaceNeeds needs = SurfaceNeeds::none;  ///< of the surface, beside directions
+  /// How many bsdfs an answer of eval() asks at most, itself included; one that is nested in
+  /// several places counts for each of them.
+  int size = 1;
+};
+
 /// What a bsdf needs to know of the point beside directions. Remembers what textures gave there,
 /// since one point is asked for its albedo, for directions and for values; so it belongs to one
 /// thread.
 class BsdfContext {
  public:
   BsdfContext() = default;
-  BsdfContext(const TextureCoordinates& texture, TransportMode transport_mode)
-      : mode(transport_mode), texture_(texture) {}
+  BsdfContext(const TextureCoordinates& texture, TransportMode transport_mode,
+              const Wavelengths& wavelengths)
+      : mode(transport_mode), texture_(texture), wavelengths_(wavelengths) {}
 
   const TextureCoordinates& texture() const { return texture_; }
-  void move_to(const TextureCoordinates& texture) {
+  /// Of the light that is asked about.
+  const Wavelengths& wavelengths() const { return wavelengths_; }
+  void move_to(const TextureCoordinates& texture, const Wavelengths& wavelengths) {
     texture_ = texture;
+    wavelengths_ = wavelengths;
     known_ = 0;
   }
-  /// What the texture gives there, as a color and as one number.
+  /// What the texture gives there as a colour …
   Spectrum value_of(const Texture& texture) const {
-    for (size_t i = 0; i < known_; ++i)
-      if (textures_[i] == &texture) return values_[i];
-    const Spectrum value = texture.eval(texture_);
-    if (known_ < values_.size()) {
-      textures_[known_] = &texture;
-      values_[known_++] = value;
-    }
-    return value;
+    return remembered(texture, 0, [&] { return texture.eval(texture_, wavelengths_); });
   }
-  float scalar_of(const Texture& texture) const { return luminance_of(value_of(texture)); }
+  /// … and as one number.
+  float scalar_of(const Texture& texture) const {
+    return remembered(texture, 1, [&] { return Spectrum(texture.scalar(texture_)); })[0];
+  }
 
   TransportMode mode = TransportMode::radiance;
 
  private:
+  /// `question` tells apart what one texture is asked.
+  template <typename Ask>
+  Spectrum remembered(const Texture& texture, uintptr_t question, const Ask& ask) const {
+    const uintptr_t key = reinterpret_cast<uintptr_t>(&texture) | question;
+    for (size_t i = 0; i < known_; ++i)
+      if (keys_[i] == key) return values_[i];
+    const Spectrum value = ask();
+    if (known_ < values_.size()) {
+      keys_[known_] = key;
+      values_[known_++] = value;
+    }
+    return value;
+  }
+
   TextureCoordinates texture_;
+  Wavelengths wavelengths_;
   mutable size_t known_ = 0;
-  mutable std::array<const Texture*, 6> textures_{};
+  mutable std::array<uintptr_t, 6> keys_{};
   mutable std::array<Spectrum, 6> values_{};
 };
 
@@ -90,6 +118,9 @@ struct BsdfSample {
   Lobes event = Lobes::none;  ///< exactly one of diffuse, glossy, delta; none: absorbed
   bool transmission = false;
   float eta = 1;  ///< n_transmitted/n_incident across the event; 1 for reflection
+  /// The only lane that goes on, since each has a direction of its own (Wavelengths::only); the
+  /// weight of the others is zero, and that of this one makes up for them. −1: all go on.
+  int only_lane = -1;
 };
 
 /// What paths ask that are completed at a point: f of both lobes without the cosine, 1/sr, and the
@@ -107,22 +138,12 @@ struct BsdfValues {
 /// answer to those parts; delta lobes are sampled, never evaluated (eval and pdf give zero).
 class Bsdf {
  public:
+  explicit Bsdf(const BsdfTraits& traits) : traits_(traits) {}
   virtual ~Bsdf() = default;
-  /// The parts that it has.
-  virtual Lobes lobes() const = 0;
-  /// Whether light can pass through.
-  virtual bool transmits() const { return false; }
-  /// Whether it is the boundary that light does not notice: paths and shadow rays go straight on,
-  /// without an event. Such a bsdf has no lobes.
-  virtual bool is_null() const { return false; }
+  const BsdfTraits& traits() const { return traits_; }
   /// f, 1/sr, without the cosine.
   virtual Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                         Lobes lobes) const = 0;
-  /// How many bsdfs an answer of eval() asks at most, itself included; one that is nested in
-  /// several places counts for each of them.
-  virtual int size() const { return 1; }
-  /// What it asks of the surface beside directions.
-  virtual SurfaceNeeds needs() const { return SurfaceNeeds::none; }
   /// What bends the normal of the side that is seen (`front`: the one that the geometric normal
   /// points to); null: nothing.
   virtual const Relief* relief(bool front) const {
@@ -145,14 +166,24 @@ class Bsdf {
   /// delta lobes, an estimate within a few percent for glossy ones. At most 1 unless a texture is
   /// over 1; an energy, so the transport mode makes no difference.
   virtual Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const = 0;
+
+ private:
+  BsdfTraits traits_;
 };
 
-/// The largest size() that a scene may use. Bsdfs that share nested ones double it at each level,
+/// The largest size that a scene may use. Bsdfs that share nested ones double it at each level,
 /// so a few lines of a scene file could ask for more than ever ends.
 inline constexpr int maximum_bsdf_size = 256;
 
 /// Ideally matt on its outer side and white: f = 1/π.
 const Bsdf& white_diffuse();
+
+/// The smooth boundary of two transparent materials by their indices of refraction; +z is the
+/// exterior. The textures are factors on what is reflected and transmitted.
+std::shared_ptr<const Bsdf> make_dielectric(const SpectralValue& interior,
+                                            const SpectralValue& exterior,
+                                            std::shared_ptr<const Texture> reflectance,
+                                            std::shared_ptr<const Texture> transmittance);
 
 /// What create() of a bsdf gets beside its arguments: its nested bsdfs and textures, built already.
 struct BsdfInputs {

@@ -1,4 +1,3 @@
-#include "kaustik/base/color.h"
 #include "kaustik/material/bsdf_kinds.h"
 #include "kaustik/material/uv_transform.h"
 
@@ -8,16 +7,19 @@ namespace {
 /// Squares of half a unit of uv in two colours; the one at the origin has color0.
 class Checkerboard final : public Texture {
  public:
-  Checkerboard(const Spectrum& color0, const Spectrum& color1, const UvTransform& to_uv)
+  Checkerboard(const SpectralValue& color0, const SpectralValue& color1, const UvTransform& to_uv)
       : color0_(color0), color1_(color1), to_uv_(to_uv) {}
 
-  Spectrum eval(const TextureCoordinates& at) const override {
+  Spectrum eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const override {
     const Vec2f uv = to_uv_(at.uv), width = to_uv_.width(at.uv_width);
     const float sign = square_wave(uv.x, width.x) * square_wave(uv.y, width.y);
-    return color0_ * (0.5f + 0.5f * sign) + color1_ * (0.5f - 0.5f * sign);
+    return color0_.at(wavelengths) * (0.5f + 0.5f * sign) +
+           color1_.at(wavelengths) * (0.5f - 0.5f * sign);
   }
-  float maximum() const override { return std::max(color0_.max_lane(), color1_.max_lane()); }
-  Spectrum mean() const override { return (color0_ + color1_) * 0.5f; }
+  float maximum() const override {
+    return std::max(color0_.rgb().max_lane(), color1_.rgb().max_lane());
+  }
+  Spectrum mean() const override { return (color0_.rgb() + color1_.rgb()) * 0.5f; }
   /// Of steps a hundredth of a square wide: as a relief the squares are plateaus.
   HeightGradient height_gradient(const TextureCoordinates& at) const override {
     HeightGradient gradient;
@@ -42,7 +44,7 @@ class Checkerboard final : public Texture {
   /// Its integral.
   static float triangle_wave(float x) { return 0.5f - std::fabs(x - std::floor(x) - 0.5f); }
 
-  Spectrum color0_, color1_;
+  SpectralValue color0_, color1_;
   UvTransform to_uv_;
 };
 
@@ -58,8 +60,8 @@ const TypeInfo& info() {
 }
 
 std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader&) {
-  return std::make_shared<Checkerboard>(reflectance_spectrum(arguments.color("color0")),
-                                        reflectance_spectrum(arguments.color("color1")),
+  return std::make_shared<Checkerboard>(SpectralValue::reflectance(arguments.color("color0")),
+                                        SpectralValue::reflectance(arguments.color("color1")),
                                         UvTransform(arguments.transform("to_uv")));
 }
 

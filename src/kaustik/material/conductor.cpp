@@ -7,11 +7,10 @@ namespace {
 /// Smooth metal; black seen from behind.
 class Conductor final : public Bsdf {
  public:
-  Conductor(const ComplexIor& ior, std::shared_ptr<const Texture> reflectance)
-      : ior_(ior), reflectance_(std::move(reflectance)) {}
-
-  Lobes lobes() const override { return Lobes::delta; }
-  SurfaceNeeds needs() const override { return texture_needs({reflectance_.get()}); }
+  Conductor(const SpectralIor& ior, std::shared_ptr<const Texture> reflectance)
+      : Bsdf({.lobes = Lobes::delta, .needs = texture_needs({reflectance.get()})}),
+        ior_(ior),
+        reflectance_(std::move(reflectance)) {}
 
   Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override {
     return Spectrum();
@@ -31,11 +30,12 @@ class Conductor final : public Bsdf {
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (!any(lobes & Lobes::delta) || wo.z <= 0) return Spectrum();
-    return context.value_of(*reflectance_) * fresnel_conductor(wo.z, ior_);
+    return context.value_of(*reflectance_) *
+           fresnel_conductor(wo.z, ior_.at(context.wavelengths()));
   }
 
  private:
-  ComplexIor ior_;
+  SpectralIor ior_;
   std::shared_ptr<const Texture> reflectance_;
 };
 

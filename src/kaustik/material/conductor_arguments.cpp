@@ -1,9 +1,6 @@
 #include "kaustik/material/conductor_arguments.h"
 
 #include <optional>
-
-#include "kaustik/base/color.h"
-
 namespace kaustik {
 namespace {
 
@@ -34,7 +31,7 @@ std::vector<Parameter> conductor_parameters() {
               .textured()};
 }
 
-ComplexIor conductor_ior(const Arguments& arguments) {
+SpectralIor conductor_ior(const Arguments& arguments) {
   const bool has_eta = arguments.given("eta"), has_k = arguments.given("k");
   if (!has_eta && !has_k) return conductor_ior(arguments.text("material"));
   if (arguments.given("material") && arguments.text("material") != "none")
@@ -49,12 +46,14 @@ ComplexIor conductor_ior(const Arguments& arguments) {
     const auto eta_curve = as_curve(eta), k_curve = as_curve(k);
     if (eta_curve && k_curve) return conductor_ior(*eta_curve, *k_curve);
   }
-  ComplexIor ior{reflectance_spectrum(eta), reflectance_spectrum(k)};
-  // The unused lane is that of a perfect mirror, which is finite.
-  ior.k.set(3, 1);
+  SpectralIor ior{SpectralValue::reflectance(eta), SpectralValue::reflectance(k)};
+  // The unused lane of RGB mode is that of a perfect mirror, which is finite.
+  Spectrum k_rgb = ior.k.rgb();
+  k_rgb.set(3, 1);
+  ior.k = ior.k.with_rgb(k_rgb);
   // Nothing at all to reflect on (eta 1, k 0) is fine; eta = k = 0 has no value at some angles.
   for (int lane = 0; lane < 3; ++lane)
-    if (ior.eta[lane] == 0 && ior.k[lane] == 0)
+    if (ior.eta.rgb()[lane] == 0 && ior.k.rgb()[lane] == 0)
       throw Error(ErrorKind::input, "'eta' and 'k' are both 0 in one channel",
                   "use material 'none' for a perfect mirror", arguments.place_of("eta"));
   return ior;

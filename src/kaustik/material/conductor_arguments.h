@@ -7,6 +7,6 @@ namespace kaustik {
 std::vector<Parameter> conductor_parameters();
 /// What they say. Throws Error(input) if both a material and eta or k are given, or only one of
 /// these.
-ComplexIor conductor_ior(const Arguments& arguments);
+SpectralIor conductor_ior(const Arguments& arguments);
 
 }  // namespace kaustik

@@ -16,17 +16,6 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// Linear between the samples, constant outside.
-double value_at(const SpectralCurve& curve, double nm) {
-  const auto& s = curve.samples;
-  const auto next = std::upper_bound(s.begin(), s.end(), nm,
-                                     [](double x, const auto& sample) { return x < sample.first; });
-  if (next == s.begin()) return s.front().second;
-  if (next == s.end()) return s.back().second;
-  const auto& [low_nm, low] = *(next - 1);
-  return std::lerp(low, next->second, (nm - low_nm) / (next->first - low_nm));
-}
-
 double normal_reflectance(double eta, double k) {
   return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
 }
@@ -35,12 +24,13 @@ std::array<double, 3> lanes(const Rgb& c) { return {c.r, c.g, c.b}; }
 
 }  // namespace
 
-ComplexIor conductor_ior(const SpectralCurve& eta, const SpectralCurve& k) {
+SpectralIor conductor_ior(const SpectralCurve& eta_curve, const SpectralCurve& k_curve) {
+  const SpectralFunctionPointer eta = tabulated(eta_curve), k = tabulated(k_curve);
   SpectralCurve reflectance;
   std::array<double, 3> eta_sum{}, weight_sum{};
   for (int nm = 360; nm <= 830; ++nm) {
-    const double n = value_at(eta, nm);
-    reflectance.samples.emplace_back(nm, normal_reflectance(n, value_at(k, nm)));
+    const double n = eta->at(nm);
+    reflectance.samples.emplace_back(nm, normal_reflectance(n, k->at(nm)));
     const auto primaries = lanes(rgb_from_xyz(cie_xyz_at(nm)));
     for (size_t lane = 0; lane < 3; ++lane) {
       const double weight = std::max(0.0, primaries[lane]) * d65_at(nm);
@@ -60,11 +50,11 @@ ComplexIor conductor_ior(const SpectralCurve& eta, const SpectralCurve& k) {
     ior.eta.set(int(lane), float(n));
     ior.k.set(int(lane), float(std::sqrt(std::max(0.0, k_sq))));
   }
-  return ior;
+  return {{ior.eta, eta}, {ior.k, k}};
 }
 
-ComplexIor conductor_ior(std::string_view name) {
-  if (lower(name) == "none") return {Spectrum(0), Spectrum(1)};
+SpectralIor conductor_ior(std::string_view name) {
+  if (lower(name) == "none") return {SpectralValue(0.0f), SpectralValue(1.0f)};
   for (const MeasuredMetal& metal : measured_metals()) {
     if (lower(metal.name) != lower(name)) continue;
     SpectralCurve eta, k;

@@ -1,4 +1,3 @@
-#include "kaustik/base/color.h"
 #include "kaustik/material/bsdf.h"
 
 namespace kaustik {
@@ -6,20 +5,25 @@ namespace {
 
 class ConstantTexture final : public Texture {
  public:
-  explicit ConstantTexture(const Spectrum& value) : value_(value) {}
-  Spectrum eval(const TextureCoordinates&) const override { return value_; }
-  float maximum() const override { return value_.max_lane(); }
+  explicit ConstantTexture(const SpectralValue& value)
+      : value_(value), scalar_(luminance_of(value.rgb())) {}
+  Spectrum eval(const TextureCoordinates&, const Wavelengths& wavelengths) const override {
+    return value_.at(wavelengths);
+  }
+  float scalar(const TextureCoordinates&) const override { return scalar_; }
+  float maximum() const override { return value_.rgb().max_lane(); }
   bool is_constant() const override { return true; }
-  Spectrum mean() const override { return value_; }
+  Spectrum mean() const override { return value_.rgb(); }
   HeightGradient height_gradient(const TextureCoordinates&) const override { return {}; }
 
  private:
-  Spectrum value_;
+  SpectralValue value_;
+  float scalar_;
 };
 
 }  // namespace
 
-std::shared_ptr<const Texture> make_constant_texture(const Spectrum& value) {
+std::shared_ptr<const Texture> make_constant_texture(const SpectralValue& value) {
   return std::make_shared<ConstantTexture>(value);
 }
 
@@ -27,8 +31,8 @@ std::shared_ptr<const Texture> constant_texture_of(const Arguments& arguments,
                                                    std::string_view name) {
   if (!arguments.has(name)) return nullptr;
   if (arguments.info().find(name)->kind == ParameterKind::number)
-    return make_constant_texture(Spectrum(float(arguments.number(name))));
-  return make_constant_texture(reflectance_spectrum(arguments.color(name)));
+    return make_constant_texture(SpectralValue(float(arguments.number(name))));
+  return make_constant_texture(SpectralValue::reflectance(arguments.color(name)));
 }
 
 }  // namespace kaustik

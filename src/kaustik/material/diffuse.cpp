@@ -8,10 +8,8 @@ namespace {
 class Diffuse final : public Bsdf {
  public:
   explicit Diffuse(std::shared_ptr<const Texture> reflectance)
-      : reflectance_(std::move(reflectance)) {}
-
-  Lobes lobes() const override { return Lobes::diffuse; }
-  SurfaceNeeds needs() const override { return texture_needs({reflectance_.get()}); }
+      : Bsdf({.lobes = Lobes::diffuse, .needs = texture_needs({reflectance.get()})}),
+        reflectance_(std::move(reflectance)) {}
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                 Lobes lobes) const override {
@@ -71,7 +69,7 @@ std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
 }  // namespace
 
 const Bsdf& white_diffuse() {
-  static const Diffuse white(make_constant_texture(Spectrum(1.0f)));
+  static const Diffuse white(make_constant_texture(SpectralValue(1.0f)));
   return white;
 }
 

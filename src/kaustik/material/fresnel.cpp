@@ -59,6 +59,11 @@ constexpr NamedIor named_iors[] = {
 
 }  // namespace
 
+SpectralValue dispersive_ior(const SpectralFunctionPointer& function) {
+  constexpr double sodium_d_nm = 589.3;
+  return {Spectrum(float(function->at(sodium_d_nm))), function};
+}
+
 float dielectric_ior(std::string_view name) {
   for (const NamedIor& ior : named_iors)
     if (name == ior.name) return ior.value;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kaustik/base/parameters.h"
-#include "kaustik/base/spectrum.h"
+#include "kaustik/base/spectral_value.h"
 
 namespace kaustik {
 
@@ -22,6 +22,13 @@ DielectricFresnel fresnel_dielectric(float cos_incident, float interior_over_ext
 struct ComplexIor {
   Spectrum eta, k;
 };
+/// The same at every wavelength.
+struct SpectralIor {
+  SpectralValue eta, k;
+  ComplexIor at(const Wavelengths& wavelengths) const {
+    return {eta.at(wavelengths), k.at(wavelengths)};
+  }
+};
 /// Reflectance of unpolarised light, exact; cos_incident in [0, 1]. With eta = 0 and k > 0 it is 1.
 /// Born and Wolf, 14.2, in the real form of Lagarde, "Memo on Fresnel equations" (2013).
 Spectrum fresnel_conductor(float cos_incident, const ComplexIor& ior);
@@ -30,12 +37,15 @@ Spectrum fresnel_conductor(float cos_incident, const ComplexIor& ior);
 /// the positive part of the colour matching function of that primary under D65; k is then chosen
 /// such that the normal reflectance of the lane is that of the spectral reflectance turned into RGB
 /// under D65 (at most 0.999, where Rec. 709 cannot show the colour).
-ComplexIor conductor_ior(const SpectralCurve& eta, const SpectralCurve& k);
+SpectralIor conductor_ior(const SpectralCurve& eta, const SpectralCurve& k);
 /// Of a measured metal, by its name in any case. Throws std::out_of_range for an unknown one.
-ComplexIor conductor_ior(std::string_view metal);
+SpectralIor conductor_ior(std::string_view metal);
 /// "none" (a perfect mirror) and the measured ones, in lower case.
 std::vector<std::string> conductor_names();
 
+/// A dielectric's index of refraction over the wavelength. In RGB mode all lanes have that at 589
+/// nm, the sodium D line, by which glasses are listed.
+SpectralValue dispersive_ior(const SpectralFunctionPointer& function);
 /// Index of refraction at 589 nm by Mitsuba's names ("bk7", "water", …). Throws std::out_of_range
 /// for an unknown one.
 float dielectric_ior(std::string_view name);

@@ -19,12 +19,14 @@ class Marble final : public Texture {
         space_(arguments.transform("to_world")),
         mean_(sampled_mean(*this, float(16 * arguments.number("scale")))) {}
 
-  Spectrum eval(const TextureCoordinates& at) const override {
+  Spectrum eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const override {
     return mixed(
-        ground_, vein_,
+        ground_.at(wavelengths), vein_.at(wavelengths),
         contrast_ * darkness(space_.point(at) * frequency_, space_.width(at) * frequency_));
   }
-  float maximum() const override { return std::max(ground_.max_lane(), vein_.max_lane()); }
+  float maximum() const override {
+    return std::max(ground_.rgb().max_lane(), vein_.rgb().max_lane());
+  }
   Spectrum mean() const override { return mean_; }
   HeightGradient height_gradient(const TextureCoordinates&) const override { return {}; }
 
@@ -59,7 +61,7 @@ class Marble final : public Texture {
            0.35f * fine * groups + 0.05f * crystals;
   }
 
-  Spectrum ground_, vein_;
+  SpectralValue ground_, vein_;
   float frequency_, contrast_;
   uint32_t seed_;
   SpaceTransform space_;

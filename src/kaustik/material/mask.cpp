@@ -1,19 +1,18 @@
 #include "kaustik/material/bsdf_kinds.h"
-#include "kaustik/material/compound_bsdf.h"
 
 namespace kaustik {
 namespace {
 
 /// A surface with holes: light meets the nested bsdf by the chance `opacity` and goes straight on
 /// otherwise, a delta event.
-class Mask final : public CompoundBsdf {
+class Mask final : public Bsdf {
  public:
   Mask(std::shared_ptr<const Bsdf> nested, std::shared_ptr<const Texture> opacity)
-      : CompoundBsdf({.lobes = nested->lobes() | Lobes::delta,
-                      .transmits = nested->transmits() || !opacity->is_constant() ||
-                                   opacity->mean().max_lane() < 1,
-                      .needs = nested->needs() | texture_needs({opacity.get()}),
-                      .size = nested->size() + 1}),
+      : Bsdf({.lobes = nested->traits().lobes | Lobes::delta,
+              .transmits = nested->traits().transmits || !opacity->is_constant() ||
+                           opacity->mean().max_lane() < 1,
+              .needs = nested->traits().needs | texture_needs({opacity.get()}),
+              .size = nested->traits().size + 1}),
         nested_(std::move(nested)),
         opacity_(std::move(opacity)) {}
 
@@ -41,7 +40,7 @@ class Mask final : public CompoundBsdf {
     }
     if (!any(lobes & Lobes::delta) || !(share < 1)) return sample;
     sample.wi = -wo;
-    sample.weight = Spectrum(1, 1, 1, 0) * ((1 - share) / (1 - chance));
+    sample.weight = clear(context) * ((1 - share) / (1 - chance));
     sample.pdf_solid_angle = 1 - chance;
     sample.event = Lobes::delta;
     sample.transmission = true;
@@ -51,18 +50,22 @@ class Mask final : public CompoundBsdf {
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     const float share = opacity(context);
     Spectrum sum = nested_->albedo(context, wo, lobes) * share;
-    if (any(lobes & Lobes::delta)) sum += Spectrum(1, 1, 1, 0) * (1 - share);
+    if (any(lobes & Lobes::delta)) sum += clear(context) * (1 - share);
     return sum;
   }
 
  private:
+  /// What passes a hole: all light; nothing in the lane that carries none.
+  static Spectrum clear(const BsdfContext& context) {
+    return lanes_from_reflectance(spectrum_from_rgb(1, 1, 1), context.wavelengths());
+  }
   /// What a texture says beyond 1 is 1.
   float opacity(const BsdfContext& context) const {
     return std::clamp(context.scalar_of(*opacity_), 0.0f, 1.0f);
   }
   /// With which sample() asks the nested bsdf: the opacity, but certain where holes don't count.
   float nested_chance(const BsdfContext& context, Lobes lobes) const {
-    if (!any(lobes & nested_->lobes())) return 0;
+    if (!any(lobes & nested_->traits().lobes)) return 0;
     return any(lobes & Lobes::delta) ? opacity(context) : 1.0f;
   }
 

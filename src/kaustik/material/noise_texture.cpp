@@ -19,10 +19,12 @@ class NoiseTexture final : public Texture {
         space_(arguments.transform("to_world")),
         mean_(sampled_mean(*this, float(32 * arguments.number("scale")))) {}
 
-  Spectrum eval(const TextureCoordinates& at) const override {
-    return mixed(color0_, color1_, 0.5f + 0.8f * noise(at).value);
+  Spectrum eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const override {
+    return mixed(color0_.at(wavelengths), color1_.at(wavelengths), 0.5f + 0.8f * noise(at).value);
   }
-  float maximum() const override { return std::max(color0_.max_lane(), color1_.max_lane()); }
+  float maximum() const override {
+    return std::max(color0_.rgb().max_lane(), color1_.rgb().max_lane());
+  }
   Spectrum mean() const override { return mean_; }
   HeightGradient height_gradient(const TextureCoordinates& at) const override {
     return {{0, 0}, space_.gradient(noise(at).gradient * (amplitude_ * frequency_))};
@@ -33,7 +35,7 @@ class NoiseTexture final : public Texture {
     return noise_(space_.point(at) * frequency_, space_.width(at) * frequency_);
   }
 
-  Spectrum color0_, color1_;
+  SpectralValue color0_, color1_;
   float frequency_, amplitude_;
   FractalNoise noise_;
   SpaceTransform space_;

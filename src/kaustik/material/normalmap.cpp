@@ -11,7 +11,7 @@ class NormalRelief final : public Relief {
   explicit NormalRelief(std::shared_ptr<const Texture> texture) : texture_(std::move(texture)) {}
 
   Vec3f normal(const ReliefPoint& at) const override {
-    const Spectrum c = texture_->eval(at.texture);
+    const Spectrum c = texture_->eval(at.texture, {});  // in RGB mode: vectors, no light
     const Vec3f along_u = at.dpdu - at.normal * dot(at.normal, at.dpdu);
     const float length_u = length(along_u);
     if (!(length_u > 0)) return at.normal;

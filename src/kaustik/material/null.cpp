@@ -6,9 +6,7 @@ namespace {
 /// Not there as far as light is concerned: a boundary of media of the same index.
 class Null final : public Bsdf {
  public:
-  Lobes lobes() const override { return Lobes::none; }
-  bool transmits() const override { return true; }
-  bool is_null() const override { return true; }
+  Null() : Bsdf({.transmits = true, .is_null = true}) {}
   Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override { return {}; }
   float pdf(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override { return 0; }
   BsdfSample sample(const BsdfContext&, const Vec3f&, float, const Vec2f&, Lobes) const override {

@@ -21,6 +21,10 @@ struct PhongTextures {
     return {diffuse_reflectance.get(), glossy_reflectance.get(), diffuse_transmittance.get(),
             glossy_transmittance.get()};
   }
+  SurfaceNeeds needs() const {
+    const auto t = reflecting_and_transmitting();
+    return texture_needs({t[0], t[1], t[2], t[3], exponent.get()});
+  }
 };
 
 constexpr float largest_exponent = 1e5f;
@@ -49,7 +53,10 @@ class Phong final : public Bsdf {
  public:
   /// `scale` goes into all factors.
   Phong(PhongTextures textures, float scale, bool is_sheet)
-      : textures_(std::move(textures)),
+      : Bsdf({.lobes = lobes_of(textures, is_sheet),
+              .transmits = is_sheet,
+              .needs = textures.needs()}),
+        textures_(std::move(textures)),
         scale_(scale),
         is_sheet_(is_sheet),
         lobe_albedo_(textures_.exponent->is_constant() ? log_exponent(BsdfContext()) : 0,
@@ -59,21 +66,7 @@ class Phong final : public Bsdf {
                        const float n = std::exp2(log_n) - 1;
                        const Vec3f wi = sample_lobe(mirrored(wo), n, u);
                        return Spectrum(wi.z > 0 ? wi.z * (n + 2) / (n + 1) : 0.0f);
-                     }) {
-    // A lobe of pure white noughts is none: a matt sheet needs no light samples for gloss.
-    for (int i = 0; i < 4; ++i) {
-      const Texture& t = *textures_.reflecting_and_transmitting()[size_t(i)];
-      if (t.maximum() > 0) lobes_ = lobes_ | (i % 2 ? Lobes::glossy : Lobes::diffuse);
-    }
-    if (!is_sheet) lobes_ = Lobes::diffuse | Lobes::glossy;
-  }
-
-  Lobes lobes() const override { return lobes_; }
-  bool transmits() const override { return is_sheet_; }
-  SurfaceNeeds needs() const override {
-    const auto t = textures_.reflecting_and_transmitting();
-    return texture_needs({t[0], t[1], t[2], t[3], textures_.exponent.get()});
-  }
+                     }) {}
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                 Lobes lobes) const override {
@@ -152,6 +145,16 @@ class Phong final : public Bsdf {
     Spectrum diffuse, glossy;
   };
 
+  /// A lobe of pure white noughts is none: a matt sheet needs no light samples for gloss.
+  static Lobes lobes_of(const PhongTextures& textures, bool is_sheet) {
+    if (!is_sheet) return Lobes::diffuse | Lobes::glossy;
+    Lobes lobes = Lobes::none;
+    for (int i = 0; i < 4; ++i)
+      if (textures.reflecting_and_transmitting()[size_t(i)]->maximum() > 0)
+        lobes = lobes | (i % 2 ? Lobes::glossy : Lobes::diffuse);
+    return lobes;
+  }
+
   static Vec3f mirrored(const Vec3f& w) { return {-w.x, -w.y, w.z}; }
   static float log_of(float exponent) { return std::log2(1 + exponent); }
   float log_exponent(const BsdfContext& context) const { return log_of(exponent_at(context)); }
@@ -206,7 +209,6 @@ class Phong final : public Bsdf {
   PhongTextures textures_;
   float scale_;
   bool is_sheet_;
-  Lobes lobes_ = Lobes::none;
   AlbedoTables lobe_albedo_;
 };
 
@@ -293,7 +295,7 @@ std::shared_ptr<const Bsdf> make(PhongTextures textures, const Arguments& argume
   return std::make_shared<Phong>(std::move(textures), scale, is_sheet);
 }
 
-TexturePointer black() { return make_constant_texture(Spectrum()); }
+TexturePointer black() { return make_constant_texture(SpectralValue()); }
 
 std::shared_ptr<const Bsdf> create_phong(const BsdfInputs& inputs) {
   return make({inputs.texture("diffuse_reflectance"), inputs.texture("specular_reflectance"),
@@ -310,7 +312,7 @@ std::shared_ptr<const Bsdf> create_thinphong(const BsdfInputs& inputs) {
 
 std::shared_ptr<const Bsdf> create_difftrans(const BsdfInputs& inputs) {
   return make({black(), black(), inputs.texture("transmittance"), black(),
-               make_constant_texture(Spectrum(1.0f))},
+               make_constant_texture(SpectralValue(1.0f))},
               inputs.arguments, true);
 }
 

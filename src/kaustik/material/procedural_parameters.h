@@ -1,7 +1,6 @@
 #pragma once
 // Rows that several procedural textures have.
 
-#include "kaustik/base/color.h"
 #include "kaustik/material/texture.h"
 
 namespace kaustik {
@@ -15,8 +14,8 @@ inline Parameter texture_color(std::string name, const Rgb& value, std::string s
 inline Parameter seed_parameter() {
   return integer_parameter("seed", 0, "Another number, another pattern.").range(0, 1e9);
 }
-inline Spectrum color_argument(const Arguments& arguments, std::string_view name) {
-  return reflectance_spectrum(arguments.color(name));
+inline SpectralValue color_argument(const Arguments& arguments, std::string_view name) {
+  return SpectralValue::reflectance(arguments.color(name));
 }
 inline Spectrum mixed(const Spectrum& a, const Spectrum& b, float share_of_b) {
   return a + (b - a) * std::clamp(share_of_b, 0.0f, 1.0f);

@@ -22,7 +22,10 @@ class RoughFacets {
         sample_visible_(sample_visible) {}
 
   bool is_isotropic() const { return alpha_u_ == alpha_v_; }
-  SurfaceNeeds needs() const { return texture_needs({alpha_u_.get(), alpha_v_.get()}); }
+  SurfaceNeeds needs() const {
+    const SurfaceNeeds textures = texture_needs({alpha_u_.get(), alpha_v_.get()});
+    return is_isotropic() ? textures : textures | SurfaceNeeds::tangent;
+  }
   MicrofacetDistribution at(const BsdfContext& context) const {
     return {kind_, in_range(context.scalar_of(*alpha_u_)), in_range(context.scalar_of(*alpha_v_)),
             sample_visible_};
@@ -57,21 +60,16 @@ class RoughFacets {
 /// Rough metal after Torrance and Sparrow with Walter et al.'s distributions; black from behind.
 class RoughConductor final : public Bsdf {
  public:
-  RoughConductor(RoughFacets facets, const ComplexIor& ior,
+  RoughConductor(RoughFacets facets, const SpectralIor& ior,
                  std::shared_ptr<const Texture> reflectance)
-      : facets_(std::move(facets)),
+      : Bsdf(
+            {.lobes = Lobes::glossy, .needs = facets.needs() | texture_needs({reflectance.get()})}),
+        facets_(std::move(facets)),
         ior_(ior),
         reflectance_(std::move(reflectance)),
-        albedo_(facets_.least_log_alpha(), facets_.largest_log_alpha(), facets_.is_isotropic(),
-                [this](float log_alpha, const Vec3f& wo, const Vec2f& u) {
-                  return sample_lobe(facets_.of_log_alpha(log_alpha), wo, u).weight;
-                }) {}
-
-  Lobes lobes() const override { return Lobes::glossy; }
-  SurfaceNeeds needs() const override {
-    const SurfaceNeeds textures = facets_.needs() | texture_needs({reflectance_.get()});
-    return facets_.is_isotropic() ? textures : textures | SurfaceNeeds::tangent;
-  }
+        albedo_(albedo_tables(
+            [this](float cos_facet) { return fresnel_conductor(cos_facet, ior_.at({})); })),
+        ideal_albedo_(albedo_tables([](float) { return Spectrum(1); })) {}
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                 Lobes lobes) const override {
@@ -104,25 +102,41 @@ class RoughConductor final : public Bsdf {
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float, const Vec2f& u,
                     Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0) return {};
-    BsdfSample sample = sample_lobe(facets_.at(context), wo, u);
+    BsdfSample sample = sample_lobe(facets_.at(context), wo, u, [&](float cos_facet) {
+      return fresnel_conductor(cos_facet, ior_.at(context.wavelengths()));
+    });
     sample.weight *= context.value_of(*reflectance_);
     return sample;
   }
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0) return Spectrum();
-    return context.value_of(*reflectance_) * albedo_(facets_.log_alpha(context), wo);
+    const float log_alpha = facets_.log_alpha(context);
+    const Wavelengths& wavelengths = context.wavelengths();
+    if (wavelengths.is_rgb()) return context.value_of(*reflectance_) * albedo_(log_alpha, wo);
+    // There are no tables of every wavelength.
+    return context.value_of(*reflectance_) * ideal_albedo_(log_alpha, wo) *
+           fresnel_conductor(wo.z, ior_.at(wavelengths));
   }
 
  private:
-  Spectrum fresnel(const Vec3f& wo, const Vec3f& m) const {
-    return fresnel_conductor(std::clamp(dot(wo, m), 0.0f, 1.0f), ior_);
+  static float cosine_to(const Vec3f& m, const Vec3f& wo) {
+    return std::clamp(dot(wo, m), 0.0f, 1.0f);
+  }
+  /// Of facets that reflect what `fresnel` tells of the cosine to their normals.
+  template <typename Fresnel>
+  AlbedoTables albedo_tables(const Fresnel& fresnel) const {
+    return {facets_.least_log_alpha(), facets_.largest_log_alpha(), facets_.is_isotropic(),
+            [this, fresnel](float log_alpha, const Vec3f& wo, const Vec2f& u) {
+              return sample_lobe(facets_.of_log_alpha(log_alpha), wo, u, fresnel).weight;
+            }};
   }
 
   /// f; `visible` is the density of facets with normal m that neither way is hidden.
   Spectrum value_of(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi, const Vec3f& m,
                     float visible) const {
-    return context.value_of(*reflectance_) * fresnel(wo, m) * (visible / (4 * wo.z * wi.z));
+    const Spectrum fresnel = fresnel_conductor(cosine_to(m, wo), ior_.at(context.wavelengths()));
+    return context.value_of(*reflectance_) * fresnel * (visible / (4 * wo.z * wi.z));
   }
 
   /// By the density of the facet's normal; the cosine is that of the angle to it.
@@ -131,8 +145,9 @@ class RoughConductor final : public Bsdf {
   }
 
   /// Without the texture. Light that a facet sends below the horizon is lost.
-  BsdfSample sample_lobe(const MicrofacetDistribution& facets, const Vec3f& wo,
-                         const Vec2f& u) const {
+  template <typename Fresnel>
+  static BsdfSample sample_lobe(const MicrofacetDistribution& facets, const Vec3f& wo,
+                                const Vec2f& u, const Fresnel& fresnel) {
     BsdfSample sample;
     const Vec3f m = facets.sample(wo, u);
     sample.wi = reflect(wo, m);
@@ -141,15 +156,16 @@ class RoughConductor final : public Bsdf {
     // f·cosθ_i/pdf; D cancels.
     const float cos_facet = dot(wo, m);
     const float hidden = facets.masking(wo) * facets.masking(sample.wi) * facets.density(m);
-    sample.weight = fresnel(wo, m) * (hidden * cos_facet / (wo.z * facets.pdf(wo, m)));
+    sample.weight = fresnel(cosine_to(m, wo)) * (hidden * cos_facet / (wo.z * facets.pdf(wo, m)));
     sample.event = Lobes::glossy;
     return sample;
   }
 
   RoughFacets facets_;
-  ComplexIor ior_;
+  SpectralIor ior_;
   std::shared_ptr<const Texture> reflectance_;
-  AlbedoTables albedo_;
+  AlbedoTables albedo_;        ///< in RGB mode, without the texture
+  AlbedoTables ideal_albedo_;  ///< of facets that reflect everything
 };
 
 /// The row of a roughness; `name` is alpha, alpha_u or alpha_v.

@@ -5,9 +5,9 @@
 
 namespace kaustik {
 
-float luminance_of(const Spectrum& color) { return photopic({color[0], color[1], color[2]}); }
+float luminance_of(const Spectrum& rgb) { return photopic({rgb[0], rgb[1], rgb[2]}); }
 
-float Texture::scalar(const TextureCoordinates& at) const { return luminance_of(eval(at)); }
+float Texture::scalar(const TextureCoordinates& at) const { return luminance_of(eval(at, {})); }
 
 Spectrum sampled_mean(const Texture& texture, float extent, int count) {
   Spectrum sum;
@@ -18,7 +18,7 @@ Spectrum sampled_mean(const Texture& texture, float extent, int count) {
     at.uv = u * extent;
     at.position = Vec3f(u.x - 0.5f, u.y - 0.5f, v.x - 0.5f) * extent;
     at.normal = {0, 0, 1};
-    sum += texture.eval(at);
+    sum += texture.eval(at, {});
   }
   return sum / float(count);
 }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "kaustik/base/parameters.h"
-#include "kaustik/base/spectrum.h"
+#include "kaustik/base/spectral_value.h"
 
 namespace kaustik {
 
@@ -26,35 +26,38 @@ struct HeightGradient {
   Vec3f position{0, 0, 0};
 };
 
-/// A value that varies over a surface, or in space. Immutable. All answers are means over the
-/// footprint, or near to that.
+/// A value that varies over a surface, or in space: a colour, or one number. Immutable. All answers
+/// are means over the footprint, or near to that.
 class Texture {
  public:
   virtual ~Texture() = default;
-  virtual Spectrum eval(const TextureCoordinates& at) const = 0;
-  /// Upper bound of every lane, for checks ("albedo over 1").
+  /// As a colour that reflects, or as another factor.
+  virtual Spectrum eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const = 0;
+  /// As one number, for parameters that are no colours (roughness, opacity, weights): the luminance
+  /// of the colour in RGB mode, as in Mitsuba, whatever wavelengths the picture is rendered at.
+  virtual float scalar(const TextureCoordinates& at) const;
+  /// Upper bound of every lane in RGB mode, for checks ("albedo over 1").
   virtual float maximum() const = 0;
   /// Whether eval() gives the same everywhere.
   virtual bool is_constant() const { return false; }
-  /// Mean over the uv square, for importance and previews; of textures in space an estimate, good
-  /// to about a hundredth of the span of their colours, of the mean over a large volume.
+  /// Mean over the uv square in RGB mode, for importance and previews; of textures in space an
+  /// estimate, good to about a hundredth of the span of their colours, of the mean over a large
+  /// volume.
   virtual Spectrum mean() const = 0;
 
-  /// The value as one number, for parameters that are no colours: the luminance, as in Mitsuba.
-  float scalar(const TextureCoordinates& at) const;
   /// Gradient of the height, m, of the relief that goes with the texture; for textures that know of
   /// none the height is scalar().
   virtual HeightGradient height_gradient(const TextureCoordinates& at) const = 0;
 };
 
-/// Weighted by the eye's sensitivity, such that white of 1 gives 1.
-float luminance_of(const Spectrum& color);
+/// Weighted by the eye's sensitivity, such that white of 1 gives 1. `rgb`: lanes in RGB mode.
+float luminance_of(const Spectrum& rgb);
 
 /// A texture of one value.
-std::shared_ptr<const Texture> make_constant_texture(const Spectrum& value);
+std::shared_ptr<const Texture> make_constant_texture(const SpectralValue& value);
 
-/// Mean of eval() over `count` points in a cube with sides of `extent` m about the origin, which is
-/// also the uv square that many times.
+/// Mean of eval() in RGB mode over `count` points in a cube with sides of `extent` m about the
+/// origin, which is also the uv square that many times.
 Spectrum sampled_mean(const Texture& texture, float extent, int count = 4096);
 
 struct TextureType {

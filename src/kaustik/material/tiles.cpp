@@ -56,12 +56,14 @@ class Tiles final : public Texture {
         space_(arguments.transform("to_world")),
         to_uv_(arguments.transform("to_uv")) {}
 
-  Spectrum eval(const TextureCoordinates& at) const override;
-  float maximum() const override { return std::max(color_.max_lane(), joint_color_.max_lane()); }
+  Spectrum eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const override;
+  float maximum() const override {
+    return std::max(color_.rgb().max_lane(), joint_color_.rgb().max_lane());
+  }
   /// Exact where all of the pattern is seen.
   Spectrum mean() const override {
     const float tile = rows_[0].size * rows_[1].size / (rows_[0].period * rows_[1].period);
-    return color_ * (tile * (1 - 0.5f * variation_)) + joint_color_ * (1 - tile);
+    return color_.rgb() * (tile * (1 - 0.5f * variation_)) + joint_color_.rgb() * (1 - tile);
   }
   HeightGradient height_gradient(const TextureCoordinates& at) const override;
 
@@ -77,7 +79,7 @@ class Tiles final : public Texture {
                     1 - std::max(place.width.x / rows_[0].period, place.width.y / rows_[1].period));
   }
 
-  Spectrum color_, joint_color_;
+  SpectralValue color_, joint_color_;
   float joint_;
   Row rows_[2];
   float offset_, variation_, bevel_, depth_, tilt_;
@@ -110,12 +112,12 @@ Place Tiles::place(const TextureCoordinates& at) const {
   return place;
 }
 
-Spectrum Tiles::eval(const TextureCoordinates& at) const {
+Spectrum Tiles::eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const {
   const Place p = place(at);
   const float tile = rows_[0].coverage(p.at.x, p.width.x) * rows_[1].coverage(p.at.y, p.width.y);
   const float visible = tile_visibility(p);
   const float darker = variation_ * (0.5f + visible * (random(p, 0) - 0.5f));
-  return mixed(joint_color_, color_ * (1 - darker), tile);
+  return mixed(joint_color_.at(wavelengths), color_.at(wavelengths) * (1 - darker), tile);
 }
 
 HeightGradient Tiles::height_gradient(const TextureCoordinates& at) const {

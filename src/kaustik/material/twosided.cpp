@@ -1,7 +1,6 @@
 #include <optional>
 
 #include "kaustik/material/bsdf_kinds.h"
-#include "kaustik/material/compound_bsdf.h"
 
 namespace kaustik {
 namespace {
@@ -21,12 +20,12 @@ class BackRelief final : public Relief {
 };
 
 /// A bsdf on each side; on the back in a frame whose z axis is turned round.
-class Twosided final : public CompoundBsdf {
+class Twosided final : public Bsdf {
  public:
   Twosided(std::shared_ptr<const Bsdf> front, std::shared_ptr<const Bsdf> back)
-      : CompoundBsdf({.lobes = front->lobes() | back->lobes(),
-                      .needs = front->needs() | back->needs(),
-                      .size = std::max(front->size(), back->size()) + 1}),
+      : Bsdf({.lobes = front->traits().lobes | back->traits().lobes,
+              .needs = front->traits().needs | back->traits().needs,
+              .size = std::max(front->traits().size, back->traits().size) + 1}),
         front_(std::move(front)),
         back_(std::move(back)) {
     if (const Relief* relief = back_->relief(true)) back_relief_.emplace(*relief);
@@ -83,7 +82,7 @@ const TypeInfo& info() {
 
 std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
   for (const auto& nested : inputs.nested)
-    if (nested->transmits())
+    if (nested->traits().transmits)
       throw Error(ErrorKind::input, "bsdf 'twosided' holds one that transmits light",
                   "use that one without 'twosided'; it has two sides already",
                   inputs.arguments.place());

@@ -16,13 +16,16 @@ class Waves final : public Texture {
         shade_(0.5f / std::max(waves_.largest_height(), 1e-30f)),
         space_(arguments.transform("to_world")) {}
 
-  Spectrum eval(const TextureCoordinates& at) const override {
+  Spectrum eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const override {
     const Vec3f p = space_.point(at);
-    return mixed(color0_, color1_, 0.5f + shade_ * waves_.height({p.x, p.y}, space_.width(at)));
+    return mixed(color0_.at(wavelengths), color1_.at(wavelengths),
+                 0.5f + shade_ * waves_.height({p.x, p.y}, space_.width(at)));
   }
-  float maximum() const override { return std::max(color0_.max_lane(), color1_.max_lane()); }
+  float maximum() const override {
+    return std::max(color0_.rgb().max_lane(), color1_.rgb().max_lane());
+  }
   /// Exact: no height leaves the span between the colours, and their mean is 0.
-  Spectrum mean() const override { return (color0_ + color1_) * 0.5f; }
+  Spectrum mean() const override { return (color0_.rgb() + color1_.rgb()) * 0.5f; }
   HeightGradient height_gradient(const TextureCoordinates& at) const override {
     const Vec3f p = space_.point(at);
     const Vec2f slope = waves_.slope({p.x, p.y}, space_.width(at));
@@ -43,7 +46,7 @@ class Waves final : public Texture {
   }
 
   WaveField waves_;
-  Spectrum color0_, color1_;
+  SpectralValue color0_, color1_;
   float shade_;
   SpaceTransform space_;
 };

@@ -31,11 +31,14 @@ class Wood final : public Texture {
         space_(arguments.transform("to_world")),
         mean_(sampled_mean(*this, 64 * std::max(ring_, plank_width_))) {}
 
-  Spectrum eval(const TextureCoordinates& at) const override {
+  Spectrum eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const override {
     const Piece piece = piece_at(space_.point(at), space_.width(at));
-    return mixed(early_, late_, shade(piece, space_.width(at))) * piece.brightness;
+    return mixed(early_.at(wavelengths), late_.at(wavelengths), shade(piece, space_.width(at))) *
+           piece.brightness;
   }
-  float maximum() const override { return std::max(early_.max_lane(), late_.max_lane()); }
+  float maximum() const override {
+    return std::max(early_.rgb().max_lane(), late_.rgb().max_lane());
+  }
   Spectrum mean() const override { return mean_; }
   HeightGradient height_gradient(const TextureCoordinates& at) const override;
 
@@ -54,7 +57,7 @@ class Wood final : public Texture {
 
   static constexpr float gap_ = 0.0012f;  ///< between planks, m
 
-  Spectrum early_, late_;
+  SpectralValue early_, late_;
   float ring_, grain_, depth_, plank_width_, plank_length_;
   uint32_t seed_;
   SpaceTransform space_;

@@ -1,50 +1,70 @@
 #pragma once
 #include <memory>
 
-#include "kaustik/base/spectrum.h"
+#include "kaustik/base/sampler.h"
+#include "kaustik/base/wavelengths.h"
 #include "kaustik/medium/phase_function.h"
 
 namespace kaustik {
 
-/// What fills the space between surfaces, the same everywhere in it (homogeneous). Coefficients
-/// count per scene unit. Immutable, thread-safe. No medium (a null pointer) is vacuum.
+/// A straight way through a medium.
+struct MediumSegment {
+  Vec3f origin{0, 0, 0};
+  Vec3f direction{0, 0, 1};  ///< unit
+  float length = infinity;   ///< m, ≥ 0, may be infinite
+};
+
+/// What fills the space between surfaces; it may differ from place to place. Coefficients count per
+/// scene unit. Immutable, thread-safe. No medium (a null pointer) is vacuum.
+///
+/// Random numbers: a flight takes one dimension pair of the sampler. What else a medium needs, for
+/// a transmittance too, it draws from forks of the sampler whose keys come from the segment, so
+/// that whoever asks needs not know how much that is.
 class Medium {
  public:
-  /// `extinction` σ_t ≥ 0; `albedo` σ_s/σ_t in [0, 1], per lane; finite.
-  Medium(const Spectrum& extinction, const Spectrum& albedo,
-         std::shared_ptr<const PhaseFunction> phase = isotropic_phase_function());
+  virtual ~Medium() = default;
 
-  const Spectrum& extinction() const { return extinction_; }
-  /// σ_s.
-  const Spectrum& scattering() const { return scattering_; }
-  bool scatters() const { return !scattering_.is_zero(); }
+  /// Whether there is light that it scatters.
+  bool scatters() const { return scatters_; }
   const PhaseFunction& phase() const { return *phase_; }
   /// Whether it is the same stuff, in an object of its own perhaps: scenes may describe a medium
   /// once for every boundary. (Phase functions are told apart by their mean cosine.)
-  bool is_like(const Medium& other) const;
+  virtual bool is_like(const Medium& other) const = 0;
 
-  /// Share of the light of each lane that is left after `distance` (≥ 0, may be infinite) on a
-  /// straight line: exp(−σ_t d), the law of Beer and Lambert.
-  Spectrum transmittance(float distance) const;
+  /// σ_t, and σ_s, the part of it that is scattered.
+  virtual Spectrum extinction(const Vec3f& position, const Wavelengths& wavelengths) const = 0;
+  virtual Spectrum scattering(const Vec3f& position, const Wavelengths& wavelengths) const = 0;
+  /// σ_t as an importance, by which densities of points are counted: the mean of the lanes in RGB
+  /// mode, whatever is rendered. Above 0 where anything scatters.
+  virtual float mean_extinction(const Vec3f& position) const = 0;
+
+  /// Share of the light of each lane that is left at the end of the segment, or an unbiased
+  /// estimate of it.
+  virtual Spectrum transmittance(const MediumSegment& segment, const Wavelengths& wavelengths,
+                                 const Sampler& sampler) const = 0;
 
   /// How far light went.
   struct Flight {
     float distance = infinity;
     bool scattered = false;  ///< false: it came to the end of the segment
-    /// Scattered: σ_s T(distance)/density; else T(limit)/chance. Multiply the throughput by it.
+    /// Scattered: σ_s T(distance)/density; else T(length)/chance. Multiply the throughput by it.
     Spectrum weight;
   };
-  /// Free flight along a segment of length `limit` (may be infinite). A lane is chosen by `shares`
-  /// (≥ 0, any scale: the throughput) and its extinction sampled; the density is the sum over all
-  /// lanes (balance heuristic), so the weight is bounded by the albedo times sum over share.
-  Flight sample_flight(float limit, const Spectrum& shares, const Vec2f& u) const;
+  /// Free flight along a segment, in a lane that is chosen by `shares` (≥ 0, any scale: the
+  /// throughput).
+  virtual Flight sample_flight(const MediumSegment& segment, const Spectrum& shares,
+                               const Wavelengths& wavelengths, Sampler& sampler) const = 0;
   /// A point of the segment where light is scattered, as if it were sure to be: the density is that
-  /// of free flight to a collision before `limit`. `scattered` is false where nothing scatters.
-  Flight sample_collision(float limit, const Spectrum& shares, const Vec2f& u) const;
+  /// of free flight to a collision before its end. `scattered` is false where nothing scatters.
+  virtual Flight sample_collision(const MediumSegment& segment, const Spectrum& shares,
+                                  const Wavelengths& wavelengths, Sampler& sampler) const = 0;
+
+ protected:
+  Medium(std::shared_ptr<const PhaseFunction> phase, bool scatters);
 
  private:
-  Spectrum extinction_, scattering_;
   std::shared_ptr<const PhaseFunction> phase_;
+  bool scatters_;
 };
 
 /// What create() of a medium gets beside its arguments: its phase function, built already.
@@ -55,7 +75,8 @@ struct MediumInputs {
 
 struct MediumType {
   const TypeInfo& info;
-  /// Throws Error(input) where arguments contradict one another.
+  /// Throws Error(input) where arguments contradict one another. Null where it neither absorbs nor
+  /// scatters: vacuum costs less.
   std::shared_ptr<const Medium> (*create)(const MediumInputs&);
 };
 /// "homogeneous".

@@ -110,9 +110,10 @@ class LightPass::Tracer {
  public:
   /// `first_path`: how many paths the pass has of other kinds and lights before these.
   Tracer(const LightPass& pass, Kind kind, int light, uint32_t count, uint32_t first_path,
-         uint32_t index)
+         const Address& address)
       : pass_(pass),
-        largest_weight_(largest_first_weight * std::cbrt(float(index) + 1)),
+        wavelengths_(address.wavelengths),
+        largest_weight_(largest_first_weight * std::cbrt(float(address.index) + 1)),
         kind_(kind),
         light_(light),
         first_path_(first_path),
@@ -166,14 +167,15 @@ class LightPass::Tracer {
     const EmissionSampler& emission =
         kind_ == Kind::caustic ? *pass_.caustic_emission_ : *pass_.global_emission_;
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
-    const EmittedRay emitted = emission.sample(light_, u_position, u_direction, sampler.next_1d());
+    const EmittedRay emitted =
+        emission.sample(light_, u_position, u_direction, sampler.next_1d(), wavelengths_);
     ++counts.emitted;
     if (emitted.flux.is_zero()) {
       ++counts.nothing;
       return std::nullopt;
     }
     return LightPath(emitted.ray, emitted.flux, pass_.scene_.light_medium(light_),
-                     pass_.settings_.traced, sampler);
+                     pass_.settings_.traced, sampler, wavelengths_);
   }
 
   Lobes meet_global(const LightVertex& at) {
@@ -217,6 +219,7 @@ class LightPass::Tracer {
   }
 
   const LightPass& pass_;
+  Wavelengths wavelengths_;
   float largest_weight_;
   Kind kind_;
   int light_;
@@ -245,14 +248,14 @@ std::vector<uint32_t> LightPass::train(Kind kind, uint32_t total, uint64_t seed)
   if (total == 0 || lights == 0 || (kind == Kind::caustic && target_count_ == 0))
     return std::vector<uint32_t>(lights, 0);
   std::vector<double> arriving(lights), power(lights);
-  for (size_t i = 0; i < lights; ++i) power[i] = scene_.lights()[i]->power().sum();
+  for (size_t i = 0; i < lights; ++i) power[i] = scene_.lights()[i]->traits().power.sum();
   if (lights > 1) {
     const auto tries = uint32_t(std::clamp<size_t>(total / 4 / lights, 64, 16384));
     Deposits deposits;
     const ProgressFunction nobody;
     WorkCounter counter(0, nobody);
-    trace_kind(kind, std::vector<uint32_t>(lights, tries), seed, 0, Stream::training, {}, counter,
-               deposits);
+    trace_kind(kind, std::vector<uint32_t>(lights, tries), {seed, 0, {}}, Stream::training, {},
+               counter, deposits);
     for (size_t i = 0; i < lights; ++i) arriving[i] = deposits.report.lights[i].stored_flux;
   } else {
     arriving = power;
@@ -260,9 +263,9 @@ std::vector<uint32_t> LightPass::train(Kind kind, uint32_t total, uint64_t seed)
   return share_photons(total, arriving, power);
 }
 
-void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint64_t seed,
-                           uint32_t index, Stream stream, std::stop_token stop,
-                           WorkCounter& counter, Deposits& deposits) const {
+void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, const Address& address,
+                           Stream stream, std::stop_token stop, WorkCounter& counter,
+                           Deposits& deposits) const {
   deposits.report.lights.assign(shares.size(), {});
   struct Block {
     int light;
@@ -288,12 +291,12 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint6
     if (stop.stop_requested()) return;
     const Block& block = blocks[i];
     auto tracer = std::make_unique<Tracer>(*this, kind, block.light, shares[size_t(block.light)],
-                                           block.first_path, index);
+                                           block.first_path, address);
     // Kinds draw from different addresses even where they share a stream (training).
     const uint64_t element = uint64_t(block.light) * 2 + (kind == Kind::caustic ? 1 : 0) +
                              (kind == Kind::volume ? uint64_t(1) << 32 : 0);
     tracer->trace(block.begin, block.end, [&](uint32_t photon) {
-      return Sampler::at(seed, index, stream, element, photon);
+      return Sampler::at(address.seed, address.index, stream, element, photon);
     });
     results[i] = std::move(tracer);
     counter.add(block.end - block.begin);
@@ -319,11 +322,10 @@ std::vector<uint32_t> LightPass::place_shares() const {
   return shares;
 }
 
-std::vector<SurfaceSide> LightPass::trace_places(uint64_t seed, uint32_t index,
-                                                 std::stop_token stop, WorkCounter& counter) const {
+std::vector<SurfaceSide> LightPass::trace_places(const Address& address, std::stop_token stop,
+                                                 WorkCounter& counter) const {
   Deposits deposits;
-  trace_kind(Kind::global, place_shares(), seed, index, Stream::photon_place, stop, counter,
-             deposits);
+  trace_kind(Kind::global, place_shares(), address, Stream::photon_place, stop, counter, deposits);
   std::vector<SurfaceSide> places;
   places.reserve(deposits.global.photons.size());
   for (size_t i = 0; i < deposits.global.photons.size(); ++i)
@@ -332,24 +334,24 @@ std::vector<SurfaceSide> LightPass::trace_places(uint64_t seed, uint32_t index,
 }
 
 PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop,
-                            const ProgressFunction& progress) const {
+                            const ProgressFunction& progress,
+                            const Wavelengths& wavelengths) const {
+  const Address address{seed, index, wavelengths};
   const auto start = std::chrono::steady_clock::now();
   uint64_t total = 0;
   for (const auto& shares : {caustic_shares_, global_shares_, volume_shares_, place_shares()})
     total += std::accumulate(shares.begin(), shares.end(), uint64_t(0));
   WorkCounter counter(total, progress);
   Deposits caustic, global, volume;
-  trace_kind(Kind::caustic, caustic_shares_, seed, index, Stream::photon_caustic, stop, counter,
+  trace_kind(Kind::caustic, caustic_shares_, address, Stream::photon_caustic, stop, counter,
              caustic);
-  trace_kind(Kind::global, global_shares_, seed, index, Stream::photon_global, stop, counter,
-             global);
-  trace_kind(Kind::volume, volume_shares_, seed, index, Stream::photon_volume, stop, counter,
-             volume);
+  trace_kind(Kind::global, global_shares_, address, Stream::photon_global, stop, counter, global);
+  trace_kind(Kind::volume, volume_shares_, address, Stream::photon_volume, stop, counter, volume);
   if (!caustic.global.photons.empty())
     global.global = concatenate({&global.global, &caustic.global});
   caustic.report.target_count = target_count_;
   PhotonMaps maps;
-  maps.places = trace_places(seed, index, stop, counter);
+  maps.places = trace_places(address, stop, counter);
   maps.global_report = std::move(global.report);
   maps.caustic_report = std::move(caustic.report);
   maps.volume_report = std::move(volume.report);

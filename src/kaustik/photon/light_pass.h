@@ -85,9 +85,10 @@ class LightPass {
   LightPass(const Scene& scene, const LightPassSettings& settings, uint64_t seed);
 
   /// The maps of pass `index`: the same for any number of threads. `progress` is told of photons,
-  /// not of the building of the trees.
+  /// not of the building of the trees. `wavelengths`: of all photons, since any of them may meet.
   PhotonMaps trace(uint64_t seed, uint32_t index, std::stop_token stop = {},
-                   const ProgressFunction& progress = {}) const;
+                   const ProgressFunction& progress = {},
+                   const Wavelengths& wavelengths = {}) const;
 
   /// Why a map that was asked for is empty. (A scene without specular objects has no caustics:
   /// that is no warning.)
@@ -99,11 +100,17 @@ class LightPass {
   struct Deposits;
   class Tracer;
   enum class Kind { global, caustic, volume };
-  void trace_kind(Kind kind, const std::vector<uint32_t>& shares, uint64_t seed, uint32_t index,
+  /// What tells the photons of a pass.
+  struct Address {
+    uint64_t seed;
+    uint32_t index;
+    Wavelengths wavelengths;
+  };
+  void trace_kind(Kind kind, const std::vector<uint32_t>& shares, const Address& address,
                   Stream stream, std::stop_token stop, WorkCounter& counter,
                   Deposits& deposits) const;
   std::vector<uint32_t> place_shares() const;
-  std::vector<SurfaceSide> trace_places(uint64_t seed, uint32_t index, std::stop_token stop,
+  std::vector<SurfaceSide> trace_places(const Address& address, std::stop_token stop,
                                         WorkCounter& counter) const;
   std::vector<uint32_t> train(Kind kind, uint32_t total, uint64_t seed) const;
 

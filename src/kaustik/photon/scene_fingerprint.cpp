@@ -41,7 +41,7 @@ class Summation {
 /// How a surface scatters: its albedo, and where it sends a few directions from either side.
 void add_bsdf(const Bsdf& bsdf, Summation& sums) {
   BsdfContext context;
-  context.move_to({.uv = {0.5f, 0.5f}});
+  context.move_to({.uv = {0.5f, 0.5f}}, {});
   for (const float side : {1.0f, -1.0f}) {
     const Vec3f wo = normalize(Vec3f(0.3f, 0.2f, side));
     const Spectrum albedo = bsdf.albedo(context, wo, Lobes::all);
@@ -56,9 +56,9 @@ void add_bsdf(const Bsdf& bsdf, Summation& sums) {
 
 /// What a light sends out: its power and a few of its rays.
 void add_light(const Light& light, double size, Summation& sums) {
-  sums.add_logarithm(double(light.power().sum()));
+  sums.add_logarithm(double(light.traits().power.sum()));
   for (const float u : {0.2f, 0.7f}) {
-    const EmissionSample ray = light.sample_emission({u, 0.4f}, {0.6f, u});
+    const EmissionSample ray = light.sample_emission({u, 0.4f}, {0.6f, u}, {});
     sums.add(ray.point.position, size);
     sums.add(ray.direction);
   }

@@ -49,7 +49,7 @@ void follow(const Scene& scene, Ray ray, const std::stop_token& stop, Block& blo
     ++block.rays;
     if (!scene.intersect(ray, hit)) return;
     const SurfacePoint point = scene.tracer().surface_point(ray, hit);
-    if (any(scene.surface(point.shape).bsdf->lobes() & (Lobes::diffuse | Lobes::glossy)))
+    if (any(scene.surface(point.shape).traits.lobes & (Lobes::diffuse | Lobes::glossy)))
       store(point, ray.direction, surfaces > 0, block);
     ray = spawn_ray(point, ray.direction);
   }
@@ -62,7 +62,7 @@ void trace(const Scene& scene, const EmissionSampler& emission, uint64_t seed, u
     Sampler sampler = Sampler::at(seed, pass, Stream::photon_shadow, uint64_t(block.light), i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const EmittedRay emitted =
-        emission.sample(block.light, u_position, u_direction, sampler.next_1d());
+        emission.sample(block.light, u_position, u_direction, sampler.next_1d(), {});
     if (emitted.flux.is_zero()) continue;
     ++block.emitted;
     follow(scene, emitted.ray, stop, block);
@@ -92,7 +92,7 @@ std::vector<std::string> ShadowReport::warnings() const {
 ShadowMap trace_shadow_photons(const Scene& scene, uint32_t count, uint64_t seed, uint32_t pass,
                                std::stop_token stop, ShadowReport& report) {
   std::vector<double> powers;
-  for (const auto& light : scene.lights()) powers.push_back(double(light->power().sum()));
+  for (const auto& light : scene.lights()) powers.push_back(double(light->traits().power.sum()));
   report = {};
   report.lights.resize(powers.size());
   if (count == 0) return {};

@@ -61,7 +61,8 @@ void VolumePhotonMap::order_photons(std::vector<VolumePhoton> photons, int neigh
 }
 
 Spectrum VolumePhotonMap::radiance(const Ray& ray, float length, const Medium& medium,
-                                   const Sampler& sampler, uint64_t& rays) const {
+                                   const Wavelengths& wavelengths, const Sampler& sampler,
+                                   uint64_t& rays) const {
   Spectrum sum;
   std::vector<VolumePart>& parts = empty_volume_parts();
   discs_.visit_met(ray, length, [&](size_t i, float along, float distance_sq) {
@@ -70,7 +71,10 @@ Spectrum VolumePhotonMap::radiance(const Ray& ray, float length, const Medium& m
     const float radius_sq = sqr(photon.radius);
     const float kernel = 3 * inv_pi * sqr(1 - distance_sq / radius_sq) / radius_sq;
     const float phase = medium.phase().eval(photon.direction.unpack(), -ray.direction);
-    const Spectrum light = photon.flux * medium.transmittance(along) * (kernel * phase);
+    const Spectrum light =
+        photon.flux *
+        medium.transmittance({ray.origin, ray.direction, along}, wavelengths, sampler) *
+        (kernel * phase);
     sum += light;
     if (scene_) parts.push_back({i, ray.origin + ray.direction * along, light});
   });

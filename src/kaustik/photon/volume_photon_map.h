@@ -37,7 +37,8 @@ class VolumePhotonMap final : public VolumeLight {
   /// Σ Φ p(θ) T(s) K(d/r)/r² over the photons of `medium` whose foot on the ray lies within the
   /// segment, with the biweight kernel K = 3/π (1 − d²/r²)² (eq. 12 of the paper; Φ is scattered
   /// flux here, which holds its σ_s/σ_t).
-  Spectrum radiance(const Ray& ray, float length, const Medium& medium, const Sampler& sampler,
+  Spectrum radiance(const Ray& ray, float length, const Medium& medium,
+                    const Wavelengths& wavelengths, const Sampler& sampler,
                     uint64_t& rays) const override;
 
  private:

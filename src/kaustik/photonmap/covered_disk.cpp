@@ -21,11 +21,11 @@ bool finds_photons(const PhotonSurroundings& around, const Vec3f& side, Ray ray,
     if (!around.scene.intersect(ray, hit)) return false;
     const SurfacePoint point = around.scene.tracer().surface_point(ray, hit);
     const Surface& surface = around.scene.surface(hit.shape);
-    if (any(surface.lobes & around.keeping)) {
+    if (any(surface.traits.lobes & around.keeping)) {
       const float cosine = dot(point.ng, side);
       return (dot(point.ng, ray.direction) < 0 ? cosine : -cosine) > least_cosine;
     }
-    if (!surface.transmits) return false;
+    if (!surface.traits.transmits) return false;
     ray.t_max -= hit.t;
     ray.origin = spawn_ray(point, ray.direction).origin;
   }

@@ -28,8 +28,9 @@ constexpr float asked_where_whole = 0.125f;
 
 PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
                          const PhotonMaps& maps, const GatherRadii& radii, const ShadowMap* shadows,
-                         const ShadowSettings& shadow_settings, uint32_t pass)
+                         const ShadowSettings& shadow_settings, const Pass& pass)
     : scene_(scene),
+      wavelengths_(pass.wavelengths),
       settings_(settings),
       maps_(maps),
       radii_(radii),
@@ -39,9 +40,9 @@ PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
                                at_level(settings.global, radii.global, precomputed_level),
                                settings.visibility ? &scene : nullptr);
   rays_ = precomputed_.rays();
-  if (!maps.volume.empty()) make_volume_maps(pass);
+  if (!maps.volume.empty()) make_volume_maps(pass.index);
   for (uint32_t shape = 0; shape < scene.surface_count(); ++shape) {
-    const Lobes lobes = scene.surface(shape).lobes;
+    const Lobes lobes = scene.surface(shape).traits.lobes;
     if (any(lobes & MergeDisk::keeping()) && !any(lobes & keeping()))
       edges_tell_what_keeps_ = false;
   }
@@ -150,9 +151,9 @@ Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, const 
     const VisibilityEstimate seen = sight.of(light.light);
     Spectrum visible(seen.known);
     if (seen.by_ray > 0)
-      visible +=
-          trace_shadow_ray(scene_, light, vertex.medium_toward(light.wi, medium), rays, answer) *
-          seen.by_ray;
+      visible += trace_shadow_ray(scene_, light, vertex.medium_toward(light.wi, medium),
+                                  {vertex.wavelengths(), sampler}, rays, answer) *
+                 seen.by_ray;
     return reflected * visible;
   };
   return sample_direct_lights<Spectrum>(scene_, Receiver(vertex, recursion),
@@ -163,9 +164,11 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
                                                const Vec3f& direction, Sampler& sampler,
                                                const EyeLevel& at) const {
   Incoming result;
-  Spectrum throughput(1.0f);
+  PathState state;
+  state.wavelengths = wavelengths_;
+  Spectrum& throughput = state.throughput;
+  Footprint& footprint = state.footprint;
   float eta_scale = 1;
-  Footprint footprint;
   footprint.scatter(Lobes::diffuse, 0.5f * inv_pi);
   Ray ray = spawn_ray(from, direction);
   float distance = 0;
@@ -176,12 +179,14 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
     ++rays;
     const bool found = scene_.intersect(ray, hit);
     if (medium) {
-      result.radiance += throughput * coarse_volume_.radiance(ray, hit.t, *medium, sampler, rays);
-      throughput *= medium->transmittance(hit.t);
+      result.radiance += throughput * coarse_volume_.radiance(ray, hit.t, *medium,
+                                                              state.wavelengths, sampler, rays);
+      throughput *=
+          medium->transmittance({ray.origin, ray.direction, hit.t}, state.wavelengths, sampler);
     }
     if (!found) break;
     footprint.travel(hit.t);
-    const SurfaceVertex vertex(scene_, ray, hit, TransportMode::radiance, footprint);
+    const SurfaceVertex vertex(scene_, ray, hit, state);
     distance += hit.t;
     if (vertex.is_null()) {
       if (++boundaries > most_null_boundaries) break;
@@ -209,6 +214,7 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
     throughput *= sample.weight;
     eta_scale *= sqr(sample.eta);
     footprint.scatter(sample.event, sample.pdf_solid_angle);
+    state.follow_lanes_of(sample);
     if (events >= gather_roulette_depth) {
       const float survival =
           std::min(1.0f, throughput.max_lane() * eta_scale) * length_survival(events);

@@ -4,6 +4,7 @@
 #include "kaustik/photon/coverage/surface_edges.h"
 #include "kaustik/photon/irradiance_map.h"
 #include "kaustik/photonmap/photon_map_settings.h"
+#include "kaustik/transport/integrator.h"
 
 namespace kaustik {
 
@@ -16,11 +17,12 @@ struct GatherRadii {
 /// along gather rays. Immutable during the visualisation pass.
 class PhotonLight final : public RadianceSource {
  public:
-  /// `shadows` may be null: shadow rays alone tell what light arrives. `pass` numbers the pass,
-  /// whose discs of volume photons shrink. All must outlive this.
+  /// `shadows` may be null: shadow rays alone tell what light arrives. `pass`: whose wavelengths
+  /// all light has; its index tells how far the discs of volume photons have shrunk. All but that
+  /// must outlive this.
   PhotonLight(const Scene& scene, const PhotonMapSettings& settings, const PhotonMaps& maps,
               const GatherRadii& radii, const ShadowMap* shadows,
-              const ShadowSettings& shadow_settings, uint32_t pass);
+              const ShadowSettings& shadow_settings, const Pass& pass);
 
   /// Radiance by caustic photons [L G⁺ → x] that `lobes` send back at a recursion level.
   /// `sampler` tells where it is drawn what is visible; its numbers are not used up. Counts rays.
@@ -90,6 +92,7 @@ class PhotonLight final : public RadianceSource {
   Lobes keeping() const;
 
   const Scene& scene_;
+  Wavelengths wavelengths_;
   const PhotonMapSettings& settings_;
   const PhotonMaps& maps_;
   GatherRadii radii_;

@@ -65,6 +65,8 @@ struct PhotonMapIntegrator::State final : PassState {
 
 PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene& scene)
     : IlluminationModel(scene), settings_(arguments) {
+  traits_.components = settings_.components;
+  traits_.default_samples_per_pass = settings_.samples_per_pass;
   if (scene.has_media() && settings_.shadow_photons > 0)
     throw Error(ErrorKind::input,
                 "shadow photons know nothing of media and null boundaries, and the scene has some",
@@ -147,8 +149,8 @@ std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
     const ProgressFunction& progress) const {
   if (stored_maps_) return stored_maps_;
   const auto lights = light_pass(pass.seed);
-  auto maps =
-      std::make_shared<const PhotonMaps>(lights->trace(pass.seed, pass.index, stop, progress));
+  auto maps = std::make_shared<const PhotonMaps>(
+      lights->trace(pass.seed, pass.index, stop, progress, pass.wavelengths));
   report.photons = maps->global.size() + maps->caustic.size() + maps->volume.size();
   report.rays = maps->global_report.rays + maps->caustic_report.rays + maps->volume_report.rays;
   if (!stop.stop_requested()) report.warnings = lights->warnings(*maps);
@@ -168,7 +170,7 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
   // no number of passes removes.
   state->light = std::make_unique<PhotonLight>(
       scene(), settings_, *state->maps, pass_radii(*state->maps, stored_maps_ ? 0 : pass.index),
-      state->shadows.get(), state->shadow_settings, pass.index);
+      state->shadows.get(), state->shadow_settings, pass);
   const bool wants_indirect = settings_.components.has(Component::indirect) ||
                               settings_.components.has(Component::specular);
   if (settings_.cache && wants_indirect && settings_.global.neighbors > 0)
@@ -245,7 +247,7 @@ void PhotonMapIntegrator::collect_cache_points(const Vec2i& pixel, int stride, c
   Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::cache, address, round);
   const Vec2i corner = pixel - film.crop_offset;
   const Vec2f raster = Vec2f(float(corner.x), float(corner.y)) + sampler.next_2d() * float(stride);
-  SampleSink nowhere{ComponentSet()};
+  SampleSink nowhere{ComponentSet(), pass.wavelengths};
   CameraWalk walk(scene(), raster, sampler, nowhere, settings_.traced());
   const size_t first = points.size();
   while (walk.advance()) {

@@ -20,8 +20,6 @@ class PhotonMapIntegrator final : public IlluminationModel {
   bool reflect(const PassState& state, CameraWalk& walk,
                const RadianceTracer& tracer) const override;
   Lobes traced() const override { return settings_.traced(); }
-  uint32_t default_samples_per_pass() const override { return settings_.samples_per_pass; }
-  ComponentSet components() const override { return settings_.components; }
 
  private:
   struct State;

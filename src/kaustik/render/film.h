@@ -39,7 +39,7 @@ struct FilmLayers {
   ComponentSet components;
   bool bias = false;  ///< estimates of the bias
   static FilmLayers of(const Integrator& integrator) {
-    return {integrator.components(), integrator.estimates_bias()};
+    return {integrator.traits().components, integrator.traits().estimates_bias};
   }
   friend bool operator==(const FilmLayers&, const FilmLayers&) = default;
 };

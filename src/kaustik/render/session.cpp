@@ -39,8 +39,9 @@ Session::Session(const Scene& scene, const Integrator& integrator, const Session
       integrator_(integrator),
       settings_(settings),
       film_(std::move(begun)),
-      splats_(integrator.splats() ? scene.film() : FilmSettings{{1, 1}, {0, 0}, {1, 1}, {}, 0},
-              integrator.components()),
+      splats_(
+          integrator.traits().splats ? scene.film() : FilmSettings{{1, 1}, {0, 0}, {1, 1}, {}, 0},
+          integrator.traits().components),
       pixels_(film_.pixel_count()),
       tile_mutexes_(
           std::make_unique<std::mutex[]>(size_t(tile_count().x) * size_t(tile_count().y))),
@@ -51,24 +52,24 @@ Session::Session(const Scene& scene, const Integrator& integrator, const Session
 Session::~Session() = default;
 
 uint32_t Session::most_samples_per_pass() const {
-  const uint64_t usual = integrator_.default_samples_per_pass();
+  const uint64_t usual = integrator_.traits().default_samples_per_pass;
   return uint32_t(
       std::clamp<uint64_t>(most_samples_of_pass / std::max<uint64_t>(1, film_.pixel_count()), usual,
                            most_times_default * usual));
 }
 
 uint32_t Session::samples_by_time() const {
-  const uint32_t usual = integrator_.default_samples_per_pass();
+  const uint32_t usual = integrator_.traits().default_samples_per_pass;
   if (settings_.keeps_passes) return usual;
   // A pass that can't be taken in parts.
-  if (!integrator_.samples_camera()) return 1;
+  if (!integrator_.traits().samples_camera) return 1;
   const double pixels = double(std::max<size_t>(1, film_.pixel_count()));
   return uint32_t(
       std::clamp(usual * *settings_.seconds * pixels_per_second / pixels, 1.0, double(usual)));
 }
 
 void Session::plan() {
-  const uint32_t by_integrator = integrator_.default_samples_per_pass();
+  const uint32_t by_integrator = integrator_.traits().default_samples_per_pass;
   std::optional<uint32_t> samples = settings_.samples_per_pixel;
   const bool is_open = settings_.seconds || settings_.error;  // else passes alone end it
   if (settings_.samples_per_pass) {

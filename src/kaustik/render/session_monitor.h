@@ -21,7 +21,7 @@ class Session::Monitor {
         start_(Clock::now()),
         passes_at_start_(session.film_.pass_count()),
         passes_to_do_(session.film_.passes().missing(session.planned())),
-        light_share_(session.integrator_.samples_camera() ? 0.3 : 1),
+        light_share_(session.integrator_.traits().samples_camera ? 0.3 : 1),
         error_(session.film_.picture_error()) {}
 
   void start_pass() {
@@ -67,7 +67,7 @@ class Session::Monitor {
   /// Of a pass like the last one until each pixel has a sample.
   double least_pass_seconds() const {
     const double camera = last_pass_seconds_ - last_light_seconds_;
-    return last_light_seconds_ + (session_.integrator_.samples_camera()
+    return last_light_seconds_ + (session_.integrator_.traits().samples_camera
                                       ? camera / std::max(1u, session_.samples_per_pass_)
                                       : camera);
   }

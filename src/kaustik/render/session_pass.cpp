@@ -25,12 +25,13 @@ constexpr double passes_ahead = 2;
 /// single ones in a sum of millions.
 constexpr uint32_t samples_per_block = 256;
 
-/// Returns how many components were not finite and left out.
+/// The film's edge: what comes in lanes becomes RGB here. Returns how many components were not
+/// finite and left out.
 int add_sample(const SampleSink& sink, PassPixel& sum) {
   int dropped = 0;
   std::array<Spectrum, component_count> finite{};
   for (int c = 0; c < component_count; ++c) {
-    const Spectrum& radiance = sink.radiance(Component(c));
+    const Spectrum radiance = rgb_from_lanes(sink.radiance(Component(c)), sink.wavelengths());
     if (radiance.is_finite())
       sum.radiance[size_t(c)] += finite[size_t(c)] = radiance;
     else
@@ -38,14 +39,17 @@ int add_sample(const SampleSink& sink, PassPixel& sum) {
   }
   const std::array<float, noise_kinds> values = by_noise_kind(finite);
   for (size_t k = 0; k < noise_kinds; ++k) sum.squares[k] += sqr(values[k]);
-  if (sink.bias().is_finite())
-    sum.bias += sink.bias();
+  const Spectrum bias = rgb_from_lanes(sink.bias(), sink.wavelengths());
+  if (bias.is_finite())
+    sum.bias += bias;
   else
     ++dropped;
   const FirstHit& hit = sink.first_hit();
   if (!hit.albedo.is_finite() || !is_finite(hit.normal) || !std::isfinite(hit.depth))
     return dropped + 1;
-  sum.first_hit.albedo += hit.albedo;
+  // As white light shows it.
+  sum.first_hit.albedo +=
+      rgb_from_lanes(hit.albedo * white_light(sink.wavelengths()), sink.wavelengths());
   sum.first_hit.normal += hit.normal;
   sum.first_hit.depth += hit.depth;
   return dropped;
@@ -70,8 +74,8 @@ void add_new(const std::vector<std::string>& sentences, std::vector<std::string>
 
 Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Monitor& monitor) {
   monitor.start_pass();
-  const Pass pass{settings_.seed, index, samples_per_pass_};
-  if (integrator_.splats()) splats_.clear();
+  const Pass pass{settings_.seed, index, samples_per_pass_, {}};
+  if (integrator_.traits().splats) splats_.clear();
   clear_pixels();
   monitor.tell(Progress::Stage::light, false);
   const bool may_be_late = must_be_finished(monitor);
@@ -87,7 +91,8 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
   monitor.light_pass_done(state->report);
   add_new(state->report.warnings, report_.warnings);
   add_new(state->report.decisions, report_.decisions);
-  const bool complete = !integrator_.samples_camera() || render_camera(pass, *state, stop, monitor);
+  const bool complete =
+      !integrator_.traits().samples_camera || render_camera(pass, *state, stop, monitor);
   uint32_t samples = samples_per_pass_;
   if (!complete) {
     const auto fewest = std::min_element(
@@ -178,7 +183,8 @@ bool Session::render_camera(const Pass& pass, const PassState& state, const std:
   if (may_be_cut) round = {1, 1};
   if (!must_end) camera.last_second = settings_.seconds;
   // Those that must be there.
-  const uint32_t always = settings_.keeps_passes ? integrator_.default_samples_per_pass() : 1;
+  const uint32_t always =
+      settings_.keeps_passes ? integrator_.traits().default_samples_per_pass : 1;
   const Vec2i tiles = tile_count();
   for (bool more = true; more && !camera.halted; round = round.next()) {
     camera.more = false;
@@ -238,7 +244,7 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end,
       Sampler sampler =
           Sampler::at(pass.seed, replicate, Stream::camera, address, samples.first_index + done);
       const Vec2f offset = film.filter.sample(sampler.next_2d());
-      SampleSink sink(integrator_.components());
+      SampleSink sink(integrator_.traits().components, pass.wavelengths);
       integrator_.sample(camera.state, {float(x) + 0.5f + offset.x, float(y) + 0.5f + offset.y},
                          sampler, sink);
       rays += sink.rays();
@@ -257,7 +263,7 @@ PassPixel Session::finished(int x, int y) const {
   mean.samples = pixel.samples;
   if (pixel.samples > 0) add_scaled(pixel, 1.0f / float(pixel.samples), mean);
   for (int c = 0; c < component_count; ++c)
-    if (integrator_.splats() && splats_.wants(Component(c)))
+    if (integrator_.traits().splats && splats_.wants(Component(c)))
       mean.radiance[size_t(c)] += splats_.value(x, y, Component(c));
   return mean;
 }

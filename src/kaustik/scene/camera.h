@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "kaustik/base/parameters.h"
+#include "kaustik/base/sampler.h"
 #include "kaustik/geometry/ray.h"
 #include "kaustik/scene/film_settings.h"
 
@@ -11,37 +12,60 @@ namespace kaustik {
 /// How a point is seen by the camera.
 struct CameraConnection {
   Vec2f raster;     ///< pixel coordinates, in the frame of the crop window
-  Vec3f direction;  ///< unit, from the point to the camera
+  Vec3f lens;       ///< where light enters the camera, m, in the world
+  Vec3f direction;  ///< unit, from the point to there
   float distance = 0;
-  /// Raster area (pixels) per solid angle at the camera: a light path of radiant intensity I toward
-  /// the camera adds I / distance² × importance to the radiance of its pixel.
+  /// Raster area (pixels) per solid angle at the lens: a light path of radiant intensity I toward
+  /// the lens adds I / distance² × importance to the radiance of its pixel.
   float importance = 0;  ///< zero: outside the picture or behind
 };
 
-/// Perspective pinhole. Looks along +z of its own space, +x to the left, +y up (Mitsuba).
+/// What is the same for a camera whoever asks.
+struct CameraTraits {
+  Vec3f position{0, 0, 0};  ///< middle of the lens, m, in the world; a pinhole's lens is all there
+  /// Half the angle that one pixel covers, radians: the ray's spread per unit distance.
+  float pixel_spread = 0;
+  float horizontal_fov = 0, vertical_fov = 0;  ///< degrees, of the whole (uncropped) picture
+  bool has_lens = false;                       ///< whether it matters where on the lens rays begin
+};
+
+/// Where pictures are seen from. Rays begin at a point of the lens, which is told by two numbers in
+/// [0, 1)²; whoever follows a ray and asks how a point is seen by it gives the same numbers again.
+/// Immutable, thread-safe. Its own space: it looks along +z, +x to the left, +y up (Mitsuba).
 class Camera {
  public:
-  /// `info()`'s arguments; throws Error for a transform that is degenerate.
-  Camera(const Arguments& arguments, const FilmSettings& film);
-  static const TypeInfo& info();
+  virtual ~Camera() = default;
+  const CameraTraits& traits() const { return traits_; }
 
-  /// `raster`: pixel coordinates in the crop window, (0, 0) its upper left corner.
-  Ray sample_ray(const Vec2f& raster) const;
-  CameraConnection connect(const Vec3f& point) const;
-  Vec3f position() const { return position_; }
-  /// Half the angle that one pixel covers, radians: the ray's spread per unit distance.
-  float pixel_spread() const { return pixel_spread_; }
-  /// Degrees, of the whole (uncropped) picture.
-  float horizontal_fov() const { return horizontal_fov_; }
-  float vertical_fov() const { return vertical_fov_; }
+  /// For whom any ray will do.
+  static Vec2f middle_of_lens() { return {0.5f, 0.5f}; }
 
- private:
-  Vec3f position_, left_, up_, forward_;
-  float tan_x_ = 1, tan_y_ = 1;  ///< of half the fields of view
-  Vec2f full_size_, crop_offset_, crop_size_, principal_offset_;
-  float pixel_area_ = 1;  ///< of one pixel on the plane at distance 1
-  float pixel_spread_ = 0;
-  float horizontal_fov_ = 0, vertical_fov_ = 0;
+  /// Numbers for a point of the lens: a dimension pair of `sampler` if there is a lens.
+  Vec2f lens_numbers(Sampler& sampler) const {
+    return traits_.has_lens ? sampler.next_2d() : middle_of_lens();
+  }
+  /// The same off a fork of `sampler`, which stays as it is.
+  Vec2f forked_lens_numbers(const Sampler& sampler) const {
+    constexpr uint32_t lens_key = 0x70000009;
+    return traits_.has_lens ? sampler.fork(lens_key).next_2d() : middle_of_lens();
+  }
+
+  /// `raster`: pixel coordinates in the crop window, (0, 0) its upper left corner. The origin is
+  /// the point of the lens; the direction is unit.
+  virtual Ray sample_ray(const Vec2f& raster, const Vec2f& u_lens) const = 0;
+  /// By that point of the lens.
+  virtual CameraConnection connect(const Vec3f& point, const Vec2f& u_lens) const = 0;
+
+ protected:
+  CameraTraits traits_;  ///< complete once the constructor is done
 };
+
+struct CameraType {
+  const TypeInfo& info;
+  /// Throws Error(input) for a transform that is degenerate.
+  std::unique_ptr<Camera> (*create)(const Arguments&, const FilmSettings&);
+};
+/// "perspective".
+const std::vector<CameraType>& camera_types();
 
 }  // namespace kaustik

@@ -71,41 +71,6 @@ float PixelFilter::sample_1d(float u) const {
 
 Vec2f PixelFilter::sample(const Vec2f& u) const { return {sample_1d(u.x), sample_1d(u.y)}; }
 
-const TypeInfo& film_info() {
-  static const TypeInfo info{
-      "film",
-      "hdrfilm",
-      "The picture: its size, crop window and pixel filter, and what it holds.",
-      {integer_parameter("width", 768, "Width of the picture.").range(1, 1 << 20).in("pixels"),
-       integer_parameter("height", 576, "Height of the picture.").range(1, 1 << 20).in("pixels"),
-       integer_parameter("crop_offset_x", 0, "Left edge of the crop window.")
-           .range(0, 1 << 20)
-           .in("pixels"),
-       integer_parameter("crop_offset_y", 0, "Upper edge of the crop window.")
-           .range(0, 1 << 20)
-           .in("pixels"),
-       optional(integer_parameter("crop_width", 1, "Width of the crop window; the rest if absent.")
-                    .range(1, 1 << 20)
-                    .in("pixels")),
-       optional(
-           integer_parameter("crop_height", 1, "Height of the crop window; the rest if absent.")
-               .range(1, 1 << 20)
-               .in("pixels")),
-       choice_parameter("quantity", "radiance", {"radiance", "irradiance"},
-                        "Radiance in W/(sr m²), or irradiance in W/m² on the side that is seen of "
-                        "the first surface behind each pixel, whatever that is made of."),
-       ignored_parameter("file_format", ParameterKind::text),
-       ignored_parameter("pixel_format", ParameterKind::text),
-       ignored_parameter("component_format", ParameterKind::text),
-       ignored_parameter("sample_border", ParameterKind::boolean),
-       ignored_parameter("compensate", ParameterKind::boolean),
-       ignored_parameter("banner", ParameterKind::boolean),
-       ignored_parameter("high_quality_edges", ParameterKind::boolean),
-       ignored_parameter("attach_log", ParameterKind::boolean),
-       ignored_parameter("gamma", ParameterKind::number)}};
-  return info;
-}
-
 const std::vector<TypeInfo>& filter_infos() {
   static const std::vector<TypeInfo> infos{
       {"rfilter",

@@ -56,8 +56,16 @@ struct FilmSettings {
   Quantity quantity = Quantity::radiance;
 };
 
-/// Tables of "hdrfilm", the filters and the samplers.
-const TypeInfo& film_info();
+struct FilmType {
+  const TypeInfo& info;
+  /// The settings but for the filter and what other objects say. Throws Error(input) for a crop
+  /// window that leaves the picture.
+  FilmSettings (*create)(const Arguments&);
+};
+/// "hdrfilm".
+const std::vector<FilmType>& film_types();
+
+/// Tables of the filters and the samplers.
 const std::vector<TypeInfo>& filter_infos();
 const std::vector<TypeInfo>& sampler_infos();
 

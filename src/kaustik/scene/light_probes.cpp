@@ -45,7 +45,8 @@ class LightProbing {
     Sampler sampler = Sampler::at(0, 0, Stream::light_probe, 0, uint32_t(path));
     const Vec2f u = sampler.next_2d();
     const Vec2i& size = scene_.film().crop_size;
-    Ray ray = scene_.camera().sample_ray({u.x * float(size.x), u.y * float(size.y)});
+    Ray ray = scene_.camera().sample_ray({u.x * float(size.x), u.y * float(size.y)},
+                                         Camera::middle_of_lens());
     for (size_t i = 0; i < probes_per_path; ++i) {
       Hit hit;
       if (!scene_.tracer().intersect(ray, hit)) return;
@@ -54,7 +55,7 @@ class LightProbing {
       const Vec3f facing = dot(ray.direction, point.ng) < 0 ? point.ng : -point.ng;
       ask_lights(path * probes_per_path + i, point, facing, sampler.fork(1));
       const Bsdf& bsdf = *scene_.surface(point.shape).bsdf;
-      const bool goes_through = bsdf.transmits() && sampler.next_1d() < 0.5f;
+      const bool goes_through = bsdf.traits().transmits && sampler.next_1d() < 0.5f;
       ray = spawn_ray(point, Frame(goes_through ? -facing : facing)
                                  .to_world(square_to_cosine_hemisphere(sampler.next_2d())));
     }
@@ -101,7 +102,7 @@ class LightProbing {
 LightVisibility probe_lights(const Scene& scene) {
   if (!scene.light_selector().can_learn()) return {};
   for (uint32_t i = 0; i < scene.surface_count(); ++i)
-    if (scene.surface(i).is_null) return {};
+    if (scene.surface(i).traits.is_null) return {};
   const size_t probes = std::clamp(wanted_rays / scene.lights().size(), least_probes, most_probes);
   return LightProbing(scene, probes / probes_per_path).learned();
 }

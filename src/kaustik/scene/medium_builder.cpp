@@ -1,28 +1,14 @@
 // The part of SceneBuilder for what fills space: media, phase functions, who refers to them.
 #include <fmt/format.h>
 
+#include "kaustik/scene/find_row.h"
 #include "kaustik/scene/scene_builder.h"
 
 namespace kaustik {
-namespace {
-
-template <typename Row>
-const Row* find_row(const std::vector<Row>& rows, const std::string& name,
-                    std::vector<std::string>& valid) {
-  for (const Row& row : rows) {
-    if (row.info.name == name) return &row;
-    valid.push_back(row.info.name);
-  }
-  return nullptr;
-}
-
-}  // namespace
-
 std::shared_ptr<const PhaseFunction> SceneBuilder::make_phase_function(const Object& object) {
-  std::vector<std::string> valid;
-  const PhaseFunctionType* type = find_row(phase_function_types(), object.type, valid);
+  const PhaseFunctionType* type = find_row(phase_function_types(), object.type);
   if (!type) {
-    unknown_type(object, valid);
+    unknown_type(object, names_of(phase_function_types()));
     return nullptr;
   }
   refuse_children(object, {});
@@ -36,10 +22,9 @@ std::shared_ptr<const Medium> SceneBuilder::make_medium(const std::shared_ptr<Ob
   const auto known = media_.find(object.get());
   if (known != media_.end()) return known->second;
   std::shared_ptr<const Medium>& medium = media_[object.get()];
-  std::vector<std::string> valid;
-  const MediumType* type = find_row(medium_types(), object->type, valid);
+  const MediumType* type = find_row(medium_types(), object->type);
   if (!type) {
-    unknown_type(*object, valid);
+    unknown_type(*object, names_of(medium_types()));
     return nullptr;
   }
   refuse_children(*object, {"phase"});
@@ -53,8 +38,6 @@ std::shared_ptr<const Medium> SceneBuilder::make_medium(const std::shared_ptr<Ob
   }
   const Arguments arguments = arguments_of(type->info, *object);
   if (phase) collecting(object->place, [&] { medium = type->create({arguments, phase}); });
-  // What neither absorbs nor scatters is vacuum, and costs as little.
-  if (medium && medium->extinction().is_zero()) medium = nullptr;
   return medium;
 }
 

@@ -23,17 +23,7 @@ struct Surface {
   std::shared_ptr<const Object> illumination;
   std::shared_ptr<const Medium> interior, exterior;  ///< null: vacuum, or see separates_media()
   bool names_media = false;                          ///< also by those that are empty
-  // What the bsdf says of itself, so that not every path has to ask it: see Bsdf.
-  bool is_null = false, transmits = false;
-  Lobes lobes = Lobes::none;
-  SurfaceNeeds needs = SurfaceNeeds::none;
-
-  void ask_bsdf() {
-    is_null = bsdf->is_null();
-    transmits = bsdf->transmits();
-    lobes = bsdf->lobes();
-    needs = bsdf->needs();
-  }
+  BsdfTraits traits;                                 ///< of the bsdf
 
   /// Whether the surface says what lies on its sides. If not, both are in the medium that a path
   /// arrives through.

@@ -8,25 +8,12 @@
 #include "kaustik/base/color.h"
 #include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
+#include "kaustik/scene/find_row.h"
 #include "kaustik/scene/texture_emission.h"
 #include "kaustik/scene/type_tables.h"
 
 namespace kaustik {
 namespace {
-
-template <typename Row>
-const Row* find_row(const std::vector<Row>& rows, const std::string& name) {
-  for (const Row& row : rows)
-    if (row.info.name == name) return &row;
-  return nullptr;
-}
-
-template <typename Row>
-std::vector<std::string> names_of(const std::vector<Row>& rows) {
-  std::vector<std::string> names;
-  for (const Row& row : rows) names.push_back(row.info.name);
-  return names;
-}
 
 std::string display_name(const Object& object) {
   if (!object.id.empty()) return object.id;
@@ -228,7 +215,7 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
     static const Object default_bsdf{"bsdf", "diffuse", "", {}, {}, {}};
     built.surface.bsdf = create_bsdf(default_bsdf);
   }
-  if (built.surface.bsdf) built.surface.ask_bsdf();
+  if (built.surface.bsdf) built.surface.traits = built.surface.bsdf->traits();
   read_media(object, built.surface);
   if (!arguments.is_complete()) return std::nullopt;
   collecting(source_place(arguments), [&] {
@@ -250,7 +237,7 @@ void SceneBuilder::add_shape(const Object& object) {
     if (child.object->family != "emitter") continue;
     if (built->surface.light >= 0)
       problems_.add("the shape has a second emitter", "keep one", child.object->place);
-    if (built->surface.is_null)
+    if (built->surface.traits.is_null)
       problems_.add("a shape with bsdf 'null' is not there, so it cannot be a light",
                     "give it another bsdf, such as diffuse", child.object->place);
     built->surface.light = int(pending_lights_.size());
@@ -366,10 +353,10 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
   };
   std::shared_ptr<const Bsdf> bsdf;
   collecting(object.place, [&] { bsdf = type->create({arguments, nested, texture}); });
-  if (bsdf && bsdf->size() > maximum_bsdf_size) {
+  if (bsdf && bsdf->traits().size > maximum_bsdf_size) {
     problems_.add(fmt::format("bsdf '{}' nests {} bsdfs, each counted for every place it is used "
                               "in: rendering it would take too long",
-                              object.type, bsdf->size() - 1),
+                              object.type, bsdf->traits().size - 1),
                   fmt::format("nest fewer, and blend the same one only once: at most {} in all",
                               maximum_bsdf_size - 1),
                   object.place);

@@ -12,7 +12,7 @@ float largest_albedo(const Bsdf& bsdf) {
     for (const float cosine : {1.0f, 0.5f, 0.1f})
       for (const float side : {1.0f, -1.0f}) {
         BsdfContext context;
-        context.move_to({.uv = {u, u}});
+        context.move_to({.uv = {u, u}}, {});
         const Vec3f wo(safe_sqrt(1 - cosine * cosine), 0, cosine * side);
         largest = std::max(largest, bsdf.albedo(context, wo, Lobes::all).max_lane());
       }
@@ -30,7 +30,7 @@ struct View {
 /// Whether a surface neither reflects nor lets through what comes to its back.
 bool is_black_from_behind(const Surface& surface) {
   BsdfContext context;
-  context.move_to({.uv = {0.5f, 0.5f}});
+  context.move_to({.uv = {0.5f, 0.5f}}, {});
   return surface.bsdf->albedo(context, normalize({0.3f, 0.2f, -1.0f}), Lobes::all).is_zero();
 }
 
@@ -42,11 +42,11 @@ View look_around(const Scene& scene) {
     for (int x = 0; x < grid; ++x) {
       const Vec2f raster((float(x) + 0.5f) / grid * float(size.x),
                          (float(y) + 0.5f) / grid * float(size.y));
-      Ray ray = scene.camera().sample_ray(raster);
+      Ray ray = scene.camera().sample_ray(raster, Camera::middle_of_lens());
       Hit hit;
       ++view.rays;
       bool found = scene.intersect(ray, hit);
-      while (found && scene.surface(hit.shape).is_null) {
+      while (found && scene.surface(hit.shape).traits.is_null) {
         ray = spawn_ray(scene.tracer().surface_point(ray, hit), ray.direction);
         found = scene.intersect(ray, hit);
       }
@@ -66,10 +66,10 @@ View look_around(const Scene& scene) {
 void describe_view(const Scene& scene, SceneReport& report) {
   const View view = look_around(scene);
   const Camera& camera = scene.camera();
-  const Vec3f p = camera.position();
+  const Vec3f p = camera.traits().position;
   report.lines.push_back(
       fmt::format("camera     at {:.4g}, {:.4g}, {:.4g}; field of view {:.4g}° × {:.4g}°", p.x, p.y,
-                  p.z, camera.horizontal_fov(), camera.vertical_fov()));
+                  p.z, camera.traits().horizontal_fov, camera.traits().vertical_fov));
   report.lines.push_back(
       fmt::format("picture    {} × {} pixels{}", scene.film().crop_size.x, scene.film().crop_size.y,
                   scene.film().quantity == Quantity::irradiance ? " of irradiance" : ""));
@@ -93,13 +93,13 @@ void describe_view(const Scene& scene, SceneReport& report) {
 void describe_lights(const Scene& scene, SceneReport& report) {
   int index = 0;
   for (const auto& light : scene.lights()) {
-    const float power = light->power().sum();
+    const float power = light->traits().power.sum();
     const std::string where =
-        light->shape() >= 0
-            ? fmt::format("surface '{}'", scene.surface(uint32_t(light->shape())).name)
+        light->traits().shape >= 0
+            ? fmt::format("surface '{}'", scene.surface(uint32_t(light->traits().shape)).name)
         : light->is_infinite() ? std::string("at infinity")
                                : std::string("without a surface");
-    const Spectrum rgb = light->power();
+    const Spectrum rgb = light->traits().power;
     report.lines.push_back(fmt::format("light {:<4} {}, {:.4g} {:.4g} {:.4g} W", index, where,
                                        rgb[0], rgb[1], rgb[2]));
     if (!(power > 0))

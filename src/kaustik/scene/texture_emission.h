@@ -10,13 +10,13 @@ class TextureEmission final : public EmissionPattern {
  public:
   explicit TextureEmission(std::shared_ptr<const Texture> texture) : texture_(std::move(texture)) {}
 
-  Spectrum radiance(const SurfacePoint& at) const override {
+  Spectrum radiance(const SurfacePoint& at, const Wavelengths& wavelengths) const override {
     TextureCoordinates where;
     where.uv = at.uv;
     where.position = at.position;
     where.normal = at.ng;
-    // Textures of reflectances may have something in the lane that nothing emits into.
-    return texture_->eval(where) * spectrum_from_rgb(1, 1, 1);
+    // White has nothing in the lane that nothing emits into; textures of reflectances may.
+    return texture_->eval(where, wavelengths) * white_light(wavelengths);
   }
   float maximum() const override { return texture_->maximum(); }
 

@@ -20,8 +20,8 @@ TypeTables all_of_scenes() {
   types.add_rows(light_types());
   types.add_rows(medium_types());
   types.add_rows(phase_function_types());
-  types.add(Camera::info());
-  types.add(film_info());
+  types.add_rows(camera_types());
+  types.add_rows(film_types());
   for (const TypeInfo& info : filter_infos()) types.add(info);
   for (const TypeInfo& info : sampler_infos()) types.add(info);
   return types;

@@ -44,9 +44,11 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
       sink_(sink),
       class_(traced),
       raster_(raster),
-      ray_(scene.camera().sample_ray(raster)) {
-  state_.footprint = Footprint::of_camera(scene.camera().pixel_spread());
+      u_lens_(scene.camera().lens_numbers(sampler)),
+      ray_(scene.camera().sample_ray(raster, u_lens_)) {
+  state_.footprint = Footprint::of_camera(scene.camera().traits().pixel_spread);
   state_.medium = scene.camera_medium();
+  state_.wavelengths = sink.wavelengths();
   if (seeks_irradiance()) {
     state_.throughput = Spectrum(pi);
     // Roulette is to find paths as likely as those of radiance.
@@ -62,6 +64,7 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
       class_(other.class_),
       light_choice_(other.light_choice_),
       raster_(other.raster_),
+      u_lens_(other.u_lens_),
       ray_(other.ray_),
       vertex_(other.vertex_),
       in_medium_(other.in_medium_),
@@ -92,9 +95,11 @@ CameraWalk::Arrival CameraWalk::travel(LightWeights* weights, const PassMedium& 
     const bool found = scene_.intersect(ray_, hit);
     if (state_.medium && !only_arrives && pass_medium(hit.t)) {
       if (meets_lamps_only_) return Arrival::nothing;
-      if (found && only_delta_)
-        describe_what_is_seen(SurfaceVertex(scene_, ray_, hit, TransportMode::radiance),
-                              distance_ + hit.t);
+      if (found && only_delta_) {
+        SurfaceVertex seen;
+        seen.meet(scene_, ray_, hit, TransportMode::radiance, {}, state_.wavelengths);
+        describe_what_is_seen(seen, distance_ + hit.t);
+      }
       return Arrival::medium;
     }
     if (!found) {
@@ -103,11 +108,11 @@ CameraWalk::Arrival CameraWalk::travel(LightWeights* weights, const PassMedium& 
     }
     if (meets_lamps_only_) {
       const Surface& surface = scene_.surface(hit.shape);
-      if (surface.light < 0 && !surface.is_null) return Arrival::nothing;
+      if (surface.light < 0 && !surface.traits.is_null) return Arrival::nothing;
     }
     distance_ += hit.t;
     state_.footprint.travel(hit.t);
-    vertex_.meet(scene_, ray_, hit, TransportMode::radiance, state_.footprint);
+    vertex_.meet(scene_, ray_, hit, state_);
     if (!vertex_.is_null()) break;
     if (boundary == most_null_boundaries) return Arrival::nothing;
     state_.medium = vertex_.medium_toward(ray_.direction, state_.medium);
@@ -126,9 +131,11 @@ bool CameraWalk::advance(const VolumeLight* volume, LightWeights* weights) {
   if (!sink_.wants(in_medium)) volume = nullptr;
   return travel(weights, [&](float length) {
            if (volume && state_.medium->scatters())
-             sink_.add(in_medium, state_.throughput * volume->radiance(ray_, length, *state_.medium,
-                                                                       sampler_, rays_));
-           state_.throughput *= state_.medium->transmittance(length);
+             sink_.add(in_medium,
+                       state_.throughput * volume->radiance(ray_, length, *state_.medium,
+                                                            state_.wavelengths, sampler_, rays_));
+           state_.throughput *= state_.medium->transmittance({ray_.origin, ray_.direction, length},
+                                                             state_.wavelengths, sampler_);
            return false;
          }) == Arrival::surface;
 }
@@ -138,15 +145,16 @@ CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume, LightWeights* wei
   if (!sink_.wants(in_medium)) volume = nullptr;
   return travel(weights, [&](float length) {
     if (volume && state_.medium->scatters())
-      sink_.add(in_medium, state_.throughput *
-                               volume->radiance(ray_, length, *state_.medium, sampler_, rays_));
-    const Medium::Flight flight =
-        state_.medium->sample_flight(length, state_.throughput, sampler_.next_2d());
+      sink_.add(in_medium,
+                state_.throughput * volume->radiance(ray_, length, *state_.medium,
+                                                     state_.wavelengths, sampler_, rays_));
+    const Medium::Flight flight = state_.medium->sample_flight(
+        {ray_.origin, ray_.direction, length}, state_.throughput, state_.wavelengths, sampler_);
     state_.throughput *= flight.weight;
     if (!flight.scattered) return false;
     // As for light paths, which don't know the depth.
-    in_medium_ =
-        Receiver(ray_.origin + ray_.direction * flight.distance, weights ? 1 : state_.depth);
+    in_medium_ = Receiver(ray_.origin + ray_.direction * flight.distance,
+                          weights ? 1 : state_.depth, state_.wavelengths);
     is_in_medium_ = true;
     distance_ += flight.distance;
     state_.footprint.travel(flight.distance);
@@ -154,18 +162,16 @@ CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume, LightWeights* wei
   });
 }
 
-/// Weight of light found by the last event against sampling it (a point of an area light or a
-/// direction) from the previous vertex.
-template <typename Where>
-float CameraWalk::emission_weight(int light, const Where& where) const {
+/// Weight of light found by the last event against sampling it from the previous vertex.
+float CameraWalk::emission_weight(int light, const LightTarget& target) const {
   if (state_.pdf_forward == 0) return 1;
   return mis_weight(state_.pdf_forward,
-                    direct_light_pdf(scene_, previous_, light_choice_, light, where));
+                    direct_light_pdf(scene_, previous_, light_choice_, light, target));
 }
 
 void CameraWalk::add_emission(LightWeights* weights) {
   const Light& light = *scene_.lights()[size_t(vertex_.light())];
-  const Spectrum emitted = light.emitted(vertex_.point(), vertex_.wo());
+  const Spectrum emitted = light.emitted(vertex_.point(), vertex_.wo(), state_.wavelengths);
   if (emitted.is_zero()) return;
   const float weight = weights ? weights->met(vertex_.light(), vertex_)
                                : emission_weight(vertex_.light(), vertex_.point());
@@ -174,11 +180,13 @@ void CameraWalk::add_emission(LightWeights* weights) {
 
 void CameraWalk::add_background(LightWeights* weights) {
   for (const int index : scene_.environment_lights()) {
-    const Light& light = *scene_.lights()[size_t(index)];
-    if (light.is_delta() || (light.is_only_seen() && state_.pdf_forward > 0)) continue;
+    const DistantLight& light = scene_.lights()[size_t(index)]->distant();
+    if (light.traits().is_delta || (light.traits().is_only_seen && state_.pdf_forward > 0))
+      continue;
     const float weight =
         weights ? weights->met(index, ray_) : emission_weight(index, ray_.direction);
-    sink_.add(class_.component(), state_.throughput * light.background(ray_.direction) * weight);
+    sink_.add(class_.component(),
+              state_.throughput * light.background(ray_.direction, state_.wavelengths) * weight);
   }
 }
 
@@ -205,10 +213,11 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
     Spectrum factor(seen.known);
     if (seen.by_ray > 0)
       factor += trace_shadow_ray(scene_, light, vertex_.medium_toward(light.wi, state_.medium),
-                                 rays_, answer) *
+                                 {state_.wavelengths, sampler_}, rays_, answer) *
                 seen.by_ray;
     if (rules.classical_attenuation)
-      factor *= scene_.lights()[size_t(light.light)]->classical_attenuation(vertex_.position());
+      factor *=
+          scene_.lights()[size_t(light.light)]->traits().attenuation.factor(vertex_.position());
     return ReflectedLight{result.by_diffuse * factor, result.by_glossy * factor};
   };
   // Light paths don't know how many events lie before the vertex, only that there are some.
@@ -230,7 +239,8 @@ void CameraWalk::add_medium_light(LightWeights* weights) {
       weight = weights->sampled(here, light);
     else if (light.pdf_solid_angle > 0)
       weight = mis_weight(light.pdf_solid_angle, phase);
-    const Spectrum visible = trace_shadow_ray(scene_, light, state_.medium, rays_, answer);
+    const Spectrum visible = trace_shadow_ray(scene_, light, state_.medium,
+                                              {state_.wavelengths, sampler_}, rays_, answer);
     return light.radiance * visible * (phase * weight);
   };
   light_choice_ = LightChoice::one;
@@ -290,6 +300,7 @@ void CameraWalk::go_on(const BsdfSample& sample, float probability) {
   state_.footprint.scatter(sample.event, sample.pdf_solid_angle);
   previous_ = light_query(vertex_, state_.depth);
   state_.depth += 1;
+  state_.follow_lanes_of(sample);
   only_delta_ = only_delta_ && !any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy));
   class_.add_event(sample.event);
   state_.medium = vertex_.medium_toward(sample.wi, state_.medium);

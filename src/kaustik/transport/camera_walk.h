@@ -18,7 +18,7 @@ class LightWeights;
 /// What a model changes in direct light.
 struct LightRules {
   bool shadows = true;                 ///< without, nothing holds light off
-  bool classical_attenuation = false;  ///< see Light::classical_attenuation
+  bool classical_attenuation = false;  ///< see LightTraits::attenuation
   LightWeights* weights = nullptr;     ///< in place of path tracing's
   VisibilityEstimator* visibility =
       nullptr;  ///< where it knows whether light arrives, no ray is traced
@@ -74,6 +74,10 @@ class CameraWalk {
   const Medium* medium() const { return state_.medium; }
   /// Where it began.
   const Vec2f& raster() const { return raster_; }
+  /// Numbers of the point of the lens where it began (see Camera).
+  const Vec2f& u_lens() const { return u_lens_; }
+  /// Of the light that it asks for.
+  const Wavelengths& wavelengths() const { return state_.wavelengths; }
   /// Of what the camera sees, relative to what the vertex sends back.
   const Spectrum& throughput() const { return state_.throughput; }
   /// Scattering events so far.
@@ -165,8 +169,7 @@ class CameraWalk {
   void add_reflected(Lobes event, const Spectrum& radiance) {
     sink_.add(class_.component_after(event), state_.throughput * radiance);
   }
-  template <typename Where>
-  float emission_weight(int light, const Where& where) const;
+  float emission_weight(int light, const LightTarget& target) const;
   /// Whether the walk is still on its way to the surface whose irradiance is asked for.
   bool seeks_irradiance() const {
     return state_.depth == 0 && scene_.film().quantity == Quantity::irradiance;
@@ -184,6 +187,7 @@ class CameraWalk {
   CameraPathClass class_;
   LightChoice light_choice_ = LightChoice::one;  ///< of the last add_direct_light()
   Vec2f raster_;                                 ///< where it began
+  Vec2f u_lens_;                                 ///< and of which point of the lens
   Ray ray_;
   SurfaceVertex vertex_;
   Receiver in_medium_;             ///< the point where fly() came to in a medium

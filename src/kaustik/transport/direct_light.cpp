@@ -62,15 +62,9 @@ float choice_factor(const Scene& scene, const LightQuery& query, LightChoice cho
 }  // namespace
 
 float direct_light_pdf(const Scene& scene, const LightQuery& query, LightChoice choice, int light,
-                       const SurfacePoint& on_light) {
+                       const LightTarget& target) {
   return choice_factor(scene, query, choice, light) *
-         scene.lights()[size_t(light)]->pdf_toward(query, on_light);
-}
-
-float direct_light_pdf(const Scene& scene, const LightQuery& query, LightChoice choice, int light,
-                       const Vec3f& direction) {
-  return choice_factor(scene, query, choice, light) *
-         scene.lights()[size_t(light)]->pdf_toward_direction(query, direction);
+         scene.lights()[size_t(light)]->pdf_toward(query, target);
 }
 
 float diffuse_probability(const SurfaceVertex& vertex) {

@@ -13,7 +13,7 @@ namespace kaustik {
 /// What lights are asked with at a vertex: only light on the viewer's side counts there, unless the
 /// surface transmits.
 inline LightQuery light_query(const SurfaceVertex& vertex, int recursion_level = 0) {
-  LightQuery query(vertex.position(), {0, 0, 0}, recursion_level);
+  LightQuery query(vertex.position(), {0, 0, 0}, recursion_level, vertex.wavelengths());
   if (!vertex.transmits())
     query.normal = vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
   return query;
@@ -23,18 +23,23 @@ inline LightQuery light_query(const SurfaceVertex& vertex, int recursion_level =
 struct Receiver {
   Receiver() = default;
   Receiver(const SurfaceVertex& vertex, int recursion_level = 0)  // NOLINT: a vertex is one
-      : point(vertex.point()), normal(light_query(vertex).normal), level(recursion_level) {}
+      : point(vertex.point()),
+        normal(light_query(vertex).normal),
+        level(recursion_level),
+        wavelengths(vertex.wavelengths()) {}
   /// In a medium.
-  explicit Receiver(const Vec3f& position, int recursion_level = 0) : level(recursion_level) {
+  Receiver(const Vec3f& position, int recursion_level, const Wavelengths& at_wavelengths)
+      : level(recursion_level), wavelengths(at_wavelengths) {
     point.position = position;
   }
 
   /// What lights are asked with, by sampling and by densities alike.
-  LightQuery query() const { return {point.position, normal, level}; }
+  LightQuery query() const { return {point.position, normal, level, wavelengths}; }
 
   SurfacePoint point;     ///< without a normal in a medium
   Vec3f normal{0, 0, 0};  ///< light arrives from its half space; zero: from anywhere
   int level = 0;          ///< see LightQuery::level; 0: what the camera itself sees
+  Wavelengths wavelengths;
 };
 
 /// Light that arrives at a vertex straight from a light, found by sampling one light.
@@ -95,8 +100,8 @@ void share_light_samples(const Scene& scene, const Receiver& receiver, int sampl
 
 /// What is left of light on the way from a light: shadow_ray_transmittance(), and its answer.
 inline Spectrum trace_shadow_ray(const Scene& scene, const DirectLight& light, const Medium* medium,
-                                 uint64_t& rays, ShadowAnswer& answer) {
-  const Spectrum left = shadow_ray_transmittance(scene, light.shadow_ray, medium, rays);
+                                 const LightOnItsWay& of, uint64_t& rays, ShadowAnswer& answer) {
+  const Spectrum left = shadow_ray_transmittance(scene, light.shadow_ray, medium, of, rays);
   answer = left.is_zero() ? ShadowAnswer::dark : ShadowAnswer::lit;
   return left;
 }
@@ -106,19 +111,15 @@ inline Spectrum trace_shadow_ray(const Scene& scene, const DirectLight& light, c
 /// lights. It returns a Value: something that is zero at first, can be added (+=) and multiplied by
 /// a float (*=). At most two dimension pairs of `sampler`.
 ///
-/// A sample of a light with several Light::shadow_samples is a few of them with a shadow ray each,
-/// and all of them where these disagree, see sample_with_shadow_rays().
+/// A sample of a light with several LightTraits::shadow_samples is a few of them with a shadow ray
+/// each, and all of them where these disagree, see sample_with_shadow_rays().
 template <typename Value, typename Reflect>
 Value sample_direct_lights(const Scene& scene, const Receiver& receiver,
                            const LightSampling& sampling, Sampler& sampler, const Reflect& reflect);
 
-/// Density per solid angle with which a sample of what asks with `query` finds the point `on_light`
-/// of an area light …
+/// Density per solid angle with which a sample of what asks with `query` finds `target` of a light.
 float direct_light_pdf(const Scene& scene, const LightQuery& query, LightChoice choice, int light,
-                       const SurfacePoint& on_light);
-/// … or an environment light in `direction`.
-float direct_light_pdf(const Scene& scene, const LightQuery& query, LightChoice choice, int light,
-                       const Vec3f& direction);
+                       const LightTarget& target);
 
 /// Power heuristic with exponent 2 for one sample each (Veach 1997).
 inline float mis_weight(float pdf, float other_pdf) {
@@ -140,8 +141,8 @@ float diffuse_probability(const SurfaceVertex& vertex);
 /// Most shadow rays for a sample of a light: Light::shadow_samples, half as many at each deeper
 /// recursion level.
 inline int most_shadow_rays(const Scene& scene, const Receiver& receiver, int light) {
-  return std::max(1,
-                  scene.lights()[size_t(light)]->shadow_samples() >> std::min(receiver.level, 30));
+  return std::max(
+      1, scene.lights()[size_t(light)]->traits().shadow_samples >> std::min(receiver.level, 30));
 }
 
 /// One sample of a light, with as many shadow rays as its shadow asks for; see

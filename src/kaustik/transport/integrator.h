@@ -20,6 +20,8 @@ struct Pass {
   uint64_t seed = 0;
   uint32_t index = 0;              ///< from 0
   uint32_t samples_per_pixel = 1;  ///< of this pass and every other
+  /// Of all light of the pass: whatever meets in it has the same.
+  Wavelengths wavelengths = {};
 };
 
 /// Camera samples of a pixel in a pass: how many, and which of its replicate's sequence. No index
@@ -41,16 +43,20 @@ struct FirstHit {
 /// Where one camera sample's results go.
 class SampleSink {
  public:
-  explicit SampleSink(ComponentSet wanted) : wanted_(wanted) {}
+  /// `wavelengths`: of the light that is asked for.
+  explicit SampleSink(ComponentSet wanted, const Wavelengths& wavelengths = {})
+      : wanted_(wanted), wavelengths_(wavelengths) {}
   void add(Component component, const Spectrum& radiance) {
     if (wanted_.has(component)) radiance_[size_t(component)] += radiance;
   }
   /// An estimate of the bias (expectation minus truth) of what the sample has added, of wanted
-  /// components; may be as noisy as that and of either sign. Only if estimates_bias().
+  /// components; may be as noisy as that and of either sign. Only if
+  /// IntegratorTraits::estimates_bias.
   void add_bias(const Spectrum& bias) { bias_ += bias; }
   void set_first_hit(const FirstHit& hit) { first_hit_ = hit; }
   void count_rays(uint64_t rays) { rays_ += rays; }
 
+  const Wavelengths& wavelengths() const { return wavelengths_; }
   const Spectrum& radiance(Component component) const { return radiance_[size_t(component)]; }
   const Spectrum& bias() const { return bias_; }
   const FirstHit& first_hit() const { return first_hit_; }
@@ -60,6 +66,7 @@ class SampleSink {
 
  private:
   ComponentSet wanted_;
+  Wavelengths wavelengths_;
   std::array<Spectrum, component_count> radiance_{};
   Spectrum bias_;
   FirstHit first_hit_;
@@ -81,10 +88,21 @@ class PassState {
   PassReport report;
 };
 
+/// What is the same for an integrator in every pass.
+struct IntegratorTraits {
+  bool splats = false;          ///< prepare() splats, so that the session provides the buffer
+  bool samples_camera = true;   ///< sample() does something
+  bool estimates_bias = false;  ///< sample() estimates its bias: SampleSink::add_bias()
+  ComponentSet components = ComponentSet::all();  ///< that its results hold
+  /// Samples per pixel and pass if the user asks for nothing else.
+  uint32_t default_samples_per_pass = 4;
+};
+
 /// A method of computing the picture. Const and thread-safe; owns no loop, no film, no clock.
 class Integrator {
  public:
   virtual ~Integrator() = default;
+  const IntegratorTraits& traits() const { return traits_; }
   /// The light pass: what the samples of this pass need; may add to `splats`. Runs in parallel
   /// inside; returns early (state unusable) once `stop` is requested.
   virtual std::unique_ptr<PassState> prepare(const Pass& pass, SplatBuffer& splats,
@@ -93,22 +111,15 @@ class Integrator {
   /// The visualisation pass for one point of the raster.
   virtual void sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
                       SampleSink& sink) const = 0;
-  /// Whether prepare() splats, so that the session provides the buffer.
-  virtual bool splats() const { return false; }
-  /// Whether sample() does anything.
-  virtual bool samples_camera() const { return true; }
   /// Camera samples of a pixel in the pass of that state; their mean over the pixels is at most
   /// the pass's. All passes count alike.
   virtual PixelSamples pixel_samples(const PassState&, const Pass& pass,
                                      const Vec2i& /*pixel*/) const {
     return {pass.index / replicate_count * pass.samples_per_pixel, pass.samples_per_pixel};
   }
-  /// Samples per pixel and pass if the user asks for nothing else.
-  virtual uint32_t default_samples_per_pass() const { return 4; }
-  /// The components that its results hold.
-  virtual ComponentSet components() const { return ComponentSet::all(); }
-  /// Whether sample() estimates its bias: SampleSink::add_bias().
-  virtual bool estimates_bias() const { return false; }
+
+ protected:
+  IntegratorTraits traits_;  ///< complete once the constructor is done
 };
 
 }  // namespace kaustik

@@ -55,6 +55,7 @@ bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPa
         sample.event == Lobes::delta ? 0 : vertex.pdf_reverse(sample.wi, follow);
   path.state.footprint.scatter(sample.event, path.state.pdf_forward);
   path.state.depth += 1;
+  path.state.follow_lanes_of(sample);
   path.path_class.add_event(sample.event);
   path.state.medium = vertex.medium_toward(sample.wi, path.state.medium);
   path.ray = spawn_ray(vertex.point(), sample.wi);
@@ -63,8 +64,9 @@ bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPa
 }
 
 LightMediumVertex medium_vertex(const LightPath& path, const Medium::Flight& flight) {
-  LightMediumVertex vertex{{0, 0, 0}, -path.ray.direction, *path.state.medium, {}, path.path_class,
-                           0,         path.state,          path.index};
+  LightMediumVertex vertex{{0, 0, 0},  -path.ray.direction, *path.state.medium,
+                           {},         path.path_class,     0,
+                           path.state, path.index,          path.sampler};
   if (!flight.scattered) return vertex;
   vertex.position = path.ray.origin + path.ray.direction * flight.distance;
   vertex.flux = path.state.throughput * flight.weight;
@@ -73,8 +75,9 @@ LightMediumVertex medium_vertex(const LightPath& path, const Medium::Flight& fli
 }
 
 LightMediumVertex sample_medium_vertex(LightPath& path, float limit) {
-  return medium_vertex(path, path.state.medium->sample_collision(limit, path.state.throughput,
-                                                                 path.sampler.next_2d()));
+  return medium_vertex(path, path.state.medium->sample_collision(
+                                 {path.ray.origin, path.ray.direction, limit},
+                                 path.state.throughput, path.state.wavelengths, path.sampler));
 }
 
 MediumFate scatter_in_medium(LightPath& path, const Medium::Flight& flight,

@@ -17,10 +17,11 @@ namespace kaustik {
 
 /// A path that is followed from a light, between two surfaces.
 struct LightPath {
-  /// `medium`: that the light shines into.
+  /// `medium`: that the light shines into. `wavelengths`: of the flux.
   LightPath(const Ray& emitted, const Spectrum& flux, const Medium* medium, Lobes traced,
-            const Sampler& its_sampler)
+            const Sampler& its_sampler, const Wavelengths& wavelengths)
       : ray(emitted), path_class(traced), sampler(its_sampler) {
+    state.wavelengths = wavelengths;
     state.mode = TransportMode::flux;
     state.throughput = flux;
     state.medium = medium;
@@ -53,6 +54,7 @@ struct LightVertex {
   uint32_t path;                     ///< number of the path
   const Ray& ray;                    ///< that met the surface …
   const Hit& hit;                    ///< … and where
+  const Sampler& sampler;            ///< of the path; to be forked
 };
 
 /// A point of a segment through a medium, drawn as if light were sure to be scattered there: one
@@ -66,6 +68,7 @@ struct LightMediumVertex {
   float distance;                    ///< from the path's previous vertex, m
   const PathState& state;            ///< at the begin of the segment
   uint32_t path;                     ///< number of the path
+  const Sampler& sampler;            ///< of the path; to be forked
 };
 
 /// The point of the segment where free flight has ended, from which the path goes on unless it is
@@ -117,7 +120,9 @@ LightMediumVertex sample_medium_vertex(LightPath& path, float limit);
 
 /// Free flight of `path` along its segment of length `limit`.
 inline Medium::Flight fly_through_medium(LightPath& path, float limit) {
-  return path.state.medium->sample_flight(limit, path.state.throughput, path.sampler.next_2d());
+  return path.state.medium->sample_flight({path.ray.origin, path.ray.direction, limit},
+                                          path.state.throughput, path.state.wavelengths,
+                                          path.sampler);
 }
 /// What becomes of a path that a medium takes out of its flight.
 enum class MediumFate { scattered, absorbed, stopped, too_long };
@@ -182,7 +187,7 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
     }
     if (!(hit.t < infinity)) return ended(counts.escaped);
     path.state.footprint.travel(hit.t);
-    vertex.meet(scene, path.ray, hit, TransportMode::flux, path.state.footprint);
+    vertex.meet(scene, path.ray, hit, path.state);
     path.distance += hit.t;
     if (vertex.is_null()) {
       if (++path.boundaries > most_null_boundaries) return ended(counts.stopped);
@@ -191,8 +196,8 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
       return true;
     }
     path.boundaries = 0;
-    const Lobes follow = handler(
-        LightVertex{vertex, path.state, path.path_class, path.distance, path.index, path.ray, hit});
+    const Lobes follow = handler(LightVertex{vertex, path.state, path.path_class, path.distance,
+                                             path.index, path.ray, hit, path.sampler});
     if (!any(follow)) return ended(counts.stopped);
     if (path.path_class.events() >= limits.maximum_events) return ended(counts.too_long);
     if (!scatter_light_path(vertex, follow, limits, path)) return ended(counts.absorbed);

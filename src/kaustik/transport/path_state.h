@@ -12,7 +12,7 @@ struct PathState {
   TransportMode mode = TransportMode::radiance;
   const Medium* medium = nullptr;  ///< that the next segment runs through; null: vacuum
   Footprint footprint;
-  bool single_wavelength = false;  ///< dispersed: only the first lane is valid (spectral mode)
+  Wavelengths wavelengths;   ///< of the lanes; which of them are alive
   float pdf_forward = 0;     ///< density per solid angle of the last direction as sampled; 0: delta
   float pdf_unguided = 0;    ///< the same without a ScatterGuide
   float pdf_reverse = 0;     ///< density per solid angle with which the event before would send a
@@ -20,6 +20,11 @@ struct PathState {
   float roulette_scale = 1;  ///< what roulette multiplies the throughput by: the product of the
                              ///< squared relative indices crossed and of the numbers of branches
   int depth = 0;             ///< scattering events so far
+
+  /// Where lanes part at an event (BsdfSample::only_lane) one of them goes on.
+  void follow_lanes_of(const BsdfSample& sample) {
+    if (sample.only_lane >= 0) wavelengths = wavelengths.only(sample.only_lane);
+  }
 };
 
 }  // namespace kaustik

@@ -15,10 +15,6 @@ struct Facing {
   }
 };
 
-inline float mean_extinction(const Medium& medium) {
-  return medium.extinction().sum() / float(Spectrum::lane_count);
-}
-
 /// Where a path is scattered: on a surface, or at a point of a medium, which scatters as a diffuse
 /// lobe does that is the phase function and asks for no cosine. Directions are unit, in world
 /// space, and point away from it.
@@ -42,10 +38,13 @@ class Scatterer {
   const SurfacePoint& point() const { return medium_ ? in_medium_ : surface_->point(); }
   const Vec3f& position() const { return point().position; }
   Facing facing() const {
-    return medium_ ? Facing{{0, 0, 0}, mean_extinction(*medium_)} : Facing{surface_->point().ng, 0};
+    return medium_ ? Facing{{0, 0, 0}, medium_->mean_extinction(in_medium_.position)}
+                   : Facing{surface_->point().ng, 0};
   }
   /// 1/extinction, m; zero on a surface.
-  float mean_free_path() const { return medium_ ? 1 / mean_extinction(*medium_) : 0.0f; }
+  float mean_free_path() const {
+    return medium_ ? 1 / medium_->mean_extinction(in_medium_.position) : 0.0f;
+  }
   Lobes lobes() const { return medium_ ? Lobes::diffuse : surface_->lobes(); }
   const Medium* medium_toward(const Vec3f& direction, const Medium* arrived) const {
     return medium_ ? medium_ : surface_->medium_toward(direction, arrived);

@@ -10,9 +10,11 @@ SplatBuffer::SplatBuffer(const FilmSettings& film, ComponentSet wanted)
       wanted_(wanted),
       sums_(size_t(size_.x) * size_t(size_.y) * component_count * lanes_) {}
 
-void SplatBuffer::add(const Vec2f& raster, Component component, const Spectrum& value) {
+void SplatBuffer::add(const Vec2f& raster, Component component, const Spectrum& value,
+                      const Wavelengths& wavelengths) {
   if (!wanted_.has(component) || value.is_zero()) return;
-  if (!value.is_finite()) {
+  const Spectrum rgb = rgb_from_lanes(value, wavelengths);
+  if (!rgb.is_finite()) {
     dropped_.fetch_add(1, std::memory_order_relaxed);
     return;
   }
@@ -28,7 +30,7 @@ void SplatBuffer::add(const Vec2f& raster, Component component, const Spectrum& 
       if (weight == 0) continue;
       const size_t first = slot(x, y, component);
       for (int lane = 0; lane < lanes_; ++lane)
-        sums_[first + size_t(lane)].add(fixed_from(double(value[lane]) * weight));
+        sums_[first + size_t(lane)].add(fixed_from(double(rgb[lane]) * weight));
     }
 }
 

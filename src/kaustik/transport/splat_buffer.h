@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "kaustik/base/exact_sum.h"
-#include "kaustik/base/spectrum.h"
+#include "kaustik/base/wavelengths.h"
 #include "kaustik/scene/film_settings.h"
 #include "kaustik/transport/component.h"
 
@@ -13,14 +13,15 @@ namespace kaustik {
 /// Additions are integer adds, so the sum has the same bits whatever their order.
 class SplatBuffer {
  public:
-  /// Keeps the three lanes of RGB mode.
+  /// Keeps red, green and blue.
   SplatBuffer(const FilmSettings& film, ComponentSet wanted);
 
   bool wants(Component component) const { return wanted_.has(component); }
-  /// `value`: the pixel's radiance if the filter were 1 there; `raster` in the crop window.
-  /// Values that are not finite are counted and dropped.
-  void add(const Vec2f& raster, Component component, const Spectrum& value);
-  /// Sum of a pixel. Only when no one adds.
+  /// `value`: the pixel's radiance if the filter were 1 there, in lanes of `wavelengths`; `raster`
+  /// in the crop window. Values that are not finite are counted and dropped.
+  void add(const Vec2f& raster, Component component, const Spectrum& value,
+           const Wavelengths& wavelengths);
+  /// Sum of a pixel, RGB. Only when no one adds.
   Spectrum value(int x, int y, Component component) const;
   void clear();
   uint64_t dropped() const { return dropped_.load(); }

@@ -14,26 +14,25 @@ const Vec3f& normal_toward(const Vec3f& wo, const SurfacePoint& point) {
 }  // namespace
 
 void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
-                         const Footprint& footprint) {
+                         const Footprint& footprint, const Wavelengths& wavelengths) {
   point_ = scene.tracer().surface_point(ray, hit);
   wo_ = -ray.direction;
   const Surface& surface = scene.surface(point_.shape);
   surface_ = &surface;
   bsdf_ = surface.bsdf.get();
-  lobes_ = surface.lobes;
-  transmits_ = surface.transmits;
+  traits_ = surface.traits;
   light_ = surface.light;
   context_.mode = mode;
   turn_to(normal_toward(wo_, point_));
   has_relief_ = false;
-  const SurfaceNeeds asked = surface.needs;
+  const SurfaceNeeds asked = traits_.needs;
   if (asked == SurfaceNeeds::none) {
     TextureCoordinates at;
     at.uv = point_.uv;
-    context_.move_to(at);
+    context_.move_to(at, wavelengths);
   } else {
     const UvDerivatives derivatives = scene.tracer().uv_derivatives(point_);
-    locate_texture(scene, footprint, derivatives);
+    context_.move_to(texture_place(scene, footprint, derivatives), wavelengths);
     if (needs(asked, SurfaceNeeds::relief)) bend_normal(scene, footprint, derivatives);
     if (needs(asked, SurfaceNeeds::tangent)) turn_to_tangent(derivatives.dpdu);
   }
@@ -42,8 +41,7 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
 
 void SurfaceVertex::paint_white() {
   bsdf_ = &white_diffuse();
-  lobes_ = bsdf_->lobes();
-  transmits_ = bsdf_->transmits();
+  traits_ = bsdf_->traits();
   const Vec3f normal = normal_toward(wo_, point_);
   turn_to(dot(wo_, normal) < 0 ? -normal : normal);
   side_sign_ = dot(frame_.z, point_.ng) < 0 ? -1.0f : 1.0f;
@@ -54,8 +52,8 @@ void SurfaceVertex::turn_to(const Vec3f& normal) {
   wo_local_ = frame_.to_local(wo_);
 }
 
-void SurfaceVertex::locate_texture(const Scene& scene, const Footprint& footprint,
-                                   const UvDerivatives& derivatives) {
+TextureCoordinates SurfaceVertex::texture_place(const Scene& scene, const Footprint& footprint,
+                                                const UvDerivatives& derivatives) const {
   TextureCoordinates at;
   at.uv = point_.uv;
   at.position = point_.position;
@@ -76,7 +74,7 @@ void SurfaceVertex::locate_texture(const Scene& scene, const Footprint& footprin
     at.normal = normalize(shape_from_world.normal(at.normal));
     at.width *= float(std::cbrt(std::fabs(shape_from_world.determinant3())));
   }
-  context_.move_to(at);
+  return at;
 }
 
 void SurfaceVertex::bend_normal(const Scene& scene, const Footprint& footprint,
@@ -91,7 +89,8 @@ void SurfaceVertex::bend_normal(const Scene& scene, const Footprint& footprint,
   if (point_.instance != no_instance)
     at.world_from_shape = &scene.tracer().geometry().instances[point_.instance].world_from_group;
   has_relief_ = true;
-  frame_ = Frame(visible_normal(relief->normal(at), point_.ng, wo_, any(lobes_ & Lobes::specular)));
+  frame_ = Frame(
+      visible_normal(relief->normal(at), point_.ng, wo_, any(traits_.lobes & Lobes::specular)));
   wo_local_ = frame_.to_local(wo_);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "kaustik/scene/scene.h"
-#include "kaustik/transport/footprint.h"
+#include "kaustik/transport/path_state.h"
 
 namespace kaustik {
 
@@ -12,14 +12,23 @@ inline constexpr float largest_irradiance_factor = 10;
 class SurfaceVertex {
  public:
   SurfaceVertex() = default;
-  /// `mode` tells what the path carries.
-  SurfaceVertex(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
-                const Footprint& footprint = {}) {
-    meet(scene, ray, hit, mode, footprint);
+  /// Of a path in that state.
+  SurfaceVertex(const Scene& scene, const Ray& ray, const Hit& hit, const PathState& state) {
+    meet(scene, ray, hit, state);
+  }
+  /// Of a probe in RGB mode, which looks at geometry or importance.
+  SurfaceVertex(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode) {
+    meet(scene, ray, hit, mode);
   }
   /// Makes this the vertex of another hit.
+  void meet(const Scene& scene, const Ray& ray, const Hit& hit, const PathState& state) {
+    meet(scene, ray, hit, state.mode, state.footprint, state.wavelengths);
+  }
+  void meet(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode) {
+    meet(scene, ray, hit, mode, {}, {});
+  }
   void meet(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
-            const Footprint& footprint = {});
+            const Footprint& footprint, const Wavelengths& wavelengths);
 
   /// Lays ideally white paint on the side that is seen, whatever lies below: irradiance E there is
   /// radiance E/π by the diffuse lobe. It is smooth: bump and normal maps don't bend its normal.
@@ -28,11 +37,11 @@ class SurfaceVertex {
   const SurfacePoint& point() const { return point_; }
   const Vec3f& position() const { return point_.position; }
   const Bsdf& bsdf() const { return *bsdf_; }
-  Lobes lobes() const { return lobes_; }
+  Lobes lobes() const { return traits_.lobes; }
   /// Of the bsdf.
-  bool transmits() const { return transmits_; }
+  bool transmits() const { return traits_.transmits; }
   /// Whether paths go straight on, without an event (Bsdf::is_null).
-  bool is_null() const { return surface_->is_null; }
+  bool is_null() const { return surface_->traits.is_null; }
   /// What a path goes on through along `direction`, having arrived through `arrived`.
   const Medium* medium_toward(const Vec3f& direction, const Medium* arrived) const {
     return surface_->medium_toward(dot(direction, point_.ng) > 0, arrived);
@@ -40,6 +49,7 @@ class SurfaceVertex {
   const Vec3f& wo() const { return wo_; }
   int light() const { return light_; }
   const BsdfContext& context() const { return context_; }
+  const Wavelengths& wavelengths() const { return context_.wavelengths(); }
   /// Of the shading frame.
   const Vec3f& normal() const { return frame_.z; }
   const Frame& frame() const { return frame_; }
@@ -83,8 +93,8 @@ class SurfaceVertex {
   }
   void turn_to(const Vec3f& normal);
   float adjoint_factor(const Vec3f& wi, const Vec3f& wi_local) const;
-  void locate_texture(const Scene& scene, const Footprint& footprint,
-                      const UvDerivatives& derivatives);
+  TextureCoordinates texture_place(const Scene& scene, const Footprint& footprint,
+                                   const UvDerivatives& derivatives) const;
   void bend_normal(const Scene& scene, const Footprint& footprint,
                    const UvDerivatives& derivatives);
   void turn_to_tangent(const Vec3f& dpdu);
@@ -92,8 +102,7 @@ class SurfaceVertex {
   SurfacePoint point_;
   const Surface* surface_ = nullptr;
   const Bsdf* bsdf_ = nullptr;
-  Lobes lobes_ = Lobes::none;  ///< of the bsdf
-  bool transmits_ = false;     ///< the same
+  BsdfTraits traits_;  ///< of the bsdf
   int light_ = -1;
   BsdfContext context_;
   Frame frame_;

@@ -5,8 +5,9 @@
 namespace kaustik {
 namespace {
 
-/// Follows a shadow ray through null boundaries, `pass(medium, length)` being told of every segment
-/// in a medium: false ends it. False if anything else blocks it.
+/// Follows a shadow ray through null boundaries, `pass(medium, ray, parameter)` being told of every
+/// segment in a medium, to that parameter of the ray: false ends it. False if anything else blocks
+/// it.
 template <typename Pass>
 bool follow_shadow_ray(const Scene& scene, Ray ray, const Medium* medium, uint64_t& rays,
                        const Pass& pass) {
@@ -21,10 +22,10 @@ bool follow_shadow_ray(const Scene& scene, Ray ray, const Medium* medium, uint64
     Hit hit;
     ++rays;
     const bool found = scene.intersect(ray, hit);
-    if (found && !scene.surface(hit.shape).is_null) return false;
+    if (found && !scene.surface(hit.shape).traits.is_null) return false;
     // The direction of a shadow ray counts in its own length.
     const float parameter = found ? hit.t : ray.t_max;
-    if (medium && !pass(*medium, parameter * length(ray.direction))) return false;
+    if (medium && !pass(*medium, ray, parameter)) return false;
     if (!found) return true;
     const SurfacePoint point = scene.tracer().surface_point(ray, hit);
     const Surface& surface = scene.surface(point.shape);
@@ -45,11 +46,13 @@ bool follow_shadow_ray(const Scene& scene, Ray ray, const Medium* medium, uint64
 }  // namespace
 
 Spectrum transmittance_through_media(const Scene& scene, Ray ray, const Medium* medium,
-                                     uint64_t& rays) {
+                                     const LightOnItsWay& of, uint64_t& rays) {
   Spectrum left(1);
-  const bool arrives =
-      follow_shadow_ray(scene, ray, medium, rays, [&](const Medium& in, float length) {
-        left *= in.transmittance(length);
+  const bool arrives = follow_shadow_ray(
+      scene, ray, medium, rays, [&](const Medium& in, const Ray& along, float parameter) {
+        const float unit = length(along.direction);
+        left *= in.transmittance({along.origin, along.direction * (1 / unit), parameter * unit},
+                                 of.wavelengths, of.sampler);
         return !left.is_zero();
       });
   return arrives ? left : Spectrum();
@@ -57,7 +60,8 @@ Spectrum transmittance_through_media(const Scene& scene, Ray ray, const Medium* 
 
 bool is_unobstructed(const Scene& scene, const Ray& ray, uint64_t& rays) {
   if (scene.has_media())
-    return follow_shadow_ray(scene, ray, nullptr, rays, [](const Medium&, float) { return true; });
+    return follow_shadow_ray(scene, ray, nullptr, rays,
+                             [](const Medium&, const Ray&, float) { return true; });
   ++rays;
   return !scene.occluded(ray);
 }

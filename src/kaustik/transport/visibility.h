@@ -3,16 +3,22 @@
 
 namespace kaustik {
 
+/// What media ask of the light that passes through them.
+struct LightOnItsWay {
+  Wavelengths wavelengths;
+  const Sampler& sampler;  ///< as of Medium::transmittance()
+};
+
 /// Light left of what sets out through `medium` along the shadow ray `ray`, where the scene has
 /// media: null boundaries let it pass, media take their share, everything else blocks it (glass
 /// too: what it refracts goes elsewhere). Counts rays.
 Spectrum transmittance_through_media(const Scene& scene, Ray ray, const Medium* medium,
-                                     uint64_t& rays);
+                                     const LightOnItsWay& of, uint64_t& rays);
 
 /// The same for any scene: 1 or 0 where there is no medium.
 inline Spectrum shadow_ray_transmittance(const Scene& scene, const Ray& ray, const Medium* medium,
-                                         uint64_t& rays) {
-  if (scene.has_media()) return transmittance_through_media(scene, ray, medium, rays);
+                                         const LightOnItsWay& of, uint64_t& rays) {
+  if (scene.has_media()) return transmittance_through_media(scene, ray, medium, of, rays);
   ++rays;
   return scene.occluded(ray) ? Spectrum() : Spectrum(1);
 }

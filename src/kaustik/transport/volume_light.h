@@ -13,7 +13,8 @@ class VolumeLight {
   /// (unit direction) toward its origin, what is lost on the way there taken off, W/(sr·m²).
   /// Numbers are forked off `sampler`, which stays as it is. Counts rays. Thread-safe.
   virtual Spectrum radiance(const Ray& ray, float length, const Medium& medium,
-                            const Sampler& sampler, uint64_t& rays) const = 0;
+                            const Wavelengths& wavelengths, const Sampler& sampler,
+                            uint64_t& rays) const = 0;
 };
 
 }  // namespace kaustik

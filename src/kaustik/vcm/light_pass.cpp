@@ -41,11 +41,11 @@ struct Block {
 float next_event_density(const Scene& scene, const LightQuery& query, int light,
                          const SurfacePoint& on_light, const Vec3f& to_light, float distance) {
   const Light& of = *scene.lights()[size_t(light)];
-  if (of.is_delta())
+  if (of.traits().is_delta)
     return scene.light_selector().probability(query.reference, query.normal, light);
   if (of.is_infinite()) return direct_light_pdf(scene, query, LightChoice::one, light, to_light);
   return direct_light_pdf(scene, query, LightChoice::one, light, on_light) *
-         abs_dot(to_light, of.emitting_normal(on_light)) / sqr(distance);
+         abs_dot(to_light, of.placed().emitting_normal(on_light)) / sqr(distance);
 }
 
 /// Traces the paths of one block.
@@ -87,7 +87,7 @@ class Tracer {
     path.kept = false;
     path.scattering = {};
     Sampler sampler = Sampler::at(pass_.seed, pass_.index, stream_, 0, i);
-    path.start = in_.emission.sample(sampler);
+    path.start = in_.emission.sample(sampler, pass_.wavelengths);
     const LightPathStart& start = path.start;
     if (start.light < 0 || start.emitted.flux.is_zero() || in_.maximum_events < 1)
       return std::nullopt;
@@ -96,7 +96,7 @@ class Tracer {
     path.vertices.push_back(on_light);
     path.last = {start.emitted.on_surface ? start.emitted.origin.ng : Vec3f(0, 0, 0), 0};
     return LightPath(start.emitted.ray, start.emitted.flux, in_.scene.light_medium(start.light),
-                     Lobes::specular, sampler);
+                     Lobes::specular, sampler, pass_.wavelengths);
   }
 
   const Light& light_of(const PathUnderWay& path) const {
@@ -115,11 +115,11 @@ class Tracer {
       const Light& light = light_of(path);
       if (light.is_infinite()) {
         next.pdf_light = path.start.density.rest * cosine;
-        next.to_previous = light.is_delta() ? 0.0f : 1.0f;
+        next.to_previous = light.traits().is_delta ? 0.0f : 1.0f;
       } else {
         next.pdf_light = path.start.density.rest * cosine / distance_sq;
         // Lights that are no surface are never met.
-        next.to_previous = light.shape() < 0 ? 0.0f : path.last.factor(wo) / distance_sq;
+        next.to_previous = light.traits().shape < 0 ? 0.0f : path.last.factor(wo) / distance_sq;
       }
       path.pdf_next_event = next_event_density(in_.scene, query, path.start.light,
                                                path.start.emitted.origin, wo, distance);
@@ -136,8 +136,9 @@ class Tracer {
     return next;
   }
   PathVertex next_in_medium(PathUnderWay& path, const LightMediumVertex& at) const {
-    PathVertex next = next_vertex(path, LightQuery(at.position, {0, 0, 0}, 1),
-                                  {{}, mean_extinction(at.medium)}, at.state, at.wo, at.distance);
+    PathVertex next =
+        next_vertex(path, LightQuery(at.position, {0, 0, 0}, 1),
+                    {{}, at.medium.mean_extinction(at.position)}, at.state, at.wo, at.distance);
     next.merge_volume = in_.media.merge_volume(at.position, at.medium);
     return next;
   }
@@ -177,7 +178,7 @@ class Tracer {
   void add_event(const LightMediumVertex& at) {
     PathUnderWay& path = paths_[at.path - begin_];
     path.vertices.push_back(next_in_medium(path, at));
-    path.last = {{}, mean_extinction(at.medium)};
+    path.last = {{}, at.medium.mean_extinction(at.position)};
     if (!in_.weights.settings().techniques.connections || path.vertices.size() > 0xffff ||
         at.path >= LightVertices::most_connectible_paths)
       return;
@@ -225,24 +226,31 @@ class Tracer {
     path.vertices.pop_back();
   }
 
+  /// By a point of the lens that a fork of `sampler` tells.
+  CameraConnection connect_to_camera(const Vec3f& point, const Sampler& sampler) const {
+    const Camera& camera = in_.scene.camera();
+    return camera.connect(point, camera.forked_lens_numbers(sampler));
+  }
+
   void splat_from_medium(const LightMediumVertex& at, const PathUnderWay& path) {
     if (!in_.components.has(Component::volume)) return;
-    const CameraConnection connection = in_.scene.camera().connect(at.position);
+    const CameraConnection connection = connect_to_camera(at.position, at.sampler);
     if (!(connection.importance > 0)) return;
     const float phase = at.medium.phase().eval(at.wo, connection.direction);
     const float weight =
-        in_.weights.splat(splat_halves(path, connection, mean_extinction(at.medium),
+        in_.weights.splat(splat_halves(path, connection, at.medium.mean_extinction(at.position),
                                        at.medium.phase().eval(connection.direction, at.wo)));
     const Spectrum value = at.flux * (phase * weight * connection.importance /
                                       (sqr(connection.distance) * float(in_.light_paths)));
     if (!(weight > 0) || value.is_zero()) return;
     SurfacePoint point;
     point.position = at.position;
-    const Spectrum visible = shadow_ray_transmittance(
-        in_.scene, spawn_ray_to(point, in_.scene.camera().position()), &at.medium, block_.rays);
+    const Spectrum visible =
+        shadow_ray_transmittance(in_.scene, spawn_ray_to(point, connection.lens), &at.medium,
+                                 {at.state.wavelengths, at.sampler}, block_.rays);
     if (visible.is_zero()) return;
     ++block_.splats;
-    splats_.add(connection.raster, Component::volume, value * visible);
+    splats_.add(connection.raster, Component::volume, value * visible, at.state.wavelengths);
   }
 
   /// `facing`: of the last vertex to the camera. `pdf_reverse`: density with which a path from the
@@ -310,7 +318,7 @@ class Tracer {
     const SurfaceVertex& vertex = wants_irradiance ? painted : at.vertex;
     const Lobes seen = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
     if (!any(seen)) return;
-    const CameraConnection connection = in_.scene.camera().connect(vertex.position());
+    const CameraConnection connection = connect_to_camera(vertex.position(), at.sampler);
     if (!(connection.importance > 0)) return;
     const float weight = in_.weights.splat(
         splat_halves(path, connection, abs_dot(connection.direction, vertex.point().ng),
@@ -328,17 +336,17 @@ class Tracer {
       if (value.is_zero()) continue;
       if (!traced) {
         traced = true;
-        const Ray sight = spawn_ray_to(vertex.point(), in_.scene.camera().position());
+        const Ray sight = spawn_ray_to(vertex.point(), connection.lens);
         visible =
             wants_irradiance
                 ? Spectrum(is_unobstructed(in_.scene, sight, block_.rays) ? pi : 0.0f)
                 : shadow_ray_transmittance(
                       in_.scene, sight, vertex.medium_toward(connection.direction, at.state.medium),
-                      block_.rays);
+                      {at.state.wavelengths, at.sampler}, block_.rays);
         if (visible.is_zero()) return;
         ++block_.splats;
       }
-      splats_.add(connection.raster, component, value * visible);
+      splats_.add(connection.raster, component, value * visible, at.state.wavelengths);
     }
   }
 

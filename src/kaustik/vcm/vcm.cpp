@@ -43,14 +43,19 @@ VcmIntegrator::VcmIntegrator(const Arguments& arguments, const Scene& scene)
     : scene_(scene),
       settings_(arguments),
       plain_(std::make_shared<const LightPathEmission>(scene, settings_.aim)) {
-  if (!scene.has_scattering()) return;
-  // It knows of what use paths are on surfaces alone.
-  settings_.guiding = false;
-  // So does the pilot, which then can't choose. What few vertices merge in thin media leaves bright
-  // dots that connections take off.
-  if (settings_.chooses_light_paths)
-    settings_.techniques.splats = settings_.techniques.connections = true;
-  settings_.chooses_connections = false;
+  if (scene.has_scattering()) {
+    // It knows of what use paths are on surfaces alone.
+    settings_.guiding = false;
+    // So does the pilot, which then can't choose. What few vertices merge in thin media leaves
+    // bright dots that connections take off.
+    if (settings_.chooses_light_paths)
+      settings_.techniques.splats = settings_.techniques.connections = true;
+    settings_.chooses_connections = false;
+  }
+  traits_ = {.splats = settings_.techniques.splats,
+             .estimates_bias = settings_.techniques.merging,
+             .components = settings_.components,
+             .default_samples_per_pass = settings_.samples_per_pass};
 }
 
 std::shared_ptr<const VcmPlans> VcmIntegrator::plans(uint32_t samples_per_pixel,

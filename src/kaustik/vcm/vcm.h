@@ -21,10 +21,6 @@ class VcmIntegrator final : public Integrator {
               SampleSink& sink) const override;
   PixelSamples pixel_samples(const PassState& state, const Pass& pass,
                              const Vec2i& pixel) const override;
-  bool splats() const override { return settings_.techniques.splats; }
-  uint32_t default_samples_per_pass() const override { return settings_.samples_per_pass; }
-  ComponentSet components() const override { return settings_.components; }
-  bool estimates_bias() const override { return settings_.techniques.merging; }
 
  private:
   struct State;

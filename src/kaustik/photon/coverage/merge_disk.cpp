@@ -61,13 +61,13 @@ float DiskCoverage::clear_radius() const { return per_clearance * free_; }
 
 bool DiskCoverage::merges_at(const SurfacePoint& point) const {
   const bool keeps_light = scene_.film().quantity == Quantity::irradiance ||
-                           any(scene_.surface(point.shape).lobes & MergeDisk::keeping());
+                           any(scene_.surface(point.shape).traits.lobes & MergeDisk::keeping());
   const float cosine = dot(point.ng, vertex_.point().ng);
   return keeps_light && (both_sides_ ? cosine : std::fabs(cosine)) > MergeDisk::least_cosine();
 }
 
 bool DiskCoverage::hides(const SurfacePoint& point) const {
-  return point.shape == vertex_.point().shape || !scene_.surface(point.shape).transmits;
+  return point.shape == vertex_.point().shape || !scene_.surface(point.shape).traits.transmits;
 }
 
 template <typename Stops>
@@ -90,7 +90,7 @@ std::optional<SurfacePoint> DiskCoverage::obstacle(float height, float angle, fl
 std::optional<SurfacePoint> DiskCoverage::interface(float height, float angle, float reach) const {
   return first_on_way(height, across(angle), reach, [&](const SurfacePoint& point) {
     const Surface& surface = scene_.surface(point.shape);
-    return surface.transmits && surface.lobes == Lobes::delta;
+    return surface.traits.transmits && surface.traits.lobes == Lobes::delta;
   });
 }
 

@@ -18,7 +18,8 @@ PixelProbe look(const Scene& scene, const Vec2f& raster, uint64_t block) {
   probe.raster = raster;
   while (walk.events() < most_delta_events && walk.advance()) {
     const SurfaceVertex& vertex = walk.vertex();
-    if (walk.events() == 0) probe.distance = length(vertex.position() - scene.camera().position());
+    if (walk.events() == 0)
+      probe.distance = length(vertex.position() - scene.camera().traits().position);
     if (any(vertex.lobes() & (Lobes::diffuse | Lobes::glossy))) {
       probe.found = true;
       probe.vertex = vertex;

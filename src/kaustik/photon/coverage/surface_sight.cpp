@@ -19,7 +19,7 @@ float largest_coordinate(const Vec3f& p) {
 }  // namespace
 
 bool SurfaceSight::hides(const Hit& hit) const {
-  return hit.shape == shape_ || !scene_.surface(hit.shape).transmits;
+  return hit.shape == shape_ || !scene_.surface(hit.shape).traits.transmits;
 }
 
 bool SurfaceSight::is_free(Ray ray) const {

@@ -25,8 +25,9 @@ EmittedRay no_ray() {
   return result;
 }
 
-EmittedRay sample_own(const Light& light, const Vec2f& u_position, const Vec2f& u_direction) {
-  const EmissionSample s = light.sample_emission(u_position, u_direction);
+EmittedRay sample_own(const Light& light, const Vec2f& u_position, const Vec2f& u_direction,
+                      const Wavelengths& wavelengths) {
+  const EmissionSample s = light.sample_emission(u_position, u_direction, wavelengths);
   EmittedRay result;
   result.origin = s.on_surface ? s.point : free_point(s.point.position);
   result.on_surface = s.on_surface;
@@ -41,17 +42,17 @@ float own_pdf(const Light& light, const SurfacePoint& origin, const Vec3f& direc
   return light.emission_pdf_position(origin) * light.emission_pdf_direction(origin, direction);
 }
 
-EmittedRay AimedLight::sample(const Vec2f& u_position, const Vec2f& u_direction,
-                              float u_target) const {
+EmittedRay AimedLight::sample(const Vec2f& u_position, const Vec2f& u_direction, float u_target,
+                              const Wavelengths& wavelengths) const {
   switch (kind_) {
     case Kind::dark:
       return no_ray();
     case Kind::own:
-      return sample_own(*light_, u_position, u_direction);
+      return sample_own(*light_, u_position, u_direction, wavelengths);
     case Kind::infinite:
-      return sample_disks(u_position, u_direction, u_target);
+      return sample_disks(u_position, u_direction, u_target, wavelengths);
     default:
-      return sample_cones(u_position, u_direction, u_target);
+      return sample_cones(u_position, u_direction, u_target, wavelengths);
   }
 }
 
@@ -98,7 +99,7 @@ AimedLight::Density AimedLight::cone_density(const SurfacePoint& origin,
 Vec3f AimedLight::own_direction(const SurfacePoint& origin, const Vec2f& u_position,
                                 const Vec2f& u_direction) const {
   if (on_surface_) return Frame(origin.ng).to_world(square_to_cosine_hemisphere(u_direction));
-  return light_->sample_emission(u_position, u_direction).direction;
+  return light_->sample_emission(u_position, u_direction, {}).direction;
 }
 
 float AimedLight::own_direction_pdf(const SurfacePoint& origin, const Vec3f& direction) const {
@@ -123,19 +124,19 @@ Vec3f AimedLight::cap_direction(const Vec3f& sphere_center, float threshold, con
 bool AimedLight::ball_origin(size_t i, const Vec2f& u, SurfacePoint& origin) const {
   const Vec3f outward = cap_direction(table_.center(i), table_.cap_threshold[i], u);
   if (!point_of_ball(*shape_, ball_, outward, origin)) return false;
-  origin.shape = uint32_t(light_->shape());
+  origin.shape = uint32_t(light_->traits().shape);
   return true;
 }
 
 EmittedRay AimedLight::sample_cones(const Vec2f& u_position, const Vec2f& u_direction,
-                                    float u_target) const {
+                                    float u_target, const Wavelengths& wavelengths) const {
   EmittedRay result = no_ray();
   result.on_surface = on_surface_;
   const size_t i = pick(u_target);
   if (kind_ == Kind::ball) {
     if (!ball_origin(i, u_position, result.origin)) return result;
   } else {
-    const EmissionSample s = light_->sample_origin(u_position);
+    const EmissionSample s = light_->placed().sample_origin(u_position);
     if (!(s.pdf_position > 0)) return result;
     result.origin = on_surface_ ? s.point : free_point(s.point.position);
   }
@@ -152,14 +153,17 @@ EmittedRay AimedLight::sample_cones(const Vec2f& u_position, const Vec2f& u_dire
   result.pdf_position = density.position;
   result.pdf_direction = density.direction;
   const float pdf = density.position * density.direction;
-  if (pdf > 0) result.flux = light_->emitted_from(result.origin, direction) * (cosine / pdf);
+  if (pdf > 0)
+    result.flux = light_->emitted(result.origin, direction, wavelengths) * (cosine / pdf);
   return result;
 }
 
 EmittedRay AimedLight::sample_disks(const Vec2f& u_position, const Vec2f& u_direction,
-                                    float u_target) const {
+                                    float u_target, const Wavelengths& wavelengths) const {
   EmittedRay result = no_ray();
-  const Vec3f direction = light_->sample_travel_direction(u_direction, result.pdf_direction);
+  const TravelDirection travel = light_->distant().sample_travel_direction(u_direction);
+  const Vec3f& direction = travel.direction;
+  result.pdf_direction = travel.pdf;
   const size_t i = pick(u_target);
   const Vec2f disk = square_to_disk(u_position) * std::sqrt(table_.radius_sq[i]);
   const Vec3f on_disk = table_.center(i) + Frame(direction).to_world(Vec3f(disk.x, disk.y, 0.0f));
@@ -169,7 +173,7 @@ EmittedRay AimedLight::sample_disks(const Vec2f& u_position, const Vec2f& u_dire
   result.ray = {result.origin.position, direction};
   result.pdf_position = sum_disks(table_, result.origin.position, direction);
   const float pdf = result.pdf_position * result.pdf_direction;
-  if (pdf > 0) result.flux = light_->emitted_from(result.origin, direction) * (1.0f / pdf);
+  if (pdf > 0) result.flux = light_->emitted(result.origin, direction, wavelengths) * (1.0f / pdf);
   return result;
 }
 

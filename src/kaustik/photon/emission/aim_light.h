@@ -11,7 +11,8 @@ EmittedRay no_ray();
 
 /// Emission of one light, by its own distribution. `aim_light.h` is where emission gets its
 /// densities; EmissionSampler is what the rest sees.
-EmittedRay sample_own(const Light& light, const Vec2f& u_position, const Vec2f& u_direction);
+EmittedRay sample_own(const Light& light, const Vec2f& u_position, const Vec2f& u_direction,
+                      const Wavelengths& wavelengths);
 /// Joint density of sample_own.
 float own_pdf(const Light& light, const SurfacePoint& origin, const Vec3f& direction);
 
@@ -19,8 +20,8 @@ float own_pdf(const Light& light, const SurfacePoint& origin, const Vec3f& direc
 class LightEmission {
  public:
   virtual ~LightEmission() = default;
-  virtual EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction,
-                            float u_target) const = 0;
+  virtual EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction, float u_target,
+                            const Wavelengths& wavelengths) const = 0;
   /// Joint density of sample().
   virtual float pdf(const SurfacePoint& origin, const Vec3f& direction) const = 0;
 };
@@ -45,8 +46,8 @@ class AimedLight final : public LightEmission {
   /// `shape`: of area lights, else null. All must outlive this.
   AimedLight(const Light& light, const Shape* shape, const AimInputs& inputs);
 
-  EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction,
-                    float u_target) const override;
+  EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction, float u_target,
+                    const Wavelengths& wavelengths) const override;
   float pdf(const SurfacePoint& origin, const Vec3f& direction) const override;
 
  private:
@@ -76,8 +77,10 @@ class AimedLight final : public LightEmission {
                       const Vec2f& u_direction) const;
   float own_direction_pdf(const SurfacePoint& origin, const Vec3f& direction) const;
   bool ball_origin(size_t i, const Vec2f& u, SurfacePoint& origin) const;
-  EmittedRay sample_cones(const Vec2f& u_position, const Vec2f& u_direction, float u_target) const;
-  EmittedRay sample_disks(const Vec2f& u_position, const Vec2f& u_direction, float u_target) const;
+  EmittedRay sample_cones(const Vec2f& u_position, const Vec2f& u_direction, float u_target,
+                          const Wavelengths& wavelengths) const;
+  EmittedRay sample_disks(const Vec2f& u_position, const Vec2f& u_direction, float u_target,
+                          const Wavelengths& wavelengths) const;
 
   const Light* light_;
   const Shape* shape_;

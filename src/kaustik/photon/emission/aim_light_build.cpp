@@ -47,7 +47,7 @@ AimedLight::AimedLight(const Light& light, const Shape* shape, const AimInputs& 
   } else {
     kind_ = Kind::place;
     // Of a light with two sides no side of a ball is all of it.
-    if (shape && !light.is_two_sided()) ball_ = find_ball(*shape);
+    if (shape && !light.traits().is_two_sided) ball_ = find_ball(*shape);
     if (ball_.radius > 0) kind_ = Kind::ball;
     set_own_limit();
   }
@@ -64,7 +64,7 @@ AimedLight::AimedLight(const Light& light, const Shape* shape, const AimInputs& 
 
 /// Where cones are wider than what the light emits into, the light knows better.
 void AimedLight::set_own_limit() {
-  const float cos_angle = light_->bounds().cos_angle;
+  const float cos_angle = light_->traits().bounds.cos_angle;
   if (on_surface_) {
     own_solid_angle_ = pi;  // cosine-weighted
     own_limit_ = 0.75f;     // sin² of 60°: the cone of that solid angle
@@ -73,14 +73,15 @@ void AimedLight::set_own_limit() {
     own_limit_ = cos_angle > 0 ? std::max(1.0f - sqr(cos_angle), 1e-6f) : 1.0f;
   }
   // Probes may miss all that a pattern has of light: the mean is known.
-  const float origins = light_->emission_pdf_position(light_->sample_origin({0.5f, 0.5f}).point);
-  peak_ = light_->power().max_lane() * origins / (on_surface_ ? pi : 4 * pi);
+  const float origins =
+      light_->emission_pdf_position(light_->placed().sample_origin({0.5f, 0.5f}).point);
+  peak_ = light_->traits().power.max_lane() * origins / (on_surface_ ? pi : 4 * pi);
   for (uint32_t k = 0; k < 16; ++k) {
     Sampler sampler(probe_scramble, k);
     const Vec2f u = sampler.next_2d();
-    const EmissionSample s = light_->sample_emission(u, sampler.next_2d());
+    const EmissionSample s = light_->sample_emission(u, sampler.next_2d(), {});
     if (s.pdf_direction > 0)
-      peak_ = std::max(peak_, light_->emitted_from(s.point, s.direction).max_lane());
+      peak_ = std::max(peak_, light_->emitted(s.point, s.direction, {}).max_lane());
   }
 }
 
@@ -108,7 +109,7 @@ double AimedLight::flux_into_cone(const SurfacePoint& origin, const AimCone& con
     const float pdf =
         cone.own ? own_direction_pdf(origin, direction) : cone_pdf(cone.one_minus_cos);
     const float cosine = on_surface_ ? std::max(dot(origin.ng, direction), 0.0f) : 1.0f;
-    if (pdf > 0) sum += double(light_->emitted_from(origin, direction).max_lane() * (cosine / pdf));
+    if (pdf > 0) sum += double(light_->emitted(origin, direction, {}).max_lane() * (cosine / pdf));
   }
   return std::max(sum / directions_per_probe, 0.05 * double(peak_ * solid_angle));
 }
@@ -124,7 +125,7 @@ double AimedLight::flux_toward(const AimSphere& sphere, int probes) const {
       origin.ng = origin.ns = cap_direction(sphere.center, threshold, u);
       origin.position = ball_.center + origin.ng * ball_.radius;
     } else {
-      origin = light_->sample_origin(u).point;
+      origin = light_->placed().sample_origin(u).point;
     }
     const AimCone cone =
         cone_toward(sphere.center, sqr(sphere.radius), origin.position, own_limit_);
@@ -135,7 +136,7 @@ double AimedLight::flux_toward(const AimSphere& sphere, int probes) const {
 }
 
 void AimedLight::add_spheres(const AimInputs& inputs) {
-  const LightBounds bounds = light_->bounds();
+  const LightBounds bounds = light_->traits().bounds;
   std::vector<double> chances;
   for (const AimSphere& sphere : inputs.spheres) {
     if (!can_reach(bounds, sphere)) continue;
@@ -177,7 +178,7 @@ bool own_serves_as_well(const Light& light,
   for (uint32_t k = 0; k < uint32_t(probes); ++k) {
     Sampler sampler(probe_scramble + 3, k);
     const Vec2f u = sampler.next_2d();
-    const EmissionSample s = light.sample_emission(u, sampler.next_2d());
+    const EmissionSample s = light.sample_emission(u, sampler.next_2d(), {});
     const float aimed = aimed_pdf(s.point, s.direction);
     if (!(aimed > 0)) continue;
     ++useful;

@@ -15,7 +15,8 @@ constexpr size_t max_spheres = 128;
 }  // namespace
 
 const Shape* shape_of(const Scene& scene, const Light& light) {
-  return light.shape() >= 0 ? &scene.tracer().shape(uint32_t(light.shape())) : nullptr;
+  return light.traits().shape >= 0 ? &scene.tracer().shape(uint32_t(light.traits().shape))
+                                   : nullptr;
 }
 
 EmissionSampler::EmissionSampler(const Scene& scene) : scene_(&scene) {}
@@ -54,7 +55,7 @@ void EmissionSampler::aim_at(std::vector<AimTarget> targets,
     const Shape* shape = shape_of(*scene_, *light);
     const ProjectionInputs inputs{boxes, scene_bounds, resolution, std::max(2, probes / 2)};
     // An environment's planes are as many as its directions: no map could hold them.
-    if (boxes.empty() || (light->is_infinite() && !light->is_delta()))
+    if (boxes.empty() || (light->is_infinite() && !light->traits().is_delta))
       lights_.push_back(
           std::make_unique<AimedLight>(*light, shape, AimInputs{spheres, scene_bounds, probes}));
     else if (light->is_infinite())
@@ -67,18 +68,20 @@ void EmissionSampler::aim_at(std::vector<AimTarget> targets,
 EmissionSampler::~EmissionSampler() = default;
 
 EmittedRay EmissionSampler::sample(int light, const Vec2f& u_position, const Vec2f& u_direction,
-                                   float u_target) const {
-  EmittedRay emitted = aimed_
-                           ? lights_[size_t(light)]->sample(u_position, u_direction, u_target)
-                           : sample_own(*scene_->lights()[size_t(light)], u_position, u_direction);
-  dim(light, emitted);
+                                   float u_target, const Wavelengths& wavelengths) const {
+  EmittedRay emitted =
+      aimed_ ? lights_[size_t(light)]->sample(u_position, u_direction, u_target, wavelengths)
+             : sample_own(*scene_->lights()[size_t(light)], u_position, u_direction, wavelengths);
+  dim(light, emitted, wavelengths);
   return emitted;
 }
 
-void EmissionSampler::dim(int light, EmittedRay& emitted) const {
+void EmissionSampler::dim(int light, EmittedRay& emitted, const Wavelengths& wavelengths) const {
   const Medium* medium = scene_->light_medium(light);
-  if (medium && scene_->lights()[size_t(light)]->is_infinite())
-    emitted.flux *= medium->transmittance(infinity);
+  if (!medium || !scene_->lights()[size_t(light)]->is_infinite()) return;
+  const Sampler by_segment(0, 0);
+  emitted.flux *= medium->transmittance({emitted.ray.origin, emitted.ray.direction, infinity},
+                                        wavelengths, by_segment);
 }
 
 float EmissionSampler::pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const {

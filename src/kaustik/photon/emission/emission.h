@@ -63,15 +63,15 @@ class EmissionSampler {
   ~EmissionSampler();
 
   /// A ray of light `light`. Dimensions: `u_target` picks the target.
-  EmittedRay sample(int light, const Vec2f& u_position, const Vec2f& u_direction,
-                    float u_target) const;
+  EmittedRay sample(int light, const Vec2f& u_position, const Vec2f& u_direction, float u_target,
+                    const Wavelengths& wavelengths) const;
   /// Joint density (pdf_position × pdf_direction) with which sample() finds this ray: from `origin`
   /// on light `light` (on the plane across the direction, for infinite lights: any point of the
   /// ray's line) along `direction`.
   float pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const;
   /// Takes off what infinitely far light has lost on an infinite length of what surrounds the
   /// scene; sample() has done it.
-  void dim(int light, EmittedRay& emitted) const;
+  void dim(int light, EmittedRay& emitted, const Wavelengths& wavelengths) const;
   bool aimed() const { return aimed_; }
   /// Boxes that there are to aim at (by power: found, not aimed at).
   size_t target_count() const { return target_count_; }

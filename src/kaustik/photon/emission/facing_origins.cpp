@@ -15,7 +15,7 @@ constexpr size_t maximum_faces = 64;
 FacingOrigins::FacingOrigins(const Light& light, const Shape* shape)
     : light_(&light), shape_(shape) {
   // Of two sides one faces any direction: none is better than another.
-  if (!shape || light.is_two_sided()) return;
+  if (!shape || light.traits().is_two_sided) return;
   ball_ = find_ball(*shape);
   const TriangleMesh* mesh = shape->mesh();
   if (!mesh || mesh->triangles.size() > maximum_faces) return;
@@ -42,13 +42,14 @@ bool FacingOrigins::sample(const Vec3f& direction, const Vec2f& u, SurfacePoint&
     density = pdf(origin, direction);
     return density > 0;
   }
-  const EmissionSample sample = light_->sample_origin(u);
+  const EmissionSample sample = light_->placed().sample_origin(u);
   origin = sample.point;
   density = sample.pdf_position;
   return density > 0;
 }
 
-EmittedRay FacingOrigins::ray(const Vec3f& direction, float pdf_direction, const Vec2f& u) const {
+EmittedRay FacingOrigins::ray(const Vec3f& direction, float pdf_direction, const Vec2f& u,
+                              const Wavelengths& wavelengths) const {
   EmittedRay result = no_ray();
   result.on_surface = shape_ != nullptr;
   SurfacePoint origin;
@@ -65,7 +66,7 @@ EmittedRay FacingOrigins::ray(const Vec3f& direction, float pdf_direction, const
   if (!(cosine > 0)) return result;
   result.pdf_direction = pdf_direction;
   const float joint = result.pdf_position * pdf_direction;
-  if (joint > 0) result.flux = light_->emitted_from(origin, direction) * (cosine / joint);
+  if (joint > 0) result.flux = light_->emitted(origin, direction, wavelengths) * (cosine / joint);
   return result;
 }
 
@@ -83,7 +84,7 @@ bool FacingOrigins::sample_ball(const Vec3f& direction, const Vec2f& u,
   const float height = safe_sqrt(1.0f - sqr(disk.x) - sqr(disk.y));
   const Vec3f outward = Frame(direction).to_world(Vec3f(disk.x, disk.y, height));
   if (!point_of_ball(*shape_, ball_, outward, origin)) return false;
-  origin.shape = uint32_t(light_->shape());
+  origin.shape = uint32_t(light_->traits().shape);
   return true;
 }
 
@@ -102,7 +103,7 @@ bool FacingOrigins::sample_mesh(const Vec3f& direction, Vec2f u, SurfacePoint& o
   if (!chosen) return false;
   const Vec2f b = square_to_triangle({std::clamp(share, 0.0f, one_minus_epsilon), u.y});
   origin = triangle_surface_point(*shape_->mesh(), chosen->triangle, b.x, b.y);
-  origin.shape = uint32_t(light_->shape());
+  origin.shape = uint32_t(light_->traits().shape);
   return true;
 }
 

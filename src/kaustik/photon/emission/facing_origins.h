@@ -17,7 +17,8 @@ class FacingOrigins {
   bool sample(const Vec3f& direction, const Vec2f& u, SurfacePoint& origin, float& pdf) const;
   /// A ray of the light in that direction, by sample(): its density per solid angle, or whatever
   /// else the caller counts in, is `pdf_direction`. Flux zero: there is none.
-  EmittedRay ray(const Vec3f& direction, float pdf_direction, const Vec2f& u) const;
+  EmittedRay ray(const Vec3f& direction, float pdf_direction, const Vec2f& u,
+                 const Wavelengths& wavelengths) const;
   /// Density of sample() for a point of the light that `direction` leaves.
   float pdf(const SurfacePoint& origin, const Vec3f& direction) const;
 

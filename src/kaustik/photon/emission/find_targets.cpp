@@ -127,7 +127,7 @@ void add_if_wanted(const Scene& scene, size_t index, Lobes lobes, const Transfor
                    std::vector<PlacedShape>& placed) {
   const Bsdf& bsdf = *scene.surface(uint32_t(index)).bsdf;
   const Shape& shape = scene.tracer().shape(uint32_t(index));
-  if (!any(bsdf.lobes() & lobes) || shape.bounds().isEmpty()) return;
+  if (!any(bsdf.traits().lobes & lobes) || shape.bounds().isEmpty()) return;
   placed.push_back({&shape, transform, mean_albedo(bsdf, lobes), 0});
 }
 

@@ -21,7 +21,7 @@ Bounds3f seen_from(const Bounds3f& box, const Bounds3f& place, const Bounds3f& s
 }
 
 std::vector<Bounds3f> seen_boxes(const Light& light, const ProjectionInputs& inputs) {
-  const Bounds3f place = light.bounds().position;
+  const Bounds3f place = light.traits().bounds.position;
   std::vector<Bounds3f> result;
   for (const Bounds3f& box : inputs.boxes)
     if (!box.isEmpty()) result.push_back(seen_from(box, place, inputs.scene_bounds));
@@ -52,7 +52,7 @@ ProjectionMap::ProjectionMap(const Light& light, const Shape* shape, const Proje
       const Vec2f u = Sampler(probe_scramble, uint32_t(k)).next_2d();
       if (!origins_.sample(direction, u, origin, density)) continue;
       const float cosine = on_surface_ ? std::max(dot(origin.ng, direction), 0.0f) : 1.0f;
-      sum += double(light_->emitted_from(origin, direction).max_lane() * (cosine / density));
+      sum += double(light_->emitted(origin, direction, {}).max_lane() * (cosine / density));
     }
     return sum / inputs.probes;
   };
@@ -61,10 +61,10 @@ ProjectionMap::ProjectionMap(const Light& light, const Shape* shape, const Proje
     peak = std::max(peak, intensity(cell.center));
     return 1.0;
   });
-  const LightBounds bounds = light.bounds();
+  const LightBounds bounds = light.traits().bounds;
   // Where the probes find nothing at all the light may still have a pattern that they miss.
   const double floor = peak > 0 ? 0.05 * peak : 1.0;
-  const bool shines = light.power().max_lane() > 0;
+  const bool shines = light.traits().power.max_lane() > 0;
   dark_ = !shines || !cells_.set_weights([&](const DirectionCells::Cell& cell) {
     if (is_dark(bounds, cell)) return 0.0;
     return std::max(intensity(cell.center), floor) * double(cell.solid_angle);
@@ -80,18 +80,17 @@ float ProjectionMap::pdf(const SurfacePoint& origin, const Vec3f& direction) con
   return cells_.pdf(direction) * origins_.pdf(origin, direction);
 }
 
-EmittedRay ProjectionMap::sample(const Vec2f& u_position, const Vec2f& u_direction,
-                                 float u_target) const {
-  if (own_) return sample_own(*light_, u_position, u_direction);
+EmittedRay ProjectionMap::sample(const Vec2f& u_position, const Vec2f& u_direction, float u_target,
+                                 const Wavelengths& wavelengths) const {
+  if (own_) return sample_own(*light_, u_position, u_direction, wavelengths);
   if (dark_) return no_ray();
   const Vec3f direction = cells_.sample(u_target, u_direction);
-  return origins_.ray(direction, cells_.pdf(direction), u_position);
+  return origins_.ray(direction, cells_.pdf(direction), u_position, wavelengths);
 }
 
 ProjectionPlane::ProjectionPlane(const Light& light, const ProjectionInputs& inputs)
     : light_(&light), resolution_(4 * inputs.resolution) {
-  float density = 0;
-  direction_ = light.sample_travel_direction({0.5f, 0.5f}, density);
+  direction_ = light.distant().sample_travel_direction({0.5f, 0.5f}).direction;
   frame_ = Frame(direction_);
   if (inputs.boxes.empty()) return;
   // Boxes as rectangles of the plane.
@@ -135,7 +134,8 @@ float ProjectionPlane::pdf(const SurfacePoint& origin, const Vec3f& direction) c
          (float(list_.size()) * step_.x * step_.y);
 }
 
-EmittedRay ProjectionPlane::sample(const Vec2f& u_position, const Vec2f&, float u_target) const {
+EmittedRay ProjectionPlane::sample(const Vec2f& u_position, const Vec2f&, float u_target,
+                                   const Wavelengths& wavelengths) const {
   EmittedRay result = no_ray();
   if (list_.empty()) return result;
   const size_t i = to_integer(u_target * float(list_.size()), size_t(0), list_.size() - 1);
@@ -146,7 +146,8 @@ EmittedRay ProjectionPlane::sample(const Vec2f& u_position, const Vec2f&, float 
   result.ray = {result.origin.position, direction_};
   result.pdf_position = 1.0f / (float(list_.size()) * step_.x * step_.y);
   result.pdf_direction = 1;
-  result.flux = light_->emitted_from(result.origin, direction_) * (1.0f / result.pdf_position);
+  result.flux =
+      light_->emitted(result.origin, direction_, wavelengths) * (1.0f / result.pdf_position);
   return result;
 }
 

@@ -22,8 +22,8 @@ class ProjectionMap final : public LightEmission {
   /// `shape`: of area lights, else null. The light and the shape must outlive this.
   ProjectionMap(const Light& light, const Shape* shape, const ProjectionInputs& inputs);
 
-  EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction,
-                    float u_target) const override;
+  EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction, float u_target,
+                    const Wavelengths& wavelengths) const override;
   float pdf(const SurfacePoint& origin, const Vec3f& direction) const override;
 
  private:
@@ -42,8 +42,8 @@ class ProjectionPlane final : public LightEmission {
   /// The light must outlive this.
   ProjectionPlane(const Light& light, const ProjectionInputs& inputs);
 
-  EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction,
-                    float u_target) const override;
+  EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction, float u_target,
+                    const Wavelengths& wavelengths) const override;
   float pdf(const SurfacePoint& origin, const Vec3f& direction) const override;
 
  private:

@@ -6,7 +6,7 @@ CameraPath::CameraPath(const CameraPathInputs& inputs, const PixelPlan& plan, co
                        Sampler& sampler, SampleSink& sink)
     : in_(inputs),
       walk_(inputs.scene, raster, sampler, sink),
-      vertices_(inputs, plan),
+      vertices_(inputs, plan, walk_.u_lens()),
       weights_(inputs, vertices_) {}
 
 CameraPath::CameraPath(const CameraPath& stem, Sampler& sampler)

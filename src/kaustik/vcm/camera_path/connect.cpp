@@ -20,7 +20,8 @@ void connect_to(const ConnectibleVertex& to, const CameraPathInputs& in,
   if (walk.events() + 1 + int(to.data.before) > in.maximum_events) return;
   const Scatterer& vertex = vertices.here();
   SurfaceVertex surface;
-  if (!to.in_medium) surface.meet(in.scene, to.ray, to.hit, TransportMode::flux);
+  if (!to.in_medium)
+    surface.meet(in.scene, to.ray, to.hit, TransportMode::flux, {}, walk.wavelengths());
   const Scatterer other =
       to.in_medium ? Scatterer(to.ray.origin, -to.ray.direction, *to.medium) : Scatterer(surface);
   const Vec3f between = other.position() - vertex.position();
@@ -57,9 +58,9 @@ void connect_to(const ConnectibleVertex& to, const CameraPathInputs& in,
       if (value.is_zero()) continue;
       if (!traced) {
         traced = true;
-        visible =
-            shadow_ray_transmittance(in.scene, spawn_ray_to(vertex.point(), other.point()),
-                                     vertex.medium_toward(direction, walk.medium()), walk.rays());
+        visible = shadow_ray_transmittance(in.scene, spawn_ray_to(vertex.point(), other.point()),
+                                           vertex.medium_toward(direction, walk.medium()),
+                                           {walk.wavelengths(), walk.sampler()}, walk.rays());
         if (visible.is_zero()) return;
       }
       walk.add(component, value * visible);

@@ -39,7 +39,8 @@ float MediumMerging::merging_length() const {
 }
 
 Spectrum MediumMerging::radiance(const Ray& ray, float length, const Medium& medium,
-                                 const Sampler& sampler, uint64_t& rays) const {
+                                 const Wavelengths& wavelengths, const Sampler& sampler,
+                                 uint64_t& rays) const {
   Spectrum sum;
   const float merging = std::min(length, merging_length());
   if (in_.light.in_media.empty() || !(merging > 0)) return sum;
@@ -65,7 +66,9 @@ Spectrum MediumMerging::radiance(const Ray& ray, float length, const Medium& med
     const float kernel = 2 * inv_pi * (1 - distance_sq / radius_sq) / radius_sq;
     parts.push_back(
         {i, position,
-         light.flux_spectrum() * medium.transmittance(along) * (kernel * phase * weight / count)});
+         light.flux_spectrum() *
+             medium.transmittance({ray.origin, ray.direction, along}, wavelengths, sampler) *
+             (kernel * phase * weight / count)});
     sum += parts.back().light;
   });
   if (!in_.visibility || sum.is_zero()) return sum;

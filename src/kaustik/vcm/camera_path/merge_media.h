@@ -11,7 +11,8 @@ class MediumMerging final : public VolumeLight {
   MediumMerging(const CameraPathInputs& inputs, const CameraVertices& vertices)
       : in_(inputs), vertices_(vertices) {}
 
-  Spectrum radiance(const Ray& ray, float length, const Medium& medium, const Sampler& sampler,
+  Spectrum radiance(const Ray& ray, float length, const Medium& medium,
+                    const Wavelengths& wavelengths, const Sampler& sampler,
                     uint64_t& rays) const override;
 
  private:

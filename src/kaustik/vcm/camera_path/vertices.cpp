@@ -4,8 +4,9 @@
 
 namespace kaustik {
 
-CameraVertices::CameraVertices(const CameraPathInputs& inputs, const PixelPlan& plan)
-    : in_(inputs), plan_(plan) {
+CameraVertices::CameraVertices(const CameraPathInputs& inputs, const PixelPlan& plan,
+                               const Vec2f& u_lens)
+    : in_(inputs), plan_(plan), u_lens_(u_lens) {
   constexpr size_t usual_length = 12;
   vertices_.reserve(usual_length);
 }
@@ -19,7 +20,7 @@ PathVertex CameraVertices::next(const Vec3f& position, const Facing& facing) con
   PathVertex next;
   if (facing.extinction > 0) next.mean_free_path = 1 / facing.extinction;
   if (vertices_.empty()) {
-    const CameraConnection connection = in_.scene.camera().connect(position);
+    const CameraConnection connection = in_.scene.camera().connect(position, u_lens_);
     next.pdf_camera = connection.importance * in_.camera_samples *
                       facing.factor(connection.direction) / sqr(connection.distance);
     return next;
@@ -34,7 +35,7 @@ PathVertex CameraVertices::next(const Vec3f& position, const Facing& facing) con
 }
 
 PathVertex CameraVertices::next_in_medium(const Vec3f& position, const Medium& medium) const {
-  PathVertex vertex = next(position, {{}, mean_extinction(medium)});
+  PathVertex vertex = next(position, {{}, medium.mean_extinction(position)});
   vertex.merge_volume = in_.media.merge_volume(position, medium);
   return vertex;
 }

@@ -7,7 +7,7 @@ namespace {
 
 /// A point of `light` as emission sees it: its normal is on the side that shines to `direction`.
 SurfacePoint shining(const Light& light, SurfacePoint point, const Vec3f& direction) {
-  if (light.is_two_sided() && dot(point.ng, direction) < 0) {
+  if (light.traits().is_two_sided && dot(point.ng, direction) < 0) {
     point.ng = -point.ng;
     point.ns = -point.ns;
   }
@@ -41,9 +41,10 @@ float CameraPathWeights::sampled(const Scatterer& vertex, const DirectLight& lig
       in_.emission.pdf(light.light, of.is_infinite() ? vertex.point() : origin, -light.wi);
   const float cosine = vertex.facing().factor(light.wi);
   const float distance_sq = of.is_infinite() ? 1.0f : sqr(light.distance);
-  const float light_cosine =
-      of.is_infinite() || of.is_delta() ? 1.0f : abs_dot(light.wi, of.emitting_normal(origin));
-  const float to_area = of.is_delta() ? 1.0f : light_cosine / distance_sq;
+  const float light_cosine = of.is_infinite() || of.traits().is_delta
+                                 ? 1.0f
+                                 : abs_dot(light.wi, of.placed().emitting_normal(origin));
+  const float to_area = of.traits().is_delta ? 1.0f : light_cosine / distance_sq;
   PathVertex on_light;
   on_light.pdf_light = emission.endpoint > 0 ? emission.endpoint : 1.0f;
   PathHalves path = vertices_.halves();

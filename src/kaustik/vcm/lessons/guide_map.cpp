@@ -29,11 +29,10 @@ GuideMap::GuideMap(const Light& light, const Shape* shape, const Bounds3f& scene
     : light_(&light), origins_(light, shape) {
   if (!light.is_infinite()) {
     kind_ = Kind::direction;
-    frame_ = Frame(light.bounds().axis);
-  } else if (light.is_delta() && !scene_bounds.isEmpty()) {
+    frame_ = Frame(light.traits().bounds.axis);
+  } else if (light.traits().is_delta && !scene_bounds.isEmpty()) {
     kind_ = Kind::plane;
-    float density = 0;
-    frame_ = Frame(light.sample_travel_direction({0.5f, 0.5f}, density));
+    frame_ = Frame(light.distant().sample_travel_direction({0.5f, 0.5f}).direction);
     middle_ = frame_.to_local(center(scene_bounds));
     radius_ = 1.001f * bounding_radius(scene_bounds);
   }
@@ -55,30 +54,32 @@ GuideMap::Place GuideMap::place_of(const SurfacePoint& origin, const Vec3f& dire
   }
 }
 
-EmittedRay GuideMap::ray_from_plane(const Vec2f& u) const {
+EmittedRay GuideMap::ray_from_plane(const Vec2f& u, const Wavelengths& wavelengths) const {
   EmittedRay result = no_ray();
   const Vec3f local = middle_ + Vec3f(2 * u.x - 1, 2 * u.y - 1, -1) * radius_;
   result.origin.position = frame_.to_world(local);
   result.ray = {result.origin.position, frame_.z};
   result.pdf_position = sqr(0.5f / radius_);
   result.pdf_direction = 1;
-  result.flux = light_->emitted_from(result.origin, frame_.z);
+  result.flux = light_->emitted(result.origin, frame_.z, wavelengths);
   return result;
 }
 
-EmittedRay GuideMap::ray_at(const Vec2f& u, float pdf, const Vec2f& u_rest) const {
+EmittedRay GuideMap::ray_at(const Vec2f& u, float pdf, const Vec2f& u_rest,
+                            const Wavelengths& wavelengths) const {
   if (kind_ == Kind::plane) {
-    EmittedRay result = ray_from_plane(u);
+    EmittedRay result = ray_from_plane(u, wavelengths);
     result.pdf_position *= pdf;
     result.flux *= pdf > 0 ? 1 / result.pdf_position : 0.0f;
     return result;
   }
-  return origins_.ray(frame_.to_world(square_to_halves(u)), pdf * sphere_pdf, u_rest);
+  return origins_.ray(frame_.to_world(square_to_halves(u)), pdf * sphere_pdf, u_rest, wavelengths);
 }
 
-EmittedRay GuidedLight::sample(const Vec2f& u_position, const Vec2f& u_direction, float) const {
+EmittedRay GuidedLight::sample(const Vec2f& u_position, const Vec2f& u_direction, float,
+                               const Wavelengths& wavelengths) const {
   const Vec2f u = square_.sample(u_direction);
-  return map_->ray_at(u, square_.pdf(u), u_position);
+  return map_->ray_at(u, square_.pdf(u), u_position, wavelengths);
 }
 
 }  // namespace kaustik

@@ -23,11 +23,12 @@ class GuideMap {
   };
   Place place_of(const SurfacePoint& origin, const Vec3f& direction) const;
   /// A ray at `u` of the square, whose density there is `pdf`.
-  EmittedRay ray_at(const Vec2f& u, float pdf, const Vec2f& u_rest) const;
+  EmittedRay ray_at(const Vec2f& u, float pdf, const Vec2f& u_rest,
+                    const Wavelengths& wavelengths) const;
 
  private:
   enum class Kind { none, direction, plane };
-  EmittedRay ray_from_plane(const Vec2f& u) const;
+  EmittedRay ray_from_plane(const Vec2f& u, const Wavelengths& wavelengths) const;
 
   const Light* light_;
   Kind kind_ = Kind::none;
@@ -44,8 +45,8 @@ class GuidedLight final : public LightEmission {
   GuidedLight(std::shared_ptr<const GuideMap> map, GuideSquare square)
       : map_(std::move(map)), square_(std::move(square)) {}
 
-  EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction,
-                    float u_target) const override;
+  EmittedRay sample(const Vec2f& u_position, const Vec2f& u_direction, float u_target,
+                    const Wavelengths& wavelengths) const override;
   float pdf(const SurfacePoint& origin, const Vec3f& direction) const override {
     return pdf(map_->place_of(origin, direction));
   }

@@ -42,12 +42,12 @@ LightPathEmission::LightPathEmission(const Scene& scene, Aim aim)
                                                      aim)) {
   double total = 0, emitting = 0;
   for (const auto& light : scene.lights()) {
-    total += double(light->power().sum());
-    emitting += light->power().sum() > 0 ? 1 : 0;
+    total += double(light->traits().power.sum());
+    emitting += light->traits().power.sum() > 0 ? 1 : 0;
   }
   std::vector<double> chances;
   for (const auto& light : scene.lights()) {
-    const double power = double(light->power().sum());
+    const double power = double(light->traits().power.sum());
     chances.push_back(power > 0 ? (1 - even_share) * power / total + even_share / emitting : 0.0);
   }
   set_chances(chances);
@@ -66,7 +66,7 @@ bool LightPathEmission::has_aimed_rays(int light) const {
     Sampler sampler = Sampler::at(0, 0, Stream::training, aim_element + uint64_t(light), i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const float u_target = sampler.next_1d();
-    if (!aimed_->sample(light, u_position, u_direction, u_target).flux.is_zero()) return true;
+    if (!aimed_->sample(light, u_position, u_direction, u_target, {}).flux.is_zero()) return true;
   }
   return false;
 }
@@ -103,14 +103,15 @@ void LightPathEmission::set_chances(const std::vector<double>& chances) {
 }
 
 EmittedRay LightPathEmission::sample_plain(int light, const Vec2f& u_position,
-                                           const Vec2f& u_direction, float u_choice) const {
+                                           const Vec2f& u_direction, float u_choice,
+                                           const Wavelengths& wavelengths) const {
   if (searching_ && takes(u_choice, search_share))
-    return searching_->sample(light, u_position, u_direction, u_choice);
+    return searching_->sample(light, u_position, u_direction, u_choice, wavelengths);
   const bool aims = takes(u_choice, aimed_shares_[size_t(light)]);
-  return (aims ? *aimed_ : *own_).sample(light, u_position, u_direction, u_choice);
+  return (aims ? *aimed_ : *own_).sample(light, u_position, u_direction, u_choice, wavelengths);
 }
 
-LightPathStart LightPathEmission::sample(Sampler& sampler) const {
+LightPathStart LightPathEmission::sample(Sampler& sampler, const Wavelengths& wavelengths) const {
   LightPathStart start;
   const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
   Vec2f u = sampler.next_2d();
@@ -119,10 +120,10 @@ LightPathStart LightPathEmission::sample(Sampler& sampler) const {
   if (light >= chance_.size() || !(chance_[light] > 0)) return start;
   EmittedRay& emitted = start.emitted;
   if (!guides_.empty() && guides_[light].share > 0 && takes(u.y, guides_[light].share)) {
-    emitted = guides_[light].rays->sample(u_position, u_direction, u.y);
-    own_->dim(int(light), emitted);
+    emitted = guides_[light].rays->sample(u_position, u_direction, u.y, wavelengths);
+    own_->dim(int(light), emitted, wavelengths);
   } else {
-    emitted = sample_plain(int(light), u_position, u_direction, u.y);
+    emitted = sample_plain(int(light), u_position, u_direction, u.y, wavelengths);
   }
   if (emitted.flux.is_zero()) return start;
   start.light = int(light);
@@ -162,7 +163,7 @@ EmissionDensity LightPathEmission::density(int light, const SurfacePoint& origin
     joint += guide.share * (guide.rays->pdf(origin, direction) - joint);
   }
   EmissionDensity result;
-  if (of.is_delta())
+  if (of.traits().is_delta)
     result.endpoint = 1;
   else if (of.is_infinite())
     result.endpoint = of.emission_pdf_direction(origin, direction);

@@ -46,7 +46,7 @@ class LightPathEmission {
   LightPathEmission(const LightPathEmission& plain, std::vector<AimTarget> targets);
 
   /// Three dimension pairs.
-  LightPathStart sample(Sampler& sampler) const;
+  LightPathStart sample(Sampler& sampler, const Wavelengths& wavelengths) const;
   /// Density with which sample() finds the ray: from `origin` on the light, or for infinite lights
   /// any point of its line.
   EmissionDensity pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const;
@@ -61,7 +61,7 @@ class LightPathEmission {
  private:
   EmissionDensity density(int light, const SurfacePoint& origin, const Vec3f& direction) const;
   EmittedRay sample_plain(int light, const Vec2f& u_position, const Vec2f& u_direction,
-                          float u_choice) const;
+                          float u_choice, const Wavelengths& wavelengths) const;
   bool has_aimed_rays(int light) const;
   void set_chances(const std::vector<double>& chances);
 

@@ -35,7 +35,8 @@ float direct_light_at(const Scene& scene, const SurfaceVertex& vertex, uint64_t 
     const Spectrum reflected = vertex.eval_cosine(light.wi, Lobes::all);
     if (reflected.is_zero()) return Spectrum();
     const Medium* medium = vertex.medium_toward(light.wi, nullptr);
-    return reflected * light.radiance * trace_shadow_ray(scene, light, medium, rays, answer);
+    return reflected * light.radiance *
+           trace_shadow_ray(scene, light, medium, {vertex.wavelengths(), sampler}, rays, answer);
   };
   return sample_direct_lights<Spectrum>(scene, Receiver(vertex, 1),
                                         {LightChoice::one, direct_samples}, sampler, reflect)

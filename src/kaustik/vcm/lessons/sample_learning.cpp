@@ -188,7 +188,7 @@ std::vector<SampleLearning::Sums> SampleLearning::take_samples(
     const TrainingPair found =
         training_pair({grid_.window().size, first, Vec2i(grid_.block_size()), pass.seed,
                        training_element + block},
-                      number, number, scene.film().filter, integrator.components(), take);
+                      number, number, scene.film().filter, integrator.traits().components, take);
     const uint64_t pair_rays = found.rays[0] + found.rays[1];
     result[block].add({1, found.variance, found.light, double(pair_rays) / 2});
     return pair_rays;

@@ -6,8 +6,8 @@
 
 namespace kaustik {
 MediumDisks::MediumDisks(const Scene& scene, float widths, float given, float mean_length)
-    : camera_(scene.camera().position()),
-      per_distance_(widths * 2 * scene.camera().pixel_spread()),
+    : camera_(scene.camera().traits().position),
+      per_distance_(widths * 2 * scene.camera().traits().pixel_spread),
       given_(given),
       mean_length_(mean_length) {}
 
@@ -22,11 +22,11 @@ MediumDisks MediumDisks::shrunk(float shrinkage) const {
 float MediumDisks::radius(const Vec3f& position, const Medium& medium) const {
   if (given_ > 0) return given_;
   return std::min(per_distance_ * length(position - camera_),
-                  mean_free_paths_ / mean_extinction(medium));
+                  mean_free_paths_ / medium.mean_extinction(position));
 }
 
 float MediumDisks::merge_volume(const Vec3f& position, const Medium& medium) const {
-  const float extinction = mean_extinction(medium);
+  const float extinction = medium.mean_extinction(position);
   const float collision_chance = -std::expm1(-extinction * mean_length_);
   return pi * sqr(radius(position, medium)) / (extinction * collision_chance);
 }

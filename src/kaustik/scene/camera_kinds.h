@@ -1,0 +1,12 @@
+#pragma once
+// The entries of camera_types() and film_types(), one per source file.
+
+#include "kaustik/scene/camera.h"
+
+namespace kaustik {
+
+CameraType perspective_camera_type();
+
+FilmType hdr_film_type();
+
+}  // namespace kaustik

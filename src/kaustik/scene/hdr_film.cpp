@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include "kaustik/scene/camera_kinds.h"
+
+namespace kaustik {
+namespace {
+
+const TypeInfo& info() {
+  static const TypeInfo info{
+      "film",
+      "hdrfilm",
+      "The picture: its size, crop window and pixel filter, and what it holds.",
+      {integer_parameter("width", 768, "Width of the picture.").range(1, 1 << 20).in("pixels"),
+       integer_parameter("height", 576, "Height of the picture.").range(1, 1 << 20).in("pixels"),
+       integer_parameter("crop_offset_x", 0, "Left edge of the crop window.")
+           .range(0, 1 << 20)
+           .in("pixels"),
+       integer_parameter("crop_offset_y", 0, "Upper edge of the crop window.")
+           .range(0, 1 << 20)
+           .in("pixels"),
+       optional(integer_parameter("crop_width", 1, "Width of the crop window; the rest if absent.")
+                    .range(1, 1 << 20)
+                    .in("pixels")),
+       optional(
+           integer_parameter("crop_height", 1, "Height of the crop window; the rest if absent.")
+               .range(1, 1 << 20)
+               .in("pixels")),
+       choice_parameter("quantity", "radiance", {"radiance", "irradiance"},
+                        "Radiance in W/(sr m²), or irradiance in W/m² on the side that is seen of "
+                        "the first surface behind each pixel, whatever that is made of."),
+       ignored_parameter("file_format", ParameterKind::text),
+       ignored_parameter("pixel_format", ParameterKind::text),
+       ignored_parameter("component_format", ParameterKind::text),
+       ignored_parameter("sample_border", ParameterKind::boolean),
+       ignored_parameter("compensate", ParameterKind::boolean),
+       ignored_parameter("banner", ParameterKind::boolean),
+       ignored_parameter("high_quality_edges", ParameterKind::boolean),
+       ignored_parameter("attach_log", ParameterKind::boolean),
+       ignored_parameter("gamma", ParameterKind::number)}};
+  return info;
+}
+
+FilmSettings create(const Arguments& arguments) {
+  FilmSettings film;
+  film.place = arguments.place();
+  if (arguments.text("quantity") == "irradiance") film.quantity = Quantity::irradiance;
+  film.size = {int(arguments.integer("width")), int(arguments.integer("height"))};
+  film.crop_offset = {int(arguments.integer("crop_offset_x")),
+                      int(arguments.integer("crop_offset_y"))};
+  film.crop_size = film.size - film.crop_offset;
+  if (arguments.given("crop_width")) film.crop_size.x = int(arguments.integer("crop_width"));
+  if (arguments.given("crop_height")) film.crop_size.y = int(arguments.integer("crop_height"));
+  if (film.crop_size.x < 1 || film.crop_size.y < 1 ||
+      film.crop_offset.x + film.crop_size.x > film.size.x ||
+      film.crop_offset.y + film.crop_size.y > film.size.y)
+    throw Error(
+        ErrorKind::input,
+        fmt::format("the crop window of {}×{} pixels at ({}, {}) leaves the picture",
+                    film.crop_size.x, film.crop_size.y, film.crop_offset.x, film.crop_offset.y),
+        fmt::format("keep it within {}×{}", film.size.x, film.size.y), arguments.place());
+  return film;
+}
+
+}  // namespace
+
+FilmType hdr_film_type() { return {info(), create}; }
+
+}  // namespace kaustik

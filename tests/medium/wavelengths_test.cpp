@@ -1,0 +1,106 @@
+// A medium at four wavelengths, against the law of Beer and Lambert.
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "kaustik/base/statistics.h"
+#include "kaustik/medium/medium.h"
+
+namespace kaustik {
+namespace {
+
+const Wavelengths four(440, 500, 580, 660);
+/// 0 at 400 nm, 1 at 800 nm.
+const SpectralCurve ramp{{{400, 0}, {800, 1}}};
+const Spectrum ramp_lanes(0.1f, 0.25f, 0.45f, 0.65f);
+
+std::shared_ptr<const Medium> make_medium(const std::vector<Property>& properties) {
+  const MediumType& type = medium_types().front();
+  Problems problems;
+  const Arguments arguments(type.info, properties, {}, problems);
+  problems.throw_if_any();
+  return type.create({arguments, isotropic_phase_function()});
+}
+
+std::shared_ptr<const Medium> haze() {
+  return make_medium(
+      {{"sigma_t", Value(ramp), {}}, {"albedo", Value(0.5), {}}, {"scale", Value(2.0), {}}});
+}
+
+MediumSegment of_length(float length) { return {{0, 0, 0}, {0, 0, 1}, length}; }
+
+void expect_lanes(const Spectrum& found, const Spectrum& expected) {
+  for (int lane = 0; lane < 4; ++lane) EXPECT_NEAR(found[lane], expected[lane], 1e-6f) << lane;
+}
+
+TEST(medium_wavelengths, coefficients_stay_curves) {
+  const auto medium = haze();
+  expect_lanes(medium->extinction({}, four), ramp_lanes * 2);
+  expect_lanes(medium->scattering({}, four), ramp_lanes);
+  EXPECT_NE(medium->extinction({}, {}), medium->extinction({}, four));
+  const auto by_parts = make_medium({{"sigma_s", Value(ramp), {}}, {"sigma_a", Value(0.5), {}}});
+  expect_lanes(by_parts->extinction({}, four), ramp_lanes + Spectrum(0.5f));
+  expect_lanes(by_parts->scattering({}, four), ramp_lanes);
+  // What densities are counted by does not follow the wavelengths.
+  EXPECT_FLOAT_EQ(medium->mean_extinction({}), medium->extinction({}, {}).sum() / 4);
+}
+
+TEST(medium_wavelengths, transmittance_follows_the_curve) {
+  Sampler sampler(1, 2);
+  const Spectrum left = haze()->transmittance(of_length(1.5f), four, sampler);
+  expect_lanes(left, exp(ramp_lanes * -3.0f));
+}
+
+TEST(medium_wavelengths, flights_have_the_right_weights_in_every_lane) {
+  const auto medium = haze();
+  constexpr int count = 20000;
+  std::array<RunningStatistics, 4> scattered, passed, collided;
+  const Spectrum shares(1, 0.5f, 0.2f, 1);
+  for (int i = 0; i < count; ++i) {
+    Sampler sampler(7, uint32_t(i));
+    const Medium::Flight flight = medium->sample_flight(of_length(1.5f), shares, four, sampler);
+    const Medium::Flight collision =
+        medium->sample_collision(of_length(1.5f), shares, four, sampler);
+    for (int lane = 0; lane < 4; ++lane) {
+      scattered[size_t(lane)].add(flight.scattered ? double(flight.weight[lane]) : 0.0);
+      passed[size_t(lane)].add(flight.scattered ? 0.0 : double(flight.weight[lane]));
+      collided[size_t(lane)].add(double(collision.weight[lane]));
+    }
+  }
+  for (int lane = 0; lane < 4; ++lane) {
+    const double left = std::exp(-3.0 * double(ramp_lanes[lane])), gone = 0.5 * (1 - left);
+    const size_t i = size_t(lane);
+    // The numbers are stratified: much better than by their standard errors.
+    EXPECT_NEAR(passed[i].mean(), left, 1e-3) << lane;
+    EXPECT_NEAR(scattered[i].mean(), gone, 1e-3) << lane;
+    EXPECT_NEAR(collided[i].mean(), gone, 1e-3) << lane;
+    EXPECT_GT(std::fabs(passed[i].mean() - std::exp(-3.0 * 1.03 * double(ramp_lanes[lane]))), 1e-3);
+  }
+}
+
+TEST(medium_wavelengths, flights_take_one_pair_of_numbers_and_transmittances_none) {
+  const auto medium = haze();
+  Sampler sampler(3, 4), same(3, 4);
+  medium->transmittance(of_length(1), four, sampler);
+  medium->sample_flight(of_length(1), Spectrum(1), four, sampler);
+  medium->sample_collision(of_length(1), Spectrum(1), {}, sampler);
+  same.skip_pair(), same.skip_pair();
+  EXPECT_EQ(sampler.next_2d(), same.next_2d());
+}
+
+TEST(medium_wavelengths, media_of_one_colour_may_differ) {
+  const auto medium = haze();
+  EXPECT_TRUE(medium->is_like(*haze()));
+  const Spectrum rgb = medium->extinction({}, {});
+  const auto metamer =
+      make_medium({{"sigma_t", Value(Rgb{double(rgb[0]), double(rgb[1]), double(rgb[2])}), {}},
+                   {"albedo", Value(0.5), {}}});
+  EXPECT_FALSE(medium->is_like(*metamer));
+}
+
+TEST(medium_wavelengths, what_does_nothing_is_vacuum) {
+  EXPECT_EQ(make_medium({{"sigma_t", Value(0.0), {}}}), nullptr);
+}
+
+}  // namespace
+}  // namespace kaustik
