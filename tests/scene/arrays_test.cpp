@@ -46,7 +46,7 @@ std::vector<Spectrum> albedos(const std::shared_ptr<Object>& texture) {
       TextureCoordinates at;
       at.uv = {u, u * u};
       at.uv_width = {width, width};
-      context.move_to(at);
+      context.move_to(at, {});
       values.push_back(scene->surface(0).bsdf->albedo(context, {0, 0, 1}, Lobes::all));
     }
   return values;
