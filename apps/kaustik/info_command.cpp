@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "kaustik/render/scene_warnings.h"
 #include "kaustik/scene/scene_report.h"
 #include "render_job.h"
-#include "scene_warnings.h"
 #include "texture_memory.h"
 
 namespace kaustik::app {
@@ -14,7 +14,7 @@ void info(const std::string& path, const std::vector<std::string>& definitions,
   LoadOptions load;
   load.definitions = parse_definitions(definitions);
   const Description description = read_scene(path, load);
-  tell_of_memory(description);
+  tell_of_memory(description, terminal_messages());
   const auto scene = build_scene(description, build);
   SceneReport report = describe_scene(*scene);
   if (const std::string coarse = coordinates_warning(*scene); !coarse.empty())

@@ -13,7 +13,6 @@
 #include "kaustik/scene/overrides.h"
 #include "numbers.h"
 #include "render_job.h"
-#include "scene_warnings.h"
 #include "standard_streams.h"
 #include "texture_memory.h"
 #include "thesis_settings.h"
@@ -118,9 +117,7 @@ void trace_photons(const PhotonsOptions& options) {
   // Before the settings, so that they speak of the integrator that is used.
   use_integrator(description, "photonmap");
   apply_settings(description, options.levels, options.settings);
-  tell_of_memory(description);
-  const auto scene = build_scene(description, options.build);
-  for (const std::string& warning : scene_warnings(*scene)) warn(warning);
+  const auto scene = build_scene_and_tell(description, options.build, terminal_messages());
 
   // To the end: what is traced is worth being written.
   const InterruptGuard interrupt;

@@ -3,15 +3,13 @@
 
 #include "failures.h"
 #include "file_roles.h"
-#include "kaustik/render/checkpoint.h"
+#include "kaustik/render/finished_picture.h"
 
 namespace kaustik::app {
 
 struct OutputOptions {
-  int threads = 0;               ///< for smoothing; 0: all
-  bool quiet = false;            ///< says nothing of the files
-  bool incomplete_pass = false;  ///< the film holds fewer samples than a pass has
-  double part = 0;               ///< of a pass that the picture has beside the film's
+  PictureFacts facts;
+  bool quiet = false;  ///< says nothing of the files
 };
 
 /// Checks, before long work, that the files can be written, each once, and the tone mapping can be

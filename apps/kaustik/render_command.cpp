@@ -51,7 +51,7 @@ void sort_settings(RenderOptions& options) {
 }
 
 void render(RenderOptions options) {
-  JobOptions job_options;
+  JobSettings job;
   RenderRecipe& recipe = options.recipe;
   FileRoles roles;
   roles.reads_scene(recipe.scene);
@@ -66,7 +66,7 @@ void render(RenderOptions options) {
     roles.writes(*options.checkpoint, {"a checkpoint", is_checkpoint},
                  options.force ? Replacing::anything : Replacing::nothing,
                  fmt::format("go on with it: kaustik resume {}", *options.checkpoint));
-  SessionSettings settings;
+  SessionSettings& settings = job.session;
   settings.seed = recipe.seed;
   settings.threads = usable_threads(options.threads);
   settings.first_pass = options.first_pass;
@@ -74,9 +74,9 @@ void render(RenderOptions options) {
   settings.samples_per_pixel = options.spp;
   if (options.time) settings.seconds = parse_duration(*options.time, "--time");
   if (options.error) settings.error = parse_error_bound(*options.error);
-  job_options.quiet = options.quiet;
-  job_options.checkpoint = options.checkpoint.value_or("");
-  job_options.every_s = parse_duration(options.every, "--every");
+  job.checkpoint = options.checkpoint.value_or("");
+  job.every_s = parse_duration(options.every, "--every");
+  job.build = options.build;
 
   recipe.folder = std::filesystem::current_path().string();
   recipe.definitions = parse_definitions(options.definitions);
@@ -89,13 +89,12 @@ void render(RenderOptions options) {
     use_integrator(description, recipe.integrator);
   }
   recipe.settings = collected_settings(description, options.levels, options.settings);
-  const RenderJob job =
-      make_job(std::move(description), recipe, options.checkpoint.has_value(), options.build);
-  RenderRecord record;
+  RenderRecord& record = job.record;
+  record.program = KAUSTIK_VERSION;
   record.recipe = recipe;
   record.plan = {options.first_pass, 0, settings.seconds, settings.error};
   record.outputs = options.outputs;
-  run_job(job, record, settings, {}, job_options);
+  run_job(std::move(description), std::move(job), options.quiet);
 }
 
 std::string integrator_names() {

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "console.h"
 #include "kaustik/base/file.h"
+#include "kaustik/render/resume.h"
 #include "numbers.h"
 #include "picture_file.h"
 #include "picture_output.h"
@@ -41,37 +42,18 @@ void check_scene_is_there(const RenderRecipe& recipe, const std::string& checkpo
               place_in(checkpoint));
 }
 
-/// As links have it; nothing if that cannot be told.
-std::optional<std::filesystem::path> real_path(const std::filesystem::path& path) {
-  std::error_code failed;
-  const std::filesystem::path whole = std::filesystem::absolute(path, failed);
-  if (failed) return {};
-  const std::filesystem::path real = std::filesystem::weakly_canonical(whole, failed);
-  if (failed) return {};
-  return real;
-}
-
-bool lies_below(const std::optional<std::filesystem::path>& file,
-                const std::filesystem::path& folder) {
-  return file && std::mismatch(folder.begin(), folder.end(), file->begin(), file->end()).first ==
-                     folder.end();
-}
-
 /// The checkpoint may come from anybody: what it names is written in and below its own folder only,
 /// and what it lies in, as links have it.
 void check_outputs_are_near(const std::vector<std::string>& outputs,
                             const std::string& checkpoint) {
-  namespace fs = std::filesystem;
-  const std::optional<fs::path> folder = real_path(fs::path(checkpoint).parent_path() / ".");
-  std::vector<std::string> far;
-  for (const std::string& output : outputs)
-    if (is_standard_stream(output) || !folder ||
-        !lies_below(real_path(output_target(output)), *folder))
-      far.push_back(output);
-  if (far.empty() && !outputs.empty()) return;
   if (outputs.empty())
     throw Error(ErrorKind::input, "it names no picture to write", "say what to write: -o FILE",
                 place_in(checkpoint));
+  std::vector<std::string> files = outputs, far;
+  std::erase_if(files, is_standard_stream);
+  far = files_outside_its_folder(files, checkpoint);
+  std::ranges::copy_if(outputs, std::back_inserter(far), is_standard_stream);
+  if (far.empty()) return;
   throw Error(ErrorKind::input,
               fmt::format("it names pictures outside its own folder: '{}'", fmt::join(far, "', '")),
               fmt::format("if these are to be written: -o '{}'", fmt::join(outputs, "' -o '")),
@@ -88,21 +70,6 @@ std::string replacements(const std::vector<std::string>& outputs) {
       text += " (replacing what is there)";
   }
   return text;
-}
-
-/// A changed scene would give passes that do not belong to those that are there.
-void check_same(const RenderJob& job, const Checkpoint& checkpoint, const std::string& path) {
-  const RenderRecipe& recipe = checkpoint.record.recipe;
-  const bool same =
-      job.digest == recipe.digest &&
-      checkpoint.film.is_for(job.scene->film().crop_size, FilmLayers::of(*job.integrator));
-  if (same) return;
-  throw Error(
-      ErrorKind::input,
-      fmt::format("the scene '{}', or a file that it names, is not what it was when the passes {} "
-                  "were rendered",
-                  recipe.scene, checkpoint.film.passes().text()),
-      "bring back the scene as it was, or render the new one from the start", place_in(path));
 }
 
 /// What the options say in words of their own. Read before the scene is.
@@ -122,32 +89,18 @@ Limits limits_of(const ResumeOptions& options) {
 /// What the options say of how far to go, else what the render was told.
 SessionSettings session_settings(const ResumeOptions& options, const Limits& limits,
                                  const Checkpoint& checkpoint) {
-  const RenderRecord& record = checkpoint.record;
-  SessionSettings settings;
-  settings.seed = record.recipe.seed;
+  SessionSettings settings = settings_to_go_on(checkpoint);
   settings.threads = usable_threads(options.threads);
-  settings.samples_per_pass = record.recipe.samples_per_pass;
-  settings.first_pass = record.plan.first_pass;
+  if (!options.passes && !options.spp && !limits.seconds && !limits.error) return settings;
   settings.passes = options.passes;
   settings.samples_per_pixel = options.spp;
   settings.seconds = limits.seconds;
   settings.error = limits.error;
-  if (settings.passes || settings.samples_per_pixel || settings.seconds || settings.error)
-    return settings;
-  settings.error = record.plan.error;
-  if (record.plan.passes > 0) settings.passes = record.plan.passes;
-  if (record.plan.seconds) {
-    const double left_s = *record.plan.seconds - record.seconds;
-    if (left_s > 0)
-      settings.seconds = left_s;
-    else
-      settings.passes = checkpoint.film.passes().ranges().back().end - settings.first_pass;
-  }
   return settings;
 }
 
 void resume(const ResumeOptions& options) {
-  JobOptions job_options;
+  JobSettings job;
   const Limits limits = limits_of(options);
   FileRoles roles;
   roles.reads(options.checkpoint);
@@ -166,22 +119,24 @@ void resume(const ResumeOptions& options) {
   Description description = load_description(record.recipe);
   roles.reads(description);
   roles.check();
-  const RenderJob job = make_job(std::move(description), record.recipe, true, options.build);
-  check_same(job, checkpoint, options.checkpoint);
-
-  const SessionSettings settings = session_settings(options, limits, checkpoint);
-  record.plan.error = settings.error;
-  if (!settings.seconds)
+  job.session = session_settings(options, limits, checkpoint);
+  record.plan.error = job.session.error;
+  if (!job.session.seconds)
     record.plan.seconds.reset();
   else if (options.time)
-    record.plan.seconds = record.seconds + *settings.seconds;
-  if (!options.quiet)
-    say("{} goes on: passes {} are there; to be written: {}", record.recipe.scene,
-        checkpoint.film.passes().text(), replacements(record.outputs.files));
-  job_options.quiet = options.quiet;
-  job_options.checkpoint = options.checkpoint;
-  job_options.every_s = limits.every_s;
-  run_job(job, record, settings, std::move(checkpoint.film), job_options);
+    record.plan.seconds = record.seconds + *job.session.seconds;
+  job.record = record;
+  job.build = options.build;
+  job.checkpoint = options.checkpoint;
+  job.every_s = limits.every_s;
+  job.begun = std::move(checkpoint);
+  job.begun_path = options.checkpoint;
+  const std::string text =
+      fmt::format("{} goes on: passes {} are there; to be written: {}", job.record.recipe.scene,
+                  job.begun->film.passes().text(), replacements(job.record.outputs.files));
+  run_job(std::move(description), std::move(job), options.quiet, [&] {
+    if (!options.quiet) say("{}", text);
+  });
 }
 
 }  // namespace

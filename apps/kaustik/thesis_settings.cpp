@@ -142,7 +142,7 @@ std::vector<Setting> thesis_settings(const Description& description,
     if (!variable) fail_unknown(name, place);
     const std::string value =
         translated(*variable, entry.substr(std::min(equals + 1, entry.size())), place);
-    settings.push_back({fmt::format("integrator.{}={}", variable->parameter, value), origin});
+    settings.push_back({"integrator", variable->parameter, value, origin});
     report.push_back(
         fmt::format("{} of the environment: {} = {}", name, variable->parameter, value));
   }
@@ -179,7 +179,7 @@ std::vector<Setting> collected_settings(const Description& description, const Le
   for (const std::string& sentence : report) note(sentence);
   const auto set_level = [&](const char* option, const char* parameter, std::optional<int> level) {
     if (level)
-      result.push_back({fmt::format("integrator.{}={}", parameter, *level),
+      result.push_back({"integrator", parameter, std::to_string(*level),
                         fmt::format("command line: {} {}", option, *level)});
   };
   set_level("-l", "max_light_level", levels.light);

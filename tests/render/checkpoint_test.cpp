@@ -74,7 +74,7 @@ RenderRecord little_record() {
   record.recipe.folder = "/somewhere";
   record.recipe.definitions = {{"size", "24"}, {"name", ""}};
   record.recipe.integrator = "path";
-  record.recipe.settings = {{"film.width=8", "command line: --set film.width=8"}};
+  record.recipe.settings = {{"film", "width", "8", "command line: --set film.width=8"}};
   record.recipe.seed = 0xfedcba9876543210u;
   record.recipe.samples_per_pass = 2;
   record.recipe.digest = {17, 18};
@@ -153,7 +153,7 @@ TEST_F(CheckpointFile, HoldsEverything) {
   EXPECT_EQ(read.record.recipe.definitions, record.recipe.definitions);
   EXPECT_EQ(read.record.recipe.integrator, record.recipe.integrator);
   ASSERT_EQ(read.record.recipe.settings.size(), 1u);
-  EXPECT_EQ(read.record.recipe.settings[0].assignment, record.recipe.settings[0].assignment);
+  EXPECT_EQ(read.record.recipe.settings, record.recipe.settings);
   EXPECT_EQ(read.record.recipe.settings[0].origin, record.recipe.settings[0].origin);
   EXPECT_EQ(read.record.recipe.seed, record.recipe.seed);
   EXPECT_EQ(read.record.recipe.samples_per_pass, 2u);

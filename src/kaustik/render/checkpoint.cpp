@@ -49,7 +49,7 @@ void put_recipe(BinaryWriter& writer, const RenderRecipe& recipe) {
   writer.put_text(recipe.integrator);
   writer.put(uint64_t(recipe.settings.size()));
   for (const Setting& setting : recipe.settings) {
-    writer.put_text(setting.assignment);
+    writer.put_text(assignment_of(setting));
     writer.put_text(setting.origin);
   }
   writer.put(recipe.seed);
@@ -70,8 +70,8 @@ RenderRecipe get_recipe(BinaryReader& reader) {
   recipe.integrator = reader.get_text();
   recipe.settings.resize(reader.get_count(2 * sizeof(uint64_t)));
   for (Setting& setting : recipe.settings) {
-    setting.assignment = reader.get_text();
-    setting.origin = reader.get_text();
+    const std::string assignment = reader.get_text();
+    setting = setting_from(assignment, reader.get_text());
   }
   recipe.seed = reader.get<uint64_t>();
   recipe.samples_per_pass = reader.get<uint32_t>();

@@ -13,13 +13,14 @@
 
 namespace kaustik {
 
-/// What the passes are a function of, in the user's words.
+/// What the passes are a function of: the scene's file, and what is changed of it.
 struct RenderRecipe {
-  std::string scene;   ///< file, relative to `folder` or absolute
-  std::string folder;  ///< working folder, for people
-  std::vector<std::pair<std::string, std::string>> definitions;  ///< name and value of each -D
-  std::string integrator;                                        ///< that was asked for; "": none
-  std::vector<Setting> settings;  ///< of the environment and the command line, later ones win
+  std::string scene;   ///< file, relative to `folder` or absolute; "": it never was in one
+  std::string folder;  ///< that relative names were meant in, for people
+  /// Names and values of the file's variables.
+  std::vector<std::pair<std::string, std::string>> definitions;
+  std::string integrator;         ///< instead of the file's; "": that
+  std::vector<Setting> settings;  ///< made after that; later ones win
   uint64_t seed = 0;
   uint32_t samples_per_pass = 1;
   DescriptionDigest digest;  ///< of the description after all of these

@@ -55,30 +55,35 @@ std::shared_ptr<Object> made_integrator(Description& description) {
   return object;
 }
 
+Setting setting_from(const std::string& assignment, const std::string& origin) {
+  const size_t equals = assignment.find('=');
+  const size_t dot = assignment.substr(0, equals).rfind('.');
+  if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == equals)
+    throw Error(ErrorKind::input, fmt::format("cannot read the setting '{}'", assignment),
+                "write object.parameter=value, such as integrator.caustic_neighbors=200",
+                place_in(origin));
+  return {assignment.substr(0, dot), assignment.substr(dot + 1, equals - dot - 1),
+          assignment.substr(equals + 1), origin};
+}
+
+std::string assignment_of(const Setting& setting) {
+  return fmt::format("{}.{}={}", setting.object, setting.parameter, setting.value);
+}
+
+Setting setting_of_command_line(const std::string& assignment) {
+  return setting_from(assignment, fmt::format("command line: --set {}", assignment));
+}
+
 void override_property(Description& description, const std::string& assignment) {
   override_property(description, setting_of_command_line(assignment));
 }
 
 void override_property(Description& description, const Setting& setting) {
-  override_property(description, setting.assignment, place_in(setting.origin));
-}
-
-Setting setting_of_command_line(const std::string& assignment) {
-  return {assignment, fmt::format("command line: --set {}", assignment)};
-}
-
-void override_property(Description& description, const std::string& assignment,
-                       const Place& origin) {
-  const size_t equals = assignment.find('=');
-  const size_t dot = assignment.substr(0, equals).rfind('.');
-  if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == equals)
-    throw Error(ErrorKind::input, fmt::format("cannot read the setting '{}'", assignment),
-                "write object.parameter=value, such as integrator.caustic_neighbors=200", origin);
-  const std::string name = assignment.substr(dot + 1, equals - dot - 1);
-  const auto object = find_object(description, assignment.substr(0, dot));
+  const auto object = find_object(description, setting.object);
+  const std::string& name = setting.parameter;
   std::erase_if(object->properties, [&](const Property& p) { return p.name == name; });
   std::erase_if(object->children, [&](const Child& c) { return c.name == name; });
-  object->properties.push_back({name, Untyped{assignment.substr(equals + 1)}, origin});
+  object->properties.push_back({name, Untyped{setting.value}, place_in(setting.origin)});
 }
 
 }  // namespace kaustik

@@ -7,18 +7,23 @@ namespace kaustik {
 
 /// A change of a description from outside, see override_property().
 struct Setting {
-  std::string assignment;  ///< "object.parameter=value"
-  std::string origin;      ///< "command line: -e 2", for messages
+  std::string object;  ///< an id, or a family that the scene has once
+  std::string parameter;
+  std::string value;   ///< as text, which the parameter's table reads
+  std::string origin;  ///< who asks for it, for messages: "command line: -e 2"
+  friend bool operator==(const Setting&, const Setting&) = default;
 };
 
-/// Changes a description from outside: `assignment` reads "object.parameter=value", where the
-/// object is an id or a family that the scene has once ("integrator", "sensor", "film", "sampler",
-/// "rfilter"). Replaces what the file says. Throws Error for an object that is not there.
-void override_property(Description& description, const std::string& assignment);
-/// The same for a change that comes from elsewhere than --set: `origin` is named if it is wrong.
-void override_property(Description& description, const std::string& assignment,
-                       const Place& origin);
+/// "object.parameter=value", and back. Throws Error(input), at `origin`, for other texts.
+Setting setting_from(const std::string& assignment, const std::string& origin);
+std::string assignment_of(const Setting& setting);
+
+/// Changes a description from outside: the object is an id or a family that the scene has once
+/// ("integrator", "sensor", "film", "sampler", "rfilter"). Replaces what the file says. Throws
+/// Error for an object that is not there; its origin is named if the value is wrong.
 void override_property(Description& description, const Setting& setting);
+/// The same of an assignment that --set gives.
+void override_property(Description& description, const std::string& assignment);
 /// As --set gives it.
 Setting setting_of_command_line(const std::string& assignment);
 

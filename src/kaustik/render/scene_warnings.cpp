@@ -1,4 +1,4 @@
-#include "scene_warnings.h"
+#include "kaustik/render/scene_warnings.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "kaustik/integrator/registry.h"
 
-namespace kaustik::app {
+namespace kaustik {
 namespace {
 
 /// Steps between neighbouring floats at the scene's farthest coordinate, over the scene's size,
@@ -138,4 +138,4 @@ std::string darkness_warning(const Scene& scene) {
          "0";
 }
 
-}  // namespace kaustik::app
+}  // namespace kaustik

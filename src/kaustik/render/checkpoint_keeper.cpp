@@ -1,10 +1,8 @@
-#include "checkpoint_keeper.h"
+#include "kaustik/render/checkpoint_keeper.h"
 
 #include <fmt/format.h>
 
-#include "console.h"
-
-namespace kaustik::app {
+namespace kaustik {
 namespace {
 
 /// Share of the time that may go into checkpoints.
@@ -19,10 +17,12 @@ std::chrono::steady_clock::duration duration_of(double seconds) {
 
 }  // namespace
 
-CheckpointKeeper::CheckpointKeeper(std::string path, double interval_s, RenderRecord record)
+CheckpointKeeper::CheckpointKeeper(std::string path, double interval_s, RenderRecord record,
+                                   std::function<void(const std::string&)> warn)
     : path_(std::move(path)),
       interval_s_(interval_s),
       record_(std::move(record)),
+      warn_(std::move(warn)),
       start_(Clock::now()),
       next_(start_ + duration_of(interval_s)) {}
 
@@ -32,7 +32,9 @@ void CheckpointKeeper::pass_done(const Film& film) {
   try {
     write(film);
   } catch (const std::exception& error) {
-    warn(fmt::format("the checkpoint could not be written, the render goes on: {}", error.what()));
+    if (warn_)
+      warn_(
+          fmt::format("the checkpoint could not be written, the render goes on: {}", error.what()));
   }
   const double took_s = std::chrono::duration<double>(Clock::now() - begin).count();
   next_ = Clock::now() + duration_of(std::max(interval_s_, took_s * (1 / most_time - 1)));
@@ -55,4 +57,4 @@ RenderRecord CheckpointKeeper::record() const {
   return result;
 }
 
-}  // namespace kaustik::app
+}  // namespace kaustik

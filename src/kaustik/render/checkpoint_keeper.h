@@ -1,19 +1,22 @@
 #pragma once
 #include <chrono>
+#include <functional>
 #include <string>
 
 #include "kaustik/render/checkpoint.h"
 
-namespace kaustik::app {
+namespace kaustik {
 
 /// Keeps a render's checkpoint file up to date.
 class CheckpointKeeper {
  public:
   /// Writes to `path` about every `interval_s` seconds ("": never), more rarely where writing would
-  /// take more than a tenth of the time. `record` is what is known when the session starts.
-  CheckpointKeeper(std::string path, double interval_s, RenderRecord record);
+  /// take more than a tenth of the time. `record` is what is known when the session starts; `warn`
+  /// is told why one could not be written.
+  CheckpointKeeper(std::string path, double interval_s, RenderRecord record,
+                   std::function<void(const std::string&)> warn);
 
-  /// After each pass: writes if it is time. A failure is told, and the render goes on.
+  /// After each pass: writes if it is time. A failure is told, and the render may go on.
   void pass_done(const Film& film);
   /// At the end: writes what has changed since. Throws Error.
   void write_last(const Film& film);
@@ -27,8 +30,9 @@ class CheckpointKeeper {
   std::string path_;
   double interval_s_;
   RenderRecord record_;
+  std::function<void(const std::string&)> warn_;
   Clock::time_point start_, next_;
   uint32_t passes_written_ = 0;
 };
 
-}  // namespace kaustik::app
+}  // namespace kaustik

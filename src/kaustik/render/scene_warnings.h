@@ -4,7 +4,7 @@
 
 #include "kaustik/scene/scene.h"
 
-namespace kaustik::app {
+namespace kaustik {
 
 /// What to do where floats are too coarse for the scene's coordinates; "" if they are not.
 std::string coordinates_warning(const Scene& scene);
@@ -20,4 +20,4 @@ std::string hidden_lamps_warning(const Scene& scene, const std::string& integrat
 /// Why the picture will be black; "" if there is light.
 std::string darkness_warning(const Scene& scene);
 
-}  // namespace kaustik::app
+}  // namespace kaustik

@@ -1,0 +1,20 @@
+#pragma once
+#include "kaustik/render/checkpoint.h"
+#include "kaustik/render/messages.h"
+
+namespace kaustik {
+
+/// What a picture tells beside what its film and its record know.
+struct PictureFacts {
+  int threads = 0;               ///< for smoothing; 0: all
+  bool incomplete_pass = false;  ///< the film holds fewer samples than a pass has
+  double part = 0;               ///< of a pass that the picture has beside the film's
+};
+
+/// `image`, of that film, as it is to be written: with its frame and what is known of it as
+/// metadata, and smoothed if the record says so. A picture that can't be smoothed stays as it is,
+/// and a warning tells why.
+Image finished_picture(Image image, const Film& film, const RenderRecord& record,
+                       const PictureFacts& facts, const Messages& messages);
+
+}  // namespace kaustik

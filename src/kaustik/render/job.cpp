@@ -1,0 +1,158 @@
+#include "kaustik/render/job.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "kaustik/render/checkpoint_keeper.h"
+#include "kaustik/render/resume.h"
+
+namespace kaustik {
+
+Job::Job(Description description, JobSettings settings, JobListener listener)
+    : description_(std::move(description)),
+      settings_(std::move(settings)),
+      listener_(std::move(listener)) {}
+
+Job::~Job() {
+  cancel();
+  if (thread_.joinable()) thread_.join();
+}
+
+std::shared_ptr<Job::Run> Job::current() const {
+  const std::lock_guard lock(mutex_);
+  return run_;
+}
+
+std::shared_ptr<Job::Run> Job::prepared_run() {
+  if (auto run = current()) return run;
+  apply_changes(description_, settings_.record.recipe, listener_.messages);
+  const auto run = std::make_shared<Run>();
+  run->prepared = prepare_scene(description_, settings_.build,
+                                !settings_.checkpoint.empty() || settings_.begun.has_value(),
+                                listener_.messages);
+  if (settings_.begun) check_same_scene(run->prepared, *settings_.begun, settings_.begun_path);
+  const std::lock_guard lock(mutex_);
+  run_ = run;
+  return run;
+}
+
+void Job::prepare() {
+  if (is_started_) throw std::logic_error("Job::prepare: the job was started before");
+  prepared_run();
+}
+
+void Job::start() {
+  if (is_started_) throw std::logic_error("Job::start: the job was started before");
+  is_started_ = true;
+  thread_ = std::thread([this] { work(); });
+}
+
+const JobResult& Job::run() {
+  if (is_started_) throw std::logic_error("Job::run: the job was started before");
+  is_started_ = true;
+  work();
+  return wait();
+}
+
+const JobResult& Job::wait() {
+  if (!is_started_) throw std::logic_error("Job::wait: the job was not started");
+  if (thread_.joinable()) thread_.join();
+  if (failure_) std::rethrow_exception(failure_);
+  return result_;
+}
+
+void Job::cancel() {
+  const std::lock_guard lock(mutex_);
+  stop_.request_stop();
+}
+
+void Job::work() {
+  try {
+    render();
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+}
+
+void Job::make_session(Run& run) {
+  SessionSettings settings = settings_.session;
+  settings.keeps_passes = !settings_.checkpoint.empty();
+  if (settings.seconds) {
+    // What it took to read the scene is of the time that there is.
+    constexpr double least_s = 1e-3;
+    const std::chrono::duration<double> gone =
+        std::chrono::steady_clock::now() - settings_.clock_start;
+    settings.seconds = std::max(least_s, *settings.seconds - gone.count());
+  }
+  const PreparedScene& prepared = run.prepared;
+  auto session = settings_.begun
+                     ? std::make_unique<Session>(*prepared.scene, *prepared.integrator, settings,
+                                                 std::move(settings_.begun->film))
+                     : std::make_unique<Session>(*prepared.scene, *prepared.integrator, settings);
+  settings_.begun.reset();
+  RenderRecord& record = result_.record;
+  record = settings_.record;
+  record.recipe.samples_per_pass = session->samples_per_pass();
+  if (prepared.digest) record.recipe.digest = *prepared.digest;
+  record.plan.passes = session->planned_passes();
+  record.view = prepared.view;
+  const std::lock_guard lock(mutex_);
+  run.session = std::move(session);
+}
+
+void Job::render() {
+  const std::shared_ptr<Run> run = prepared_run();
+  make_session(*run);
+  const bool keeps = !settings_.checkpoint.empty();
+  CheckpointKeeper keeper(settings_.checkpoint, settings_.every_s, result_.record,
+                          listener_.messages.warning);
+  Session& session = *run->session;
+  result_.report = session.run(stop_.get_token(), listener_.progress, [&] {
+    keeper.pass_done(session.film());
+    if (listener_.pass_done) listener_.pass_done(session.film());
+  });
+  const SessionReport& report = result_.report;
+  result_.record.seconds += report.seconds;
+  if (!keeps || report.passes == 0) return;
+  if (report.incomplete_pass)
+    return listener_.messages.warn("no pass was finished: there is no checkpoint");
+  // A failure must not cost the picture.
+  try {
+    keeper.write_last(session.film());
+  } catch (...) {
+    result_.checkpoint_failure = std::current_exception();
+  }
+}
+
+std::optional<Image> Job::snapshot() const {
+  std::unique_lock lock(mutex_);
+  const std::shared_ptr<Run> run = run_;
+  const Session* session = run ? run->session.get() : nullptr;
+  lock.unlock();
+  return session ? session->snapshot() : std::nullopt;
+}
+
+void Job::edit(Description description) {
+  if (!settings_.checkpoint.empty())
+    throw std::logic_error("Job::edit: its passes are kept in a checkpoint");
+  cancel();
+  if (thread_.joinable()) thread_.join();
+  {
+    const std::lock_guard lock(mutex_);
+    run_ = nullptr;
+    stop_ = {};
+  }
+  description_ = std::move(description);
+  settings_.begun.reset();
+  settings_.clock_start = std::chrono::steady_clock::now();
+  result_ = {};
+  failure_ = nullptr;
+  if (std::exchange(is_started_, false)) start();
+}
+
+const Film& Job::film() const { return current()->session->film(); }
+
+Image Job::image() const { return current()->session->image(); }
+
+}  // namespace kaustik

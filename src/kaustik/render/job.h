@@ -1,0 +1,112 @@
+#pragma once
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "kaustik/render/prepared_scene.h"
+#include "kaustik/render/session.h"
+
+namespace kaustik {
+
+/// What a job tells its owner, from its own threads. What a function throws ends the job, and
+/// wait() throws it. They must not start, edit, or wait for the job; snapshot() and cancel() they
+/// may call.
+struct JobListener {
+  Messages messages;
+  std::function<void(const Progress&)> progress;  ///< Session::run()
+  /// After every finished pass, when no thread works.
+  std::function<void(const Film&)> pass_done;
+};
+
+/// What a job is to do.
+struct JobSettings {
+  /// The program's version, the recipe, whose changes the job makes, its plan and outputs. What it
+  /// lacks is filled in: samples per pass, passes, digest, view.
+  RenderRecord record;
+  SessionSettings session;  ///< time counts from `clock_start` on
+  BuildOptions build;
+  std::string checkpoint;           ///< file that finished passes are kept in; "": none
+  double every_s = 30;              ///< between two checkpoints
+  std::optional<Checkpoint> begun;  ///< to go on with; throws if it is of another scene
+  std::string begun_path;           ///< its file, for messages
+  std::chrono::steady_clock::time_point clock_start = std::chrono::steady_clock::now();
+};
+
+/// How a job ended.
+struct JobResult {
+  SessionReport report;
+  RenderRecord record;  ///< complete, with the time it took
+  /// Why the last checkpoint could not be written; null: it was, or none was wanted. Earlier ones
+  /// are warnings.
+  std::exception_ptr checkpoint_failure;
+};
+
+/// A render from a description to a film, in a thread of its own: scene, integrator, session and
+/// checkpoint. Prints nothing and keeps nothing global, so that there may be many at once; each
+/// has the bits that it has alone. Its functions are called by one owner, snapshot() and cancel()
+/// from any thread.
+class Job {
+ public:
+  Job(Description description, JobSettings settings, JobListener listener = {});
+  /// Cancels, and waits.
+  ~Job();
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+
+  /// Builds the scene and the integrator here and now; else start() does it in its thread. Throws
+  /// Error.
+  void prepare();
+  /// Begins and returns at once. The description must not change from here on.
+  void start();
+  /// Until it has ended, by itself or cancelled. Throws what ended it otherwise: Error for what is
+  /// wrong with the description, or what a callback has thrown. The film then holds the passes
+  /// before. Throws std::logic_error if it was not started.
+  const JobResult& wait();
+  /// start() and wait() in this thread.
+  const JobResult& run();
+  /// Ends the render soon, as SessionReport::cancelled says; a scene that is being built is built.
+  void cancel();
+
+  /// Session::snapshot(); none before the scene is built, and after edit() until there is something
+  /// to be seen of the new one.
+  std::optional<Image> snapshot() const;
+  /// Cancels, waits, and takes another description in the place of the one before: scene,
+  /// integrator and film are made anew, with the recipe's changes. Goes on as before: renders if it
+  /// was started. Throws std::logic_error if passes are kept in a checkpoint, where those of
+  /// another scene do not belong; not what ended the render before.
+  void edit(Description description);
+
+  // Only while it does not run, after the session was made.
+  const Film& film() const;
+  Image image() const;  ///< Session::image()
+
+ private:
+  struct Run {
+    PreparedScene prepared;
+    std::unique_ptr<Session> session;
+  };
+  std::shared_ptr<Run> current() const;
+  std::shared_ptr<Run> prepared_run();
+  void work();
+  void render();
+  void make_session(Run& run);
+
+  Description description_;
+  JobSettings settings_;
+  JobListener listener_;
+  mutable std::mutex mutex_;  ///< of what follows
+  std::shared_ptr<Run> run_;  ///< null: not prepared
+  std::stop_source stop_;
+  JobResult result_;  ///< of the thread while it runs
+  std::exception_ptr failure_;
+  bool is_started_ = false;
+  std::thread thread_;
+};
+
+}  // namespace kaustik

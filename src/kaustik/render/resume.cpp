@@ -1,0 +1,75 @@
+#include "kaustik/render/resume.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "kaustik/base/file.h"
+
+namespace kaustik {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As links have it; nothing if that cannot be told.
+std::optional<fs::path> real_path(const fs::path& path) {
+  std::error_code failed;
+  const fs::path whole = fs::absolute(path, failed);
+  if (failed) return {};
+  const fs::path real = fs::weakly_canonical(whole, failed);
+  if (failed) return {};
+  return real;
+}
+
+bool lies_below(const std::optional<fs::path>& file, const std::optional<fs::path>& folder) {
+  return file && folder &&
+         std::mismatch(folder->begin(), folder->end(), file->begin(), file->end()).first ==
+             folder->end();
+}
+
+}  // namespace
+
+SessionSettings settings_to_go_on(const Checkpoint& checkpoint) {
+  const RenderRecord& record = checkpoint.record;
+  SessionSettings settings;
+  settings.seed = record.recipe.seed;
+  settings.samples_per_pass = record.recipe.samples_per_pass;
+  settings.first_pass = record.plan.first_pass;
+  settings.error = record.plan.error;
+  if (record.plan.passes > 0) settings.passes = record.plan.passes;
+  if (!record.plan.seconds) return settings;
+  const double left_s = *record.plan.seconds - record.seconds;
+  if (left_s > 0)
+    settings.seconds = left_s;
+  else
+    settings.passes = checkpoint.film.passes().ranges().back().end - settings.first_pass;
+  return settings;
+}
+
+void check_same_scene(const PreparedScene& prepared, const Checkpoint& checkpoint,
+                      const std::string& path) {
+  const RenderRecipe& recipe = checkpoint.record.recipe;
+  const bool same = prepared.digest == recipe.digest &&
+                    checkpoint.film.is_for(prepared.scene->film().crop_size,
+                                           FilmLayers::of(*prepared.integrator));
+  if (same) return;
+  throw Error(
+      ErrorKind::input,
+      fmt::format("the scene '{}', or a file that it names, is not what it was when the passes {} "
+                  "were rendered",
+                  recipe.scene, checkpoint.film.passes().text()),
+      "bring back the scene as it was, or render the new one from the start", place_in(path));
+}
+
+std::vector<std::string> files_outside_its_folder(const std::vector<std::string>& files,
+                                                  const std::string& checkpoint) {
+  const std::optional<fs::path> folder = real_path(fs::path(checkpoint).parent_path() / ".");
+  std::vector<std::string> outside;
+  for (const std::string& file : files)
+    if (!lies_below(real_path(output_target(file)), folder)) outside.push_back(file);
+  return outside;
+}
+
+}  // namespace kaustik

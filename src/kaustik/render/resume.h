@@ -1,0 +1,24 @@
+#pragma once
+// Going on with a checkpoint.
+#include <string>
+#include <vector>
+
+#include "kaustik/render/prepared_scene.h"
+#include "kaustik/render/session.h"
+
+namespace kaustik {
+
+/// As far as the render was told to go when it began; what is left of its time.
+SessionSettings settings_to_go_on(const Checkpoint& checkpoint);
+
+/// Throws Error(input), at `path`, if the scene, prepared with its digest, is not the one of the
+/// checkpoint's passes: new ones would not belong to them.
+void check_same_scene(const PreparedScene& prepared, const Checkpoint& checkpoint,
+                      const std::string& path);
+
+/// Those that lie neither in nor below the folder that `checkpoint` lies in, as links have it. A
+/// checkpoint may come from anybody, so what it names is not to be written anywhere.
+std::vector<std::string> files_outside_its_folder(const std::vector<std::string>& files,
+                                                  const std::string& checkpoint);
+
+}  // namespace kaustik

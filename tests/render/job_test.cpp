@@ -1,0 +1,238 @@
+// Jobs: a render from a description, in its own thread.
+
+#include "kaustik/render/job.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+#include <atomic>
+#include <chrono>
+
+#include <filesystem>
+
+#include "kaustik/loader/mitsuba_xml.h"
+#include "tests/support/scripted_integrator.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+Description room_with(const std::string& integrator, int size = 24, const std::string& more = "") {
+  return parse_mitsuba_xml(
+      "<scene version=\"3.0.0\"><integrator type=\"" + integrator +
+          "\"/><sensor type=\"perspective\"><float name=\"fov\" value=\"45\"/>"
+          "<transform name=\"to_world\"><lookat origin=\"0,-4,2\" target=\"0,0,0.5\" "
+          "up=\"0,0,1\"/></transform>" +
+          film_of(size, size) + "</sensor>" + room + more + "</scene>",
+      "test.xml", "");
+}
+
+JobSettings settings_for(uint32_t passes, uint32_t samples = 2) {
+  JobSettings settings;
+  settings.session.passes = passes;
+  settings.session.samples_per_pass = samples;
+  settings.session.threads = 2;
+  return settings;
+}
+
+bool same_bits(const Image& a, const Image& b) {
+  if (a.channel_names() != b.channel_names() || a.width() != b.width()) return false;
+  for (int c = 0; c < a.channel_count(); ++c)
+    if (!std::equal(a.channel(c).begin(), a.channel(c).end(), b.channel(c).begin())) return false;
+  return true;
+}
+
+Image rendered(const std::string& integrator, uint32_t passes, int size = 24) {
+  Job job(room_with(integrator, size), settings_for(passes));
+  job.run();
+  return job.image();
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TEST(Job, TwoAtOnceHaveTheBitsThatTheyHaveAlone) {
+  for (const auto& [one, other] : {std::pair("path", "photonmap"), std::pair("vcm", "auto")}) {
+    SCOPED_TRACE(one);
+    const Image first = rendered(one, 3, 12), second = rendered(other, 3, 12);
+    Job a(room_with(one, 12), settings_for(3)), b(room_with(other, 12), settings_for(3));
+    a.start();
+    b.start();
+    EXPECT_EQ(b.wait().report.passes, 3u);
+    EXPECT_EQ(a.wait().report.passes, 3u);
+    EXPECT_TRUE(same_bits(a.image(), first));
+    EXPECT_TRUE(same_bits(b.image(), second));
+    EXPECT_FALSE(same_bits(first, second));
+  }
+}
+
+TEST(Job, MakesTheChangesOfItsRecipe) {
+  JobSettings settings = settings_for(2);
+  settings.record.recipe.integrator = "path";
+  settings.record.recipe.settings = {{"film", "width", "10", "test"},
+                                     {"integrator", "max_depth", "2", "test"}};
+  std::vector<std::string> warnings;
+  Job job(room_with("photonmap"), settings,
+          {{{}, [&](const std::string& text) { warnings.push_back(text); }}, {}, {}});
+  const JobResult& result = job.run();
+  EXPECT_EQ(job.image().width(), 10);
+  EXPECT_EQ(result.record.view.integrator, "path");
+  EXPECT_EQ(result.record.recipe.samples_per_pass, 2u);
+  EXPECT_EQ(result.record.plan.passes, 2u);
+  EXPECT_GT(result.record.seconds, 0);
+}
+
+TEST(Job, WaitThrowsWhatIsWrongWithTheScene) {
+  Job wrong(room_with("nonsense"), settings_for(1));
+  wrong.start();
+  EXPECT_THROW(wrong.wait(), Error);
+  EXPECT_THROW(wrong.wait(), Error);
+  EXPECT_FALSE(wrong.snapshot());
+  Job here(room_with("nonsense"), settings_for(1));
+  EXPECT_THROW(here.prepare(), Error);
+  EXPECT_THROW(Job(room_with("path"), settings_for(1)).wait(), std::logic_error);
+}
+
+/// Out of the light pass, the samples and between passes: the film holds what was there.
+TEST(Job, WaitThrowsWhatCallbacksThrow) {
+  for (const auto& [integrator, stage] :
+       {std::pair("photonmap", Progress::Stage::light), std::pair("path", Progress::Stage::picture),
+        std::pair("vcm", Progress::Stage::light)}) {
+    SCOPED_TRACE(integrator);
+    JobListener listener;
+    listener.progress = [stage = stage](const Progress& progress) {
+      if (progress.passes_done >= 1 && progress.stage == stage) throw std::runtime_error("enough");
+    };
+    // Large enough for progress to be told in every pass.
+    Job job(room_with(integrator, 128), settings_for(50, 16), listener);
+    job.start();
+    EXPECT_THROW(job.wait(), std::runtime_error);
+    EXPECT_GE(job.film().pass_count(), 1u);
+    EXPECT_LT(job.film().pass_count(), 50u);
+    EXPECT_TRUE(job.snapshot());
+  }
+  JobListener listener;
+  listener.pass_done = [](const Film& film) {
+    if (film.pass_count() == 2) throw 42;  // whatever it is
+  };
+  Job job(room_with("path"), settings_for(5), listener);
+  job.start();
+  EXPECT_THROW(job.wait(), int);
+  EXPECT_EQ(job.film().pass_count(), 2u);
+  EXPECT_TRUE(same_bits(job.image(), rendered("path", 2)));
+}
+
+TEST(Job, CancelEndsItSoon) {
+  for (const std::string integrator : {"path", "photonmap", "vcm"}) {
+    SCOPED_TRACE(integrator);
+    std::atomic<bool> begun = false;
+    JobListener listener;
+    listener.progress = [&](const Progress&) { begun = true; };
+    Job job(room_with(integrator, 200), settings_for(100000, 4), listener);
+    job.start();
+    while (!begun) std::this_thread::yield();
+    const auto start = std::chrono::steady_clock::now();
+    job.cancel();
+    EXPECT_TRUE(job.wait().report.cancelled);
+    EXPECT_LT(seconds_since(start), 2);
+  }
+  // Before it begins, and by its destructor.
+  Job unborn(room_with("path"), settings_for(100000));
+  unborn.cancel();
+  unborn.start();
+  EXPECT_TRUE(unborn.wait().report.cancelled);
+  Job forgotten(room_with("path"), settings_for(1000000));
+  forgotten.start();
+}
+
+TEST(Job, SnapshotsAreThereWhileItRenders) {
+  std::atomic<int> seen = 0;
+  JobListener listener;
+  Job* here = nullptr;
+  listener.progress = [&](const Progress& progress) {
+    if (progress.has_picture) seen += here->snapshot() ? 1 : 0;
+  };
+  Job job(room_with("path", 64), settings_for(1, 400), listener);
+  here = &job;
+  EXPECT_FALSE(job.snapshot());
+  job.start();
+  std::optional<Image> early;
+  while (!(early = job.snapshot())) std::this_thread::yield();
+  EXPECT_EQ(early->width(), 64);
+  job.wait();
+  EXPECT_GT(seen, 0);
+  EXPECT_TRUE(same_bits(*job.snapshot(), job.image()));
+  // Of less samples than there are now, but the lit floor is seen.
+  EXPECT_FALSE(same_bits(*early, job.image()));
+  EXPECT_GT(early->at(32, 50, 0), 0);
+}
+
+TEST(Job, EditsMakeAllAnew) {
+  const std::string second_lamp =
+      "<emitter type=\"point\"><point name=\"position\" x=\"1\" y=\"-1\" z=\"2\"/></emitter>";
+  const auto edited = [&] { return room_with("path", 24, second_lamp); };
+  Job job(room_with("path"), settings_for(100000));
+  job.start();
+  while (!job.snapshot()) std::this_thread::yield();
+  JobSettings settings = settings_for(3);
+  Job limited(room_with("path"), settings);
+  limited.run();
+  const Image before = limited.image();
+  limited.edit(edited());
+  EXPECT_EQ(limited.wait().report.passes, 3u);
+  Job alone(edited(), settings);
+  alone.run();
+  EXPECT_TRUE(same_bits(limited.image(), alone.image()));
+  EXPECT_FALSE(same_bits(limited.image(), before));
+  // One that runs goes on with the other scene; one that has failed begins again.
+  job.edit(edited());
+  while (!job.snapshot()) std::this_thread::yield();
+  job.cancel();
+  EXPECT_TRUE(job.wait().report.cancelled);
+  Job wrong(room_with("nonsense"), settings);
+  wrong.start();
+  EXPECT_THROW(wrong.wait(), Error);
+  wrong.edit(room_with("path"));
+  EXPECT_EQ(wrong.wait().report.passes, 3u);
+  EXPECT_TRUE(same_bits(wrong.image(), before));
+}
+
+TEST(Job, GoesOnWithACheckpoint) {
+  const std::string file = (std::filesystem::temp_directory_path() /
+                            ("kaustik_job_" + std::to_string(::getpid()) + ".kpt"))
+                               .string();
+  JobSettings settings = settings_for(2);
+  settings.checkpoint = file;
+  settings.record.program = "test";
+  settings.record.recipe.integrator = "path";
+  Job first(room_with("photonmap"), settings);
+  EXPECT_FALSE(first.run().checkpoint_failure);
+  EXPECT_THROW(first.edit(room_with("path")), std::logic_error);
+
+  JobSettings more = settings_for(5);
+  more.checkpoint = file;
+  more.begun = read_checkpoint(file);
+  more.record = more.begun->record;
+  JobSettings other = settings_for(5);
+  other.begun = read_checkpoint(file);
+  other.record = other.begun->record;
+  Job second(room_with("photonmap"), std::move(more));
+  EXPECT_EQ(second.run().report.passes, 5u);
+  EXPECT_TRUE(same_bits(second.image(), rendered("path", 5)));
+  EXPECT_EQ(read_checkpoint(file).film.pass_count(), 5u);
+  std::filesystem::remove(file);
+
+  Job strange(room_with("path", 24, "<shape type=\"sphere\"/>"), std::move(other));
+  EXPECT_THROW(strange.run(), Error);
+
+  JobSettings nowhere = settings_for(1);
+  nowhere.checkpoint = "/nowhere/at/all.kpt";
+  Job unwritten(room_with("path"), nowhere);
+  EXPECT_TRUE(unwritten.run().checkpoint_failure);
+  EXPECT_EQ(unwritten.film().pass_count(), 1u);
+}
+
+}  // namespace
+}  // namespace kaustik
