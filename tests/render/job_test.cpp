@@ -19,9 +19,13 @@ namespace {
 using namespace test;
 
 Description room_with(const std::string& integrator, int size = 24, const std::string& more = "") {
+  const auto count = [](const std::string& name) {
+    return "<integer name=\"" + name + "\" value=\"4000\"/>";
+  };
   return parse_mitsuba_xml(
-      "<scene version=\"3.0.0\"><integrator type=\"" + integrator +
-          "\"/><sensor type=\"perspective\"><float name=\"fov\" value=\"45\"/>"
+      "<scene version=\"3.0.0\"><integrator type=\"" + integrator + "\">" +
+          (integrator == "photonmap" ? count("caustic_photons") + count("global_photons") : "") +
+          "</integrator><sensor type=\"perspective\"><float name=\"fov\" value=\"45\"/>"
           "<transform name=\"to_world\"><lookat origin=\"0,-4,2\" target=\"0,0,0.5\" "
           "up=\"0,0,1\"/></transform>" +
           film_of(size, size) + "</sensor>" + room + more + "</scene>",
@@ -154,7 +158,7 @@ TEST(Job, SnapshotsAreThereWhileItRenders) {
   listener.progress = [&](const Progress& progress) {
     if (progress.has_picture) seen += here->snapshot() ? 1 : 0;
   };
-  Job job(room_with("path", 64), settings_for(1, 400), listener);
+  Job job(room_with("path", 64), settings_for(1, 128), listener);
   here = &job;
   EXPECT_FALSE(job.snapshot());
   job.start();
@@ -167,6 +171,37 @@ TEST(Job, SnapshotsAreThereWhileItRenders) {
   // Of less samples than there are now, but the lit floor is seen.
   EXPECT_FALSE(same_bits(*early, job.image()));
   EXPECT_GT(early->at(32, 50, 0), 0);
+}
+
+/// Before the light pass of a method that begins with one; what is rendered stays the same.
+TEST(Job, PreviewsAreThereBeforeTheFirstLightPass) {
+  for (const bool previews : {true, false}) {
+    JobSettings settings = settings_for(2);
+    settings.previews = previews;
+    std::optional<Image> early;
+    Job* here = nullptr;
+    JobListener listener;
+    listener.progress = [&](const Progress& progress) {
+      if (!progress.has_picture && !early) early = here->snapshot();
+    };
+    Job job(room_with("photonmap"), settings, listener);
+    here = &job;
+    job.run();
+    EXPECT_EQ(early.has_value(), previews);
+    if (early) {
+      EXPECT_EQ(early->channel_count(), 3);
+      double sum = 0, exact = 0;
+      const Image whole = job.image();
+      for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 24; ++x) {
+          sum += double(early->at(x, y, 1));
+          exact += double(whole.at(x, y, 1));
+        }
+      // 576 paths: a tenth of the mean or two.
+      EXPECT_NEAR(sum / exact, 1, 0.5);
+    }
+    EXPECT_TRUE(same_bits(job.image(), rendered("photonmap", 2)));
+  }
 }
 
 TEST(Job, EditsMakeAllAnew) {

@@ -4,7 +4,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kaustik/base/parallel.h"
+#include "kaustik/integrator/foreign_integrators.h"
+#include "kaustik/integrator/registry.h"
 #include "kaustik/render/checkpoint_keeper.h"
+#include "kaustik/render/preview.h"
 #include "kaustik/render/resume.h"
 
 namespace kaustik {
@@ -101,8 +105,21 @@ void Job::make_session(Run& run) {
   run.session = std::move(session);
 }
 
+void Job::make_preview(Run& run) {
+  const IntegratorType* type = find_integrator_type(run.prepared.view.integrator);
+  if (settings_.begun || (type && type->is_from_camera_alone)) return;
+  std::shared_ptr<const Image> preview;
+  with_threads(settings_.session.threads, [&] {
+    preview = std::make_shared<const Image>(
+        preview_picture(*run.prepared.scene, settings_.session.seed, stop_.get_token()));
+  });
+  const std::lock_guard lock(mutex_);
+  run.preview = std::move(preview);
+}
+
 void Job::render() {
   const std::shared_ptr<Run> run = prepared_run();
+  if (settings_.previews) make_preview(*run);
   make_session(*run);
   const bool keeps = !settings_.checkpoint.empty();
   CheckpointKeeper keeper(settings_.checkpoint, settings_.every_s, result_.record,
@@ -128,9 +145,13 @@ void Job::render() {
 std::optional<Image> Job::snapshot() const {
   std::unique_lock lock(mutex_);
   const std::shared_ptr<Run> run = run_;
-  const Session* session = run ? run->session.get() : nullptr;
+  if (!run) return std::nullopt;
+  const Session* session = run->session.get();
+  const std::shared_ptr<const Image> preview = run->preview;
   lock.unlock();
-  return session ? session->snapshot() : std::nullopt;
+  std::optional<Image> picture = session ? session->snapshot() : std::nullopt;
+  if (!picture && preview) picture = *preview;
+  return picture;
 }
 
 void Job::edit(Description description) {

@@ -35,6 +35,9 @@ struct JobSettings {
   double every_s = 30;              ///< between two checkpoints
   std::optional<Checkpoint> begun;  ///< to go on with; throws if it is of another scene
   std::string begun_path;           ///< its file, for messages
+  /// Snapshots show a preview_picture() until the integrator has something to show, where that
+  /// begins with a light pass. It takes a fraction of a second of the render.
+  bool previews = false;
   std::chrono::steady_clock::time_point clock_start = std::chrono::steady_clock::now();
 };
 
@@ -73,8 +76,8 @@ class Job {
   /// Ends the render soon, as SessionReport::cancelled says; a scene that is being built is built.
   void cancel();
 
-  /// Session::snapshot(); none before the scene is built, and after edit() until there is something
-  /// to be seen of the new one.
+  /// Session::snapshot(), or the preview; none before the scene is built, and after edit() until
+  /// there is something to be seen of the new one.
   std::optional<Image> snapshot() const;
   /// Cancels, waits, and takes another description in the place of the one before: scene,
   /// integrator and film are made anew, with the recipe's changes. Goes on as before: renders if it
@@ -90,12 +93,14 @@ class Job {
   struct Run {
     PreparedScene prepared;
     std::unique_ptr<Session> session;
+    std::shared_ptr<const Image> preview;  ///< null: none
   };
   std::shared_ptr<Run> current() const;
   std::shared_ptr<Run> prepared_run();
   void work();
   void render();
   void make_session(Run& run);
+  void make_preview(Run& run);
 
   Description description_;
   JobSettings settings_;
