@@ -17,6 +17,9 @@ constexpr int tile_size = 16;
 /// there is a picture early.
 constexpr int first_stride = 4;
 
+/// Samples, or pixels, between two looks at the clock.
+constexpr int samples_per_look = 16;
+
 /// A pass is taken in rounds, so that it may be cut, where so many like the one before would not
 /// end in time.
 constexpr double passes_ahead = 2;
@@ -162,9 +165,12 @@ struct Session::CameraPass {
 
   /// Whether it is to be left as it is.
   bool halts() {
-    if (halted) return true;
-    if (stop.stop_requested() || (last_second && monitor.elapsed() > *last_second)) halted = true;
+    if (!halted && stop.stop_requested()) halted = true;
     return halted;
+  }
+  /// To be asked now and then only: that takes a few hundredths of a sample.
+  void look_at_clock() {
+    if (last_second && monitor.elapsed() > *last_second) halted = true;
   }
 };
 
@@ -233,6 +239,7 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end,
   const PixelSamples samples = integrator_.pixel_samples(camera.state, pass, {x, y});
   if (samples.count > end && !camera.more) camera.more = true;
   end = std::min(end, samples.count);
+  if (x % samples_per_look == 0) camera.look_at_clock();
   uint64_t rays = 0;
   uint32_t done = sum.samples;
   while (done < end && !camera.halts()) {
@@ -250,6 +257,7 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end,
       rays += sink.rays();
       // Threads would wait for one another if each sample wrote to what they share.
       if (const int dropped = add_sample(sink, block)) camera.monitor.dropped += uint64_t(dropped);
+      if (done % samples_per_look == samples_per_look - 1) camera.look_at_clock();
     } while (++done < block_end && !camera.halts());
     add_scaled(block, 1, sum);
   }
