@@ -11,7 +11,7 @@
 
 #include "kaustik/integrator/override_integrator.h"
 #include "kaustik/integrator/registry.h"
-#include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/scene_format.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"
 
@@ -55,7 +55,7 @@ uint64_t digest_of(const Image& image) {
 
 uint64_t picture_digest(const std::string& scene_name, const std::string& integrator_name) {
   Description description =
-      load_mitsuba_xml((scenes_folder / scene_name / (scene_name + ".xml")).string());
+      load_scene((scenes_folder / scene_name / (scene_name + ".xml")).string());
   override_integrator(description, integrator_name);
   override_property(description, "film.width=64");
   override_property(description, "film.height=48");

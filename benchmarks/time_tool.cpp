@@ -17,7 +17,7 @@
 
 #include "kaustik/integrator/override_integrator.h"
 #include "kaustik/integrator/registry.h"
-#include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/scene_format.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"
 
@@ -62,7 +62,7 @@ void measure(const Asked& asked) {
     return (processor_seconds() - processor_before) / std::thread::hardware_concurrency();
   };
   Description description =
-      load_mitsuba_xml((scenes_folder / asked.scene / (asked.scene + ".xml")).string());
+      load_scene((scenes_folder / asked.scene / (asked.scene + ".xml")).string());
   override_integrator(description, asked.integrator);
   override_property(description, fmt::format("film.width={}", asked.size));
   override_property(description, fmt::format("film.height={}", asked.size));

@@ -30,7 +30,7 @@ struct Levels {
 /// A light that notes at which levels it is asked.
 class NotingLight final : public PlacedLight {
  public:
-  NotingLight(std::unique_ptr<Light> light, Levels& levels)
+  NotingLight(std::shared_ptr<const Light> light, Levels& levels)
       : light_(std::move(light)), levels_(levels) {
     traits_ = light_->traits();
     traits_.shadow_samples = 1;
@@ -67,7 +67,7 @@ class NotingLight final : public PlacedLight {
   }
 
  private:
-  std::unique_ptr<Light> light_;
+  std::shared_ptr<const Light> light_;
   Levels& levels_;
 };
 
@@ -76,7 +76,7 @@ void render_noting(const std::string& inside, const std::string& type,
                    const std::string& parameters, Levels& levels) {
   const Description description = description_of(inside);
   Scene::Parts parts = SceneBuilder(int64_t(1) << 30).build(*description.scene);
-  parts.lights[0] = std::make_unique<NotingLight>(std::move(parts.lights[0]), levels);
+  parts.lights[0] = std::make_shared<const NotingLight>(parts.lights[0], levels);
   const Scene scene(std::move(parts));
   std::vector<std::string> warnings;
   const auto integrator = make_integrator(

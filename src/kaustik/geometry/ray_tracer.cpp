@@ -1,12 +1,4 @@
-// The only file that sees Embree (3.13, or 4 where that is installed).
-
 #include "kaustik/geometry/ray_tracer.h"
-
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 
 #include <algorithm>
 #include <atomic>
@@ -14,9 +6,10 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
-#include <mutex>
+#include <map>
 
 #include "kaustik/base/prefetch.h"
+#include "kaustik/geometry/embree_scene.h"
 #include "kaustik/geometry/mesh_surface.h"
 
 namespace kaustik {
@@ -119,47 +112,6 @@ inline SurfacePoint mesh_point(const TriangleMesh& mesh, const Hit& hit) {
   return point;
 }
 
-/// Lane `i` of a packet of `n` rays.
-Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {
-  return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
-          {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
-          RTCRayN_tfar(rays, n, i)};
-}
-
-void shape_bounds(const RTCBoundsFunctionArguments* arguments) {
-  const Bounds3f b = static_cast<const Shape*>(arguments->geometryUserPtr)->bounds();
-  RTCBounds& out = *arguments->bounds_o;
-  out.lower_x = b.min.x, out.lower_y = b.min.y, out.lower_z = b.min.z;
-  out.upper_x = b.max.x, out.upper_y = b.max.y, out.upper_z = b.max.z;
-}
-
-void intersect_shape(const RTCIntersectFunctionNArguments* arguments) {
-  const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
-  const unsigned n = arguments->N;
-  RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, n);
-  RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, n);
-  for (unsigned i = 0; i < n; ++i) {
-    if (!arguments->valid[i]) continue;
-    const auto hit = shape.intersect(ray_of(rays, n, i));
-    if (!hit) continue;
-    RTCRayN_tfar(rays, n, i) = hit->t;
-    RTCHitN_Ng_x(hits, n, i) = hit->ng.x, RTCHitN_Ng_y(hits, n, i) = hit->ng.y;
-    RTCHitN_Ng_z(hits, n, i) = hit->ng.z;
-    RTCHitN_u(hits, n, i) = hit->u, RTCHitN_v(hits, n, i) = hit->v;
-    RTCHitN_primID(hits, n, i) = arguments->primID;
-    RTCHitN_geomID(hits, n, i) = arguments->geomID;
-    RTCHitN_instID(hits, n, i, 0) = arguments->context->instID[0];
-  }
-}
-
-void occluded_by_shape(const RTCOccludedFunctionNArguments* arguments) {
-  const Shape& shape = *static_cast<const Shape*>(arguments->geometryUserPtr);
-  const unsigned n = arguments->N;
-  for (unsigned i = 0; i < n; ++i)
-    if (arguments->valid[i] && shape.intersect(ray_of(arguments->ray, n, i)))
-      RTCRayN_tfar(arguments->ray, n, i) = -infinity;
-}
-
 SurfacePiece piece_of(const ShapeRecord& record, uint32_t primitive) {
   SurfacePiece piece;
   if (record.mesh) {
@@ -173,18 +125,6 @@ SurfacePiece piece_of(const ShapeRecord& record, uint32_t primitive) {
     piece.corners[i] = {(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
                         (i & 4) != 0 ? box.max.z : box.min.z};
   return piece;
-}
-
-/// What a failure of Embree means.
-Error error_of(RTCError code, const std::string& text) {
-  if (code == RTC_ERROR_OUT_OF_MEMORY)
-    return {ErrorKind::system, "out of memory while building the ray tracing structure",
-            "use smaller meshes, or instances of one shape group"};
-  if (code == RTC_ERROR_UNSUPPORTED_CPU)
-    return {ErrorKind::system, "Embree cannot run on this processor",
-            "use one with SSE4.2 or newer"};
-  return {ErrorKind::system, "Embree failed: " + text,
-          "give the program more memory or threads (ulimit -v, ulimit -u)"};
 }
 
 constexpr size_t packet_size = 8;
@@ -250,86 +190,40 @@ inline void trace_any(RTCScene scene, RTCRay& ray) {
 }  // namespace
 
 struct RayTracer::Impl {
-  explicit Impl(Geometry g) : geometry(std::move(g)) {
-    device = rtcNewDevice(nullptr);
-    if (!device) throw error_of(rtcGetDeviceError(nullptr), "no device");
-    try {
-      rtcSetDeviceErrorFunction(device, on_error, this);
-      rtcSetDeviceMemoryMonitorFunction(device, on_memory, this);
-      build();
-    } catch (...) {
-      error_code == RTC_ERROR_NONE ? release() : abandon();
-      throw;
-    }
-  }
-  ~Impl() { release(); }
+  Impl(Geometry g, const Impl* previous);
 
-  void build();
-  RTCScene build_scene(const std::vector<std::shared_ptr<const Shape>>& shapes);
-  void attach(RTCScene target, RTCGeometry part);
-  RTCGeometry mesh_geometry(const TriangleMesh& mesh);
-  RTCGeometry user_geometry(const Shape& shape);
-  void attach_instance(const Instance& instance);
-  void commit(RTCScene target);
-  void check();
-  void release();
-  void abandon();
+  void build(const Impl* previous);
+  std::shared_ptr<const EmbreeScene> group_scene(const EmbreeScene::Shapes& shapes,
+                                                 const Impl* previous);
+  EmbreeScene::Placement place(const Instance& instance);
   void place_hit(uint32_t geometry_id, uint32_t instance_id, Hit& hit) const;
   bool takes(const Ray& ray) const;
   void intersect_packet(std::span<const Ray> rays, std::span<Hit> hits) const;
   SurfacePoint point_of_others(const ShapeRecord& record, const Ray& ray, const Hit& hit) const;
-
-  static void on_error(void* self, RTCError code, const char* text);
-  static bool on_memory(void* self, ssize_t bytes, bool) {
-    static_cast<Impl*>(self)->bytes += int64_t(bytes);
-    return true;
-  }
 
   Geometry geometry;
   std::vector<ShapeRecord> records;
   std::vector<InstanceRecord> instances;
   std::vector<uint32_t> first_shape_of_group;
   Bounds3f bounds;
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-  std::vector<RTCScene> group_scenes;
-  std::atomic<int64_t> bytes{0};
+  std::shared_ptr<EmbreeDevice> device;
+  std::vector<std::shared_ptr<const EmbreeScene>> groups;
+  std::map<const Shape*, size_t> group_of_first_shape;
+  std::shared_ptr<const EmbreeScene> top;
+  RTCScene scene = nullptr;  ///< of `top`
+  StructuresBuilt built;
   float largest_coordinate = embree_limit;
   mutable std::atomic<uint64_t> refused_rays{0};
-  std::mutex error_mutex;
-  RTCError error_code = RTC_ERROR_NONE;
-  std::string error_text;
 };
 
-void RayTracer::Impl::on_error(void* self, RTCError code, const char* text) {
-  auto& impl = *static_cast<Impl*>(self);
-  const std::lock_guard lock(impl.error_mutex);
-  if (impl.error_code != RTC_ERROR_NONE) return;
-  impl.error_code = code;
-  impl.error_text = text ? text : "";
+RayTracer::Impl::Impl(Geometry g, const Impl* previous) : geometry(std::move(g)) {
+  if (previous && previous->device->has_failed()) previous = nullptr;
+  device = previous ? previous->device : std::make_shared<EmbreeDevice>();
+  build(previous);
+  scene = top->get();
 }
 
-void RayTracer::Impl::check() {
-  const std::lock_guard lock(error_mutex);
-  if (error_code == RTC_ERROR_NONE) return;
-  throw error_of(error_code, error_text);
-}
-
-/// Taking Embree down where it could not start all its threads ends the program, and whether it
-/// could is not told: after a failure it is left behind.
-void RayTracer::Impl::abandon() {
-  rtcSetDeviceErrorFunction(device, nullptr, nullptr);
-  rtcSetDeviceMemoryMonitorFunction(device, nullptr, nullptr);
-}
-
-void RayTracer::Impl::release() {
-  if (scene) rtcReleaseScene(scene);
-  for (RTCScene group : group_scenes)
-    if (group) rtcReleaseScene(group);
-  if (device) rtcReleaseDevice(device);
-}
-
-void RayTracer::Impl::build() {
+void RayTracer::Impl::build(const Impl* previous) {
   const auto record = [&](const std::shared_ptr<const Shape>& shape) {
     records.push_back({shape->mesh(), shape.get()});
   };
@@ -340,89 +234,51 @@ void RayTracer::Impl::build() {
   std::vector<Bounds3f> group_bounds;
   for (const auto& group : geometry.groups) {
     first_shape_of_group.push_back(uint32_t(records.size()));
-    group_scenes.push_back(build_scene(group));
-    commit(group_scenes.back());
+    if (!group.empty()) group_of_first_shape.emplace(group.front().get(), groups.size());
+    groups.push_back(group_scene(group, previous));
     group_bounds.emplace_back();
     for (const auto& shape : group) {
       record(shape);
       group_bounds.back().extendBy(shape->bounds());
     }
   }
-  scene = build_scene(geometry.shapes);
+  std::vector<EmbreeScene::Placement> placements;
   for (const Instance& instance : geometry.instances) {
-    attach_instance(instance);
+    placements.push_back(place(instance));
     bounds.extendBy(instance.world_from_group.bounds(group_bounds[instance.group]));
   }
   if (bounds.isEmpty()) bounds = {Vec3f(-1, -1, -1), Vec3f(1, 1, 1)};
-  commit(scene);
-}
-
-RTCScene RayTracer::Impl::build_scene(const std::vector<std::shared_ptr<const Shape>>& shapes) {
-  RTCScene target = rtcNewScene(device);
-  check();
-  rtcSetSceneFlags(target, RTC_SCENE_FLAG_ROBUST);
-  // HIGH is the one quality whose result depends on the order of threads.
-  rtcSetSceneBuildQuality(target, RTC_BUILD_QUALITY_MEDIUM);
-  for (const auto& shape : shapes) {
-    const TriangleMesh* mesh = shape->mesh();
-    attach(target, mesh ? mesh_geometry(*mesh) : user_geometry(*shape));
+  if (previous && previous->top->is_of(geometry.shapes, placements)) {
+    top = previous->top;
+    return;
   }
-  return target;
+  top = std::make_shared<EmbreeScene>(device, geometry.shapes, std::move(placements));
+  built.top_level = true;
 }
 
-void RayTracer::Impl::attach(RTCScene target, RTCGeometry part) {
-  rtcCommitGeometry(part);
-  rtcAttachGeometry(target, part);
-  rtcReleaseGeometry(part);
-  check();
-}
-
-RTCGeometry RayTracer::Impl::mesh_geometry(const TriangleMesh& mesh) {
-  RTCGeometry part = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  const size_t vertices = mesh.positions.size();
-  // Embree reads 16 bytes per vertex: a buffer without room behind its end is copied.
-  if (mesh.positions.capacity() > vertices) {
-    rtcSetSharedGeometryBuffer(part, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               mesh.positions.data(), 0, sizeof(Vec3f), vertices);
-  } else if (void* copy = rtcSetNewGeometryBuffer(part, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                  RTC_FORMAT_FLOAT3, sizeof(Vec3f), vertices)) {
-    std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Vec3f*>(copy));
+std::shared_ptr<const EmbreeScene> RayTracer::Impl::group_scene(const EmbreeScene::Shapes& shapes,
+                                                                const Impl* previous) {
+  if (previous && !shapes.empty()) {
+    const auto found = previous->group_of_first_shape.find(shapes.front().get());
+    if (found != previous->group_of_first_shape.end() &&
+        previous->groups[found->second]->is_of(shapes, {}))
+      return previous->groups[found->second];
   }
-  rtcSetSharedGeometryBuffer(part, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                             mesh.triangles.data(), 0, sizeof(mesh.triangles[0]),
-                             mesh.triangles.size());
-  return part;
+  ++built.groups;
+  return std::make_shared<EmbreeScene>(device, shapes, std::vector<EmbreeScene::Placement>());
 }
 
-RTCGeometry RayTracer::Impl::user_geometry(const Shape& shape) {
-  RTCGeometry part = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(part, 1);
-  rtcSetGeometryUserData(part, const_cast<Shape*>(&shape));
-  rtcSetGeometryBoundsFunction(part, shape_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(part, intersect_shape);
-  rtcSetGeometryOccludedFunction(part, occluded_by_shape);
-  return part;
-}
-
-void RayTracer::Impl::attach_instance(const Instance& instance) {
+EmbreeScene::Placement RayTracer::Impl::place(const Instance& instance) {
   instances.push_back(
       make_instance(instance.world_from_group, first_shape_of_group[instance.group]));
-  RTCGeometry part = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(part, group_scenes[instance.group]);
   const InstanceRecord& record = instances.back();
   largest_coordinate = std::min(largest_coordinate, largest_coordinate_for(record));
-  float matrix[12];
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) matrix[3 * j + i] = record.columns[j][i];
-    matrix[9 + i] = record.translation[i];
+  EmbreeScene::Placement placement{groups[instance.group], {}};
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = 0; j < 3; ++j) placement.columns[3 * j + i] = record.columns[j][int(i)];
+    placement.columns[9 + i] = record.translation[int(i)];
   }
-  rtcSetGeometryTransform(part, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
-  attach(scene, part);
-}
-
-void RayTracer::Impl::commit(RTCScene target) {
-  rtcCommitScene(target);
-  check();
+  return placement;
 }
 
 /// The point of a hit of what is instanced or no mesh.
@@ -447,7 +303,9 @@ SurfacePoint RayTracer::Impl::point_of_others(const ShapeRecord& record, const R
   return point;
 }
 
-RayTracer::RayTracer(Geometry geometry) : impl_(std::make_unique<Impl>(std::move(geometry))) {}
+RayTracer::RayTracer(Geometry geometry, const RayTracer* previous)
+    : impl_(std::make_unique<Impl>(std::move(geometry),
+                                   previous ? previous->impl_.get() : nullptr)) {}
 RayTracer::~RayTracer() = default;
 
 void RayTracer::Impl::place_hit(uint32_t geometry_id, uint32_t instance_id, Hit& hit) const {
@@ -593,7 +451,21 @@ const Geometry& RayTracer::geometry() const { return impl_->geometry; }
 Bounds3f RayTracer::bounds() const { return impl_->bounds; }
 uint64_t RayTracer::refused_rays() const { return impl_->refused_rays; }
 float RayTracer::largest_coordinate() const { return impl_->largest_coordinate; }
-size_t RayTracer::size_in_bytes() const { return size_t(std::max<int64_t>(0, impl_->bytes)); }
+StructuresBuilt RayTracer::structures_built() const { return impl_->built; }
+bool RayTracer::traces_like(const RayTracer& other) const {
+  const auto same_place = [](const Instance& a, const Instance& b) {
+    return a.group == b.group && a.world_from_group == b.world_from_group;
+  };
+  const Geometry &ours = impl_->geometry, &theirs = other.impl_->geometry;
+  return impl_->top == other.impl_->top && ours.groups == theirs.groups &&
+         std::equal(ours.instances.begin(), ours.instances.end(), theirs.instances.begin(),
+                    theirs.instances.end(), same_place);
+}
+size_t RayTracer::size_in_bytes() const {
+  int64_t bytes = impl_->top->bytes();
+  for (const auto& group : impl_->groups) bytes += group->bytes();
+  return size_t(std::max<int64_t>(0, bytes));
+}
 void* RayTracer::embree_scene() const { return impl_->scene; }
 
 }  // namespace kaustik

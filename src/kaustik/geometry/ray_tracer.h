@@ -36,12 +36,22 @@ struct PieceSink {
   void* context;
 };
 
+/// How many of its structures a RayTracer has built itself.
+struct StructuresBuilt {
+  int groups = 0;
+  bool top_level = false;  ///< that over all shapes of the world and all instances
+};
+
 /// The acceleration structure (Embree; the meshes' own arrays are shared with it). Immutable after
 /// construction and shared by all threads. The build is deterministic.
 class RayTracer {
  public:
-  /// Throws Error(system) if Embree runs out of memory or cannot start.
-  explicit RayTracer(Geometry geometry);
+  /// Shares the structures of `previous`, null: none, that would be built of the same shapes (the
+  /// same objects) again: those of groups, each by itself, and the one over the whole world, all
+  /// shapes of which are in one tree: it is built anew when one of them has changed. Rays are hit
+  /// and rounded as if all had been built anew. `previous` may be tracing meanwhile, and need not
+  /// outlive this. Throws Error(system) if Embree runs out of memory or cannot start.
+  explicit RayTracer(Geometry geometry, const RayTracer* previous = nullptr);
   ~RayTracer();
   RayTracer(const RayTracer&) = delete;
   RayTracer& operator=(const RayTracer&) = delete;
@@ -78,6 +88,9 @@ class RayTracer {
   Bounds3f bounds() const;
   /// Of the acceleration structure, without the shapes themselves.
   size_t size_in_bytes() const;
+  StructuresBuilt structures_built() const;
+  /// Whether both share all structures and place them alike: every ray hits the same.
+  bool traces_like(const RayTracer& other) const;
   /// RTCScene, for benchmarks that compare with bare Embree.
   void* embree_scene() const;
 

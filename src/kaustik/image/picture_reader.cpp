@@ -102,6 +102,18 @@ Place picture_place(const Arguments& arguments) {
 PictureReader::PictureReader(int64_t memory_bytes)
     : budget_bytes_(memory_bytes), left_bytes_(memory_bytes) {}
 
+PictureReader::Use PictureReader::use_since(const Mark& mark) const {
+  return {mark.left_bytes - left_bytes_,
+          {warnings_.begin() + std::ptrdiff_t(mark.warnings), warnings_.end()}};
+}
+
+bool PictureReader::account(const Use& use) {
+  if (use.bytes > left_bytes_) return false;
+  left_bytes_ -= use.bytes;
+  warnings_.insert(warnings_.end(), use.warnings.begin(), use.warnings.end());
+  return true;
+}
+
 Image PictureReader::read(const Arguments& arguments, int64_t kept_bytes_per_pixel,
                           bool srgb_to_linear) {
   ReadOptions options;
@@ -114,6 +126,7 @@ Image PictureReader::read(const Arguments& arguments, int64_t kept_bytes_per_pix
       "allow pictures more memory than {:.3g} MB in all (--texture-memory), or give smaller ones",
       double(budget_bytes_) / 1e6);
   Image image = read_at(arguments, options);
+  ++read_count_;
   left_bytes_ -= int64_t(image.pixel_count()) * kept_bytes_per_pixel;
   const BadColours bad = repair(image, colours_of(image, arguments));
   if (bad.count > 0)

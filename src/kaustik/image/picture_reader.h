@@ -28,9 +28,28 @@ class PictureReader {
   Image read(const Arguments& arguments, int64_t kept_bytes_per_pixel, bool srgb_to_linear = true);
 
   const std::vector<std::string>& warnings() const { return warnings_; }
+  /// How many pictures were read.
+  int read_count() const { return read_count_; }
+
+  /// What reading some pictures has cost, and what was odd about them.
+  struct Use {
+    int64_t bytes = 0;
+    std::vector<std::string> warnings;
+  };
+  /// Of all that was read since the reader stood so.
+  struct Mark {
+    int64_t left_bytes;
+    size_t warnings;
+  };
+  Mark mark() const { return {left_bytes_, warnings_.size()}; }
+  Use use_since(const Mark& mark) const;
+  /// Accounts for pictures that are kept from elsewhere as if they had been read; false, with
+  /// nothing done, where the budget is too small for them.
+  bool account(const Use& use);
 
  private:
   int64_t budget_bytes_, left_bytes_;
+  int read_count_ = 0;
   std::vector<std::string> warnings_;
 };
 

@@ -91,51 +91,62 @@ LatLongDistribution distribution_of(const PictureSphere& picture) {
   return {picture.width(), std::move(values), std::numbers::pi};
 }
 
+/// What the picture and its scale come to, whatever the scene.
+struct EnvmapTables {
+  EnvmapTables(const Image& image, float scale)
+      : picture(image), distribution(distribution_of(picture)) {
+    picture.for_each_node([&](const Spectrum& radiance, const Vec3f& local, double solid_angle) {
+      const Spectrum weighted = radiance * (scale * float(solid_angle));
+      for (size_t lane = 0; lane < 4; ++lane) fluence[lane] += double(weighted[int(lane)]);
+      harmonics.add(local, double(weighted.sum()));
+    });
+  }
+
+  PictureSphere picture;
+  LatLongDistribution distribution;
+  IrradianceHarmonics harmonics;
+  std::array<double, 4> fluence{};
+};
+
 class EnvmapLight final : public EnvironmentLight {
  public:
-  EnvmapLight(const Image& image, float scale, const Transform& to_world, const EmissionDisk& disk)
+  EnvmapLight(std::shared_ptr<const EnvmapTables> tables, float scale, const Transform& to_world,
+              const EmissionDisk& disk)
       : EnvironmentLight(disk),
-        picture_(image),
-        distribution_(distribution_of(picture_)),
+        tables_(std::move(tables)),
         scale_(scale),
         to_world_(to_world),
         to_local_(to_world.inverse()) {
-    std::array<double, 4> fluence{};
-    picture_.for_each_node([&](const Spectrum& radiance, const Vec3f& local, double solid_angle) {
-      const Spectrum weighted = radiance * (scale_ * float(solid_angle));
-      for (size_t lane = 0; lane < 4; ++lane) fluence[lane] += double(weighted[int(lane)]);
-      harmonics_.add(local, double(weighted.sum()));
-    });
-    set_fluence({float(fluence[0]), float(fluence[1]), float(fluence[2]), float(fluence[3])});
+    const std::array<double, 4>& f = tables_->fluence;
+    set_fluence({float(f[0]), float(f[1]), float(f[2]), float(f[3])});
   }
 
   /// False for a black picture.
-  bool shines() const { return distribution_.integral() > 0; }
+  bool shines() const { return tables_->distribution.integral() > 0; }
 
   Spectrum background(const Vec3f& direction, const Wavelengths& wavelengths) const override {
-    return lanes_from_emission(picture_.eval(place_of(direction)) * scale_, wavelengths);
+    return lanes_from_emission(tables_->picture.eval(place_of(direction)) * scale_, wavelengths);
   }
   float expected_irradiance(const LightQuery& query) const override {
-    if (query.normal == Vec3f(0, 0, 0)) return harmonics_.irradiance(query.normal);
-    return harmonics_.irradiance(normalize(to_local_.vector(query.normal)));
+    if (query.normal == Vec3f(0, 0, 0)) return tables_->harmonics.irradiance(query.normal);
+    return tables_->harmonics.irradiance(normalize(to_local_.vector(query.normal)));
   }
 
  private:
   Vec3f sample_direction(const Vec2f& u, Purpose) const override {
-    return normalize(to_world_.vector(PictureSphere::direction_of(distribution_.sample(u))));
+    return normalize(
+        to_world_.vector(PictureSphere::direction_of(tables_->distribution.sample(u))));
   }
   float direction_pdf(const Vec3f& direction, Purpose) const override {
-    return distribution_.pdf(place_of(direction));
+    return tables_->distribution.pdf(place_of(direction));
   }
   LatLong place_of(const Vec3f& direction) const {
     return PictureSphere::place_of(normalize(to_local_.vector(direction)));
   }
 
-  PictureSphere picture_;
-  LatLongDistribution distribution_;
+  std::shared_ptr<const EnvmapTables> tables_;
   float scale_;
   Transform to_world_, to_local_;
-  IrradianceHarmonics harmonics_;
 };
 
 /// A texel of four floats and the numbers of its distribution.
@@ -149,9 +160,12 @@ std::unique_ptr<Light> create_envmap(const LightInputs& inputs) {
                 "leave out shear and scaling by unequal factors", arguments.place_of("to_world"));
   PictureReader own_reader;
   PictureReader& pictures = inputs.pictures ? *inputs.pictures : own_reader;
-  auto light = std::make_unique<EnvmapLight>(pictures.read(arguments, bytes_per_pixel),
-                                             float(arguments.number("scale")), to_world,
-                                             EmissionDisk(inputs.scene_bounds));
+  const auto scale = float(arguments.number("scale"));
+  const auto tables = shared_tables<EnvmapTables>(inputs, [&] {
+    return std::make_shared<EnvmapTables>(pictures.read(arguments, bytes_per_pixel), scale);
+  });
+  auto light =
+      std::make_unique<EnvmapLight>(tables, scale, to_world, EmissionDisk(inputs.scene_bounds));
   if (!light->shines())
     throw Error(ErrorKind::input, picture_name(arguments) + " is black: it would light nothing",
                 "give a picture with some light in it, or remove the emitter",

@@ -193,7 +193,20 @@ struct LightInputs {
   /// Stands for a color argument that takes a texture; null: the argument counts.
   std::shared_ptr<const EmissionPattern> pattern = nullptr;
   PictureReader* pictures = nullptr;  ///< null: one with the default budget
+  /// Where a light finds the tables that an equal emitter has made of its arguments alone, and
+  /// leaves its own for others: see shared_tables(). Null: nobody shares.
+  std::shared_ptr<const void>* tables = nullptr;
 };
+
+/// The tables that were left for this light; those that `make` makes where there are none.
+template <typename Tables, typename Make>
+std::shared_ptr<const Tables> shared_tables(const LightInputs& inputs, const Make& make) {
+  if (inputs.tables && *inputs.tables)
+    return std::static_pointer_cast<const Tables>(*inputs.tables);
+  std::shared_ptr<const Tables> made = make();
+  if (inputs.tables) *inputs.tables = made;
+  return made;
+}
 
 struct LightType {
   const TypeInfo& info;
@@ -212,9 +225,16 @@ const std::vector<LightType>& light_types();
 /// power have none. Immutable once it has learned.
 class LightSelector {
  public:
-  /// `lights` must outlive this.
-  explicit LightSelector(const std::vector<std::unique_ptr<Light>>& lights);
+  /// `lights`, of whatever pointers, must outlive this.
+  template <typename Pointer>
+  explicit LightSelector(const std::vector<Pointer>& lights) : LightSelector() {
+    std::vector<const Light*> plain;
+    for (const auto& light : lights) plain.push_back(&*light);
+    build(plain);
+  }
   ~LightSelector();
+  /// The same tables for the same lights, without what has been learned.
+  std::unique_ptr<LightSelector> unlearned_copy() const;
 
   static constexpr size_t maximum_learned = 64;
   /// Whether there are some lights to choose from, and few enough for learn().
@@ -242,6 +262,9 @@ class LightSelector {
 
  private:
   struct Impl;
+  LightSelector();
+  void build(const std::vector<const Light*>& lights);
+
   std::unique_ptr<Impl> impl_;
   std::optional<Choice> only_choice_;
 };

@@ -22,7 +22,7 @@ class FewLights {
  public:
   FewLights() = default;
   /// As many as ChoiceWeights::most at most.
-  FewLights(const std::vector<std::unique_ptr<Light>>& lights, std::vector<int> indices) {
+  FewLights(const std::vector<const Light*>& lights, std::vector<int> indices) {
     const auto ball_of = [&](int index) -> const std::optional<EmissionBall>& {
       return lights[size_t(index)]->traits().ball;
     };
@@ -31,7 +31,7 @@ class FewLights {
     std::vector<EmissionBall> balls;
     for (auto i = indices.begin(); i != others; ++i) balls.push_back(*ball_of(*i));
     block_ = balls_.add(balls);
-    for (const int index : indices) lights_.push_back({index, lights[size_t(index)].get()});
+    for (const int index : indices) lights_.push_back({index, lights[size_t(index)]});
   }
   size_t size() const { return lights_.size(); }
   bool empty() const { return lights_.empty(); }
@@ -134,8 +134,17 @@ struct LightSelector::Impl {
   }
 };
 
-LightSelector::LightSelector(const std::vector<std::unique_ptr<Light>>& lights)
-    : impl_(std::make_unique<Impl>()) {
+LightSelector::LightSelector() : impl_(std::make_unique<Impl>()) {}
+
+std::unique_ptr<LightSelector> LightSelector::unlearned_copy() const {
+  std::unique_ptr<LightSelector> copy(new LightSelector());
+  *copy->impl_ = *impl_;
+  copy->impl_->visibility = {};
+  copy->only_choice_ = only_choice_;
+  return copy;
+}
+
+void LightSelector::build(const std::vector<const Light*>& lights) {
   std::vector<double> infinite_powers(lights.size(), 0.0);
   std::vector<int> shining, infinite;
   std::vector<LightTree::Item> items;

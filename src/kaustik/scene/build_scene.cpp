@@ -42,13 +42,19 @@ std::vector<int> lines_of(const std::vector<std::shared_ptr<Object>>& objects) {
 
 std::shared_ptr<const Scene> build_scene(const Description& description,
                                          const BuildOptions& options) {
-  SceneBuilder builder(options.texture_memory_bytes);
+  return build_scene(description, nullptr, options);
+}
+
+std::shared_ptr<const Scene> build_scene(const Description& description,
+                                         const std::shared_ptr<const Scene>& previous,
+                                         const BuildOptions& options) {
+  SceneBuilder builder(options.texture_memory_bytes, previous.get());
   std::vector<std::string> warnings;
   const Description flat = flatten_placed_scenes(description, warnings);
   Scene::Parts parts = builder.build(*flat.scene);
   parts.warnings.insert(parts.warnings.begin(), warnings.begin(), warnings.end());
   parts.observer = options.observer;
-  return std::make_shared<const Scene>(std::move(parts));
+  return std::make_shared<const Scene>(std::move(parts), previous.get());
 }
 
 std::shared_ptr<Object> find_integrator(const Description& description) {

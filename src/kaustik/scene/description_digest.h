@@ -1,10 +1,10 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
 
 #include "kaustik/scene/description.h"
+#include "kaustik/scene/file_stamp.h"
 
 namespace kaustik {
 
@@ -31,12 +31,11 @@ class GuardedDigest {
   void check(const Description& description) const;
 
  private:
-  using Stamp = std::array<int64_t, 5>;
-  static std::map<std::string, Stamp> stamps_of(const Description& description,
-                                                const TypeTables& types);
+  static std::map<std::string, FileStamp> stamps_of(const Description& description,
+                                                    const TypeTables& types);
 
   const TypeTables* types_;
-  std::map<std::string, Stamp> stamps_;  ///< what the system tells of the files, by path
+  std::map<std::string, FileStamp> stamps_;  ///< what the system tells of the files, by path
   DescriptionDigest digest_;
 };
 

@@ -7,17 +7,44 @@
 
 namespace kaustik {
 
-Scene::Scene(Parts parts) : parts_(std::move(parts)) {
-  light_selector_ = std::make_unique<LightSelector>(parts_.lights);
+Scene::Scene(Parts parts, const Scene* previous) : parts_(std::move(parts)) {
   for (size_t i = 0; i < parts_.lights.size(); ++i)
     if (parts_.lights[i]->is_infinite()) environment_lights_.push_back(int(i));
   has_lights_to_meet_ = std::any_of(
-      parts_.lights.begin(), parts_.lights.end(), [](const std::unique_ptr<Light>& light) {
+      parts_.lights.begin(), parts_.lights.end(), [](const std::shared_ptr<const Light>& light) {
         return light->is_infinite() ? !light->traits().is_delta && !light->traits().is_only_seen
                                     : light->traits().shape >= 0;
       });
   find_media();
-  if (parts_.camera) light_selector_->learn(probe_lights(*this));
+  make_light_selector(previous);
+}
+
+void Scene::make_light_selector(const Scene* previous) {
+  const bool has_same_lights = previous && previous->parts_.lights == parts_.lights;
+  if (has_same_lights && probes_lights_like(*previous)) {
+    light_selector_ = previous->light_selector_;
+    return;
+  }
+  const std::shared_ptr<LightSelector> selector =
+      has_same_lights ? previous->light_selector_->unlearned_copy()
+                      : std::make_unique<LightSelector>(parts_.lights);
+  parts_.counts.light_selectors = has_same_lights ? 0 : 1;
+  light_selector_ = selector;
+  if (!parts_.camera) return;
+  parts_.counts.light_probings = selector->can_learn() ? 1 : 0;
+  selector->learn(probe_lights(*this));
+}
+
+/// Whether probe_lights() would learn the same of the same lights.
+bool Scene::probes_lights_like(const Scene& other) const {
+  const auto lets_through_alike = [](const Surface& a, const Surface& b) {
+    return a.traits.is_null == b.traits.is_null && a.traits.transmits == b.traits.transmits;
+  };
+  return parts_.camera && other.parts_.camera && parts_.built.sensor != 0 &&
+         parts_.built.sensor == other.parts_.built.sensor &&
+         parts_.tracer->traces_like(*other.parts_.tracer) &&
+         std::equal(parts_.surfaces.begin(), parts_.surfaces.end(), other.parts_.surfaces.begin(),
+                    other.parts_.surfaces.end(), lets_through_alike);
 }
 
 void Scene::find_media() {

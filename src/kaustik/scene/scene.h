@@ -9,6 +9,7 @@
 #include "kaustik/light/light.h"
 #include "kaustik/material/bsdf.h"
 #include "kaustik/medium/medium.h"
+#include "kaustik/scene/built_parts.h"
 #include "kaustik/scene/camera.h"
 #include "kaustik/scene/description.h"
 
@@ -47,9 +48,9 @@ class RayObserver {
 class Scene {
  public:
   struct Parts {
-    std::unique_ptr<RayTracer> tracer;
-    std::vector<Surface> surfaces;  ///< parallel to the tracer's shapes
-    std::vector<std::unique_ptr<Light>> lights;
+    std::unique_ptr<const RayTracer> tracer;
+    std::vector<Surface> surfaces;                     ///< parallel to the tracer's shapes
+    std::vector<std::shared_ptr<const Light>> lights;  ///< never null
     FilmSettings film;
     std::unique_ptr<Camera> camera;
     std::shared_ptr<const Medium> camera_medium;  ///< null: vacuum
@@ -57,8 +58,11 @@ class Scene {
     std::vector<std::shared_ptr<const Medium>> light_media;
     std::vector<std::string> warnings;
     RayObserver* observer = nullptr;
+    BuiltParts built = {};
+    BuildCounts counts = {};
   };
-  explicit Scene(Parts parts);
+  /// Shares with `previous`, null: none, what depends on parts alone that both have.
+  explicit Scene(Parts parts, const Scene* previous = nullptr);
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
@@ -79,7 +83,7 @@ class Scene {
   const RayTracer& tracer() const { return *parts_.tracer; }
   const Surface& surface(uint32_t shape) const { return parts_.surfaces[shape]; }
   size_t surface_count() const { return parts_.surfaces.size(); }
-  const std::vector<std::unique_ptr<Light>>& lights() const { return parts_.lights; }
+  const std::vector<std::shared_ptr<const Light>>& lights() const { return parts_.lights; }
   const LightSelector& light_selector() const { return *light_selector_; }
   /// Indices of the lights that rays meet at infinity.
   const std::vector<int>& environment_lights() const { return environment_lights_; }
@@ -99,12 +103,17 @@ class Scene {
   const Medium* light_medium(int light) const { return light_media_[size_t(light)]; }
   /// What build_scene found odd but could live with.
   const std::vector<std::string>& warnings() const { return parts_.warnings; }
+  /// What build_scene built it of, and how much of that it made itself.
+  const BuiltParts& built() const { return parts_.built; }
+  const BuildCounts& build_counts() const { return parts_.counts; }
 
  private:
   void find_media();
+  void make_light_selector(const Scene* previous);
+  bool probes_lights_like(const Scene& other) const;
 
   Parts parts_;
-  std::unique_ptr<LightSelector> light_selector_;
+  std::shared_ptr<const LightSelector> light_selector_;
   std::vector<int> environment_lights_;
   bool has_media_ = false, has_scattering_ = false, has_lights_to_meet_ = false;
   std::vector<const Medium*> light_media_;  ///< parallel to the lights
@@ -118,6 +127,19 @@ struct BuildOptions {
 /// Checks every object against the table of its type and builds the scene. Throws Error with all
 /// problems found. Ignores the integrator: that is the render room's.
 std::shared_ptr<const Scene> build_scene(const Description& description,
+                                         const BuildOptions& options = {});
+
+/// The same, to the bit, for a description that differs little from that of `previous` (null: there
+/// is none): what is described alike and made from files that have not changed since is shared, see
+/// PartKeys. That are shapes, textures, bsdfs, lights with their tables, the ray tracing structures
+/// of shape groups, and the one over the whole world if no shape or instance of it has changed. A
+/// shape that is moved by its own to_world is made anew, with that structure; one in a group that
+/// an instance moves is not. Where lights are chosen by what the camera's surroundings see of them,
+/// that is learned anew when the camera, a shape or a light has changed. `previous` may be
+/// rendering meanwhile and need not outlive the new scene. Scene::build_counts() tells what was
+/// made.
+std::shared_ptr<const Scene> build_scene(const Description& description,
+                                         const std::shared_ptr<const Scene>& previous,
                                          const BuildOptions& options = {});
 
 /// Type of the integrator of scenes that name none.

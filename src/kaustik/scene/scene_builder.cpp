@@ -132,7 +132,8 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   problems_.throw_if_any();
 
   Scene::Parts parts;
-  parts.tracer = std::make_unique<RayTracer>(make_geometry());
+  parts.tracer = std::make_unique<const RayTracer>(make_geometry(),
+                                                   previous_ ? &previous_->tracer() : nullptr);
   bounds_ = parts.tracer->bounds();
   make_lights();
   problems_.throw_if_any();
@@ -140,6 +141,13 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   for (auto& group : groups_)
     for (BuiltShape& built : group) parts.surfaces.push_back(std::move(built.surface));
   parts.lights = std::move(lights_);
+  const StructuresBuilt structures = parts.tracer->structures_built();
+  counts_.group_structures = structures.groups;
+  counts_.top_structures = structures.top_level ? 1 : 0;
+  counts_.pictures = pictures_.read_count();
+  built_.sensor = keys_.whole(*sensor_);
+  parts.built = std::move(built_);
+  parts.counts = counts_;
   parts.film = film_;
   parts.camera = std::move(camera_);
   parts.camera_medium = std::move(camera_medium_);
@@ -219,7 +227,7 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   read_media(object, built.surface);
   if (!arguments.is_complete()) return std::nullopt;
   collecting(source_place(arguments), [&] {
-    built.shape = type->create(arguments);
+    built.shape = shape_of(object, *type, arguments);
     check_size(*built.shape, source_place(arguments));
   });
   if (const auto* mesh = dynamic_cast<const MeshShape*>(built.shape.get()))
@@ -288,7 +296,7 @@ std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<
     refuse_children(*object, {});
     const Arguments arguments = arguments_of(type->info, *object);
     if (arguments.is_complete())
-      collecting(source_place(arguments), [&] { texture = type->create(arguments, pictures_); });
+      collecting(source_place(arguments), [&] { texture = texture_of(*object, *type, arguments); });
   } else {
     unknown_type(*object, names_of(texture_types()));
   }
@@ -352,7 +360,7 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
     return constant_texture_of(arguments, name);
   };
   std::shared_ptr<const Bsdf> bsdf;
-  collecting(object.place, [&] { bsdf = type->create({arguments, nested, texture}); });
+  collecting(object.place, [&] { bsdf = bsdf_of(object, *type, {arguments, nested, texture}); });
   if (bsdf && bsdf->traits().size > maximum_bsdf_size) {
     problems_.add(fmt::format("bsdf '{}' nests {} bsdfs, each counted for every place it is used "
                               "in: rendering it would take too long",
@@ -421,14 +429,8 @@ void SceneBuilder::make_lights() {
     }
     const Arguments arguments = arguments_of(type->info, *pending.object);
     if (!arguments.is_complete()) continue;
-    static const Transform identity;
-    const Transform& to_world =
-        type->info.find("to_world") ? arguments.transform("to_world") : identity;
-    const std::shared_ptr<const EmissionPattern> pattern =
-        emission_pattern_of(*pending.object, arguments);
     collecting(pending.object->place, [&] {
-      lights_.push_back(type->create(
-          {arguments, to_world, pending.shape, pending.shape_index, bounds_, pattern, &pictures_}));
+      make_light(*type, pending, arguments);
       light_media_.push_back(medium_of(*pending.object));
     });
   }

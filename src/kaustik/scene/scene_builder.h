@@ -5,15 +5,18 @@
 #include <set>
 
 #include "kaustik/image/picture_reader.h"
+#include "kaustik/scene/part_keys.h"
 #include "kaustik/scene/scene.h"
 
 namespace kaustik {
 
 /// Turns a description into the parts of a scene; collects problems on the way and throws them
-/// together. One builder serves one scene.
+/// together. One builder serves one scene. What `previous`, null: none, has of it already is taken
+/// from there.
 class SceneBuilder {
  public:
-  explicit SceneBuilder(int64_t texture_memory_bytes) : pictures_(texture_memory_bytes) {}
+  explicit SceneBuilder(int64_t texture_memory_bytes, const Scene* previous = nullptr)
+      : previous_(previous), pictures_(texture_memory_bytes) {}
   Scene::Parts build(const Object& scene);
 
  private:
@@ -51,6 +54,15 @@ class SceneBuilder {
   void read_filter(const Object& object);
   void read_sampler(const Object& object);
   void make_lights();
+  void make_light(const LightType& type, const PendingLight& pending, const Arguments& arguments);
+  /// Makes what the description of a shape, a texture or a bsdf says, or finds it in the scene
+  /// before. Throws Error.
+  std::shared_ptr<const Shape> shape_of(const Object& object, const ShapeType& type,
+                                        const Arguments& arguments);
+  std::shared_ptr<const Texture> texture_of(const Object& object, const TextureType& type,
+                                            const Arguments& arguments);
+  std::shared_ptr<const Bsdf> bsdf_of(const Object& object, const BsdfType& type,
+                                      const BsdfInputs& inputs);
   /// Of the texture in an emitter, of which no type takes more than one; null: it has none.
   std::shared_ptr<const EmissionPattern> emission_pattern_of(const Object& emitter,
                                                              const Arguments& arguments);
@@ -64,6 +76,13 @@ class SceneBuilder {
   /// in another file tell that it was named there.
   void collecting(const Place& place, const std::function<void()>& body);
 
+  /// Of the scene before; empty where there is none.
+  const BuiltParts& before() const;
+
+  const Scene* previous_;
+  PartKeys keys_;
+  BuiltParts built_;
+  BuildCounts counts_;
   Problems problems_;
   PictureReader pictures_;
   std::vector<std::string> warnings_;
@@ -76,7 +95,7 @@ class SceneBuilder {
   std::map<const Object*, std::shared_ptr<const Bsdf>> bsdfs_;
   std::map<const Object*, std::shared_ptr<const Texture>> textures_;
   std::map<const Object*, std::shared_ptr<const Medium>> media_;
-  std::vector<std::unique_ptr<Light>> lights_;
+  std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const Medium>> light_media_;
   std::shared_ptr<const Medium> camera_medium_;
   Bounds3f bounds_;
