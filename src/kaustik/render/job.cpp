@@ -34,7 +34,8 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
   const auto run = std::make_shared<Run>();
   run->prepared = prepare_scene(description_, settings_.build,
                                 !settings_.checkpoint.empty() || settings_.begun.has_value(),
-                                listener_.messages);
+                                listener_.messages, previous_);
+  previous_ = nullptr;
   if (settings_.begun) check_same_scene(run->prepared, *settings_.begun, settings_.begun_path);
   const std::lock_guard lock(mutex_);
   run_ = run;
@@ -161,6 +162,7 @@ void Job::edit(Description description) {
   if (thread_.joinable()) thread_.join();
   {
     const std::lock_guard lock(mutex_);
+    if (run_) previous_ = run_->prepared.scene;
     run_ = nullptr;
     stop_ = {};
   }

@@ -80,7 +80,8 @@ class Job {
   /// there is something to be seen of the new one.
   std::optional<Image> snapshot() const;
   /// Cancels, waits, and takes another description in the place of the one before: scene,
-  /// integrator and film are made anew, with the recipe's changes. Goes on as before: renders if it
+  /// integrator and film are made anew, with the recipe's changes; the scene shares with the one
+  /// before what is the same. Goes on as before: renders if it
   /// was started. Throws std::logic_error if passes are kept in a checkpoint, where those of
   /// another scene do not belong; not what ended the render before.
   void edit(Description description);
@@ -105,8 +106,9 @@ class Job {
   Description description_;
   JobSettings settings_;
   JobListener listener_;
-  mutable std::mutex mutex_;  ///< of what follows
-  std::shared_ptr<Run> run_;  ///< null: not prepared
+  std::shared_ptr<const Scene> previous_;  ///< before an edit, to share with
+  mutable std::mutex mutex_;               ///< of what follows
+  std::shared_ptr<Run> run_;               ///< null: not prepared
   std::stop_source stop_;
   JobResult result_;  ///< of the thread while it runs
   std::exception_ptr failure_;

@@ -50,15 +50,17 @@ void tell_of_memory(const Description& description, const Messages& messages) {
 
 std::shared_ptr<const Scene> build_scene_and_tell(const Description& description,
                                                   const BuildOptions& build,
-                                                  const Messages& messages) {
+                                                  const Messages& messages,
+                                                  const std::shared_ptr<const Scene>& previous) {
   tell_of_memory(description, messages);
-  auto scene = build_scene(description, build);
+  auto scene = build_scene(description, previous, build);
   for (const std::string& warning : scene_warnings(*scene)) messages.warn(warning);
   return scene;
 }
 
 PreparedScene prepare_scene(const Description& description, const BuildOptions& build,
-                            bool with_digest, const Messages& messages) {
+                            bool with_digest, const Messages& messages,
+                            const std::shared_ptr<const Scene>& previous) {
   PreparedScene prepared;
   std::exception_ptr unreadable;
   std::optional<GuardedDigest> digest;
@@ -70,7 +72,7 @@ PreparedScene prepare_scene(const Description& description, const BuildOptions& 
     }
   }
   // Tells of a file that cannot be read where it is named.
-  prepared.scene = build_scene_and_tell(description, build, messages);
+  prepared.scene = build_scene_and_tell(description, build, messages, previous);
   if (unreadable) std::rethrow_exception(unreadable);
   std::vector<std::string> warnings;
   prepared.integrator = make_integrator(description, *prepared.scene, warnings);

@@ -24,14 +24,16 @@ void apply_changes(Description& description, const RenderRecipe& recipe, const M
 /// Says how much memory large meshes will take, before they are read.
 void tell_of_memory(const Description& description, const Messages& messages);
 
-/// Builds the scene; what is odd about it is told. Throws Error.
-std::shared_ptr<const Scene> build_scene_and_tell(const Description& description,
-                                                  const BuildOptions& build,
-                                                  const Messages& messages);
+/// Builds the scene, sharing with `previous` (null: none) what is the same; what is odd about it is
+/// told. Throws Error.
+std::shared_ptr<const Scene> build_scene_and_tell(
+    const Description& description, const BuildOptions& build, const Messages& messages,
+    const std::shared_ptr<const Scene>& previous = nullptr);
 
 /// The same with the integrator that the description asks for. The digest reads every file of the
 /// scene once more: only checkpoints are worth it. Throws Error.
 PreparedScene prepare_scene(const Description& description, const BuildOptions& build,
-                            bool with_digest, const Messages& messages);
+                            bool with_digest, const Messages& messages,
+                            const std::shared_ptr<const Scene>& previous = nullptr);
 
 }  // namespace kaustik
