@@ -5,6 +5,7 @@
 #include "benchmarks/shipped_scenes.h"
 #include "kaustik/base/statistics.h"
 #include "kaustik/integrator/override_integrator.h"
+#include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/film_errors.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"
