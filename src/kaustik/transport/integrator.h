@@ -98,6 +98,12 @@ struct IntegratorTraits {
   uint32_t default_samples_per_pass = 4;
 };
 
+/// What becomes of lessons that are handed to an integrator.
+enum class LessonUse {
+  go_on,  ///< passes go on from them, as if the integrator had learned them itself
+  fixed   ///< they hold for all passes, which teach nothing more
+};
+
 /// A method of computing the picture. Const and thread-safe; owns no loop, no film, no clock.
 class Integrator {
  public:
@@ -117,6 +123,12 @@ class Integrator {
                                      const Vec2i& /*pixel*/) const {
     return {pass.index / replicate_count * pass.samples_per_pixel, pass.samples_per_pixel};
   }
+  /// What the passes prepared so far have taught, for integrators of the same scene and parameters
+  /// that go on from there; empty: nothing is learned. Not during prepare().
+  virtual std::vector<uint8_t> lessons() const { return {}; }
+  /// Goes on with lessons() of another one. Throws Error(input) if they are damaged or of another
+  /// picture. Before the first prepare().
+  virtual void go_on_with(const std::vector<uint8_t>& /*lessons*/, LessonUse) {}
 
  protected:
   IntegratorTraits traits_;  ///< complete once the constructor is done

@@ -46,6 +46,7 @@ class ScatterGuide {
   static float pdf(const Ball& ball, const Vec3f& position, const Vec3f& direction);
 
   explicit ScatterGuide(Parts parts) : parts_(std::move(parts)) {}
+  const Parts& parts() const { return parts_; }
 
   /// Whether light is guided at such a surface: where the event, and with it the class of what
   /// follows, leaves no choice, and bent normals do not make flux grow at grazing incidence.

@@ -266,7 +266,6 @@ class Tracer {
     const PixelPlan plan = in_.plans.at(connection.raster, in_.shrinkage);
     halves.first_merge_area = plan.counted_area(in_.camera_samples);
     halves.first_survival = plan.counted_survival();
-    halves.connected = plan.connected;
     return halves;
   }
 

@@ -116,7 +116,7 @@ VcmSettings::VcmSettings(const Arguments& arguments)
       adaptive(arguments.boolean("adaptive")) {
   if (&arguments.info() == &auto_info()) {
     techniques.merging = true;
-    chooses_light_paths = chooses_connections = true;
+    chooses_light_paths = true;
     return;
   }
   aim = read_aim(arguments.text("aim"));

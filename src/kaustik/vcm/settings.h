@@ -26,7 +26,6 @@ struct VcmSettings {
   uint32_t samples_per_pass = 4;
   bool adaptive = true;              ///< camera samples go where passes before find them to differ
   bool chooses_light_paths = false;  ///< how many, or none at all, by what a pilot tells
-  bool chooses_connections = false;  ///< where there are any, by what a trial tells
 
   /// Of one of the tables below.
   explicit VcmSettings(const Arguments& arguments);

@@ -5,6 +5,7 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/photon/photon_map.h"
 #include "kaustik/vcm/camera_path/camera_path.h"
+#include "kaustik/vcm/lessons/guide_lesson.h"
 #include "kaustik/vcm/light_pass.h"
 
 namespace kaustik {
@@ -50,7 +51,6 @@ VcmIntegrator::VcmIntegrator(const Arguments& arguments, const Scene& scene)
     // bright dots that connections take off.
     if (settings_.chooses_light_paths)
       settings_.techniques.splats = settings_.techniques.connections = true;
-    settings_.chooses_connections = false;
   }
   traits_ = {.splats = settings_.techniques.splats,
              .estimates_bias = settings_.techniques.merging,
@@ -76,79 +76,82 @@ std::shared_ptr<const VcmPlans> VcmIntegrator::plans_for(const Pass& pass, std::
                                                          const ProgressFunction& progress,
                                                          uint32_t& made_up,
                                                          PassReport& report) const {
-  const auto first = plans(pass.samples_per_pixel, stop, report);
-  if (stop.stop_requested()) return first;
-  if (VcmLearning::learned_passes(*first, settings_) == 0) return first;
   const std::lock_guard lock(learning_mutex_);
+  if (fixed_) return fixed_;
   return isolated([&] {
-    const bool is_new = !learning_ || learning_->first() != first;
-    if (is_new) learning_ = std::make_unique<VcmLearning>(first, settings_);
-    if (is_new || learning_->seed() != pass.seed) learning_->begin(pass.seed);
-    const uint32_t learned = VcmLearning::learned_passes(*first, settings_);
-    const auto plans_of = [&](uint32_t index) {
-      return learning_->plans_of(VcmLearning::epoch_begin(index, learned), scene_, stop,
-                                 report.rays);
-    };
+    if (!lessons_ || lessons_->seed() != pass.seed ||
+        lessons_->first()->samples_per_pixel != pass.samples_per_pixel ||
+        !lessons_->knows_epoch(lessons_->epoch_begin(pass.index))) {
+      const auto first = plans(pass.samples_per_pixel, stop, report);
+      if (stop.stop_requested()) return first;
+      lessons_ = std::make_unique<VcmLessons>(scene_, first, settings_, pass.seed);
+    }
     // Passes that were not rendered here are made up for, as far as learning goes.
-    const uint32_t begin = VcmLearning::epoch_begin(pass.index, learned);
-    const uint32_t missing_count = begin - std::min(begin, learning_->passes());
+    const uint32_t begin = lessons_->epoch_begin(pass.index);
+    const uint32_t missing_count = begin - std::min(begin, lessons_->passes());
     for (made_up = 0; made_up < missing_count; ++made_up) {
       Pass missing = pass;
-      missing.index = learning_->passes();
-      learn_missing(plans_of(missing.index), missing, stop,
-                    part_of(progress, made_up, missing_count + 1), report);
-      if (stop.stop_requested()) return first;
+      missing.index = lessons_->passes();
+      learn_missing(lessons_->plans_of(lessons_->epoch_begin(missing.index), stop, report.rays),
+                    missing, stop, part_of(progress, made_up, missing_count + 1), report);
+      if (stop.stop_requested()) return lessons_->first();
     }
-    return plans_of(pass.index);
+    return lessons_->plans_of(begin, stop, report.rays);
   });
 }
 
 void VcmIntegrator::learn_missing(std::shared_ptr<const VcmPlans> plans, const Pass& missing,
                                   std::stop_token stop, const ProgressFunction& progress,
                                   PassReport& report) const {
-  if (!learning_->wants_next()) return learning_->learn({}, {});
+  if (!lessons_->wants(missing.index)) return lessons_->skip();
   SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
   State state(plans, weights_for(*plans, missing), missing);
   // Nobody sees its splats; what camera samples connect to is of use for these alone.
   PathWeights::Settings unseen = state.weights.settings();
   unseen.techniques.splats = false;
   unseen.techniques.connections =
-      unseen.techniques.connections &&
-      (VcmLearning::wants_samples(missing.index, *learning_->first(), settings_) ||
-       VcmLearning::tries_connections(missing.index, *learning_->first(), settings_));
+      unseen.techniques.connections && lessons_->wants_samples(missing.index);
   trace_light(state, missing, PathWeights(unseen), nowhere, stop, progress);
-  const VcmLearning::Samples samples = learning_samples(state, missing, stop);
+  learn(state, missing, stop);
   report.rays += state.report.rays;
   report.photons += state.report.photons;
-  if (!stop.stop_requested()) learning_->learn(state.light, samples);
 }
 
-VcmLearning::Samples VcmIntegrator::learning_samples(State& state, const Pass& pass,
-                                                     const std::stop_token& stop) const {
-  VcmLearning::Samples result;
-  if (VcmLearning::wants_samples(pass.index, *learning_->first(), settings_))
-    result.spread =
-        learning_->samples().take_samples(scene_, *this, state, pass, stop, state.report.rays);
-  if (VcmLearning::tries_connections(pass.index, *learning_->first(), settings_))
-    result.trial = learning_->connections().take_samples(
-        scene_.film().filter, settings_.components, pass,
-        [&](ConnectionLearning::Way way, const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
-          const Vec2f at = state.plans->pixels.seen().grid().window().in_crop(raster);
-          PixelPlan plan = state.plans->pixels.at(at, state.shrinkage);
-          plan.connected = way == ConnectionLearning::connected ? 1.0f : 0.0f;
-          trace_sample(state, at, plan, sampler, sink);
-        },
-        stop, state.report.rays);
-  return result;
+void VcmIntegrator::learn(State& state, const Pass& pass, const std::stop_token& stop) const {
+  const PlanWindow& window = state.plans->pixels.seen().grid().window();
+  const TakeSample sample = [&](const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
+    trace_sample(state, window.in_crop(raster), sampler, sink);
+  };
+  lessons_->learn({.pass = pass, .light = state.light, .sample = sample}, stop, state.report.rays);
 }
 
 void VcmIntegrator::learn_from(State& state, const Pass& pass, const std::stop_token& stop) const {
   const std::lock_guard lock(learning_mutex_);
+  // Passes out of order are traced anew where they are needed.
+  if (fixed_ || !lessons_ || !lessons_->expects(pass)) return;
   isolated([&] {
-    // Passes out of order are traced anew where they are needed.
-    if (!learning_->expects(pass)) return;
-    const VcmLearning::Samples samples = learning_samples(state, pass, stop);
-    if (!stop.stop_requested()) learning_->learn(state.light, samples);
+    if (lessons_->wants(pass.index))
+      learn(state, pass, stop);
+    else
+      lessons_->skip();
+  });
+}
+
+std::vector<uint8_t> VcmIntegrator::lessons() const {
+  const std::lock_guard lock(learning_mutex_);
+  if (!lessons_ || lessons_->end() == 0) return {};
+  ByteWriter writer;
+  lessons_->write(writer);
+  return writer.take();
+}
+
+void VcmIntegrator::go_on_with(const std::vector<uint8_t>& lessons, LessonUse use) {
+  ByteReader reader(lessons, "what was learned");
+  const std::lock_guard lock(learning_mutex_);
+  isolated([&] {
+    lessons_ = VcmLessons::read(reader, scene_, settings_, *plain_);
+    uint64_t rays = 0;
+    if (use == LessonUse::fixed) fixed_ = lessons_->fixed_plans({}, rays);
   });
 }
 
@@ -173,7 +176,7 @@ LightVertices VcmIntegrator::trace(const VcmPlans& plans, const PathWeights& wei
       {scene_, *plans.emission, weights, settings_.components, settings_.maximum_events,
        light_path_count(scene_.film(), pass.samples_per_pixel, plans.light_paths),
        float(pass.samples_per_pixel), plans.pixels, shrinkage,
-       VcmLearning::remembered_paths(pass.index, plans), plans.media.shrunk(shrinkage),
+       fixed_ ? 0 : GuideLesson::remembered_paths(pass.index, plans), plans.media.shrunk(shrinkage),
        plans.scattering.get(), plans.scattering != nullptr},
       pass, Stream::light_path, splats, stop, progress, report);
 }
@@ -204,8 +207,7 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
         "all techniques are switched off: only lights that the camera sees straight are there; "
         "switch on unidirectional, next_event, splats, connections or merging");
   trace_light(*state, pass, state->weights, splats, stop, part_of(progress, made_up, made_up + 1));
-  if (VcmLearning::learned_passes(*plans, settings_) > 0 && !stop.stop_requested())
-    learn_from(*state, pass, stop);
+  if (!stop.stop_requested()) learn_from(*state, pass, stop);
   return state;
 }
 
@@ -223,11 +225,11 @@ PixelSamples VcmIntegrator::pixel_samples(const PassState& state, const Pass& pa
 void VcmIntegrator::sample(const PassState& pass_state, const Vec2f& raster, Sampler& sampler,
                            SampleSink& sink) const {
   const auto& state = static_cast<const State&>(pass_state);
-  trace_sample(state, raster, state.plans->pixels.at(raster, state.shrinkage), sampler, sink);
+  trace_sample(state, raster, sampler, sink);
 }
 
-void VcmIntegrator::trace_sample(const State& state, const Vec2f& raster, const PixelPlan& plan,
-                                 Sampler& sampler, SampleSink& sink) const {
+void VcmIntegrator::trace_sample(const State& state, const Vec2f& raster, Sampler& sampler,
+                                 SampleSink& sink) const {
   const PathWeights::Settings& weights = state.weights.settings();
   trace_camera_path({.scene = scene_,
                      .emission = *state.plans->emission,
@@ -244,7 +246,7 @@ void VcmIntegrator::trace_sample(const State& state, const Vec2f& raster, const 
                      .connections = settings_.connections,
                      .scattering = state.plans->scattering.get(),
                      .visibility = settings_.visibility},
-                    plan, raster, sampler, sink);
+                    state.plans->pixels.at(raster, state.shrinkage), raster, sampler, sink);
 }
 
 }  // namespace kaustik

@@ -2,7 +2,7 @@
 #include <mutex>
 
 #include "kaustik/transport/integrator.h"
-#include "kaustik/vcm/lessons/learning.h"
+#include "kaustik/vcm/lessons/lessons.h"
 #include "kaustik/vcm/plan/plans.h"
 #include "kaustik/vcm/settings.h"
 
@@ -21,12 +21,13 @@ class VcmIntegrator final : public Integrator {
               SampleSink& sink) const override;
   PixelSamples pixel_samples(const PassState& state, const Pass& pass,
                              const Vec2i& pixel) const override;
+  std::vector<uint8_t> lessons() const override;
+  void go_on_with(const std::vector<uint8_t>& lessons, LessonUse use) override;
 
  private:
   struct State;
-  /// A camera sample of a pixel with that plan.
-  void trace_sample(const State& state, const Vec2f& raster, const PixelPlan& plan,
-                    Sampler& sampler, SampleSink& sink) const;
+  void trace_sample(const State& state, const Vec2f& raster, Sampler& sampler,
+                    SampleSink& sink) const;
   /// `made_up`: passes that had to be traced for it, in whose progress one more part is left.
   std::shared_ptr<const VcmPlans> plans_for(const Pass& pass, std::stop_token stop,
                                             const ProgressFunction& progress, uint32_t& made_up,
@@ -38,9 +39,9 @@ class VcmIntegrator final : public Integrator {
   void learn_missing(std::shared_ptr<const VcmPlans> plans, const Pass& missing,
                      std::stop_token stop, const ProgressFunction& progress,
                      PassReport& report) const;
-  /// What a pass has to teach beside its light paths.
-  VcmLearning::Samples learning_samples(State& state, const Pass& pass,
-                                        const std::stop_token& stop) const;
+  /// Of the next pass, whose light paths `state` has.
+  void learn(State& state, const Pass& pass, const std::stop_token& stop) const;
+  /// The same if that is the next pass.
   void learn_from(State& state, const Pass& pass, const std::stop_token& stop) const;
   LightVertices trace(const VcmPlans& plans, const PathWeights& weights, const Pass& pass,
                       SplatBuffer& splats, std::stop_token stop, const ProgressFunction& progress,
@@ -57,7 +58,8 @@ class VcmIntegrator final : public Integrator {
   mutable std::mutex plans_mutex_;
   mutable std::shared_ptr<const VcmPlans> plans_;
   mutable std::mutex learning_mutex_;
-  mutable std::unique_ptr<VcmLearning> learning_;
+  mutable std::unique_ptr<VcmLessons> lessons_;
+  std::shared_ptr<const VcmPlans> fixed_;  ///< of all passes; null: they change with the passes
 };
 
 }  // namespace kaustik

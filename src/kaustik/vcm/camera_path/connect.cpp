@@ -73,9 +73,7 @@ void connect_to(const ConnectibleVertex& to, const CameraPathInputs& in,
 void connect_to_light_paths(const CameraPathInputs& inputs, const CameraVertices& vertices,
                             CameraWalk& walk) {
   const std::vector<ConnectibleVertex>& all = inputs.light.connectible;
-  if (all.empty() || !(vertices.plan().connected > 0) ||
-      !any(vertices.here().lobes() & (Lobes::diffuse | Lobes::glossy)))
-    return;
+  if (all.empty() || !any(vertices.here().lobes() & (Lobes::diffuse | Lobes::glossy))) return;
   const auto count = uint32_t(inputs.connections);
   for (uint32_t i = 0; i < count; ++i) {
     // One number alone has too few bits for millions of vertices.

@@ -93,7 +93,6 @@ PathHalves CameraVertices::halves() const {
   result.camera = vertices_;
   result.first_merge_area = plan_.counted_area(in_.camera_samples);
   result.first_survival = plan_.counted_survival();
-  result.connected = plan_.connected;
   return result;
 }
 

@@ -41,13 +41,57 @@ void EmissionLearning::add(const LightPathStart& start, double use) {
   path.weight = use * use * density;
   path.plain = plain_.plain_pdf(start.light, origin, direction);
   if (!(path.weight > 0 && path.plain > 0) || !std::isfinite(path.weight)) return;
-  auto& map = maps_[size_t(start.light)];
-  const Scene& scene = plain_.scene();
-  const Light& light = *scene.lights()[size_t(start.light)];
-  if (!map)
-    map = std::make_shared<const GuideMap>(light, shape_of(scene, light), scene.tracer().bounds());
-  path.place = map->place_of(origin, direction);
+  path.place = map_of(start.light).place_of(origin, direction);
   paths_.push_back(path);
+}
+
+const GuideMap& EmissionLearning::map_of(int light) {
+  auto& map = maps_[size_t(light)];
+  const Scene& scene = plain_.scene();
+  const Light& of = *scene.lights()[size_t(light)];
+  if (!map)
+    map = std::make_shared<const GuideMap>(of, shape_of(scene, of), scene.tracer().bounds());
+  return *map;
+}
+
+namespace {
+
+struct StoredPath {
+  int32_t light = -1;
+  float u[2] = {0, 0};
+  float scale = 0, plain = 0;
+  float unused = 0;
+  double weight = 0;
+};
+
+}  // namespace
+
+void EmissionLearning::write(ByteWriter& writer) const {
+  std::vector<StoredPath> stored;
+  stored.reserve(paths_.size());
+  for (const Path& path : paths_)
+    stored.push_back({.light = path.light,
+                      .u = {path.place.u.x, path.place.u.y},
+                      .scale = path.place.scale,
+                      .plain = path.plain,
+                      .weight = path.weight});
+  writer.put_array(stored);
+}
+
+void EmissionLearning::read(ByteReader& reader) {
+  paths_.clear();
+  for (const StoredPath& stored : reader.get_array<StoredPath>()) {
+    if (stored.light < 0 || size_t(stored.light) >= maps_.size())
+      reader.damaged("a path in it begins at no light");
+    map_of(stored.light);
+    Path path;
+    path.light = stored.light;
+    path.place.u = {stored.u[0], stored.u[1]};
+    path.place.scale = stored.scale;
+    path.plain = stored.plain;
+    path.weight = stored.weight;
+    paths_.push_back(path);
+  }
 }
 
 /// By every `step`th path from `first` on.

@@ -23,6 +23,10 @@ class EmissionLearning {
   size_t size() const { return paths_.size(); }
   void clear() { paths_.clear(); }
 
+  /// The paths so far, and the same back. Reading throws as ByteReader does.
+  void write(ByteWriter& writer) const;
+  void read(ByteReader& reader);
+
   /// What the paths so far teach. Null where it does not pay: of two halves of the paths, each
   /// would be worth about as much with what the other has taught.
   std::shared_ptr<const LightPathEmission> learned() const;
@@ -39,6 +43,7 @@ class EmissionLearning {
     double weight = 0;  ///< f² q
   };
   struct OfLight;
+  const GuideMap& map_of(int light);
   LightPathEmission learn(size_t first, size_t step) const;
   double second_moment(const LightPathEmission& emission, size_t first, size_t step) const;
 

@@ -54,6 +54,8 @@ class GuidedLight final : public LightEmission {
     return place.scale > 0 ? place.scale * square_.pdf(place.u) : 0.0f;
   }
 
+  const GuideSquare& square() const { return square_; }
+
  private:
   std::shared_ptr<const GuideMap> map_;
   GuideSquare square_;

@@ -125,4 +125,23 @@ float GuideSquare::pdf(const Vec2f& u) const {
   return node->density;
 }
 
+void GuideSquare::write(ByteWriter& writer) const {
+  writer.put_array(nodes_);
+  writer.put(expected_sum_);
+}
+
+GuideSquare GuideSquare::read(ByteReader& reader) {
+  GuideSquare result;
+  result.nodes_ = reader.get_array<Node>();
+  result.expected_sum_ = reader.get<double>();
+  if (result.nodes_.empty()) reader.damaged("a guide in it is empty");
+  for (size_t i = 0; i < result.nodes_.size(); ++i) {
+    // Children come after their parent, so that every way down ends.
+    const uint64_t first = result.nodes_[i].children;
+    if (first != 0 && (first <= i || first + 4 > result.nodes_.size()))
+      reader.damaged("a guide in it is no tree");
+  }
+  return result;
+}
+
 }  // namespace kaustik

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "kaustik/base/bytes.h"
+
 #include "kaustik/base/vec.h"
 
 namespace kaustik {
@@ -26,9 +28,13 @@ class GuideSquare {
   float pdf(const Vec2f& u) const;
   /// The sum of weight / pdf that the learned density is expected to leave, (Σ √(weight × area))².
   double expected_sum() const { return expected_sum_; }
+  void write(ByteWriter& writer) const;
+  /// Throws as ByteReader does.
+  static GuideSquare read(ByteReader& reader);
   size_t leaves() const { return (3 * nodes_.size() + 1) / 4; }
 
  private:
+  GuideSquare() = default;
   struct Node {
     uint32_t children = 0;    ///< the first of four; 0: a leaf
     float left = 0;           ///< share of the two on the left …

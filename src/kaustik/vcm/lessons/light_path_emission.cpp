@@ -173,4 +173,38 @@ EmissionDensity LightPathEmission::density(int light, const SurfacePoint& origin
   return result;
 }
 
+void LightPathEmission::write(ByteWriter& writer) const {
+  writer.put(uint64_t(guides_.size()));
+  for (const Guide& guide : guides_) {
+    writer.put(guide.chance);
+    writer.put(guide.share);
+    writer.put(uint8_t(guide.rays ? 1 : 0));
+    if (guide.rays) guide.rays->square().write(writer);
+  }
+}
+
+LightPathEmission LightPathEmission::read(ByteReader& reader, const LightPathEmission& plain) {
+  const Scene& scene = plain.scene();
+  const auto count = reader.get<uint64_t>();
+  if (count == 0) return plain;
+  if (count != scene.lights().size()) reader.damaged("it is of another number of lights");
+  std::vector<Guide> guides(count);
+  for (size_t i = 0; i < count; ++i) {
+    guides[i].chance = reader.get<float>();
+    guides[i].share = reader.get<float>();
+    if (!(guides[i].chance >= 0 && guides[i].chance <= 1 && guides[i].share >= 0 &&
+          guides[i].share <= 1))
+      reader.damaged("a chance in it is none");
+    if (!reader.get_flag()) {
+      if (guides[i].share > 0) reader.damaged("a light in it has no guide");
+      continue;
+    }
+    const Light& light = *scene.lights()[i];
+    guides[i].rays = std::make_shared<const GuidedLight>(
+        std::make_shared<const GuideMap>(light, shape_of(scene, light), scene.tracer().bounds()),
+        GuideSquare::read(reader));
+  }
+  return {plain, guides};
+}
+
 }  // namespace kaustik

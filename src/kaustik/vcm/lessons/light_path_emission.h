@@ -45,6 +45,11 @@ class LightPathEmission {
   /// learn.
   LightPathEmission(const LightPathEmission& plain, std::vector<AimTarget> targets);
 
+  /// What was learned, for read().
+  void write(ByteWriter& writer) const;
+  /// `plain` with what write() wrote. Throws as ByteReader does.
+  static LightPathEmission read(ByteReader& reader, const LightPathEmission& plain);
+
   /// Three dimension pairs.
   LightPathStart sample(Sampler& sampler, const Wavelengths& wavelengths) const;
   /// Density with which sample() finds the ray: from `origin` on the light, or for infinite lights

@@ -150,36 +150,34 @@ double LightPathUse::use_of(const Arrival& arrival, const std::vector<double>& t
   return total > 0 ? std::min(double(arrival.light) / total, paths) : 0.0;
 }
 
-std::vector<double> LightPathUse::squared_uses(const LightVertices& light,
-                                               const std::vector<Arrival>& arrivals) const {
+std::vector<double> LightPathUse::squared_uses(const Seen& seen) const {
   const std::vector<double> total = totals(least_light);
   std::vector<double> squares;
-  for (const Arrival& arrival : arrivals) {
+  for (const Arrival& arrival : seen.arrivals) {
     if (squares.size() <= arrival.vertex) squares.resize(size_t(arrival.vertex) + 1);
-    squares[arrival.vertex] += sqr(use_of(arrival, total, double(light.remembered_paths)));
+    squares[arrival.vertex] += sqr(use_of(arrival, total, double(seen.paths)));
   }
   size_t end = squares.size();
-  for (size_t i = light.beginnings.size(); i-- > 0;) {
-    const size_t begin = light.beginnings[i].path;
+  for (size_t i = seen.beginnings.size(); i-- > 0;) {
+    const size_t begin = seen.beginnings[i].path;
     for (size_t v = end; v-- > begin + 1;) squares[v - 1] += squares[v];
     end = std::min(end, begin);
   }
   return squares;
 }
 
-LightPathUse::Noise LightPathUse::noise_of(const LightVertices& light,
-                                           const std::vector<Arrival>& arrivals) const {
+LightPathUse::Noise LightPathUse::noise_of(const Seen& seen) const {
   // Density of each vertex over what it were if nothing was guided.
-  std::vector<float> ratio(size_t(light.beginnings.back().path) + 1, 1.0f);
-  for (const LightScattering& event : light.scatterings) {
+  std::vector<float> ratio(size_t(seen.beginnings.back().path) + 1, 1.0f);
+  for (const LightScattering& event : seen.scatterings) {
     const size_t next = size_t(event.path) + event.at + 1;
     if (ratio.size() <= next) ratio.resize(next + 1, 1.0f);
     ratio[next] = event.pdf / event.pdf_unguided;
   }
   const std::vector<double> total = totals(1);
   Noise sum;
-  for (const Arrival& arrival : arrivals) {
-    const double square = sqr(use_of(arrival, total, double(light.remembered_paths)));
+  for (const Arrival& arrival : seen.arrivals) {
+    const double square = sqr(use_of(arrival, total, double(seen.paths)));
     sum.guided += square;
     double unguided = square;
     for (size_t v = arrival.path; v <= arrival.vertex && v < ratio.size(); ++v)
@@ -189,24 +187,33 @@ LightPathUse::Noise LightPathUse::noise_of(const LightVertices& light,
   return sum;
 }
 
-std::vector<double> LightPathUse::look_at(const LightVertices& light) {
-  paths_ += double(light.remembered_paths);
+LightPathUse::Seen LightPathUse::seen_in(const LightVertices& light) const {
+  Seen seen{.beginnings = light.beginnings,
+            .scatterings = light.scatterings,
+            .arrivals = {},
+            .paths = light.remembered_paths};
+  if (light.tree.empty()) seen.beginnings.clear();
+  if (!seen.beginnings.empty()) seen.arrivals = arrivals(light);
+  return seen;
+}
+
+std::vector<double> LightPathUse::look_at(const Seen& seen) {
+  paths_ += double(seen.paths);
   noise_ = {};
-  if (light.beginnings.empty() || light.tree.empty()) return {};
-  const std::vector<Arrival> all = arrivals(light);
-  for (const Arrival& arrival : all) arrived_[arrival.probe] += double(arrival.light);
-  noise_ = noise_of(light, all);
-  return squared_uses(light, all);
+  if (seen.beginnings.empty()) return {};
+  for (const Arrival& arrival : seen.arrivals) arrived_[arrival.probe] += double(arrival.light);
+  noise_ = noise_of(seen);
+  return squared_uses(seen);
 }
 
 void LightPathUse::learn_scattering(const LightVertices& light) {
-  learn_scattering(light, look_at(light));
+  const Seen seen = seen_in(light);
+  learn_scattering(seen, look_at(seen));
 }
 
-void LightPathUse::learn_scattering(const LightVertices& light,
-                                    const std::vector<double>& squares) {
+void LightPathUse::learn_scattering(const Seen& seen, const std::vector<double>& squares) {
   std::vector<std::pair<const LightScattering*, double>> events;
-  for (const LightScattering& event : light.scatterings)
+  for (const LightScattering& event : seen.scatterings)
     if (const size_t next = size_t(event.path) + event.at + 1;
         next < squares.size() && squares[next] > 0)
       events.emplace_back(&event, std::sqrt(squares[next]));
@@ -216,12 +223,28 @@ void LightPathUse::learn_scattering(const LightVertices& light,
     scattering_.add(*events[i].first, events[i].second, double(step));
 }
 
-void LightPathUse::learn(const LightVertices& light) {
-  const std::vector<double> squares = look_at(light);
-  for (const LightPathBeginning& beginning : light.beginnings)
+void LightPathUse::learn(const Seen& seen) {
+  const std::vector<double> squares = look_at(seen);
+  for (const LightPathBeginning& beginning : seen.beginnings)
     if (beginning.path < squares.size() && squares[beginning.path] > 0)
       emission_.add(beginning.start, std::sqrt(squares[beginning.path]));
-  learn_scattering(light, squares);
+  learn_scattering(seen, squares);
+}
+
+void LightPathUse::write(ByteWriter& writer) const {
+  writer.put_array(arrived_);
+  writer.put(paths_);
+  writer.put(noise_);
+  emission_.write(writer);
+  scattering_.write(writer);
+}
+
+void LightPathUse::read(ByteReader& reader) {
+  arrived_ = reader.get_array<double>(probes_.size());
+  paths_ = reader.get<double>();
+  noise_ = reader.get<Noise>();
+  emission_.read(reader);
+  scattering_.read(reader);
 }
 
 }  // namespace kaustik

@@ -21,10 +21,17 @@ class LightPathUse {
   /// Boxes that hold all probes, to search by.
   std::vector<AimTarget> targets() const;
 
-  /// Learns from the next pass: from its paths whose beginnings are remembered.
-  void learn(const LightVertices& light);
+  /// What a pass shows of use: of its paths whose beginnings are remembered.
+  struct Seen;
+  Seen seen_in(const LightVertices& light) const;
+  /// Learns from the next pass.
+  void learn(const Seen& seen);
+  void learn(const LightVertices& light) { learn(seen_in(light)); }
   /// The same, but for emission: of paths that are guided on trial.
   void learn_scattering(const LightVertices& light);
+  /// What was learned, and the same back. Reading throws as ByteReader does.
+  void write(ByteWriter& writer) const;
+  void read(ByteReader& reader);
   /// Forgets what paths that were not guided taught of emission: it holds for such alone.
   void forget_emission() { emission_.clear(); }
 
@@ -47,16 +54,15 @@ class LightPathUse {
     float light;            ///< that it would send to the camera, were its path the only one
   };
   std::vector<Arrival> arrivals(const LightVertices& light) const;
-  Noise noise_of(const LightVertices& light, const std::vector<Arrival>& arrivals) const;
+  Noise noise_of(const Seen& seen) const;
   /// Σ use² at and after each vertex, as squared_uses(); empty if there is nothing to learn.
-  std::vector<double> look_at(const LightVertices& light);
-  void learn_scattering(const LightVertices& light, const std::vector<double>& squares);
+  std::vector<double> look_at(const Seen& seen);
+  void learn_scattering(const Seen& seen, const std::vector<double>& squares);
   /// Of one of so many paths.
   static double use_of(const Arrival& arrival, const std::vector<double>& totals, double paths);
   /// Σ use² of what comes at and after each vertex of the paths that are remembered; none of use
   /// follows the last.
-  std::vector<double> squared_uses(const LightVertices& light,
-                                   const std::vector<Arrival>& arrivals) const;
+  std::vector<double> squared_uses(const Seen& seen) const;
   /// Of each probe: all the light that it sends to the camera, and `floor` times the mean.
   std::vector<double> totals(double floor) const;
 
@@ -69,6 +75,14 @@ class LightPathUse {
   EmissionLearning emission_;
   ScatterLearning scattering_;
   Noise noise_;
+};
+
+/// Of the paths of a pass that are remembered.
+struct LightPathUse::Seen {
+  std::vector<LightPathBeginning> beginnings;
+  std::vector<LightScattering> scatterings;
+  std::vector<Arrival> arrivals;
+  uint32_t paths = 0;  ///< LightVertices::remembered_paths
 };
 
 }  // namespace kaustik

@@ -168,7 +168,7 @@ SampleLearning::SampleLearning(const BlockGrid& grid, bool is_sparing)
 }
 
 std::vector<SampleLearning::Sums> SampleLearning::take_samples(
-    const Scene& scene, const Integrator& integrator, const PassState& state, const Pass& pass,
+    const PixelFilter& filter, ComponentSet wanted, const Pass& pass, const TakeSample& take,
     const std::stop_token& stop, uint64_t& rays) const {
   std::vector<Sums> result(sums_.size());
   const uint32_t pairs = pass.index < first_passes && !is_sparing_ ? first_pairs : later_pairs;
@@ -178,17 +178,13 @@ std::vector<SampleLearning::Sums> SampleLearning::take_samples(
     const Vec2i at = grid_.block(block);
     return (uint32_t(at.x + at.y) + pass.index / 2) % 2 == 1;
   };
-  const TakeSample take = [&](const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
-    integrator.sample(state, grid_.window().in_crop(raster), sampler, sink);
-  };
   const auto add_pair = [&](size_t block, uint32_t pair) {
     const Vec2i first = grid_.first_pixel(block);
     // Pixels of one block stratify one another over the passes.
     const uint32_t number = pairs_before(pass.index) + pair;
-    const TrainingPair found =
-        training_pair({grid_.window().size, first, Vec2i(grid_.block_size()), pass.seed,
-                       training_element + block},
-                      number, number, scene.film().filter, integrator.traits().components, take);
+    const TrainingPair found = training_pair({grid_.window().size, first, Vec2i(grid_.block_size()),
+                                              pass.seed, training_element + block},
+                                             number, number, filter, wanted, take);
     const uint64_t pair_rays = found.rays[0] + found.rays[1];
     result[block].add({1, found.variance, found.light, double(pair_rays) / 2});
     return pair_rays;

@@ -3,8 +3,9 @@
 #include <stop_token>
 #include <vector>
 
+#include "kaustik/base/bytes.h"
 #include "kaustik/transport/block_grid.h"
-#include "kaustik/transport/integrator.h"
+#include "kaustik/vcm/lessons/training_samples.h"
 
 namespace kaustik {
 
@@ -35,13 +36,16 @@ class SampleLearning {
   /// path tracer's.
   explicit SampleLearning(const BlockGrid& grid, bool is_sparing = false);
 
-  /// A few samples of `integrator` in every block, for the pass of that state alone: they are none
-  /// of the picture's. Counts their rays.
-  std::vector<Sums> take_samples(const Scene& scene, const Integrator& integrator,
-                                 const PassState& state, const Pass& pass,
-                                 const std::stop_token& stop, uint64_t& rays) const;
+  /// A few samples of `wanted` components in every block, for that pass alone: they are none of the
+  /// picture's. `take` takes them, at places of the grid's window. Counts their rays.
+  std::vector<Sums> take_samples(const PixelFilter& filter, ComponentSet wanted, const Pass& pass,
+                                 const TakeSample& take, const std::stop_token& stop,
+                                 uint64_t& rays) const;
   /// What they tell.
   void learn(const std::vector<Sums>& samples, uint32_t pass);
+  /// What was learned, and the same back. Reading throws as ByteReader does.
+  void write(ByteWriter& writer) const { writer.put_array(sums_); }
+  void read(ByteReader& reader) { sums_ = reader.get_array<BlockSums>(sums_.size()); }
 
   struct Counts {
     std::vector<uint32_t> of_block;  ///< per pixel; empty: all alike

@@ -296,4 +296,46 @@ std::shared_ptr<const ScatterGuide> ScatterLearning::learned() const {
   return std::make_shared<const ScatterGuide>(builder.take_parts());
 }
 
+namespace {
+
+struct StoredEvent {
+  float position[3], next[3], direction[3];
+  float unguided = 0;
+  double weight = 0;
+  int32_t side = 0, half = 0;
+};
+
+Vec3f vector_of(const float (&stored)[3]) { return {stored[0], stored[1], stored[2]}; }
+
+}  // namespace
+
+void ScatterLearning::write(ByteWriter& writer) const {
+  std::vector<StoredEvent> stored;
+  stored.reserve(events_.size());
+  for (const Event& event : events_)
+    stored.push_back({.position = {event.position.x, event.position.y, event.position.z},
+                      .next = {event.next.x, event.next.y, event.next.z},
+                      .direction = {event.direction.x, event.direction.y, event.direction.z},
+                      .unguided = event.unguided,
+                      .weight = event.weight,
+                      .side = event.side,
+                      .half = event.half});
+  writer.put_array(stored);
+}
+
+void ScatterLearning::read(ByteReader& reader) {
+  events_.clear();
+  for (const StoredEvent& stored : reader.get_array<StoredEvent>()) {
+    if (stored.side < 0 || stored.side >= ScatterGuide::side_count)
+      reader.damaged("a surface in it faces nowhere");
+    events_.push_back({.position = vector_of(stored.position),
+                       .next = vector_of(stored.next),
+                       .direction = vector_of(stored.direction),
+                       .unguided = stored.unguided,
+                       .weight = stored.weight,
+                       .side = stored.side,
+                       .half = stored.half});
+  }
+}
+
 }  // namespace kaustik

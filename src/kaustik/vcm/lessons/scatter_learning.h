@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include "kaustik/base/bytes.h"
 #include "kaustik/transport/scatter_guide.h"
 
 namespace kaustik {
@@ -32,6 +33,9 @@ class ScatterLearning {
   /// An event of which the rest was of use `use`, in any unit; it stands for `events` such.
   void add(const LightScattering& event, double use, double events);
   size_t size() const { return events_.size(); }
+  /// The events so far, and the same back. Reading throws as ByteReader does.
+  void write(ByteWriter& writer) const;
+  void read(ByteReader& reader);
 
   /// What the events so far teach; null: next to nothing.
   std::shared_ptr<const ScatterGuide> learned() const;

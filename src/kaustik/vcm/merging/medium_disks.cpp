@@ -31,4 +31,18 @@ float MediumDisks::merge_volume(const Vec3f& position, const Medium& medium) con
   return pi * sqr(radius(position, medium)) / (extinction * collision_chance);
 }
 
+void MediumDisks::write(ByteWriter& writer) const {
+  for (const float value : {per_distance_, given_, mean_free_paths_, mean_length_})
+    writer.put(value);
+}
+
+MediumDisks MediumDisks::read(ByteReader& reader, const Scene& scene) {
+  MediumDisks result;
+  result.camera_ = scene.camera().position();
+  for (float* value :
+       {&result.per_distance_, &result.given_, &result.mean_free_paths_, &result.mean_length_})
+    *value = reader.get<float>();
+  return result;
+}
+
 }  // namespace kaustik

@@ -1,4 +1,5 @@
 #pragma once
+#include "kaustik/base/bytes.h"
 #include "kaustik/scene/scene.h"
 
 namespace kaustik {
@@ -10,6 +11,10 @@ class MediumDisks {
   MediumDisks() = default;
   /// Radii of `widths` pixels, or of `given` > 0, m. `mean_length`: of segments in media, m.
   MediumDisks(const Scene& scene, float widths, float given, float mean_length);
+
+  /// All but the camera, and the same back; throws as ByteReader does.
+  void write(ByteWriter& writer) const;
+  static MediumDisks read(ByteReader& reader, const Scene& scene);
 
   /// These with `shrinkage` times the area.
   MediumDisks shrunk(float shrinkage) const;

@@ -91,4 +91,31 @@ void PixelPlans::fill_gaps() {
   for (size_t y = height - 1; y-- > 0;) copy_row(y, y + 1);
 }
 
+void PixelPlans::write(ByteWriter& writer) const {
+  writer.put_array(plans_);
+  writer.put(other_area_);
+  writer.put(uint8_t(spread_ ? 1 : 0));
+  if (!spread_) return;
+  writer.put(spread_->begin);
+  writer.put_array(spread_->counts);
+  writer.put_array(spread_->first_indices);
+  writer.put_array(spread_->next_indices);
+}
+
+PixelPlans PixelPlans::read(ByteReader& reader, std::shared_ptr<const SeenSurfaces> seen) {
+  PixelPlans result;
+  result.seen_ = std::move(seen);
+  const size_t blocks = result.seen_->grid().size();
+  result.plans_ = reader.get_array<PixelPlan>(blocks);
+  result.other_area_ = reader.get<float>();
+  if (!reader.get_flag()) return result;
+  SampleSpread spread;
+  spread.begin = reader.get<uint32_t>();
+  spread.counts = reader.get_array<uint32_t>(blocks);
+  spread.first_indices = reader.get_array<uint32_t>(blocks);
+  spread.next_indices = reader.get_array<uint32_t>(blocks);
+  result.spread_ = std::make_shared<const SampleSpread>(std::move(spread));
+  return result;
+}
+
 }  // namespace kaustik

@@ -4,6 +4,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "kaustik/base/bytes.h"
 #include "kaustik/photon/coverage/seen_surfaces.h"
 #include "kaustik/vcm/light_vertices.h"
 
@@ -19,7 +20,6 @@ struct PixelPlan {
   /// Mean square over variance of what a path that goes on finds: samples that hardly differ are
   /// worth more than their number (variance-aware weights, Grittmann et al. 2019).
   float evenness = 1;
-  float connected = 1;  ///< whether camera vertices are connected to those of light paths: 0 or 1
 
   // What weights go by (PathHalves):
   /// All samples of a pixel merge with the same light vertices, which count but once.
@@ -53,8 +53,13 @@ class PixelPlans {
   void find_edges(const Scene& scene, float widths, float given, uint64_t& rays,
                   const std::stop_token& stop = {});
 
+  /// All but what the picture shows, and the same back; throws as ByteReader does.
+  void write(ByteWriter& writer) const;
+  static PixelPlans read(ByteReader& reader, std::shared_ptr<const SeenSurfaces> seen);
+
   /// By a probe for each block of pixels.
   const SeenSurfaces& seen() const { return *seen_; }
+  const std::shared_ptr<const SeenSurfaces>& shared_seen() const { return seen_; }
   /// Those of the probes.
   const std::vector<PixelPlan>& plans() const { return plans_; }
   /// The same with other plans, one for each probe.

@@ -141,8 +141,6 @@ Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
   Efficiency result;
   if (chooses_survival)
     result = choose_survival(pilot->probes, pilot->costs, merge_scales(disks, shrinkage), disks);
-  if (!connects.empty())
-    for (size_t i = 0; i < disks.size(); ++i) disks[i].connected = connects[i] ? 1.0f : 0.0f;
   pixels = pixels.with(std::move(disks));
   return result;
 }
@@ -200,8 +198,6 @@ VcmPlans VcmPlanner::plan(uint32_t samples_per_pixel, const std::stop_token& sto
       medium_disks(scene_, settings_, light.vertices, of_pass, plans.pixels.seen().mean_distance());
   plans.pilot = std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass, stop));
   if (stop.stop_requested()) return plans;
-  if (settings_.chooses_connections)
-    plans.connects.assign(plans.pixels.seen().probes().size(), false);
   if (settings_.chooses_light_paths)
     choose_light_paths(plans);
   else
@@ -271,7 +267,7 @@ VcmPlanner::PilotLight VcmPlanner::trace_pilot(const Guides& guides, uint32_t ro
                                                VcmPlans& plans, const std::stop_token& stop) const {
   PathWeights::Settings pilot;
   pilot.techniques.merging = settings_.techniques.merging;
-  pilot.techniques.connections = settings_.techniques.connections || settings_.chooses_connections;
+  pilot.techniques.connections = settings_.techniques.connections;
   pilot.accepted_area = accepted_area(plans.pixels);
   const PathWeights weights(pilot);
   SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());

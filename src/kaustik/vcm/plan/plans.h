@@ -45,14 +45,11 @@ struct VcmPlans {
   std::shared_ptr<const LightPathUse> use;
 
   bool chooses_survival = true;  ///< else camera paths always go on
-  /// Of each probe's block, whether camera paths are connected to light paths where that is one of
-  /// the techniques; empty: all are.
-  std::vector<bool> connects;
 
   /// Guides the light paths of passes to come by what was learned.
   void guide_by(const LightPathUse& learned);
   /// Gives the probes these disks and, as the pilot tells if that is wanted, chances of going on,
-  /// for passes whose disks have `shrinkage` times the area; and connections.
+  /// for passes whose disks have `shrinkage` times the area.
   Efficiency settle(std::vector<PixelPlan> disks, float shrinkage);
   /// How merging in such disks differs from the pilot's, by probe.
   std::vector<MergeScale> merge_scales(const std::vector<PixelPlan>& disks, float shrinkage) const;
