@@ -213,10 +213,12 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
 
 PixelSamples VcmIntegrator::pixel_samples(const PassState& state, const Pass& pass,
                                           const Vec2i& pixel) const {
-  const PixelPlans& pixels = static_cast<const State&>(state).plans->pixels;
-  const SampleSpread* spread = pixels.spread().get();
-  if (!spread) return Integrator::pixel_samples(state, pass, pixel);
-  const size_t block = pixels.seen().grid().index_at(Vec2f(float(pixel.x), float(pixel.y)));
+  const VcmPlans& plans = *static_cast<const State&>(state).plans;
+  const SampleSpread* spread = plans.pixels.spread().get();
+  // Fixed plans may be of passes with another number of samples.
+  if (!spread || plans.samples_per_pixel != pass.samples_per_pixel)
+    return Integrator::pixel_samples(state, pass, pixel);
+  const size_t block = plans.pixels.seen().grid().index_at(Vec2f(float(pixel.x), float(pixel.y)));
   const uint32_t count = spread->counts[block];
   const uint32_t rounds = (pass.index - spread->begin) / replicate_count;
   return {spread->first_indices[block] + rounds * count, count};

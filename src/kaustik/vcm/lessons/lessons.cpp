@@ -78,19 +78,27 @@ void VcmLessons::learn(const TaughtPass& taught, const std::stop_token& stop, ui
   ++passes_;
 }
 
+std::shared_ptr<VcmPlans> VcmLessons::made_plans(uint32_t epoch, const std::stop_token& stop,
+                                                 uint64_t& rays) {
+  auto plans = std::make_shared<VcmPlans>(*epochs_.rbegin()->second);
+  for (const auto& lesson : lessons_) lesson->apply(*plans, epoch, stop, rays);
+  return plans;
+}
+
 std::shared_ptr<const VcmPlans> VcmLessons::plans_of(uint32_t epoch, const std::stop_token& stop,
                                                      uint64_t& rays) {
   const auto found = epochs_.find(epoch);
   if (found != epochs_.end()) return found->second;
-  auto plans = std::make_shared<VcmPlans>(*epochs_.rbegin()->second);
-  for (const auto& lesson : lessons_) lesson->apply(*plans, epoch, stop, rays);
+  auto plans = made_plans(epoch, stop, rays);
   if (stop.stop_requested()) return first_;
   return epochs_[epoch] = std::move(plans);
 }
 
 std::shared_ptr<const VcmPlans> VcmLessons::fixed_plans(const std::stop_token& stop,
                                                         uint64_t& rays) {
-  auto plans = std::make_shared<VcmPlans>(*plans_of(passes_, stop, rays));
+  const auto found = epochs_.find(passes_);
+  auto plans = found != epochs_.end() ? std::make_shared<VcmPlans>(*found->second)
+                                      : made_plans(passes_, stop, rays);
   if (stop.stop_requested()) return first_;
   // Passes begin with the radii that the last one would have had.
   std::vector<PixelPlan> disks = plans->pixels.plans();
@@ -99,7 +107,8 @@ std::shared_ptr<const VcmPlans> VcmLessons::fixed_plans(const std::stop_token& s
     plans->settle(std::move(disks), 1);
   }
   if (const auto& spread = plans->pixels.spread()) {
-    SampleSpread from_begin{.begin = 0, .counts = spread->counts};
+    SampleSpread from_begin;
+    from_begin.counts = spread->counts;
     from_begin.first_indices.assign(spread->counts.size(), 0);
     from_begin.next_indices = spread->counts;
     plans->pixels.set_spread(std::make_shared<const SampleSpread>(std::move(from_begin)));

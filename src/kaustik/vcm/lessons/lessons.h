@@ -51,6 +51,7 @@ class VcmLessons {
 
  private:
   std::vector<const Lesson*> wanted(uint32_t pass) const;
+  std::shared_ptr<VcmPlans> made_plans(uint32_t epoch, const std::stop_token& stop, uint64_t& rays);
 
   const Scene& scene_;
   std::shared_ptr<const VcmPlans> first_;

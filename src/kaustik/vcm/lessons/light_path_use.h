@@ -21,8 +21,19 @@ class LightPathUse {
   /// Boxes that hold all probes, to search by.
   std::vector<AimTarget> targets() const;
 
+  /// A vertex near a probe.
+  struct Arrival {
+    uint32_t probe;
+    uint32_t path, vertex;  ///< its path's first vertex and itself, among those of the pass
+    float light;            ///< that it would send to the camera, were its path the only one
+  };
   /// What a pass shows of use: of its paths whose beginnings are remembered.
-  struct Seen;
+  struct Seen {
+    std::vector<LightPathBeginning> beginnings;
+    std::vector<LightScattering> scatterings;
+    std::vector<Arrival> arrivals;
+    uint32_t paths = 0;  ///< LightVertices::remembered_paths
+  };
   Seen seen_in(const LightVertices& light) const;
   /// Learns from the next pass.
   void learn(const Seen& seen);
@@ -47,12 +58,6 @@ class LightPathUse {
   const ScatterLearning& scattering() const { return scattering_; }
 
  private:
-  /// A vertex near a probe.
-  struct Arrival {
-    uint32_t probe;
-    uint32_t path, vertex;  ///< its path's first vertex and itself, among those of the pass
-    float light;            ///< that it would send to the camera, were its path the only one
-  };
   std::vector<Arrival> arrivals(const LightVertices& light) const;
   Noise noise_of(const Seen& seen) const;
   /// Σ use² at and after each vertex, as squared_uses(); empty if there is nothing to learn.
@@ -75,14 +80,6 @@ class LightPathUse {
   EmissionLearning emission_;
   ScatterLearning scattering_;
   Noise noise_;
-};
-
-/// Of the paths of a pass that are remembered.
-struct LightPathUse::Seen {
-  std::vector<LightPathBeginning> beginnings;
-  std::vector<LightScattering> scatterings;
-  std::vector<Arrival> arrivals;
-  uint32_t paths = 0;  ///< LightVertices::remembered_paths
 };
 
 }  // namespace kaustik

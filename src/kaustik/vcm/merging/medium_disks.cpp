@@ -38,7 +38,7 @@ void MediumDisks::write(ByteWriter& writer) const {
 
 MediumDisks MediumDisks::read(ByteReader& reader, const Scene& scene) {
   MediumDisks result;
-  result.camera_ = scene.camera().position();
+  result.camera_ = scene.camera().traits().position;
   for (float* value :
        {&result.per_distance_, &result.given_, &result.mean_free_paths_, &result.mean_length_})
     *value = reader.get<float>();
