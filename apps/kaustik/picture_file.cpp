@@ -28,6 +28,10 @@ void check_picture_writable(const std::string& file) {
   check_no_terminal();
 }
 
+bool picture_holds_layers(const std::string& file) {
+  return holds_layers(is_standard_stream(file) ? stream_name(file, "exr") : file);
+}
+
 void check_shown_picture_writable(const std::string& file) {
   if (!is_standard_stream(file)) return check_shown_writable(file);
   check_shown_extension(stream_name(file, "png"));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "console.h"
@@ -15,6 +16,11 @@ void check_outputs(const OutputPlan& outputs, FileRoles& roles) {
     roles.writes(file);
   }
   make_tone_operator(outputs.tone, outputs.tone_settings);
+}
+
+bool needs_layers(const OutputPlan& outputs) {
+  return outputs.denoise ||
+         std::any_of(outputs.files.begin(), outputs.files.end(), picture_holds_layers);
 }
 
 void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,

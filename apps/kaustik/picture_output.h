@@ -16,6 +16,10 @@ struct OutputOptions {
 /// made; throws Error.
 void check_outputs(const OutputPlan& outputs, FileRoles& roles);
 
+/// Whether any of the pictures shows more than the light itself: layers, or light that is smoothed
+/// by what layers know.
+bool needs_layers(const OutputPlan& outputs);
+
 /// Writes the film's picture, or what `picture` makes of it, to all the files of the record's plan,
 /// with what is known of it as metadata; those that cannot be made or written go to `failures`.
 void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,

@@ -74,6 +74,8 @@ void render(RenderOptions options) {
   settings.samples_per_pixel = options.spp;
   if (options.time) settings.seconds = parse_duration(*options.time, "--time");
   if (options.error) settings.error = parse_error_bound(*options.error);
+  // Who goes on from a checkpoint may ask for other pictures.
+  settings.layers = options.checkpoint.has_value() || needs_layers(options.outputs);
   job.checkpoint = options.checkpoint.value_or("");
   job.every_s = parse_duration(options.every, "--every");
   job.build = options.build;

@@ -14,6 +14,7 @@
 #include "kaustik/render/packed_sums.h"
 #include "kaustik/render/session.h"
 #include "tests/support/measure.h"
+#include "tests/support/pass_of.h"
 #include "tests/support/scene_text.h"
 #include "tests/support/temporary_folder.h"
 
@@ -99,7 +100,7 @@ Film little_film(PassRange passes = {3, 4}) {
       pixels[i].radiance[i] = {float(i) + 0.1f, 3e-7f, 4e9f, 0};
       pixels[i].first_hit.normal = {-0.5f, 0.25f, -1e-12f};
     }
-    film.add_pass(pixels, pass, 2);
+    film.add_pass(pass_of(pixels, settings.size), pass, 2);
   }
   return film;
 }

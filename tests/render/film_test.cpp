@@ -9,6 +9,7 @@
 #include "kaustik/base/statistics.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/render/film_errors.h"
+#include "tests/support/pass_of.h"
 
 namespace kaustik {
 namespace {
@@ -19,6 +20,10 @@ FilmSettings film_settings(int w = width, int h = height) {
   FilmSettings settings;
   settings.size = settings.crop_size = {w, h};
   return settings;
+}
+
+PassTiles tiled(const std::vector<PassPixel>& pixels, const Film& film) {
+  return test::pass_of(pixels, {film.width(), film.height()});
 }
 
 /// Made-up passes with values over many orders of magnitude, some negative.
@@ -39,7 +44,7 @@ std::vector<std::vector<PassPixel>> made_up_passes(size_t count) {
 
 Film filmed(const std::vector<std::vector<PassPixel>>& passes, const std::vector<uint32_t>& order) {
   Film film(film_settings(), {ComponentSet::all()});
-  for (const uint32_t pass : order) film.add_pass(passes[pass], pass);
+  for (const uint32_t pass : order) film.add_pass(tiled(passes[pass], film), pass);
   return film;
 }
 
@@ -85,15 +90,15 @@ TEST(Film, NoiseOfBothKindsOfLightOverTheSamples) {
     return std::vector<PassPixel>(width * height, pixel);
   };
   Film film(film_settings(), {ComponentSet::all()});
-  film.add_pass(pass_of(2, (1 + 9) / 2.0f, 2, (4 + 4) / 2.0f), 0, 2);
-  film.add_pass(pass_of(4, (25 + 9) / 2.0f, 0, 0), 1, 2);
+  film.add_pass(tiled(pass_of(2, (1 + 9) / 2.0f, 2, (4 + 4) / 2.0f), film), 0, 2);
+  film.add_pass(tiled(pass_of(4, (25 + 9) / 2.0f, 0, 0), film), 1, 2);
   const Image image = film.image();
   // Means 3 and 1, sums of squared deviations 8 and 4, over n (n − 1) = 12.
   EXPECT_NEAR(value_at(image, 1, 1, "noise.scattered"), std::sqrt(8.0 / 12), 1e-5);
   EXPECT_NEAR(value_at(image, 1, 1, "noise.mirrored"), std::sqrt(4.0 / 12), 1e-5);
   // One sample tells nothing of its noise.
   Film single(film_settings(), {ComponentSet::all()});
-  single.add_pass(pass_of(2, 4, 2, 4), 0, 1);
+  single.add_pass(tiled(pass_of(2, 4, 2, 4), single), 0, 1);
   EXPECT_LT(single.image().find_channel("noise.scattered"), 0);
 }
 
@@ -109,7 +114,8 @@ TEST(Film, NoiseOfUnevenPasses) {
   };
   Film film(film_settings(), {ComponentSet::all()});
   uint32_t pass = 0;
-  for (const uint32_t samples : {40u, 40u, 160u, 160u}) film.add_pass(pass_of(samples), pass++, 40);
+  for (const uint32_t samples : {40u, 40u, 160u, 160u})
+    film.add_pass(tiled(pass_of(samples), film), pass++, 40);
   const double variance = (2.0 / 40 + 2.0 / 160) / 16;
   // Up to what the mean takes off the variance of so many samples.
   EXPECT_NEAR(value_at(film.image(), 1, 1, "noise.scattered"), std::sqrt(variance),
@@ -195,11 +201,11 @@ std::vector<PassPixel> grey_pass(float value, size_t count = width * height) {
 TEST(Film, MeanErrorComesFromTheReplicates) {
   Film film(film_settings(), {ComponentSet::all()});
   EXPECT_TRUE(std::isinf(film.mean_error()));
-  film.add_pass(grey_pass(1), 0);
+  film.add_pass(tiled(grey_pass(1), film), 0);
   EXPECT_TRUE(std::isinf(film.mean_error()));
-  film.add_pass(grey_pass(3), replicate_count);  // the same replicate again
+  film.add_pass(tiled(grey_pass(3), film), replicate_count);  // the same replicate again
   EXPECT_TRUE(std::isinf(film.mean_error()));
-  film.add_pass(grey_pass(4), 1);
+  film.add_pass(tiled(grey_pass(4), film), 1);
   RunningStatistics means;
   means.add(2);
   means.add(4);
@@ -211,9 +217,9 @@ TEST(Film, MeanErrorComesFromTheReplicates) {
 
 TEST(Film, ErrorOfThePictureIsRelative) {
   Film film(film_settings(), {ComponentSet::all()});
-  film.add_pass(grey_pass(1), 0);
+  film.add_pass(tiled(grey_pass(1), film), 0);
   EXPECT_TRUE(std::isinf(film.picture_error()));
-  film.add_pass(grey_pass(3), 1);
+  film.add_pass(tiled(grey_pass(3), film), 1);
   // Mean 2, standard error of the mean 1.
   EXPECT_NEAR(film.picture_error(), 1 / (2 + 0.01 * 2), 1e-6);
 }
@@ -223,7 +229,7 @@ TEST(Film, ErrorsComeFromTheReplicates) {
   Film film(film_settings(), {ComponentSet::all()});
   const float values[] = {1, 2, 4, 3, 9};
   const uint32_t passes[] = {0, 1, replicate_count, replicate_count + 1, 2};
-  for (int i = 0; i < 5; ++i) film.add_pass(grey_pass(values[i]), passes[i]);
+  for (int i = 0; i < 5; ++i) film.add_pass(tiled(grey_pass(values[i]), film), passes[i]);
   // Sums 5, 5 and 9 over 2, 2 and 1 passes; the mean is 19/5.
   const double mean = 19 / 5.0;
   const double squares = 2 * std::pow(5 - 2 * mean, 2) + std::pow(9 - mean, 2),
@@ -238,7 +244,7 @@ TEST(Film, ErrorsComeFromTheReplicates) {
 
 TEST(Film, BlackPicturesHaveNoError) {
   Film film(film_settings(), {ComponentSet::all()});
-  for (uint32_t pass = 0; pass < 2; ++pass) film.add_pass(grey_pass(0), pass);
+  for (uint32_t pass = 0; pass < 2; ++pass) film.add_pass(tiled(grey_pass(0), film), pass);
   EXPECT_EQ(film.picture_error(), 0);
 }
 
@@ -247,7 +253,7 @@ TEST(Film, BiasIsPartOfTheError) {
   for (uint32_t pass = 0; pass < 2; ++pass) {
     std::vector<PassPixel> pixels = grey_pass(2);
     for (PassPixel& pixel : pixels) pixel.bias = {0.3f, -0.4f, pass == 0 ? 1.2f : -1.2f, 0};
-    film.add_pass(pixels, pass);
+    film.add_pass(tiled(pixels, film), pass);
   }
   const Image image = film.image();
   EXPECT_FLOAT_EQ(value_at(image, 1, 2, "bias.G"), -0.4f);
@@ -269,7 +275,7 @@ TEST(Film, ContradictoryBiasDoesNotHideNoise) {
     for (uint32_t pass = 0; pass < 16; ++pass) {
       std::vector<PassPixel> pixels = grey_pass(1 + 0.1f * float(pass % 5));
       for (PassPixel& pixel : pixels) pixel.bias = Spectrum(pass % 2 == 0 ? 3.0f : -3.0f);
-      film.add_pass(pixels, pass);
+      film.add_pass(tiled(pixels, film), pass);
     }
     return film.picture_error();
   };
@@ -283,7 +289,7 @@ TEST(Film, BiasOfOppositeSignsDoesNotCancel) {
   for (uint32_t pass = 0; pass < 3; ++pass) {
     std::vector<PassPixel> pixels = grey_pass(2, 40);
     for (size_t i = 0; i < pixels.size(); ++i) pixels[i].bias = Spectrum(i % 8 < 4 ? 0.5f : -0.5f);
-    film.add_pass(pixels, pass);
+    film.add_pass(tiled(pixels, film), pass);
     // One pass tells nothing of its noise.
     EXPECT_NEAR(value_at(film.image(), 4, 2, "error.R"), pass == 0 ? 0 : 0.5, 1e-6);
   }
@@ -298,7 +304,7 @@ TEST(Film, BiasOfALineIsNotThinnedOut) {
   for (uint32_t pass = 0; pass < 4; ++pass) {
     std::vector<PassPixel> pixels = grey_pass(2, 81);
     for (size_t y = 0; y < 9; ++y) pixels[9 * y + 4].bias = Spectrum(0.5f);
-    film.add_pass(pixels, pass);
+    film.add_pass(tiled(pixels, film), pass);
   }
   const Image image = film.image();
   EXPECT_NEAR(value_at(image, 4, 4, "error.R"), 0.5, 1e-6);
@@ -317,7 +323,7 @@ TEST(Film, NoiseOfTheBiasIsNoBias) {
   for (uint32_t pass = 0; pass < 16; ++pass) {
     std::vector<PassPixel> pixels = grey_pass(2, size_t{side} * side);
     for (PassPixel& pixel : pixels) pixel.bias = Spectrum(noise(random));
-    film.add_pass(pixels, pass);
+    film.add_pass(tiled(pixels, film), pass);
   }
   // Its mean has a standard error of 0.1, a twentieth of the light.
   EXPECT_LT(film.picture_error(), 0.01);
@@ -327,6 +333,31 @@ TEST(Film, NoiseOfTheBiasIsNoBias) {
     for (int x = 0; x < side; ++x)
       mean_square += std::pow(double(value_at(image, x, y, "error.R")), 2) / (side * side);
   EXPECT_LT(std::sqrt(mean_square), 0.05);
+}
+
+/// Without layers the picture and what is told of its error keep their bits.
+TEST(Film, PicturesWithoutLayers) {
+  const auto passes = made_up_passes(20);
+  FilmLayers layers{ComponentSet::all()};
+  layers.in_images = false;
+  Film film(film_settings(), layers), first(film_settings(), layers), rest(film_settings(), layers);
+  for (uint32_t pass = 0; pass < 20; ++pass) {
+    film.add_pass(tiled(passes[pass], film), pass);
+    (pass < 5 ? first : rest).add_pass(tiled(passes[pass], film), pass);
+  }
+  rest.add(first);
+  const Film whole = filmed(passes, counting(20));
+  EXPECT_FALSE(film.is_like(whole));
+  const Image expected = whole.image();
+  for (const Film* each : {&film, &rest}) {
+    const Image image = each->image();
+    EXPECT_EQ(image.channel_names(), (std::vector<std::string>{"R", "G", "B"}));
+    for (int c = 0; c < image.channel_count(); ++c)
+      for (size_t i = 0; i < image.pixel_count(); ++i)
+        ASSERT_EQ(image.channel(c)[i], expected.channel(c)[i]);
+    EXPECT_EQ(each->mean_error(), whole.mean_error());
+    EXPECT_EQ(each->picture_error(), whole.picture_error());
+  }
 }
 
 TEST(Film, PicturesTooLargeAreRefusedWithTheirPlace) {

@@ -159,5 +159,82 @@ TEST(SplatBuffer, OrderAndThreadsMakeNoDifference) {
   expect_same_bits(forward, parallel);
 }
 
+/// Numbers of all sizes and both signs, as the film's are.
+std::vector<double> numbers(size_t count) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> exponent(-20, 19), uniform(-1, 1);
+  std::vector<double> values(count);
+  for (double& value : values)
+    value = std::copysign(std::pow(10.0, exponent(generator)), uniform(generator));
+  return values;
+}
+
+TEST(SplatSums, AreThoseOfFixed) {
+  SplatSums sums;
+  Fixed sum = 0;
+  for (const double value : numbers(10000)) {
+    sums.add(7, fixed_from(value));
+    sum += fixed_from(value);
+  }
+  EXPECT_TRUE(sums.load(7) == sum);
+  EXPECT_TRUE(sums.load(6) == 0 && sums.load(8) == 0);
+}
+
+TEST(SplatSums, CarryAndBorrow) {
+  SplatSums sums;
+  const auto add = [&](double value) {
+    sums.add(0, fixed_from(value));
+    return double_from(sums.load(0));
+  };
+  EXPECT_EQ(add(0.75), 0.75);
+  EXPECT_EQ(add(0.75), 1.5);
+  const size_t small = sums.bytes();
+  EXPECT_EQ(add(4294967294), 4294967295.5);
+  EXPECT_EQ(sums.bytes(), small);
+  EXPECT_EQ(add(0.5), 4294967296.0);
+  EXPECT_EQ(sums.bytes(), small + sizeof(uint32_t) * SplatSums::count);
+  EXPECT_EQ(add(-4294967296.25), -0.25);
+  EXPECT_EQ(add(0.25), 0);
+  EXPECT_EQ(add(1e18), 1e18);
+  EXPECT_EQ(add(-3e18), -2e18);
+}
+
+TEST(SplatSums, ThreadsMakeNoDifference) {
+  const std::vector<double> values = numbers(20000);
+  Fixed sum = 0;
+  for (const double value : values) sum += fixed_from(value);
+  for (int round = 0; round < 5; ++round) {
+    SplatSums sums;
+    {
+      std::vector<std::jthread> threads;
+      for (size_t t = 0; t < 4; ++t)
+        threads.emplace_back([&, t] {
+          for (size_t i = t; i < values.size(); i += 4) sums.add(1, fixed_from(values[i]));
+        });
+    }
+    EXPECT_TRUE(sums.load(1) == sum);
+  }
+}
+
+TEST(SplatBuffer, TakesMemoryWhereSomethingHasCome) {
+  FilmSettings film = film_with(PixelFilter::Kind::box, 0.5f);
+  film.size = film.crop_size = {100, 40};
+  SplatBuffer buffer(film, ComponentSet::all());
+  const size_t empty = buffer.bytes();
+  EXPECT_LT(empty, 1500u);
+  buffer.add({90.5f, 20.5f}, Component::caustic, Spectrum(1, 2, 3, 0), {});
+  EXPECT_EQ(buffer.bytes(), empty + sizeof(SplatSums));
+  buffer.add({85.5f, 17.5f}, Component::caustic, Spectrum(1, 2, 3, 0), {});
+  EXPECT_EQ(buffer.bytes(), empty + sizeof(SplatSums));
+  buffer.add({90.5f, 20.5f}, Component::direct, Spectrum(1, 2, 3, 0), {});
+  buffer.add({0.5f, 0.5f}, Component::direct, Spectrum(4, 5, 6, 0), {});
+  EXPECT_EQ(buffer.bytes(), empty + 3 * sizeof(SplatSums));
+  const PictureTiles tiles({100, 40});
+  buffer.clear(tiles.tile_at(90, 20));
+  EXPECT_EQ(buffer.bytes(), empty + sizeof(SplatSums));
+  EXPECT_TRUE(buffer.value(90, 20, Component::caustic).is_zero());
+  EXPECT_EQ(buffer.value(0, 0, Component::direct), Spectrum(4, 5, 6, 0));
+}
+
 }  // namespace
 }  // namespace kaustik

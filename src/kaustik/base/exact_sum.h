@@ -1,5 +1,4 @@
 #pragma once
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 
@@ -29,38 +28,16 @@ inline double double_from(Fixed value) {
   return double(int64_t(value >> 64)) + double(uint64_t(value)) * 0x1p-64;
 }
 
+/// The largest sum; the least is its opposite.
+inline constexpr Fixed fixed_limit = Fixed(int64_t(fixed_maximum)) << 64;
+
 /// Adds to a sum, which stays at the end of its range rather than leaving it: as long as all that
-/// is added has one sign, the order still makes no difference there.
+/// is added has one sign, the order makes no difference there either.
 inline void add_to(Fixed& sum, Fixed value) {
   if (__builtin_add_overflow(sum, value, &sum))
-    sum = value < 0 ? -fixed_from(fixed_maximum) : fixed_from(fixed_maximum);
+    sum = value < 0 ? -fixed_limit : fixed_limit;
+  else if (sum > fixed_limit || sum < -fixed_limit)
+    sum = sum < 0 ? -fixed_limit : fixed_limit;
 }
-
-/// A Fixed that many threads add to. The two halves are added apart with a carry: the total is
-/// exact once all additions have been made.
-class AtomicFixed {
- public:
-  void add(Fixed value) {
-    const auto low = uint64_t(value);
-    auto high = uint64_t(value >> 64);
-    if (low != 0) {
-      const uint64_t before = low_.fetch_add(low, std::memory_order_relaxed);
-      if (before + low < before) ++high;
-    }
-    if (high != 0) high_.fetch_add(high, std::memory_order_relaxed);
-  }
-  /// Only when no one adds.
-  Fixed load() const {
-    return Fixed(UnsignedFixed(high_.load(std::memory_order_relaxed)) << 64 |
-                 low_.load(std::memory_order_relaxed));
-  }
-  void clear() {
-    low_.store(0, std::memory_order_relaxed);
-    high_.store(0, std::memory_order_relaxed);
-  }
-
- private:
-  std::atomic<uint64_t> low_{0}, high_{0};
-};
 
 }  // namespace kaustik

@@ -202,6 +202,8 @@ void write_shown_image(const Image& shown, const std::string& path, int jpeg_qua
   write_file_atomically(path, encode_shown_image(shown, path, jpeg_quality));
 }
 
+bool holds_layers(const std::string& path) { return extension_of(path) == ".exr"; }
+
 void check_extension(const std::string& path) { writer_for(path, false); }
 
 void check_shown_extension(const std::string& path) { writer_for(path, true); }

@@ -62,6 +62,9 @@ std::vector<uint8_t> encode_image(const Image& image, const std::string& path,
 std::vector<uint8_t> encode_shown_image(const Image& shown, const std::string& path,
                                         int jpeg_quality = 95);
 
+/// Whether images of such a name have all channels, not the picture's alone: .exr.
+bool holds_layers(const std::string& path);
+
 /// Throws Error(input) if write_image() could not write here: unknown extension, folder missing or
 /// not writable, path is a folder. To be called before a long render.
 void check_writable(const std::string& path);

@@ -1,199 +1,208 @@
 #include "kaustik/render/film.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cassert>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/render/film_errors.h"
+#include "kaustik/render/film_memory.h"
 
 namespace kaustik {
 namespace {
 
+/// Of the means over the picture, which are added up in this order since there are films.
 constexpr size_t pixels_per_block = 4096;
+/// That one thread packs, one after the other, with the same buffers.
+constexpr size_t tiles_per_block = 32;
 
-Vec3f rgb_of(const Spectrum& radiance) { return {radiance[0], radiance[1], radiance[2]}; }
+constexpr size_t tile_pixels = PictureTiles::pixels;
 
 }  // namespace
 
-std::array<float, noise_kinds> by_noise_kind(
-    const std::array<Spectrum, component_count>& radiance) {
-  const auto part = [&](Component c) { return radiance[size_t(c)]; };
-  return {photopic(rgb_of(part(Component::direct) + part(Component::caustic) +
-                          part(Component::indirect))),
-          photopic(rgb_of(part(Component::specular)))};
-}
-
-void Film::check_size(const FilmSettings& settings, size_t numbers_per_pixel) {
-  // The sums, the pass and the image that is written.
-  const auto bytes_per_pixel =
-      int64_t(sizeof(Fixed) * numbers_per_pixel + sizeof(PassPixel) +
-              sizeof(float) * (3 * (component_count + 3) + first_hit_lanes_ + noise_kinds));
-  const Vec2i size = settings.crop_size;
-  try {
-    check_image_size(size.x, size.y, bytes_per_pixel / int64_t(sizeof(float)));
-  } catch (const Error&) {
-    throw Error(
-        ErrorKind::input,
-        fmt::format("a picture of {} × {} pixels is too large here: it needs {:.1f} GB", size.x,
-                    size.y, double(size.x) * double(size.y) * double(bytes_per_pixel) / 1e9),
-        "choose a smaller width and height, or render it in parts by the film's crop window: "
-        "kaustik stitch",
-        settings.place);
+FilmNumbers::FilmNumbers(const FilmLayers& layers) {
+  const auto next = [this](size_t numbers) {
+    count += numbers;
+    return count - numbers;
+  };
+  radiance = next(layers.in_images ? component_count * lanes : lanes);
+  if (layers.in_images) {
+    squares = next(lanes);
+    first_hit = next(first_hit_lanes);
+    sample_squares = next(noise_kinds);
+    inverse_samples = next(1);
+    luminance_squares = next(1);
   }
+  replicate_luminances = next(replicate_count);
+  if (layers.bias) bias = next(bias_halves * lanes);
 }
 
-Film::Film(const FilmSettings& settings, const FilmLayers& layers)
+Film::Film(Vec2i size, const FilmLayers& layers)
+    : size_(size), layers_(layers), numbers_(layers), tiles_(size) {}
+
+Film::Film(const FilmSettings& settings, const FilmLayers& layers, bool splats)
     : Film(settings.crop_size, layers) {
-  check_size(settings, numbers_per_pixel());
-  numbers_.resize(pixel_count() * numbers_per_pixel());
+  check_film_memory(settings, layers, splats);
+  sums_.resize(tiles_.count());
 }
 
-void Film::add_pass(const std::vector<PassPixel>& pixels, uint32_t pass_index, uint32_t samples) {
-  assert(pixels.size() == pixel_count() && !passes_.holds(pass_index));
+/// A pass on its way to the film.
+class Film::Addition {
+ public:
+  Addition(Film& film, const PassTiles& pass, size_t replicate, uint32_t samples)
+      : film_(film), pass_(pass), replicate_(replicate), samples_(samples) {}
+
+  /// Adds the pass's tile, and tells the luminances of its pixels.
+  void add(size_t tile, TilePacker& packer, PassTiles::Line& luminances) {
+    find_totals(tile);
+    for (size_t i = 0; i < tile_pixels; ++i)
+      luminances[i] =
+          photopic(Vec3f(float(totals_[0][i]), float(totals_[1][i]), float(totals_[2][i])));
+    packer.begin(film_.sums_[tile]);
+    if (film_.layers_.in_images)
+      add_layers(tile, packer, luminances);
+    else
+      for (const auto& sums : exact_totals_) packer.add(sums);
+    for (size_t r = 0; r < replicate_count; ++r) {
+      if (r == replicate_)
+        packer.add(luminances);
+      else
+        packer.keep();
+    }
+    if (film_.layers_.bias) add_bias(tile, packer);
+    packer.end(film_.sums_[tile]);
+  }
+
+ private:
+  using Totals = std::array<double, tile_pixels>;
+
+  void find_totals(size_t tile) {
+    for (size_t lane = 0; lane < FilmNumbers::lanes; ++lane) {
+      totals_[lane].fill(0);
+      if (!film_.layers_.in_images) exact_totals_[lane].fill(0);
+      for (size_t c = 0; c < component_count; ++c) {
+        const auto* line =
+            pass_.read(tile, PassTiles::radiance + c * FilmNumbers::lanes + lane, uniform_);
+        if (!line) continue;
+        for (size_t i = 0; i < tile_pixels; ++i) totals_[lane][i] += double((*line)[i]);
+        if (!film_.layers_.in_images)
+          for (size_t i = 0; i < tile_pixels; ++i)
+            add_to(exact_totals_[lane][i], fixed_from(double((*line)[i])));
+      }
+    }
+  }
+
+  void add_layers(size_t tile, TilePacker& packer, const PassTiles::Line& luminances) {
+    size_t line = PassTiles::radiance;
+    for (; line < PassTiles::first_hit; ++line) add_line(tile, line, packer);
+    for (const Totals& totals : totals_) add_squares(totals, packer);
+    for (; line < PassTiles::bias; ++line) add_line(tile, line, packer);
+    std::array<uint32_t, tile_pixels> samples;
+    pass_.read_samples(tile, samples);
+    for (size_t i = 0; i < tile_pixels; ++i)
+      products_[i] = 1 / double(samples[i] > 0 ? samples[i] : samples_);
+    packer.add(products_);
+    add_squares(luminances, packer);
+  }
+
+  void add_bias(size_t tile, TilePacker& packer) {
+    for (size_t half = 0; half < bias_halves; ++half)
+      for (size_t lane = 0; lane < FilmNumbers::lanes; ++lane) {
+        if (half == replicate_ % bias_halves)
+          add_line(tile, PassTiles::bias + lane, packer);
+        else
+          packer.keep();
+      }
+  }
+
+  void add_line(size_t tile, size_t line, TilePacker& packer) {
+    if (const auto* values = pass_.read(tile, line, uniform_))
+      packer.add(*values);
+    else
+      packer.keep();
+  }
+
+  template <typename Values>
+  void add_squares(const Values& values, TilePacker& packer) {
+    for (size_t i = 0; i < tile_pixels; ++i) products_[i] = double(values[i]) * double(values[i]);
+    packer.add(products_);
+  }
+
+  Film& film_;
+  const PassTiles& pass_;
+  size_t replicate_;
+  uint32_t samples_;
+  PassTiles::Line uniform_;
+  std::array<Totals, FilmNumbers::lanes> totals_;
+  std::array<std::array<Fixed, tile_pixels>, FilmNumbers::lanes> exact_totals_;
+  Totals products_;
+};
+
+void Film::add_pass(const PassTiles& pass, uint32_t pass_index, uint32_t samples) {
+  assert(pass.tiles().count() == tiles_.count() && !passes_.holds(pass_index));
   const size_t replicate = pass_index % replicate_count;
+  std::vector<float> luminances(pixel_count());
+  parallel_blocks(tiles_.count(), tiles_per_block, [&](size_t begin, size_t end, size_t) {
+    TilePacker packer(numbers_.count);
+    const auto addition = std::make_unique<Addition>(*this, pass, replicate, samples);
+    PassTiles::Line of_tile;
+    for (size_t tile = begin; tile < end; ++tile) {
+      addition->add(tile, packer, of_tile);
+      tiles_.for_pixels_of(tile, [&](int x, int y, size_t place) {
+        luminances[size_t(y) * size_t(size_.x) + size_t(x)] = of_tile[place];
+      });
+    }
+  });
   const double luminance_sum =
-      sum_over_blocks(pixels.size(), pixels_per_block, [&](size_t begin, size_t end) {
+      sum_over_blocks(luminances.size(), pixels_per_block, [&](size_t begin, size_t end) {
         double sum = 0;
-        for (size_t i = begin; i < end; ++i) sum += add_pixel(i, pixels[i], replicate, samples);
+        for (size_t i = begin; i < end; ++i) sum += double(luminances[i]);
         return sum;
       });
   add_to(mean_luminances_[replicate],
-         fixed_from(luminance_sum / double(std::max<size_t>(1, pixels.size()))));
+         fixed_from(luminance_sum / double(std::max<size_t>(1, luminances.size()))));
   passes_.add({pass_index, pass_index + 1});
   sample_count_ += samples;
 }
 
 void Film::add(const Film& other) {
   assert(is_like(other) && passes_.common(other.passes_).empty());
-  parallel_blocks(numbers_.size(), pixels_per_block * numbers_per_pixel(),
-                  [&](size_t begin, size_t end, size_t) {
-                    for (size_t i = begin; i < end; ++i) add_to(numbers_[i], other.numbers_[i]);
-                  });
+  parallel_blocks(tiles_.count(), tiles_per_block, [&](size_t begin, size_t end, size_t) {
+    TilePacker packer(numbers_.count);
+    for (size_t tile = begin; tile < end; ++tile) {
+      packer.begin(sums_[tile]);
+      for (size_t number = 0; number < numbers_.count; ++number)
+        packer.add_line_of(other.sums_[tile]);
+      packer.end(sums_[tile]);
+    }
+  });
   for (size_t r = 0; r < replicate_count; ++r)
     add_to(mean_luminances_[r], other.mean_luminances_[r]);
   passes_.add(other.passes_);
   sample_count_ += other.sample_count_;
 }
 
-double Film::add_pixel(size_t i, const PassPixel& pixel, size_t replicate, uint32_t samples) {
-  double total[lanes_] = {};
-  Fixed* sum = sums(i);
-  for (int c = 0; c < component_count; ++c)
-    for (int lane = 0; lane < lanes_; ++lane) {
-      const double value = pixel.radiance[size_t(c)][lane];
-      add_to(sum[radiance_ + size_t(c * lanes_ + lane)], fixed_from(value));
-      total[lane] += value;
-    }
-  for (int lane = 0; lane < lanes_; ++lane)
-    add_to(sum[squares_ + size_t(lane)], fixed_from(total[lane] * total[lane]));
-  const FirstHit& hit = pixel.first_hit;
-  const double first[first_hit_lanes_] = {hit.albedo[0], hit.albedo[1], hit.albedo[2], hit.normal.x,
-                                          hit.normal.y,  hit.normal.z,  hit.depth};
-  for (size_t k = 0; k < first_hit_lanes_; ++k) add_to(sum[first_hit_ + k], fixed_from(first[k]));
-  for (size_t k = 0; k < noise_kinds; ++k)
-    add_to(sum[sample_squares_ + k], fixed_from(double(pixel.squares[k])));
-  add_to(sum[inverse_samples_],
-         fixed_from(1 / double(pixel.samples > 0 ? pixel.samples : samples)));
-  if (layers_.bias) {
-    Fixed* bias = sum + bias_ + replicate % bias_halves * lanes_;
-    for (int lane = 0; lane < lanes_; ++lane)
-      add_to(bias[lane], fixed_from(double(pixel.bias[lane])));
-  }
-  const double luminance = photopic(Vec3f(float(total[0]), float(total[1]), float(total[2])));
-  add_to(sum[luminance_squares_], fixed_from(luminance * luminance));
-  add_to(sum[replicate_luminances_ + replicate], fixed_from(luminance));
-  return luminance;
+size_t Film::bytes() const {
+  size_t sum = sums_.capacity() * sizeof(PackedTile);
+  for (const PackedTile& tile : sums_) sum += tile.bytes();
+  return sum;
 }
 
-Spectrum Film::mean(size_t pixel, Component component) const {
-  Spectrum result;
-  for (int lane = 0; lane < lanes_; ++lane)
-    result.set(
-        lane, float(sum(pixel, radiance_ + size_t(int(component) * lanes_ + lane)) / pass_count()));
-  return result;
+void Film::read(size_t tile, std::vector<Fixed>& sums) const {
+  sums.resize(tile_pixels * numbers_.count);
+  sums_[tile].read_pixels(numbers_.count, 0, tile_pixels, sums.data());
+}
+
+Fixed Film::sum(size_t pixel, size_t number) const {
+  const int x = int(pixel % size_t(size_.x)), y = int(pixel / size_t(size_.x));
+  return sums_[tiles_.tile_at(x, y)].at(number, numbers_.count, PictureTiles::place_of(x, y));
 }
 
 double Film::total(size_t pixel, int lane) const {
   Fixed total = 0;
-  for (int c = 0; c < component_count; ++c)
-    add_to(total, sums(pixel)[radiance_ + size_t(c * lanes_ + lane)]);
+  for (size_t c = 0; c < (layers_.in_images ? component_count : 1); ++c)
+    add_to(total, sum(pixel, numbers_.radiance + c * FilmNumbers::lanes + size_t(lane)));
   return double_from(total);
-}
-
-Spectrum Film::mean(size_t pixel) const {
-  Spectrum result;
-  for (int lane = 0; lane < lanes_; ++lane)
-    result.set(lane, float(total(pixel, lane) / pass_count()));
-  return result;
-}
-
-Vec3f Film::bias_sum(size_t pixel, size_t half) const {
-  Vec3f result;
-  for (int lane = 0; lane < lanes_; ++lane)
-    result[lane] = float(sum(pixel, bias_ + half * lanes_ + size_t(lane)));
-  return result;
-}
-
-Vec3f Film::mean_bias(size_t pixel) const {
-  return (bias_sum(pixel, 0) + bias_sum(pixel, 1)) / float(pass_count());
-}
-
-std::array<double, noise_kinds> Film::noise(size_t pixel) const {
-  std::array<double, noise_kinds> result{};
-  const double passes = pass_count();
-  // Variance of the mean of all passes, relative to that of a sample; 1/n if all are alike.
-  const double share = sum(pixel, inverse_samples_) / sqr(passes);
-  std::array<Spectrum, component_count> means;
-  for (int c = 0; c < component_count; ++c) means[size_t(c)] = mean(pixel, Component(c));
-  const std::array<float, noise_kinds> mean = by_noise_kind(means);
-  for (size_t k = 0; k < noise_kinds; ++k) {
-    const double square = sum(pixel, sample_squares_ + k) / passes;
-    const double spread = std::max(0.0, square - double(sqr(mean[k])));
-    result[k] = std::sqrt(spread * share / std::max(share, 1 - share));
-  }
-  return result;
-}
-
-Image Film::image() const {
-  std::vector<std::string> names = {"R", "G", "B"};
-  for (int c = 0; c < component_count; ++c)
-    for (const char* lane : {"R", "G", "B"})
-      if (layers_.components.has(Component(c)))
-        names.push_back(fmt::format("{}.{}", component_names[size_t(c)], lane));
-  for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "depth.Z",
-                           "error.R", "error.G", "error.B"})
-    names.emplace_back(name);
-  if (layers_.bias) names.insert(names.end(), {"bias.R", "bias.G", "bias.B"});
-  if (knows_noise()) names.insert(names.end(), {"noise.scattered", "noise.mirrored"});
-  Image image(size_.x, size_.y, names);
-  if (passes_.empty()) return image;
-  const FilmErrors errors(*this);
-  parallel_blocks(size_t(size_.y), 1, [&](size_t row, size_t, size_t) {
-    for (int x = 0; x < size_.x; ++x) {
-      int channel = 0;
-      for (const float value : values(row * size_t(size_.x) + size_t(x), errors))
-        image.at(x, int(row), channel++) = value;
-    }
-  });
-  return image;
-}
-
-std::vector<float> Film::values(size_t pixel, const FilmErrors& errors) const {
-  std::vector<float> result;
-  const auto add_rgb = [&](const Spectrum& s) { result.insert(result.end(), {s[0], s[1], s[2]}); };
-  const auto add_vector = [&](const Vec3f& v) { result.insert(result.end(), {v.x, v.y, v.z}); };
-  add_rgb(mean(pixel));
-  for (int c = 0; c < component_count; ++c)
-    if (layers_.components.has(Component(c))) add_rgb(mean(pixel, Component(c)));
-  for (size_t k = 0; k < first_hit_lanes_; ++k)
-    result.push_back(float(sum(pixel, first_hit_ + k) / pass_count()));
-  add_vector(errors.of_pixel(pixel));
-  if (layers_.bias) add_vector(mean_bias(pixel));
-  if (knows_noise())
-    for (const double deviation : noise(pixel)) result.push_back(float(deviation));
-  return result;
 }
 
 double Film::mean_error() const { return FilmErrors(*this).of_mean(); }

@@ -90,10 +90,55 @@ FilmErrors::FilmErrors(const Film& film) : film_(film) {
     replicate_passes_[r] = film.passes().count_of_remainder(r, replicate_count);
     replicates_ += replicate_passes_[r] > 0 ? 1 : 0;
   }
-  if (film.holds_bias()) square_bias();
+  if (!film.holds_bias()) return;
+  sum_up_bias();
+  square_bias();
+}
+
+void FilmErrors::sum_up_luminances() const {
+  luminances_.resize(film_.pixel_count());
+  const PictureTiles& tiles = film_.tiles();
+  parallel_blocks(tiles.count(), 1, [&](size_t tile, size_t, size_t) {
+    std::vector<std::array<Fixed, PictureTiles::pixels>> lines(replicate_count);
+    for (size_t r = 0; r < replicate_count; ++r)
+      film_.read(tile, film_.numbers().replicate_luminances + r, lines[r]);
+    tiles.for_pixels_of(tile, [&](int x, int y, size_t place) {
+      std::array<Fixed, replicate_count> sums;
+      Fixed sum = 0;
+      for (size_t r = 0; r < replicate_count; ++r) add_to(sum, sums[r] = lines[r][place]);
+      luminances_[size_t(y) * size_t(film_.width()) + size_t(x)] = {
+          double_from(sum), is_known() ? variance_by_replicates(sums.data()) : 0};
+    });
+  });
+}
+
+const std::vector<FilmErrors::Luminance>& FilmErrors::luminances() const {
+  std::call_once(is_summed_up_, [this] { isolated([this] { sum_up_luminances(); }); });
+  return luminances_;
+}
+
+void FilmErrors::sum_up_bias() {
+  bias_.resize(film_.pixel_count());
+  const PictureTiles& tiles = film_.tiles();
+  parallel_blocks(tiles.count(), 1, [&](size_t tile, size_t, size_t) {
+    std::array<Fixed, PictureTiles::pixels> line;
+    for (size_t half = 0; half < bias_halves; ++half)
+      for (size_t lane = 0; lane < FilmNumbers::lanes; ++lane) {
+        film_.read(tile, film_.numbers().bias + half * FilmNumbers::lanes + lane, line);
+        tiles.for_pixels_of(tile, [&](int x, int y, size_t place) {
+          bias_[size_t(y) * size_t(film_.width()) + size_t(x)][half][int(lane)] =
+              float(double_from(line[place]));
+        });
+      }
+  });
+}
+
+Vec3f FilmErrors::mean_bias(size_t pixel) const {
+  return (bias_[pixel][0] + bias_[pixel][1]) / float(film_.pass_count());
 }
 
 void FilmErrors::pool_variances() const {
+  luminances();
   std::vector<double> variances(film_.pixel_count());
   parallel_blocks(variances.size(), 4096, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) variances[i] = luminance_variance(i);
@@ -108,7 +153,7 @@ void FilmErrors::square_bias() {
   if (!(half_passes[0] > 0 && half_passes[1] > 0)) return;
   const int width = film_.width(), height = film_.height();
   const auto estimate = [&](size_t pixel, size_t half) {
-    return film_.bias_sum(pixel, half) / half_passes[half];
+    return bias_[pixel][half] / half_passes[half];
   };
   std::vector<BiasSquares> rows(film_.pixel_count());
   parallel_blocks(size_t(height), 1, [&](size_t y, size_t, size_t) {
@@ -144,16 +189,6 @@ double FilmErrors::variance_by_replicates(const Fixed* sums) const {
   return squares / sqr(passes()) * replicates_ / (replicates_ - 1);
 }
 
-double FilmErrors::luminance_sum(size_t pixel) const {
-  Fixed sum = 0;
-  for (size_t r = 0; r < replicate_count; ++r) add_to(sum, film_.replicate_luminances(pixel)[r]);
-  return double_from(sum);
-}
-
-double FilmErrors::luminance_variance(size_t pixel) const {
-  return is_known() ? variance_by_replicates(film_.replicate_luminances(pixel)) : 0;
-}
-
 double FilmErrors::pooled_variance(size_t pixel) const {
   if (!is_known()) return 0;
   std::call_once(is_pooled_, [this] { isolated([this] { pool_variances(); }); });
@@ -171,14 +206,13 @@ double FilmErrors::luminance_bias_sq_around(size_t pixel) const {
   return luminance_bias_sq_around_.empty() ? 0 : double(luminance_bias_sq_around_[pixel]);
 }
 
-Vec3f FilmErrors::of_pixel(size_t pixel) const {
+Vec3f FilmErrors::of_pixel(size_t pixel, const ChannelSums& sums) const {
   Vec3f variance(0, 0, 0);
   if (film_.pass_count() >= 2) {
-    for (int lane = 0; lane < 3; ++lane)
-      variance[lane] =
-          float(variance_over_passes(film_.total(pixel, lane), film_.total_squares(pixel, lane)));
+    for (size_t lane = 0; lane < 3; ++lane)
+      variance[int(lane)] = float(variance_over_passes(sums.totals[lane], sums.squares[lane]));
     const double luminance_over_passes =
-        variance_over_passes(luminance_sum(pixel), film_.luminance_squares(pixel));
+        variance_over_passes(luminance_sum(pixel), sums.luminance_squares);
     if (is_known() && luminance_over_passes > 0)
       variance *= float(pooled_variance(pixel) / luminance_over_passes);
   }
@@ -202,6 +236,7 @@ double FilmErrors::freedom() const { return freedom_of_pool * (replicates_ - 1);
 double FilmErrors::of_picture() const {
   if (!is_known()) return std::numeric_limits<double>::infinity();
   const size_t pixels = film_.pixel_count();
+  luminances();
   double sum_of_luminances = 0;
   for (const Fixed part : film_.mean_luminances()) sum_of_luminances += double_from(part);
   const double dark = dark_share * std::abs(sum_of_luminances) / passes();
@@ -225,7 +260,7 @@ double FilmErrors::of_mean() const {
   for (const Fixed part : film_.mean_luminances()) sum += double_from(part);
   if (!is_known() || !(sum > 0)) return std::numeric_limits<double>::infinity();
   if (film_.holds_bias())
-    for (size_t i = 0; i < film_.pixel_count(); ++i) bias += double(photopic(film_.mean_bias(i)));
+    for (size_t i = 0; i < film_.pixel_count(); ++i) bias += double(photopic(mean_bias(i)));
   const double t = student_t_quantile(0.975, replicates_ - 1);
   const double noise = std::sqrt(variance_by_replicates(film_.mean_luminances().data()));
   return (t * noise + std::abs(bias) / double(film_.pixel_count())) / (sum / passes());

@@ -7,6 +7,12 @@
 
 namespace kaustik {
 
+/// Sums over passes of a pixel's channels.
+struct ChannelSums {
+  std::array<double, 3> totals{}, squares{};
+  double luminance_squares = 0;
+};
+
 /// How well a film's picture is known: from the noise of its passes, and from the bias that the
 /// integrator estimates, if it does.
 ///
@@ -31,7 +37,7 @@ class FilmErrors {
 
   /// Standard error of the pixel's mean per channel, √(noise² + bias²); the noise counts as zero
   /// with fewer than two passes.
-  Vec3f of_pixel(size_t pixel) const;
+  Vec3f of_pixel(size_t pixel, const ChannelSums& sums) const;
   /// The interval of the pixel's luminance by Student's t, widened by the bias (which is on one
   /// side of the truth alone); infinite with fewer than two replicates.
   ConfidenceInterval luminance(size_t pixel, double confidence = 0.95) const;
@@ -44,14 +50,20 @@ class FilmErrors {
   /// Half the width of the 95 % confidence interval of the picture's mean luminance by Student's t,
   /// plus its bias, relative to it; infinite with fewer than two replicates.
   double of_mean() const;
+  /// Only if the film holds bias.
+  Vec3f mean_bias(size_t pixel) const;
 
  private:
+  struct Luminance {
+    double sum = 0;       ///< over the passes
+    double variance = 0;  ///< of the mean; 0 while it is not known
+  };
   bool is_known() const { return replicates_ >= 2; }
   double passes() const { return double(film_.pass_count()); }
   /// Of the mean of what was summed up by replicate.
   double variance_by_replicates(const Fixed* sums) const;
-  double luminance_sum(size_t pixel) const;
-  double luminance_variance(size_t pixel) const;
+  double luminance_sum(size_t pixel) const { return luminances()[pixel].sum; }
+  double luminance_variance(size_t pixel) const { return luminances()[pixel].variance; }
   /// The same, as neighbours tell of it too.
   double pooled_variance(size_t pixel) const;
   /// Of a mean over passes as if they were independent.
@@ -59,6 +71,10 @@ class FilmErrors {
   /// Averaged over neighbours; may be negative, which over many pixels cancels what is too large
   /// elsewhere.
   double luminance_bias_sq_around(size_t pixel) const;
+  void sum_up_luminances() const;
+  /// Only once one is asked for: the error of the mean needs none.
+  const std::vector<Luminance>& luminances() const;
+  void sum_up_bias();
   void square_bias();
   /// Only once a single pixel is asked for: the picture's error is looked at after every pass.
   void pool_variances() const;
@@ -66,8 +82,11 @@ class FilmErrors {
   const Film& film_;
   std::array<uint32_t, replicate_count> replicate_passes_{};
   int replicates_ = 0;  ///< that have passes
-  mutable std::once_flag is_pooled_;
+  mutable std::once_flag is_summed_up_, is_pooled_;
+  mutable std::vector<Luminance> luminances_;     ///< by pixel
   mutable std::vector<double> variances_around_;  ///< of the luminance: means over neighbours
+  /// Sums over passes, by pixel and half; empty: none is held.
+  std::vector<std::array<Vec3f, bias_halves>> bias_;
   /// Squared, of R, G, B and the luminance, as it counts in a pixel; empty: none is known.
   std::vector<std::array<float, 4>> bias_sq_;
   std::vector<float> luminance_bias_sq_around_;  ///< parallel to these

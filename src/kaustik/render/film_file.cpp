@@ -1,5 +1,8 @@
 // A film as part of a checkpoint: docs/checkpoints.md.
+#include <algorithm>
+
 #include "kaustik/base/binary_file.h"
+#include "kaustik/base/parallel.h"
 #include "kaustik/render/film.h"
 #include "kaustik/render/packed_sums.h"
 
@@ -28,20 +31,27 @@ PassSet get_passes(BinaryReader& reader) {
   return passes;
 }
 
-void put_components(BinaryWriter& writer, ComponentSet components) {
-  uint32_t bits = 0;
+/// Beside the components' bits; absent in files that were written before there was a choice.
+constexpr uint32_t without_layers = uint32_t(1) << 31;
+
+void put_layers(BinaryWriter& writer, const FilmLayers& layers) {
+  uint32_t bits = layers.in_images ? 0 : without_layers;
   for (int c = 0; c < component_count; ++c)
-    if (components.has(Component(c))) bits |= 1u << c;
+    if (layers.components.has(Component(c))) bits |= 1u << c;
   writer.put(bits);
+  writer.put(uint8_t(layers.bias));
 }
 
-ComponentSet get_components(BinaryReader& reader) {
-  const auto bits = reader.get<uint32_t>();
+FilmLayers get_layers(BinaryReader& reader) {
+  FilmLayers layers;
+  auto bits = reader.get<uint32_t>();
+  layers.in_images = (bits & without_layers) == 0;
+  bits &= ~without_layers;
   if (bits >> component_count != 0) reader.damaged("it has components that are not known");
-  ComponentSet components;
   for (int c = 0; c < component_count; ++c)
-    if (bits >> c & 1u) components.add(Component(c));
-  return components;
+    if (bits >> c & 1u) layers.components.add(Component(c));
+  layers.bias = reader.get_flag();
+  return layers;
 }
 
 Vec2i get_size(BinaryReader& reader) {
@@ -53,29 +63,65 @@ Vec2i get_size(BinaryReader& reader) {
 
 }  // namespace
 
+template <typename Body>
+void Film::for_rows(const Body& body) const {
+  std::vector<Fixed> row(size_t(size_.x) * numbers_.count);
+  for (int y = 0; y < size_.y; ++y) {
+    for (int x = 0; x < size_.x; x += PictureTiles::side)
+      sums_[tiles_.tile_at(x, y)].read_pixels(numbers_.count, PictureTiles::place_of(x, y),
+                                              size_t(std::min(PictureTiles::side, size_.x - x)),
+                                              row.data() + size_t(x) * numbers_.count);
+    body(row);
+  }
+}
+
 void Film::write(BinaryWriter& writer) const {
   writer.put(int32_t(size_.x));
   writer.put(int32_t(size_.y));
-  put_components(writer, layers_.components);
-  writer.put(uint8_t(layers_.bias));
+  put_layers(writer, layers_);
   writer.put(sample_count_);
   put_passes(writer, passes_);
   put_sums(writer, mean_luminances_);
   // Growing bit by bit would take twice the memory at a time.
-  writer.reserve(packed_size(numbers_));
-  put_sums(writer, numbers_);
+  uint64_t size = 0;
+  for_rows([&](const std::vector<Fixed>& row) { size += packed_size(row); });
+  writer.reserve(size);
+  for_rows([&](const std::vector<Fixed>& row) { put_sums(writer, row); });
 }
 
 Film Film::read(BinaryReader& reader) {
   const Vec2i size = get_size(reader);
-  const ComponentSet components = get_components(reader);
-  Film film(size, {components, reader.get_flag()});
+  Film film(size, get_layers(reader));
   film.sample_count_ = reader.get<uint64_t>();
   film.passes_ = get_passes(reader);
   const std::vector<Fixed> replicates = get_sums(reader, replicate_count);
   std::copy(replicates.begin(), replicates.end(), film.mean_luminances_.begin());
-  film.numbers_ = get_sums(reader, film.pixel_count() * film.numbers_per_pixel());
+  film.read_rows(reader);
   return film;
+}
+
+void Film::read_rows(BinaryReader& reader) {
+  reader.need(pixel_count() * numbers_.count, 1);
+  sums_.resize(tiles_.count());
+  const size_t across = tiles_.tile_at(0, PictureTiles::side);
+  for (size_t first = 0; first < tiles_.count(); first += across) {
+    const int y0 = int(first / across) * PictureTiles::side;
+    const auto rows = size_t(std::min(PictureTiles::side, size_.y - y0));
+    const std::vector<Fixed> sums = get_sums(reader, rows * size_t(size_.x) * numbers_.count);
+    parallel_blocks(across, 1, [&](size_t tile, size_t, size_t) {
+      TilePacker packer(numbers_.count);
+      packer.begin(sums_[first + tile]);
+      for (size_t number = 0; number < numbers_.count; ++number) {
+        std::array<Fixed, PictureTiles::pixels> line{};
+        tiles_.for_pixels_of(first + tile, [&](int x, int y, size_t place) {
+          line[place] =
+              sums[(size_t(y - y0) * size_t(size_.x) + size_t(x)) * numbers_.count + number];
+        });
+        packer.add(line);
+      }
+      packer.end(sums_[first + tile]);
+    });
+  }
 }
 
 }  // namespace kaustik

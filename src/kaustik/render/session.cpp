@@ -31,7 +31,9 @@ uint32_t divided_up(uint32_t a, uint32_t b) { return a / b + (a % b > 0 ? 1 : 0)
 }  // namespace
 
 Session::Session(const Scene& scene, const Integrator& integrator, const SessionSettings& settings)
-    : Session(scene, integrator, settings, Film(scene.film(), FilmLayers::of(integrator))) {}
+    : Session(scene, integrator, settings,
+              Film(scene.film(), FilmLayers::of(integrator, settings.layers && scene.film().layers),
+                   integrator.traits().splats)) {}
 
 Session::Session(const Scene& scene, const Integrator& integrator, const SessionSettings& settings,
                  Film begun)
@@ -42,9 +44,9 @@ Session::Session(const Scene& scene, const Integrator& integrator, const Session
       splats_(
           integrator.traits().splats ? scene.film() : FilmSettings{{1, 1}, {0, 0}, {1, 1}, {}, 0},
           integrator.traits().components),
-      pixels_(film_.pixel_count()),
-      tile_mutexes_(
-          std::make_unique<std::mutex[]>(size_t(tile_count().x) * size_t(tile_count().y))),
+      pass_({film_.width(), film_.height()}),
+      is_finished_(pass_.tiles().count()),
+      tile_mutexes_(std::make_unique<std::mutex[]>(pass_.tiles().count())),
       has_picture_(film_.pass_count() > 0) {
   plan();
 }

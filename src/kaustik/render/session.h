@@ -33,6 +33,8 @@ struct SessionSettings {
   /// Others will go on with the passes, so one at least is finished whatever the time, and all have
   /// the samples that they would have without a limit of time.
   bool keeps_passes = false;
+  /// Whether the film holds what images with layers do, if the scene's film asks for them.
+  bool layers = true;
   /// Stop when Film::picture_error() is at most this. It is looked at after 16, 32, 64, … passes
   /// only: who looks all the time, and stops when the error happens to look small, stops too early.
   std::optional<double> error;
@@ -64,7 +66,10 @@ struct SessionReport {
   double light_seconds = 0;  ///< of it, in light passes
   double mean_error = 0;     ///< Film::mean_error()
   double picture_error = 0;  ///< Film::picture_error()
-  bool cancelled = false;    ///< a stop request came before what was asked for was done
+  size_t film_bytes = 0;     ///< at the end
+  /// Most that film, pass in progress and its splats took at a time.
+  size_t rendering_bytes = 0;
+  bool cancelled = false;  ///< a stop request came before what was asked for was done
   /// The film holds fewer samples than its one pass was to have: each pixel at least one.
   bool incomplete_pass = false;
   /// Share of a pass that was taken after those of the film: Session::image() has it, too.
@@ -132,14 +137,19 @@ class Session {
   bool render_camera(const Pass& pass, const PassState& state, const std::stop_token& stop,
                      Monitor& monitor);
   /// The tile's samples of the round, until it is halted.
-  void render_tile(CameraPass& camera, const Vec2i& tile, const Round& round);
+  void render_tile(CameraPass& camera, size_t tile, const Round& round);
   /// The same of a pixel, added to `sum`; returns rays.
   uint64_t render_pixel(CameraPass& camera, int x, int y, uint32_t end, PassPixel& sum) const;
-  Vec2i tile_count() const;
   /// Means over the samples from their sums, and the splats.
-  PassPixel finished(int x, int y) const;
-  void finish_pixels();
-  void clear_pixels();
+  PassPixel finished(const PassPixel& pixel, int x, int y) const;
+  /// The same of all pixels of a tile, whose splats are forgotten then.
+  void finish(size_t tile, PassTiles::Pixels& pixels);
+  /// Of all tiles that are not finished yet.
+  void finish_tiles();
+  /// Gives the pass's memory back, so that what looks at the film may use it.
+  void forget_pass(Monitor& monitor);
+  void clear_pixels(Monitor& monitor);
+  void note_memory();
   /// Share of the pass's samples that its pixels have.
   double share_taken(const Pass& pass, const PassState& state) const;
   Image first_samples(std::unique_lock<std::mutex> lock) const;
@@ -149,8 +159,9 @@ class Session {
   SessionSettings settings_;
   Film film_;
   SplatBuffer splats_;
-  std::vector<PassPixel> pixels_;
-  uint32_t pass_count_ = 0;  ///< 0: limited by time or error
+  PassTiles pass_;                    ///< that is being rendered: sums, in finished tiles means
+  std::vector<uint8_t> is_finished_;  ///< by tile
+  uint32_t pass_count_ = 0;           ///< 0: limited by time or error
   uint32_t samples_per_pass_ = 1;
   SessionReport report_;
 

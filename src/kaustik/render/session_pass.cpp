@@ -11,8 +11,6 @@
 namespace kaustik {
 namespace {
 
-constexpr int tile_size = 16;
-
 /// Of the first samples of a first pass one pixel in so many squared gets the first ones, so that
 /// there is a picture early.
 constexpr int first_stride = 4;
@@ -78,8 +76,7 @@ void add_new(const std::vector<std::string>& sentences, std::vector<std::string>
 Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Monitor& monitor) {
   monitor.start_pass();
   const Pass pass{settings_.seed, index, samples_per_pass_, {}};
-  if (integrator_.traits().splats) splats_.clear();
-  clear_pixels();
+  clear_pixels(monitor);
   monitor.tell(Progress::Stage::light, false);
   const bool may_be_late = must_be_finished(monitor);
   std::stop_source halt;
@@ -89,6 +86,7 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
     if (settings_.seconds && !may_be_late && monitor.elapsed() > *settings_.seconds)
       halt.request_stop();
   });
+  note_memory();
   // Half a light pass is of no use: what it has brought is a part of the light only.
   if (halt.stop_requested()) return PassEnd::discarded;
   monitor.light_pass_done(state->report);
@@ -98,10 +96,7 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
       !integrator_.traits().samples_camera || render_camera(pass, *state, stop, monitor);
   uint32_t samples = samples_per_pass_;
   if (!complete) {
-    const auto fewest = std::min_element(
-        pixels_.begin(), pixels_.end(),
-        [](const PassPixel& a, const PassPixel& b) { return a.samples < b.samples; });
-    samples = fewest->samples;
+    samples = pass_.fewest_samples();
     if (samples == 0) return PassEnd::discarded;
   }
   const std::lock_guard lock(picture_mutex_);
@@ -109,31 +104,48 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
     // Beside whole passes it is a part, by itself it is the picture.
     const bool is_part = !complete && film_.pass_count() > 0;
     if (is_part) report_.part = share_taken(pass, *state);
-    finish_pixels();
-    if (!is_part) film_.add_pass(pixels_, index, samples);
+    finish_tiles();
+    note_memory();
+    if (!is_part) {
+      film_.add_pass(pass_, index, samples);
+      note_memory();
+      forget_pass(monitor);
+    }
     report_.incomplete_pass = !complete && !is_part;
     has_picture_ = true;
   });
   return complete ? PassEnd::complete : PassEnd::incomplete;
 }
 
-void Session::clear_pixels() {
+void Session::clear_pixels(Monitor& monitor) {
   const std::lock_guard lock(picture_mutex_);
   has_picture_ = film_.pass_count() > 0;
-  isolated([&] {
-    parallel_blocks(pixels_.size(), 4096, [&](size_t begin, size_t end, size_t) {
-      std::fill(pixels_.data() + begin, pixels_.data() + end, PassPixel{});
-    });
-  });
+  forget_pass(monitor);
+}
+
+void Session::forget_pass(Monitor& monitor) {
+  monitor.dropped += splats_.dropped();
+  splats_.clear();
+  pass_.clear();
+  std::fill(is_finished_.begin(), is_finished_.end(), uint8_t(0));
+}
+
+void Session::note_memory() {
+  report_.film_bytes = film_.bytes();
+  report_.rendering_bytes =
+      std::max(report_.rendering_bytes, report_.film_bytes + pass_.bytes() + splats_.bytes());
 }
 
 double Session::share_taken(const Pass& pass, const PassState& state) const {
   uint64_t taken = 0, all = 0;
-  for (int y = 0; y < film_.height(); ++y)
-    for (int x = 0; x < film_.width(); ++x) {
-      taken += pixels_[size_t(y) * size_t(film_.width()) + size_t(x)].samples;
+  std::array<uint32_t, PictureTiles::pixels> samples;
+  for (size_t tile = 0; tile < pass_.tiles().count(); ++tile) {
+    pass_.read_samples(tile, samples);
+    pass_.tiles().for_pixels_of(tile, [&](int x, int y, size_t place) {
+      taken += samples[place];
       all += integrator_.pixel_samples(state, pass, {x, y}).count;
-    }
+    });
+  }
   return double(taken) / double(std::max<uint64_t>(1, all));
 }
 
@@ -146,6 +158,8 @@ struct Session::Round {
   int stride = 1;  ///< only pixels whose coordinates are multiples of it
   uint32_t end = std::numeric_limits<uint32_t>::max();
 
+  /// Nothing comes after it.
+  bool is_last() const { return stride == 1 && end == std::numeric_limits<uint32_t>::max(); }
   /// As many again as there have been.
   Round next() const {
     if (stride > 1) return {stride / 2, end};
@@ -191,38 +205,34 @@ bool Session::render_camera(const Pass& pass, const PassState& state, const std:
   // Those that must be there.
   const uint32_t always =
       settings_.keeps_passes ? integrator_.traits().default_samples_per_pass : 1;
-  const Vec2i tiles = tile_count();
   for (bool more = true; more && !camera.halted; round = round.next()) {
     camera.more = false;
     if (is_first && round.end > always) camera.last_second = settings_.seconds;
-    parallel_blocks(size_t(tiles.x) * size_t(tiles.y), 1, [&](size_t tile, size_t, size_t) {
-      render_tile(camera, {int(tile) % tiles.x, int(tile) / tiles.x}, round);
-    });
+    parallel_blocks(pass_.tiles().count(), 1,
+                    [&](size_t tile, size_t, size_t) { render_tile(camera, tile, round); });
     if (is_first && !camera.halted) has_picture_ = true;
     more = camera.more || round.stride > 1;
   }
   return !camera.halted;
 }
 
-Vec2i Session::tile_count() const {
-  return {(film_.width() + tile_size - 1) / tile_size,
-          (film_.height() + tile_size - 1) / tile_size};
-}
-
-void Session::render_tile(CameraPass& camera, const Vec2i& tile, const Round& round) {
-  const int x0 = tile.x * tile_size, y0 = tile.y * tile_size;
-  const int x1 = std::min(x0 + tile_size, film_.width());
-  const int y1 = std::min(y0 + tile_size, film_.height());
+void Session::render_tile(CameraPass& camera, size_t tile, const Round& round) {
+  if (is_finished_[tile]) return;
+  const auto pixels = std::make_unique<PassTiles::Pixels>();
   uint64_t rays = 0, samples = 0;
   // A snapshot may want to see them.
-  std::unique_lock lock(tile_mutexes_[size_t(tile.y) * size_t(tile_count().x) + size_t(tile.x)]);
-  for (int y = y0; y < y1; y += round.stride)
-    for (int x = x0; x < x1 && !camera.halted; x += round.stride) {
-      PassPixel& pixel = pixels_[size_t(y) * size_t(film_.width()) + size_t(x)];
-      const uint32_t before = pixel.samples;
-      rays += render_pixel(camera, x, y, round.end, pixel);
-      samples += pixel.samples - before;
-    }
+  std::unique_lock lock(tile_mutexes_[tile]);
+  pass_.load(tile, *pixels);
+  pass_.tiles().for_pixels_of(tile, [&](int x, int y, size_t place) {
+    if (camera.halted || x % round.stride != 0 || y % round.stride != 0) return;
+    PassPixel& pixel = (*pixels)[place];
+    const uint32_t before = pixel.samples;
+    rays += render_pixel(camera, x, y, round.end, pixel);
+    samples += pixel.samples - before;
+  });
+  // Of a first pass snapshots show the sums.
+  if (round.is_last() && film_.pass_count() > 0) finish(tile, *pixels);
+  pass_.store(tile, *pixels);
   lock.unlock();
   camera.monitor.samples_done(samples, rays);
 }
@@ -265,8 +275,7 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end,
   return rays;
 }
 
-PassPixel Session::finished(int x, int y) const {
-  const PassPixel& pixel = pixels_[size_t(y) * size_t(film_.width()) + size_t(x)];
+PassPixel Session::finished(const PassPixel& pixel, int x, int y) const {
   PassPixel mean;
   mean.samples = pixel.samples;
   if (pixel.samples > 0) add_scaled(pixel, 1.0f / float(pixel.samples), mean);
@@ -276,10 +285,20 @@ PassPixel Session::finished(int x, int y) const {
   return mean;
 }
 
-void Session::finish_pixels() {
-  parallel_blocks(size_t(film_.height()), 1, [&](size_t row, size_t, size_t) {
-    for (int x = 0; x < film_.width(); ++x)
-      pixels_[row * size_t(film_.width()) + size_t(x)] = finished(x, int(row));
+void Session::finish(size_t tile, PassTiles::Pixels& pixels) {
+  pass_.tiles().for_pixels_of(
+      tile, [&](int x, int y, size_t place) { pixels[place] = finished(pixels[place], x, y); });
+  if (integrator_.traits().splats) splats_.clear(tile);
+  is_finished_[tile] = 1;
+}
+
+void Session::finish_tiles() {
+  parallel_blocks(pass_.tiles().count(), 1, [&](size_t tile, size_t, size_t) {
+    if (is_finished_[tile]) return;
+    const auto pixels = std::make_unique<PassTiles::Pixels>();
+    pass_.load(tile, *pixels);
+    finish(tile, *pixels);
+    pass_.store(tile, *pixels);
   });
 }
 
@@ -297,9 +316,11 @@ Image Session::image() const {
   Image image = film_.image();
   if (!(report_.part > 0)) return image;
   PartPicture picture(image, film_.pass_count(), report_.part);
-  parallel_blocks(size_t(film_.height()), 1, [&](size_t row, size_t, size_t) {
-    for (int x = 0; x < film_.width(); ++x)
-      picture.put(x, int(row), pixels_[row * size_t(film_.width()) + size_t(x)]);
+  parallel_blocks(pass_.tiles().count(), 1, [&](size_t tile, size_t, size_t) {
+    const auto pixels = std::make_unique<PassTiles::Pixels>();
+    pass_.load(tile, *pixels);
+    pass_.tiles().for_pixels_of(
+        tile, [&](int x, int y, size_t place) { picture.put(x, y, (*pixels)[place]); });
   });
   return image;
 }
@@ -307,19 +328,18 @@ Image Session::image() const {
 Image Session::first_samples(std::unique_lock<std::mutex> lock) const {
   Image image = film_.image();
   PartPicture picture(image, 0, 1);
-  std::vector<uint8_t> is_shown(pixels_.size());
+  std::vector<uint8_t> is_shown(film_.pixel_count());
   const auto index = [&](int x, int y) { return size_t(y) * size_t(film_.width()) + size_t(x); };
-  const Vec2i tiles = tile_count();
+  const auto pixels = std::make_unique<PassTiles::Pixels>();
   // One lock at a time: who holds it waits for nothing.
-  for (int tile = 0; tile < tiles.x * tiles.y; ++tile) {
-    const std::lock_guard of_tile(tile_mutexes_[size_t(tile)]);
-    const int x0 = tile % tiles.x * tile_size, y0 = tile / tiles.x * tile_size;
-    for (int y = y0; y < std::min(y0 + tile_size, film_.height()); ++y)
-      for (int x = x0; x < std::min(x0 + tile_size, film_.width()); ++x)
-        if (pixels_[index(x, y)].samples > 0) {
-          picture.put(x, y, finished(x, y));
-          is_shown[index(x, y)] = 1;
-        }
+  for (size_t tile = 0; tile < pass_.tiles().count(); ++tile) {
+    const std::lock_guard of_tile(tile_mutexes_[tile]);
+    pass_.load(tile, *pixels);
+    pass_.tiles().for_pixels_of(tile, [&](int x, int y, size_t place) {
+      if ((*pixels)[place].samples == 0) return;
+      picture.put(x, y, finished((*pixels)[place], x, y));
+      is_shown[index(x, y)] = 1;
+    });
   }
   lock.unlock();
   const auto seen = [&](int at, int stride) { return at - at % stride; };

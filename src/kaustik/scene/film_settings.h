@@ -54,6 +54,7 @@ struct FilmSettings {
   int sample_count = 0;  ///< the scene file's samples per pixel; 0: not given
   Place place = {};      ///< in the scene file
   Quantity quantity = Quantity::radiance;
+  bool layers = true;  ///< images hold components, what is seen, errors and noise
 };
 
 struct FilmType {

@@ -28,6 +28,10 @@ const TypeInfo& info() {
        choice_parameter("quantity", "radiance", {"radiance", "irradiance"},
                         "Radiance in W/(sr m²), or irradiance in W/m² on the side that is seen of "
                         "the first surface behind each pixel, whatever that is made of."),
+       choice_parameter("layers", "all", {"all", "none"},
+                        "What EXR images hold beside the picture: its components, albedo, normal, "
+                        "depth, error and noise of each pixel, or nothing, which takes less "
+                        "memory. Other images have no layers and need none."),
        ignored_parameter("file_format", ParameterKind::text),
        ignored_parameter("pixel_format", ParameterKind::text),
        ignored_parameter("component_format", ParameterKind::text),
@@ -44,6 +48,7 @@ FilmSettings create(const Arguments& arguments) {
   FilmSettings film;
   film.place = arguments.place();
   if (arguments.text("quantity") == "irradiance") film.quantity = Quantity::irradiance;
+  film.layers = arguments.text("layers") == "all";
   film.size = {int(arguments.integer("width")), int(arguments.integer("height"))};
   film.crop_offset = {int(arguments.integer("crop_offset_x")),
                       int(arguments.integer("crop_offset_y"))};

@@ -1,0 +1,143 @@
+#include "kaustik/render/pass_tiles.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+
+#include "kaustik/image/photometry.h"
+
+namespace kaustik {
+namespace {
+
+constexpr size_t count = PictureTiles::pixels;
+using Bits = std::array<uint32_t, count>;
+
+Vec3f rgb_of(const Spectrum& radiance) { return {radiance[0], radiance[1], radiance[2]}; }
+
+/// Calls body(line, number) for the numbers of a pixel, in the order of lines.
+template <typename Body>
+void for_numbers_of(const PassPixel& pixel, const Body& body) {
+  size_t line = 0;
+  const auto put = [&](const Spectrum& s) {
+    for (int lane = 0; lane < 3; ++lane) body(line++, s[lane]);
+  };
+  for (const Spectrum& radiance : pixel.radiance) put(radiance);
+  put(pixel.first_hit.albedo);
+  for (int axis = 0; axis < 3; ++axis) body(line++, pixel.first_hit.normal[axis]);
+  body(line++, pixel.first_hit.depth);
+  for (const float square : pixel.squares) body(line++, square);
+  put(pixel.bias);
+}
+
+/// Sets them, where number_of(line) is asked in the same order.
+template <typename NumberOf>
+void set_numbers_of(PassPixel& pixel, const NumberOf& number_of) {
+  size_t line = 0;
+  const auto get = [&](Spectrum& s) {
+    for (int lane = 0; lane < 3; ++lane) s.set(lane, number_of(line++));
+  };
+  for (Spectrum& radiance : pixel.radiance) get(radiance);
+  get(pixel.first_hit.albedo);
+  for (int axis = 0; axis < 3; ++axis) pixel.first_hit.normal[axis] = number_of(line++);
+  pixel.first_hit.depth = number_of(line++);
+  for (float& square : pixel.squares) square = number_of(line++);
+  get(pixel.bias);
+}
+
+}  // namespace
+
+std::array<float, noise_kinds> by_noise_kind(
+    const std::array<Spectrum, component_count>& radiance) {
+  const auto part = [&](Component c) { return radiance[size_t(c)]; };
+  return {photopic(rgb_of(part(Component::direct) + part(Component::caustic) +
+                          part(Component::indirect))),
+          photopic(rgb_of(part(Component::specular)))};
+}
+
+size_t PassTiles::size_of(Kind kind) {
+  return kind == Kind::full ? count : kind == Kind::uniform ? 1 : 0;
+}
+
+void PassTiles::store(size_t tile, const Pixels& pixels) {
+  const auto lines = std::make_unique<std::array<Bits, line_count + 1>>();
+  for (size_t i = 0; i < count; ++i) {
+    for_numbers_of(pixels[i], [&](size_t line, float number) {
+      (*lines)[line][i] = std::bit_cast<uint32_t>(number);
+    });
+    lines->back()[i] = pixels[i].samples;
+  }
+  Kept& kept = kept_[tile];
+  size_t size = 0;
+  for (size_t line = 0; line <= line_count; ++line) {
+    const Bits& bits = (*lines)[line];
+    const bool is_uniform = std::equal(bits.begin() + 1, bits.end(), bits.begin());
+    kept.kinds[line] = !is_uniform ? Kind::full : bits[0] != 0 ? Kind::uniform : Kind::zero;
+    size += size_of(kept.kinds[line]);
+  }
+  if (kept.numbers.size() != size) kept.numbers = std::vector<float>(size);
+  float* to = kept.numbers.data();
+  for (size_t line = 0; line <= line_count; ++line) {
+    std::memcpy(to, (*lines)[line].data(), size_of(kept.kinds[line]) * sizeof(float));
+    to += size_of(kept.kinds[line]);
+  }
+}
+
+const PassTiles::Line* PassTiles::read(size_t tile, size_t line, Line& uniform) const {
+  const Kept& kept = kept_[tile];
+  if (kept.kinds[line] == Kind::zero) return nullptr;
+  const float* first = kept.numbers.data();
+  for (size_t i = 0; i < line; ++i) first += size_of(kept.kinds[i]);
+  // An array is nothing but its elements.
+  if (kept.kinds[line] == Kind::full) return reinterpret_cast<const Line*>(first);
+  uniform.fill(*first);
+  return &uniform;
+}
+
+void PassTiles::read_samples(size_t tile, Bits& samples) const {
+  Line uniform;
+  if (const Line* bits = read(tile, line_count, uniform))
+    std::memcpy(samples.data(), bits->data(), sizeof samples);
+  else
+    samples.fill(0);
+}
+
+void PassTiles::load(size_t tile, Pixels& pixels) const {
+  if (kept_[tile].numbers.empty()) return pixels.fill({});
+  static constexpr Line zeros{};
+  std::array<Line, line_count> uniform;
+  std::array<const Line*, line_count> lines;
+  for (size_t line = 0; line < line_count; ++line) {
+    lines[line] = read(tile, line, uniform[line]);
+    if (!lines[line]) lines[line] = &zeros;
+  }
+  Bits samples;
+  read_samples(tile, samples);
+  for (size_t i = 0; i < count; ++i) {
+    set_numbers_of(pixels[i], [&](size_t line) { return (*lines[line])[i]; });
+    pixels[i].samples = samples[i];
+  }
+}
+
+uint32_t PassTiles::fewest_samples() const {
+  uint32_t fewest = std::numeric_limits<uint32_t>::max();
+  Bits samples;
+  for (size_t tile = 0; tile < tiles_.count(); ++tile) {
+    read_samples(tile, samples);
+    tiles_.for_pixels_of(
+        tile, [&](int, int, size_t place) { fewest = std::min(fewest, samples[place]); });
+  }
+  return fewest;
+}
+
+void PassTiles::clear() {
+  for (Kept& kept : kept_) kept = {};
+}
+
+size_t PassTiles::bytes() const {
+  size_t sum = kept_.capacity() * sizeof(Kept);
+  for (const Kept& kept : kept_) sum += kept.numbers.capacity() * sizeof(float);
+  return sum;
+}
+
+}  // namespace kaustik

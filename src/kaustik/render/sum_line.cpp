@@ -1,0 +1,283 @@
+#include "kaustik/render/sum_line.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kaustik {
+namespace {
+
+/// Power and width of words.
+struct Window {
+  int shift = 0, top = 0;
+};
+
+/// Numbers by their lowest and by their highest bit.
+struct BitCounts {
+  explicit BitCounts(const std::array<Fixed, words_per_line>& values) {
+    for (size_t i = 0; i < words_per_line; ++i) {
+      lowest_of[i] = values[i] == 0 ? most : uint8_t(zeros_below(values[i]));
+      width_of_value[i] = uint8_t(width_of(values[i]));
+      ++lowest[lowest_of[i]];
+      ++width[width_of_value[i]];
+    }
+  }
+  int numbers() const { return int(words_per_line) - width[0]; }
+  bool fits(size_t i, const Window& window) const {
+    return lowest_of[i] >= window.shift && width_of_value[i] <= window.top;
+  }
+  int outside(const Window& window) const {
+    int count = 0;
+    for (size_t i = 0; i < words_per_line; ++i) count += fits(i, window) ? 0 : 1;
+    return count;
+  }
+
+  static constexpr uint8_t most = 129;
+  std::array<uint8_t, words_per_line> lowest_of, width_of_value;
+  std::array<int, most + 1> lowest{}, width{};
+};
+
+/// What takes least if those that do not fit are set aside. Both ends are chosen for themselves.
+Window best_window(const BitCounts& counts) {
+  Window best;
+  int outside = 0, least = 0;
+  for (int shift = 1; shift < top_of_words; ++shift) {
+    outside += counts.lowest[size_t(shift - 1)];
+    const int cost = set_aside_bits * outside - int(words_per_line) * shift;
+    if (cost < least) least = cost, best.shift = shift;
+  }
+  outside = 0;
+  least = int(words_per_line) * top_of_words;
+  best.top = top_of_words;
+  for (int top = top_of_words - 1; top >= 0; --top) {
+    outside += counts.width[size_t(top + 1)];
+    const int cost = set_aside_bits * outside + int(words_per_line) * top;
+    if (cost < least) least = cost, best.top = top;
+  }
+  best.shift = std::max(best.shift, best.top - most_wide);
+  if (best.shift >= best.top) return {};
+  return best;
+}
+
+}  // namespace
+
+void SumLine::clear() {
+  shift_ = width_ = 0;
+  is_wide_ = has_window_ = false;
+  is_zero_ = true;
+  words_.fill(0);
+  for (const WideWord& wide : set_aside_) set_aside_at_[wide.place] = 0;
+  set_aside_.clear();
+  set_aside_when_chosen_ = 0;
+}
+
+void SumLine::set_aside(size_t place, Fixed value) {
+  if (set_aside_at_[place] == 0) {
+    set_aside_.push_back({place, {}});
+    set_aside_at_[place] = uint16_t(set_aside_.size());
+  }
+  set_aside_[set_aside_at_[place] - 1u].sum.add(value);
+}
+
+void SumLine::add(size_t place, Fixed value) {
+  if (value == 0) return;
+  if (zeros_below(value) < shift_ || width_of(value) > top_of_words) return set_aside(place, value);
+  const Fixed word = value >> shift_;
+  if (is_wide_) {
+    const Fixed sum = wide_words_[place] + word;
+    if (width_of(sum) + shift_ > top_of_words) return set_aside(place, value);
+    wide_words_[place] = sum;
+    return;
+  }
+  // Words that are there have no more bits than this, either.
+  if (width_of(word) > 62) return set_aside(place, value);
+  const int64_t sum = words_[place] + int64_t(word);
+  if (width_of(sum) > 62 || width_of(sum) + shift_ > top_of_words) return set_aside(place, value);
+  words_[place] = sum;
+}
+
+void SumLine::begin_if_zero() {
+  if (!is_zero_) return;
+  is_wide_ = true;
+  is_zero_ = false;
+  wide_words_.fill(0);
+}
+
+void SumLine::add(const std::array<Fixed, count>& values) {
+  begin_if_zero();
+  for (size_t i = 0; i < count; ++i) add(i, values[i]);
+}
+
+void SumLine::add(const std::array<double, count>& values) { add_numbers(values); }
+
+void SumLine::add(const std::array<float, count>& values) { add_numbers(values); }
+
+template <typename Number>
+void SumLine::add_numbers(const std::array<Number, count>& values) {
+  begin_if_zero();
+  // How many words a value is: exact, as long as it is a whole number of them.
+  const double words_per_unit = std::ldexp(1.0, 64 - shift_);
+  const double most = std::ldexp(1.0, std::min(60, top_of_words - 2 - shift_));
+  for (size_t i = 0; i < count; ++i) {
+    const double words = double(values[i]) * words_per_unit;
+    if (std::abs(words) < most) {
+      const auto word = int64_t(words);
+      if (double(word) == words) {
+        if (is_wide_)
+          wide_words_[i] += word;
+        else
+          words_[i] += word;
+        continue;
+      }
+    }
+    add(i, fixed_from(double(values[i])));
+  }
+}
+
+void SumLine::add(const SumLine& other) {
+  begin_if_zero();
+  for (size_t i = 0; i < count; ++i)
+    add(i, (other.is_wide_ ? other.wide_words_[i] : Fixed(other.words_[i])) << other.shift_);
+  for (const WideWord& wide : other.set_aside_) {
+    set_aside(wide.place, 0);
+    set_aside_[set_aside_at_[wide.place] - 1u].sum.add(wide.sum);
+  }
+}
+
+void SumLine::gather(std::array<Fixed, count>& totals) {
+  for (size_t i = 0; i < count; ++i)
+    totals[i] = (is_wide_ ? wide_words_[i] : Fixed(words_[i])) << shift_;
+  size_t kept = 0;
+  for (const WideWord& wide : set_aside_) {
+    WideSum sum = wide.sum;
+    sum.add(totals[wide.place]);
+    const Fixed cut = sum.cut();
+    const bool is_large = width_of(cut) > top_of_words;
+    totals[wide.place] = is_large ? 0 : cut;
+    set_aside_at_[wide.place] = is_large ? uint16_t(kept + 1) : 0;
+    if (is_large) set_aside_[kept++] = {wide.place, sum};
+  }
+  set_aside_.resize(kept);
+}
+
+void SumLine::choose_window() {
+  std::array<Fixed, count> totals;
+  gather(totals);
+  const BitCounts counts(totals);
+  Window window = best_window(counts);
+  if (int(count) * (window.top - window.shift) + set_aside_bits * counts.outside(window) >=
+      set_aside_bits * counts.numbers())
+    window = {};
+  shift_ = window.shift;
+  width_ = window.top - window.shift;
+  is_wide_ = width_ > most_narrow;
+  for (size_t i = 0; i < count; ++i) {
+    const bool inside = counts.fits(i, window);
+    if (!inside) set_aside(i, totals[i]);
+    const Fixed word = inside ? totals[i] >> shift_ : 0;
+    if (is_wide_)
+      wide_words_[i] = word;
+    else
+      words_[i] = int64_t(word);
+  }
+  set_aside_when_chosen_ = set_aside_.size();
+}
+
+void SumLine::make_fit() {
+  const int needed = width_needed();
+  const size_t tolerated = set_aside_when_chosen_ + set_aside_when_chosen_ / 4 + 2;
+  if (!has_window_ || needed > width_ + 1 || set_aside_.size() > tolerated) return choose_window();
+  if (needed <= width_) return;
+  // One bit more for all, or those set aside that need it.
+  const bool can_grow =
+      width_ + 1 + shift_ <= top_of_words && width_ != most_narrow && width_ != most_wide;
+  if (!can_grow || count_beyond(width_) == 1) return choose_window();
+  ++width_;
+}
+
+int SumLine::width_needed() const {
+  if (is_wide_) {
+    Fixed any = 0;
+    for (const Fixed word : wide_words_) any |= word ^ (word >> 127);
+    return width_of(any);
+  }
+  int64_t any = 0;
+  for (const int64_t word : words_) any |= word ^ (word >> 63);
+  return width_of(any);
+}
+
+size_t SumLine::count_beyond(int width) const {
+  size_t beyond = 0;
+  for (size_t i = 0; i < count; ++i)
+    if ((is_wide_ ? width_of(wide_words_[i]) : width_of(words_[i])) > width) ++beyond;
+  return beyond;
+}
+
+bool SumLine::is_uniform() const {
+  if (!set_aside_.empty()) return false;
+  const auto same = [](const auto& words) {
+    return words.front() == words.back() &&
+           std::all_of(words.begin(), words.end(), [&](auto w) { return w == words.front(); });
+  };
+  return is_wide_ ? same(wide_words_) : same(words_);
+}
+
+const uint8_t* SumLine::unpack(const uint8_t* header_at, const uint8_t* content) {
+  clear();
+  const auto header = load<LineHeader>(header_at);
+  const uint8_t* end = content + content_bytes(header);
+  is_zero_ = header.counts == 0 && header.width == 0;
+  has_window_ = header.counts != uniform_line && !is_zero_;
+  if (header.counts == uniform_line) {
+    const auto value = load<Fixed>(content);
+    // With room for others, below and above.
+    shift_ = std::clamp(width_of(value) - 50, 0, zeros_below(value));
+    is_wide_ = width_of(value) - shift_ > most_narrow;
+    if (is_wide_)
+      wide_words_.fill(value >> shift_);
+    else
+      words_.fill(int64_t(value >> shift_));
+    return end;
+  }
+  shift_ = header.shift;
+  width_ = header.width;
+  is_wide_ = width_ > most_narrow;
+  if (is_wide_)
+    read_words(content, width_, wide_words_);
+  else if (width_ > 0)
+    read_words(content, width_, words_);
+  content += words_per_line / 8 * size_t(width_);
+  set_aside_when_chosen_ = header.counts >> 10;
+  for_set_aside(content, header.entries(), [&](size_t place, const WideSum& sum) {
+    set_aside_.push_back({place, sum});
+    set_aside_at_[place] = uint16_t(set_aside_.size());
+  });
+  return end;
+}
+
+uint8_t* SumLine::pack(uint8_t* header_at, uint8_t* content) {
+  if (is_uniform()) {
+    const Fixed value = (is_wide_ ? wide_words_[0] : Fixed(words_[0])) << shift_;
+    if (width_of(value) <= top_of_words) {
+      const LineHeader header{0, 0, value != 0 ? uniform_line : uint16_t(0)};
+      store(header_at, header);
+      store(content, value);
+      return content + content_bytes(header);
+    }
+  }
+  make_fit();
+  uint8_t* at = content;
+  if (is_wide_)
+    write_words(wide_words_, width_, at);
+  else if (width_ > 0)
+    write_words(words_, width_, at);
+  at += words_per_line / 8 * size_t(width_);
+  uint8_t* const entries = at;
+  for (const WideWord& wide : set_aside_) at = write_set_aside(wide.place, wide.sum, at);
+  const auto count_of_entries = size_t(at - entries) / entry_bytes;
+  const size_t chosen = std::min(set_aside_when_chosen_, most_counted);
+  store(header_at,
+        LineHeader{uint8_t(width_), uint8_t(shift_), uint16_t(count_of_entries | chosen << 10)});
+  return at;
+}
+
+}  // namespace kaustik

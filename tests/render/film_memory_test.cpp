@@ -1,0 +1,147 @@
+// What films, passes and splats take: measured for every integrator beside what check_film_memory()
+// expects.
+
+#include "kaustik/render/film_memory.h"
+
+#include <gtest/gtest.h>
+
+#include "kaustik/base/memory.h"
+#include "kaustik/integrator/registry.h"
+#include "kaustik/render/session.h"
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+constexpr int side = 48;
+/// What a pixel may take, with its pass and splats.
+constexpr double most_bytes = 320;
+
+/// A glass ball over a floor: every component but media.
+const TestScene& little_scene() {
+  static const TestScene scene(
+      camera("0, -4, 2", "0, 0, 0.5", 45, side) + flat("rectangle", scale("3"), diffuse("0.5")) +
+      sphere("0, 0, 0.6", 0.6, glass()) +
+      flat("rectangle", scale("0.5") + rotate("1, 0, 0", 180) + translate("0, 0, 3"),
+           area_light("9")));
+  return scene;
+}
+
+struct Measured {
+  double film = 0, rendering = 0;
+};
+
+Measured measured(const Integrator& integrator, bool layers) {
+  SessionSettings settings;
+  settings.seed = 3;
+  settings.passes = 16;
+  settings.samples_per_pass = 1;
+  settings.layers = layers;
+  Session session(little_scene().scene(), integrator, settings);
+  const SessionReport report = session.run();
+  EXPECT_EQ(report.film_bytes, session.film().bytes());
+  constexpr double pixels = side * side;
+  return {double(report.film_bytes) / pixels, double(report.rendering_bytes) / pixels};
+}
+
+TEST(FilmMemory, IsBoundedForAllIntegrators) {
+  std::printf(
+      "bytes a pixel after 16 passes, with layers and without: film; with pass and splats; "
+      "expected\n");
+  for (const IntegratorType& type : integrator_types()) {
+    const std::string name = type.info.name;
+    SCOPED_TRACE(name);
+    const std::string parameters =
+        name == "photonmap"
+            ? set("global_photons", 2000) + set("caustic_photons", 2000) + set("cache_samples", 16)
+            : "";
+    const auto integrator = little_scene().integrator(name, parameters);
+    std::printf("  %-12s", name.c_str());
+    for (const bool layers : {true, false}) {
+      const Measured is = measured(*integrator, layers);
+      const FilmMemory expected =
+          expected_film_memory(FilmLayers::of(*integrator, layers), integrator->traits().splats);
+      std::printf("  %5.1f %5.1f %5.1f", is.film, is.rendering, expected.rendering());
+      EXPECT_LE(is.rendering, most_bytes);
+      EXPECT_LE(is.film, expected.film);
+      EXPECT_LE(is.rendering, expected.rendering());
+      EXPECT_GE(is.rendering, 0.25 * expected.rendering());
+    }
+    std::printf("\n");
+  }
+}
+
+/// All that is allocated is what the figures say: of a tile's capacities and of the tables.
+TEST(FilmMemory, PassesTakeWhatTheyHold) {
+  PassTiles pass({3 * PictureTiles::side, PictureTiles::side});
+  const size_t empty = pass.bytes();
+  const auto pixels = std::make_unique<PassTiles::Pixels>();
+  for (PassPixel& pixel : *pixels) {
+    pixel.radiance[2] = {1, 2, 3, 0};
+    pixel.samples = 4;
+  }
+  pass.store(1, *pixels);
+  EXPECT_EQ(pass.bytes(), empty + 4 * sizeof(float));
+  (*pixels)[77].radiance[2].set(1, 5);
+  pass.store(1, *pixels);
+  EXPECT_EQ(pass.bytes(), empty + (3 + PictureTiles::pixels) * sizeof(float));
+  PassTiles::Pixels read;
+  pass.load(1, read);
+  for (size_t i = 0; i < read.size(); ++i) {
+    ASSERT_EQ(read[i].radiance[2], Spectrum(1, i == 77 ? 5 : 2, 3, 0));
+    ASSERT_EQ(read[i].samples, 4u);
+  }
+  pass.load(2, read);
+  EXPECT_EQ(read[5].samples, 0u);
+  EXPECT_EQ(pass.fewest_samples(), 0u);
+  pass.clear();
+  EXPECT_EQ(pass.bytes(), empty);
+}
+
+TEST(FilmMemory, ComponentsThatNobodyAskedForTakeNothing) {
+  ComponentSet one, two;
+  one.add(Component::direct);
+  two = one;
+  two.add(Component::caustic);
+  const FilmMemory of_one = expected_film_memory({one}, true),
+                   of_two = expected_film_memory({two}, true);
+  EXPECT_LT(of_one.film, of_two.film);
+  EXPECT_LT(of_one.rendering(), of_two.rendering());
+  EXPECT_LT(of_one.image, of_two.image);
+  FilmLayers none{two};
+  none.in_images = false;
+  EXPECT_LT(expected_film_memory(none, true).film, 0.5 * of_two.film);
+  EXPECT_EQ(expected_film_memory(none, true).image, 3 * sizeof(float));
+}
+
+/// What is needed, what there is, and what to do.
+TEST(FilmMemory, PicturesTooLargeAreRefused) {
+  const FilmLayers layers{ComponentSet::all(), true};
+  const auto refusal = [&](int width, int height) -> std::string {
+    FilmSettings settings;
+    settings.size = settings.crop_size = {width, height};
+    try {
+      check_film_memory(settings, layers, true);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  // As large as the memory, and a little larger.
+  const double pixels = double(physical_memory_bytes()) / expected_film_memory(layers, true).peak();
+  constexpr int width = 16 * 256;
+  const int rows = int(pixels / width / 16) * 16;
+  if (int64_t(rows + 16) * width > max_image_pixels) GTEST_SKIP() << "this machine is too large";
+  EXPECT_EQ(refusal(width, rows), "");
+  const std::string text = refusal(width, rows + 16);
+  for (const char* part : {"is too large here: it needs about", "GB, and this machine has",
+                           "film.layers=none", "kaustik stitch"})
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  EXPECT_NE(refusal(30000, 30000).find("at most 500000000 are possible"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kaustik
