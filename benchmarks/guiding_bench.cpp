@@ -8,6 +8,7 @@
 #include <map>
 
 #include "benchmarks/quality.h"
+#include "kaustik/loader/mitsuba_xml.h"
 #include "tests/support/scene_text.h"
 
 namespace {

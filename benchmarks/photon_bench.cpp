@@ -5,6 +5,7 @@
 
 #include "benchmarks/report.h"
 #include "benchmarks/shipped_scenes.h"
+#include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/vcm/camera_path/camera_path.h"
 #include "kaustik/vcm/merging/matt_merging.h"
 

@@ -17,6 +17,7 @@
 #include "benchmarks/shipped_scenes.h"
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/override_integrator.h"
+#include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"
 
