@@ -169,7 +169,7 @@ TEST_F(Budget, damaged_and_countless_texts_of_png_are_refused) {
 }
 
 const TypeInfo& picture_info() {
-  static const TypeInfo info{"texture", "picture", "", {file_parameter("filename", "A file.")}};
+  static const TypeInfo info{"texture", "picture", "", picture_parameters("", {})};
   return info;
 }
 

@@ -84,7 +84,10 @@ std::shared_ptr<const VcmPlans> VcmIntegrator::plans_for(const Pass& pass, std::
         !lessons_->knows_epoch(lessons_->epoch_begin(pass.index))) {
       const auto first = plans(pass.samples_per_pixel, stop, report);
       if (stop.stop_requested()) return first;
-      lessons_ = std::make_unique<VcmLessons>(scene_, first, settings_, pass.seed);
+      if (lessons_ && lessons_->first() == first)
+        lessons_->begin(pass.seed);
+      else
+        lessons_ = std::make_unique<VcmLessons>(scene_, first, settings_, pass.seed);
     }
     // Passes that were not rendered here are made up for, as far as learning goes.
     const uint32_t begin = lessons_->epoch_begin(pass.index);

@@ -30,6 +30,8 @@ class LessonSums {
 class Lesson {
  public:
   virtual ~Lesson() = default;
+  /// Forgets what passes have added: those to come are of another seed.
+  virtual void begin() = 0;
   /// Passes from this one on teach nothing.
   virtual uint32_t end() const = 0;
   /// Whether the pass, one before the end, teaches anything.

@@ -29,7 +29,7 @@ bool learns_guides(const VcmPlans& plans) {
 
 VcmLessons::VcmLessons(const Scene& scene, std::shared_ptr<const VcmPlans> first,
                        const VcmSettings& settings, uint64_t seed)
-    : scene_(scene), first_(std::move(first)), settings_(settings), seed_(seed) {
+    : first_(std::move(first)), seed_(seed) {
   if (learns_radii(*first_, settings))
     lessons_.push_back(std::make_unique<RadiusLesson>(scene, *first_, settings.components));
   if (learns_samples(*first_, settings))
@@ -37,6 +37,13 @@ VcmLessons::VcmLessons(const Scene& scene, std::shared_ptr<const VcmPlans> first
   if (learns_guides(*first_)) lessons_.push_back(std::make_unique<GuideLesson>(*first_->use));
   for (const auto& lesson : lessons_) end_ = std::max(end_, lesson->end());
   epochs_ = {{0, first_}};
+}
+
+void VcmLessons::begin(uint64_t seed) {
+  seed_ = seed;
+  passes_ = 0;
+  epochs_ = {{0, first_}};
+  for (const auto& lesson : lessons_) lesson->begin();
 }
 
 uint32_t VcmLessons::epoch_begin(uint32_t pass) const {

@@ -14,6 +14,8 @@ class VcmLessons {
   /// From `first`, the plans of the first pass. All must outlive this.
   VcmLessons(const Scene& scene, std::shared_ptr<const VcmPlans> first, const VcmSettings& settings,
              uint64_t seed);
+  /// Forgets all but what every seed has in common.
+  void begin(uint64_t seed);
 
   const std::shared_ptr<const VcmPlans>& first() const { return first_; }
   uint64_t seed() const { return seed_; }
@@ -53,9 +55,7 @@ class VcmLessons {
   std::vector<const Lesson*> wanted(uint32_t pass) const;
   std::shared_ptr<VcmPlans> made_plans(uint32_t epoch, const std::stop_token& stop, uint64_t& rays);
 
-  const Scene& scene_;
   std::shared_ptr<const VcmPlans> first_;
-  const VcmSettings& settings_;
   uint64_t seed_;
   std::vector<std::unique_ptr<Lesson>> lessons_;  ///< in the order in which they change plans
   uint32_t end_ = 0;

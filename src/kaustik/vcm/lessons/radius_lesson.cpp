@@ -14,6 +14,8 @@ struct RadiusSums final : LessonSums {
 RadiusLesson::RadiusLesson(const Scene& scene, const VcmPlans& first, ComponentSet wanted)
     : scene_(scene), first_(first), wanted_(wanted), sums_(first.pixels.seen().probes().size()) {}
 
+void RadiusLesson::begin() { sums_.assign(sums_.size(), {}); }
+
 std::unique_ptr<LessonSums> RadiusLesson::sums_of(const TaughtPass& taught, const std::stop_token&,
                                                   uint64_t&) const {
   auto sums = std::make_unique<RadiusSums>();

@@ -12,6 +12,7 @@ class RadiusLesson final : public Lesson {
   /// `first` are the plans of the first pass. All must outlive this.
   RadiusLesson(const Scene& scene, const VcmPlans& first, ComponentSet wanted);
 
+  void begin() override;
   uint32_t end() const override { return most_passes; }
   bool wants(uint32_t) const override { return true; }
   std::unique_ptr<LessonSums> sums_of(const TaughtPass& taught, const std::stop_token& stop,

@@ -35,7 +35,8 @@ std::shared_ptr<const SampleSpread> spread_of(uint32_t begin, std::vector<uint32
 SampleLesson::SampleLesson(const Scene& scene, const VcmPlans& first, ComponentSet wanted)
     : scene_(scene),
       wanted_(wanted),
-      samples_(first.pixels.seen().grid(), !first.techniques.needs_light_paths()) {}
+      nothing_(first.pixels.seen().grid(), !first.techniques.needs_light_paths()),
+      samples_(nothing_) {}
 
 std::unique_ptr<LessonSums> SampleLesson::sums_of(const TaughtPass& taught,
                                                   const std::stop_token& stop,

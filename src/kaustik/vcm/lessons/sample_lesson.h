@@ -10,6 +10,7 @@ class SampleLesson final : public Lesson {
   /// `first` are the plans of the first pass.
   SampleLesson(const Scene& scene, const VcmPlans& first, ComponentSet wanted);
 
+  void begin() override { samples_ = nothing_; }
   uint32_t end() const override { return SampleLearning::most_passes; }
   bool wants(uint32_t pass) const override { return pass < end(); }
   bool wants_samples(uint32_t pass) const override { return pass < end(); }
@@ -23,6 +24,7 @@ class SampleLesson final : public Lesson {
  private:
   const Scene& scene_;
   ComponentSet wanted_;
+  const SampleLearning nothing_;
   SampleLearning samples_;
 };
 
