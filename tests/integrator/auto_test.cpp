@@ -261,24 +261,6 @@ TEST(Auto, HasNoBiasWithoutLightPaths) {
     expect_equal_means(fmt::format("auto {}", layer), found.mean({layer}), path.mean({layer}));
 }
 
-/// What the trial of connections tells is the same whoever renders the passes of it.
-TEST(Auto, ChoosesAlikeFromAnyPass) {
-  const TestScene scene(room(hidden_lamp(), 24));
-  constexpr uint32_t pass = 9;
-  const auto decisions_after = [&](uint32_t first) {
-    const auto integrator = scene.integrator("auto");
-    SplatBuffer splats(scene.scene().film(), ComponentSet());
-    std::vector<std::string> result;
-    for (uint32_t index = first; index <= pass; ++index)
-      result = integrator->prepare({5, index, 4}, splats, {}, {})->report.decisions;
-    return result;
-  };
-  const auto in_order = decisions_after(0);
-  ASSERT_EQ(in_order.size(), 2u);
-  EXPECT_NE(in_order[1].find("connected to light paths"), std::string::npos) << in_order[1];
-  for (const uint32_t first : {5u, pass}) EXPECT_EQ(decisions_after(first), in_order) << first;
-}
-
 TEST(Auto, IsTheDefault) {
   const std::string floor = camera("0, 0, 3", "0, 0, 0", 40, 8, "0, 1, 0") + constant_light(1);
   const Description plain = description_of(floor + flat("rectangle", "", diffuse("0.5, 0.5, 0.5")));
