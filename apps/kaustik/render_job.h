@@ -17,8 +17,8 @@ void use_integrator(Description& description, const std::string& type);
 Messages terminal_messages();
 
 /// Renders with progress, keeps the checkpoint and writes the pictures of the settings' record.
-/// `prepared` is called when the scene is built. Throws Error, of all that could not be written, and
-/// EndedEarly.
+/// `prepared` is called when the scene is built. Throws Error, of all that could not be written,
+/// and EndedEarly.
 void run_job(Description description, JobSettings settings, bool quiet,
              const std::function<void()>& prepared = {});
 
