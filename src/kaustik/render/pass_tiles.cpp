@@ -78,8 +78,9 @@ void PassTiles::store(size_t tile, const Pixels& pixels) {
   if (kept.numbers.size() != size) kept.numbers = std::vector<float>(size);
   float* to = kept.numbers.data();
   for (size_t line = 0; line <= line_count; ++line) {
-    std::memcpy(to, (*lines)[line].data(), size_of(kept.kinds[line]) * sizeof(float));
-    to += size_of(kept.kinds[line]);
+    const size_t numbers = size_of(kept.kinds[line]);
+    if (numbers > 0) std::memcpy(to, (*lines)[line].data(), numbers * sizeof(float));
+    to += numbers;
   }
 }
 
