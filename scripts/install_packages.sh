@@ -3,7 +3,7 @@
 # needs no network when everything is there already.
 set -euo pipefail
 
-build=(cmake ninja-build pkg-config libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
+build=(cmake ninja-build pkg-config python3 libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
   libpng-dev libjpeg62-turbo-dev libwebp-dev libhwy-dev libpugixml-dev zlib1g-dev libcli11-dev libfmt-dev
   libspdlog-dev libgtest-dev libnanoflann-dev nlohmann-json3-dev)
 check=(clang clang-format libclang-rt-14-dev)

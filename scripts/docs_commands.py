@@ -1,0 +1,298 @@
+#!/usr/bin/env python3
+"""Runs the commands that the documentation prints, as far as they need nothing but this repository.
+
+Usage: scripts/docs_commands.py PROGRAM [PAGE.md ...]; without pages: all but CHANGELOG.md, which
+tells of earlier versions.
+
+Each fenced block ```sh of a page is run by bash, one after another, in a folder of the page's own that shows the
+repository's scenes, docs and so on. There `kaustik` is PROGRAM with its work made short (shortened() below says how), so that
+files, options and their values are what is checked, not how pictures look. HTML comments before a block, which readers do
+not see:
+
+    <!-- given: cp scenes/cornell_spheres/cornell_spheres.xml scene.xml -->    commands that make what the block takes for granted
+    <!-- not run: needs root -->                                               and why
+
+Of blocks that are not run and of `kaustik …` within text the subcommands and options are looked up in --help instead,
+of `make …` the targets in the Makefile. Exits with 1 if anything is wrong.
+"""
+import os
+import pathlib
+import re
+import shlex
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGES = ("*.md", "docs/**/*.md", "scenes/**/*.md", "benchmarks/**/*.md", "data/*.md", "examples/**/*.md")
+SIZE = 24  # of pictures
+MOST_PASSES = 2
+MOST_SECONDS = 0.2
+MOST_PHOTONS = 20000
+BLOCK_SECONDS = 120  # then something hangs
+
+
+class Block:
+    def __init__(self, page, line, language, given, reason):
+        self.page, self.line, self.language = page, line, language
+        self.given, self.reason = given, reason  # reason: of not being run, or None
+        self.lines = []
+
+    def place(self):
+        return f"{self.page}:{self.line}"
+
+
+def blocks_and_text(page, text):
+    """All fenced blocks, and (line number, line) of everything else."""
+    blocks, prose, given, reason, block = [], [], [], None, None
+    # A comment may go over several lines; it counts where it begins.
+    lines = iter(enumerate(text.splitlines(), 1))
+    for number, line in lines:
+        fence = re.match(r"\s*```(\w*)", line)
+        if block is not None:
+            if fence:
+                blocks.append(block)
+                block = None
+            else:
+                block.lines.append(line)
+            continue
+        if fence:
+            block = Block(page, number, fence[1], given, reason)
+            given, reason = [], None
+            continue
+        if line.lstrip().startswith("<!--"):
+            while "-->" not in line:
+                line += "\n" + next(lines)[1]
+            comment = re.match(r"\s*<!--\s*(given|not run):\s*(.*?)\s*-->", line, re.DOTALL)
+            if comment and comment[1] == "given":
+                given.append(comment[2])
+            elif comment:
+                reason = comment[2]
+        prose.append((number, line))
+    return blocks, prose
+
+
+def limited(value, most):
+    try:
+        return str(min(int(value), most))
+    except ValueError:
+        return value  # the program says what is wrong with it
+
+
+def shortened_time(value):
+    match = re.fullmatch(r"(\d+(\.\d+)?)([smh]|min)?", value)
+    return f"{MOST_SECONDS}s" if match and float(match[1]) > 0 else value
+
+
+def shortened(arguments):
+    """The same command with less to do: a small picture, one sample per pixel and pass, few passes, few photons."""
+    command = arguments[0] if arguments else ""
+    if command not in ("render", "resume", "photons") or "--help" in arguments:
+        return arguments
+    result, passes, is_limited = [], 1, False
+    values = iter(arguments)
+    for argument in values:
+        result.append(argument)
+        if argument in ("--passes", "--spp", "--time", "--set"):
+            value = next(values, None)
+            if value is None:
+                break
+            if argument == "--passes":
+                value = limited(value, MOST_PASSES)
+                passes = int(value) if value.isdigit() else passes
+            if argument == "--time":
+                value = shortened_time(value)
+            if argument == "--set":
+                photons = re.fullmatch(r"(integrator\.\w+_photons=)(\d+)", value)
+                value = photons[1] + limited(photons[2], MOST_PHOTONS) if photons else value
+            is_limited = is_limited or argument != "--set"
+            result.append(value)
+    if command == "photons":
+        return result
+    if command == "render":
+        # Crop windows stay what they are, in a narrow picture.
+        crops = " ".join(result)
+        if "film.crop_offset_x" not in crops and "film.crop_width" not in crops:
+            result += ["--set", f"film.width={SIZE}"]
+        if "film.crop_offset_y" not in crops and "film.crop_height" not in crops:
+            result += ["--set", f"film.height={SIZE}"]
+    if "--spp" in result:
+        at = result.index("--spp") + 1
+        result[at] = limited(result[at], passes)
+    elif not is_limited or "--passes" in result:
+        result += ["--spp", str(passes)]
+    return result if is_limited or command == "resume" else result + ["--passes", "1"]
+
+
+class Program:
+    """What the built program says of itself."""
+
+    def __init__(self, path):
+        self.path = path
+        self.options = {}
+        general = self.help([])
+        self.commands = re.findall(r"^  (\w+)  ", general, re.MULTILINE)
+        if not self.commands:
+            sys.exit(f"docs_commands: {path} --help lists no commands")
+
+    def help(self, arguments):
+        return subprocess.run([self.path, *arguments, "--help"], capture_output=True, text=True).stdout
+
+    def options_of(self, command):
+        if command not in self.options:
+            self.options[command] = set(re.findall(r"(?<![\w-])--?[a-zA-Z][\w-]*", self.help([command])))
+        return self.options[command]
+
+    def complaint(self, words):
+        """What is wrong with a mention: the words after `kaustik`; None: nothing."""
+        if not words or words[0] in ("--help", "--version", "help", "…"):
+            return None
+        if words[0] not in self.commands:
+            return f"there is no 'kaustik {words[0]}'"
+        for word in words[1:]:
+            option = word.split("=")[0]
+            if re.match(r"--?[a-zA-Z]", option) and option not in self.options_of(words[0]):
+                return f"'kaustik {words[0]}' has no option {option}"
+        return None
+
+
+def make_targets():
+    phony = re.search(r"^\.PHONY:(.*)$", (ROOT / "Makefile").read_text(), re.MULTILINE)
+    return set(phony[1].split())
+
+
+def commands_in(text):
+    """Simple commands of a piece of shell: lists of words."""
+    for part in re.split(r"\n|\||&&|;", text.replace("\\\n", " ")):
+        try:
+            words = shlex.split(part, comments=True)
+        except ValueError:
+            continue
+        for at, word in enumerate(words):
+            if word in ("kaustik", "make"):
+                yield words[at:]
+                break
+
+
+def mention_complaints(program, targets, text):
+    for words in commands_in(text):
+        if words[0] == "kaustik":
+            complaint = program.complaint(words[1:])
+            if complaint:
+                yield complaint
+        else:
+            for word in words[1:]:
+                if re.fullmatch(r"[a-z-]+", word) and word not in targets:
+                    yield f"the Makefile has no target '{word}'"
+
+
+def show(folder, work):
+    for entry in folder.iterdir():
+        if not entry.name.startswith(".") and entry.name not in ("out", "build"):
+            (work / entry.name).symlink_to(entry)
+
+
+def prepare_folder(folder, page, program):
+    """The repository's folders as the page sees them; pages of scenes see the scene's files."""
+    (folder / "bin").mkdir()
+    work = folder / "work"
+    work.mkdir()
+    wrapper = folder / "bin" / "kaustik"
+    wrapper.write_text("#!/bin/sh\nexec " + shlex.join(
+        [sys.executable, str(pathlib.Path(__file__).resolve()), "--as-kaustik", program.path]) + ' "$@"\n')
+    wrapper.chmod(0o755)
+    show(ROOT, work)
+    parts = pathlib.Path(page).parts
+    if parts[0] != "scenes":
+        return work
+    # The page's own folder and those above it are real ones, so that its commands write nothing into the repository.
+    for depth in range(1, len(parts)):
+        inner = work.joinpath(*parts[:depth])
+        inner.unlink()
+        inner.mkdir()
+        show(ROOT.joinpath(*parts[:depth]), inner)
+    return work.joinpath(*parts[:-1])
+
+
+def run_block(block, folder, work):
+    script = "\n".join([*block.given, *block.lines])
+    environment = dict(os.environ, PATH=f"{folder / 'bin'}:{os.environ['PATH']}")
+    process = subprocess.Popen(["bash", "-euo", "pipefail", "-c", script], cwd=work, env=environment,
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                               text=True, errors="replace", start_new_session=True)
+    try:
+        output, _ = process.communicate(timeout=BLOCK_SECONDS)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+        return f"took more than {BLOCK_SECONDS} s"
+    return None if process.returncode == 0 else f"exit code {process.returncode}\n{output.strip()}"
+
+
+class Report:
+    def __init__(self):
+        self.failures, self.commands, self.blocks, self.reasons, self.mentions, self.slowest = [], 0, 0, [], 0, []
+
+    def fail(self, place, text):
+        self.failures.append(f"{place}: {text}")
+
+
+def check_page(page, program, targets, report):
+    path = pathlib.Path(page)
+    text = (path if path.is_absolute() else ROOT / path).read_text()
+    blocks, prose = blocks_and_text(page, text)
+    for number, line in prose:
+        for code in re.findall(r"(?<!`)`([^`]+)`(?!`)", line):
+            if re.match(r"(kaustik|make) ", code):
+                report.mentions += 1
+                for complaint in mention_complaints(program, targets, code):
+                    report.fail(f"{page}:{number}", complaint)
+    with tempfile.TemporaryDirectory() as name:
+        folder, work = pathlib.Path(name), None
+        for block in blocks:
+            content = "\n".join(block.lines)
+            if block.language != "sh":
+                if re.match(r"\s*kaustik ", content):
+                    report.fail(block.place(), "a block of commands does not say that it is: ```sh")
+                continue
+            if block.reason is not None:
+                report.reasons.append(f"{block.place()}: {block.reason}")
+                for complaint in mention_complaints(program, targets, content):
+                    report.fail(block.place(), complaint)
+                continue
+            work = work or prepare_folder(folder, page, program)
+            report.blocks += 1
+            report.commands += sum(words[0] == "kaustik" for words in commands_in(content))
+            start = time.monotonic()
+            failure = run_block(block, folder, work)
+            report.slowest.append((time.monotonic() - start, block.place()))
+            if failure:
+                report.fail(block.place(), failure)
+
+
+def main(arguments):
+    if len(arguments) >= 2 and arguments[0] == "--as-kaustik":
+        os.execv(arguments[1], [arguments[1], *shortened(arguments[2:])])
+    if not arguments:
+        sys.exit(__doc__)
+    pages = arguments[1:] or sorted(
+        str(page.relative_to(ROOT)) for pattern in PAGES for page in ROOT.glob(pattern) if page.name != "CHANGELOG.md")
+    program = Program(str(pathlib.Path(arguments[0]).resolve()))
+    report, targets = Report(), make_targets()
+    for page in pages:
+        check_page(page, program, targets, report)
+    for seconds, place in sorted(report.slowest, reverse=True)[:3]:
+        print(f"{seconds:.1f} s: {place}")
+    print(f"{report.blocks} blocks run, with {report.commands} commands of kaustik; {report.mentions} mentions looked up; "
+          f"{len(report.reasons)} blocks not run:")
+    for reason in report.reasons:
+        print("  " + reason)
+    for failure in report.failures:
+        print(failure, file=sys.stderr)
+    return 1 if report.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

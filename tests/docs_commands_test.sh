@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# scripts/docs_commands.py must find each mistake planted in a page, and take a page without one.
+# Usage: docs_commands_test.sh PROGRAM
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+program=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+check_page() {
+  cat >"$folder/page.md"
+  "$root"/scripts/docs_commands.py "$program" "$folder/page.md" 2>&1
+}
+
+# plant MESSAGE: the page on standard input must be refused with that message.
+plant() {
+  local output
+  if output=$(check_page); then
+    echo "not found: '$1'"
+    failures=$((failures + 1))
+  elif [[ $output != *"$1"* ]]; then
+    printf "instead of '%s' came\n%s\n" "$1" "$output"
+    failures=$((failures + 1))
+  fi
+}
+
+check_page <<'PAGE' || failures=$((failures + 1))
+A page that is right, with `kaustik render scene.xml --time 5s`, `make test` and
+<!-- given: sed 's|"meshes/|"scenes/metal_ring/meshes/|' scenes/metal_ring/metal_ring.xml >scene.xml -->
+```sh
+kaustik render scene.xml --spp 4096 --integrator path -o a.exr   # would take minutes
+test -s a.exr
+```
+<!-- not run: needs root -->
+```sh
+make install
+```
+PAGE
+plant "no option --time" <<'PAGE'
+`kaustik info scene.xml --time 5s`
+PAGE
+plant "no 'kaustik rendre'" <<'PAGE'
+`kaustik rendre scene.xml`
+PAGE
+plant "no target 'tests'" <<'PAGE'
+<!-- not run: needs root -->
+```sh
+make tests
+```
+PAGE
+plant "no option --samples" <<'PAGE'
+<!-- not run: needs hours -->
+```sh
+kaustik render scene.xml --samples 5
+```
+PAGE
+plant "page.md:2: exit code" <<'PAGE'
+A wrong option:
+```sh
+kaustik render scenes/metal_ring/metal_ring.xml --samples 5
+```
+PAGE
+plant "no such parameter" <<'PAGE'
+```sh
+kaustik help nothing_of_that_name || { echo no such parameter; false; }
+```
+PAGE
+plant "cannot read the time" <<'PAGE'
+A wrong value, which is not made short:
+```sh
+kaustik render scenes/metal_ring/metal_ring.xml --time 5parsecs
+```
+PAGE
+plant "exit code" <<'PAGE'
+A file that no command has made:
+```sh
+kaustik tonemap none.exr -o none.png
+```
+PAGE
+plant "does not say that it is" <<'PAGE'
+```
+kaustik info scenes/metal_ring/metal_ring.xml
+```
+PAGE
+[[ $failures == 0 ]] && echo "docs_commands_test: passed"
+exit "$failures"
