@@ -14,6 +14,7 @@ void add_compare(CLI::App& program);
 void add_denoise(CLI::App& program);
 void add_photons(CLI::App& program);
 void add_resume(CLI::App& program);
+void add_learn(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_stitch(CLI::App& program);
 void add_help(CLI::App& program);

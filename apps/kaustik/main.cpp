@@ -65,6 +65,7 @@ int run(int argc, char** argv) {
   kaustik::app::add_compare(program);
   kaustik::app::add_denoise(program);
   kaustik::app::add_photons(program);
+  kaustik::app::add_learn(program);
   kaustik::app::add_merge(program);
   kaustik::app::add_stitch(program);
   kaustik::app::add_help(program);

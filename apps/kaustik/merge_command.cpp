@@ -71,7 +71,7 @@ void merge_passes(const MergeOptions& options, FileRoles& roles) {
   for (const std::string& output : options.outputs)
     if (names_checkpoint(output))
       failures.attempt(output, [&] {
-        write_checkpoint(output, whole.record, whole.film);
+        write_checkpoint(output, whole.record, whole.film, whole.lessons);
         say("wrote {}: passes {}", output, whole.film.passes().text());
       });
   whole.record.outputs.files = images.files;

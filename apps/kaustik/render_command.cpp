@@ -26,7 +26,7 @@ struct RenderOptions {
   RenderRecipe recipe;
   OutputPlan outputs;
   std::vector<std::string> definitions, settings;
-  std::optional<std::string> time, error, checkpoint;
+  std::optional<std::string> time, error, checkpoint, learned;
   std::string every = "30s";
   std::optional<uint32_t> passes, spp;
   uint32_t first_pass = 0;
@@ -55,6 +55,12 @@ void render(RenderOptions options) {
   RenderRecipe& recipe = options.recipe;
   FileRoles roles;
   roles.reads_scene(recipe.scene);
+  if (options.learned) {
+    roles.reads(*options.learned);
+    job.learned = read_lessons(*options.learned);
+    job.learned_path = *options.learned;
+    check_program(*job.learned, *options.learned, KAUSTIK_VERSION);
+  }
   if (options.outputs.files.empty() && is_standard_stream(recipe.scene))
     throw Error(ErrorKind::input, "a scene from standard input gives its picture no name",
                 "say what to write: -o FILE");
@@ -213,6 +219,7 @@ void add_render(CLI::App& program) {
       ->needs(checkpoint);
   command->add_option("--every", options->every, "Time between checkpoints: 30s, 5m, 1h [30s]")
       ->needs(checkpoint);
+  command->add_option("--learned", options->learned, "Lessons for all passes, .kln: kaustik learn");
   command->add_option("--seed", options->recipe.seed, "Seed of all random numbers [0]");
   add_texture_memory(*command, options->build);
   command->add_option("--threads", options->threads, "Threads; 0: all [0]")

@@ -244,7 +244,7 @@ TEST_F(CheckpointFile, CancelledRendersHoldTheirFinishedPasses) {
 
 TEST_F(CheckpointFile, MergingRefusesWhatDoesNotBelongTogether) {
   const auto checkpoint = [](PassRange passes) {
-    return Checkpoint{little_record(), little_film(passes)};
+    return Checkpoint{little_record(), little_film(passes), {}};
   };
   const auto refused = [&](const std::string& message,
                            const std::function<void(Checkpoint&)>& change) {
@@ -257,6 +257,7 @@ TEST_F(CheckpointFile, MergingRefusesWhatDoesNotBelongTogether) {
   };
   refused("another scene", [](Checkpoint& part) { part.record.recipe.digest.scene = 1; });
   refused("another integrator", [](Checkpoint& part) { part.record.recipe.digest.integrator = 1; });
+  refused("it has other lessons", [](Checkpoint& part) { part.record.recipe.lessons = 1; });
   refused("it has seed 1 instead", [](Checkpoint& part) { part.record.recipe.seed = 1; });
   refused("it has 3 samples per pass instead of 2",
           [](Checkpoint& part) { part.record.recipe.samples_per_pass = 3; });
@@ -274,7 +275,7 @@ TEST_F(CheckpointFile, MergingRefusesWhatDoesNotBelongTogether) {
 }
 
 TEST_F(CheckpointFile, OtherVersionsAreRefused) {
-  const Checkpoint checkpoint{little_record(), little_film()};
+  const Checkpoint checkpoint{little_record(), little_film(), {}};
   check_program(checkpoint, "a.kpt", "1.2.3");
   EXPECT_THROW(check_program(checkpoint, "a.kpt", "1.2.4"), Error);
 }

@@ -1,5 +1,9 @@
 // What passes teach goes into bytes and comes back: who goes on from there makes the same pictures
 // and traces no pass anew.
+#include <cmath>
+#include <functional>
+#include <random>
+
 #include "kaustik/base/error.h"
 #include "kaustik/render/session.h"
 #include "tests/support/measure.h"
@@ -55,13 +59,13 @@ bool are_same(const Image& a, const Image& b) {
 
 constexpr uint32_t learned = 9, more = 3;
 
-class Lessons : public testing::TestWithParam<std::string> {};
+class Learners : public testing::TestWithParam<std::string> {};
 
-TEST_P(Lessons, GoOnWithoutTracingAnew) {
+TEST_P(Learners, GoOnWithoutTracingAnew) {
   const TestScene scene = caustic_room();
   const auto teacher = made(scene, GetParam());
   rendered(scene, *teacher, 0, learned);
-  const std::vector<uint8_t> lessons = teacher->lessons();
+  const Lessons lessons = teacher->lessons();
   ASSERT_FALSE(lessons.empty());
 
   const auto pupil = made(scene, GetParam());
@@ -84,7 +88,7 @@ TEST_P(Lessons, GoOnWithoutTracingAnew) {
   EXPECT_TRUE(are_same(rendered(scene, *pupil, 0, 1).image, first.image));
 }
 
-TEST_P(Lessons, OtherSeedsLearnForThemselves) {
+TEST_P(Learners, OtherSeedsLearnForThemselves) {
   const TestScene scene = caustic_room(16);
   const auto teacher = made(scene, GetParam());
   rendered(scene, *teacher, 0, 3);
@@ -100,11 +104,11 @@ TEST_P(Lessons, OtherSeedsLearnForThemselves) {
   EXPECT_TRUE(are_same(picture(*pupil), picture(*made(scene, GetParam()))));
 }
 
-TEST_P(Lessons, HoldForAllPassesWhenTheyAreFixed) {
+TEST_P(Learners, HoldForAllPassesWhenTheyAreFixed) {
   const TestScene scene = caustic_room();
   const auto teacher = made(scene, GetParam());
   rendered(scene, *teacher, 0, 8);
-  const std::vector<uint8_t> lessons = teacher->lessons();
+  const Lessons lessons = teacher->lessons();
   const auto fixed = [&](uint32_t first, uint32_t count) {
     const auto pupil = made(scene, GetParam());
     pupil->go_on_with(lessons, LessonUse::fixed);
@@ -118,7 +122,7 @@ TEST_P(Lessons, HoldForAllPassesWhenTheyAreFixed) {
   EXPECT_GT(double(late.report.photons), 0.5 * double(early.report.photons));
 }
 
-TEST_P(Lessons, FixedOnesMakeTheSamePicture) {
+TEST_P(Learners, FixedOnesMakeTheSamePicture) {
   const TestScene scene = caustic_room(20, diffuse("0.6, 0.6, 0.6"));
   const auto teacher = made(scene, GetParam());
   rendered(scene, *teacher, 0, 8);
@@ -129,29 +133,76 @@ TEST_P(Lessons, FixedOnesMakeTheSamePicture) {
   expect_near_means("fixed lessons", Comparison(passes.mean({""}), reference.mean({""})), 0.01);
 }
 
-TEST_P(Lessons, DamageIsTold) {
+TEST_P(Learners, LearnWithoutAPicture) {
+  const TestScene scene = caustic_room(16);
+  const auto teacher = made(scene, GetParam()), pupil = made(scene, GetParam());
+  rendered(scene, *teacher, 0, 11);
+  const PassReport report = pupil->learn({3, 11, 4, {}}, {}, {});
+  EXPECT_EQ(pupil->lessons().passes, 11u);
+  EXPECT_EQ(pupil->lessons(), teacher->lessons());
+  EXPECT_GT(report.photons, 0u);
+  EXPECT_FALSE(report.decisions.empty());
+  // No further than it is asked to, and not anew.
+  EXPECT_EQ(pupil->learn({3, 11, 4, {}}, {}, {}).photons, 0u);
+  std::stop_source stopped;
+  stopped.request_stop();
+  pupil->learn({3, 16, 4, {}}, stopped.get_token(), {});
+  EXPECT_EQ(pupil->lessons(), teacher->lessons());
+}
+
+TEST_P(Learners, DamageIsTold) {
   const TestScene scene = caustic_room(12);
   const auto teacher = made(scene, GetParam());
   rendered(scene, *teacher, 0, 3);
-  const std::vector<uint8_t> lessons = teacher->lessons();
-  for (size_t size = 0; size < lessons.size(); size += 1 + lessons.size() / 61) {
-    const std::vector<uint8_t> part(lessons.begin(), lessons.begin() + std::ptrdiff_t(size));
-    EXPECT_THROW(made(scene, GetParam())->go_on_with(part, LessonUse::go_on), Error) << size;
-  }
-  std::vector<uint8_t> longer = lessons;
-  longer.push_back(0);
-  EXPECT_THROW(made(scene, GetParam())->go_on_with(longer, LessonUse::go_on), Error);
-  const TestScene other = caustic_room(20);
-  EXPECT_THROW(made(other, GetParam())->go_on_with(lessons, LessonUse::go_on), Error);
+  const Lessons lessons = teacher->lessons();
+  const auto refused = [&](const TestScene& of, const std::function<void(Lessons&)>& change) {
+    Lessons changed = lessons;
+    change(changed);
+    EXPECT_THROW(made(of, GetParam())->go_on_with(changed, LessonUse::go_on), Error);
+  };
+  const size_t size = lessons.bytes.size();
+  for (size_t part = 0; part < size; part += 1 + size / 61)
+    refused(scene, [&](Lessons& l) { l.bytes.resize(part); });
+  refused(scene, [](Lessons& l) { l.bytes.push_back(0); });
+  refused(scene, [](Lessons& l) { ++l.passes; });
+  refused(caustic_room(20), [](Lessons&) {});
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Lessons, testing::Values("ppm", "auto", "vcm"),
+/// Lessons may come from anybody: what their checks let pass makes a wrong picture at worst.
+TEST_P(Learners, WrongNumbersDoNoHarm) {
+  const TestScene scene = caustic_room(8);
+  const auto teacher = made(scene, GetParam());
+  rendered(scene, *teacher, 0, 3);
+  const Lessons lessons = teacher->lessons();
+  std::mt19937 random(7);
+  int taken = 0;
+  for (int i = 0; i < 200; ++i) {
+    Lessons wrong = lessons;
+    const int flips = 1 + i % 8;
+    for (int k = 0; k < flips; ++k)
+      wrong.bytes[random() % wrong.bytes.size()] ^= uint8_t(1u << random() % 8);
+    const auto pupil = made(scene, GetParam());
+    try {
+      pupil->go_on_with(wrong, i % 2 ? LessonUse::fixed : LessonUse::go_on);
+    } catch (const Error&) {
+      continue;
+    }
+    ++taken;
+    const Image image = rendered(scene, *pupil, 3, 1).image;
+    for (int c = 0; c < image.channel_count(); ++c)
+      for (const float value : image.channel(c)) ASSERT_TRUE(std::isfinite(value)) << i;
+  }
+  EXPECT_GT(taken, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Learners, testing::Values("ppm", "auto", "vcm"),
                          [](const auto& method) { return method.param; });
 
-TEST(LessonsOf, MethodsThatLearnNothing) {
+TEST(Learning, DoesNothingWhereNothingIsLearned) {
   const TestScene scene = caustic_room(8);
   const auto path = made(scene, "path");
   rendered(scene, *path, 0, 1);
+  EXPECT_EQ(path->learn({3, 4, 4, {}}, {}, {}).rays, 0u);
   EXPECT_TRUE(path->lessons().empty());
 }
 

@@ -5,15 +5,17 @@
 
 #include <cmath>
 #include <new>
+#include <tuple>
 
 #include "kaustik/base/binary_file.h"
+#include "kaustik/render/lessons_file.h"
 
 namespace kaustik {
 namespace {
 
 constexpr BinaryFileKind checkpoint_kind = {
     {0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
-    4,
+    5,
     "checkpoint",
     "give a .kpt file that was written by: kaustik render SCENE --checkpoint FILE.kpt",
     "render again with this program: kaustik render SCENE --checkpoint FILE.kpt"};
@@ -54,6 +56,7 @@ void put_recipe(BinaryWriter& writer, const RenderRecipe& recipe) {
   }
   writer.put(recipe.seed);
   writer.put(recipe.samples_per_pass);
+  writer.put(recipe.lessons);
   writer.put(recipe.digest.scene);
   writer.put(recipe.digest.integrator);
 }
@@ -77,6 +80,7 @@ RenderRecipe get_recipe(BinaryReader& reader) {
   recipe.samples_per_pass = reader.get<uint32_t>();
   if (recipe.samples_per_pass == 0 || recipe.samples_per_pass > most_samples_per_pass)
     reader.damaged("the samples of its passes are not valid");
+  recipe.lessons = reader.get<uint64_t>();
   recipe.digest.scene = reader.get<uint64_t>();
   recipe.digest.integrator = reader.get<uint64_t>();
   return recipe;
@@ -183,6 +187,8 @@ std::pair<std::string, std::string> difference(const RenderRecipe& a, const Rend
     return {
         fmt::format("{} samples per pass instead of {}", b.samples_per_pass, a.samples_per_pass),
         "give each part --spp as its --passes times the same number"};
+  if (a.lessons != b.lessons)
+    return {"other lessons", "render all parts with the same --learned, or all without"};
   return {};
 }
 
@@ -209,7 +215,8 @@ RenderRecord merged_record(RenderRecord first, const RenderRecord& other) {
 
 }  // namespace
 
-void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film) try {
+void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film,
+                      const Lessons& lessons) try {
   BinaryWriter writer(checkpoint_kind);
   writer.put_text(record.program);
   put_recipe(writer, record.recipe);
@@ -218,6 +225,7 @@ void write_checkpoint(const std::string& path, const RenderRecord& record, const
   put_view(writer, record.view);
   writer.put(record.seconds);
   film.write(writer);
+  put_lessons(writer, lessons);
   writer.write_to(path);
 } catch (const std::bad_alloc&) {
   throw Error(ErrorKind::system, fmt::format("cannot write '{}': not enough memory", path),
@@ -227,8 +235,12 @@ void write_checkpoint(const std::string& path, const RenderRecord& record, const
 Checkpoint read_checkpoint(const std::string& path) {
   BinaryReader reader(checkpoint_kind, path);
   RenderRecord record = get_record(reader);
-  Checkpoint checkpoint{std::move(record), Film::read(reader)};
+  Checkpoint checkpoint{std::move(record), Film::read(reader), {}};
+  checkpoint.lessons = get_lessons(reader);
   reader.expect_end();
+  if (checkpoint.record.recipe.lessons != 0 &&
+      checkpoint.record.recipe.lessons != digest_of(checkpoint.lessons))
+    reader.damaged("its lessons are not those of its passes");
   const Film& film = checkpoint.film;
   const PassSet& passes = film.passes();
   if (!is_valid(checkpoint.record.view.frame, {film.width(), film.height()}))
@@ -275,6 +287,9 @@ void merge_checkpoint(Checkpoint& whole, const std::string& whole_path, const Ch
   const bool leads =
       part.film.passes().ranges().front().begin < whole.film.passes().ranges().front().begin;
   whole.film.add(part.film);
+  // Of as many passes they may have been written at different times: one order of them for all.
+  const auto order = [](const Lessons& lessons) { return std::tie(lessons.passes, lessons.bytes); };
+  if (order(whole.lessons) < order(part.lessons)) whole.lessons = part.lessons;
   RenderRecord record =
       merged_record(leads ? part.record : whole.record, leads ? whole.record : part.record);
   record.plan = merged_plan(whole.record.plan, part.record.plan, whole.film.passes());

@@ -10,6 +10,7 @@
 #include "kaustik/render/film.h"
 #include "kaustik/scene/description_digest.h"
 #include "kaustik/scene/overrides.h"
+#include "kaustik/transport/integrator.h"
 
 namespace kaustik {
 
@@ -23,6 +24,8 @@ struct RenderRecipe {
   std::vector<Setting> settings;  ///< made after that; later ones win
   uint64_t seed = 0;
   uint32_t samples_per_pass = 1;
+  /// digest_of() the lessons that hold for all passes; 0: passes learn for themselves.
+  uint64_t lessons = 0;
   DescriptionDigest digest;  ///< of the description after all of these
 };
 
@@ -63,11 +66,13 @@ struct RenderRecord {
 struct Checkpoint {
   RenderRecord record;
   Film film;
+  Lessons lessons;  ///< that its passes have taught, or that hold for all of them
 };
 
 /// Writes a .kpt file atomically; throws as write_file_atomically() does, and Error(system) if
 /// there is too little memory to collect it.
-void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film);
+void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film,
+                      const Lessons& lessons = {});
 
 /// Throws Error(input) if the file is missing, no checkpoint, of another version or byte order,
 /// truncated or damaged (a checksum covers every byte). Allocates in proportion to the file's size.
@@ -83,9 +88,9 @@ void check_program(const Checkpoint& checkpoint, const std::string& path,
 
 /// The passes of both, in `whole`, with the record of the part whose passes begin first, so that
 /// the order of parts makes no difference; where they were to write different images, it names
-/// none. Throws Error(input), at `path`, where part and whole have a pass in common, or are of
-/// different scenes, integrators, settings, seeds or samples per pass. `whole_path` is for
-/// messages.
+/// none. Of their lessons it keeps those of more passes. Throws Error(input), at `path`, where part
+/// and whole have a pass in common, or are of different scenes, integrators, settings, seeds or
+/// samples per pass. `whole_path` is for messages.
 void merge_checkpoint(Checkpoint& whole, const std::string& whole_path, const Checkpoint& part,
                       const std::string& path);
 

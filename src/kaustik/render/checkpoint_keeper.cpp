@@ -18,10 +18,12 @@ std::chrono::steady_clock::duration duration_of(double seconds) {
 }  // namespace
 
 CheckpointKeeper::CheckpointKeeper(std::string path, double interval_s, RenderRecord record,
+                                   const Integrator& integrator,
                                    std::function<void(const std::string&)> warn)
     : path_(std::move(path)),
       interval_s_(interval_s),
       record_(std::move(record)),
+      integrator_(integrator),
       warn_(std::move(warn)),
       start_(Clock::now()),
       next_(start_ + duration_of(interval_s)) {}
@@ -46,7 +48,7 @@ void CheckpointKeeper::write_last(const Film& film) {
 }
 
 void CheckpointKeeper::write(const Film& film) {
-  write_checkpoint(path_, record(), film);
+  write_checkpoint(path_, record(), film, integrator_.lessons());
   passes_written_ = film.pass_count();
 }
 

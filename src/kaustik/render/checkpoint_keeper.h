@@ -12,9 +12,9 @@ class CheckpointKeeper {
  public:
   /// Writes to `path` about every `interval_s` seconds ("": never), more rarely where writing would
   /// take more than a tenth of the time. `record` is what is known when the session starts; `warn`
-  /// is told why one could not be written.
+  /// is told why one could not be written. `integrator` is the session's, which must outlive this.
   CheckpointKeeper(std::string path, double interval_s, RenderRecord record,
-                   std::function<void(const std::string&)> warn);
+                   const Integrator& integrator, std::function<void(const std::string&)> warn);
 
   /// After each pass: writes if it is time. A failure is told, and the render may go on.
   void pass_done(const Film& film);
@@ -30,6 +30,7 @@ class CheckpointKeeper {
   std::string path_;
   double interval_s_;
   RenderRecord record_;
+  const Integrator& integrator_;
   std::function<void(const std::string&)> warn_;
   Clock::time_point start_, next_;
   uint32_t passes_written_ = 0;

@@ -8,6 +8,7 @@
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/render/checkpoint_keeper.h"
+#include "kaustik/render/learning.h"
 #include "kaustik/render/preview.h"
 #include "kaustik/render/resume.h"
 
@@ -32,11 +33,13 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
   if (auto run = current()) return run;
   apply_changes(description_, settings_.record.recipe, listener_.messages);
   const auto run = std::make_shared<Run>();
-  run->prepared = prepare_scene(description_, settings_.build,
-                                !settings_.checkpoint.empty() || settings_.begun.has_value(),
-                                listener_.messages, previous_);
+  run->prepared =
+      prepare_scene(description_, settings_.build,
+                    !settings_.checkpoint.empty() || settings_.begun || settings_.learned,
+                    listener_.messages, previous_);
   previous_ = nullptr;
   if (settings_.begun) check_same_scene(run->prepared, *settings_.begun, settings_.begun_path);
+  teach(run->prepared);
   const std::lock_guard lock(mutex_);
   run_ = run;
   return run;
@@ -80,9 +83,21 @@ void Job::work() {
   }
 }
 
+void Job::teach(const PreparedScene& prepared) const {
+  if (const auto& begun = settings_.begun) {
+    const LessonUse use = begun->record.recipe.lessons != 0 ? LessonUse::fixed : LessonUse::go_on;
+    if (!begun->lessons.empty()) hand_over(begun->lessons, use, settings_.begun_path, prepared);
+  } else if (const auto& learned = settings_.learned) {
+    check_same_scene(prepared, *learned, settings_.learned_path);
+    hand_over(learned->lessons, LessonUse::fixed, settings_.learned_path, prepared);
+  }
+}
+
 void Job::make_session(Run& run) {
   SessionSettings settings = settings_.session;
   settings.keeps_passes = !settings_.checkpoint.empty();
+  if (settings_.learned && !(settings.passes && settings.samples_per_pixel))
+    settings.samples_per_pass = settings_.learned->samples_per_pass;
   if (settings.seconds) {
     // What it took to read the scene is of the time that there is.
     constexpr double least_s = 1e-3;
@@ -99,6 +114,7 @@ void Job::make_session(Run& run) {
   RenderRecord& record = result_.record;
   record = settings_.record;
   record.recipe.samples_per_pass = session->samples_per_pass();
+  if (settings_.learned) record.recipe.lessons = digest_of(settings_.learned->lessons);
   if (prepared.digest) record.recipe.digest = *prepared.digest;
   record.plan.passes = session->planned_passes();
   record.view = prepared.view;
@@ -124,7 +140,7 @@ void Job::render() {
   make_session(*run);
   const bool keeps = !settings_.checkpoint.empty();
   CheckpointKeeper keeper(settings_.checkpoint, settings_.every_s, result_.record,
-                          listener_.messages.warning);
+                          *run->prepared.integrator, listener_.messages.warning);
   Session& session = *run->session;
   result_.report = session.run(stop_.get_token(), listener_.progress, [&] {
     keeper.pass_done(session.film());
@@ -168,6 +184,7 @@ void Job::edit(Description description) {
   }
   description_ = std::move(description);
   settings_.begun.reset();
+  settings_.learned.reset();
   settings_.clock_start = std::chrono::steady_clock::now();
   result_ = {};
   failure_ = nullptr;

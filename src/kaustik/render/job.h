@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "kaustik/render/lessons_file.h"
 #include "kaustik/render/prepared_scene.h"
 #include "kaustik/render/session.h"
 
@@ -35,6 +36,10 @@ struct JobSettings {
   double every_s = 30;              ///< between two checkpoints
   std::optional<Checkpoint> begun;  ///< to go on with; throws if it is of another scene
   std::string begun_path;           ///< its file, for messages
+  /// Lessons that hold for all passes, which then have its samples unless `session` says otherwise;
+  /// throws if they are of another scene or integrator, or if it goes on with `begun`, which knows.
+  std::optional<StoredLessons> learned;
+  std::string learned_path;  ///< its file, for messages
   /// Snapshots show a preview_picture() until the integrator has something to show, where that
   /// begins with a light pass. It takes a fraction of a second of the render.
   bool previews = false;
@@ -81,8 +86,8 @@ class Job {
   std::optional<Image> snapshot() const;
   /// Cancels, waits, and takes another description in the place of the one before: scene,
   /// integrator and film are made anew, with the recipe's changes; the scene shares with the one
-  /// before what is the same. Goes on as before: renders if it
-  /// was started. Throws std::logic_error if passes are kept in a checkpoint, where those of
+  /// before what is the same. Lessons of the one before are left out. Goes on as before: renders if
+  /// it was started. Throws std::logic_error if passes are kept in a checkpoint, where those of
   /// another scene do not belong; not what ended the render before.
   void edit(Description description);
 
@@ -100,6 +105,8 @@ class Job {
   std::shared_ptr<Run> prepared_run();
   void work();
   void render();
+  /// Hands the integrator what was learned before.
+  void teach(const PreparedScene& prepared) const;
   void make_session(Run& run);
   void make_preview(Run& run);
 

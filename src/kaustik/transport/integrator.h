@@ -98,6 +98,14 @@ struct IntegratorTraits {
   uint32_t default_samples_per_pass = 4;
 };
 
+/// What passes of one seed have taught an integrator.
+struct Lessons {
+  uint32_t passes = 0;         ///< the first so many
+  std::vector<uint8_t> bytes;  ///< of the integrator's own making; none: it learns nothing
+  bool empty() const { return bytes.empty(); }
+  friend bool operator==(const Lessons&, const Lessons&) = default;
+};
+
 /// What becomes of lessons that are handed to an integrator.
 enum class LessonUse {
   go_on,  ///< passes go on from them, as if the integrator had learned them itself
@@ -124,11 +132,16 @@ class Integrator {
     return {pass.index / replicate_count * pass.samples_per_pixel, pass.samples_per_pixel};
   }
   /// What the passes prepared so far have taught, for integrators of the same scene and parameters
-  /// that go on from there; empty: nothing is learned. Not during prepare().
-  virtual std::vector<uint8_t> lessons() const { return {}; }
+  /// that go on from there; empty: nothing is learned. Not during prepare() and learn().
+  virtual Lessons lessons() const { return {}; }
   /// Goes on with lessons() of another one. Throws Error(input) if they are damaged or of another
-  /// picture. Before the first prepare().
-  virtual void go_on_with(const std::vector<uint8_t>& /*lessons*/, LessonUse) {}
+  /// picture. Before the first prepare() and learn().
+  virtual void go_on_with(const Lessons& /*lessons*/, LessonUse) {}
+  /// Learns from all passes before `pass` what that would be prepared with; fewer if `stop` is
+  /// requested. An integrator that learns nothing does nothing.
+  virtual PassReport learn(const Pass& /*pass*/, std::stop_token, const ProgressFunction&) const {
+    return {};
+  }
 
  protected:
   IntegratorTraits traits_;  ///< complete once the constructor is done

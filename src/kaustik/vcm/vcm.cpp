@@ -72,6 +72,36 @@ std::shared_ptr<const VcmPlans> VcmIntegrator::plans(uint32_t samples_per_pixel,
   return made;
 }
 
+std::shared_ptr<const VcmPlans> VcmIntegrator::begin_lessons(const Pass& pass,
+                                                             const std::stop_token& stop,
+                                                             PassReport& report) const {
+  if (lessons_ && lessons_->seed() == pass.seed &&
+      lessons_->first()->samples_per_pixel == pass.samples_per_pixel &&
+      lessons_->knows_epoch(lessons_->epoch_begin(pass.index)))
+    return lessons_->first();
+  auto first = plans(pass.samples_per_pixel, stop, report);
+  if (stop.stop_requested()) return first;
+  if (lessons_ && lessons_->first() == first)
+    lessons_->begin(pass.seed);
+  else
+    lessons_ = std::make_unique<VcmLessons>(scene_, first, settings_, pass.seed);
+  return first;
+}
+
+bool VcmIntegrator::make_up(const Pass& pass, uint32_t until, std::stop_token stop,
+                            const ProgressFunction& progress, uint32_t& made_up,
+                            PassReport& report) const {
+  const uint32_t count = until - std::min(until, lessons_->passes());
+  for (made_up = 0; made_up < count; ++made_up) {
+    Pass missing = pass;
+    missing.index = lessons_->passes();
+    learn_missing(lessons_->plans_of(lessons_->epoch_begin(missing.index), stop, report.rays),
+                  missing, stop, part_of(progress, made_up, count + 1), report);
+    if (stop.stop_requested()) return false;
+  }
+  return true;
+}
+
 std::shared_ptr<const VcmPlans> VcmIntegrator::plans_for(const Pass& pass, std::stop_token stop,
                                                          const ProgressFunction& progress,
                                                          uint32_t& made_up,
@@ -79,26 +109,10 @@ std::shared_ptr<const VcmPlans> VcmIntegrator::plans_for(const Pass& pass, std::
   const std::lock_guard lock(learning_mutex_);
   if (fixed_) return fixed_;
   return isolated([&] {
-    if (!lessons_ || lessons_->seed() != pass.seed ||
-        lessons_->first()->samples_per_pixel != pass.samples_per_pixel ||
-        !lessons_->knows_epoch(lessons_->epoch_begin(pass.index))) {
-      const auto first = plans(pass.samples_per_pixel, stop, report);
-      if (stop.stop_requested()) return first;
-      if (lessons_ && lessons_->first() == first)
-        lessons_->begin(pass.seed);
-      else
-        lessons_ = std::make_unique<VcmLessons>(scene_, first, settings_, pass.seed);
-    }
-    // Passes that were not rendered here are made up for, as far as learning goes.
+    auto first = begin_lessons(pass, stop, report);
+    if (stop.stop_requested()) return first;
     const uint32_t begin = lessons_->epoch_begin(pass.index);
-    const uint32_t missing_count = begin - std::min(begin, lessons_->passes());
-    for (made_up = 0; made_up < missing_count; ++made_up) {
-      Pass missing = pass;
-      missing.index = lessons_->passes();
-      learn_missing(lessons_->plans_of(lessons_->epoch_begin(missing.index), stop, report.rays),
-                    missing, stop, part_of(progress, made_up, missing_count + 1), report);
-      if (stop.stop_requested()) return lessons_->first();
-    }
+    if (!make_up(pass, begin, stop, progress, made_up, report)) return first;
     return lessons_->plans_of(begin, stop, report.rays);
   });
 }
@@ -115,12 +129,12 @@ void VcmIntegrator::learn_missing(std::shared_ptr<const VcmPlans> plans, const P
   unseen.techniques.connections =
       unseen.techniques.connections && lessons_->wants_samples(missing.index);
   trace_light(state, missing, PathWeights(unseen), nowhere, stop, progress);
-  learn(state, missing, stop);
+  take_lesson(state, missing, stop);
   report.rays += state.report.rays;
   report.photons += state.report.photons;
 }
 
-void VcmIntegrator::learn(State& state, const Pass& pass, const std::stop_token& stop) const {
+void VcmIntegrator::take_lesson(State& state, const Pass& pass, const std::stop_token& stop) const {
   const PlanWindow& window = state.plans->pixels.seen().grid().window();
   const TakeSample sample = [&](const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
     trace_sample(state, window.in_crop(raster), sampler, sink);
@@ -128,34 +142,51 @@ void VcmIntegrator::learn(State& state, const Pass& pass, const std::stop_token&
   lessons_->learn({.pass = pass, .light = state.light, .sample = sample}, stop, state.report.rays);
 }
 
-void VcmIntegrator::learn_from(State& state, const Pass& pass, const std::stop_token& stop) const {
+void VcmIntegrator::take_lesson_if_next(State& state, const Pass& pass,
+                                        const std::stop_token& stop) const {
   const std::lock_guard lock(learning_mutex_);
   // Passes out of order are traced anew where they are needed.
   if (fixed_ || !lessons_ || !lessons_->expects(pass)) return;
   isolated([&] {
     if (lessons_->wants(pass.index))
-      learn(state, pass, stop);
+      take_lesson(state, pass, stop);
     else
       lessons_->skip();
   });
 }
 
-std::vector<uint8_t> VcmIntegrator::lessons() const {
+Lessons VcmIntegrator::lessons() const {
   const std::lock_guard lock(learning_mutex_);
   if (!lessons_ || lessons_->end() == 0) return {};
   ByteWriter writer;
   lessons_->write(writer);
-  return writer.take();
+  return {lessons_->passes(), writer.take()};
 }
 
-void VcmIntegrator::go_on_with(const std::vector<uint8_t>& lessons, LessonUse use) {
-  ByteReader reader(lessons, "what was learned");
+void VcmIntegrator::go_on_with(const Lessons& lessons, LessonUse use) {
+  ByteReader reader(lessons.bytes, "what was learned");
   const std::lock_guard lock(learning_mutex_);
   isolated([&] {
     lessons_ = VcmLessons::read(reader, scene_, settings_, *plain_);
+    if (lessons_->passes() != lessons.passes) reader.damaged("it is of another number of passes");
     uint64_t rays = 0;
     if (use == LessonUse::fixed) fixed_ = lessons_->fixed_plans({}, rays);
   });
+}
+
+PassReport VcmIntegrator::learn(const Pass& pass, std::stop_token stop,
+                                const ProgressFunction& progress) const {
+  PassReport report;
+  const std::lock_guard lock(learning_mutex_);
+  if (fixed_) return report;
+  isolated([&] {
+    uint32_t made_up = 0;
+    begin_lessons(pass, stop, report);
+    if (!stop.stop_requested() &&
+        make_up(pass, std::min(pass.index, lessons_->end()), stop, progress, made_up, report))
+      report.decisions = lessons_->fixed_plans(stop, report.rays)->decisions;
+  });
+  return report;
 }
 
 PathWeights VcmIntegrator::weights_for(const VcmPlans& plans, const Pass& pass) const {
@@ -210,7 +241,7 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
         "all techniques are switched off: only lights that the camera sees straight are there; "
         "switch on unidirectional, next_event, splats, connections or merging");
   trace_light(*state, pass, state->weights, splats, stop, part_of(progress, made_up, made_up + 1));
-  if (!stop.stop_requested()) learn_from(*state, pass, stop);
+  if (!stop.stop_requested()) take_lesson_if_next(*state, pass, stop);
   return state;
 }
 

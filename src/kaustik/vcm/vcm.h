@@ -21,8 +21,10 @@ class VcmIntegrator final : public Integrator {
               SampleSink& sink) const override;
   PixelSamples pixel_samples(const PassState& state, const Pass& pass,
                              const Vec2i& pixel) const override;
-  std::vector<uint8_t> lessons() const override;
-  void go_on_with(const std::vector<uint8_t>& lessons, LessonUse use) override;
+  Lessons lessons() const override;
+  void go_on_with(const Lessons& lessons, LessonUse use) override;
+  PassReport learn(const Pass& pass, std::stop_token stop,
+                   const ProgressFunction& progress) const override;
 
  private:
   struct State;
@@ -35,14 +37,22 @@ class VcmIntegrator final : public Integrator {
   /// The pass's light paths, and all that samples need of them.
   void trace_light(State& state, const Pass& pass, const PathWeights& weights, SplatBuffer& splats,
                    std::stop_token stop, const ProgressFunction& progress) const;
+  /// The plans of the first pass; lessons of the pass's seed and samples are begun unless those
+  /// that are there know its epoch. Worth nothing if it was stopped.
+  std::shared_ptr<const VcmPlans> begin_lessons(const Pass& pass, const std::stop_token& stop,
+                                                PassReport& report) const;
+  /// Learns from passes before `until` that were not rendered here: `made_up` of them. False if
+  /// that was stopped.
+  bool make_up(const Pass& pass, uint32_t until, std::stop_token stop,
+               const ProgressFunction& progress, uint32_t& made_up, PassReport& report) const;
   /// A pass that is not rendered here, as far as learning goes.
   void learn_missing(std::shared_ptr<const VcmPlans> plans, const Pass& missing,
                      std::stop_token stop, const ProgressFunction& progress,
                      PassReport& report) const;
   /// Of the next pass, whose light paths `state` has.
-  void learn(State& state, const Pass& pass, const std::stop_token& stop) const;
+  void take_lesson(State& state, const Pass& pass, const std::stop_token& stop) const;
   /// The same if that is the next pass.
-  void learn_from(State& state, const Pass& pass, const std::stop_token& stop) const;
+  void take_lesson_if_next(State& state, const Pass& pass, const std::stop_token& stop) const;
   LightVertices trace(const VcmPlans& plans, const PathWeights& weights, const Pass& pass,
                       SplatBuffer& splats, std::stop_token stop, const ProgressFunction& progress,
                       PassReport& report) const;

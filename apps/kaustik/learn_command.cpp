@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "commands.h"
+#include "console.h"
+#include "exit_codes.h"
+#include "file_roles.h"
+#include "kaustik/render/learning.h"
+#include "numbers.h"
+#include "render_job.h"
+#include "standard_streams.h"
+#include "texture_memory.h"
+#include "thesis_settings.h"
+
+namespace kaustik::app {
+namespace {
+
+struct LearnOptions {
+  RenderRecipe recipe;
+  std::string output;
+  std::vector<std::string> definitions, settings;
+  LevelOptions levels;
+  uint32_t passes = 16;
+  std::optional<uint32_t> spp;
+  BuildOptions build;
+  int threads = 0;
+  bool force = false, quiet = false;
+};
+
+LearningSettings learning_settings(const LearnOptions& options) {
+  LearningSettings settings{
+      options.recipe.seed, options.passes, {}, usable_threads(options.threads)};
+  if (options.spp) settings.samples_per_pass = std::max(1u, *options.spp / options.passes);
+  return settings;
+}
+
+Learned learned(const LearnOptions& options, const PreparedScene& prepared,
+                const InterruptGuard& interrupt) {
+  ProgressLine line(options.quiet);
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    Learned result =
+        learn(prepared, learning_settings(options), interrupt.token(), [&](double share) {
+          line.show(
+              share,
+              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        });
+    line.finish();
+    return result;
+  } catch (const Error& error) {
+    line.finish();
+    if (!interrupt.token().stop_requested()) throw;
+    say("{}: nothing is written", error.what());
+    throw EndedEarly{};
+  }
+}
+
+void learn_scene(LearnOptions options) {
+  RenderRecipe& recipe = options.recipe;
+  FileRoles roles;
+  roles.reads_scene(recipe.scene);
+  roles.writes(options.output, {"a file of lessons", is_lessons_file},
+               options.force ? Replacing::anything : Replacing::own_kind, "");
+  recipe.definitions = parse_definitions(options.definitions);
+  Description description = load_description(recipe);
+  roles.reads(description);
+  roles.check();
+  recipe.settings = collected_settings(description, options.levels, options.settings);
+  apply_changes(description, recipe, terminal_messages());
+  const PreparedScene prepared =
+      prepare_scene(description, options.build, true, terminal_messages());
+  const InterruptGuard interrupt;
+  Learned result = learned(options, prepared, interrupt);
+  StoredLessons& stored = result.stored;
+  stored.program = KAUSTIK_VERSION;
+  stored.scene = std::filesystem::path(recipe.scene).lexically_normal().string();
+  write_lessons(options.output, stored);
+  if (!options.quiet)
+    for (const std::string& decision : result.report.decisions) note(decision);
+  for (const std::string& warning : result.report.warnings) warn(warning);
+  if (!options.quiet)
+    say("wrote {}: what {} passes of {} samples a pixel taught {}", options.output,
+        stored.lessons.passes, stored.samples_per_pass, stored.integrator);
+  if (!interrupt.token().stop_requested()) return;
+  warn(fmt::format("cancelled: fewer passes than the {} that were asked for", options.passes));
+  throw EndedEarly{};
+}
+
+}  // namespace
+
+void add_learn(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "learn",
+      "Learn how to render a scene, for any number of renders of it, on other machines too.");
+  command->footer(
+      "Renders learn by themselves where the light comes from, how wide to merge, and where "
+      "samples "
+      "are needed: on a thousand machines a thousand times. Learn once instead:\n"
+      "  kaustik learn scene.xml -o scene.kln\n"
+      "  kaustik render scene.xml --learned scene.kln --first-pass 64 --passes 64 --checkpoint "
+      "b.kpt\n"
+      "Give both the same -D, --set and --integrator.");
+  auto o = std::make_shared<LearnOptions>();
+  command->add_option("scene", o->recipe.scene, "Scene file (Mitsuba XML); - for standard input")
+      ->required();
+  command->add_option("-o,--output", o->output, "File of lessons to write, .kln")->required();
+  command->add_option("-D,--define", o->definitions, "Value for $name in the scene file")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--set", o->settings,
+                   "Change a parameter: integrator.max_depth=8, film.width=400, ID.radius=2")
+      ->type_name("OBJECT.PARAMETER=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--integrator", o->recipe.integrator,
+                      "Use this method instead of the file's: auto, vcm, ppm, bdpt learn");
+  add_light_level(*command, o->levels);
+  command->add_option("--passes", o->passes, "Number of passes to learn from [16]")
+      ->check(whole_number(1, 1 << 10));
+  command
+      ->add_option("--spp", o->spp,
+                   "Samples per pixel over all passes; the passes of renders have as many")
+      ->check(whole_number(1, 1 << 30));
+  command->add_flag("--force", o->force, "Replace a file that is there and holds no lessons");
+  command->add_option("--seed", o->recipe.seed,
+                      "Seed of all random numbers; that of a render never has the same [0]");
+  add_texture_memory(*command, o->build);
+  command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
+  command->add_flag("-q,--quiet", o->quiet, "No progress, no decisions");
+  command->callback([o] { learn_scene(*o); });
+}
+
+}  // namespace kaustik::app
