@@ -224,8 +224,8 @@ void write_checkpoint(const std::string& path, const RenderRecord& record, const
   put_outputs(writer, record.outputs);
   put_view(writer, record.view);
   writer.put(record.seconds);
-  film.write(writer);
   put_lessons(writer, lessons);
+  film.write(writer);
   writer.write_to(path);
 } catch (const std::bad_alloc&) {
   throw Error(ErrorKind::system, fmt::format("cannot write '{}': not enough memory", path),
@@ -235,8 +235,8 @@ void write_checkpoint(const std::string& path, const RenderRecord& record, const
 Checkpoint read_checkpoint(const std::string& path) {
   BinaryReader reader(checkpoint_kind, path);
   RenderRecord record = get_record(reader);
-  Checkpoint checkpoint{std::move(record), Film::read(reader), {}};
-  checkpoint.lessons = get_lessons(reader);
+  Lessons lessons = get_lessons(reader);
+  Checkpoint checkpoint{std::move(record), Film::read(reader), std::move(lessons)};
   reader.expect_end();
   if (checkpoint.record.recipe.lessons != 0 &&
       checkpoint.record.recipe.lessons != digest_of(checkpoint.lessons))
