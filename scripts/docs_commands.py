@@ -89,7 +89,7 @@ def shortened_time(value):
 def shortened(arguments):
     """The same command with less to do: a small picture, one sample per pixel and pass, few passes, few photons."""
     command = arguments[0] if arguments else ""
-    if command not in ("render", "resume", "photons") or "--help" in arguments:
+    if command not in ("render", "resume", "learn", "photons") or "--help" in arguments:
         return arguments
     result, passes, is_limited = [], 1, False
     values = iter(arguments)
@@ -111,7 +111,7 @@ def shortened(arguments):
             result.append(value)
     if command == "photons":
         return result
-    if command == "render":
+    if command in ("render", "learn"):
         # Crop windows stay what they are, in a narrow picture.
         crops = " ".join(result)
         if "film.crop_offset_x" not in crops and "film.crop_width" not in crops:
