@@ -82,7 +82,7 @@ references: configure
 
 install: configure
 	@cmake --build --preset release --target kaustik
-	cmake --install $(BUILD) --prefix $(PREFIX)
+	cmake --install $(BUILD) --prefix $(PREFIX) --component program
 
 package: configure
 	@scripts/install_packages.sh package

@@ -23,3 +23,10 @@ if(KAUSTIK_SANITIZE)
   set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -gline-tables-only")
   add_compile_definitions(KAUSTIK_SLOW_BUILD=1)
 endif()
+
+# What becomes part of the libraries. They may get into shared ones, such as modules of Python; without interposition calls
+# stay as direct as before. What assert() prints does not tell where the sources lay.
+function(kaustik_library_options target)
+  target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition
+                         -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=)
+endfunction()

@@ -1,0 +1,23 @@
+# What the library links; found by its build and by every build that uses the installed library.
+# `kaustik_embree_major` says which Embree it was compiled for.
+find_dependency(PkgConfig)
+find_dependency(Threads)
+find_dependency(Imath)
+find_dependency(TBB)
+find_dependency(fmt)
+find_dependency(OpenEXR)
+find_dependency(TIFF)
+find_dependency(PNG)
+find_dependency(JPEG)
+find_dependency(pugixml)
+find_dependency(ZLIB)
+find_dependency(embree ${kaustik_embree_major})
+pkg_check_modules(WEBP QUIET IMPORTED_TARGET libwebp)
+pkg_check_modules(HWY QUIET IMPORTED_TARGET libhwy)
+foreach(kaustik_module WEBP HWY)
+  if(NOT TARGET PkgConfig::${kaustik_module})
+    set(kaustik_FOUND FALSE)
+    set(kaustik_NOT_FOUND_MESSAGE
+        "pkg-config finds neither libwebp nor libhwy, or not both: install their development packages")
+  endif()
+endforeach()
