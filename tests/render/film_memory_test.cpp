@@ -68,7 +68,8 @@ TEST(FilmMemory, IsBoundedForAllIntegrators) {
       EXPECT_LE(is.rendering, most_bytes);
       EXPECT_LE(is.film, expected.film);
       EXPECT_LE(is.rendering, expected.rendering());
-      EXPECT_GE(is.rendering, 0.25 * expected.rendering());
+      // What is expected is what full pictures take; here localphong has one component of six.
+      EXPECT_GE(is.rendering, 0.2 * expected.rendering());
     }
     std::printf("\n");
   }

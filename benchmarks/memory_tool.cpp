@@ -1,0 +1,60 @@
+// Bytes a pixel that film, pass and splats take together after 64 passes, in scenes that ship: the
+// table of docs/command_line.md, and what check_film_memory() expects. `memory_tool [SCENE ...]`.
+#include "benchmarks/markdown_table.h"
+#include "benchmarks/shipped_scenes.h"
+#include "kaustik/base/error.h"
+#include "kaustik/integrator/override_integrator.h"
+#include "kaustik/render/film_memory.h"
+#include "kaustik/render/session.h"
+#include "kaustik/scene/overrides.h"
+
+#include <fmt/format.h>
+
+namespace {
+
+using namespace kaustik;
+
+constexpr int size = 64;
+constexpr uint32_t passes = 64;
+
+std::string measured(const std::string& scene_name, const std::string& type) {
+  Description description = bench::load_shipped(scene_name);
+  override_integrator(description, type);
+  override_property(description, fmt::format("film.width={}", size));
+  override_property(description, fmt::format("film.height={}", size));
+  const auto scene = build_scene(description);
+  std::vector<std::string> warnings;
+  const auto integrator = make_integrator(description, *scene, warnings);
+  SessionSettings settings;
+  settings.passes = passes;
+  settings.samples_per_pass = 1;
+  Session session(*scene, *integrator, settings);
+  const SessionReport report = session.run();
+  const FilmMemory expected =
+      expected_film_memory(FilmLayers::of(*integrator), integrator->traits().splats);
+  return fmt::format("{:.0f} ({:.0f})", double(report.rendering_bytes) / (size * size),
+                     expected.rendering());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> scenes(argv + 1, argv + argc);
+  if (scenes.empty()) scenes = {"cornell_spheres", "metal_ring", "maze", "pool_below", "museum"};
+  const std::vector<std::string> types = {"path", "bdpt", "vcm", "lighttracer"};
+  std::vector<std::string> header = {"scene"};
+  for (const std::string& type : types) header.push_back("`" + type + "`");
+  bench::MarkdownTable table(header);
+  try {
+    for (const std::string& scene : scenes) {
+      std::vector<std::string> row = {scene};
+      for (const std::string& type : types) row.push_back(measured(scene, type));
+      table.add(row);
+    }
+  } catch (const Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+  fmt::print("{}", table.text());
+  return 0;
+}
