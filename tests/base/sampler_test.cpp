@@ -144,12 +144,13 @@ TEST(sampler, branches_stratify_one_another) {
   Sampler parent(7, 9);
   parent.next_2d();
   std::vector<Vec2f> branches;
-  for (uint32_t i = 0; i < 64; ++i) branches.push_back(parent.split(3, i).next_2d());
+  for (uint32_t i = 0; i < 64; ++i)
+    branches.push_back(parent.split(Split::gather_ray, i).next_2d());
   EXPECT_TRUE(is_net(branches));
   // Over another key, or from the next point of the parent, they differ.
-  EXPECT_NE(parent.split(4, 0).next_2d(), branches[0]);
+  EXPECT_NE(parent.split(Split::specular_ray, 0).next_2d(), branches[0]);
   parent.next_2d();
-  EXPECT_NE(parent.split(3, 0).next_2d(), branches[0]);
+  EXPECT_NE(parent.split(Split::gather_ray, 0).next_2d(), branches[0]);
 }
 
 TEST(sampler, forks_are_stratified_over_the_indices_of_the_parent) {
@@ -157,8 +158,8 @@ TEST(sampler, forks_are_stratified_over_the_indices_of_the_parent) {
   for (uint32_t i = 0; i < 256; ++i) {
     Sampler parent(5, i);
     parent.next_2d();
-    first.push_back(parent.fork(0).next_2d());
-    second.push_back(parent.fork(1).next_2d());
+    first.push_back(parent.fork(Fork::light, 0).next_2d());
+    second.push_back(parent.fork(Fork::light, 1).next_2d());
   }
   EXPECT_TRUE(is_net(first));
   EXPECT_TRUE(is_net(second));
@@ -170,10 +171,12 @@ TEST(sampler, several_samples_of_each_index_are_stratified_together) {
   for (uint32_t i = 0; i < 64; ++i) {
     Sampler parent(5, i);
     parent.next_2d();
-    for (uint32_t k = 0; k < 4; ++k) points.push_back(parent.one_of(4, k).next_2d());
-    for (uint32_t k = 0; k < 3; ++k) of_three.push_back(parent.one_of(3, k).next_2d());
+    for (uint32_t k = 0; k < 4; ++k)
+      points.push_back(parent.one_of(Series::light_sample, 4, k).next_2d());
+    for (uint32_t k = 0; k < 3; ++k)
+      of_three.push_back(parent.one_of(Series::light_sample, 3, k).next_2d());
     parent.next_2d();
-    EXPECT_NE(parent.one_of(4, 0).next_2d(), points[4 * size_t(i)]);
+    EXPECT_NE(parent.one_of(Series::light_sample, 4, 0).next_2d(), points[4 * size_t(i)]);
   }
   EXPECT_TRUE(is_net(points));
   of_three.resize(128);
@@ -184,10 +187,11 @@ TEST(sampler, several_samples_of_each_index_are_stratified_together) {
 TEST(sampler, branches_of_different_parents_are_independent) {
   std::vector<Vec2f> points;
   for (uint32_t i = 0; i < uint32_t(count); ++i)
-    points.push_back(
-        {Sampler(1, 2 * i).split(0, 0).next_1d(), Sampler(1, 2 * i + 1).split(0, 0).next_1d()});
+    points.push_back({Sampler(1, 2 * i).split(Split::gather_ray, 0).next_1d(),
+                      Sampler(1, 2 * i + 1).split(Split::gather_ray, 0).next_1d()});
   for (uint32_t i = 0; i < uint32_t(count); ++i)
-    points.push_back({Sampler(2, i).split(0, 0).next_1d(), Sampler(2, i).split(1, 0).next_1d()});
+    points.push_back({Sampler(2, i).split(Split::gather_ray, 0).next_1d(),
+                      Sampler(2, i).split(Split::specular_ray, 0).next_1d()});
   expect_uniform(points);
 }
 

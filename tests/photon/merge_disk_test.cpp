@@ -52,10 +52,11 @@ class Disk {
     int held = 0;
     RunningStatistics inverse;
     for (int i = 0; i < samples; ++i) {
-      Sampler sampler = Sampler::at(1, 0, Stream::training, 0, uint32_t(i));
+      Sampler sampler = Sampler::at(1, 0, Stream::disk_cover, 0, uint32_t(i));
       const Vec2f u = sampler.next_2d();
       if (coverage.holds(radius, radius * std::sqrt(1 - std::sqrt(1 - u.x)), 2 * pi * u.y)) ++held;
-      inverse.add(double(coverage.inverse_share(radius, DiskEdges(), sampler.fork(1))));
+      inverse.add(
+          double(coverage.inverse_share(radius, DiskEdges(), sampler.fork(Fork::merge_cover))));
     }
     std::printf("  %-40s %.4f of %.4f, one over it %.4f ± %.4f\n", what.c_str(),
                 double(held) / samples, expected, inverse.mean(), inverse.standard_error());

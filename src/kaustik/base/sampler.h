@@ -1,24 +1,12 @@
 #pragma once
+#include <cassert>
 #include <cstdint>
 
+#include "kaustik/base/draws.h"
 #include "kaustik/base/sampler_details.h"
 #include "kaustik/base/vec.h"
 
 namespace kaustik {
-
-/// What random numbers are drawn for; part of their address.
-enum class Stream : uint32_t {
-  camera,
-  photon_global,
-  photon_caustic,
-  photon_place,
-  light_path,
-  cache,
-  training,
-  photon_shadow,
-  photon_volume,
-  light_probe
-};
 
 /// 64-bit mix of two values (the finaliser of splitmix64); the base of every address.
 constexpr uint64_t hash_mix(uint64_t a, uint64_t b) {
@@ -43,8 +31,10 @@ class Sampler {
   /// The sampler of one path: all that tells paths apart goes into the address.
   static Sampler at(uint64_t seed, uint32_t replicate_or_pass, Stream stream, uint64_t element,
                     uint32_t index) {
-    const uint64_t a = hash_mix(seed, (uint64_t(stream) << 32) | replicate_or_pass);
-    return {hash_mix(a, element), index};
+    const StreamRow& row = row_of(stream);
+    assert(element < row.count);
+    const uint64_t a = hash_mix(seed, (uint64_t(row.of) << 32) | replicate_or_pass);
+    return {hash_mix(a, row.first + element), index};
   }
 
   float next_1d() { return next_2d().x; }
@@ -58,29 +48,38 @@ class Sampler {
   /// before: what one vertex uses never shifts the numbers of the next.
   void start_vertex(uint32_t vertex) { pair_ = (vertex + 1) * pairs_per_vertex; }
 
-  /// The sampler of branch `index` out of several at this point; branches of the same `key` (and
-  /// the same parent) stratify one another.
-  Sampler split(uint32_t key, uint32_t index) const {
-    return {hash_mix(hash_mix(scramble_, (uint64_t(index_) << 32) | pair_), ~uint64_t(key)), index};
+  /// The sampler of branch `index` out of several at this point; branches of the same use and
+  /// `number` (below its row's count), and of the same parent, stratify one another.
+  Sampler split(Split use, uint32_t index, uint32_t number = 0) const {
+    const uint64_t key = key_of(row_of(use), number);
+    return {hash_mix(hash_mix(scramble_, (uint64_t(index_) << 32) | pair_), ~key), index};
   }
 
-  /// More dimensions for the same index, one set for each `key`: for quantities whose number is not
-  /// known beforehand. Over consecutive indices they are as well stratified as those of the parent.
-  Sampler fork(uint32_t key) const {
-    return {hash_mix(hash_mix(scramble_, pair_), uint64_t(key) | 0x100000000ull), index_};
+  /// More dimensions for the same index, one set for each use and `number` (below its row's count):
+  /// for quantities whose number is not known beforehand. Over consecutive indices they are as well
+  /// stratified as those of the parent.
+  Sampler fork(Fork use, uint32_t number = 0) const {
+    const uint64_t key = key_of(row_of(use), number);
+    return {hash_mix(hash_mix(scramble_, pair_), key | 0x100000000ull), index_};
   }
 
   /// The i-th of `count` samples at this point, where every index of the parent takes as many: all
   /// of them stratify one another, over consecutive indices too.
-  Sampler one_of(uint32_t count, uint32_t i) const {
-    return {hash_mix(hash_mix(scramble_, pair_), uint64_t(count) | 0x200000000ull),
-            index_ * count + i};
+  Sampler one_of(Series use, uint32_t count, uint32_t i) const {
+    const uint64_t key = key_of(row_of(use), 0) << 34 | 0x200000000ull;
+    return {hash_mix(hash_mix(scramble_, pair_), key | count), index_ * count + i};
   }
 
   static constexpr uint32_t pairs_per_vertex = 8;
   static constexpr uint32_t stratified_pairs = 4 * pairs_per_vertex;
 
  private:
+  template <typename Row>
+  static uint64_t key_of(const Row& row, uint32_t number) {
+    assert(number < row.count);
+    return row.first + number;
+  }
+
   uint64_t scramble_;
   uint32_t index_, reversed_index_;
   uint32_t pair_ = 0;

@@ -21,7 +21,7 @@ WaveField::WaveField(const WaveSettings& settings) {
   const Sampler seeds(hash_mix(0x77617665, settings.seed), 0);
   float variance = 0;
   for (int i = 0; i < settings.count; ++i) {
-    Sampler sampler = seeds.split(0, uint32_t(i));
+    Sampler sampler = seeds.split(Split::wave, uint32_t(i));
     const Vec2f u = sampler.next_2d();
     const float share = (float(i) + u.x) / float(settings.count);
     const float length = settings.wavelength * std::pow(length_span, -share);

@@ -56,7 +56,7 @@ bool RayTracing::follow_both_ways(CameraWalk& walk, const RadianceTracer& tracer
     return walk.scatter(Lobes::delta, 1, first == 1 ? first_lobe : last_lobe, {0, 0});
   // There is a third way, or one that is absorbed.
   if (std::fabs(first + last - 1) > 1e-4f) return follow_one_way(walk);
-  Sampler sampler = walk.sampler().split(2, 0);
+  Sampler sampler = walk.sampler().split(Split::specular_ray, 0);
   CameraWalk branch(walk, sampler);
   if (branch.scatter(Lobes::delta, 1 / first, first_lobe, {0, 0})) tracer.follow(branch);
   return walk.scatter(Lobes::delta, 1 / last, last_lobe, {0, 0});

@@ -6,8 +6,6 @@
 namespace kaustik {
 namespace {
 
-constexpr uint32_t ray_key = 0x4e15;  // of Sampler::split; any constant
-
 /// Importance as it may be used: finite, not negative; false if nothing is left of it.
 bool clean_importance(size_t cells, std::vector<float>& importance) {
   importance.resize(cells, 0.0f);
@@ -77,7 +75,7 @@ class HemisphereSampling {
     cell.direction = grid_.direction(index, Vec2f(0.5f));
     uint32_t valid = 0;
     for (uint32_t i = 0; i < count; ++i) {
-      Sampler sampler = sampler_.split(ray_key, next_index_++);
+      Sampler sampler = sampler_.split(Split::hemisphere_ray, next_index_++);
       const Vec3f local = grid_.direction(index, sampler.next_2d());
       const Vec3f direction = frame_.to_world(local);
       if (dot(at_.ng, direction) * dot(at_.ng, frame_.z) < 0) {

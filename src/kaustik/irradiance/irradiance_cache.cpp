@@ -254,7 +254,8 @@ size_t IrradianceCache::fill_round(const std::vector<CachePoint>& points,
     parallel_blocks(picked.size(), 1, [&](size_t begin, size_t, size_t) {
       if (stop.stop_requested()) return;
       const uint32_t i = picked[begin];
-      fresh[begin] = impl_->compute(points[i], source, sampler.split(round, i));
+      fresh[begin] =
+          impl_->compute(points[i], source, sampler.split(Split::cache_record, i, round));
     });
     if (stop.stop_requested()) break;
     impl_->insert(std::move(fresh));

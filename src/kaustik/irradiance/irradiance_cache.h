@@ -59,10 +59,10 @@ class IrradianceCache {
 
   /// One round: serves all points that the records so far don't serve, in steps from coarse to
   /// fine; each step computes records in parallel at points that keep their distance from one
-  /// another (sampler of point i: `sampler.split(round, i)`), inserts them in order, and asks
-  /// again for the rest. Points that are not finite are passed over. Returns how many records were
-  /// inserted. After a stop request only finished steps are in the cache. Not to be called while
-  /// others interpolate.
+  /// another (sampler of point i: Split::cache_record of the round), inserts them in order, and
+  /// asks again for the rest. Points that are not finite are passed over. Returns how many records
+  /// were inserted. After a stop request only finished steps are in the cache. Not to be called
+  /// while others interpolate.
   size_t fill_round(const std::vector<CachePoint>& points, const RadianceSource& source,
                     const Sampler& sampler, uint32_t round, std::stop_token stop);
 

@@ -8,7 +8,6 @@ namespace kaustik {
 namespace {
 
 /// Of the sampler's fork for what is visible.
-constexpr uint32_t visibility_key = 0x70000007;
 
 using PhotonTree = KdTree<3, Vec3f, uint32_t>;
 
@@ -79,8 +78,8 @@ Spectrum VolumePhotonMap::radiance(const Ray& ray, float length, const Medium& m
     if (scene_) parts.push_back({i, ray.origin + ray.direction * along, light});
   });
   if (!scene_ || sum.is_zero()) return sum;
-  return visible_from_segment(*scene_, discs_, parts, sum, sampler.fork(visibility_key).next_1d(),
-                              rays);
+  return visible_from_segment(*scene_, discs_, parts, sum,
+                              sampler.fork(Fork::volume_sight).next_1d(), rays);
 }
 
 }  // namespace kaustik

@@ -17,9 +17,6 @@ constexpr int precomputed_level = 1;
 constexpr int gather_roulette_depth = 4;
 /// Gather rays average over so many directions that one volume photon out of these is enough.
 constexpr size_t coarse_volume_stride = 8;
-/// Of the sampler's forks for what is visible of each map, and for what covers disks.
-/// Lights fork by their numbers, which are smaller.
-constexpr uint32_t caustic_key = 0x70000001, global_key = 0x70000002, coverage_key = 0x70000003;
 /// Chance of looking for what covers a disk where edges tell that it is whole: they may have missed
 /// a small hole.
 constexpr float asked_where_whole = 0.125f;
@@ -86,8 +83,8 @@ DensityEstimate PhotonLight::caustic_estimate(const SurfaceVertex& vertex, Lobes
                                               int recursion, const Sampler& sampler,
                                               const ClearDisk& clear, uint64_t& rays) const {
   return estimate(maps_.caustic, vertex, lobes,
-                  at_level(settings_.caustic, radii_.caustic, recursion), sampler.fork(caustic_key),
-                  clear, rays);
+                  at_level(settings_.caustic, radii_.caustic, recursion),
+                  sampler.fork(Fork::caustic_sight), clear, rays);
 }
 
 Spectrum PhotonLight::seen_caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion,
@@ -101,7 +98,7 @@ Spectrum PhotonLight::seen_caustic(const SurfaceVertex& vertex, Lobes lobes, int
       edges && edges_tell_what_keeps_ && edges->is_whole(vertex.position(), found.radius);
   return found.value * inverse_covered_share(around, settings_.caustic, found.radius,
                                              likely_whole ? asked_where_whole : 1.0f,
-                                             sampler.fork(coverage_key), rays);
+                                             sampler.fork(Fork::caustic_cover), rays);
 }
 
 Lobes PhotonLight::keeping() const {
@@ -111,7 +108,7 @@ Lobes PhotonLight::keeping() const {
 Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int recursion,
                              const Sampler& sampler, uint64_t& rays) const {
   return estimate(maps_.global, vertex, lobes, at_level(settings_.global, radii_.global, recursion),
-                  sampler.fork(global_key), {}, rays)
+                  sampler.fork(Fork::global_sight), {}, rays)
       .value;
 }
 
@@ -278,7 +275,7 @@ Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, const Vec3f
   const float floor = total > 0 ? settings_.importance_floor : 1;
   Spectrum sum;
   for (int i = 0; i < samples; ++i) {
-    Sampler branch = sampler.split(1, uint32_t(i));
+    Sampler branch = sampler.split(Split::gather_ray, uint32_t(i));
     const Vec2f u = branch.next_2d();
     float u_cell = (branch.next_1d() + float(i)) / float(samples);
     int cell;

@@ -290,7 +290,7 @@ bool PhotonMapIntegrator::reflect(const PassState& pass_state, CameraWalk& walk,
   if (rays == 0) return false;
   if (rays == 1) return scatter_specular(walk, 1);
   for (int i = 0; i < rays; ++i) {
-    Sampler sampler = walk.sampler().split(2, uint32_t(i));
+    Sampler sampler = walk.sampler().split(Split::specular_ray, uint32_t(i));
     CameraWalk branch(walk, sampler);
     if (scatter_specular(branch, rays)) tracer.follow(branch);
   }

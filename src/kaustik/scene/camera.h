@@ -46,8 +46,7 @@ class Camera {
   }
   /// The same off a fork of `sampler`, which stays as it is.
   Vec2f forked_lens_numbers(const Sampler& sampler) const {
-    constexpr uint32_t lens_key = 0x70000009;
-    return traits_.has_lens ? sampler.fork(lens_key).next_2d() : middle_of_lens();
+    return traits_.has_lens ? sampler.fork(Fork::lens).next_2d() : middle_of_lens();
   }
 
   /// `raster`: pixel coordinates in the crop window, (0, 0) its upper left corner. The origin is

@@ -53,7 +53,7 @@ class LightProbing {
       sampler.start_vertex(uint32_t(i));
       const SurfacePoint point = scene_.tracer().surface_point(ray, hit);
       const Vec3f facing = dot(ray.direction, point.ng) < 0 ? point.ng : -point.ng;
-      ask_lights(path * probes_per_path + i, point, facing, sampler.fork(1));
+      ask_lights(path * probes_per_path + i, point, facing, sampler.fork(Fork::light_probe));
       const Bsdf& bsdf = *scene_.surface(point.shape).bsdf;
       const bool goes_through = bsdf.traits().transmits && sampler.next_1d() < 0.5f;
       ray = spawn_ray(point, Frame(goes_through ? -facing : facing)

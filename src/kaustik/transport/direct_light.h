@@ -169,14 +169,15 @@ Value sample_with_shadow_rays(const Scene& scene, const Receiver& receiver,
     ShadowAnswer not_asked{};
     return sample(sampler, not_asked);
   }
-  constexpr size_t most_groups = 16;
+  constexpr size_t most_groups = row_of(Fork::light_group).count;
+  static_assert(row_of(Split::shadow_ray).count == most_groups);
   std::array<ShadowAnswer, most_groups> first{};
   std::array<Value, most_groups> values{};
   const size_t groups = std::min(most, std::clamp<size_t>(most / 4, 4, most_groups));
   const Sampler parent = sampler;
   int lit = 0, dark = 0;
   for (size_t g = 0; g < groups; ++g) {
-    Sampler fork = parent.fork(uint32_t(g));
+    Sampler fork = parent.fork(Fork::light_group, uint32_t(g));
     values[g] = sample(g == 0 ? sampler : fork, first[g]);
     lit += first[g] == ShadowAnswer::lit ? 1 : 0;
     dark += first[g] == ShadowAnswer::dark ? 1 : 0;
@@ -188,7 +189,7 @@ Value sample_with_shadow_rays(const Scene& scene, const Receiver& receiver,
     // The groups share all rays as evenly as may be.
     const size_t rays = others_disagree ? (most + groups - 1 - g) / groups : 1;
     for (size_t i = 1; i < rays; ++i) {
-      Sampler branch = parent.split(uint32_t(most_groups + g), uint32_t(i));
+      Sampler branch = parent.split(Split::shadow_ray, uint32_t(i), uint32_t(g));
       ShadowAnswer not_asked{};
       values[g] += sample(branch, not_asked);
     }
@@ -221,7 +222,8 @@ Value sample_direct_lights(const Scene& scene, const Receiver& receiver,
       std::array<float, most_at_once> u;
       std::array<LightSelector::Choice, most_at_once> choices;
       const auto branch = [&](int i) {
-        return sampler.one_of(uint32_t(sampling.samples), uint32_t(begin + i));
+        return sampler.one_of(Series::light_sample, uint32_t(sampling.samples),
+                              uint32_t(begin + i));
       };
       for (int i = 0; i < count; ++i) u[size_t(i)] = branch(i).next_1d();
       scene.light_selector().choose(receiver.point.position, receiver.normal,
@@ -237,9 +239,9 @@ Value sample_direct_lights(const Scene& scene, const Receiver& receiver,
   static thread_local std::vector<int> counts;
   share_light_samples(scene, receiver, sampling.samples, counts);
   for (size_t i = 0; i < counts.size(); ++i) {
-    const Sampler of_light = sampler.fork(uint32_t(i));
+    const Sampler of_light = sampler.fork(Fork::light, uint32_t(i));
     for (int k = 0; k < counts[i]; ++k) {
-      Sampler branch = counts[i] == 1 ? of_light : of_light.split(0, uint32_t(k));
+      Sampler branch = counts[i] == 1 ? of_light : of_light.split(Split::light_sample, uint32_t(k));
       add({int(i), 1.0f}, branch, counts[i]);
     }
   }

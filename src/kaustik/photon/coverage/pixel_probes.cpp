@@ -7,11 +7,9 @@ namespace kaustik {
 namespace {
 
 constexpr int most_delta_events = 16;
-/// Of the random numbers' addresses.
-constexpr uint64_t probe_element = uint64_t(1) << 40;
 
 PixelProbe look(const Scene& scene, const Vec2f& raster, uint64_t block) {
-  Sampler sampler = Sampler::at(0, 0, Stream::training, probe_element + block, 0);
+  Sampler sampler = Sampler::at(0, 0, Stream::pixel_probe, block, 0);
   SampleSink nowhere{ComponentSet()};
   CameraWalk walk(scene, raster, sampler, nowhere);
   PixelProbe probe;

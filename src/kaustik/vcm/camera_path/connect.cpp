@@ -77,7 +77,7 @@ void connect_to_light_paths(const CameraPathInputs& inputs, const CameraVertices
   const auto count = uint32_t(inputs.connections);
   for (uint32_t i = 0; i < count; ++i) {
     // One number alone has too few bits for millions of vertices.
-    const Vec2f u = walk.sampler().one_of(count, i).next_2d();
+    const Vec2f u = walk.sampler().one_of(Series::connection, count, i).next_2d();
     const double which = (double(u.x) + double(u.y) * 0x1p-24) * double(all.size());
     connect_to(all[std::min(size_t(which), all.size() - 1)], inputs, vertices, walk);
   }

@@ -13,10 +13,6 @@ namespace {
 /// way there.
 constexpr size_t least_in_part = 64;
 
-/// Of the sampler's forks for the coverage of the disk of merging, for the bias of merging (two),
-/// for the part of what merges, and for that which tells what is reached.
-constexpr uint32_t coverage_key = 1, bias_key = 2, part_key = 4, reached_key = 5;
-
 /// Chance with which the bias is estimated: it takes rays.
 constexpr float bias_chance = 0.25f;
 
@@ -70,7 +66,7 @@ void SurfaceMerging::merge() {
   // Numbers of their own: how many there are is not known beforehand.
   light.scale(
       weights.wide.scale *
-      covered.inverse_share(radius, weights.bounds.edges, walk_.sampler().fork(coverage_key)) /
+      covered.inverse_share(radius, weights.bounds.edges, walk_.sampler().fork(Fork::merge_cover)) /
       paths);
   Spectrum total;
   for (int c = 0; c < component_count; ++c) {
@@ -80,9 +76,9 @@ void SurfaceMerging::merge() {
   }
   // The bias is estimated as if it grew by the radius, as it does where light has an edge: where it
   // is smooth it grows by the area, and is two thirds of that.
-  if (!(walk_.sampler().fork(bias_key).next_1d() < bias_chance)) return;
-  const float narrow_coverage = covered.inverse_share(radius * narrow_radius, weights.bounds.edges,
-                                                      walk_.sampler().fork(bias_key + 1));
+  if (!(walk_.sampler().fork(Fork::merge_bias).next_1d() < bias_chance)) return;
+  const float narrow_coverage = covered.inverse_share(
+      radius * narrow_radius, weights.bounds.edges, walk_.sampler().fork(Fork::narrow_merge_cover));
   const Spectrum narrow = light.narrow * (weights.narrow.scale * narrow_coverage / paths);
   walk_.add_bias((total - narrow) * (1 / ((1 - narrow_radius) * bias_chance)));
 }
@@ -98,7 +94,7 @@ bool SurfaceMerging::MergedLight::is_zero() const {
 }
 
 SurfaceMerging::Draws SurfaceMerging::draws_of(const MergedLight& light) const {
-  const float u = walk_.sampler().fork(reached_key).next_1d();
+  const float u = walk_.sampler().fork(Fork::merge_sight).next_1d();
   Draws draws;
   for (size_t c = 0; c < draws.size(); ++c)
     if (!light.of[c].is_zero()) draws[c].emplace(light.of[c], u);
@@ -228,7 +224,8 @@ void SurfaceMerging::visit_merging(const MergeDisk& disk, uint32_t most_parts,
   const size_t parts = std::clamp(near.size() / least_in_part, size_t(1), size_t(most_parts));
   size_t first = 0;
   if (parts > 1)
-    first = std::min(size_t(walk_.sampler().fork(part_key).next_1d() * float(parts)), parts - 1);
+    first = std::min(size_t(walk_.sampler().fork(Fork::merge_part).next_1d() * float(parts)),
+                     parts - 1);
   // Paths lie anywhere in memory: waiting for one after the other took half the time.
   for (size_t i = first; i < near.size(); i += parts) {
     const LightVertexData& photon = tree.data(near[i]);

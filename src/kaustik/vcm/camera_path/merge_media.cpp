@@ -8,8 +8,6 @@
 namespace kaustik {
 namespace {
 
-constexpr uint32_t reached_in_medium_key = 6;
-
 /// Weight of merging with `light`, which lies beside the last vertex of `camera`.
 float merge_weight(const CameraPathInputs& in, PathHalves path, const MergeableMediumVertex& light,
                    float phase, float phase_back) {
@@ -73,7 +71,7 @@ Spectrum MediumMerging::radiance(const Ray& ray, float length, const Medium& med
   });
   if (!in_.visibility || sum.is_zero()) return sum;
   return visible_from_segment(in_.scene, in_.light.in_media.discs, parts, sum,
-                              sampler.fork(reached_in_medium_key).next_1d(), rays);
+                              sampler.fork(Fork::medium_merge_sight).next_1d(), rays);
 }
 
 }  // namespace kaustik

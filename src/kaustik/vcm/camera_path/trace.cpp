@@ -7,8 +7,6 @@ namespace {
 
 /// Events after which paths no longer branch.
 constexpr int most_split_events = 4;
-/// Of the sampler's forks: for a branch.
-constexpr uint32_t branch_key = 4;
 
 /// A path of several that camera paths branch into at smooth transparent surfaces.
 struct Branch {
@@ -36,7 +34,7 @@ void split(CameraPath& stem, const CameraWalk::DeltaEvents& events, Branch& bran
   // Layers of what is seen show the likely one.
   const FirstHit seen = stem.walk().first_hit();
   {
-    Sampler numbers = stem.walk().sampler().fork(branch_key);
+    Sampler numbers = stem.walk().sampler().fork(Fork::delta_branch);
     CameraPath path(stem, numbers);
     path.walk().branch(other);
     path.leave();

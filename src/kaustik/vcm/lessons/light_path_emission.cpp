@@ -22,8 +22,6 @@ constexpr double least_chance = 0x1p-22;
 
 /// Aimed rays by which it is told that a light has none: of so many.
 constexpr uint32_t aim_probes = 512;
-/// Of their random numbers' addresses.
-constexpr uint64_t aim_element = uint64_t(7) << 40;
 
 /// A number below `share`, or not: made uniform again.
 bool takes(float& u, float share) {
@@ -63,7 +61,7 @@ LightPathEmission::LightPathEmission(const Scene& scene, Aim aim)
 /// Bounds let a light aim at what it can't shine at, such as what is behind it.
 bool LightPathEmission::has_aimed_rays(int light) const {
   for (uint32_t i = 0; i < aim_probes; ++i) {
-    Sampler sampler = Sampler::at(0, 0, Stream::training, aim_element + uint64_t(light), i);
+    Sampler sampler = Sampler::at(0, 0, Stream::aim_probe, uint64_t(light), i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const float u_target = sampler.next_1d();
     if (!aimed_->sample(light, u_position, u_direction, u_target, {}).flux.is_zero()) return true;

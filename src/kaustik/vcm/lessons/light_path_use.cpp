@@ -15,8 +15,6 @@ namespace {
 /// Probes that there are at most, or a few more.
 constexpr double most_probes = 1024;
 constexpr int least_block = 4;
-/// Of the random numbers' addresses.
-constexpr uint64_t direct_element = uint64_t(3) << 40;
 constexpr int direct_samples = 4;
 /// Of the mean over the probes: light that counts where there is less. What is dark may be noisy.
 constexpr double least_light = 0.05;
@@ -29,7 +27,7 @@ int block_size(const Vec2i& pixels) {
 }
 
 float direct_light_at(const Scene& scene, const SurfaceVertex& vertex, uint64_t probe) {
-  Sampler sampler = Sampler::at(0, 0, Stream::training, direct_element + probe, 0);
+  Sampler sampler = Sampler::at(0, 0, Stream::direct_probe, probe, 0);
   uint64_t rays = 0;
   const auto reflect = [&](const DirectLight& light, ShadowAnswer& answer) {
     const Spectrum reflected = vertex.eval_cosine(light.wi, Lobes::all);

@@ -12,8 +12,6 @@
 namespace kaustik {
 namespace {
 
-/// Of the random numbers' addresses.
-constexpr uint64_t coverage_element = uint64_t(2) << 40;
 /// Points that tell how much is covered of the smallest disk, and of what each has beyond the one
 /// before: so many, and more where only some of them are.
 constexpr uint32_t points_per_ring = 8, points_per_cut_ring = 32;
@@ -140,8 +138,7 @@ RadiusLearning::Levels RadiusLearning::levels_of(const Scene& scene, const Pixel
     const double inner_sq = i == 0 ? 0 : sqr(result[i - 1].radius);
     uint32_t held = 0, count = 0, points = 0;
     for (uint32_t wanted = points_per_ring; count < wanted && points < most_points; ++points) {
-      Sampler sampler =
-          Sampler::at(0, uint32_t(i), Stream::training, coverage_element + number, points);
+      Sampler sampler = Sampler::at(0, uint32_t(i), Stream::disk_cover, number, points);
       const Vec2f u = sampler.next_2d();
       const auto distance =
           float(std::sqrt(inner_sq + (sqr(level.radius) - inner_sq) * double(u.x)));

@@ -18,8 +18,6 @@ constexpr uint32_t pairs_before(uint32_t pass) {
   const uint32_t first = std::min(pass, first_passes);
   return first * first_pairs + (pass - first) * later_pairs;
 }
-/// Of the random numbers' addresses.
-constexpr uint64_t training_element = uint64_t(5) << 40;
 /// Rays that take as long as what a sample does beside tracing rays.
 constexpr double rays_of_sample = 3;
 /// Blocks on either side that a block's light and rays are averaged with.
@@ -182,9 +180,9 @@ std::vector<SampleLearning::Sums> SampleLearning::take_samples(
     const Vec2i first = grid_.first_pixel(block);
     // Pixels of one block stratify one another over the passes.
     const uint32_t number = pairs_before(pass.index) + pair;
-    const TrainingPair found = training_pair({grid_.window().size, first, Vec2i(grid_.block_size()),
-                                              pass.seed, training_element + block},
-                                             number, number, filter, wanted, take);
+    const TrainingPair found =
+        training_pair({grid_.window().size, first, Vec2i(grid_.block_size()), pass.seed, block},
+                      number, number, filter, wanted, take);
     const uint64_t pair_rays = found.rays[0] + found.rays[1];
     result[block].add({1, found.variance, found.light, double(pair_rays) / 2});
     return pair_rays;

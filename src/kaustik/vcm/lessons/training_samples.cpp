@@ -26,7 +26,7 @@ TrainingPair training_pair(const TrainingPlace& place, uint32_t pixel_number, ui
   const Vec2i size(std::min(place.block.x, place.picture.x - place.first.x),
                    std::min(place.block.y, place.picture.y - place.first.y));
   const Vec2f where =
-      Sampler::at(place.seed, 0, Stream::training, place.element, pixel_number).next_2d();
+      Sampler::at(place.seed, 0, Stream::training_pair, place.number, pixel_number).next_2d();
   const Vec2i pixel = place.first + Vec2i(std::min(int(where.x * float(size.x)), size.x - 1),
                                           std::min(int(where.y * float(size.y)), size.y - 1));
   TrainingPair result;
@@ -34,7 +34,7 @@ TrainingPair training_pair(const TrainingPlace& place, uint32_t pixel_number, ui
   for (uint32_t i = 0; i < 2; ++i) {
     // Samples that stratify one another would differ too much, and passes are to be independent.
     Sampler sampler =
-        Sampler::at(place.seed, 1 + 2 * number + i, Stream::training, place.element, 0);
+        Sampler::at(place.seed, 1 + 2 * number + i, Stream::training_pair, place.number, 0);
     const Vec2f offset = filter.sample(sampler.next_2d());
     SampleSink sink(components);
     take({float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y}, sampler, sink);

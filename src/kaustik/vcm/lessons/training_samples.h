@@ -20,7 +20,7 @@ struct TrainingPlace {
   Vec2i picture;       ///< its size
   Vec2i first, block;  ///< of a block of pixels: its first pixel, and how many there are on a side
   uint64_t seed = 0;
-  uint64_t element = 0;  ///< of the random numbers' addresses: each block has its own
+  uint64_t number = 0;  ///< of the block, among the picture's
 };
 
 /// Takes a sample at a place of the raster.

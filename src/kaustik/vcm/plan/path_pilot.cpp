@@ -12,7 +12,6 @@ namespace {
 
 constexpr uint32_t paths_per_probe = 8;
 /// Of the random numbers' addresses.
-constexpr uint64_t pilot_element = uint64_t(4) << 40;
 /// The kernel of merging weighs its vertices unevenly: they are worth so many of equal weight.
 constexpr double kernel_efficiency = 0.75;
 /// Light that merging finds more often than this, per camera path of a pass, says nothing about how
@@ -135,7 +134,7 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
   constexpr double count = paths_per_probe;
   double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
   for (uint32_t i = 0; i < paths_per_probe; ++i) {
-    Sampler sampler = Sampler::at(0, 0, Stream::training, pilot_element + index, i);
+    Sampler sampler = Sampler::at(0, 0, Stream::pilot_path, index, i);
     SampleSink sink(limits.components);
     CameraPath path(in, plan, probe.raster, sampler, sink);
     CameraWalk& walk = path.walk();

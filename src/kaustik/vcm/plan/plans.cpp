@@ -279,7 +279,7 @@ VcmPlanner::PilotLight VcmPlanner::trace_pilot(const Guides& guides, uint32_t ro
       {scene_, *guides.emission, weights, settings_.components, settings_.maximum_events, count, 1,
        PixelPlans(), 1, settings_.guiding ? LightPathUse::most_pilot_paths : 0, MediumDisks(),
        guides.scattering.get(), settings_.guided_scattering},
-      pass, Stream::training, nowhere, stop, {}, report);
+      pass, Stream::pilot_light, nowhere, stop, {}, report);
   light.guides = guides;
   light.rays = report.rays;
   plans.pilot_rays += report.rays;
