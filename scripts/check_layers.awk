@@ -89,7 +89,7 @@ BEGIN {
   allow("apps", "base image scene integrator render loader")
   # Tests of whole pictures and benchmarks may look everywhere.
   sees_all["vcm"]; sees_all["photonmap"]; sees_all["integrator"]; sees_all["render"]; sees_all["apps"]; sees_all["benchmarks"]
-  sees_all["support"]; sees_all["fuzz"]; sees_all["scene"]; sees_all["transport"]
+  sees_all["support"]; sees_all["fuzz"]; sees_all["agreement"]; sees_all["scene"]; sees_all["transport"]
 
   not_in_word = "[^A-Za-z0-9_]"
   own("Imath", "^Imath/", "base", "")

@@ -1,0 +1,137 @@
+#include "tests/agreement/block_samples.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "kaustik/base/error.h"
+#include "kaustik/image/image_io.h"
+#include "kaustik/integrator/override_integrator.h"
+#include "kaustik/loader/scene_format.h"
+#include "kaustik/render/session.h"
+#include "kaustik/scene/overrides.h"
+#include "kaustik/scene/scene.h"
+
+namespace kaustik::agreement {
+namespace {
+
+std::vector<float> block_luminances(const Image& image, const std::string& component) {
+  const RgbView rgb = rgb_view(image, component);
+  const int columns = image.width() / block_pixels, rows = image.height() / block_pixels;
+  std::vector<double> sums(size_t(columns) * size_t(rows));
+  for (int y = 0; y < rows * block_pixels; ++y)
+    for (int x = 0; x < columns * block_pixels; ++x) {
+      const Vec3f value = rgb[size_t(y) * size_t(image.width()) + size_t(x)];
+      sums[size_t(y / block_pixels) * size_t(columns) + size_t(x / block_pixels)] +=
+          0.2126 * double(value.x) + 0.7152 * double(value.y) + 0.0722 * double(value.z);
+    }
+  std::vector<float> means;
+  for (const double sum : sums) means.push_back(float(sum / (block_pixels * block_pixels)));
+  return means;
+}
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts;
+  std::istringstream stream(list);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+std::string channel_name(const std::string& component, int replicate) {
+  char number[8];
+  std::snprintf(number, sizeof number, "%02d", replicate);
+  return component + "." + number;
+}
+
+}  // namespace
+
+Components render_blocks(const BlockRender& render) {
+  Description description = load_scene(std::string(KAUSTIK_SOURCE_DIR) + "/scenes/" + render.scene +
+                                       "/" + render.scene + ".xml");
+  override_integrator(description, render.integrator);
+  override_property(description, "film.width=" + std::to_string(render.size));
+  override_property(description, "film.height=" + std::to_string(render.size));
+  override_property(description, "integrator.components=" + render.components);
+  const auto scene = build_scene(description);
+  if (render.radius_share > 0)
+    override_property(
+        description,
+        "integrator.radius=" + std::to_string(render.radius_share *
+                                              double(bounding_radius(scene->tracer().bounds()))));
+  std::vector<std::string> warnings;
+  const auto integrator = make_integrator(description, *scene, warnings);
+  Components found;
+  for (int replicate = 0; replicate < replicate_total; ++replicate) {
+    SessionSettings settings;
+    settings.seed = render.first_seed + uint64_t(replicate);
+    settings.passes = render.passes;
+    settings.samples_per_pass = render.samples;
+    Session session(*scene, *integrator, settings);
+    session.run();
+    const Image image = session.image();
+    for (const std::string& component : split(render.components))
+      found[component].push_back(block_luminances(image, component));
+  }
+  return found;
+}
+
+void write_blocks(const Components& components, const std::string& path) {
+  std::vector<std::string> names;
+  size_t blocks = 0;
+  for (const auto& [component, replicates] : components)
+    for (int r = 0; r < replicate_total; ++r) {
+      names.push_back(channel_name(component, r));
+      blocks = replicates[size_t(r)].size();
+    }
+  const int columns = int(std::lround(std::sqrt(double(blocks))));
+  Image image(columns, columns, names);
+  for (const auto& [component, replicates] : components)
+    for (int r = 0; r < replicate_total; ++r) {
+      const auto channel = image.channel(image.find_channel(channel_name(component, r)));
+      std::copy(replicates[size_t(r)].begin(), replicates[size_t(r)].end(), channel.begin());
+    }
+  write_image(image, path);
+}
+
+Components read_blocks(const std::string& path) {
+  const Image image = read_image(path);
+  Components components;
+  for (const std::string& name : image.channel_names()) {
+    const std::string component = name.substr(0, name.find('.'));
+    if (components.contains(component)) continue;
+    for (int r = 0; r < replicate_total; ++r) {
+      const int index = image.find_channel(channel_name(component, r));
+      if (index < 0)
+        throw Error(ErrorKind::input, path + " has no channel " + channel_name(component, r),
+                    "make it anew: make_block_references");
+      const auto channel = image.channel(index);
+      components[component].emplace_back(channel.begin(), channel.end());
+    }
+  }
+  return components;
+}
+
+Replicates coarser(const Replicates& blocks, int columns, int factor) {
+  Replicates result;
+  for (const std::vector<float>& row : blocks) {
+    const int coarse_columns = columns / factor, rows = int(row.size()) / columns / factor;
+    std::vector<float> means(size_t(coarse_columns) * size_t(rows));
+    for (int y = 0; y < rows * factor; ++y)
+      for (int x = 0; x < coarse_columns * factor; ++x)
+        means[size_t(y / factor) * size_t(coarse_columns) + size_t(x / factor)] +=
+            row[size_t(y) * size_t(columns) + size_t(x)] / float(factor * factor);
+    result.push_back(std::move(means));
+  }
+  return result;
+}
+
+std::vector<double> mean_of_renders(const Replicates& replicates) {
+  std::vector<double> means(replicates.at(0).size());
+  for (const std::vector<float>& row : replicates)
+    for (size_t b = 0; b < means.size(); ++b)
+      means[b] += double(row[b]) / double(replicates.size());
+  return means;
+}
+
+}  // namespace kaustik::agreement

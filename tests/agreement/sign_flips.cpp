@@ -1,0 +1,156 @@
+#include "tests/agreement/sign_flips.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "kaustik/base/statistics.h"
+
+namespace kaustik::agreement {
+namespace {
+
+constexpr size_t R = replicate_total;
+using Differences = std::array<double, R>;  ///< of one block
+
+Differences differences(const Replicates& tested, const Replicates& reference, size_t block,
+                        double planted) {
+  Differences d{};
+  for (size_t r = 0; r < R; ++r)
+    d[r] = (1 + planted) * double(tested[r][block]) - double(reference[r][block]);
+  return d;
+}
+
+RunningStatistics statistics_of(const Differences& d) {
+  RunningStatistics statistics;
+  for (const double value : d) statistics.add(value);
+  return statistics;
+}
+
+/// Two-sided.
+double student_p(double t) { return 2 * student_t_cdf(-std::fabs(t), double(R - 1)); }
+
+/// Of the smallest of so many independent ones.
+double sidak_p(double least_p, size_t count) {
+  return -std::expm1(double(count) * std::log1p(-std::min(least_p, 1 - 1e-16)));
+}
+
+/// Share of all choices of signs s for which s' K s is as large as for all signs alike.
+double share_of_signs(const std::array<Differences, R>& k) {
+  Differences ks{};  // K s
+  double own = 0;
+  for (size_t i = 0; i < R; ++i)
+    for (size_t j = 0; j < R; ++j) ks[i] += k[i][j];
+  for (const double value : ks) own += value;
+  double now = own;
+  std::array<double, R> sign;
+  sign.fill(1);
+  // The last sign stays, since all may be turned at once. By Gray's code one changes at a time.
+  const uint32_t patterns = 1u << (R - 1);
+  uint32_t as_large = 1;
+  for (uint32_t i = 1; i < patterns; ++i) {
+    const auto flipped = size_t(std::countr_zero(i));
+    now += 4 * (k[flipped][flipped] - sign[flipped] * ks[flipped]);
+    for (size_t j = 0; j < R; ++j) ks[j] -= 2 * sign[flipped] * k[j][flipped];
+    sign[flipped] = -sign[flipped];
+    if (now >= own * (1 - 1e-9)) ++as_large;
+  }
+  return double(as_large) / double(patterns);
+}
+
+double sum_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum;
+}
+
+/// Both sets with black in the place of dark blocks, and the sum of these as one more block.
+std::pair<Replicates, Replicates> with_dark_ones_pooled(const Replicates& tested,
+                                                        const Replicates& reference) {
+  std::vector<double> brightness = mean_of_renders(tested);
+  const std::vector<double> of_reference = mean_of_renders(reference);
+  for (size_t b = 0; b < brightness.size(); ++b)
+    brightness[b] = 0.5 * (brightness[b] + of_reference[b]);
+  const double least = dark_share * sum_of(brightness) / double(brightness.size());
+  const auto pooled = [&](const Replicates& replicates) {
+    Replicates result;
+    for (const std::vector<float>& row : replicates) {
+      std::vector<float> kept = row;
+      double dark = 0;
+      for (size_t b = 0; b < row.size(); ++b)
+        if (brightness[b] < least) {
+          dark += double(row[b]);
+          kept[b] = 0;
+        }
+      kept.push_back(float(dark));
+      result.push_back(std::move(kept));
+    }
+    return result;
+  };
+  return {pooled(tested), pooled(reference)};
+}
+
+}  // namespace
+
+bool Verdict::rejects(double level) const {
+  return std::min({p_mean, p_blocks, p_worst}) < sidak_level(level, 3);
+}
+
+Verdict compare(const Replicates& all_tested, const Replicates& all_reference, double planted) {
+  const auto [tested, reference] = with_dark_ones_pooled(all_tested, all_reference);
+  Verdict verdict;
+  const size_t blocks = reference.at(0).size();
+  std::array<Differences, R> k{};
+  Differences whole{};
+  size_t counted = 0;
+  for (size_t b = 0; b < blocks; ++b) {
+    const Differences d = differences(tested, reference, b, planted);
+    double squares = 0;
+    for (size_t r = 0; r < R; ++r) {
+      squares += d[r] * d[r];
+      whole[r] += d[r];
+    }
+    if (!(squares > 0)) continue;  // both black
+    ++counted;
+    for (size_t i = 0; i < R; ++i)
+      for (size_t j = 0; j < R; ++j) k[i][j] += d[i] * d[j] / squares;
+    const RunningStatistics statistics = statistics_of(d);
+    const double t = statistics.mean() / statistics.standard_error();
+    if (std::fabs(t) > std::fabs(verdict.worst_t)) {
+      verdict.worst_t = t;
+      verdict.worst_block = int(b);
+    }
+  }
+  if (counted == 0) return verdict;
+  verdict.p_worst = sidak_p(student_p(verdict.worst_t), counted);
+  verdict.p_blocks = share_of_signs(k);
+  const RunningStatistics mean = statistics_of(whole);
+  const double reference_sum = sum_of(mean_of_renders(reference));
+  verdict.p_mean = student_p(mean.mean() / mean.standard_error());
+  verdict.mean_difference = mean.mean() / reference_sum;
+  verdict.mean_difference_error = mean.standard_error() / reference_sum;
+  return verdict;
+}
+
+double smallest_bias_found(const Replicates& tested, const Replicates& reference, double level) {
+  for (double bias = 1e-4; bias < 1; bias *= 1.2)
+    if (compare(tested, reference, bias).rejects(level) &&
+        compare(tested, reference, -bias).rejects(level))
+      return bias;
+  return 1;
+}
+
+double p_beyond(const Replicates& tested, const Replicates& reference, double tolerance,
+                double planted) {
+  const std::vector<double> wanted = mean_of_renders(reference);
+  double least_p = 1;
+  for (size_t b = 0; b < wanted.size(); ++b) {
+    const RunningStatistics d = statistics_of(differences(tested, reference, b, planted));
+    const double excess = std::fabs(d.mean()) - tolerance * wanted[b];
+    if (excess > 0)
+      least_p = std::min(least_p, student_t_cdf(-excess / d.standard_error(), double(R - 1)));
+  }
+  return sidak_p(least_p, wanted.size());
+}
+
+}  // namespace kaustik::agreement
