@@ -41,15 +41,6 @@ std::vector<Method> methods(int photons = 5000) {
           {"photonmap", counts + set("irradiance_cache", false) + set("reradiate", true)}};
 }
 
-bool same_bits(const Passes& a, const Passes& b) {
-  for (size_t i = 0; i < a.images().size(); ++i)
-    for (int c = 0; c < a.images()[i].channel_count(); ++c) {
-      const auto x = a.images()[i].channel(c), y = b.images()[i].channel(c);
-      if (std::memcmp(x.data(), y.data(), x.size_bytes()) != 0) return false;
-    }
-  return true;
-}
-
 TEST(Determinism, AnyNumberOfThreads) {
   const TestScene scene = small_scene();
   for (const Method& m : methods()) {
@@ -213,14 +204,14 @@ void expect_independence(const std::string& what, const SeedsAndPasses& pictures
 
 /// Small pixels: with wide disks the bias of merging, which depends on the pass, would be something
 /// that seeds have in common.
-TEST(Determinism, ReplicatesAreIndependent) {
+TEST(Determinism, ReplicatesAreIndependentLong) {
   const TestScene scene = small_scene(40);
   for (const Method& m : methods(1000))
     expect_independence(m.type, SeedsAndPasses(scene, *scene.integrator(m.type, m.parameters), 1));
 }
 
 /// The same of so few photons that most of the noise is theirs.
-TEST(Determinism, PhotonsOfReplicatesAreIndependent) {
+TEST(Determinism, PhotonsOfReplicatesAreIndependentLong) {
   const TestScene scene = small_scene(10);
   const auto right = scene.integrator(
       "photonmap", set("components", "caustic,indirect") + set("global_photons", 300) +

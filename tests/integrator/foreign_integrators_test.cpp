@@ -10,15 +10,6 @@ namespace {
 
 using namespace test;
 
-bool same_bits(const Passes& a, const Passes& b) {
-  for (size_t i = 0; i < a.images().size(); ++i)
-    for (int c = 0; c < a.images()[i].channel_count(); ++c) {
-      const auto x = a.images()[i].channel(c), y = b.images()[i].channel(c);
-      if (std::memcmp(x.data(), y.data(), x.size_bytes()) != 0) return false;
-    }
-  return true;
-}
-
 /// Whatever is told of the method.
 Passes rendered(const TestScene& scene, const std::string& type, const std::string& parameters,
                 const RenderOptions& options) {

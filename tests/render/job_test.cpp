@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "kaustik/loader/mitsuba_xml.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/scripted_integrator.h"
 
 namespace kaustik {
@@ -38,13 +39,6 @@ JobSettings settings_for(uint32_t passes, uint32_t samples = 2) {
   settings.session.samples_per_pass = samples;
   settings.session.threads = 2;
   return settings;
-}
-
-bool same_bits(const Image& a, const Image& b) {
-  if (a.channel_names() != b.channel_names() || a.width() != b.width()) return false;
-  for (int c = 0; c < a.channel_count(); ++c)
-    if (!std::equal(a.channel(c).begin(), a.channel(c).end(), b.channel(c).begin())) return false;
-  return true;
 }
 
 Image rendered(const std::string& integrator, uint32_t passes, int size = 24) {

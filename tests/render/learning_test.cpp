@@ -8,6 +8,7 @@
 
 #include "kaustik/base/file.h"
 #include "kaustik/render/job.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/scripted_integrator.h"
 #include "tests/support/temporary_folder.h"
 
@@ -24,13 +25,6 @@ Description little_room(const std::string& integrator, int size = 12) {
           "up=\"0,0,1\"/></transform>" +
           film_of(size, size) + "</sensor>" + room + "</scene>",
       "test.xml", "");
-}
-
-bool same_bits(const Image& a, const Image& b) {
-  if (a.channel_names() != b.channel_names() || a.width() != b.width()) return false;
-  for (int c = 0; c < a.channel_count(); ++c)
-    if (!std::equal(a.channel(c).begin(), a.channel(c).end(), b.channel(c).begin())) return false;
-  return true;
 }
 
 class LearningTest : public testing::Test {

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <random>
 
 namespace kaustik {
@@ -65,17 +64,16 @@ TEST(PassSet, SaysWhatItHolds) {
   EXPECT_EQ(set.text(), "0–7");
 }
 
-/// Sets of many ranges are put together in time that grows with their number, not its square.
+/// Sets of many ranges are put together in time that grows with their number: with its square, this
+/// would take hours, and ctest would end it.
 TEST(PassSet, ManyRanges) {
-  constexpr uint32_t count = 200'000;
+  constexpr uint32_t count = 2'000'000;
   PassSet even, odd;
   for (uint32_t i = 0; i < count; ++i) {
     even.add(PassRange{4 * i, 4 * i + 1});
     odd.add(PassRange{4 * i + 2, 4 * i + 3});
   }
-  const auto start = std::chrono::steady_clock::now();
   even.add(odd);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
   EXPECT_EQ(even.count(), 2 * count);
   EXPECT_EQ(even.ranges().size(), 2 * count);
 }

@@ -9,7 +9,7 @@
 namespace kaustik {
 namespace {
 
-Description room(const std::string& glass, const std::string& wall) {
+Description edited_room(const std::string& glass, const std::string& wall) {
   return parse_mitsuba_xml(
       "<scene version=\"3.0.0\"><sensor type=\"perspective\"><transform name=\"to_world\"><lookat "
       "origin=\"0,-4,2\" target=\"0,0,0.5\" up=\"0,0,1\"/></transform><film type=\"hdrfilm\">"
@@ -44,12 +44,12 @@ std::vector<float> picture_of(const Scene& scene, const std::string& type) {
 }
 
 TEST(Rebuild, PicturesKeepTheirBits) {
-  auto scene = build_scene(room("0.6", "0.5"));
+  auto scene = build_scene(edited_room("0.6", "0.5"));
   for (const auto& [glass, wall, types] :
        {std::tuple("0.6", "0.2", std::vector<std::string>{"path", "photonmap"}),
         std::tuple("1.1", "0.2", std::vector<std::string>{"path", "auto"})}) {
-    scene = build_scene(room(glass, wall), scene);
-    const auto anew = build_scene(room(glass, wall));
+    scene = build_scene(edited_room(glass, wall), scene);
+    const auto anew = build_scene(edited_room(glass, wall));
     EXPECT_LT(scene->build_counts().shapes, anew->build_counts().shapes);
     for (const std::string& type : types)
       EXPECT_EQ(picture_of(*scene, type), picture_of(*anew, type)) << type << " " << glass << wall;

@@ -6,10 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <mutex>
-#include <thread>
 
+#include "tests/support/counted_clock.h"
 #include "tests/support/scripted_integrator.h"
 
 namespace kaustik {
@@ -332,13 +331,15 @@ TEST(Session, ManySamplesMakeManyPasses) {
 // A large first pass is cut when the time is over, but not below a sample of each pixel.
 TEST(Session, ALargeFirstPassEndsInTime) {
   const auto scene = scene_with(film_of(2, 2, "<rfilter type=\"box\"/>"), room);
+  CountedClock clock;
   Script script;
-  script.sample = [](const Vec2f&, Sampler&, SampleSink& sink) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  script.sample = [&](const Vec2f&, Sampler&, SampleSink& sink) {
+    clock.advance(2);
     sink.add(Component::direct, Spectrum(1));
   };
   const Scripted integrator(script);
   SessionSettings settings;
+  settings.clock = clock.reader();
   settings.threads = 1;
   settings.passes = 1;
   settings.samples_per_pixel = 100000;
@@ -349,7 +350,8 @@ TEST(Session, ALargeFirstPassEndsInTime) {
     EXPECT_FALSE(report.cancelled);
     EXPECT_TRUE(report.incomplete_pass);
     EXPECT_EQ(report.passes, 1u);
-    EXPECT_GE(session.film().samples_per_pixel(), 1u);
+    // 2 ms for each of 4 pixels, and the clock is looked at every 16 samples.
+    EXPECT_GE(session.film().samples_per_pixel(), std::max(1u, uint32_t(seconds / 0.008)));
     EXPECT_LT(session.film().samples_per_pixel(), 200u);
     EXPECT_EQ(session.film().image().at(1, 1, 0), 1);
   }
@@ -357,16 +359,16 @@ TEST(Session, ALargeFirstPassEndsInTime) {
 
 TEST(Session, StopsInTime) {
   const auto scene = plain_scene();
+  CountedClock clock;
   Script script;
-  script.prepare = [](const Pass&, SplatBuffer&) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  };
+  script.prepare = [&](const Pass&, SplatBuffer&) { clock.advance(20); };
   const Scripted integrator(script);
   SessionSettings settings;
+  settings.clock = clock.reader();
   settings.seconds = 0.3;
   Session session(*scene, integrator, settings);
   const SessionReport report = session.run();
-  EXPECT_GE(report.passes, 1u);
+  EXPECT_GE(report.passes, 14u);  // 20 ms each
   EXPECT_LE(report.passes, 15u);
   EXPECT_FALSE(report.cancelled);
 
@@ -429,12 +431,12 @@ TEST(Session, BiasGoesToItsLayer) {
 
 TEST(Session, TellsItsProgress) {
   const auto scene = plain_scene();
+  CountedClock clock;
   Script script;
-  script.prepare = [](const Pass&, SplatBuffer&) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(120));
-  };
+  script.prepare = [&](const Pass&, SplatBuffer&) { clock.advance(120); };
   const Scripted integrator(script);
   SessionSettings settings;
+  settings.clock = clock.reader();
   settings.passes = 5;
   std::mutex mutex;
   std::vector<Progress> told;

@@ -13,6 +13,7 @@
 #include "kaustik/base/statistics.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/session.h"
+#include "tests/support/same_bits.h"
 
 namespace kaustik::test {
 
@@ -62,6 +63,10 @@ class Passes {
  public:
   explicit Passes(std::vector<Image> images) : images_(std::move(images)) {}
   const std::vector<Image>& images() const { return images_; }
+  /// Whether all pictures have the same bits.
+  friend bool same_bits(const Passes& a, const Passes& b) {
+    return same_bits(a.images_, b.images_);
+  }
 
   /// Mean over pixels of the sum of `layers` ("" is the whole picture), a value per pass.
   std::vector<double> values(const std::vector<std::string>& layers, const PixelWeight& weight = {},

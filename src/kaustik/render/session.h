@@ -38,6 +38,8 @@ struct SessionSettings {
   /// Stop when Film::picture_error() is at most this. It is looked at after 16, 32, 64, … passes
   /// only: who looks all the time, and stops when the error happens to look small, stops too early.
   std::optional<double> error;
+  /// Seconds since some moment, asked by several threads; absent: the machine's clock.
+  std::function<double()> clock;
 };
 
 /// A look at a running session.

@@ -23,7 +23,7 @@ void Session::Monitor::tell(Progress::Stage stage, bool force) {
   const std::unique_lock lock(mutex_, std::try_to_lock);
   if (!lock || (!force && told_ && seconds_since(last_) < 0.2)) return;
   told_ = true;
-  last_ = Clock::now();
+  last_ = now();
   Progress p;
   p.stage = stage;
   p.elapsed_s = elapsed();

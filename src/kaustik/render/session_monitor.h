@@ -13,19 +13,17 @@ namespace kaustik {
 /// Counts what is done and tells the listener now and then.
 class Session::Monitor {
  public:
-  using Clock = std::chrono::steady_clock;
-
   Monitor(const Session& session, const std::function<void(const Progress&)>& listener)
       : session_(session),
         listener_(listener),
-        start_(Clock::now()),
+        start_(now()),
         passes_at_start_(session.film_.pass_count()),
         passes_to_do_(session.film_.passes().missing(session.planned())),
         light_share_(session.integrator_.traits().samples_camera ? 0.3 : 1),
         error_(session.film_.picture_error()) {}
 
   void start_pass() {
-    pass_start_ = Clock::now();
+    pass_start_ = now();
     samples_done_ = 0;
     light_done_ = 0;
   }
@@ -58,9 +56,12 @@ class Session::Monitor {
   }
   uint32_t passes_done() const { return passes_done_; }
   double error() const { return error_; }
-  static double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
+  double now() const {
+    if (session_.settings_.clock) return session_.settings_.clock();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
   }
+  double seconds_since(double start) const { return now() - start; }
   double elapsed() const { return seconds_since(start_); }
   /// Of the last pass: the first may hold plans that are made once, the mean would too.
   double last_pass_seconds() const { return last_pass_seconds_; }
@@ -86,7 +87,7 @@ class Session::Monitor {
 
   const Session& session_;
   const std::function<void(const Progress&)>& listener_;
-  Clock::time_point start_, pass_start_, last_;
+  double start_, pass_start_ = 0, last_ = 0;  ///< s
   double last_pass_seconds_ = 0, last_light_seconds_ = 0;
   bool told_ = false;
   std::mutex mutex_;
