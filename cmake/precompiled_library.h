@@ -1,4 +1,4 @@
-// What most sources of the library include: see precompiled.cmake.
+// What most sources of the library include: see build_time.cmake.
 #include <Imath/ImathBox.h>
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of the named groups: build, check, package, bench. Asks nothing, and
+# Installs the Debian packages of the named groups: build, check, coverage, package, bench. Asks nothing, and
 # needs no network when everything is there already.
 set -euo pipefail
 
@@ -7,6 +7,7 @@ build=(cmake ninja-build pkg-config python3 libembree-dev libtbb-dev libimath-de
   libpng-dev libjpeg62-turbo-dev libwebp-dev libhwy-dev libpugixml-dev zlib1g-dev libcli11-dev libfmt-dev
   libspdlog-dev libgtest-dev libnanoflann-dev nlohmann-json3-dev)
 check=(clang clang-format libclang-rt-14-dev)
+coverage=(llvm-14)
 package=(dpkg-dev file)
 bench=(blender povray)
 
@@ -15,9 +16,10 @@ for group in "$@"; do
   case $group in
     build) wanted+=("${build[@]}") ;;
     check) wanted+=("${check[@]}") ;;
+    coverage) wanted+=("${coverage[@]}") ;;
     package) wanted+=("${package[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
-    *) echo "$0: no group '$group'; there are build, check, package and bench" >&2; exit 2 ;;
+    *) echo "$0: no group '$group'; there are build, check, coverage, package and bench" >&2; exit 2 ;;
   esac
 done
 

@@ -7,7 +7,7 @@
 namespace kaustik::test {
 namespace {
 
-constexpr const char* small_photonmap =
+constexpr const char* photonmap_options =
     "<integrator type=\"photonmap\"><integer name=\"global_photons\" value=\"3000\"/>"
     "<integer name=\"caustic_photons\" value=\"3000\"/>"
     "<integer name=\"samples_per_pass\" value=\"1\"/>"
@@ -18,7 +18,7 @@ class Render : public ProgramTest {
   Render() {
     write("path.xml", small_scene());
     write("lighttracer.xml", small_scene("<integrator type=\"lighttracer\"/>"));
-    write("photonmap.xml", small_scene(small_photonmap));
+    write("photonmap.xml", small_scene(photonmap_options));
   }
   /// Sum of the red channel.
   double brightness(const std::string& image) const {

@@ -76,7 +76,7 @@ TEST(Array, DigestsTellContentsTypesAndExtentsApart) {
   EXPECT_NE(Array::of<uint32_t>({1}, {0})->digest(), Array::of<int32_t>({1}, {0})->digest());
 }
 
-const TypeInfo& table() {
+const TypeInfo& array_table() {
   static const TypeInfo info{"shape",
                              "grid",
                              "A grid.",
@@ -87,26 +87,26 @@ const TypeInfo& table() {
   return info;
 }
 
-struct Checked {
+struct CheckedArrays {
   Arguments arguments;
   std::string text;
 };
-Checked check(std::vector<Property> properties) {
+CheckedArrays check_arrays(std::vector<Property> properties) {
   Problems problems;
-  Arguments arguments(table(), properties, place_in("python"), problems);
+  Arguments arguments(array_table(), properties, place_in("python"), problems);
   return {std::move(arguments), text_of_error([&] { problems.throw_if_any(); })};
 }
 
 TEST(ArrayParameters, TakeTheExtentsThatTheyAskFor) {
   const auto points = Array::of<float>({1, 3}, {1, 2, 3});
   const Property file{"filename", Value(std::string("a")), {}};
-  const Checked right = check({{"points", Value(points), {}}, file});
+  const CheckedArrays right = check_arrays({{"points", Value(points), {}}, file});
   EXPECT_EQ(right.text, "");
   EXPECT_EQ(right.arguments.array("points"), points);
   EXPECT_EQ(right.arguments.array("cells"), nullptr);
   const auto wrong = [&](const std::string& name, const Value& value, const std::string& message) {
-    EXPECT_NE(check({{name, value, {}}, file}).text.find(message), std::string::npos)
-        << check({{name, value, {}}, file}).text;
+    EXPECT_NE(check_arrays({{name, value, {}}, file}).text.find(message), std::string::npos)
+        << check_arrays({{name, value, {}}, file}).text;
   };
   wrong("points", Value(Array::of<float>({3, 1}, {1, 2, 3})), "'points' has the extents [3, 1]");
   wrong("points", Value(Array::of<float>({3}, {1, 2, 3})), "give an array [n, 3]");
@@ -119,14 +119,15 @@ TEST(ArrayParameters, TakeTheExtentsThatTheyAskFor) {
 TEST(ArrayParameters, OneMayStandInsteadOfAnother) {
   const Property file{"filename", Value(std::string("a")), {}};
   const Property data{"data", Value(Array::of<uint8_t>({1}, {1})), {}};
-  EXPECT_TRUE(check({file}).arguments.is_complete());
-  const Checked by_data = check({data});
+  EXPECT_TRUE(check_arrays({file}).arguments.is_complete());
+  const CheckedArrays by_data = check_arrays({data});
   EXPECT_EQ(by_data.text, "");
   EXPECT_TRUE(by_data.arguments.is_complete());
-  EXPECT_NE(check({}).text.find("needs 'filename'"), std::string::npos);
-  EXPECT_FALSE(check({}).arguments.is_complete());
-  EXPECT_NE(check({file, data}).text.find("has both 'data' and 'filename'"), std::string::npos);
-  EXPECT_FALSE(check({{"data", Value(1.0), {}}}).arguments.is_complete());
+  EXPECT_NE(check_arrays({}).text.find("needs 'filename'"), std::string::npos);
+  EXPECT_FALSE(check_arrays({}).arguments.is_complete());
+  EXPECT_NE(check_arrays({file, data}).text.find("has both 'data' and 'filename'"),
+            std::string::npos);
+  EXPECT_FALSE(check_arrays({{"data", Value(1.0), {}}}).arguments.is_complete());
 }
 
 }  // namespace

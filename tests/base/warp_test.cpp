@@ -12,11 +12,11 @@ namespace kaustik {
 namespace {
 
 #ifdef KAUSTIK_SLOW_BUILD
-constexpr int count = 20000;
-constexpr double planted_error = 0.065;
+constexpr int warp_count = 20000;
+constexpr double planted_warp_error = 0.065;
 #else
-constexpr int count = 200000;
-constexpr double planted_error = 0.02;
+constexpr int warp_count = 200000;
+constexpr double planted_warp_error = 0.02;
 #endif
 constexpr double level = 1e-4;
 constexpr int cells = 8;
@@ -30,8 +30,9 @@ int cell_of(double x, double low, double high) {
 /// Chi-square over 8 × 8 cells of two coordinates in which the warp should be uniform, and the same
 /// with every other cell expected 2 % off.
 void expect_uniform(const std::function<Vec2f(const Vec2f&)>& coordinates) {
-  std::vector<double> hits(cells * cells), expected(cells * cells, double(count) / (cells * cells));
-  for (int i = 0; i < count; ++i) {
+  std::vector<double> hits(cells * cells),
+      expected(cells * cells, double(warp_count) / (cells * cells));
+  for (int i = 0; i < warp_count; ++i) {
     const Vec2f c = coordinates(point(i));
     ASSERT_GE(std::min(c.x, c.y), -1e-6f);
     ASSERT_LE(std::max(c.x, c.y), 1 + 1e-6f);
@@ -39,7 +40,7 @@ void expect_uniform(const std::function<Vec2f(const Vec2f&)>& coordinates) {
   }
   EXPECT_GT(chi_square_p_value(hits, expected), level);
   for (size_t i = 0; i < expected.size(); ++i)
-    expected[i] *= i % 2 ? 1 + planted_error : 1 - planted_error;
+    expected[i] *= i % 2 ? 1 + planted_warp_error : 1 - planted_warp_error;
   EXPECT_LT(chi_square_p_value(hits, expected), level);
 }
 

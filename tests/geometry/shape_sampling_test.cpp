@@ -8,12 +8,12 @@ namespace {
 
 constexpr int samples = 200000 / samples_divisor;
 
-struct Case {
+struct SamplingCase {
   const char* name;
   std::shared_ptr<const Shape> shape;
 };
 
-std::vector<Case> cases() {
+std::vector<SamplingCase> sampling_cases() {
   const Transform uneven = placement() * Transform::scale({2.0, 0.5, 1.0});
   const auto mesh = make_shape("sphere", {{"to_world", uneven * Transform::scale({0.5, 2, 1}), {}}})
                         ->tessellate(2);
@@ -75,16 +75,17 @@ double uniformity(const Shape& shape, float tilt) {
 }
 
 TEST(ShapeSampling, UniformByArea) {
-  for (const Case& c : cases()) EXPECT_GT(uniformity(*c.shape, 0), 1e-4) << c.name;
+  for (const SamplingCase& c : sampling_cases()) EXPECT_GT(uniformity(*c.shape, 0), 1e-4) << c.name;
 }
 
 TEST(ShapeSampling, TiltedSamplesFail) {
-  for (const Case& c : cases()) EXPECT_LT(uniformity(*c.shape, 0.1f), 1e-4) << c.name;
+  for (const SamplingCase& c : sampling_cases())
+    EXPECT_LT(uniformity(*c.shape, 0.1f), 1e-4) << c.name;
 }
 
 TEST(ShapeSampling, SamplesAreConsistentSurfacePoints) {
   Random random(22);
-  for (const Case& c : cases()) {
+  for (const SamplingCase& c : sampling_cases()) {
     const auto tracer = tracer_of({c.shape});
     for (int i = 0; i < 2000; ++i) {
       const ShapeSample s = c.shape->sample_area(random.square());

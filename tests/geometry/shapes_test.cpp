@@ -9,13 +9,13 @@
 namespace kaustik::test {
 namespace {
 
-struct Case {
+struct ShapeCase {
   const char* name;
   const char* type;
   std::vector<Property> properties;
 };
 
-std::vector<Case> cases() {
+std::vector<ShapeCase> shape_cases() {
   const Transform odd = placement(1.7);
   const Transform mirrored = placement(0.6) * Transform::scale({1, 1, -1});
   const Transform uneven = placement() * Transform::scale({2.0, 0.5, 1.0});
@@ -52,7 +52,7 @@ double mesh_area(const TriangleMesh& mesh) {
 
 class EveryShape : public testing::TestWithParam<size_t> {
  protected:
-  Case test_case() const { return cases()[GetParam()]; }
+  ShapeCase test_case() const { return shape_cases()[GetParam()]; }
   std::shared_ptr<const Shape> shape() const {
     return make_shape(test_case().type, test_case().properties);
   }
@@ -131,9 +131,9 @@ TEST_P(EveryShape, BoxesGetTight) {
   EXPECT_LT(area, 16.0 * double(shape()->area())) << test_case().name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::Range(size_t(0), cases().size()),
+INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::Range(size_t(0), shape_cases().size()),
                          [](const auto& tested) {
-                           std::string name = cases()[tested.param].name;
+                           std::string name = shape_cases()[tested.param].name;
                            std::replace(name.begin(), name.end(), ' ', '_');
                            return name;
                          });

@@ -11,7 +11,7 @@ namespace {
 
 using testing::expect_input_error;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 Image grey_image(int width, int height, const std::function<float(int, int)>& value) {
   Image image(width, height, {"R", "G", "B"});
@@ -70,7 +70,7 @@ TEST(Operators, all_of_them_show_any_picture) {
       grey_image(7, 3, [](int, int) { return 1e30f; }),
       grey_image(7, 3, [](int, int) { return 0.0f; }),
       grey_image(7, 3, [](int, int) { return -1.0f; }),
-      grey_image(7, 3, [](int, int) { return nan; }),
+      grey_image(7, 3, [](int, int) { return not_a_number; }),
       grey_image(7, 3, [](int x, int) { return x == 2 ? infinity : -infinity; }),
       grey_image(50, 40, [](int x, int y) { return std::pow(10.0f, float(x + y) / 4 - 11); }),
       testing::test_picture(60, 60, 5)};
@@ -160,7 +160,7 @@ TEST(FieldOfView, is_checked) {
   };
   refuses({180, 0}, "horizontal");
   refuses({0, 0}, "horizontal");
-  refuses({50, nan}, "vertical");
+  refuses({50, not_a_number}, "vertical");
 }
 
 TEST(Foveal, cells_are_one_degree) {
@@ -238,7 +238,7 @@ TEST(Histogram, each_model_changes_a_dark_picture_and_human_is_all_four) {
 TEST(Histogram, bad_pixels_do_not_poison_the_others) {
   const Image clean = testing::test_picture(60, 60, 5);
   Image dirty = clean;
-  dirty.at(10, 40, 0) = nan;
+  dirty.at(10, 40, 0) = not_a_number;
   dirty.at(20, 40, 1) = infinity;
   dirty.at(30, 40, 2) = -infinity;
   const Image wanted = shown_by(clean), shown = shown_by(dirty);
@@ -266,7 +266,7 @@ TEST(Histogram, scale_of_the_scene_does_not_matter) {
 
 TEST(ToneMapping, counts_what_cannot_be_shown) {
   Image image(5, 1, {"R", "G", "B"});
-  image.at(0, 0, 1) = nan;
+  image.at(0, 0, 1) = not_a_number;
   image.at(1, 0, 1) = infinity;
   image.at(2, 0, 1) = -infinity;
   image.at(3, 0, 1) = -1;
@@ -281,7 +281,7 @@ TEST(SrgbBytes, rounds_to_nearest) {
   image.at(1, 0, 0) = 1;
   image.at(1, 0, 1) = linear_from_srgb(100.4f / 255);
   image.at(1, 0, 2) = linear_from_srgb(100.6f / 255);
-  image.at(2, 0, 0) = nan;
+  image.at(2, 0, 0) = not_a_number;
   image.at(2, 0, 1) = 7;
   image.at(2, 0, 2) = -7;
   EXPECT_EQ(srgb_bytes(image), (std::vector<uint8_t>{0, 0, 0, 255, 100, 101, 0, 255, 0}));

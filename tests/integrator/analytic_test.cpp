@@ -8,8 +8,6 @@ namespace {
 
 using namespace test;
 
-const double pi_d = std::numbers::pi;
-
 /// Parameters that leave photon estimates hardly any bias.
 std::string few_neighbors(int photons) {
   return set("global_photons", photons) + set("caustic_photons", photons) +
@@ -47,8 +45,8 @@ class Furnace : public testing::Test {
 TEST_F(Furnace, Path) { check("path", render(scene_, "path", "", {20})); }
 TEST_F(Furnace, LightTracer) { check("lighttracer", render(scene_, "lighttracer", "", {350})); }
 TEST_F(Furnace, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {16})); }
-TEST_F(Furnace, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {80})); }
-TEST_F(Furnace, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {100})); }
+TEST_F(Furnace, VcmLong) { check("vcm", render(scene_, "vcm", many_light_paths(), {80})); }
+TEST_F(Furnace, PpmLong) { check("ppm", render(scene_, "ppm", many_light_paths(), {100})); }
 TEST_F(Furnace, Auto) { check("auto", render(scene_, "auto", "", {100})); }
 TEST_F(Furnace, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(8'000), {16}));
@@ -68,7 +66,8 @@ class DiffuseSphere : public testing::Test {
 
   void check(const std::string& type, const Passes& passes) {
     const double irradiance = intensity / (radius * radius) * rho / (1 - rho);
-    expect_mean(type + " sphere indirect", passes.mean({"indirect"}), rho / pi_d * irradiance);
+    expect_mean(type + " sphere indirect", passes.mean({"indirect"}),
+                rho / std::numbers::pi * irradiance);
     EXPECT_EQ(passes.mean({"caustic"}).mean(), 0);
   }
   TestScene scene_;
@@ -79,8 +78,8 @@ TEST_F(DiffuseSphere, LightTracer) {
   check("lighttracer", render(scene_, "lighttracer", "", {350}));
 }
 TEST_F(DiffuseSphere, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {10})); }
-TEST_F(DiffuseSphere, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {120})); }
-TEST_F(DiffuseSphere, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {120})); }
+TEST_F(DiffuseSphere, VcmLong) { check("vcm", render(scene_, "vcm", many_light_paths(), {120})); }
+TEST_F(DiffuseSphere, PpmLong) { check("ppm", render(scene_, "ppm", many_light_paths(), {120})); }
 TEST_F(DiffuseSphere, Auto) { check("auto", render(scene_, "auto", "", {120})); }
 TEST_F(DiffuseSphere, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(20'000), {16}));
@@ -152,7 +151,8 @@ class DiskOverPlane : public testing::Test {
 
   static double irradiance(double d_sq) {
     const double s = d_sq + h * h + a * a;
-    return pi_d * radiance / 2 * (1 - (d_sq + h * h - a * a) / std::sqrt(s * s - 4 * a * a * d_sq));
+    return std::numbers::pi * radiance / 2 *
+           (1 - (d_sq + h * h - a * a) / std::sqrt(s * s - 4 * a * a * d_sq));
   }
   /// Mean radiance of the square of the given side that the picture shows.
   static double expected(double width) {
@@ -162,7 +162,7 @@ class DiskOverPlane : public testing::Test {
       for (int j = 0; j < n; ++j)
         sum += irradiance(std::pow(width * ((i + 0.5) / n - 0.5), 2) +
                           std::pow(width * ((j + 0.5) / n - 0.5), 2));
-    return rho / pi_d * sum / (n * n);
+    return rho / std::numbers::pi * sum / (n * n);
   }
   void check(const std::string& type, const Passes& passes) {
     expect_mean(type + " disk", passes.mean({""}), expected(side));
@@ -171,7 +171,7 @@ class DiskOverPlane : public testing::Test {
 };
 
 TEST_F(DiskOverPlane, ClosedFormOnTheAxis) {
-  EXPECT_NEAR(irradiance(0), pi_d * radiance * a * a / (a * a + h * h), 1e-12);
+  EXPECT_NEAR(irradiance(0), std::numbers::pi * radiance * a * a / (a * a + h * h), 1e-12);
 }
 TEST_F(DiskOverPlane, Path) { check("path", render(scene_, "path", "", {64})); }
 TEST_F(DiskOverPlane, LightTracer) {

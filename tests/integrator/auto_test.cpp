@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 /// A closed room 2 m wide.
-std::string room(const std::string& inside, int size) {
+std::string room_of_auto(const std::string& inside, int size) {
   const std::string white = diffuse("0.6, 0.6, 0.6");
   return camera("0, -0.9, 0.9", "0, 1, 0.6", 65, size) + flat("rectangle", "", white) +
          flat("rectangle", rotate("1, 0, 0", 180) + translate("0, 0, 2"), white) +
@@ -20,7 +20,7 @@ std::string room(const std::string& inside, int size) {
          flat("rectangle", rotate("1, 0, 0", 90) + translate("0, 1, 1"), white) +
          flat("rectangle", rotate("1, 0, 0", -90) + translate("0, -1, 1"), white) + inside;
 }
-std::string lamp(const std::string& transform, double radiance) {
+std::string ceiling_lamp(const std::string& transform, double radiance) {
   return flat("rectangle", transform, diffuse("0, 0, 0") + area_light(std::to_string(radiance)));
 }
 const std::string ceiling =
@@ -28,7 +28,7 @@ const std::string ceiling =
 
 /// Shines at the ceiling from behind a screen: all light is indirect.
 std::string hidden_lamp() {
-  return lamp(scale("0.1, 0.1, 1") + translate("0, 0.8, 0.3"), 40) +
+  return ceiling_lamp(scale("0.1, 0.1, 1") + translate("0, 0.8, 0.3"), 40) +
          flat("rectangle", scale("0.4, 0.3, 1") + rotate("1, 0, 0", 90) + translate("0, 0.6, 0.3"),
               diffuse("0.2, 0.2, 0.2"));
 }
@@ -90,7 +90,7 @@ std::string court_with_a_lamp(int size) {
 TEST(Auto, DecidesByTheScene) {
   const std::string open = decision(ball_in_the_open(64));
   EXPECT_TRUE(is_for_camera_alone(open)) << open;
-  const std::string hidden = decision(room(hidden_lamp(), 64));
+  const std::string hidden = decision(room_of_auto(hidden_lamp(), 64));
   EXPECT_LT(going_on(hidden), 15) << hidden;
   EXPECT_GE(going_on(hidden), 2) << hidden;
   const std::string both = decision(court_with_a_lamp(64));
@@ -159,7 +159,7 @@ void expect_best(const char* what, const std::string& text, const std::string& w
 
 TEST(Auto, DecidesForTheBest) {
   expect_best("open", ball_in_the_open(24), "both everywhere");
-  expect_best("hidden", room(hidden_lamp(), 24), "paths");
+  expect_best("hidden", room_of_auto(hidden_lamp(), 24), "paths");
   expect_best("both", court_with_a_lamp(24), "");
 }
 
@@ -217,10 +217,11 @@ TEST(Auto, PilotIsCheap) {
   EXPECT_LE(spent, 0.05 * all);
 }
 
-TEST(Auto, MakesThePictureOfPath) {
-  const TestScene scene(room(lamp(ceiling, 8) + sphere("-0.4, 0.4, 0.351", 0.35, mirror()) +
-                                 sphere("0.4, 0.2, 0.301", 0.3, glass()),
-                             16));
+TEST(Auto, MakesThePictureOfPathLong) {
+  const TestScene scene(room_of_auto(ceiling_lamp(ceiling, 8) +
+                                         sphere("-0.4, 0.4, 0.351", 0.35, mirror()) +
+                                         sphere("0.4, 0.2, 0.301", 0.3, glass()),
+                                     16));
   const std::string components = set("components", "direct,indirect");
   const Passes path = render(scene, "path", components, {400, 7});
   const Passes found = render(scene, "auto", components, {160, 8});
@@ -231,8 +232,8 @@ TEST(Auto, MakesThePictureOfPath) {
 /// Of a glass ball, whose brightest caustic lies in full view.
 TEST(Auto, MakesTheCausticsOfLightTracer) {
   const std::string small_lamp =
-      lamp(scale("0.15, 0.15, 1") + rotate("1, 0, 0", 180) + translate("0, 0.5, 1.95"), 50);
-  const std::string text = room(small_lamp + sphere("0, 0.5, 0.9", 0.3, glass()), 32);
+      ceiling_lamp(scale("0.15, 0.15, 1") + rotate("1, 0, 0", 180) + translate("0, 0.5, 1.95"), 50);
+  const std::string text = room_of_auto(small_lamp + sphere("0, 0.5, 0.9", 0.3, glass()), 32);
   EXPECT_FALSE(is_for_camera_alone(decision(text)));
   const TestScene scene(text);
   const std::string components = set("components", "caustic");
@@ -243,7 +244,8 @@ TEST(Auto, MakesTheCausticsOfLightTracer) {
 
 /// In a mirror ball.
 TEST(Auto, ShowsTheMirrorImagesOfPath) {
-  const TestScene scene(room(lamp(ceiling, 8) + sphere("-0.4, 0.4, 0.6", 0.35, mirror()), 16));
+  const TestScene scene(
+      room_of_auto(ceiling_lamp(ceiling, 8) + sphere("-0.4, 0.4, 0.6", 0.35, mirror()), 16));
   const std::string components = set("components", "specular");
   const Passes path = render(scene, "path", components, {200, 7});
   const Passes found = render(scene, "auto", components, {200, 8});

@@ -31,7 +31,7 @@ std::string walls() {
          wall(rotate("1, 0, 0", -90) + translate("0, -1, 1"), white);
 }
 std::string white_floor() { return wall(scale("1, 1, 1"), diffuse("0.5, 0.5, 0.5")); }
-std::string lamp() {
+std::string small_lamp() {
   return flat("rectangle",
               scale("0.6, 0.6, 1") + rotate("1, 0, 0", 180) + translate("0, 0.1, 1.98"),
               diffuse("0, 0, 0") + area_light("10, 9, 8"));
@@ -42,11 +42,11 @@ std::string cube(const std::string& transform) {
 }
 
 const std::string box =
-    walls() + white_floor() + lamp() +
+    walls() + white_floor() + small_lamp() +
     cube(scale("0.28, 0.28, 0.55") + rotate("0, 0, 1", 20) + translate("-0.35, 0.35, 0.55")) +
     cube(scale("0.25, 0.25, 0.25") + rotate("0, 0, 1", -20) + translate("0.35, -0.1, 0.25"));
 std::string balls_in_room(const std::string& left, const std::string& right) {
-  return walls() + white_floor() + lamp() + sphere("-0.45, 0.4, 0.401", 0.4, left) +
+  return walls() + white_floor() + small_lamp() + sphere("-0.45, 0.4, 0.401", 0.4, left) +
          sphere("0.45, 0, 0.401", 0.4, right);
 }
 /// A floor and a wall behind it, open to all other sides, with a lamp above.
@@ -162,7 +162,7 @@ TEST(Components, CornellSpheres) {
   m.expect_near(by_light(scene, 200, "indirect"), "indirect");
 }
 /// The glass sphere's focus is half of all: a few pixels, so these apart and closer up.
-TEST(Components, CausticsOfCornellSpheres) {
+TEST(Components, CausticsOfCornellSpheresLong) {
   const TestScene scene(shipped("cornell_spheres"));
   check_caustic("cornell_spheres, but for the focus,", scene, {32, 200'000, 8},
                 by_light(scene, 400, "caustic"),
@@ -190,16 +190,16 @@ void check_caustics_in_the_open(const std::string& name, const std::string& left
   const TestScene scene(balls_on_floor(left, right));
   check_caustic(name, scene, {40}, by_light(scene, light_samples, "caustic"));
 }
-TEST(Components, MirrorAndGlass) {
+TEST(Components, MirrorAndGlassLong) {
   check_room("spheres", mirror(), glass());
   check_caustics_in_the_open("spheres", mirror(), glass(), 300);
 }
-TEST(Components, RoughAndPolishedMetal) {
+TEST(Components, RoughAndPolishedMetalLong) {
   check_room("GGX", ggx(0.05), ggx(0.3));
   check_caustics_in_the_open("GGX", ggx(0.05), ggx(0.3), 250);
 }
 
-TEST(Components, LampBehindGlass) {
+TEST(Components, LampBehindGlassLong) {
   const TestScene scene(lamp_behind_glass);
   const Measurement m("lamp behind glass", scene, 64, fine_estimates(200'000));
   const Passes light = by_light(scene, 200, "caustic");
@@ -213,7 +213,7 @@ TEST(Components, LampBehindGlass) {
 
 /// Also what two unbiased integrators find that share nothing but the scene: where the camera sees
 /// no mirror, light paths find all.
-TEST(Components, PhongFloor) {
+TEST(Components, PhongFloorLong) {
   const TestScene scene(glossy_floor);
   const Measurement m("Phong floor", scene, 64);
   const Passes path = render(scene, "path", "", {800, 2});
@@ -277,7 +277,7 @@ void check_slope(const std::string& layer, const Passes& found, const Passes& re
   EXPECT_GT(slope, steepest_slope) << layer;
 }
 
-TEST(Components, ErrorFallsWithPasses) {
+TEST(Components, ErrorFallsWithPassesLong) {
   const TestScene room(balls_in_room(mirror(), ggx(0.3)));
   const Passes found = render(room, "photonmap", fine_estimates(), {4, 1});
   const Passes path = render(room, "path", "", {60, 2});

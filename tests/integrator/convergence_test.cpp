@@ -165,7 +165,7 @@ std::vector<double> later(const std::vector<double>& errors) {
 
 /// The areas of disks shrink as i^(−1/3): the noise of a mean of n passes falls as n^(−2/3) (Knaus
 /// and Zwicker 2011). The twin: disks that don't shrink, whose noise falls as that of any mean.
-TEST_F(LightThroughAPane, NoiseOfShrinkingDisks) {
+TEST_F(LightThroughAPane, NoiseOfShrinkingDisksLong) {
   constexpr double expected = -2.0 / 3, tolerance = 0.1;
   const auto ppm = scene_.integrator("ppm", set("components", "caustic") + set("radius", 0.12) +
                                                 set("guiding", false) + set("adaptive", false) +

@@ -33,7 +33,7 @@ Comparison compare(const Passes& found, const Passes& referee, const std::string
   return {found.mean({component}, half), referee.mean({component}, half)};
 }
 
-TEST_P(GlossyScene, HasTheLightThatPathFinds) {
+TEST_P(GlossyScene, HasTheLightThatPathFindsLong) {
   const Passes path = passes("path");
   const double least = 0.002 * path.mean({""}).mean();
   const auto expect_agreement = [&](const char* name, const Passes& found) {
@@ -74,7 +74,7 @@ TEST(GlossyScenes, TellRecordsThatReachTooFar) {
 
 /// Disks of photons hang over the ends of a floor and of a wall; caustics there have the light that
 /// falls on both all the same.
-TEST(GlossyScenes, LoseNoCausticsAtTheEndsOfSurfaces) {
+TEST(GlossyScenes, LoseNoCausticsAtTheEndsOfSurfacesLong) {
   const TestScene scene(glossy_scenes(size)[3].second);
   const std::string caustic = set("components", "caustic");
   const Comparison c(

@@ -9,8 +9,6 @@ namespace {
 
 using namespace test;
 
-const double pi_d = std::numbers::pi;
-
 /// A picture of irradiance.
 std::string meter(const std::string& origin, const std::string& target, double fov, int size = 8,
                   const std::string& up = "0, 1, 0") {
@@ -53,7 +51,7 @@ class IrradianceUnderDisk : public testing::TestWithParam<const char*> {
     constexpr double a = 0.5, h = 1, radiance = 4;
     return mean_over_square([&](double d_sq) {
       const double s = d_sq + h * h + a * a;
-      return pi_d * radiance / 2 *
+      return std::numbers::pi * radiance / 2 *
              (1 - (d_sq + h * h - a * a) / std::sqrt(s * s - 4 * a * a * d_sq));
     });
   }
@@ -90,7 +88,7 @@ TEST(IrradianceUnderSphere, OnTheAxis) {
                         sphere("0, 0, 2", 0.5, diffuse("0, 0, 0") + area_light("3")));
   for (const char* type : {"path", "photonmap", "ppm", "auto"})
     expect_mean(std::string(type) + " sphere", render(scene, type, "", {64}).mean({""}),
-                pi_d * 3 * 0.25 / 4);
+                std::numbers::pi * 3 * 0.25 / 4);
 }
 
 // ---------------------------------------------------------------- furnace with mirrors
@@ -110,7 +108,7 @@ class IrradianceInFurnace : public testing::Test {
                           mirrors));
   }
   static void check(const std::string& type, const Passes& passes) {
-    expect_mean(type + " furnace", passes.mean({""}), pi_d / (1 - rho));
+    expect_mean(type + " furnace", passes.mean({""}), std::numbers::pi / (1 - rho));
     EXPECT_GT(passes.mean({"caustic"}).mean(), 0.1) << type;
   }
 };
@@ -129,7 +127,7 @@ TEST_F(IrradianceInFurnace, PhotonMapWithoutCache) {
                thin_estimates(40'000) + set("irradiance_cache", false), {16}));
 }
 
-TEST_F(IrradianceInFurnace, Ppm) {
+TEST_F(IrradianceInFurnace, PpmLong) {
   check("ppm",
         render(scene(mirror()), "ppm", set("light_paths", 16.0) + set("radius", 0.1), {100}));
 }
@@ -162,7 +160,7 @@ TEST(Irradiance, IsThatOfTheSideWhichIsSeen) {
 
 /// In an absorbing medium light loses its share on its way to the surface, and nothing on the
 /// camera's: E = I h/d³ exp(−σ d).
-TEST(Irradiance, OfWhatMediaLetThrough) {
+TEST(Irradiance, OfWhatMediaLetThroughLong) {
   const std::string water = medium("", "0.2, 0.2, 0.2", "0, 0, 0");
   std::string lamp = point_light("0, 0, 2", 5);
   lamp.insert(lamp.find("<point"), water);

@@ -67,7 +67,7 @@ TEST(LightLeaks, WallsOfAnyThickness) {
 }
 
 /// Caustics of balls in the bright room, beside the wall.
-TEST(LightLeaks, Caustics) {
+TEST(LightLeaks, CausticsLong) {
   const std::string balls =
       sphere("-0.4, 0, -0.6", 0.35, glass()) + sphere("-0.4, -0.6, -0.7", 0.25, mirror());
   for (const double thickness : {0.001, 0.01})
@@ -81,12 +81,12 @@ TEST(LightLeaks, Caustics) {
 }
 
 /// Disks of few pixels are the widest.
-TEST(LightLeaks, PicturesOfAnySize) {
+TEST(LightLeaks, PicturesOfAnySizeLong) {
   for (const int pixels : {16, 64, 128})
     expect_dark(fmt::format("{} pixels", pixels), Rooms(slab(0.01), grey, pixels));
 }
 
-TEST(LightLeaks, GlossyAndRoundWalls) {
+TEST(LightLeaks, GlossyAndRoundWallsLong) {
   const std::string shiny = phong(0.3, 0.5, 20), rough = ggx(0.3);
   expect_dark("glossy floor", Rooms(slab(0.01), shiny, 48));
   expect_dark("rough metal", Rooms(slab(0.01), rough, 48));

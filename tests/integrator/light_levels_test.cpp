@@ -89,7 +89,7 @@ void render_noting(const std::string& inside, const std::string& type,
 }
 
 /// A room with a glossy floor; `bar` is the lamp.
-std::string room(const std::string& bar, int size = 6) {
+std::string levels_room(const std::string& bar, int size = 6) {
   return camera("0, -0.9, 0.5", "0, 1, -0.7", 60, size) +
          flat("rectangle", scale("1, 1, 1") + translate("0, 0, -1"), phong(0.3, 0.5, 20)) +
          R"(<shape type="cube"><transform name="to_world"><scale value="1.01"/></transform>)" +
@@ -107,7 +107,7 @@ using Set = std::set<int>;
 
 TEST(LightLevels, OfPathAreItsEvents) {
   Levels levels;
-  render_noting(room(plain_bar), "path", set("max_depth", 4), levels);
+  render_noting(levels_room(plain_bar), "path", set("max_depth", 4), levels);
   EXPECT_EQ(Levels::seen(levels.sampled), (Set{0, 1, 2}));
   EXPECT_EQ(Levels::seen(levels.asked), (Set{0, 1, 2}));
 }
@@ -128,7 +128,8 @@ TEST(LightLevels, OfPhotonMapsReachGatherRays) {
   const std::string few = set("global_photons", 2000) + set("caustic_photons", 0);
   for (const bool cache : {false, true}) {
     Levels levels;
-    render_noting(room(plain_bar), "photonmap", few + set("irradiance_cache", cache), levels);
+    render_noting(levels_room(plain_bar), "photonmap", few + set("irradiance_cache", cache),
+                  levels);
     const Set sampled = Levels::seen(levels.sampled);
     EXPECT_TRUE(sampled.contains(0) && sampled.contains(1)) << cache;
     EXPECT_GT(levels.sampled[1], levels.sampled[0]) << cache;
@@ -138,7 +139,7 @@ TEST(LightLevels, OfPhotonMapsReachGatherRays) {
 /// In a haze as well.
 TEST(LightLevels, OfMediaAreTheEvents) {
   Levels levels;
-  std::string inside = room(plain_bar);
+  std::string inside = levels_room(plain_bar);
   inside.insert(inside.find("<film"), medium("", "2", "0.9", 0));
   render_noting(inside, "path", set("max_depth", 4), levels);
   EXPECT_EQ(Levels::seen(levels.sampled), (Set{0, 1, 2}));
@@ -148,7 +149,7 @@ TEST(LightLevels, OfMediaAreTheEvents) {
 /// the light of a lamp that is sampled more coarsely at deeper levels as that of one that is not.
 TEST(LightLevels, ChangeNoMean) {
   const StripMesh strip(40);
-  const TestScene mesh(room(fine_bar(strip))), plain(room(plain_bar));
+  const TestScene mesh(levels_room(fine_bar(strip))), plain(levels_room(plain_bar));
   const auto mean = [](const TestScene& scene, const char* integrator, const std::string& more,
                        double samples, uint64_t seed) {
     return render(scene, integrator, set("max_depth", 4) + more, {samples, seed}).mean({""});

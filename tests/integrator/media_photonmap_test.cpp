@@ -32,7 +32,7 @@ TEST_P(BeamEstimate, OfSingleScattering) {
 }
 
 /// Light scattered any number of times, against light paths that are splatted.
-TEST_P(BeamEstimate, OfAllScattering) {
+TEST_P(BeamEstimate, OfAllScatteringLong) {
   const Passes photons = render(scene_, "photonmap", many_photons(15'000), {12});
   const Passes light = render(scene_, "lighttracer", "", {600});
   expect_near_means(

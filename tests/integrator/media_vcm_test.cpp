@@ -34,7 +34,7 @@ TEST(VcmInMedia, AirlightTwin) {
 #endif
 
 /// All of a room of fog, seen from within, with a ball of glass and one of coloured fog.
-TEST(VcmInMedia, HazyRoom) {
+TEST(VcmInMedia, HazyRoomLong) {
   const TestScene scene(hazy_room());
   const Passes path = render(scene, "path", "", {1600, 7});
   const Passes connected = render(scene, "bdpt", "", {500, 8});
@@ -56,7 +56,7 @@ TEST(VcmInMedia, HazyRoom) {
 
 /// A point lamp through a ball of glass into a ball of fog: the caustic hangs in the air, where no
 /// path from the camera finds it.
-TEST(VcmInMedia, CausticInTheAir) {
+TEST(VcmInMedia, CausticInTheAirLong) {
   const auto named = [&](const std::string& name) {
     return medium(name, "0.4, 0.6, 0.8", "0.9, 0.8, 0.7", 0.3);
   };
@@ -75,7 +75,7 @@ TEST(VcmInMedia, CausticInTheAir) {
 
 /// A ball of fog whose mean free path is far less than a pixel: discs as wide as pixels would reach
 /// out of it, and make it a third darker.
-TEST(VcmInMedia, DenseFog) {
+TEST(VcmInMedia, DenseFogLong) {
   const TestScene scene(
       camera("0, -3, 0", "0, 0, 0", 40, 16) +
       sphere("0, 0, 0", 1, null_bsdf + medium("interior", "100, 100, 100", "0.9, 0.9, 0.9", 0)) +

@@ -9,15 +9,16 @@
 namespace kaustik {
 namespace {
 
-Description scene_with(const std::string& integrator) {
-  return parse_mitsuba_xml("<scene version=\"3.0.0\">" + integrator + "</scene>", "test", "");
+Description scene_with(const std::string& described_integrator) {
+  return parse_mitsuba_xml("<scene version=\"3.0.0\">" + described_integrator + "</scene>", "test",
+                           "");
 }
 
 std::string integer(const std::string& name, const std::string& value) {
   return "<integer name=\"" + name + "\" value=\"" + value + "\"/>";
 }
 
-std::string integrator(const std::string& type, const std::string& contents) {
+std::string described_integrator(const std::string& type, const std::string& contents) {
   return "<integrator type=\"" + type + "\">" + contents + "</integrator>";
 }
 
@@ -31,15 +32,15 @@ std::vector<std::string> names_of(const Description& description) {
 using Names = std::vector<std::string>;
 
 TEST(OverrideIntegrator, SameTypeStaysAsItIs) {
-  Description description = scene_with(integrator("path", integer("max_depth", "3")));
+  Description description = scene_with(described_integrator("path", integer("max_depth", "3")));
   EXPECT_EQ(override_integrator(description, "path"), "");
   EXPECT_EQ(names_of(description), Names{"max_depth"});
 }
 
 TEST(OverrideIntegrator, KeepsWhatBothHave) {
-  Description description = scene_with(
-      integrator("vcm", integer("max_depth", "3") + integer("rr_depth", "2") +
-                            integer("merge_neighbors", "9") + integer("samples_per_pass", "8")));
+  Description description = scene_with(described_integrator(
+      "vcm", integer("max_depth", "3") + integer("rr_depth", "2") +
+                 integer("merge_neighbors", "9") + integer("samples_per_pass", "8")));
   EXPECT_EQ(override_integrator(description, "path"),
             "integrator 'path' has no use for what the scene says of its 'vcm': merge_neighbors, "
             "samples_per_pass");
@@ -51,42 +52,45 @@ TEST(OverrideIntegrator, KeepsWhatBothHave) {
 
 /// What has no effect in the one must not get one in the other.
 TEST(OverrideIntegrator, IgnoredParametersGoInSilence) {
-  Description description = scene_with(integrator("path", integer("samples_per_pass", "64")));
+  Description description =
+      scene_with(described_integrator("path", integer("samples_per_pass", "64")));
   EXPECT_EQ(override_integrator(description, "vcm"), "");
   EXPECT_EQ(names_of(description), Names{});
 }
 
 TEST(OverrideIntegrator, ValuesThatTheNewOneRefusesGo) {
-  Description description = scene_with(integrator("photonmap", integer("samples_per_pass", "0")));
+  Description description =
+      scene_with(described_integrator("photonmap", integer("samples_per_pass", "0")));
   EXPECT_NE(override_integrator(description, "vcm").find("samples_per_pass"), std::string::npos);
   EXPECT_EQ(names_of(description), Names{});
 }
 
 TEST(OverrideIntegrator, SpeaksOtherRenderersWords) {
-  Description held =
-      scene_with(integrator("aov", "<string name=\"aovs\" value=\"d:depth\"/>" +
-                                       integrator("prbvolpath", integer("max_depth", "4"))));
+  Description held = scene_with(described_integrator(
+      "aov", "<string name=\"aovs\" value=\"d:depth\"/>" +
+                 described_integrator("prbvolpath", integer("max_depth", "4"))));
   EXPECT_EQ(override_integrator(held, "vcm"), "");
   EXPECT_EQ(names_of(held), Names{"max_depth"});
   EXPECT_TRUE(find_integrator(held)->children.empty());
 
-  Description photons = scene_with(integrator("photonmapper", integer("lookup_size", "40")));
+  Description photons =
+      scene_with(described_integrator("photonmapper", integer("lookup_size", "40")));
   EXPECT_EQ(override_integrator(photons, "photonmap"), "");
   EXPECT_EQ(names_of(photons), (Names{"global_neighbors", "caustic_neighbors"}));
 
   // What a type means by itself is no wish of the file's …
-  Description direct = scene_with(integrator("direct", integer("rr_depth", "7")));
+  Description direct = scene_with(described_integrator("direct", integer("rr_depth", "7")));
   EXPECT_EQ(override_integrator(direct, "path"), "");
   EXPECT_EQ(names_of(direct), Names{"rr_depth"});
   // … and wins over the file's.
-  Description longer = scene_with(integrator("path", integer("max_depth", "7")));
+  Description longer = scene_with(described_integrator("path", integer("max_depth", "7")));
   EXPECT_NE(override_integrator(longer, "direct").find("max_depth"), std::string::npos);
   EXPECT_EQ(names_of(longer), Names{});
 }
 
 TEST(OverrideIntegrator, UnknownOnesAreReplaced) {
-  Description description =
-      scene_with(integrator("strange", integer("max_depth", "4") + integer("tentacles", "8")));
+  Description description = scene_with(
+      described_integrator("strange", integer("max_depth", "4") + integer("tentacles", "8")));
   EXPECT_EQ(override_integrator(description, "path"),
             "integrator 'path' has no use for what the scene says of its 'strange': tentacles");
   EXPECT_EQ(names_of(description), Names{"max_depth"});

@@ -114,7 +114,7 @@ TEST(Lampshade, IsTheSameForAllIntegrators) {
   }
 }
 // The cache has records of its own for the far side.
-TEST(Lampshade, IsTheSameWithTheCache) {
+TEST(Lampshade, IsTheSameWithTheCacheLong) {
   const TestScene scene(lampshade(paper(0)));
   const std::string wanted = set("components", "indirect");
   const Passes path = render(scene, "path", wanted, {300, 1});

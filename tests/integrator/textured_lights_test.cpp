@@ -24,7 +24,7 @@ const std::string black = diffuse("0");
 constexpr uint32_t samples_of_a_replicate = slow_build ? 4096 : 16384;
 
 /// A glossy floor in a room under a panel and a ball, both checkered.
-std::string room() {
+std::string textured_room() {
   return camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 8) +
          flat("rectangle", scale("2, 2, 1"), phong(0.4, 0.3, 6)) +
          flat("rectangle", rotate("1, 0, 0", 90) + translate("0, 1.5, 0"), diffuse("0.6")) +
@@ -34,7 +34,7 @@ std::string room() {
 }
 
 TEST(TexturedLights, EveryMethodFindsTheirLight) {
-  const TestScene scene(room());
+  const TestScene scene(textured_room());
   const RunningStatistics by_path = render(scene, "path", set("max_depth", 3), {600, 1}).mean({""});
   expect_equal_means("lighttracer",
                      render(scene, "lighttracer", set("max_depth", 3), {1000, 2}).mean({""}),
@@ -49,7 +49,7 @@ TEST(TexturedLights, EveryMethodFindsTheirLight) {
 
 /// Photon maps: what the lamps send out by emitted rays, gathered in a ball that is seen from
 /// inside.
-TEST(TexturedLights, PhotonsCarryTheirLight) {
+TEST(TexturedLights, PhotonsCarryTheirLightLong) {
   const TestScene scene(camera("0, -0.8, 0", "0, 1, -0.2", 75, 12) +
                         sphere("0, 0, 0", 1, diffuse("0.5"), true) +
                         flat("rectangle", scale("0.3, 0.3, 1") + translate("0, 0, 0.2"),
@@ -69,7 +69,7 @@ TEST(TexturedLights, PhotonsCarryTheirLight) {
 
 /// What a cosine-weighted ray meets, and what sampling the lamps finds: irradiance on the floor.
 TEST(TexturedLights, AreFoundWithAndWithoutLightSampling) {
-  const TestScene test(room());
+  const TestScene test(textured_room());
   const Scene& scene = test.scene();
   const Ray down{{0.2f, 0.1f, 0.5f}, {0, 0, -1}};
   Hit hit;

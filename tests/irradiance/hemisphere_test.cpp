@@ -14,9 +14,9 @@ using test::surface_point;
 using test::UniformSource;
 
 #ifdef KAUSTIK_SLOW_BUILD
-constexpr int effort = 1;
+constexpr int hemisphere_effort = 1;
 #else
-constexpr int effort = 10;
+constexpr int hemisphere_effort = 10;
 #endif
 
 const Vec3f up(0, 0, 1);
@@ -48,7 +48,7 @@ TEST(hemisphere_grid, finds_the_cell_of_a_direction) {
 TEST(hemisphere_grid, cells_have_equal_projected_solid_angle) {
   const HemisphereGrid grid{6, 19};
   std::vector<double> hits(size_t(grid.count()), 0.0);
-  const uint32_t count = 20000 * effort;
+  const uint32_t count = 20000 * hemisphere_effort;
   for (uint32_t i = 0; i < count; ++i)
     ++hits[size_t(grid.cell_of(
         square_to_cosine_hemisphere(Sampler::at(3, 0, Stream::training, i, 0).next_2d())))];
@@ -129,10 +129,10 @@ TEST(hemisphere, irradiance_is_unbiased_with_and_without_importance) {
   const double expected = plain.form_integral(Vec3d(0, 0, 0), Vec3d(normal));
   for (const RadianceSource* source :
        {static_cast<const RadianceSource*>(&plain), static_cast<const RadianceSource*>(&aimed)}) {
-    const Replicates r = replicate(*source, normal, 200, 300 * effort);
+    const Replicates r = replicate(*source, normal, 200, 300 * hemisphere_effort);
     const RunningStatistics& e = r.irradiance;
     EXPECT_GT(z_test_p_value(e, expected), 1e-3) << e.mean() << " vs " << expected;
-    if (effort < 10) continue;
+    if (hemisphere_effort < 10) continue;
     EXPECT_LT(e.standard_error() / e.mean(), 0.003);
     EXPECT_LT(z_test_p_value(e, 1.02 * expected), 1e-3);
   }
@@ -211,8 +211,8 @@ TEST(hemisphere, gradients_match_finite_differences) {
   const RectangleSource source;
   const Vec3f normal = normalize(Vec3f(0.2f, -0.1f, 1));
   const Differences expected = differences(source, normal);
-  const Replicates coarse = replicate(source, normal, 400, 200 * effort);
-  const Replicates fine = replicate(source, normal, 6400, 20 * effort);
+  const Replicates coarse = replicate(source, normal, 400, 200 * hemisphere_effort);
+  const Replicates fine = replicate(source, normal, 6400, 20 * hemisphere_effort);
   EXPECT_LT(deviation(coarse.translation, expected.translation), 0.04);
   EXPECT_LT(deviation(fine.translation, expected.translation), 0.008);
   EXPECT_LT(deviation(coarse.rotation, expected.rotation), 0.006);

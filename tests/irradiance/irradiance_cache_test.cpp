@@ -25,7 +25,7 @@ constexpr int resolution = 40;
 constexpr int resolution = 100;
 #endif
 
-const Vec3f up(0, 0, 1);
+const Vec3f z_axis(0, 0, 1);
 
 CachePoint cache_point(const Vec3f& position, const Vec3f& normal, float pixel_width = 0) {
   return {surface_point(position, normal), normal, pixel_width, 1};
@@ -37,7 +37,7 @@ std::vector<CachePoint> floor_points(int n, float pixel_width = 0) {
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x)
       points.push_back(cache_point({(float(x) + 0.5f) / float(n), (float(y) + 0.5f) / float(n), 0},
-                                   up, pixel_width));
+                                   z_axis, pixel_width));
   return points;
 }
 
@@ -51,7 +51,7 @@ std::vector<CachePoint> room_points(int n) {
       const Vec3f d = normalize(
           Vec3f(2 * (float(x) + 0.5f) / float(n) - 1, 1, 2 * (float(y) + 0.5f) / float(n) - 1));
       Sampler sampler(1, 1);
-      const float distance = room.incoming(surface_point(eye, up), d, sampler).distance;
+      const float distance = room.incoming(surface_point(eye, z_axis), d, sampler).distance;
       const Vec3f p = eye + d * distance;
       Vec3f normal(0, 0, 0);
       if (length(p - room.ball_center) < 1.001f * room.ball_radius)
@@ -238,22 +238,22 @@ TEST(irradiance_cache, sides_do_not_share) {
   IrradianceCache cache(settings_with(0.3f, 50));
   fill(cache, floor_points(30), UniformSource(Spectrum(1), 1));
   Spectrum e;
-  EXPECT_TRUE(cache.interpolate(cache_point({0.5f, 0.5f, 0}, up), e));
-  EXPECT_FALSE(cache.interpolate(cache_point({0.5f, 0.5f, 0}, -up), e));
+  EXPECT_TRUE(cache.interpolate(cache_point({0.5f, 0.5f, 0}, z_axis), e));
+  EXPECT_FALSE(cache.interpolate(cache_point({0.5f, 0.5f, 0}, -z_axis), e));
   EXPECT_FALSE(cache.interpolate(cache_point({0.5f, 0.5f, 0}, {1, 0, 0}), e));
   // Below the floor (it looks out from under it) nearer than above.
-  EXPECT_FALSE(cache.interpolate(cache_point({0.5f, 0.5f, -0.1f}, up), e));
-  EXPECT_TRUE(cache.interpolate(cache_point({0.5f, 0.5f, 0.1f}, up), e));
-  EXPECT_FALSE(cache.interpolate(cache_point({0.5f, 0.5f, 0.3f}, up), e));
+  EXPECT_FALSE(cache.interpolate(cache_point({0.5f, 0.5f, -0.1f}, z_axis), e));
+  EXPECT_TRUE(cache.interpolate(cache_point({0.5f, 0.5f, 0.1f}, z_axis), e));
+  EXPECT_FALSE(cache.interpolate(cache_point({0.5f, 0.5f, 0.3f}, z_axis), e));
 }
 
 /// How far a single record is used when what it sees is `distance` away.
 float measured_reach(CacheSettings settings, float distance, float pixel_width) {
   IrradianceCache cache(settings);
-  fill(cache, {cache_point({0, 0, 0}, up, pixel_width)}, UniformSource(Spectrum(1), distance));
+  fill(cache, {cache_point({0, 0, 0}, z_axis, pixel_width)}, UniformSource(Spectrum(1), distance));
   float reach = 0;
   Spectrum e;
-  while (reach < 1000 && cache.interpolate(cache_point({reach, 0, 0}, up), e)) reach += 0.01f;
+  while (reach < 1000 && cache.interpolate(cache_point({reach, 0, 0}, z_axis), e)) reach += 0.01f;
   return reach / RecordOctree::overlap;
 }
 
@@ -285,7 +285,7 @@ TEST(irradiance_cache, grooves_do_not_darken_what_lies_beside_them) {
     std::vector<CachePoint> groove;
     for (int i = 0; i < resolution; ++i)
       groove.push_back(
-          cache_point({0.5f, (float(i) + 0.5f) / resolution, 0}, up, 1.0f / resolution));
+          cache_point({0.5f, (float(i) + 0.5f) / resolution, 0}, z_axis, 1.0f / resolution));
     // The normal of one side of the groove, as far from the floor's as records may be shared.
     for (CachePoint& p : groove) p.normal = p.point.ns = p.point.ng = normalize({0.35f, 0, 1});
     EXPECT_GT(fill(cache, groove, GroovedFloor(), 1), 10u);
@@ -316,7 +316,7 @@ TEST(irradiance_cache, has_no_seams) {
   for (int i = 0; i < steps; ++i) {
     Spectrum e;
     const float x = 0.01f + 0.98f * float(i) / float(steps);
-    ASSERT_TRUE(cache.interpolate(cache_point({x, 0.3f, 0}, up), e));
+    ASSERT_TRUE(cache.interpolate(cache_point({x, 0.3f, 0}, z_axis), e));
     if (i > 0) largest_step = std::max(largest_step, std::fabs(e[0] - previous));
     previous = e[0];
     lowest = std::min(lowest, e[0]);
@@ -375,9 +375,9 @@ TEST(irradiance_cache, is_not_poisoned) {
 TEST(irradiance_cache, darkness_and_nothing) {
   IrradianceCache cache(settings_with(0.3f, 50));
   Spectrum e;
-  EXPECT_FALSE(cache.interpolate(cache_point({0, 0, 0}, up), e));
+  EXPECT_FALSE(cache.interpolate(cache_point({0, 0, 0}, z_axis), e));
   EXPECT_EQ(fill(cache, {}, UniformSource(Spectrum(1))), 0u);
-  EXPECT_FALSE(cache.interpolate(cache_point({0, 0, 0}, up), e, 10));
+  EXPECT_FALSE(cache.interpolate(cache_point({0, 0, 0}, z_axis), e, 10));
   const auto points = floor_points(10);
   EXPECT_GT(fill(cache, points, UniformSource(Spectrum(0), 1)), 0u);
   for (const CachePoint& p : points) {

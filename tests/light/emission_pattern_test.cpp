@@ -41,7 +41,7 @@ double irradiance_under_corner(double a, double b) {
   return 0.5 * (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb));
 }
 
-void expect_mean(const RunningStatistics& values, double expected, double factor = 1.02) {
+void expect_flux(const RunningStatistics& values, double expected, double factor = 1.02) {
   EXPECT_GT(z_test_p_value(values, expected), failure_level)
       << values.mean() << " ± " << values.standard_error() << ", not " << expected;
   expect_twin_fails(z_test_p_value(values, factor * expected));
@@ -63,7 +63,7 @@ TEST(EmissionPattern, IrradianceIsTheSumOverTheParts) {
     const LightSample s = light->sample_toward(Vec3f(0, 0, 0), random.next_2d());
     irradiance.add(s.radiance[0] * s.direction.z / s.pdf_solid_angle);
   }
-  expect_mean(irradiance, expected);
+  expect_flux(irradiance, expected);
   // By a quadrature that edges of the pattern cut through.
   const double power = 2 * 3 * std::numbers::pi * 4 * a * b * (6.2 / 4);
   EXPECT_NEAR(light->traits().power[1], power, 1e-3 * power);
@@ -86,8 +86,8 @@ TEST(EmissionPattern, EmitsItsPower) {
                   s.flux[0], 1e-4f * s.flux[0]);
     }
     const double sides = two_sided ? 2 : 1;
-    expect_mean(total, double(light->traits().power[0]));
-    expect_mean(field, sides * std::numbers::pi * 0.5 * 5);
+    expect_flux(total, double(light->traits().power[0]));
+    expect_flux(field, sides * std::numbers::pi * 0.5 * 5);
   }
 }
 

@@ -10,16 +10,16 @@ namespace {
 
 using namespace kaustik::testing;
 
-struct LightCase {
+struct IrradianceCase {
   std::string name;
   std::shared_ptr<const Light> light;
 };
 
-std::vector<LightCase> lights_at_the_origin() {
+std::vector<IrradianceCase> lights_at_the_origin() {
   const Value colored(Rgb{1, 2, 0.5});
   const std::vector<Property> radiance = {{"radiance", colored, {}}};
   const Value aimed(Transform::look_at({0, 0, 0}, {1, 2, 0}, {0, 0, 1}));
-  std::vector<LightCase> cases;
+  std::vector<IrradianceCase> cases;
   cases.push_back({"point", make_light("point", {{"intensity", colored, {}}})});
   cases.push_back({"spot", make_light("spot", {{"intensity", colored, {}},
                                                {"cutoff_angle", Value(60.0), {}},
@@ -56,7 +56,7 @@ LightQuery random_query(Random& random, float farthest) {
 }
 
 TEST(ExpectedIrradiance, IsZeroOnlyWhereNothingArrives) {
-  for (const LightCase& test : lights_at_the_origin()) {
+  for (const IrradianceCase& test : lights_at_the_origin()) {
     SCOPED_TRACE(test.name);
     Random random(41);
     for (int i = 0; i < 500; ++i) {
@@ -71,7 +71,7 @@ TEST(ExpectedIrradiance, IsZeroOnlyWhereNothingArrives) {
 /// Ten times as far as they are large, lights give what they promise, but for the cosines at the
 /// surface and at the light, which the promise takes at their best over the light's bounds.
 TEST(ExpectedIrradiance, IsNearTheTruthFromAfar) {
-  for (const LightCase& test : lights_at_the_origin()) {
+  for (const IrradianceCase& test : lights_at_the_origin()) {
     SCOPED_TRACE(test.name);
     Random random(43);
     RunningStatistics measured, expected;

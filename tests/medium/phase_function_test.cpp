@@ -10,13 +10,13 @@ namespace kaustik {
 namespace {
 
 #ifdef KAUSTIK_SLOW_BUILD
-constexpr int count = 20'000;
-constexpr double planted_error = 0.1;
+constexpr int phase_count = 20'000;
+constexpr double planted_phase_error = 0.1;
 #else
-constexpr int count = 200'000;
-constexpr double planted_error = 0.025;
+constexpr int phase_count = 200'000;
+constexpr double planted_phase_error = 0.025;
 #endif
-constexpr double level = 1e-4;
+constexpr double phase_level = 1e-4;
 constexpr int rings = 16, sectors = 4;
 
 const Vec3f wo = normalize({0.3f, -0.5f, 0.8f});
@@ -64,7 +64,7 @@ TEST_P(EveryPhaseFunction, SamplesByItsValue) {
   const PhaseFunction& phase = *GetParam().phase;
   const Frame frame(-wo);
   std::vector<double> hits(rings * sectors, 0.0), expected(rings * sectors, 0.0);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < phase_count; ++i) {
     const Vec3f wi = phase.sample(wo, Sampler(hash_mix(7, uint64_t(i)), 0).next_2d());
     ASSERT_NEAR(length(wi), 1, 1e-5f);
     const Vec3f local = frame.to_local(wi);
@@ -75,15 +75,15 @@ TEST_P(EveryPhaseFunction, SamplesByItsValue) {
   for (int i = 0; i < rings * sectors; ++i) {
     const double low = -1 + 2.0 * (i / sectors) / rings;
     expected[size_t(i)] =
-        count * 2 * std::numbers::pi / sectors * ring_integral(phase, low, low + 2.0 / rings);
+        phase_count * 2 * std::numbers::pi / sectors * ring_integral(phase, low, low + 2.0 / rings);
   }
   double total = 0;
   for (const double e : expected) total += e;
-  for (double& e : expected) e *= count / total;
-  EXPECT_GT(chi_square_p_value(hits, expected), level);
+  for (double& e : expected) e *= phase_count / total;
+  EXPECT_GT(chi_square_p_value(hits, expected), phase_level);
   for (size_t i = 0; i < expected.size(); ++i)
-    expected[i] *= i % 2 ? 1 + planted_error : 1 - planted_error;
-  EXPECT_LT(chi_square_p_value(hits, expected), level);
+    expected[i] *= i % 2 ? 1 + planted_phase_error : 1 - planted_phase_error;
+  EXPECT_LT(chi_square_p_value(hits, expected), phase_level);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryPhaseFunction,

@@ -23,7 +23,7 @@ inline ObjectPointer object(std::string family, std::string type,
   return result;
 }
 
-inline ObjectPointer mirror() { return object("bsdf", "conductor"); }
+inline ObjectPointer mirror_bsdf() { return object("bsdf", "conductor"); }
 inline ObjectPointer black() { return object("bsdf", "diffuse", {{"reflectance", Rgb{0, 0, 0}}}); }
 
 inline ObjectPointer sphere(const Vec3d& center, double radius, const ObjectPointer& bsdf,
@@ -32,7 +32,7 @@ inline ObjectPointer sphere(const Vec3d& center, double radius, const ObjectPoin
   return object("shape", "sphere", {{"center", center}, {"radius", radius}}, emitter);
 }
 inline ObjectPointer cylinder(const Vec3d& p0, const Vec3d& p1, double radius) {
-  return object("shape", "cylinder", {{"p0", p0}, {"p1", p1}, {"radius", radius}}, {mirror()});
+  return object("shape", "cylinder", {{"p0", p0}, {"p1", p1}, {"radius", radius}}, {mirror_bsdf()});
 }
 inline ObjectPointer placed(const std::string& type, const Transform& to_world,
                             const ObjectPointer& bsdf, std::vector<ObjectPointer> emitter = {}) {
@@ -110,17 +110,17 @@ inline std::vector<Targets> target_sets() {
   const auto cube = [&](const Vec3d& at, double size) {
     return placed("cube",
                   Transform::translate(at) * tilt * Transform::scale(Vec3d(size, size, size)),
-                  mirror());
+                  mirror_bsdf());
   };
   return {
-      {"sphere", {sphere(Vec3d(0.3, 0.1, 0), 0.4, mirror())}},
+      {"sphere", {sphere(Vec3d(0.3, 0.1, 0), 0.4, mirror_bsdf())}},
       {"pin", {cylinder(Vec3d(-0.3, -0.1, 0.1), Vec3d(0.4, 0.1, -0.2), 0.002)}},
       {"overlapping",
-       {sphere(Vec3d(0.1, 0, 0.1), 0.3, mirror()), cube(Vec3d(0.2, 0.1, 0), 0.25),
+       {sphere(Vec3d(0.1, 0, 0.1), 0.3, mirror_bsdf()), cube(Vec3d(0.2, 0.1, 0), 0.25),
         cylinder(Vec3d(-0.5, 0, 0), Vec3d(0.5, 0, 0.2), 0.05)}},
       // All about the light, so that the origin is inside; and in part behind it.
-      {"around", {cube(Vec3d(0, 0, 1.5), 1.2), sphere(Vec3d(0.6, 0, 1.9), 0.2, mirror())}},
-      {"at the horizon", {sphere(Vec3d(1.2, 0.1, 2.0), 0.4, mirror())}},
+      {"around", {cube(Vec3d(0, 0, 1.5), 1.2), sphere(Vec3d(0.6, 0, 1.9), 0.2, mirror_bsdf())}},
+      {"at the horizon", {sphere(Vec3d(1.2, 0.1, 2.0), 0.4, mirror_bsdf())}},
   };
 }
 

@@ -17,7 +17,7 @@ using test::further_light_kinds;
 using test::light;
 using test::light_kinds;
 using test::make_scene;
-using test::mirror;
+using test::mirror_bsdf;
 using test::ObjectPointer;
 using test::Random;
 using test::scene_of;
@@ -419,7 +419,8 @@ TEST(AimedEmission, RaysOfInfiniteLightsStartOutside) {
 TEST(AimedEmission, ManyTargets) {
   std::vector<ObjectPointer> objects;
   for (int i = 0; i < 300; ++i)
-    objects.push_back(sphere(Vec3d(0.13 * (i % 20) - 1.3, 0.13 * (i / 20) - 1, 0), 0.05, mirror()));
+    objects.push_back(
+        sphere(Vec3d(0.13 * (i % 20) - 1.3, 0.13 * (i / 20) - 1, 0), 0.05, mirror_bsdf()));
   for (const std::string& kind : light_kinds()) {
     const auto scene = scene_of(kind, {"", objects});
     const EmissionSampler aimed(*scene, find_targets(*scene, Lobes::specular, 1000));

@@ -12,9 +12,9 @@ namespace kaustik {
 namespace {
 
 #ifdef KAUSTIK_SLOW_BUILD
-constexpr int sample_divisor = 10;
+constexpr int map_divisor = 10;
 #else
-constexpr int sample_divisor = 1;
+constexpr int map_divisor = 1;
 #endif
 
 const Vec3f up(0, 0, 1);
@@ -61,7 +61,7 @@ RunningStatistics lookups_over_estimates(int neighbors, size_t stride, bool at_o
   EstimateSettings settings;
   settings.neighbors = neighbors;
   RunningStatistics ratio;
-  for (int map_index = 0; map_index < std::max(3, 24 / sample_divisor); ++map_index) {
+  for (int map_index = 0; map_index < std::max(3, 24 / map_divisor); ++map_index) {
     const auto seed = uint64_t(map_index) + 1;
     const PhotonMap photons = two_sided_map(count, seed);
     const IrradianceMap map(

@@ -10,23 +10,23 @@ namespace kaustik {
 namespace {
 
 using test::make_scene;
-using test::mirror;
+using test::mirror_bsdf;
 using test::object;
 using test::ObjectPointer;
 using test::sphere;
 
 #ifdef KAUSTIK_SLOW_BUILD
-constexpr uint32_t sample_divisor = 10;
+constexpr uint32_t photon_divisor = 10;
 #else
-constexpr uint32_t sample_divisor = 1;
+constexpr uint32_t photon_divisor = 1;
 #endif
 
-ObjectPointer diffuse(double rho) {
+ObjectPointer diffuse_bsdf(double rho) {
   return object("bsdf", "diffuse", {{"reflectance", Rgb{rho, rho, rho}}});
 }
 ObjectPointer glass() { return object("bsdf", "dielectric", {{"int_ior", 1.5}, {"ext_ior", 1.0}}); }
 ObjectPointer room(double rho) {
-  const ObjectPointer shape = sphere(Vec3d(0, 0, 0), 2, diffuse(rho));
+  const ObjectPointer shape = sphere(Vec3d(0, 0, 0), 2, diffuse_bsdf(rho));
   shape->properties.push_back({"flip_normals", true, {}});
   return shape;
 }
@@ -53,7 +53,7 @@ double flux_of(const PhotonMap& map) {
 /// first meeting is direct light and stores nothing.
 TEST(LightPass, GlobalFluxOfAClosedRoom) {
   const auto scene = make_scene({room(0.6), lamp(Vec3d(0.3, 0.2, 0.5))});
-  const LightPass pass(*scene, settings_of(40'000 / sample_divisor, 1000), 1);
+  const LightPass pass(*scene, settings_of(40'000 / photon_divisor, 1000), 1);
   RunningStatistics flux;
   for (uint32_t i = 0; i < 12; ++i) {
     const PhotonMaps maps = pass.trace(1, i);
@@ -61,7 +61,7 @@ TEST(LightPass, GlobalFluxOfAClosedRoom) {
     EXPECT_TRUE(maps.caustic.empty());
     EXPECT_TRUE(pass.warnings(maps).empty());  // nothing specular: no caustics are no surprise
     const LightCounts total = maps.global_report.total();
-    EXPECT_EQ(total.emitted, 40'000u / sample_divisor);
+    EXPECT_EQ(total.emitted, 40'000u / photon_divisor);
     EXPECT_EQ(total.stored, maps.global.size());
     EXPECT_EQ(total.absorbed, total.emitted);
     EXPECT_NEAR(total.stored_flux, flux_of(maps.global), 1e-3 * total.stored_flux);
@@ -79,7 +79,7 @@ TEST(LightPass, GlassAroundTheLamp) {
   const auto scene =
       make_scene({room(0.5), lamp(Vec3d(0, 0, 0)), sphere(Vec3d(0, 0, 0), 0.5, glass())});
   for (const bool reradiate : {false, true}) {
-    LightPassSettings settings = settings_of(20'000 / sample_divisor, 20'000 / sample_divisor);
+    LightPassSettings settings = settings_of(20'000 / photon_divisor, 20'000 / photon_divisor);
     settings.reradiate = reradiate;
     const LightPass pass(*scene, settings, 1);
     RunningStatistics caustic, global;
@@ -105,18 +105,18 @@ TEST(LightPass, SaysWhyAMapIsEmpty) {
   EXPECT_NE(explained({room(0.5)}).find("no light"), std::string::npos);
   // All light leaves.
   const std::string escaped =
-      explained({lamp(Vec3d(0, 0, 0)), sphere(Vec3d(5, 0, 0), 0.5, mirror())});
+      explained({lamp(Vec3d(0, 0, 0)), sphere(Vec3d(5, 0, 0), 0.5, mirror_bsdf())});
   EXPECT_NE(escaped.find("the global map is empty"), std::string::npos);
   EXPECT_NE(escaped.find("the caustic map is empty"), std::string::npos);
   EXPECT_NE(escaped.find("left the scene"), std::string::npos);
   EXPECT_EQ(explained({room(0.5), lamp(Vec3d(0, 0, 0))}), "");
   // In the open nothing is wrong: the ball is lit, and lights nothing else.
-  EXPECT_EQ(explained({sphere(Vec3d(0, 0, 0), 1, diffuse(0.5)), lamp(Vec3d(0, 0, 1.2))}), "");
+  EXPECT_EQ(explained({sphere(Vec3d(0, 0, 0), 1, diffuse_bsdf(0.5)), lamp(Vec3d(0, 0, 1.2))}), "");
 }
 
 /// What a lamp elsewhere emits does not take the photons of the one that makes the caustic.
 TEST(LightPass, BudgetsFollowWhatArrives) {
-  std::vector<ObjectPointer> objects = {sphere(Vec3d(0, 0, 0), 2, diffuse(0.5)),
+  std::vector<ObjectPointer> objects = {sphere(Vec3d(0, 0, 0), 2, diffuse_bsdf(0.5)),
                                         lamp(Vec3d(0, 0, 4)), sphere(Vec3d(0, 0, 3), 0.3, glass())};
   // Behind the big ball, many times as bright.
   for (int i = 0; i < 50; ++i) objects.push_back(lamp(Vec3d(0.1 * (i - 25), 0, -3), 20));

@@ -26,7 +26,7 @@ using Bytes = std::vector<uint8_t>;
 /// A lamp over a floor with a mirror ball: both maps get photons.
 std::shared_ptr<const Scene> lamp_over_ball(const std::string& kind = "point") {
   return make_scene(
-      {light(kind), sphere(Vec3d(0, 0, 0.6), 0.4, mirror()),
+      {light(kind), sphere(Vec3d(0, 0, 0.6), 0.4, mirror_bsdf()),
        placed("rectangle", Transform::scale(Vec3d(3, 3, 1)),
               object("bsdf", "diffuse", {{"reflectance", Rgb{0.5, 0.6, 0.7}}})),
        placed("rectangle",

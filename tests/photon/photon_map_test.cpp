@@ -12,14 +12,14 @@ namespace kaustik {
 namespace {
 
 #ifdef KAUSTIK_SLOW_BUILD
-constexpr int sample_divisor = 10;
+constexpr int seed_divisor = 10;
 #else
-constexpr int sample_divisor = 1;
+constexpr int seed_divisor = 1;
 #endif
 
-const Vec3f up(0, 0, 1);
+const Vec3f z_axis(0, 0, 1);
 
-Photon photon_of(float flux, const Vec3f& side = up) {
+Photon photon_of(float flux, const Vec3f& side = z_axis) {
   Photon photon;
   photon.flux = {flux, 2 * flux, 3 * flux, 0};
   photon.distance = 1;
@@ -114,13 +114,13 @@ EstimateSettings settings_of(const Case& c) {
 RunningStatistics estimates(const Case& c) {
   const EstimateSettings settings = settings_of(c);
   RunningStatistics statistics;
-  const int maps = std::max(2, 40 / sample_divisor);
+  const int maps = std::max(2, 40 / seed_divisor);
   constexpr float spacing = 0.045f;  // more than two radii of 30 photons, with room to spare
   for (int map_index = 0; map_index < maps; ++map_index) {
     const PhotonMap map = uniform_map(photons_per_map, uint64_t(map_index) + 1);
     for (float y = 0.05f; y < 0.95f; y += spacing)
       for (float x = 0.05f; x < 0.95f; x += spacing)
-        statistics.add(double(map.irradiance({x, y, 0}, up, settings).value[0]));
+        statistics.add(double(map.irradiance({x, y, 0}, z_axis, settings).value[0]));
   }
   return statistics;
 }
@@ -164,11 +164,11 @@ TEST(DensityEstimate, HasTheRightMeanWherePathsLeaveClusters) {
     EstimateSettings settings = ten;
     settings.maximum_radius = maximum_radius;
     RunningStatistics statistics;
-    for (uint64_t seed = 1; seed <= uint64_t(std::max(2, 30 / sample_divisor)); ++seed) {
+    for (uint64_t seed = 1; seed <= uint64_t(std::max(2, 30 / seed_divisor)); ++seed) {
       const PhotonMap map = clustered_map(paths, spread, told, seed);
       for (float y = 0.05f; y < 0.95f; y += 0.04f)
         for (float x = 0.05f; x < 0.95f; x += 0.04f)
-          statistics.add(double(map.irradiance({x, y, 0}, up, settings).value[0]));
+          statistics.add(double(map.irradiance({x, y, 0}, z_axis, settings).value[0]));
     }
     return statistics;
   };
@@ -212,13 +212,13 @@ TEST(DensityEstimate, SaysWhatItIsMadeOf) {
   const PhotonMap map = uniform_map(1000, 5);
   EstimateSettings settings;
   settings.neighbors = 40;
-  const DensityEstimate complete = map.irradiance({0.5f, 0.5f, 0}, up, settings);
+  const DensityEstimate complete = map.irradiance({0.5f, 0.5f, 0}, z_axis, settings);
   EXPECT_EQ(complete.found, 40);
   EXPECT_NEAR(complete.value[0], 39e-3f / (pi * sqr(complete.radius)), 1e-4f);
   EXPECT_NEAR(complete.value[2], 3 * complete.value[0], 1e-4f);
 
   settings.maximum_radius = complete.radius * 0.7f;
-  const DensityEstimate incomplete = map.irradiance({0.5f, 0.5f, 0}, up, settings);
+  const DensityEstimate incomplete = map.irradiance({0.5f, 0.5f, 0}, z_axis, settings);
   EXPECT_LT(incomplete.found, 40);
   EXPECT_FLOAT_EQ(incomplete.radius, settings.maximum_radius);
   EXPECT_NEAR(incomplete.value[0], float(incomplete.found) * 1e-3f / (pi * sqr(incomplete.radius)),
@@ -227,23 +227,23 @@ TEST(DensityEstimate, SaysWhatItIsMadeOf) {
 
 TEST(DensityEstimate, NothingFromNothing) {
   EstimateSettings settings;
-  EXPECT_TRUE(PhotonMap().irradiance({0, 0, 0}, up, settings).value.is_zero());
+  EXPECT_TRUE(PhotonMap().irradiance({0, 0, 0}, z_axis, settings).value.is_zero());
   EXPECT_TRUE(PhotonMap().empty());
   EXPECT_EQ(PhotonMap().mean_flux(), 0.0f);
   const PhotonMap map = uniform_map(100, 1);
   EXPECT_FLOAT_EQ(map.mean_flux(), 0.03f);  // of the largest lane
   settings.neighbors = 0;
-  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, up, settings).value.is_zero());
+  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, z_axis, settings).value.is_zero());
   // More neighbours than there are photons and no bound on the radius: no density is known.
   settings.neighbors = 101;
-  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, up, settings).value.is_zero());
+  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, z_axis, settings).value.is_zero());
   // One neighbour sets the radius of an empty disk.
   settings.neighbors = 1;
-  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, up, settings).value.is_zero());
+  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, z_axis, settings).value.is_zero());
   // All in one place: no radius.
   const PhotonMap point(std::vector<Vec3f>(50, Vec3f(0, 0, 0)), std::vector<Photon>(50));
   settings.neighbors = 10;
-  EXPECT_TRUE(point.irradiance({0, 0, 0}, up, settings).value.is_zero());
+  EXPECT_TRUE(point.irradiance({0, 0, 0}, z_axis, settings).value.is_zero());
 }
 
 // ---------------------------------------------------------------- sides
@@ -257,7 +257,7 @@ TEST(PhotonSides, ThinWall) {
   for (int i = 0; i < 20'000; ++i) {
     const float x = number(random), y = number(random);
     const bool front = i % 4 == 0;
-    Photon photon = photon_of(front ? 1.0f : 1000.0f, front ? up : -up);
+    Photon photon = photon_of(front ? 1.0f : 1000.0f, front ? z_axis : -z_axis);
     photon.path = uint32_t(i);
     both.push_back({x, y, front ? 1e-4f : -1e-4f});
     both_photons.push_back(photon);
@@ -272,14 +272,14 @@ TEST(PhotonSides, ThinWall) {
       settings.maximum_radius = radius;
       const float x = number(random);
       const Vec3f at(x, number(random), 1e-4f);
-      const DensityEstimate with = wall.irradiance(at, up, settings);
-      const DensityEstimate without = front.irradiance(at, up, settings);
+      const DensityEstimate with = wall.irradiance(at, z_axis, settings);
+      const DensityEstimate without = front.irradiance(at, z_axis, settings);
       EXPECT_EQ(with.found, without.found);
       EXPECT_EQ(with.radius, without.radius);
       EXPECT_NEAR(with.value[0], without.value[0], 1e-4f * without.value[0]);
       EXPECT_GT(without.value[0], 0);
       // Seen from behind, only those of the far side.
-      EXPECT_GT(wall.irradiance(at, -up, settings).value[0], 100 * with.value[0]);
+      EXPECT_GT(wall.irradiance(at, -z_axis, settings).value[0], 100 * with.value[0]);
     }
 }
 
@@ -288,15 +288,16 @@ TEST(PhotonSides, VisitNearestRejectsThemToo) {
   std::vector<Photon> photons;
   for (int i = 0; i < 100; ++i) {
     positions.push_back({0.01f * float(i), 0, 0});
-    photons.push_back(photon_of(1, i % 2 == 0 ? up : -up));
+    photons.push_back(photon_of(1, i % 2 == 0 ? z_axis : -z_axis));
   }
   const PhotonMap map(positions, photons);
   int visited = 0;
-  map.visit_nearest({0, 0, 0}, up, 10, infinity, [&](const Photon& photon, const Vec3f& position) {
-    ++visited;
-    EXPECT_GT(photon.side.dot(up), 0);
-    EXPECT_LT(position.x, 0.195f);
-  });
+  map.visit_nearest({0, 0, 0}, z_axis, 10, infinity,
+                    [&](const Photon& photon, const Vec3f& position) {
+                      ++visited;
+                      EXPECT_GT(photon.side.dot(z_axis), 0);
+                      EXPECT_LT(position.x, 0.195f);
+                    });
   EXPECT_EQ(visited, 10);
 }
 

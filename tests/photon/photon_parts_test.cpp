@@ -15,7 +15,7 @@ using namespace test;
 
 std::shared_ptr<const Scene> lamps_and_mirror() {
   return make_scene(
-      {light("point"), sphere(Vec3d(0, 0, 0.6), 0.4, mirror()),
+      {light("point"), sphere(Vec3d(0, 0, 0.6), 0.4, mirror_bsdf()),
        placed("rectangle", Transform::scale(Vec3d(3, 3, 1)),
               object("bsdf", "diffuse", {{"reflectance", Rgb{0.5, 0.6, 0.7}}})),
        placed("rectangle",

@@ -18,7 +18,7 @@ TEST(SceneFingerprint, TellsScenesApartButNotViews) {
   EXPECT_TRUE(one.matches(described({light("point"), floor})));
   EXPECT_FALSE(one.matches(described({light("spot"), floor})));
   EXPECT_FALSE(
-      one.matches(described({light("point"), floor, sphere(Vec3d(0, 0, 1), 0.1, mirror())})));
+      one.matches(described({light("point"), floor, sphere(Vec3d(0, 0, 1), 0.1, mirror_bsdf())})));
   for (const Vec3d& size : {Vec3d(3, 2, 1), Vec3d(3, 2.999, 1)})
     EXPECT_FALSE(one.matches(
         described({light("point"), placed("rectangle", Transform::scale(size), black())})));
@@ -26,7 +26,7 @@ TEST(SceneFingerprint, TellsScenesApartButNotViews) {
       one.matches(described({light("point"), placed("rectangle", Transform::scale(Vec3d(3, 3, 1)),
                                                     object("bsdf", "diffuse"))})));
   const auto with_ball = [&](double radius) {
-    return described({light("point"), floor, sphere(Vec3d(0, 0, 0), radius, mirror())});
+    return described({light("point"), floor, sphere(Vec3d(0, 0, 0), radius, mirror_bsdf())});
   };
   EXPECT_FALSE(with_ball(0.5).matches(with_ball(0.6)));  // the bounds are the floor's
   EXPECT_TRUE(with_ball(0.5).matches(with_ball(0.5)));
@@ -46,7 +46,7 @@ TEST(SceneFingerprint, LastBitsMakeNoDifference) {
   const auto turned = [](double degrees, double size) {
     const auto upright =
         Transform::rotate(Vec3d(1, 0, 0), degrees) * Transform::scale(Vec3d(size, size, 1));
-    return fingerprint_of(*make_scene({light("spot"), placed("rectangle", upright, mirror()),
+    return fingerprint_of(*make_scene({light("spot"), placed("rectangle", upright, mirror_bsdf()),
                                        sphere(Vec3d(0, 0, 0), 0.3 * size, black())}));
   };
   for (const double degrees : {90.0, 180.0, 33.0}) {
@@ -65,7 +65,7 @@ TEST(SceneFingerprint, OfManyShapes) {
     for (int i = 0; i < 2000; ++i) {
       const double x = i % 50, y = i / 50, radius = 0.1 + 0.3 * ((i * 7919) % 1000) / 1000.0;
       objects.push_back(sphere(Vec3d(x, y, 0) * (1 + last_bits * ((i * 31) % 17 - 8) / 8.0),
-                               i == 777 ? radius * of_one : radius, mirror()));
+                               i == 777 ? radius * of_one : radius, mirror_bsdf()));
     }
     return fingerprint_of(*make_scene(objects));
   };

@@ -8,7 +8,7 @@ namespace kaustik {
 namespace {
 
 using test::make_scene;
-using test::mirror;
+using test::mirror_bsdf;
 using test::object;
 using test::ObjectPointer;
 using test::sphere;
@@ -47,7 +47,7 @@ TEST(ShadowPass, CountsThroughAStackOfFloors) {
 /// A mirror keeps no photons, but its shadow is one.
 TEST(ShadowPass, MirrorsThrowShadows) {
   const auto scene =
-      make_scene({test::light("spot"), floor_at(0.5, mirror()), floor_at(0, white())});
+      make_scene({test::light("spot"), floor_at(0.5, mirror_bsdf()), floor_at(0, white())});
   ShadowReport report;
   const ShadowMap map = trace(*scene, 1000, report);
   EXPECT_EQ(report.lights.at(0).lit, 0u);
@@ -65,8 +65,9 @@ TEST(ShadowPass, LightsWithoutPhotonsAreTold) {
   const auto dim = object("emitter", "point",
                           {{"position", Vec3d(1, 0, 3)}, {"intensity", Rgb{1e-6, 1e-6, 1e-6}}});
   EXPECT_EQ(warning({test::light("spot"), floor_at(0, white())}), "");
-  EXPECT_NE(warning({test::light("spot"), floor_at(0, mirror())}).find("the shadow map is empty"),
-            std::string::npos);
+  EXPECT_NE(
+      warning({test::light("spot"), floor_at(0, mirror_bsdf())}).find("the shadow map is empty"),
+      std::string::npos);
   EXPECT_NE(warning({test::light("spot"), dim, floor_at(0, white())}).find("some lights"),
             std::string::npos);
 }

@@ -7,8 +7,8 @@ namespace {
 
 using namespace test;
 
-const std::string camera = any_camera;
-const std::string sphere = any_shape;
+const std::string media_camera = any_camera;
+const std::string media_sphere = any_shape;
 
 std::string medium(const std::string& inside) {
   return "<medium name=\"interior\" type=\"homogeneous\">" + inside + "</medium>";
@@ -17,7 +17,7 @@ std::string color(const std::string& name, const std::string& value) {
   return "<rgb name=\"" + name + "\" value=\"" + value + "\"/>";
 }
 std::string with_medium(const std::string& inside) {
-  return camera + "<shape type=\"sphere\">" + medium(inside) + "</shape>";
+  return media_camera + "<shape type=\"sphere\">" + medium(inside) + "</shape>";
 }
 const Medium& interior_of(const Scene& scene) { return *scene.surface(0).interior; }
 
@@ -35,9 +35,9 @@ TEST(Media, DefaultsAreMitsubas) {
 }
 
 TEST(Media, SceneWithoutAnyHasNone) {
-  EXPECT_FALSE(scene_of(camera + sphere)->has_media());
+  EXPECT_FALSE(scene_of(media_camera + media_sphere)->has_media());
   EXPECT_TRUE(
-      scene_of(camera + "<shape type=\"sphere\"><bsdf type=\"null\"/></shape>")->has_media());
+      scene_of(media_camera + "<shape type=\"sphere\"><bsdf type=\"null\"/></shape>")->has_media());
 }
 
 TEST(Media, CoefficientsByAlbedoOrByParts) {
@@ -68,7 +68,7 @@ TEST(Media, AreSharedByReference) {
 /// What a lamp shines into follows from the boundaries around it.
 TEST(Media, OfLampsAreFoundOut) {
   const auto scene = scene_of(
-      camera + "<shape type=\"sphere\">" + away + "<bsdf type=\"null\"/>" + medium("") +
+      media_camera + "<shape type=\"sphere\">" + away + "<bsdf type=\"null\"/>" + medium("") +
       "</shape>"
       "<emitter type=\"point\"><point name=\"position\" value=\"0, 0, 9.5\"/></emitter>"
       "<emitter type=\"point\"><point name=\"position\" value=\"0, 0, 5\"/></emitter>"
@@ -86,7 +86,8 @@ TEST(Media, OfLampsAreFoundOut) {
 TEST(Media, WithoutExtinctionAreVacuum) {
   const std::string clear =
       R"(<medium name="interior" type="homogeneous"><rgb name="sigma_t" value="0, 0, 0"/></medium>)";
-  const auto clear_scene = scene_of(camera + "<shape type=\"sphere\">" + away + clear + "</shape>");
+  const auto clear_scene =
+      scene_of(media_camera + "<shape type=\"sphere\">" + away + clear + "</shape>");
   EXPECT_FALSE(clear_scene->has_media());
   const auto scene =
       scene_of("<sensor type=\"perspective\">" + std::string("<medium type=\"homogeneous\"/>") +
@@ -109,7 +110,7 @@ TEST(Media, WithoutABoundaryAreEverywhere) {
 }
 
 TEST(Media, ACameraInAMediumThatItDoesNotNameIsTold) {
-  const auto scene = scene_of(camera + "<shape type=\"sphere\">" + "<bsdf type=\"null\"/>" +
+  const auto scene = scene_of(media_camera + "<shape type=\"sphere\">" + "<bsdf type=\"null\"/>" +
                               medium("") + "</shape>");
   ASSERT_EQ(scene->warnings().size(), 1u);
   EXPECT_NE(scene->warnings()[0].find("256 of 256 rays"), std::string::npos)
@@ -119,7 +120,7 @@ TEST(Media, ACameraInAMediumThatItDoesNotNameIsTold) {
 
 /// A boundary that is open on the camera's side: rays come in without having passed it.
 TEST(Media, AHoleInABoundaryIsTold) {
-  const auto scene = scene_of(camera +
+  const auto scene = scene_of(media_camera +
                               "<shape type=\"rectangle\"><transform name=\"to_world\">"
                               "<scale value=\"20\"/><translate value=\"0, 0, 9\"/></transform>"
                               "<bsdf type=\"null\"/><ref name=\"interior\" id=\"m\"/>"
@@ -164,21 +165,23 @@ TEST(MediaErrors, OfReferences) {
   const auto message_of = [](const std::string& objects) {
     return problems_of(objects)[0].message;
   };
-  EXPECT_EQ(message_of(camera + "<medium type=\"fog\"/>" + sphere), "unknown medium type 'fog'");
-  EXPECT_NE(message_of(camera + "<shape type=\"sphere\"><medium type=\"homogeneous\"/></shape>")
-                .find("on which side"),
-            std::string::npos);
+  EXPECT_EQ(message_of(media_camera + "<medium type=\"fog\"/>" + media_sphere),
+            "unknown medium type 'fog'");
+  EXPECT_NE(
+      message_of(media_camera + "<shape type=\"sphere\"><medium type=\"homogeneous\"/></shape>")
+          .find("on which side"),
+      std::string::npos);
   EXPECT_NE(message_of("<sensor type=\"perspective\"><medium type=\"homogeneous\"/><medium "
                        "type=\"homogeneous\"/></sensor>" +
-                       sphere)
+                       media_sphere)
                 .find("second medium"),
             std::string::npos);
-  EXPECT_NE(message_of(camera + "<shape type=\"sphere\"><bsdf type=\"null\"/><emitter "
-                                "type=\"area\"/></shape>")
+  EXPECT_NE(message_of(media_camera + "<shape type=\"sphere\"><bsdf type=\"null\"/><emitter "
+                                      "type=\"area\"/></shape>")
                 .find("not there"),
             std::string::npos);
-  EXPECT_NE(message_of(camera + "<shape type=\"sphere\"><bsdf type=\"twosided\"><bsdf "
-                                "type=\"null\"/></bsdf></shape>")
+  EXPECT_NE(message_of(media_camera + "<shape type=\"sphere\"><bsdf type=\"twosided\"><bsdf "
+                                      "type=\"null\"/></bsdf></shape>")
                 .find("transmits"),
             std::string::npos);
 }

@@ -205,8 +205,8 @@ TEST(Rebuild, FilesThatWereReplacedAreReadAgain) {
   EXPECT_THROW(build_scene(description, again), Error);
 }
 
-std::shared_ptr<Object> object(std::string family, std::string type,
-                               std::vector<Property> properties) {
+std::shared_ptr<Object> described_object(std::string family, std::string type,
+                                         std::vector<Property> properties) {
   return std::make_shared<Object>(Object{
       std::move(family), std::move(type), "", std::move(properties), {}, place_in("program")});
 }
@@ -217,7 +217,8 @@ TEST(Rebuild, BuffersAreKnownByTheirContents) {
     const Value faces(Array::of<int32_t>({1, 3}, {0, 1, 2}));
     Description description = description_of(any_camera);
     description.scene->children.push_back(
-        {"", object("shape", "mesh", {{"positions", positions, {}}, {"faces", faces, {}}})});
+        {"",
+         described_object("shape", "mesh", {{"positions", positions, {}}, {"faces", faces, {}}})});
     return description;
   };
   const auto first = build_scene(described(0));
@@ -231,9 +232,10 @@ TEST(Rebuild, SharedPicturesAreToldAndCountedAgain) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const Value data(Array::of<float>({2, 2}, {1, nan, -2, 3}));
     Description description = description_of(any_camera);
-    description.scene->children.push_back({"", object("emitter", "envmap", {{"data", data, {}}})});
     description.scene->children.push_back(
-        {"", object("emitter", "constant", {{"radiance", Value(double(exposure)), {}}})});
+        {"", described_object("emitter", "envmap", {{"data", data, {}}})});
+    description.scene->children.push_back(
+        {"", described_object("emitter", "constant", {{"radiance", Value(double(exposure)), {}}})});
     return description;
   };
   const auto first = build_scene(described(1));

@@ -9,17 +9,14 @@
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/transport/light_path.h"
 #include "kaustik/transport/visibility.h"
+#include "tests/transport/scene_of.h"
 
 namespace kaustik {
 namespace {
 
-constexpr double level = 1e-4;
+using test::scene_of;
 
-std::shared_ptr<const Scene> scene_of(const std::string& objects) {
-  return build_scene(parse_mitsuba_xml(
-      "<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" + objects + "</scene>", "test.xml",
-      ""));
-}
+constexpr double level = 1e-4;
 
 std::string shape(const std::string& type, const std::string& parameters,
                   const std::string& sigma_t = "", const std::string& albedo = "0.6, 0.9, 0.3") {

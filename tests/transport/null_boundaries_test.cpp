@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-const std::string null_bsdf = R"(<bsdf type="null"/>)";
+const std::string passed_bsdf = R"(<bsdf type="null"/>)";
 const std::string fog =
     R"(<medium type="homogeneous" name="interior"><float name="sigma_t" value="1e-9"/></medium>)";
 
@@ -21,10 +21,10 @@ const std::string fog =
 /// to it the next float is nearer still.
 TEST(NullBoundaries, RaysEndWhereTheyMeet) {
   const auto scene =
-      scene_of(flat("rectangle", "", null_bsdf + fog) +
+      scene_of(flat("rectangle", "", passed_bsdf + fog) +
                flat("disk", rotate("-0.65, 0.62, -0.31", -104) + rotate("0.83, 0, 0.78", 172),
-                    null_bsdf + fog) +
-               flat("disk", rotate("0.3, -0.5, 0.2", 50), null_bsdf) + point_light("0, 0, 0", 1));
+                    passed_bsdf + fog) +
+               flat("disk", rotate("0.3, -0.5, 0.2", 50), passed_bsdf) + point_light("0, 0, 0", 1));
   Sampler sampler = Sampler::at(1, 0, Stream::camera, 0, 0);
   uint64_t rays = 0;
   constexpr int count = 20'000;
@@ -42,7 +42,7 @@ TEST(NullBoundaries, RaysEndWhereTheyMeet) {
 TEST(NullBoundaries, ManyInARowAreFollowed) {
   std::string stack;
   for (int i = 0; i < 300; ++i)
-    stack += flat("rectangle", translate(fmt::format("0, 0, {}", 0.01 * i)), null_bsdf + fog);
+    stack += flat("rectangle", translate(fmt::format("0, 0, {}", 0.01 * i)), passed_bsdf + fog);
   const auto scene = scene_of(stack + point_light("0, 0, -1", 1));
   uint64_t rays = 0;
   EXPECT_TRUE(is_unobstructed(*scene, {{0.1f, 0.2f, 4}, {0, 0, -5}, 1}, rays));

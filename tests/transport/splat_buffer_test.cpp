@@ -160,7 +160,7 @@ TEST(SplatBuffer, OrderAndThreadsMakeNoDifference) {
 }
 
 /// Numbers of all sizes and both signs, as the film's are; their sum stays in its range.
-std::vector<double> numbers(size_t count) {
+std::vector<double> splat_numbers(size_t count) {
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> exponent(-20, 13), uniform(-1, 1);
   std::vector<double> values(count);
@@ -172,7 +172,7 @@ std::vector<double> numbers(size_t count) {
 TEST(SplatSums, AreThoseOfFixed) {
   SplatSums sums;
   Fixed sum = 0;
-  for (const double value : numbers(10000)) {
+  for (const double value : splat_numbers(10000)) {
     sums.add(7, fixed_from(value));
     sum += fixed_from(value);
   }
@@ -200,7 +200,7 @@ TEST(SplatSums, CarryAndBorrow) {
 }
 
 TEST(SplatSums, ThreadsMakeNoDifference) {
-  const std::vector<double> values = numbers(20000);
+  const std::vector<double> values = splat_numbers(20000);
   Fixed sum = 0;
   for (const double value : values) sum += fixed_from(value);
   for (int round = 0; round < 5; ++round) {

@@ -45,7 +45,7 @@ std::string open_ground() {
 
 /// What was learned leaves the picture as it is, by all weights: those of connections ask both ends
 /// of a path for its densities.
-TEST(GuidedScattering, LeavesThePictureAsItIs) {
+TEST(GuidedScattering, LeavesThePictureAsItIsLong) {
   const TestScene scene(open_ground());
   const Passes path = render(scene, "path", "", {6000, 7});
   for (const char* type : {"bdpt", "vcm"}) {
@@ -62,7 +62,7 @@ TEST(GuidedScattering, LeavesThePictureAsItIs) {
   }
 }
 
-TEST(GuidedScattering, Pays) {
+TEST(GuidedScattering, PaysLong) {
   const TestScene scene(next_room(24));
   const auto variance = [&](const char* type, bool guided) {
     const Passes passes = render(scene, type,

@@ -118,7 +118,7 @@ TEST(LightPathEmission, FluxIsThePowerOfTheLights) {
 /// Nothing is aimed at what a lamp can't shine at: such rays would carry nothing.
 TEST(LightPathEmission, NoRaysForWhatIsBehindTheLamp) {
   const auto share_with_flux = [](const Vec3d& ball) {
-    const auto scene = make_scene({light("rectangle"), sphere(ball, 0.4, mirror())});
+    const auto scene = make_scene({light("rectangle"), sphere(ball, 0.4, mirror_bsdf())});
     const LightPathEmission emission(*scene);
     int count = 0;
     for (int i = 0; i < 1000; ++i) {

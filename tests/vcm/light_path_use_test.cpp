@@ -91,7 +91,7 @@ TEST(LightPathUse, MorePathsAreOfUse) {
 }
 
 /// Guided paths tell the noise of paths that are not, as those do where they find enough.
-TEST(LightPathUse, NoiseOfUnguidedPaths) {
+TEST(LightPathUse, NoiseOfUnguidedPathsLong) {
   const TestScene test_scene(camera("0, -3, 2", "0, 0, 0.2", 45, 32) +
                              flat("rectangle", scale("1, 1, 1"), diffuse("0.6, 0.5, 0.4")) +
                              sphere("-0.4, 0, 0.35", 0.35, diffuse("0.7, 0.3, 0.3")) +

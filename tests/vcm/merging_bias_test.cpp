@@ -41,7 +41,7 @@ double estimated_bias_of(double within) {
   return albedo / std::numbers::pi * 2 * (merged(within) - merged(within / 2));
 }
 
-TEST(MergingBias, IsEstimatedAsIfItGrewByTheRadius) {
+TEST(MergingBias, IsEstimatedAsIfItGrewByTheRadiusLong) {
   const TestScene scene = floor_below_a_lamp();
   // One sample in four tells of the bias: in fours, and as many for every pixel, it is one of them
   // and not by chance two or none, which would be most of the noise.

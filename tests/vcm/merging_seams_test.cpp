@@ -94,7 +94,7 @@ class LitFloor {
 
 /// The columns are 1/16 m wide, the middle lies between the columns 7 and 8, and disks reach over
 /// one and a half of them.
-TEST(MergingSeams, WallsAndGapsInEvenLight) {
+TEST(MergingSeams, WallsAndGapsInEvenLightLong) {
   const LitFloor open(floor_from(-0.6, 0.6));
   LitFloor(floor_from(-0.6, 0.6) + wall_at(0)).expect_as_open("wall", open, {6, 7, 8, 9});
   LitFloor(floor_from(-0.6, 0)).expect_as_open("end of the floor", open, {6, 7});
@@ -125,7 +125,7 @@ TEST(MergingSeams, FurrowsInEvenLight) {
 }
 
 /// Behind a thin wall it is dark, right up to the wall, and before it as bright as elsewhere.
-TEST(MergingSeams, NoLightThroughThinWalls) {
+TEST(MergingSeams, NoLightThroughThinWallsLong) {
   const LitFloor open(floor_from(-0.6, 0.6));
   // The sky ends just before the wall: no ray falls on its edge, where either side is right.
   constexpr double end = -0.0002;

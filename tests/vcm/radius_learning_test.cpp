@@ -51,8 +51,8 @@ enum class Edges { found, not_looked_for };
 
 /// Plans after `passes` of this light.
 template <typename Density>
-PixelPlans learned(const Scene& scene, const Density& density, size_t count, uint32_t passes,
-                   Edges edges = Edges::not_looked_for, unsigned seed = 0, float plain = 1) {
+PixelPlans learned_radii(const Scene& scene, const Density& density, size_t count, uint32_t passes,
+                         Edges edges = Edges::not_looked_for, unsigned seed = 0, float plain = 1) {
   PixelPlans first(scene);
   first.choose_disks(light_of(density, count, 99, plain), uint32_t(count), 20, 0);
   uint64_t rays = 0;
@@ -83,9 +83,9 @@ TEST(RadiusLearning, WideInEvenLightAndNarrowAtAnEdge) {
   const auto even = [](float, float) { return 1.0f; };
   const auto edge = [](float x, float) { return x > 0 ? 1.0f : 0.1f; };
   // Some levels are lost by chance, since disks are compared at 1.5 standard errors.
-  EXPECT_GT(mean_radius(learned(scene.scene(), even, 3000, 4), 8, 56), 0.5 * widest);
-  const PixelPlans few = learned(scene.scene(), edge, 1500, 1);
-  const PixelPlans many = learned(scene.scene(), edge, 3000, 64);
+  EXPECT_GT(mean_radius(learned_radii(scene.scene(), even, 3000, 4), 8, 56), 0.5 * widest);
+  const PixelPlans few = learned_radii(scene.scene(), edge, 1500, 1);
+  const PixelPlans many = learned_radii(scene.scene(), edge, 3000, 64);
   const double at_edge = mean_radius(many, 28, 36), beside = mean_radius(many, 8, 20);
   EXPECT_LT(at_edge, 0.6 * beside);
   EXPECT_LT(at_edge, mean_radius(few, 28, 36));
@@ -97,7 +97,8 @@ TEST(RadiusLearning, NarrowAtALineOfFocusedLight) {
   const TestScene scene = floor_scene();
   constexpr float plain = 0.5f;
   const auto line = [](float x, float) { return std::fabs(x) < 0.02f ? 1.0f : plain; };
-  const PixelPlans plans = learned(scene.scene(), line, 3000, 64, Edges::not_looked_for, 0, plain);
+  const PixelPlans plans =
+      learned_radii(scene.scene(), line, 3000, 64, Edges::not_looked_for, 0, plain);
   EXPECT_LT(mean_radius(plans, 28, 36), 0.6 * mean_radius(plans, 8, 20));
 }
 
@@ -108,7 +109,7 @@ TEST(RadiusLearning, EndsOfSurfacesAreNoEdgesOfLight) {
                         flat("rectangle", scale("0.5, 3, 1"), diffuse("0.5, 0.5, 0.5")) +
                         point_light("0, 0, 5", 1));
   const auto even = [](float x, float) { return std::fabs(x) < 0.5f ? 1.0f : 0.0f; };
-  const PixelPlans plans = learned(scene.scene(), even, 3000, 4);
+  const PixelPlans plans = learned_radii(scene.scene(), even, 3000, 4);
   // The end lies at pixels 16 and 48.
   EXPECT_GT(mean_radius(plans, 44, 48), 0.6 * mean_radius(plans, 28, 36));
 }
@@ -130,7 +131,8 @@ RunningStatistics radii_there(const TestScene& scene, const Density& density,
                               Edges edges = Edges::found, int end = 56, size_t count = 1500) {
   RunningStatistics result;
   for (unsigned seed = 1; seed <= (slow_build ? 2 : 24); ++seed)
-    result.add(mean_radius(learned(scene.scene(), density, count, 8, edges, 1000 * seed), 40, end));
+    result.add(
+        mean_radius(learned_radii(scene.scene(), density, count, 8, edges, 1000 * seed), 40, end));
   return result;
 }
 

@@ -225,7 +225,7 @@ Measured measure(const std::vector<Intervals>& pictures, double planted = 1) {
 
 /// The noise is half that of which lamp is chosen, not normal, and fewer than 95 % of the intervals
 /// hold, with samples all alike too; but variances are right on average.
-TEST(AdaptiveSamples, HaveNoBiasAndKnowTheirError) {
+TEST(AdaptiveSamples, HaveNoBiasAndKnowTheirErrorLong) {
   const Measured right = measure(adaptive_intervals());
   EXPECT_LT(std::fabs(right.z()), 3.5);
   if (slow_build) return;
@@ -250,7 +250,7 @@ std::string floor_and_wall() {
 
 /// All techniques' weights go by the mean count: those of a path sum to 1 where a pixel gets more.
 /// (Disks so small that what merges has no bias to speak of.)
-TEST(AdaptiveSamples, WeightsSumToOne) {
+TEST(AdaptiveSamples, WeightsSumToOneLong) {
   const TestScene scene(floor_and_wall());
   const auto vcm = scene.integrator("vcm", set("radius", 0.01) + set("light_paths", 1.0));
   const std::vector<uint32_t> counts = counts_of(scene, *vcm, 8);

@@ -50,7 +50,7 @@ const Passes& room_by_path() {
 }
 
 /// Every set of unbiased techniques that finds all light finds that of `path`, in all components.
-TEST(Vcm, AnyUnbiasedTechniques) {
+TEST(Vcm, AnyUnbiasedTechniquesLong) {
   const TestScene scene(room(large_lamp()));
   const Passes& path = room_by_path();
   const Choice choices[] = {{"met", true, false, false, false},
@@ -78,7 +78,7 @@ TEST(Vcm, WithoutMeetingLights) {
 }
 
 /// All kinds of lights, which differ in their densities.
-TEST(Vcm, AnyLight) {
+TEST(Vcm, AnyLightLong) {
   const std::string floor =
       wall("", diffuse("0.5, 0.4, 0.3")) +
       wall(rotate("1, 0, 0", 90) + translate("0, 1, 1"), diffuse("0.5, 0.5, 0.5")) +
@@ -120,7 +120,7 @@ TEST(Vcm, AnyLight) {
 
 /// Merging is biased by its radius alone. The noise is that of the light paths: many for few
 /// samples of the camera.
-TEST(Vcm, Merging) {
+TEST(Vcm, MergingLong) {
   const TestScene scene(room(large_lamp()));
   const Passes& path = room_by_path();
   for (const char* type : {"vcm", "ppm"}) {
@@ -182,7 +182,7 @@ std::string court_in_a_town() {
 }
 
 /// What light paths learn leaves the picture as it is.
-TEST(Vcm, Guided) {
+TEST(Vcm, GuidedLong) {
   const TestScene scene(court_in_a_town());
   const Passes path = render(scene, "path", "", {300, 7});
   const Passes found = render(scene, "bdpt", "", {100, 8});
@@ -194,7 +194,7 @@ TEST(Vcm, Guided) {
 
 /// And it learns something: where few light paths are of use, and nothing else finds indirect
 /// light, guided ones leave less than half of the variance.
-TEST(Vcm, GuidingPays) {
+TEST(Vcm, GuidingPaysLong) {
   const TestScene scene(court_in_a_town());
   const auto variance = [&](const char* type, bool guiding) {
     const Passes passes =

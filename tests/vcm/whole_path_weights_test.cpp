@@ -17,7 +17,7 @@ namespace {
 using namespace test;
 
 constexpr uint32_t training_paths = 30'000;
-constexpr uint32_t light_paths = slow_build ? 500 : 2000;
+constexpr uint32_t traced_paths = slow_build ? 500 : 2000;
 constexpr double tolerance = 1e-4;
 
 std::string mask(double opacity) {
@@ -60,9 +60,9 @@ std::string lights_outside() {
          directional_light("0.3, 0.2, -1", 1) + constant_light(0.05);
 }
 
-Techniques all_techniques() { return {true, true, true, true, true}; }
+Techniques every_technique() { return {true, true, true, true, true}; }
 
-PathWeights weights_by(const Techniques& techniques) {
+PathWeights path_weights_by(const Techniques& techniques) {
   PathWeights::Settings settings;
   settings.techniques = techniques;
   settings.light_paths = 20'000;
@@ -124,14 +124,14 @@ struct Guided {
   explicit Guided(const std::string& inside)
       : scene(inside),
         plain(std::make_shared<const LightPathEmission>(scene.scene())),
-        rules{scene.scene(), weights_by(all_techniques()), plans_of(scene.scene()), plain,
+        rules{scene.scene(), path_weights_by(every_technique()), plans_of(scene.scene()), plain,
               nullptr} {
     learn(rules);
   }
   /// The same with other techniques.
   WholePathRules with(const Techniques& techniques) const {
     WholePathRules result = rules;
-    result.weights = weights_by(techniques);
+    result.weights = path_weights_by(techniques);
     return result;
   }
   TestScene scene;
@@ -161,7 +161,8 @@ struct Sums {
 };
 
 /// Of paths by `light`, where camera paths go by `camera`.
-Sums sums(const WholePathRules& light, const WholePathRules& camera, uint32_t count = light_paths) {
+Sums sums(const WholePathRules& light, const WholePathRules& camera,
+          uint32_t count = traced_paths) {
   Sums result;
   for (uint32_t i = 0; i < count; ++i) {
     const LonePath lone(light, i);
@@ -189,17 +190,17 @@ Sums sums(const WholePathRules& light, const WholePathRules& camera, uint32_t co
 void expect_sums_of_one(const Guided& guided, int least_of_each) {
   const Sums all = sums(guided.rules, guided.rules);
   EXPECT_EQ(all.off, 0) << all.worst;
-  EXPECT_GT(all.paths, int(light_paths / 4));
-  EXPECT_GT(all.guided, int(light_paths / 30));
+  EXPECT_GT(all.paths, int(traced_paths / 4));
+  EXPECT_GT(all.guided, int(traced_paths / 30));
   // Of what is told by rounding there is little.
-  EXPECT_GT(all.delta, int(light_paths / 40));
+  EXPECT_GT(all.delta, int(traced_paths / 40));
   for (size_t i = 0; i < all.by.size(); ++i) EXPECT_GT(all.by[i], least_of_each) << found_names[i];
   const Techniques some[] = {{true, true, true, true, false}, {true, true, false, false, true}};
   for (const Techniques& techniques : some) {
     const WholePathRules rules = guided.with(techniques);
-    const Sums found = sums(rules, rules, light_paths / 4);
+    const Sums found = sums(rules, rules, traced_paths / 4);
     EXPECT_EQ(found.off, 0) << found.worst;
-    EXPECT_GT(found.paths, int(light_paths / 50));
+    EXPECT_GT(found.paths, int(traced_paths / 50));
   }
 }
 
@@ -207,10 +208,10 @@ TEST(WholePathWeights, SumToOneInARoom) {
   const Guided guided(lamps_in_a_room());
   ASSERT_NE(guided.rules.emission, guided.plain);
   ASSERT_TRUE(guided.rules.scattering);
-  expect_sums_of_one(guided, int(light_paths / 50));
+  expect_sums_of_one(guided, int(traced_paths / 50));
 }
 TEST(WholePathWeights, SumToOneOutside) {
-  expect_sums_of_one(Guided(lights_outside()), int(light_paths / 60));
+  expect_sums_of_one(Guided(lights_outside()), int(traced_paths / 60));
 }
 
 /// Where camera paths know nothing of what one side has learned, or of what is
@@ -218,7 +219,7 @@ TEST(WholePathWeights, SumToOneOutside) {
 TEST(WholePathWeights, NoticeWhatIsForgotten) {
   const Guided guided(lamps_in_a_room());
   const auto expect_noticed = [&](const std::string& name, const WholePathRules& camera) {
-    const Sums found = sums(guided.rules, camera, light_paths / 4);
+    const Sums found = sums(guided.rules, camera, traced_paths / 4);
     EXPECT_GT(found.largest, 100 * tolerance) << name;
     EXPECT_GT(found.off, found.paths / 20) << name;
   };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double cell = 1.3, thickness = 0.20, wall_height = 1.15, post_width = 0.30;
 
-void add_materials(SceneFolder& scene) {
+void add_maze_materials(SceneFolder& scene) {
   Materials m(scene);
   m.matt("wall", masonry({0.76, 0.66, 0.52}, {0.46, 0.41, 0.34}, {0.325, 0.18}, 0.010, 0.5, 0.28));
   m.matt("stone", {0.62, 0.58, 0.52});
@@ -161,7 +161,7 @@ SceneFolder make_maze(const SceneOptions& options) {
                   .target = {-0.01 * s, -0.075 * s, 0},
                   .fov = 54});
   scene.add(object("integrator", "photonmap"));
-  add_materials(scene);
+  add_maze_materials(scene);
   add_ground(scene, maze);
   add_walls(scene, maze);
   add_lamps(scene, maze, options.seed + 1);

@@ -26,7 +26,7 @@ const Exhibit amphora_place{{2.6, 2.6, 0}, 0.85, 0.46};
 const Exhibit cluster_place{{-1.75, -1.95, 0}, 0.90, 0.44};
 const Exhibit bowl_place{{3.1, 7.7, 0}, 1.0, 0.46};
 
-void add_materials(SceneFolder& scene) {
+void add_museum_materials(SceneFolder& scene) {
   Materials m(scene);
   m.matt("wall", {0.72, 0.69, 0.61});
   m.matt("cabinet_wall", {0.42, 0.52, 0.50});
@@ -155,7 +155,7 @@ SceneFolder make_museum(const SceneOptions& options) {
       "Schregle, \"Rendering with Photon Maps\" (1998). Lengths in metres, z is up.");
   scene.add_view({.origin = {3.5, -4.9, 1.65}, .target = {-0.75, 1.6, 1.6}, .fov = 66});
   scene.add(object("integrator", "photonmap"));
-  add_materials(scene);
+  add_museum_materials(scene);
   add_hall(scene);
   add_joinery(scene);
   add_cabinet(scene);

@@ -10,7 +10,7 @@ const Vec3d low(-2.4, -2.6, 0), high(2.4, 2.2, 2.7);
 constexpr double board_length = 0.48, board_width = 0.08;
 const BoardWood oak{{0.50, 0.33, 0.19}, {0.28, 0.16, 0.08}, board_width, (low + high) * 0.5, 3, 3};
 
-void add_materials(SceneFolder& scene) {
+void add_show_materials(SceneFolder& scene) {
   Materials m(scene);
   m.matt("wall", {0.80, 0.78, 0.74});
   m.matt("ceiling", {0.85, 0.84, 0.82});
@@ -92,7 +92,7 @@ SceneFolder make_point_spotlight(const SceneOptions& options) {
                     "metres, z is up.");
   scene.add_view({.origin = {-0.45, -2.5, 1.35}, .target = {-0.08, 0.6, 1.02}, .fov = 60});
   scene.add(object("integrator", "photonmap"));
-  add_materials(scene);
+  add_show_materials(scene);
   add_room(scene, options.seed);
   add_furniture(scene, options.seed);
   add_light(scene);

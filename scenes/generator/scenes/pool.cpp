@@ -11,9 +11,9 @@ namespace kaustik::scenes {
 namespace {
 
 // The hall, and the basin in its floor.
-const Vec3d low(-9, -5.6, 0), high(9, 5.6, 4.6);
+const Vec3d hall_low(-9, -5.6, 0), hall_high(9, 5.6, 4.6);
 const Vec2d basin_low(-6.5, -2.75), basin_high(6.5, 2.75);
-constexpr double water_level = -0.12, shallow = -1.35, deep = -2.15, wall = 0.35;
+constexpr double water_level = -0.12, shallow = -1.35, deep = -2.15, basin_wall = 0.35;
 constexpr double lane = 0.92;  ///< distance of the lane ropes from the middle
 
 double basin_floor(double x) {
@@ -39,7 +39,7 @@ void add_tiles(SceneFolder& scene, const std::string& id, const Vec3d& color, co
                              std::move(phong)}));
 }
 
-void add_materials(SceneFolder& scene) {
+void add_pool_materials(SceneFolder& scene) {
   Materials m(scene);
   // Glaze (n = 1.5) throws back a twelfth as much in water as in air: ((1.5 − 1.333) / 2.833)².
   constexpr double in_water = 0.0035;
@@ -69,10 +69,10 @@ void add_basin(SceneFolder& scene) {
   const Vec2d &l = basin_low, &h = basin_high;
   const PlyLayout flat{.normals = Normals::flat};
   constexpr double base = -2.6;
-  Mesh sides = box({l.x - wall, l.y - wall, base}, {l.x, h.y + wall, 0});
-  sides.append(box({h.x, l.y - wall, base}, {h.x + wall, h.y + wall, 0}));
-  sides.append(box({l.x - 0.01, l.y - wall, base}, {h.x + 0.01, l.y, 0}));
-  sides.append(box({l.x - 0.01, h.y, base}, {h.x + 0.01, h.y + wall, 0}));
+  Mesh sides = box({l.x - basin_wall, l.y - basin_wall, base}, {l.x, h.y + basin_wall, 0});
+  sides.append(box({h.x, l.y - basin_wall, base}, {h.x + basin_wall, h.y + basin_wall, 0}));
+  sides.append(box({l.x - 0.01, l.y - basin_wall, base}, {h.x + 0.01, l.y, 0}));
+  sides.append(box({l.x - 0.01, h.y, base}, {h.x + 0.01, h.y + basin_wall, 0}));
   const auto floor_block = [](const Vec2d& a, const Vec2d& b, double above) {
     return height_field(a, b, 1, 1, base,
                         [above](double x, double) { return basin_floor(x) + above; });
@@ -104,24 +104,27 @@ void add_basin(SceneFolder& scene) {
       "coping",
       swept(stone, {{l.x, l.y, 0}, {h.x, l.y, 0}, {h.x, h.y, 0}, {l.x, h.y, 0}}, {0, 0, 1}, closed),
       "stone");
-  Mesh deck = box({low.x, low.y, -0.3}, {l.x - 0.2, high.y, 0.03});
-  deck.append(box({h.x + 0.2, low.y, -0.3}, {high.x, high.y, 0.03}));
-  deck.append(box({l.x - 0.2, low.y, -0.3}, {h.x + 0.2, l.y - 0.2, 0.03}));
-  deck.append(box({l.x - 0.2, h.y + 0.2, -0.3}, {h.x + 0.2, high.y, 0.03}));
+  Mesh deck = box({hall_low.x, hall_low.y, -0.3}, {l.x - 0.2, hall_high.y, 0.03});
+  deck.append(box({h.x + 0.2, hall_low.y, -0.3}, {hall_high.x, hall_high.y, 0.03}));
+  deck.append(box({l.x - 0.2, hall_low.y, -0.3}, {h.x + 0.2, l.y - 0.2, 0.03}));
+  deck.append(box({l.x - 0.2, h.y + 0.2, -0.3}, {h.x + 0.2, hall_high.y, 0.03}));
   scene.add_mesh("deck", deck, "deck_tiles", flat);
 }
 
 void add_hall(SceneFolder& scene) {
-  const RoomShell shell = room_shell({low.x, low.y, -0.3}, high, 0.3);
+  const RoomShell shell = room_shell({hall_low.x, hall_low.y, -0.3}, hall_high, 0.3);
   const PlyLayout flat{.normals = Normals::flat};
   scene.add_mesh("walls", merged({shell.west, shell.east, shell.south, shell.north}), "plaster",
                  flat, "The hall, 18 m x 11.2 m, 4.6 m high, closed on all sides.");
   scene.add_mesh("ceiling", shell.ceiling, "ceiling", flat);
   constexpr double dado = 1.5, proud = 0.02;
-  Mesh lining = box({low.x - 0.1, low.y - 0.1, -0.2}, {low.x + proud, high.y + 0.1, dado});
-  lining.append(box({high.x - proud, low.y - 0.1, -0.2}, {high.x + 0.1, high.y + 0.1, dado}));
-  lining.append(box({low.x, low.y - 0.1, -0.2}, {high.x, low.y + proud, dado}));
-  lining.append(box({low.x, high.y - proud, -0.2}, {high.x, high.y + 0.1, dado}));
+  Mesh lining = box({hall_low.x - 0.1, hall_low.y - 0.1, -0.2},
+                    {hall_low.x + proud, hall_high.y + 0.1, dado});
+  lining.append(box({hall_high.x - proud, hall_low.y - 0.1, -0.2},
+                    {hall_high.x + 0.1, hall_high.y + 0.1, dado}));
+  lining.append(box({hall_low.x, hall_low.y - 0.1, -0.2}, {hall_high.x, hall_low.y + proud, dado}));
+  lining.append(
+      box({hall_low.x, hall_high.y - proud, -0.2}, {hall_high.x, hall_high.y + 0.1, dado}));
   scene.add_mesh("lining", lining, "wall_tiles", flat);
   // Columns carry beams across the hall.
   const Curve profile = {{0, 0},       {0.34, 0},     {0.34, 0.10}, {0.27, 0.16},
@@ -130,7 +133,8 @@ void add_hall(SceneFolder& scene) {
   Mesh columns, beams;
   for (const double x : {-6.6, -2.2, 2.2, 6.6}) {
     for (const double y : {-4.25, 4.25}) columns.append(moved(revolved(profile, 40), {x, y, 0.03}));
-    beams.append(bevelled_box({x - 0.22, low.y - 0.1, 4.0}, {x + 0.22, high.y + 0.1, 4.7}, 0.01));
+    beams.append(
+        bevelled_box({x - 0.22, hall_low.y - 0.1, 4.0}, {x + 0.22, hall_high.y + 0.1, 4.7}, 0.01));
   }
   scene.add_mesh("columns", columns, "stone");
   scene.add_mesh("beams", beams, "ceiling");
@@ -207,7 +211,7 @@ void add_fittings(SceneFolder& scene) {
                  "A ball that floats.");
 }
 
-void add_furniture(SceneFolder& scene, uint64_t seed) {
+void add_pool_furniture(SceneFolder& scene, uint64_t seed) {
   Mesh wood, steel, cloth, pots, earth, leaves;
   for (const double x : {-4.4, 0.0, 4.4}) {
     const Bench b = bench(1.8, 0.5, 0.44);
@@ -237,7 +241,7 @@ void add_lights(SceneFolder& scene) {
   Mesh casings;
   std::vector<Xml> lights;
   const auto ceiling_light = [&](double x, double y, const Vec2d& size) {
-    const Vec3d center(x, y, high.z - 0.12);
+    const Vec3d center(x, y, hall_high.z - 0.12);
     casings.append(moved(bevelled_box({-0.5 * size.x - 0.03, -0.5 * size.y - 0.03, 0},
                                       {0.5 * size.x + 0.03, 0.5 * size.y + 0.03, 0.14}, 0.01),
                          center));
@@ -330,11 +334,11 @@ void add_haze(SceneFolder& scene) {
 }
 
 void build(SceneFolder& scene, const SceneOptions& options, const std::string& water) {
-  add_materials(scene);
+  add_pool_materials(scene);
   add_hall(scene);
   add_basin(scene);
   add_fittings(scene);
-  add_furniture(scene, options.seed);
+  add_pool_furniture(scene, options.seed);
   add_lights(scene);
   add_water(scene, options.seed, water);
 }

@@ -11,11 +11,11 @@
 namespace kaustik {
 namespace {
 
-using Corners = std::array<Vec3d, 3>;
+using TriangleCorners = std::array<Vec3d, 3>;
 
 struct Piece {
   size_t begin = 0, end = 0;  ///< range of triangles; of one: `corners` is what is left of it
-  Corners corners;
+  TriangleCorners corners;
   Bounds3f box;
   float size = 0;
   bool operator<(const Piece& other) const { return size < other.size; }
@@ -49,7 +49,7 @@ class Splitter {
   }
 
  private:
-  Corners corners(uint32_t triangle) const {
+  TriangleCorners corners(uint32_t triangle) const {
     const auto& c = mesh_.triangles[triangle];
     return {Vec3d(mesh_.positions[c[0]]), Vec3d(mesh_.positions[c[1]]),
             Vec3d(mesh_.positions[c[2]])};
@@ -71,14 +71,14 @@ class Splitter {
     return finish({begin, end, corners(order_[begin]), {}, 0}, box);
   }
 
-  static Piece part_of(const Piece& whole, const Corners& corners) {
+  static Piece part_of(const Piece& whole, const TriangleCorners& corners) {
     Imath::Box3d box;
     for (const Vec3d& p : corners) box.extendBy(p);
     return finish({whole.begin, whole.end, corners, {}, 0}, box);
   }
 
   double centroid(uint32_t triangle, int axis) const {
-    const Corners c = corners(triangle);
+    const TriangleCorners c = corners(triangle);
     return c[0][axis] + c[1][axis] + c[2][axis];
   }
 
@@ -96,7 +96,7 @@ class Splitter {
   }
 
   static void halve_triangle(const Piece& piece, std::priority_queue<Piece>& queue) {
-    const Corners& c = piece.corners;
+    const TriangleCorners& c = piece.corners;
     size_t longest = 0;
     double length_sq_longest = -1;
     for (size_t i = 0; i < 3; ++i)

@@ -20,20 +20,20 @@ namespace kaustik::formats {
 namespace {
 
 /// What is shared with libpng's callbacks.
-struct State {
+struct WriteState {
   Bytes written;
   bool lacks_memory = false;
   char error[256] = "";
 };
 
-void keep_error(png_structp png, png_const_charp text) {
-  auto* state = static_cast<State*>(png_get_error_ptr(png));
+void keep_write_error(png_structp png, png_const_charp text) {
+  auto* state = static_cast<WriteState*>(png_get_error_ptr(png));
   std::snprintf(state->error, sizeof(state->error), "%s", text);
   png_longjmp(png, 1);
 }
-void drop_warning(png_structp, png_const_charp) {}
+void drop_write_warning(png_structp, png_const_charp) {}
 
-bool append_all(State& state, const uint8_t* data, size_t size) {
+bool append_all(WriteState& state, const uint8_t* data, size_t size) {
   try {
     state.written.insert(state.written.end(), data, data + size);
     return true;
@@ -43,24 +43,25 @@ bool append_all(State& state, const uint8_t* data, size_t size) {
   }
 }
 void write_some(png_structp png, png_bytep data, size_t size) {
-  if (!append_all(*static_cast<State*>(png_get_io_ptr(png)), data, size))
+  if (!append_all(*static_cast<WriteState*>(png_get_io_ptr(png)), data, size))
     png_error(png, "not enough memory");
 }
 void flush_nothing(png_structp) {}
 
-void* allocate(png_structp png, png_alloc_size_t size) {
+void* allocate_for_writing(png_structp png, png_alloc_size_t size) {
   void* const block = std::malloc(size);
-  if (!block) static_cast<State*>(png_get_mem_ptr(png))->lacks_memory = true;
+  if (!block) static_cast<WriteState*>(png_get_mem_ptr(png))->lacks_memory = true;
   return block;
 }
-void release(png_structp, void* block) { std::free(block); }
+void release_of_writing(png_structp, void* block) { std::free(block); }
 
 /// A writer of libpng, destroyed with this.
 class Writer {
  public:
-  explicit Writer(State& state)
-      : png_(png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &state, keep_error, drop_warning,
-                                       &state, allocate, release)),
+  explicit Writer(WriteState& state)
+      : png_(png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &state, keep_write_error,
+                                       drop_write_warning, &state, allocate_for_writing,
+                                       release_of_writing)),
         info_(png_ ? png_create_info_struct(png_) : nullptr) {
     if (!info_) {
       png_destroy_write_struct(&png_, &info_);
@@ -129,7 +130,7 @@ struct Texts {
 }  // namespace
 
 Bytes encode_png(const Image& display_linear) {
-  State state;
+  WriteState state;
   Bytes pixels = srgb_bytes(display_linear);
   std::vector<uint8_t*> rows = row_pointers(pixels, 3 * size_t(display_linear.width()));
   const Texts texts(display_linear);

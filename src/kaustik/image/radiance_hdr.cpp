@@ -112,7 +112,7 @@ class Cursor {
   ByteView rest_;
 };
 
-struct Header {
+struct RadianceHeader {
   bool is_xyz = false;
   float exposure = 1;         ///< stored values are radiance times this
   Vec3f correction{1, 1, 1};  ///< and times this
@@ -151,7 +151,7 @@ std::optional<ColourMatrix> matrix_of(const std::string& text) {
 }
 
 /// "-Y 480 +X 640" and the other seven orders of pixels.
-void read_resolution(const std::string& line, Header& header) {
+void read_resolution(const std::string& line, RadianceHeader& header) {
   char sign[2], axis[2];
   int length[2];
   std::istringstream in(line);
@@ -183,8 +183,8 @@ std::optional<FieldOfView> read_view(const std::string& options) {
   return is_angle(view.horizontal) && is_angle(view.vertical) ? std::optional(view) : std::nullopt;
 }
 
-Header read_header(Cursor& cursor) {
-  Header header;
+RadianceHeader read_header(Cursor& cursor) {
+  RadianceHeader header;
   for (std::string line = cursor.line(); !line.empty(); line = cursor.line()) {
     if (line.starts_with("FORMAT=")) {
       const std::string format = line.substr(7);
@@ -247,7 +247,7 @@ void read_line(Cursor& cursor, std::vector<Rgbe>& line) {
 }
 
 /// Linear Rec. 709.
-Vec3f radiance_of(const Rgbe& pixel, const Header& header) {
+Vec3f radiance_of(const Rgbe& pixel, const RadianceHeader& header) {
   const Vec3f stored = rgb_from_rgbe(pixel) / header.exposure / header.correction;
   // Radiance's XYZ is in lumens over its efficacy, so Y is photopic radiance as ours is.
   if (header.is_xyz) return rgb_from_xyz(stored);
@@ -274,7 +274,7 @@ Bytes encode_hdr(const Image& image, const std::string& layer) {
 
 Image decode_hdr(ByteView file, const ReadOptions& options) {
   Cursor cursor(file);
-  const Header header = read_header(cursor);
+  const RadianceHeader header = read_header(cursor);
   // The older runs repeat a pixel as often as they like.
   constexpr double most_pixels_per_byte = std::numeric_limits<double>::infinity();
   check_promise({header.width, header.height, 3, 0, most_pixels_per_byte}, file.size(), options);

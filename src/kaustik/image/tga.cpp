@@ -12,7 +12,7 @@ namespace {
 
 enum Kind { colour_mapped = 1, true_colour = 2, grey = 3 };
 
-struct Header {
+struct TgaHeader {
   int kind = 0;
   bool has_runs = false;
   int64_t width = 0, height = 0;
@@ -29,8 +29,8 @@ struct Header {
 
 bool is_colour_depth(int bits) { return bits == 15 || bits == 16 || bits == 24 || bits == 32; }
 
-Header read_header(const ByteReader& file) {
-  Header h;
+TgaHeader read_tga_header(const ByteReader& file) {
+  TgaHeader h;
   const int type = file.u8(2), map_type = file.u8(1), flags = file.u8(17);
   h.kind = type & 7;
   h.has_runs = (type & 8) != 0;
@@ -72,7 +72,7 @@ Samples samples_of(ByteView stored) {
 
 class Pixels {
  public:
-  Pixels(const ByteReader& file, const Header& header)
+  Pixels(const ByteReader& file, const TgaHeader& header)
       : file_(file), header_(header), at_(header.pixels_at) {}
 
   Samples next() {
@@ -102,7 +102,7 @@ class Pixels {
   }
 
   const ByteReader& file_;
-  const Header& header_;
+  const TgaHeader& header_;
   size_t at_;
   int left_ = 0;
   bool is_run_ = false;
@@ -113,7 +113,7 @@ class Pixels {
 
 Image decode_tga(ByteView bytes, const ReadOptions& options) {
   const ByteReader file(bytes);
-  const Header header = read_header(file);
+  const TgaHeader header = read_tga_header(file);
   const double most_pixels_per_byte = header.has_runs ? 128 : 1;
   check_promise({header.width, header.height, header.channels(), 0, most_pixels_per_byte},
                 bytes.size(), options);

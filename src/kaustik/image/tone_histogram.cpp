@@ -76,7 +76,7 @@ class Histogram : public ToneOperator {
   bool has_glare_, loses_acuity_, loses_color_;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> histogram_parameters() {
   return {
       number_parameter("display_maximum", 100, "Luminance of the display's white.")
           .range(1e-3, 1e6)
@@ -110,7 +110,7 @@ ToneOperatorType histogram_tone() {
   return {{"tonemap", "histogram",
            "Histogram adjustment, with models of human vision (Ward Larson, Rushmeier and Piatko "
            "1997): what is visible in the scene is visible on the display.",
-           parameters()},
+           histogram_parameters()},
           [](const Arguments& arguments) -> std::unique_ptr<ToneOperator> {
             return std::make_unique<Histogram>(arguments);
           }};

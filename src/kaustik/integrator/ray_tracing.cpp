@@ -5,7 +5,7 @@
 namespace kaustik {
 namespace {
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> ray_tracing_parameters() {
   std::vector<Parameter> rows = LocalLight::parameters();
   rows.insert(rows.begin(), {components_parameter(), max_depth_parameter()});
   rows.push_back(
@@ -26,7 +26,7 @@ const TypeInfo& RayTracing::info() {
   static const TypeInfo info{"integrator", "raytracing",
                              "Classical recursive ray tracing: direct light, perfect mirrors and "
                              "refraction, ambient light.",
-                             parameters()};
+                             ray_tracing_parameters()};
   return info;
 }
 

@@ -3,8 +3,6 @@
 namespace kaustik {
 namespace {
 
-constexpr double pi_d = std::numbers::pi;
-
 double angle_between(const Vec3f& a, const Vec3f& b) {
   const Vec3d x(a), y(b);
   return std::atan2(x.cross(y).length(), x.dot(y));
@@ -34,21 +32,21 @@ EmissionCone united(const EmissionCone& a, const EmissionCone& b) {
   EmissionCone result = a;
   result.falloff = std::max(a.falloff, b.falloff);
   const double between = angle_between(a.axis, b.axis);
-  if (std::min(between + b.spread, pi_d) <= a.spread) return result;
+  if (std::min(between + b.spread, std::numbers::pi) <= a.spread) return result;
   result.spread = 0.5 * (a.spread + between + b.spread);
   result.axis = turned_toward(a.axis, b.axis, result.spread - a.spread);
-  if (result.spread < pi_d && length_sq(result.axis) > 0) return result;
-  result.spread = pi_d;
+  if (result.spread < std::numbers::pi && length_sq(result.axis) > 0) return result;
+  result.spread = std::numbers::pi;
   result.axis = a.axis;
   return result;
 }
 
 double orientation_measure(const EmissionCone& cone) {
-  const double o = cone.spread, w = std::min(o + cone.falloff, pi_d);
+  const double o = cone.spread, w = std::min(o + cone.falloff, std::numbers::pi);
   const double sin_half = std::sin(0.5 * o);
-  const double inside = 4 * pi_d * sin_half * sin_half;
+  const double inside = 4 * std::numbers::pi * sin_half * sin_half;
   const double beyond =
-      0.5 * pi_d * (2 * (w - o) * std::sin(o) - std::cos(o - 2 * w) + std::cos(o));
+      0.5 * std::numbers::pi * (2 * (w - o) * std::sin(o) - std::cos(o - 2 * w) + std::cos(o));
   return std::max(inside + beyond, 1e-12);
 }
 

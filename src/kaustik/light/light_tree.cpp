@@ -7,7 +7,7 @@ namespace {
 
 /// A light that may give anything is chosen at least this often, relative to the best one of its
 /// node: there may be something in the way of that one …
-constexpr float minimum_share_of_best = 1.0f / 32;
+constexpr float minimum_share_of_leaf = 1.0f / 32;
 /// … which is less likely to hide it all if it is a group.
 constexpr float minimum_share_of_best_group = 1.0f / 256;
 
@@ -64,7 +64,7 @@ void LightTree::fill(const LightTreeBuild& build, size_t index, int from) {
   Node& node = nodes_[index];
   node.balls = balls_.add(balls);
   node.first_child = first;
-  node.least = groups ? minimum_share_of_best_group : minimum_share_of_best;
+  node.least = groups ? minimum_share_of_best_group : minimum_share_of_leaf;
   for (size_t place = 0; place < from_children.size(); ++place)
     if (const int32_t child = children_[first + place]; child >= 0)
       fill(build, size_t(child), from_children[place]);

@@ -5,7 +5,6 @@
 namespace kaustik {
 namespace {
 
-constexpr double pi_d = std::numbers::pi;
 constexpr double earth_radius_over_distance = 6371.01 / 149597890;
 
 std::chrono::year_month_day date_of(int year, int month, int day) {
@@ -36,8 +35,9 @@ Vec3d sun_direction_at(const PlaceAndTime& at) {
   const double declination = std::asin(std::sin(obliquity) * std::sin(ecliptic_longitude));
 
   const double sidereal_hours = 6.6974243242 + 0.0657098283 * days + universal_hours;
-  const double hour_angle = (sidereal_hours * 15 + at.longitude) * (pi_d / 180) - right_ascension;
-  const double latitude = at.latitude * (pi_d / 180);
+  const double hour_angle =
+      (sidereal_hours * 15 + at.longitude) * (std::numbers::pi / 180) - right_ascension;
+  const double latitude = at.latitude * (std::numbers::pi / 180);
   const double north = std::sin(declination) * std::cos(latitude) -
                        std::cos(declination) * std::sin(latitude) * std::cos(hour_angle);
   const double east = -std::cos(declination) * std::sin(hour_angle);

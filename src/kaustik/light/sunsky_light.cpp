@@ -17,7 +17,6 @@
 namespace kaustik {
 namespace {
 
-constexpr double pi_d = std::numbers::pi;
 constexpr int columns = 256, rows = 65;  // of the grid that sky directions are sampled by
 
 double luminance_of(const Vec3f& rgb) { return double(luminance(rgb)); }
@@ -43,14 +42,15 @@ class SkyRadiance {
   /// Of the grid over the upper half of the sphere: (direction, solid angle), row by row.
   template <typename Visit>
   static void for_each_node(const Visit& visit) {
-    const double step = 0.5 * pi_d / (rows - 1);
+    const double step = 0.5 * std::numbers::pi / (rows - 1);
     for (int r = 0; r < rows; ++r) {
       const double angle = step * r;
       const double above = std::max(0.0, angle - 0.5 * step);
-      const double below = std::min(0.5 * pi_d, angle + 0.5 * step);
-      const double solid_angle = 2 * pi_d / columns * (std::cos(above) - std::cos(below));
+      const double below = std::min(0.5 * std::numbers::pi, angle + 0.5 * step);
+      const double solid_angle =
+          2 * std::numbers::pi / columns * (std::cos(above) - std::cos(below));
       for (int c = 0; c < columns; ++c) {
-        const double phi = 2 * pi_d * (c + 0.5) / columns;
+        const double phi = 2 * std::numbers::pi * (c + 0.5) / columns;
         visit(Vec3f(float(std::sin(angle) * std::cos(phi)), float(std::sin(angle) * std::sin(phi)),
                     float(std::max(std::cos(angle), 1e-6))),
               solid_angle);
@@ -67,7 +67,7 @@ LatLongDistribution distribution_of(const SkyRadiance& sky) {
   std::vector<float> values;
   SkyRadiance::for_each_node(
       [&](const Vec3f& direction, double) { values.push_back(luminance(sky.rgb(direction))); });
-  return {columns, std::move(values), 0.5 * pi_d};
+  return {columns, std::move(values), 0.5 * std::numbers::pi};
 }
 
 /// The sun as a disk of even radiance.
@@ -78,7 +78,7 @@ class SunDisk {
       : frame_(to_sun),
         irradiance_(irradiance),
         one_minus_cos_(float(2 * std::pow(std::sin(0.5 * half_angle), 2))),
-        radiance_(irradiance * float(1 / (pi_d * std::pow(std::sin(half_angle), 2)))) {}
+        radiance_(irradiance * float(1 / (std::numbers::pi * std::pow(std::sin(half_angle), 2)))) {}
 
   const Vec3f& direction() const { return frame_.z; }
   const Spectrum& irradiance() const { return irradiance_; }
@@ -172,13 +172,13 @@ class SunSkyLight final : public EnvironmentLight {
     if (u.x < share) return to_world(sun_.sample({rescaled(u.x, 0.0f, share), u.y}));
     const LatLong at = sky_distribution_.sample({rescaled(u.x, share, 1.0f - share), u.y});
     const double sine = std::sqrt(std::max(0.0, 1 - at.height * at.height));
-    const double phi = 2 * pi_d * at.turn;
+    const double phi = 2 * std::numbers::pi * at.turn;
     return to_world(
         Vec3f(float(sine * std::cos(phi)), float(sine * std::sin(phi)), float(at.height)));
   }
   float direction_pdf(const Vec3f& direction, Purpose purpose) const override {
     const Vec3f local = to_local(direction);
-    const double turn = std::atan2(double(local.y), double(local.x)) / (2 * pi_d);
+    const double turn = std::atan2(double(local.y), double(local.x)) / (2 * std::numbers::pi);
     const float sky = sky_distribution_.pdf({turn < 0 ? turn + 1 : turn, double(local.z)});
     const float share = sun_share(purpose);
     return share * sun_.pdf(local) + (1.0f - share) * sky;
@@ -253,12 +253,13 @@ SunSkySettings read_settings(const LightInputs& inputs) {
   settings.to_sun = by_direction ? given_sun_direction(arguments, settings.to_world)
                                  : sun_direction_by_clock(arguments);
   if (!(settings.to_sun.z > 1e-4))
-    throw Error(ErrorKind::input,
-                fmt::format("the sun stands {:.1f} degrees below the horizon",
-                            std::asin(std::clamp(-settings.to_sun.z, -1.0, 1.0)) * 180 / pi_d),
-                "choose a time of the day, or a 'sun_direction' above the plane of the emitter's x "
-                "and y",
-                arguments.place_of(by_direction ? "sun_direction" : "hour"));
+    throw Error(
+        ErrorKind::input,
+        fmt::format("the sun stands {:.1f} degrees below the horizon",
+                    std::asin(std::clamp(-settings.to_sun.z, -1.0, 1.0)) * 180 / std::numbers::pi),
+        "choose a time of the day, or a 'sun_direction' above the plane of the emitter's x "
+        "and y",
+        arguments.place_of(by_direction ? "sun_direction" : "hour"));
   settings.turbidity = arguments.number("turbidity");
   const Spectrum albedo = reflectance_spectrum(arguments.color("albedo"));
   if (albedo.max_lane() > 1)
@@ -267,7 +268,7 @@ SunSkySettings read_settings(const LightInputs& inputs) {
   settings.ground_albedo = double(photopic({albedo[0], albedo[1], albedo[2]}));
   settings.sun_scale = number("sun_scale", 0);
   settings.sky_scale = number("sky_scale", 0);
-  settings.sun_aperture = number("sun_aperture", 0.5358) * pi_d / 180;
+  settings.sun_aperture = number("sun_aperture", 0.5358) * std::numbers::pi / 180;
   return settings;
 }
 

@@ -52,7 +52,7 @@ class Bitmap final : public Texture {
   UvTransform to_uv_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& bitmap_info() {
   static const TypeInfo info{
       "texture", "bitmap", "A picture, filtered by the footprint of the ray.",
       picture_parameters(
@@ -89,7 +89,7 @@ Texels texels_of(const Image& image) {
   return texels;
 }
 
-std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader& pictures) {
+std::shared_ptr<const Texture> create_bitmap(const Arguments& arguments, PictureReader& pictures) {
   Texels texels = texels_of(pictures.read(arguments, bytes_per_pixel, !arguments.boolean("raw")));
   const std::string& wrap = arguments.text("wrap_mode");
   return std::make_shared<Bitmap>(MipPyramid(texels.width, texels.height, std::move(texels.values),
@@ -102,6 +102,6 @@ std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader&
 
 }  // namespace
 
-TextureType bitmap_type() { return {info(), create}; }
+TextureType bitmap_type() { return {bitmap_info(), create_bitmap}; }
 
 }  // namespace kaustik

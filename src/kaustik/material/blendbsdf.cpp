@@ -127,7 +127,7 @@ class BlendBsdf final : public Bsdf {
   const BlendBsdf *first_blend_, *second_blend_;  ///< the two as blends; null: they are none
 };
 
-const TypeInfo& info() {
+const TypeInfo& blend_info() {
   static const TypeInfo info{
       "bsdf",
       "blendbsdf",
@@ -138,7 +138,7 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+std::shared_ptr<const Bsdf> create_blend(const BsdfInputs& inputs) {
   for (const auto& nested : inputs.nested)
     if (nested->relief(true) || nested->relief(false))
       throw Error(ErrorKind::input, "bsdf 'blendbsdf' holds one with a bump or normal map",
@@ -148,6 +148,6 @@ std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
 
 }  // namespace
 
-BsdfType blendbsdf_type() { return {info(), 2, 2, create}; }
+BsdfType blendbsdf_type() { return {blend_info(), 2, 2, create_blend}; }
 
 }  // namespace kaustik

@@ -35,7 +35,7 @@ class BumpRelief final : public Relief {
   float scale_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& bumpmap_info() {
   static const TypeInfo info{
       "bsdf",
       "bumpmap",
@@ -49,7 +49,7 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+std::shared_ptr<const Bsdf> create_bumpmap(const BsdfInputs& inputs) {
   return make_bent_bsdf(inputs,
                         std::make_unique<BumpRelief>(relief_texture(inputs, "texture"),
                                                      float(inputs.arguments.number("scale"))));
@@ -57,6 +57,6 @@ std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
 
 }  // namespace
 
-BsdfType bumpmap_type() { return {info(), 1, 1, create}; }
+BsdfType bumpmap_type() { return {bumpmap_info(), 1, 1, create_bumpmap}; }
 
 }  // namespace kaustik

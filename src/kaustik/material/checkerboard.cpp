@@ -48,7 +48,7 @@ class Checkerboard final : public Texture {
   UvTransform to_uv_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& checkerboard_info() {
   static const TypeInfo info{
       "texture",
       "checkerboard",
@@ -59,7 +59,7 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader&) {
+std::shared_ptr<const Texture> create_checkerboard(const Arguments& arguments, PictureReader&) {
   return std::make_shared<Checkerboard>(SpectralValue::reflectance(arguments.color("color0")),
                                         SpectralValue::reflectance(arguments.color("color1")),
                                         UvTransform(arguments.transform("to_uv")));
@@ -67,6 +67,6 @@ std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader&
 
 }  // namespace
 
-TextureType checkerboard_type() { return {info(), create}; }
+TextureType checkerboard_type() { return {checkerboard_info(), create_checkerboard}; }
 
 }  // namespace kaustik

@@ -39,20 +39,20 @@ class Conductor final : public Bsdf {
   std::shared_ptr<const Texture> reflectance_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& conductor_info() {
   static const TypeInfo info{"bsdf", "conductor",
                              "Smooth metal; black seen from behind, see 'twosided'.",
                              conductor_parameters()};
   return info;
 }
 
-std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+std::shared_ptr<const Bsdf> create_conductor(const BsdfInputs& inputs) {
   return std::make_shared<Conductor>(conductor_ior(inputs.arguments),
                                      inputs.texture("specular_reflectance"));
 }
 
 }  // namespace
 
-BsdfType conductor_type() { return {info(), 0, 0, create}; }
+BsdfType conductor_type() { return {conductor_info(), 0, 0, create_conductor}; }
 
 }  // namespace kaustik

@@ -121,7 +121,7 @@ class Dielectric final : public Bsdf {
   std::shared_ptr<const Texture> reflectance_, transmittance_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& dielectric_info() {
   static const TypeInfo info{
       "bsdf",
       "dielectric",
@@ -148,7 +148,7 @@ SpectralValue ior(const Arguments& arguments, std::string_view name) {
   return SpectralValue(float(std::get<double>(value)));
 }
 
-std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+std::shared_ptr<const Bsdf> create_dielectric(const BsdfInputs& inputs) {
   return make_dielectric(ior(inputs.arguments, "int_ior"), ior(inputs.arguments, "ext_ior"),
                          inputs.texture("specular_reflectance"),
                          inputs.texture("specular_transmittance"));
@@ -164,6 +164,6 @@ std::shared_ptr<const Bsdf> make_dielectric(const SpectralValue& interior,
                                       std::move(transmittance));
 }
 
-BsdfType dielectric_type() { return {info(), 0, 0, create}; }
+BsdfType dielectric_type() { return {dielectric_info(), 0, 0, create_dielectric}; }
 
 }  // namespace kaustik

@@ -51,7 +51,7 @@ class Diffuse final : public Bsdf {
   std::shared_ptr<const Texture> reflectance_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& diffuse_info() {
   static const TypeInfo info{
       "bsdf",
       "diffuse",
@@ -62,7 +62,7 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+std::shared_ptr<const Bsdf> create_diffuse(const BsdfInputs& inputs) {
   return std::make_shared<Diffuse>(inputs.texture("reflectance"));
 }
 
@@ -73,6 +73,6 @@ const Bsdf& white_diffuse() {
   return white;
 }
 
-BsdfType diffuse_type() { return {info(), 0, 0, create}; }
+BsdfType diffuse_type() { return {diffuse_info(), 0, 0, create_diffuse}; }
 
 }  // namespace kaustik

@@ -68,7 +68,7 @@ class Marble final : public Texture {
   Spectrum mean_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& marble_info() {
   static const TypeInfo info{
       "texture",
       "marble",
@@ -81,12 +81,12 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader&) {
+std::shared_ptr<const Texture> create_marble(const Arguments& arguments, PictureReader&) {
   return std::make_shared<Marble>(arguments);
 }
 
 }  // namespace
 
-TextureType marble_type() { return {info(), create}; }
+TextureType marble_type() { return {marble_info(), create_marble}; }
 
 }  // namespace kaustik

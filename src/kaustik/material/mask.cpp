@@ -73,7 +73,7 @@ class Mask final : public Bsdf {
   std::shared_ptr<const Texture> opacity_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& mask_info() {
   static const TypeInfo info{
       "bsdf",
       "mask",
@@ -84,12 +84,12 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+std::shared_ptr<const Bsdf> create_mask(const BsdfInputs& inputs) {
   return std::make_shared<Mask>(inputs.nested.front(), inputs.texture("opacity"));
 }
 
 }  // namespace
 
-BsdfType mask_type() { return {info(), 1, 1, create}; }
+BsdfType mask_type() { return {mask_info(), 1, 1, create_mask}; }
 
 }  // namespace kaustik

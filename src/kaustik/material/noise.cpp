@@ -24,10 +24,10 @@ struct CellHash {
 
 using Lanes = float __attribute__((vector_size(16)));
 using Words = uint32_t __attribute__((vector_size(16)));
-using Mask = int32_t __attribute__((vector_size(16)));
+using LaneMask = int32_t __attribute__((vector_size(16)));
 
 Lanes with_sign(Lanes x, Words sign_bit) { return Lanes(Words(x) ^ (sign_bit & 0x80000000u)); }
-Lanes where(Mask mask, Lanes x) { return Lanes(mask & Mask(x)); }
+Lanes where(LaneMask mask, Lanes x) { return Lanes(mask & LaneMask(x)); }
 float sum_of(Lanes x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
 /// The directions at four corners: to the middles of a cube's edges, each of them the sum of two
@@ -36,10 +36,10 @@ float sum_of(Lanes x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 struct EdgeDirections {
   explicit EdgeDirections(Words hash) {
     const Words number = hash >> 28;
-    const Mask is_xy = (number < 4) | ((number & 14) == 12);
+    const LaneMask is_xy = (number < 4) | ((number & 14) == 12);
     along_x = (number < 8) | is_xy;
     along_y = is_xy;
-    const Mask last = number >= 14;
+    const LaneMask last = number >= 14;
     first_sign = last ? Words(last) : hash << 3;
     second_sign = last ? hash << 3 : hash << 2;
   }
@@ -54,7 +54,7 @@ struct EdgeDirections {
             sum_of(where(~along_y, second))};
   }
 
-  Mask along_x, along_y;  ///< first axis x, else y; second axis y, else z
+  LaneMask along_x, along_y;  ///< first axis x, else y; second axis y, else z
   Words first_sign, second_sign;
 };
 

@@ -42,7 +42,7 @@ class NoiseTexture final : public Texture {
   Spectrum mean_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& noise_info() {
   static const TypeInfo info{
       "texture",
       "noise",
@@ -60,12 +60,12 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader&) {
+std::shared_ptr<const Texture> create_noise(const Arguments& arguments, PictureReader&) {
   return std::make_shared<NoiseTexture>(arguments);
 }
 
 }  // namespace
 
-TextureType noise_type() { return {info(), create}; }
+TextureType noise_type() { return {noise_info(), create_noise}; }
 
 }  // namespace kaustik

@@ -27,7 +27,7 @@ class NormalRelief final : public Relief {
   std::shared_ptr<const Texture> texture_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& normalmap_info() {
   static const TypeInfo info{
       "bsdf",
       "normalmap",
@@ -40,13 +40,13 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+std::shared_ptr<const Bsdf> create_normalmap(const BsdfInputs& inputs) {
   return make_bent_bsdf(inputs,
                         std::make_unique<NormalRelief>(relief_texture(inputs, "normalmap")));
 }
 
 }  // namespace
 
-BsdfType normalmap_type() { return {info(), 1, 1, create}; }
+BsdfType normalmap_type() { return {normalmap_info(), 1, 1, create_normalmap}; }
 
 }  // namespace kaustik

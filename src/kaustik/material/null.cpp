@@ -15,7 +15,7 @@ class Null final : public Bsdf {
   Spectrum albedo(const BsdfContext&, const Vec3f&, Lobes) const override { return {}; }
 };
 
-const TypeInfo& info() {
+const TypeInfo& null_info() {
   static const TypeInfo info{
       "bsdf",
       "null",
@@ -25,10 +25,10 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Bsdf> create(const BsdfInputs&) { return std::make_shared<Null>(); }
+std::shared_ptr<const Bsdf> create_null(const BsdfInputs&) { return std::make_shared<Null>(); }
 
 }  // namespace
 
-BsdfType null_type() { return {info(), 0, 0, create}; }
+BsdfType null_type() { return {null_info(), 0, 0, create_null}; }
 
 }  // namespace kaustik

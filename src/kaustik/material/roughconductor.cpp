@@ -190,7 +190,7 @@ TypeInfo make_info() {
   return info;
 }
 
-const TypeInfo& info() {
+const TypeInfo& roughconductor_info() {
   static const TypeInfo info = make_info();
   return info;
 }
@@ -217,13 +217,13 @@ RoughFacets facets_of(const BsdfInputs& inputs) {
   return {kind, std::move(u), std::move(v), visible};
 }
 
-std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+std::shared_ptr<const Bsdf> create_roughconductor(const BsdfInputs& inputs) {
   return std::make_shared<RoughConductor>(facets_of(inputs), conductor_ior(inputs.arguments),
                                           inputs.texture("specular_reflectance"));
 }
 
 }  // namespace
 
-BsdfType roughconductor_type() { return {info(), 0, 0, create}; }
+BsdfType roughconductor_type() { return {roughconductor_info(), 0, 0, create_roughconductor}; }
 
 }  // namespace kaustik

@@ -147,7 +147,7 @@ HeightGradient Tiles::height_gradient(const TextureCoordinates& at) const {
   return {{0, 0}, space_.gradient(g)};
 }
 
-const TypeInfo& info() {
+const TypeInfo& tiles_info() {
   static const TypeInfo info{
       "texture",
       "tiles",
@@ -178,12 +178,12 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader&) {
+std::shared_ptr<const Texture> create_tiles(const Arguments& arguments, PictureReader&) {
   return std::make_shared<Tiles>(arguments);
 }
 
 }  // namespace
 
-TextureType tiles_type() { return {info(), create}; }
+TextureType tiles_type() { return {tiles_info(), create_tiles}; }
 
 }  // namespace kaustik

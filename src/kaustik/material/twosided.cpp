@@ -71,7 +71,7 @@ class Twosided final : public Bsdf {
   std::optional<BackRelief> back_relief_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& twosided_info() {
   static const TypeInfo info{
       "bsdf",
       "twosided",
@@ -80,7 +80,7 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
+std::shared_ptr<const Bsdf> create_twosided(const BsdfInputs& inputs) {
   for (const auto& nested : inputs.nested)
     if (nested->traits().transmits)
       throw Error(ErrorKind::input, "bsdf 'twosided' holds one that transmits light",
@@ -91,6 +91,6 @@ std::shared_ptr<const Bsdf> create(const BsdfInputs& inputs) {
 
 }  // namespace
 
-BsdfType twosided_type() { return {info(), 1, 2, create}; }
+BsdfType twosided_type() { return {twosided_info(), 1, 2, create_twosided}; }
 
 }  // namespace kaustik

@@ -51,7 +51,7 @@ class Waves final : public Texture {
   SpaceTransform space_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& waves_info() {
   static const WaveSettings defaults;
   static const TypeInfo info{
       "texture",
@@ -78,12 +78,12 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader&) {
+std::shared_ptr<const Texture> create_waves(const Arguments& arguments, PictureReader&) {
   return std::make_shared<Waves>(arguments);
 }
 
 }  // namespace
 
-TextureType waves_type() { return {info(), create}; }
+TextureType waves_type() { return {waves_info(), create_waves}; }
 
 }  // namespace kaustik

@@ -146,7 +146,7 @@ HeightGradient Wood::height_gradient(const TextureCoordinates& at) const {
   return {{0, 0}, space_.gradient(gradient)};
 }
 
-const TypeInfo& info() {
+const TypeInfo& wood_info() {
   static const TypeInfo info{
       "texture",
       "wood",
@@ -167,12 +167,12 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create(const Arguments& arguments, PictureReader&) {
+std::shared_ptr<const Texture> create_wood(const Arguments& arguments, PictureReader&) {
   return std::make_shared<Wood>(arguments);
 }
 
 }  // namespace
 
-TextureType wood_type() { return {info(), create}; }
+TextureType wood_type() { return {wood_info(), create_wood}; }
 
 }  // namespace kaustik

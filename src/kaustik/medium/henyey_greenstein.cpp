@@ -41,7 +41,7 @@ class HenyeyGreenstein final : public PhaseFunction {
   float g_;
 };
 
-const TypeInfo& info() {
+const TypeInfo& henyey_greenstein_info() {
   static const TypeInfo info{
       "phase",
       "hg",
@@ -53,7 +53,7 @@ const TypeInfo& info() {
   return info;
 }
 
-std::shared_ptr<const PhaseFunction> create(const Arguments& arguments) {
+std::shared_ptr<const PhaseFunction> create_henyey_greenstein(const Arguments& arguments) {
   const auto g = float(arguments.number("g"));
   if (!(std::fabs(g) < 1))
     throw Error(ErrorKind::input, "g of phase 'hg' is -1 or 1, which scatters nowhere but straight",
@@ -67,6 +67,8 @@ std::shared_ptr<const PhaseFunction> henyey_greenstein_phase_function(float g) {
   return std::make_shared<HenyeyGreenstein>(g);
 }
 
-PhaseFunctionType henyey_greenstein_type() { return {info(), create}; }
+PhaseFunctionType henyey_greenstein_type() {
+  return {henyey_greenstein_info(), create_henyey_greenstein};
+}
 
 }  // namespace kaustik

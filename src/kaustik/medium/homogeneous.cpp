@@ -40,7 +40,7 @@ Spectrum left_after(float distance, const Spectrum& extinction) {
   return result;
 }
 
-const TypeInfo& info() {
+const TypeInfo& homogeneous_info() {
   static const TypeInfo info{
       "medium",
       "homogeneous",
@@ -91,7 +91,7 @@ void check_extinction(const Spectrum& extinction, const Arguments& arguments) {
   }
 }
 
-std::shared_ptr<const Medium> create(const MediumInputs& inputs) {
+std::shared_ptr<const Medium> create_homogeneous(const MediumInputs& inputs) {
   const Arguments& arguments = inputs.arguments;
   const bool by_parts = arguments.given("sigma_a") || arguments.given("sigma_s");
   for (const char* name : {"albedo", "sigma_t"})
@@ -182,6 +182,6 @@ Medium::Flight HomogeneousMedium::sample_collision(float length, const Spectrum&
   return flight;
 }
 
-MediumType homogeneous_type() { return {info(), create}; }
+MediumType homogeneous_type() { return {homogeneous_info(), create_homogeneous}; }
 
 }  // namespace kaustik

@@ -11,7 +11,7 @@ class Isotropic final : public PhaseFunction {
   float mean_cosine() const override { return 0; }
 };
 
-const TypeInfo& info() {
+const TypeInfo& isotropic_info() {
   static const TypeInfo info{
       "phase", "isotropic", "Scatters evenly into all directions (the default of media).", {}};
   return info;
@@ -25,7 +25,7 @@ std::shared_ptr<const PhaseFunction> isotropic_phase_function() {
 }
 
 PhaseFunctionType isotropic_type() {
-  return {info(), [](const Arguments&) { return isotropic_phase_function(); }};
+  return {isotropic_info(), [](const Arguments&) { return isotropic_phase_function(); }};
 }
 
 }  // namespace kaustik

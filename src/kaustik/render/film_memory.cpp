@@ -23,7 +23,7 @@ constexpr double of_splat_lane = 12, components_of_splats = 4;
 /// their squares.
 constexpr double of_errors = 4 * sizeof(double), of_bias_errors = 76;
 
-constexpr double lanes = FilmNumbers::lanes;
+constexpr double lanes_of_sum = FilmNumbers::lanes;
 
 double count_of(ComponentSet components) {
   double count = 0;
@@ -37,26 +37,28 @@ double FilmMemory::peak() const { return film + std::max({pass + splats, errors 
 
 FilmMemory expected_film_memory(const FilmLayers& layers, bool splats) {
   const double components = std::min(components_there, count_of(layers.components));
-  const double bias = layers.bias ? bias_halves * lanes : 0;
+  const double bias = layers.bias ? bias_halves * lanes_of_sum : 0;
   FilmMemory memory;
   memory.film = of_tile + of_replicate * replicate_count + of_sum * bias;
-  double channels = lanes;
+  double channels = lanes_of_sum;
   if (layers.in_images) {
-    memory.film += of_sum * (lanes * components + FilmNumbers::first_hit_lanes + noise_kinds + 1) +
-                   of_square * (lanes + 1);
-    channels += lanes * count_of(layers.components) + FilmNumbers::first_hit_lanes + lanes +
-                (layers.bias ? lanes : 0) + noise_kinds;
+    memory.film +=
+        of_sum * (lanes_of_sum * components + FilmNumbers::first_hit_lanes + noise_kinds + 1) +
+        of_square * (lanes_of_sum + 1);
+    channels += lanes_of_sum * count_of(layers.components) + FilmNumbers::first_hit_lanes +
+                lanes_of_sum + (layers.bias ? lanes_of_sum : 0) + noise_kinds;
   } else {
-    memory.film += of_sum * lanes;
+    memory.film += of_sum * lanes_of_sum;
   }
-  const double numbers =
-      lanes * components + FilmNumbers::first_hit_lanes + noise_kinds + (layers.bias ? lanes : 0);
+  const double numbers = lanes_of_sum * components + FilmNumbers::first_hit_lanes + noise_kinds +
+                         (layers.bias ? lanes_of_sum : 0);
   memory.pass = of_tile + sizeof(float) * numbers;
   // Tiles that are finished hold no splats any more, others no pass yet.
   if (splats)
-    memory.splats = std::max(
-        0.0, of_splat_lane * lanes * std::min(components_of_splats, count_of(layers.components)) -
-                 memory.pass);
+    memory.splats =
+        std::max(0.0, of_splat_lane * lanes_of_sum *
+                              std::min(components_of_splats, count_of(layers.components)) -
+                          memory.pass);
   memory.errors = of_errors + (layers.bias ? of_bias_errors : 0);
   memory.image = sizeof(float) * channels;
   return memory;

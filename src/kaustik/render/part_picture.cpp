@@ -6,18 +6,18 @@ namespace kaustik {
 namespace {
 
 // The numbers of a pixel: [picture 3][component][lane], [albedo 3, normal 3, depth 1], [bias 3].
-constexpr int lanes = 3;
-constexpr int components = lanes, albedo = components + component_count * lanes;
+constexpr int lanes_of_part = 3;
+constexpr int components = lanes_of_part, albedo = components + component_count * lanes_of_part;
 constexpr int normal = albedo + 3, depth = normal + 3, bias = depth + 1, number_count = bias + 3;
 
 constexpr int scaled_error = -2;  ///< no number, but falls with the passes
 
 std::array<float, number_count> numbers_of(const PassPixel& pixel) {
   std::array<float, number_count> numbers{};
-  for (int lane = 0; lane < lanes; ++lane) {
+  for (int lane = 0; lane < lanes_of_part; ++lane) {
     for (int c = 0; c < component_count; ++c) {
       const float value = pixel.radiance[size_t(c)][lane];
-      numbers[size_t(components + c * lanes + lane)] = value;
+      numbers[size_t(components + c * lanes_of_part + lane)] = value;
       numbers[size_t(lane)] += value;
     }
     numbers[size_t(albedo + lane)] = pixel.first_hit.albedo[lane];
@@ -41,7 +41,7 @@ int source_of(const std::string& channel) {
   if (layer == "albedo") return albedo + lane;
   if (layer == "bias") return bias + lane;
   for (int c = 0; c < component_count; ++c)
-    if (layer == component_names[size_t(c)]) return components + c * lanes + lane;
+    if (layer == component_names[size_t(c)]) return components + c * lanes_of_part + lane;
   return -1;
 }
 

@@ -5,7 +5,7 @@
 namespace kaustik {
 namespace {
 
-const TypeInfo& info() {
+const TypeInfo& hdr_film_info() {
   static const TypeInfo info{
       "film",
       "hdrfilm",
@@ -44,7 +44,7 @@ const TypeInfo& info() {
   return info;
 }
 
-FilmSettings create(const Arguments& arguments) {
+FilmSettings create_hdr_film(const Arguments& arguments) {
   FilmSettings film;
   film.place = arguments.place();
   if (arguments.text("quantity") == "irradiance") film.quantity = Quantity::irradiance;
@@ -68,6 +68,6 @@ FilmSettings create(const Arguments& arguments) {
 
 }  // namespace
 
-FilmType hdr_film_type() { return {info(), create}; }
+FilmType hdr_film_type() { return {hdr_film_info(), create_hdr_film}; }
 
 }  // namespace kaustik

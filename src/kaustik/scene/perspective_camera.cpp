@@ -105,7 +105,7 @@ CameraConnection Perspective::connect(const Vec3f& point, const Vec2f&) const {
   return c;
 }
 
-const TypeInfo& info() {
+const TypeInfo& perspective_info() {
   static const TypeInfo info{
       "sensor",
       "perspective",
@@ -134,12 +134,12 @@ const TypeInfo& info() {
   return info;
 }
 
-std::unique_ptr<Camera> create(const Arguments& arguments, const FilmSettings& film) {
+std::unique_ptr<Camera> create_perspective(const Arguments& arguments, const FilmSettings& film) {
   return std::make_unique<Perspective>(arguments, film);
 }
 
 }  // namespace
 
-CameraType perspective_camera_type() { return {info(), create}; }
+CameraType perspective_camera_type() { return {perspective_info(), create_perspective}; }
 
 }  // namespace kaustik

@@ -40,9 +40,9 @@ struct Candidate {
   float along;
 };
 
-class Search {
+class EdgeSearch {
  public:
-  Search(const Scene& scene, const SurfaceVertex& vertex, float reach, uint64_t& rays)
+  EdgeSearch(const Scene& scene, const SurfaceVertex& vertex, float reach, uint64_t& rays)
       : disk_(vertex, reach),
         coverage_(scene, disk_, rays),
         origin_(vertex.position()),
@@ -191,7 +191,7 @@ SurfaceEdges::SurfaceEdges(const Scene& scene, const SurfaceVertex& vertex, floa
 }
 
 void SurfaceEdges::find_lines(const Scene& scene, const SurfaceVertex& vertex, uint64_t& rays) {
-  Search search(scene, vertex, reach_, rays);
+  EdgeSearch search(scene, vertex, reach_, rays);
   for (const Candidate& candidate : search.candidates()) {
     float known = infinity;
     for (const Line& line : lines_) {

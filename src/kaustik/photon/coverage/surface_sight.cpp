@@ -10,7 +10,7 @@ constexpr float straight_height = 1e-3f, bend_height = 0.25f;
 /// By so much normals part over the way where a surface bends away, radians.
 constexpr float bent = 0.02f;
 /// What is between is looked through so many times; then it hides what lies behind.
-constexpr int most_layers = 16;
+constexpr int most_layers_seen = 16;
 
 float largest_coordinate(const Vec3f& p) {
   return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
@@ -25,7 +25,7 @@ bool SurfaceSight::hides(const Hit& hit) const {
 bool SurfaceSight::is_free(Ray ray) const {
   ++rays_;
   if (!scene_.occluded(ray)) return true;
-  for (int layer = 0; layer < most_layers; ++layer) {
+  for (int layer = 0; layer < most_layers_seen; ++layer) {
     Hit hit;
     ++rays_;
     if (!scene_.intersect(ray, hit)) return true;

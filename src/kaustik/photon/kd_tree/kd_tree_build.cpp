@@ -14,11 +14,11 @@
 namespace kaustik {
 namespace {
 
-struct Point {
+struct TreePoint {
   float position[3];
   uint32_t source;
 };
-static_assert(sizeof(Point) == 16);
+static_assert(sizeof(TreePoint) == 16);
 
 constexpr size_t parallel_size = 4096;
 constexpr size_t parallel_block = 16384;
@@ -26,10 +26,10 @@ constexpr size_t parallel_block = 16384;
 /// Moves the points for which `belongs` to the front; returns their number. Without branches that
 /// depend on the data (after Lomuto): they would be mispredicted half of the time.
 template <typename Belongs>
-size_t partition_points(Point* points, size_t count, const Belongs& belongs) {
+size_t partition_points(TreePoint* points, size_t count, const Belongs& belongs) {
   size_t front = 0;
   for (size_t i = 0; i < count; ++i) {
-    const Point point = points[i];
+    const TreePoint point = points[i];
     points[i] = points[front];
     points[front] = point;
     front += belongs(point) ? 1 : 0;
@@ -40,7 +40,7 @@ size_t partition_points(Point* points, size_t count, const Belongs& belongs) {
 /// A value near the one of rank `rank`, on the far side of it as seen from the nearer end, so that
 /// what remains to be searched is the smaller part (Floyd and Rivest, "Expected time bounds for
 /// selection", 1975).
-float choose_pivot(const Point* points, size_t count, size_t rank, int axis) {
+float choose_pivot(const TreePoint* points, size_t count, size_t rank, int axis) {
   constexpr size_t max_samples = 128;
   const size_t samples = count >= 8192 ? max_samples : count >= 1024 ? 32 : 8;
   std::array<float, max_samples> values;
@@ -56,13 +56,13 @@ float choose_pivot(const Point* points, size_t count, size_t rank, int axis) {
 }
 
 /// Reorders the points so that none before `rank` is above any from there on.
-void select(Point* points, size_t count, size_t rank, int axis) {
+void select(TreePoint* points, size_t count, size_t rank, int axis) {
   constexpr size_t small = 48;
   // Samples at fixed places can be unlucky again and again: std::nth_element knows a way out.
   for (int attempt = 0; count > small && attempt < 40; ++attempt) {
     const float pivot = choose_pivot(points, count, rank, axis);
     const size_t below = partition_points(
-        points, count, [=](const Point& point) { return point.position[axis] < pivot; });
+        points, count, [=](const TreePoint& point) { return point.position[axis] < pivot; });
     if (rank < below) {
       count = below;
       continue;
@@ -73,18 +73,18 @@ void select(Point* points, size_t count, size_t rank, int axis) {
     if (below > 0) continue;
     // The pivot is the least of all: set aside all that equal it, or equal keys would stay forever.
     const size_t equal = partition_points(
-        points, count, [=](const Point& point) { return point.position[axis] <= pivot; });
+        points, count, [=](const TreePoint& point) { return point.position[axis] <= pivot; });
     if (rank < equal) return;
     points += equal;
     count -= equal;
     rank -= equal;
   }
-  std::nth_element(points, points + rank, points + count, [=](const Point& a, const Point& b) {
-    return a.position[axis] < b.position[axis];
-  });
+  std::nth_element(
+      points, points + rank, points + count,
+      [=](const TreePoint& a, const TreePoint& b) { return a.position[axis] < b.position[axis]; });
 }
 
-int longest_axis(const Point* points, size_t count) {
+int longest_axis(const TreePoint* points, size_t count) {
   float lower[3] = {infinity, infinity, infinity};
   float upper[3] = {-infinity, -infinity, -infinity};
   for (size_t i = 0; i < count; ++i) {
@@ -100,7 +100,7 @@ int longest_axis(const Point* points, size_t count) {
 }
 
 /// Orders the points of a node that has (or whose ancestor has) children of `child_size` points.
-void split(Point* points, size_t count, size_t child_size) {
+void split(TreePoint* points, size_t count, size_t child_size) {
   if (count <= KdBuckets::bucket_size) return;
   while (child_size >= count) child_size /= KdBuckets::fan_out;
   const size_t children = (count + child_size - 1) / child_size;
@@ -117,7 +117,7 @@ void split(Point* points, size_t count, size_t child_size) {
   }
 }
 
-void fill_bucket(const Point* points, size_t count, KdBuckets::Bucket& bucket) {
+void fill_bucket(const TreePoint* points, size_t count, KdBuckets::Bucket& bucket) {
   for (size_t i = 0; i < KdBuckets::bucket_size; ++i) {
     bucket.x[i] = i < count ? points[i].position[0] : infinity;
     bucket.y[i] = i < count ? points[i].position[1] : infinity;
@@ -162,7 +162,7 @@ std::vector<uint32_t> KdBuckets::build(std::span<const Vec3f> positions) {
   clear();
   size_ = positions.size();
   // Not a vector, whose elements would be set to zero by one thread.
-  const auto points = std::make_unique_for_overwrite<Point[]>(size_);
+  const auto points = std::make_unique_for_overwrite<TreePoint[]>(size_);
   parallel_blocks(size_, parallel_block, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i)
       points[i] = {{positions[i].x, positions[i].y, positions[i].z}, uint32_t(i)};

@@ -22,7 +22,7 @@ constexpr size_t least_events = 64;
 /// may weigh, from event to event.
 constexpr double least_unguided = 0.7;
 /// Shares below this are not worth looking at.
-constexpr double least_share = 0.002;
+constexpr double least_guide_share = 0.002;
 /// A guide is worth a trial where the mean logarithm of the density of what is of use rises by so
 /// much.
 constexpr double least_gain = 0.15;
@@ -273,7 +273,7 @@ class ScatterLearning::Builder {
     cell.begin = uint32_t(parts_.shares.size());
     double guided = 0;
     for (size_t k = 0; k < parts_.balls.size(); ++k) {
-      if (shares[k] < least_share) continue;
+      if (shares[k] < least_guide_share) continue;
       parts_.shares.push_back({uint32_t(k), float(shares[k])});
       guided += double(float(shares[k]));
     }

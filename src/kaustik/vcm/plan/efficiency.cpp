@@ -19,9 +19,9 @@ constexpr double rays_of_merging = 3, rays_of_merged = 0.1;
 /// A light path's ray, its vertices sorted and learned from, takes as long as so many rays.
 constexpr double rays_of_light_ray = 3;
 /// Errors count relative to a pixel's light, and this share of the picture's mean light.
-constexpr double even_share_of_mean = 0.1;
+constexpr double even_share_of_probes = 0.1;
 constexpr int rounds = 6;
-constexpr size_t probes_per_block = 256;
+constexpr size_t probes_at_a_time = 256;
 
 /// What a few paths have found nothing beyond is taken to have this share of the mean there: the
 /// paths of a picture, which are many more, may find light.
@@ -103,11 +103,11 @@ Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const Pas
   if (probes.empty()) return {};
   double radiance = 0;
   for (const ProbeStatistics& probe : probes) radiance += probe.radiance;
-  const double least = std::max(1e-30, even_share_of_mean * radiance / double(probes.size()));
+  const double least = std::max(1e-30, even_share_of_probes * radiance / double(probes.size()));
   ProbeStatistics mean;
   for (const ProbeStatistics& probe : probes) mean.add(probe, 1 / double(probes.size()));
   std::vector<Candidates> all(probes.size());
-  parallel_blocks(probes.size(), probes_per_block, [&](size_t begin, size_t end, size_t) {
+  parallel_blocks(probes.size(), probes_at_a_time, [&](size_t begin, size_t end, size_t) {
     for (size_t p = begin; p < end; ++p) {
       ProbeStatistics probe = probes[p];
       if (has_found_nothing(probe)) {

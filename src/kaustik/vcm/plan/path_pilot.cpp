@@ -27,7 +27,7 @@ int bin_of(double ratio) {
                     ProbeStatistics::bin_count - 1);
 }
 
-double all_light(const SampleSink& sink) {
+double light_of_pilot(const SampleSink& sink) {
   double sum = 0;
   for (int c = 0; c < component_count; ++c) sum += double(sink.radiance(Component(c)).sum());
   return sum;
@@ -55,7 +55,7 @@ class Recorder final : public LightWeights {
   }
   /// What has been found since the last look belongs to the last weight.
   void note() {
-    const double now = all_light(sink_), light = now - seen_;
+    const double now = light_of_pilot(sink_), light = now - seen_;
     seen_ = now;
     if (light == 0) return;
     if (!goes_on_) {
