@@ -227,7 +227,7 @@ Forecast measured(const TestScene& test, const Integrator& integrator) {
 
 /// The error that a pilot expects of merging beside paths that all go on, and of merging alone, is
 /// that of passes of ppm. Four light paths per camera sample make merging's share in it the larger.
-TEST(PathPilot, ExpectsTheVarianceOfMerging) {
+TEST(PathPilot, ExpectsTheVarianceOfMergingLong) {
   const TestScene test(hollow());
   for (const bool next_event : {true, false}) {
     SCOPED_TRACE(next_event ? "both ways" : "merging alone");

@@ -108,7 +108,7 @@ TEST(MergingSeams, WallsAndGapsInEvenLightLong) {
 }
 
 /// Furrows have more surface than the disks over them.
-TEST(MergingSeams, FurrowsInEvenLight) {
+TEST(MergingSeams, FurrowsInEvenLightLong) {
   constexpr double slope = 25 * std::numbers::pi / 180, width = 0.005;
   std::string furrows;
   for (int i = -120; i < 120; ++i)

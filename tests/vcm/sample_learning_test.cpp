@@ -235,7 +235,7 @@ TEST(AdaptiveSamples, HaveNoBiasAndKnowTheirErrorLong) {
 }
 
 /// The twin: a truth that is off by 1 %.
-TEST(AdaptiveSamples, AWrongTruthIsFoundOut) {
+TEST(AdaptiveSamples, AWrongTruthIsFoundOutLong) {
   if (!slow_build) {
     EXPECT_GT(measure(adaptive_intervals(), 1.01).z(), 5);
   }

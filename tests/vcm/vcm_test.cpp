@@ -68,7 +68,7 @@ TEST(Vcm, AnyUnbiasedTechniquesLong) {
 
 /// Splats need no light that is met: what the camera sees by the floor's diffuse lobe is found
 /// without.
-TEST(Vcm, WithoutMeetingLights) {
+TEST(Vcm, WithoutMeetingLightsLong) {
   const TestScene scene(room(large_lamp()));
   const Passes& path = room_by_path();
   const Passes found = render(scene, "bdpt", techniques({"", false, true, true, true}), {320, 8});
@@ -134,7 +134,7 @@ TEST(Vcm, MergingLong) {
 
 /// Hundreds of vertices in each disk on a floor that is not matt: the eight samples of a pixel
 /// share them out. A lamp shines at the ceiling.
-TEST(Vcm, MergingInParts) {
+TEST(Vcm, MergingInPartsLong) {
   const TestScene scene(
       camera("0, -1.5, 0.5", "0, 0, 0", 40, 16) + wall("", phong(0.4, 0.3, 8)) +
       wall(rotate("1, 0, 0", 180) + translate("0, 0, 1"), diffuse("0.8, 0.8, 0.8")) +
@@ -149,7 +149,7 @@ TEST(Vcm, MergingInParts) {
 }
 
 /// Where a small lamp shines through glass only light paths know it.
-TEST(Vcm, CausticOfASmallLamp) {
+TEST(Vcm, CausticOfASmallLampLong) {
   const TestScene scene(camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 16) +
                         wall("", diffuse("0.5, 0.5, 0.5")) + sphere("0, 0.1, 0.5", 0.3, glass()) +
                         sphere("0, 0.3, 1.6", 0.02, diffuse("0, 0, 0") + area_light("500")));
@@ -268,7 +268,7 @@ TEST(Vcm, LayersShowTheLikelyBranch) {
 }
 
 /// max_depth cuts all techniques at the same length.
-TEST(Vcm, LongestPath) {
+TEST(Vcm, LongestPathLong) {
   const TestScene scene(room(large_lamp(), 16));
   for (const int depth : {2, 3, 4}) {
     const Passes path = render(scene, "path", set("max_depth", depth), {130, 7});
