@@ -240,8 +240,9 @@ class Tracer {
     const float weight =
         in_.weights.splat(splat_halves(path, connection, at.medium.mean_extinction(at.position),
                                        at.medium.phase().eval(connection.direction, at.wo)));
-    const Spectrum value = at.flux * (phase * weight * connection.importance /
-                                      (sqr(connection.distance) * float(in_.light_paths)));
+    const Spectrum value =
+        at.flux * phase *
+        (weight * connection.importance / (sqr(connection.distance) * float(in_.light_paths)));
     if (!(weight > 0) || value.is_zero()) return;
     SurfacePoint point;
     point.position = at.position;
