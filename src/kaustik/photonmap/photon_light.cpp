@@ -4,8 +4,8 @@
 #include "kaustik/photon/coverage/merge_disk.h"
 #include "kaustik/photonmap/covered_disk.h"
 #include "kaustik/transport/direct_light.h"
-#include "kaustik/transport/null_boundaries.h"
 #include "kaustik/transport/roulette.h"
+#include "kaustik/transport/travel.h"
 #include "kaustik/transport/visibility.h"
 
 namespace kaustik {
@@ -157,70 +157,59 @@ Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, const 
                                         {settings_.light_choice, 1}, sampler, reflect);
 }
 
+Spectrum PhotonLight::sent_by(const SurfaceVertex& vertex, const Medium* medium, Sampler& sampler,
+                              const EyeLevel& level, uint64_t& rays) const {
+  const Lobes local = vertex.lobes() & settings_.local();
+  if (!any(local)) return {};
+  // One after the other: which numbers they draw must not be left to the compiler.
+  Spectrum sent = reflected_direct_light(vertex, medium, local, level.recursion, sampler, rays);
+  sent += caustic(vertex, local, level.recursion, sampler, rays);
+  sent += gathered_indirect(vertex, medium, local, sampler, level, rays);
+  return sent;
+}
+
 RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const SurfacePoint& from,
                                                const Vec3f& direction, Sampler& sampler,
                                                const EyeLevel& at) const {
   Incoming result;
   PathState state;
   state.wavelengths = wavelengths_;
-  Spectrum& throughput = state.throughput;
-  Footprint& footprint = state.footprint;
-  float eta_scale = 1;
-  footprint.scatter(Lobes::diffuse, 0.5f * inv_pi);
+  state.medium = medium;
+  state.footprint.scatter(Lobes::diffuse, 0.5f * inv_pi);
   Ray ray = spawn_ray(from, direction);
+  SurfaceVertex vertex;
   float distance = 0;
   uint64_t rays = 0;
-  int events = 0, boundaries = 0;
-  for (;;) {
-    Hit hit;
-    ++rays;
-    const bool found = scene_.intersect(ray, hit);
-    if (medium) {
-      result.radiance += throughput * coarse_volume_.radiance(ray, hit.t, *medium,
-                                                              state.wavelengths, sampler, rays);
-      throughput *=
-          medium->transmittance({ray.origin, ray.direction, hit.t}, state.wavelengths, sampler);
+  const auto go_on = [&](const Hit& hit, bool found) {
+    if (state.medium) {
+      result.radiance +=
+          state.throughput *
+          coarse_volume_.radiance(ray, hit.t, *state.medium, state.wavelengths, sampler, rays);
+      state.throughput *= state.medium->transmittance({ray.origin, ray.direction, hit.t},
+                                                      state.wavelengths, sampler);
     }
-    if (!found) break;
-    footprint.travel(hit.t);
-    const SurfaceVertex vertex(scene_, ray, hit, state);
     distance += hit.t;
-    if (vertex.is_null()) {
-      if (++boundaries > most_null_boundaries) break;
-      medium = vertex.medium_toward(ray.direction, medium);
-      ray = spawn_ray(vertex.point(), ray.direction);
-      continue;
-    }
-    boundaries = 0;
-    if (events == 0) result.distance = distance;
-    sampler.start_vertex(uint32_t(events));
-    const EyeLevel level{at.recursion + 1 + events, at.gathers + 1};
-    const Lobes local = vertex.lobes() & settings_.local();
-    if (any(local)) {
-      // One after the other: which numbers they draw must not be left to the compiler.
-      Spectrum sent = reflected_direct_light(vertex, medium, local, level.recursion, sampler, rays);
-      sent += caustic(vertex, local, level.recursion, sampler, rays);
-      sent += gathered_indirect(vertex, medium, local, sampler, level, rays);
-      result.radiance += throughput * sent;
-    }
+    return found;
+  };
+  while (travel(scene_, state, ray, vertex, rays, go_on)) {
+    if (state.depth == 0) result.distance = distance;
+    sampler.start_vertex(uint32_t(state.depth));
+    const EyeLevel level{at.recursion + 1 + state.depth, at.gathers + 1};
+    result.radiance += state.throughput * sent_by(vertex, state.medium, sampler, level, rays);
     const Lobes traced = vertex.lobes() & settings_.traced();
     if (!any(traced) || !settings_.traces_specular(level)) break;
     const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
     const BsdfSample sample = vertex.sample(u_choice.x, u, traced);
     if (sample.event == Lobes::none || sample.weight.is_zero()) break;
-    throughput *= sample.weight;
-    eta_scale *= sqr(sample.eta);
-    footprint.scatter(sample.event, sample.pdf_solid_angle);
-    state.follow_lanes_of(sample);
-    if (events >= gather_roulette_depth) {
-      const float survival =
-          std::min(1.0f, throughput.max_lane() * eta_scale) * length_survival(events);
+    state.throughput *= sample.weight;
+    state.roulette_scale *= sqr(sample.eta);
+    if (state.depth >= gather_roulette_depth) {
+      const float survival = std::min(1.0f, state.throughput.max_lane() * state.roulette_scale) *
+                             length_survival(state.depth);
       if (!(u_choice.y < survival)) break;
-      throughput *= 1 / survival;
+      state.throughput *= 1 / survival;
     }
-    medium = vertex.medium_toward(sample.wi, medium);
-    ray = spawn_ray(vertex.point(), sample.wi);
-    ++events;
+    leave(vertex, sample, sample.pdf_solid_angle, state, ray);
   }
   rays_.fetch_add(rays, std::memory_order_relaxed);
   return result;

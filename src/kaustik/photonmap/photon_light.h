@@ -75,6 +75,9 @@ class PhotonLight final : public RadianceSource {
                                    const Sampler& sampler, const ClearDisk& clear,
                                    uint64_t& rays) const;
   EstimateSettings at_level(const EstimateSettings& settings, float radius, int recursion) const;
+  /// What a gather ray finds at its end: all that is sent back by lobes that are not traced.
+  Spectrum sent_by(const SurfaceVertex& vertex, const Medium* medium, Sampler& sampler,
+                   const EyeLevel& level, uint64_t& rays) const;
   /// Diffuse indirect light at the end of a gather ray: gathered once more, or from the map.
   Spectrum gathered_indirect(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
                              Sampler& sampler, const EyeLevel& at, uint64_t& rays) const;

@@ -1,7 +1,7 @@
 #include "kaustik/transport/camera_walk.h"
 
-#include "kaustik/transport/null_boundaries.h"
 #include "kaustik/transport/roulette.h"
+#include "kaustik/transport/travel.h"
 
 namespace kaustik {
 namespace {
@@ -18,6 +18,9 @@ Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes 
   return f * light.radiance *
          mis_weight(light.pdf_solid_angle, lobe_probability * vertex.pdf(light.wi, lobes));
 }
+
+/// Or a boundary, behind which there may be one.
+bool may_be_lamp(const Surface& surface) { return surface.light >= 0 || surface.traits.is_null; }
 
 /// What the classes of lobes of a vertex send back of direct light.
 struct ReflectedLight {
@@ -85,39 +88,28 @@ void CameraWalk::describe_what_is_seen(const SurfaceVertex& vertex, float distan
 /// Goes on until `pass_medium(length)`, asked about every segment through a medium, answers that
 /// the path is scattered, or until a surface that is more than a boundary of media.
 template <typename PassMedium>
-CameraWalk::Arrival CameraWalk::travel(LightWeights* weights, const PassMedium& pass_medium) {
+CameraWalk::Arrival CameraWalk::arrive(LightWeights* weights, const PassMedium& pass_medium) {
   const bool only_arrives = seeks_irradiance();
   is_in_medium_ = false;
-  for (int boundary = 0;; ++boundary) {
+  const auto go_on = [&](const Hit& hit, bool found) {
     sampler_.start_vertex(segments_++);
-    Hit hit;
-    ++rays_;
-    const bool found = scene_.intersect(ray_, hit);
     if (state_.medium && !only_arrives && pass_medium(hit.t)) {
-      if (meets_lamps_only_) return Arrival::nothing;
-      if (found && only_delta_) {
+      if (found && only_delta_ && !meets_lamps_only_) {
         SurfaceVertex seen;
         seen.meet(scene_, ray_, hit, TransportMode::radiance, {}, state_.wavelengths);
         describe_what_is_seen(seen, distance_ + hit.t);
       }
-      return Arrival::medium;
+      return false;
     }
     if (!found) {
       if (!only_arrives) add_background(weights);
-      return Arrival::nothing;
-    }
-    if (meets_lamps_only_) {
-      const Surface& surface = scene_.surface(hit.shape);
-      if (surface.light < 0 && !surface.traits.is_null) return Arrival::nothing;
+      return false;
     }
     distance_ += hit.t;
-    state_.footprint.travel(hit.t);
-    vertex_.meet(scene_, ray_, hit, state_);
-    if (!vertex_.is_null()) break;
-    if (boundary == most_null_boundaries) return Arrival::nothing;
-    state_.medium = vertex_.medium_toward(ray_.direction, state_.medium);
-    ray_ = spawn_ray(vertex_.point(), ray_.direction);
-  }
+    return !meets_lamps_only_ || may_be_lamp(scene_.surface(hit.shape));
+  };
+  if (!travel(scene_, state_, ray_, vertex_, rays_, go_on))
+    return is_in_medium_ && !meets_lamps_only_ ? Arrival::medium : Arrival::nothing;
   if (only_delta_) describe_what_is_seen(vertex_, distance_);
   if (only_arrives)
     vertex_.paint_white();
@@ -129,7 +121,7 @@ CameraWalk::Arrival CameraWalk::travel(LightWeights* weights, const PassMedium& 
 bool CameraWalk::advance(const VolumeLight* volume, LightWeights* weights) {
   const Component in_medium = class_.component_in_medium();
   if (!sink_.wants(in_medium)) volume = nullptr;
-  return travel(weights, [&](float length) {
+  return arrive(weights, [&](float length) {
            if (volume && state_.medium->scatters())
              sink_.add(in_medium,
                        state_.throughput * volume->radiance(ray_, length, *state_.medium,
@@ -143,7 +135,7 @@ bool CameraWalk::advance(const VolumeLight* volume, LightWeights* weights) {
 CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume, LightWeights* weights) {
   const Component in_medium = class_.component_in_medium();
   if (!sink_.wants(in_medium)) volume = nullptr;
-  return travel(weights, [&](float length) {
+  return arrive(weights, [&](float length) {
     if (volume && state_.medium->scatters())
       sink_.add(in_medium,
                 state_.throughput * volume->radiance(ray_, length, *state_.medium,
@@ -297,14 +289,10 @@ void CameraWalk::go_on(const BsdfSample& sample, float probability) {
   // Roulette must not see that this is one of several branches.
   state_.roulette_scale *= sqr(sample.eta) * std::max(1.0f, probability);
   state_.pdf_forward = sample.event == Lobes::delta ? 0 : probability * sample.pdf_solid_angle;
-  state_.footprint.scatter(sample.event, sample.pdf_solid_angle);
   previous_ = light_query(vertex_, state_.depth);
-  state_.depth += 1;
-  state_.follow_lanes_of(sample);
   only_delta_ = only_delta_ && !any(vertex_.lobes() & (Lobes::diffuse | Lobes::glossy));
   class_.add_event(sample.event);
-  state_.medium = vertex_.medium_toward(sample.wi, state_.medium);
-  ray_ = spawn_ray(vertex_.point(), sample.wi);
+  leave(vertex_, sample, sample.pdf_solid_angle, state_, ray_);
 }
 
 bool CameraWalk::survive(float u) {

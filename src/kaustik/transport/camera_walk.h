@@ -178,7 +178,7 @@ class CameraWalk {
   void add_emission(LightWeights* weights);
   void describe_what_is_seen(const SurfaceVertex& vertex, float distance);
   template <typename PassMedium>
-  Arrival travel(LightWeights* weights, const PassMedium& pass_medium);
+  Arrival arrive(LightWeights* weights, const PassMedium& pass_medium);
 
   const Scene& scene_;
   Sampler& sampler_;

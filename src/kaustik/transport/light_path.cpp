@@ -53,12 +53,8 @@ bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPa
   if (limits.needs_reverse_pdf)
     path.state.pdf_reverse =
         sample.event == Lobes::delta ? 0 : vertex.pdf_reverse(sample.wi, follow);
-  path.state.footprint.scatter(sample.event, path.state.pdf_forward);
-  path.state.depth += 1;
-  path.state.follow_lanes_of(sample);
   path.path_class.add_event(sample.event);
-  path.state.medium = vertex.medium_toward(sample.wi, path.state.medium);
-  path.ray = spawn_ray(vertex.point(), sample.wi);
+  leave(vertex, sample, path.state.pdf_forward, path.state, path.ray);
   path.distance = 0;
   return true;
 }

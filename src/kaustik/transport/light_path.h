@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "kaustik/base/sampler.h"
-#include "kaustik/transport/null_boundaries.h"
 #include "kaustik/transport/path_class.h"
 #include "kaustik/transport/path_state.h"
 #include "kaustik/transport/roulette.h"
 #include "kaustik/transport/scatter_guide.h"
-#include "kaustik/transport/vertex.h"
+#include "kaustik/transport/travel.h"
 
 namespace kaustik {
 
@@ -191,8 +190,7 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
     path.distance += hit.t;
     if (vertex.is_null()) {
       if (++path.boundaries > most_null_boundaries) return ended(counts.stopped);
-      path.state.medium = vertex.medium_toward(path.ray.direction, path.state.medium);
-      path.ray = spawn_ray(vertex.point(), path.ray.direction);
+      pass_boundary(vertex, path.state, path.ray);
       return true;
     }
     path.boundaries = 0;
