@@ -70,7 +70,7 @@ LightVertices strewn_vertices(size_t count) {
   std::vector<LightVertexData> data(count);
   for (size_t i = 0; i < count; ++i) {
     positions[i] = {unit(random), unit(random), 0};
-    data[i].flux = {unit(random), unit(random), unit(random), 0};
+    for (size_t lane = 0; lane < 3; ++lane) data[i].flux.lanes[lane] = unit(random);
     data[i].side = CoarseNormal({0, 0, 1});
     data[i].direction = PackedDirection(normalize(Vec3f(unit(random), unit(random), 1)));
     data[i].before = 2;

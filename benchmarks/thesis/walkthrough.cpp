@@ -27,7 +27,7 @@ Vec3f color_of(const Spectrum& flux) {
 Image picture_of(const SceneRun& run, const Image& first_hits, const PhotonMap& map) {
   PhotonPicture picture(run.scene(), first_hits);
   for (uint32_t i = 0; i < map.size(); ++i)
-    picture.add(map.tree().key(i), color_of(map.tree().data(i).flux_spectrum()));
+    picture.add(map.tree().key(i), color_of(map.tree().data(i).flux.spectrum()));
   return picture.image();
 }
 
@@ -82,7 +82,7 @@ std::string importance_grid(const SceneRun& run, const PhotonMap& map, const Vec
       vertex.position(), normal, 50, infinity, [&](const Photon& photon, const Vec3f& position) {
         const Vec3f local = frame.to_local(photon.incident_direction(position, vertex.position()));
         if (!(local.z > 0)) return;
-        importance[size_t(grid.cell_of(local))] += photon.flux_spectrum().max_lane();
+        importance[size_t(grid.cell_of(local))] += photon.flux.spectrum().max_lane();
         directions.push_back(local);
       });
   return draw_hemisphere(grid, importance, directions);

@@ -30,7 +30,7 @@ PhotonMap two_sided_map(size_t count, uint64_t seed) {
     const bool front = i % 2 == 0;
     positions.push_back({x, number(random), front ? 1e-5f : -1e-5f});
     Photon photon;
-    photon.flux.fill((front ? 1.0f : 100.0f) / float(count));
+    photon.flux.lanes.fill((front ? 1.0f : 100.0f) / float(count));
     photon.side = CoarseNormal(front ? up : -up);
     photon.path = uint32_t(i);
     photons.push_back(photon);

@@ -45,7 +45,7 @@ LightPassSettings settings_of(uint32_t global, uint32_t caustic) {
 /// Flux of a map, green.
 double flux_of(const PhotonMap& map) {
   double sum = 0;
-  for (uint32_t i = 0; i < map.size(); ++i) sum += double(map.tree().data(i).flux[1]);
+  for (uint32_t i = 0; i < map.size(); ++i) sum += double(map.tree().data(i).flux.lanes[1]);
   return sum;
 }
 
@@ -156,7 +156,7 @@ TEST(LightPass, SameForAnyNumberOfThreads) {
     ASSERT_GT(a.size(), 0u);
     for (uint32_t i = 0; i < a.size(); ++i) {
       ASSERT_EQ(a.tree().key(i), b.tree().key(i));
-      ASSERT_EQ(a.tree().data(i).flux, b.tree().data(i).flux);
+      ASSERT_EQ(a.tree().data(i).flux.lanes, b.tree().data(i).flux.lanes);
     }
   }
 }

@@ -21,7 +21,7 @@ const Vec3f z_axis(0, 0, 1);
 
 Photon photon_of(float flux, const Vec3f& side = z_axis) {
   Photon photon;
-  photon.flux = {flux, 2 * flux, 3 * flux, 0};
+  photon.flux = Spectrum(flux, 2 * flux, 3 * flux, 0);
   photon.distance = 1;
   photon.direction = PackedDirection(side);
   photon.side = CoarseNormal(side);

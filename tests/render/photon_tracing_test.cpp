@@ -58,7 +58,7 @@ TEST(PhotonTracing, ThreadsMakeNoDifference) {
   ASSERT_EQ(one.global.size(), two.global.size());
   for (uint32_t i = 0; i < one.caustic.size(); ++i) {
     EXPECT_EQ(one.caustic.tree().key(i), two.caustic.tree().key(i));
-    EXPECT_EQ(one.caustic.tree().data(i).flux, two.caustic.tree().data(i).flux);
+    EXPECT_EQ(one.caustic.tree().data(i).flux.lanes, two.caustic.tree().data(i).flux.lanes);
   }
 }
 

@@ -41,7 +41,7 @@ LightVertices light_vertices(uint32_t count) {
                                   : Vec3f(0.5f, a, b * 0.2f));
     d.side = CoarseNormal(normal);
     d.direction = PackedDirection(normalize(normal + Vec3f(0.3f, 0.5f, 0.2f)));
-    for (int lane = 0; lane < 3; ++lane) d.flux[size_t(lane)] = unit(random);
+    for (int lane = 0; lane < 3; ++lane) d.flux.lanes[size_t(lane)] = unit(random);
     d.specular = unit(random) < 0.3f;
     d.before = uint16_t(2 + random() % 3);
     d.path = uint32_t(light.vertices.size());
@@ -91,7 +91,7 @@ void add_by_definition(const LightVertices& light, const PathWeights& weights, c
   path.first_merge_area = seen.area;
   path.first_survival = seen.survival;
   path.connected = seen.connected;
-  const Spectrum flux = data.flux_spectrum() * (weights.merge(path) * cosine);
+  const Spectrum flux = data.flux.spectrum() * (weights.merge(path) * cosine);
   MattLight::Sum& sum = data.specular ? result.after_specular : result.other;
   sum.wide += flux * ((1 - share) * (1 + dot(disk.slope, offset)));
   sum.narrow += flux * (std::max(0.0f, 1 - share / sqr(narrow_radius)) *

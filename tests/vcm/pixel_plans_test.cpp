@@ -29,7 +29,7 @@ LightVertices light_on_plates() {
   std::vector<LightVertexData> data;
   for (int i = 0; i < 4000; ++i) {
     LightVertexData vertex;
-    vertex.flux = {1, 1, 1, 0};
+    vertex.flux = Spectrum(1, 1, 1, 0);
     vertex.direction = PackedDirection({0, 0, 1});
     vertex.side = CoarseNormal({0, 0, 1});
     data.push_back(vertex);

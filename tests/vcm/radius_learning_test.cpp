@@ -35,7 +35,7 @@ LightVertices light_of(const Density& density, size_t count, unsigned seed, floa
     if (u > density(at.x, at.y)) continue;
     LightVertexData vertex;
     vertex.specular = u > plain;
-    vertex.flux = {1, 1, 1, 0};
+    vertex.flux = Spectrum(1, 1, 1, 0);
     vertex.direction = PackedDirection({0, 0, 1});
     vertex.side = CoarseNormal({0, 0, 1});
     positions.push_back(at);

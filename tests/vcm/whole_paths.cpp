@@ -97,7 +97,7 @@ class Finder {
     const CameraConnection camera =
         rules_.scene.camera().connect(at.vertex.position(), Camera::middle_of_lens());
     const std::optional<double> splatted = light_.splatted(path_.last());
-    const Spectrum alone = at.record.data.flux_spectrum() *
+    const Spectrum alone = at.record.data.flux.spectrum() *
                            at.vertex.eval_cosine(camera.direction, Lobes::all) *
                            (camera.importance / sqr(camera.distance));
     if (!splatted || alone.is_zero()) return std::nullopt;
@@ -117,7 +117,7 @@ class Finder {
     const Vec3f direction = normalize(between);
     const Spectrum alone = steered.walk().throughput() * vertex.eval_cosine(direction, Lobes::all) *
                            other.vertex.eval_cosine(-direction, Lobes::all) *
-                           other.record.data.flux_spectrum() * (1 / length_sq(between));
+                           other.record.data.flux.spectrum() * (1 / length_sq(between));
     if (alone.is_zero()) return std::nullopt;
     steered.path().connect();
     return steered.found() / double(alone.sum());

@@ -41,8 +41,7 @@ IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide
                       radical_inverse(uint32_t(i))};
       const DensityEstimate estimate =
           map.irradiance(positions[i], places[i].side.unpack(), settings, visibility);
-      for (int lane = 0; lane < Spectrum::lane_count; ++lane)
-        entries[i].irradiance[size_t(lane)] = estimate.value[lane];
+      entries[i].irradiance = estimate.value;
       entries[i].side = places[i].side;
     }
     all_rays.fetch_add(block_rays, std::memory_order_relaxed);
@@ -59,8 +58,7 @@ bool IrradianceMap::lookup(const Vec3f& position, const Vec3f& side, Spectrum& i
     const uint32_t index = neighbors.index(i);
     const Entry& entry = tree_.tree().data(index);
     if (sight && !sight->sees(side, tree_.tree().key(index), entry.side.unpack())) return false;
-    irradiance = {entry.irradiance[0], entry.irradiance[1], entry.irradiance[2],
-                  entry.irradiance[3]};
+    irradiance = entry.irradiance.spectrum();
     return true;
   };
   tree_.nearest(position, side, false, 1, maximum_radius_, neighbors);

@@ -35,7 +35,7 @@ class IrradianceMap {
 
  private:
   struct Entry {
-    std::array<float, Spectrum::lane_count> irradiance{};
+    StoredSpectrum irradiance;
     CoarseNormal side;
     uint8_t on_front = 1;  ///< places ask for their own side alone
   };

@@ -32,9 +32,8 @@ struct PhotonList {
     // a relief change within the disk of an estimate, so that has to use its own.
     const float factor =
         vertex.has_relief() ? 1.0f : std::fabs(cos_shading) / std::fabs(cos_geometric);
-    const Spectrum flux = at.state.throughput * (scale * factor);
     Photon photon;
-    for (int lane = 0; lane < Spectrum::lane_count; ++lane) photon.flux[size_t(lane)] = flux[lane];
+    photon.flux = at.state.throughput * (scale * factor);
     photon.distance = at.distance;
     photon.direction = PackedDirection(vertex.wo());
     photon.on_front = cos_geometric > 0;

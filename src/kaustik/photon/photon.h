@@ -1,9 +1,8 @@
 #pragma once
-#include <array>
 #include <cmath>
 #include <cstdint>
 
-#include "kaustik/base/spectrum.h"
+#include "kaustik/base/stored_spectrum.h"
 #include "kaustik/base/to_integer.h"
 #include "kaustik/base/vec.h"
 
@@ -68,15 +67,14 @@ class PackedDirection {
 
 /// Flux that arrived at a surface; its position is the key in the photon map. 32 bytes.
 struct Photon {
-  std::array<float, Spectrum::lane_count> flux{};  ///< W that arrives, before any attenuation
-  float distance = 0;                              ///< to the origin, m
-  PackedDirection direction;                       ///< toward the origin
-  CoarseNormal side;     ///< geometric normal on the side on which it arrived
-  uint8_t on_front = 1;  ///< whether that side is the side of the surface's own normal
+  StoredSpectrum flux;        ///< W that arrives, before any attenuation
+  float distance = 0;         ///< to the origin, m
+  PackedDirection direction;  ///< toward the origin
+  CoarseNormal side;          ///< geometric normal on the side on which it arrived
+  uint8_t on_front = 1;       ///< whether that side is the side of the surface's own normal
   /// Number of its light path in the pass: photons of one path may lie in a cluster.
   uint32_t path = 0;
 
-  Spectrum flux_spectrum() const { return {flux[0], flux[1], flux[2], flux[3]}; }
   /// Unit direction toward the origin from a point `at` near the photon's position: what
   /// separates the two is taken into account.
   Vec3f incident_direction(const Vec3f& position, const Vec3f& at) const {

@@ -87,7 +87,7 @@ void check_photons(const BinaryReader& reader, const std::vector<Vec3f>& positio
     const Photon& photon = photons[i];
     bool valid = max_abs(positions[i]) < KdBuckets::max_coordinate && is_finite(positions[i]) &&
                  photon.distance >= 0 && photon.on_front <= 1;
-    for (const float lane : photon.flux) valid = valid && std::isfinite(lane) && lane >= 0;
+    for (const float lane : photon.flux.lanes) valid = valid && std::isfinite(lane) && lane >= 0;
     if (!valid) reader.damaged(fmt::format("photon {} is not valid", i));
   }
 }

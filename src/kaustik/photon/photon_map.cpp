@@ -80,7 +80,7 @@ std::vector<Spectrum>& empty_running_sums() {
 
 PhotonMap::PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons) {
   double sum = 0;
-  for (const Photon& photon : photons) sum += photon.flux_spectrum().max_lane();
+  for (const Photon& photon : photons) sum += photon.flux.spectrum().max_lane();
   mean_flux_ = photons.empty() ? 0 : float(sum / double(photons.size()));
   tree_ = {std::move(positions), std::move(photons)};
 }
@@ -144,7 +144,7 @@ DensityEstimate PhotonMap::irradiance(const Vec3f& position, const Vec3f& side,
   Spectrum sum;
   std::vector<Spectrum>& running_sums = empty_running_sums();
   for (size_t i = 0; i < disk.count; ++i) {
-    sum += tree().data(neighbors.index(i)).flux_spectrum() * weight(neighbors.distance_sq(i));
+    sum += tree().data(neighbors.index(i)).flux.spectrum() * weight(neighbors.distance_sq(i));
     running_sums.push_back(sum);
   }
   estimate.value = visible(running_sums, neighbors, side, visibility);
@@ -189,7 +189,7 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
     const Spectrum f = is_opaque_matt ? diffuse : vertex.eval(wi, asked);
     const float share = weight(neighbors.distance_sq(i)) *
                         (vertex.has_relief() ? vertex.irradiance_factor(wi) : 1.0f);
-    sum += f * photon.flux_spectrum() * share;
+    sum += f * photon.flux.spectrum() * share;
     running_sums.push_back(sum);
   }
   estimate.value = visible(running_sums, neighbors, side, visibility);

@@ -232,7 +232,7 @@ bool PhotonLight::importance(const SurfacePoint& at, const Frame& frame, const H
                                    frame.to_local(photon.incident_direction(position, at.position));
                                if (!(local.z > 0)) return;
                                const auto cell = size_t(grid.cell_of(local));
-                               cell_importance[cell] += photon.flux_spectrum().max_lane();
+                               cell_importance[cell] += photon.flux.spectrum().max_lane();
                                if (counts) ++(*counts)[cell];
                              });
   if (counts)

@@ -190,8 +190,7 @@ class Tracer {
     vertex.data.specular = false;
     vertex.data.before = uint16_t(path.vertices.size() - 1);
     vertex.data.pdf_next_event = path.pdf_next_event;
-    for (int lane = 0; lane < Spectrum::lane_count; ++lane)
-      vertex.data.flux[size_t(lane)] = at.flux[lane];
+    vertex.data.flux = at.flux;
     block_.connectible.push_back(vertex);
     connectible_paths_.push_back(at.path - begin_);
   }
@@ -206,8 +205,7 @@ class Tracer {
     if (techniques.merging && before <= 0xffff) {
       path.kept = true;
       MergeableMediumVertex data;
-      for (int lane = 0; lane < Spectrum::lane_count; ++lane)
-        data.flux[size_t(lane)] = at.flux[lane];
+      data.flux = at.flux;
       data.direction = PackedDirection(at.wo);
       data.before = uint16_t(before);
       data.path = at.path - begin_;
@@ -288,22 +286,19 @@ class Tracer {
     data.specular = at.path_class.diffuse_events() == 0;
     data.before = uint16_t(path.vertices.size() - 1);
     data.pdf_next_event = path.pdf_next_event;
-    const auto set_flux = [&](float factor) {
-      for (int lane = 0; lane < Spectrum::lane_count; ++lane)
-        data.flux[size_t(lane)] = at.state.throughput[lane] * factor;
-    };
     if (techniques.connections && scatters && at.path < LightVertices::most_connectible_paths) {
       path.kept = true;
-      set_flux(1);
+      data.flux = at.state.throughput;
       block_.connectible.push_back({at.ray, at.hit, data, at.state.medium, false});
       connectible_paths_.push_back(at.path - begin_);
     }
     if (merges && may_merge) {
       path.kept = true;
       // As for photons: the density on the surface counts flux by the geometric cosine.
-      set_flux(vertex.has_relief()
-                   ? 1.0f
-                   : abs_dot(vertex.wo(), vertex.normal()) / std::fabs(cos_geometric));
+      data.flux =
+          at.state.throughput *
+          (vertex.has_relief() ? 1.0f
+                               : abs_dot(vertex.wo(), vertex.normal()) / std::fabs(cos_geometric));
       kept_.push_back({at.path - begin_, vertex.position(), data});
     }
   }

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "kaustik/base/stored_spectrum.h"
 #include "kaustik/geometry/ray.h"
 #include "kaustik/medium/medium.h"
 #include "kaustik/photon/disc_hierarchy.h"
@@ -15,16 +16,14 @@ namespace kaustik {
 
 /// What a vertex of a light path tells, wherever the path is completed.
 struct LightVertexData {
-  std::array<float, Spectrum::lane_count> flux{};  ///< W that arrives, were this the only path
-  PackedDirection direction;                       ///< toward the vertex before
-  CoarseNormal side;         ///< geometric normal on the side on which it arrived
-  uint8_t on_front = 1;      ///< whether that side is the side of the surface's own normal
-  bool specular = true;      ///< all events before it were specular
-  uint16_t before = 0;       ///< vertices before it, the light's point included
-  uint32_t path = 0;         ///< where the path's vertices begin
-  float pdf_next_event = 0;  ///< see PathHalves
-
-  Spectrum flux_spectrum() const { return {flux[0], flux[1], flux[2], flux[3]}; }
+  StoredSpectrum flux;        ///< W that arrives, were this the only path
+  PackedDirection direction;  ///< toward the vertex before
+  CoarseNormal side;          ///< geometric normal on the side on which it arrived
+  uint8_t on_front = 1;       ///< whether that side is the side of the surface's own normal
+  bool specular = true;       ///< all events before it were specular
+  uint16_t before = 0;        ///< vertices before it, the light's point included
+  uint32_t path = 0;          ///< where the path's vertices begin
+  float pdf_next_event = 0;   ///< see PathHalves
 };
 
 /// A vertex that can be met again, to be connected.
@@ -39,16 +38,14 @@ struct ConnectibleVertex {
 /// A vertex in a medium that may be merged. It is a point of the segment between the path's
 /// vertices where light is sure to be scattered (LightMediumVertex), and not one of those itself.
 struct MergeableMediumVertex {
-  std::array<float, Spectrum::lane_count> flux{};  ///< W scattered, were this the only path
-  PackedDirection direction;                       ///< toward the vertex before
-  uint16_t before = 0;       ///< vertices before it, the light's point included
-  uint32_t path = 0;         ///< where the path's vertices begin
-  float pdf_next_event = 0;  ///< see PathHalves
-  float pdf_light = 0;       ///< see PathVertex
-  float to_previous = 0;     ///< see PathVertex
+  StoredSpectrum flux;        ///< W scattered, were this the only path
+  PackedDirection direction;  ///< toward the vertex before
+  uint16_t before = 0;        ///< vertices before it, the light's point included
+  uint32_t path = 0;          ///< where the path's vertices begin
+  float pdf_next_event = 0;   ///< see PathHalves
+  float pdf_light = 0;        ///< see PathVertex
+  float to_previous = 0;      ///< see PathVertex
   const Medium* medium = nullptr;
-
-  Spectrum flux_spectrum() const { return {flux[0], flux[1], flux[2], flux[3]}; }
 };
 
 /// Those of a pass, and their discs.

@@ -40,7 +40,7 @@ void connect_to(const ConnectibleVertex& to, const CameraPathInputs& in,
   path.pdf_next_event = to.data.pdf_next_event;
   const float weight = in.weights.connection(path);
   if (!(weight > 0)) return;
-  const Spectrum arriving = to.data.flux_spectrum() * (weight * in.connection_scale / distance_sq);
+  const Spectrum arriving = to.data.flux.spectrum() * (weight * in.connection_scale / distance_sq);
   Spectrum visible;
   bool traced = false;
   for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {

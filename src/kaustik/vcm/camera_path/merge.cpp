@@ -251,7 +251,7 @@ void SurfaceMerging::visit_merging(const MergeDisk& disk, uint32_t most_parts,
     path.pdf_camera_last = bsdf.pdf * merged.to_previous;
     path.pdf_camera_before_last = before[photon.before - 2].pdf_camera;
     path.pdf_next_event = photon.pdf_next_event;
-    visit(photon, photon.flux_spectrum() * (cover * float(parts)), offset, wi, bsdf, path);
+    visit(photon, photon.flux.spectrum() * (cover * float(parts)), offset, wi, bsdf, path);
   }
 }
 

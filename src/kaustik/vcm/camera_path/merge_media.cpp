@@ -64,7 +64,7 @@ Spectrum MediumMerging::radiance(const Ray& ray, float length, const Medium& med
     const float kernel = 2 * inv_pi * (1 - distance_sq / radius_sq) / radius_sq;
     parts.push_back(
         {i, position,
-         light.flux_spectrum() *
+         light.flux.spectrum() *
              medium.transmittance({ray.origin, ray.direction, along}, wavelengths, sampler) *
              (kernel * phase * weight / count)});
     sum += parts.back().light;

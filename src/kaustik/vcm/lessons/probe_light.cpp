@@ -13,7 +13,7 @@ Spectrum sent_to_camera(const PixelProbe& probe, const LightVertexData& photon,
     whole.add_event(photon.specular ? Lobes::glossy : Lobes::diffuse);
     if (wanted.has(whole.component())) reflected += probe.vertex.eval(direction, lobe);
   }
-  return reflected * photon.flux_spectrum();
+  return reflected * photon.flux.spectrum();
 }
 
 }  // namespace kaustik

@@ -246,7 +246,7 @@ void fill_block(const LightVertices& light, const PathWeights& weights, size_t b
   for (size_t i = 0; i < count; ++i) {
     const LightVertexData& data = tree.data(uint32_t(begin + i));
     for (size_t lane = 0; lane < size_t(Spectrum::lane_count); ++lane)
-      block.flux[lane][i] = data.flux[lane];
+      block.flux[lane][i] = data.flux.lanes[lane];
     const PathWeights::MattMerge merge = matt_merge(light, data, weights);
     block.before[i] = data.before;
     block.most_before = std::max(block.most_before, data.before);
