@@ -3,9 +3,8 @@
 #include <atomic>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/transport/camera_splats.h"
 #include "kaustik/transport/integrator_parameters.h"
-#include "kaustik/transport/light_path.h"
-#include "kaustik/transport/visibility.h"
 
 namespace kaustik {
 
@@ -83,82 +82,33 @@ std::unique_ptr<PassState> LightTracer::prepare(const Pass& pass, SplatBuffer& s
 
 LightTracer::Counts LightTracer::trace_block(const Pass& pass, const Job& job, uint32_t begin,
                                              uint32_t end, SplatBuffer& splats) const {
-  Counts counts;
   const LightPathLimits limits{std::max(0, maximum_events_ - 1), Lobes::specular,
                                job.aimed ? MediumEvents::stop : MediumEvents::follow};
   const EmissionSampler& emission = job.aimed ? *aimed_emission_ : emission_;
-  const bool wants_irradiance = scene_.film().quantity == Quantity::irradiance;
-  const auto splat = [&](const SurfacePoint& point, const Medium* medium, Component component,
-                         const Spectrum& intensity, const CameraConnection& connection,
-                         const LightOnItsWay& of) {
-    const Spectrum value =
-        intensity * (connection.importance / (sqr(connection.distance) * float(job.count)));
-    if (value.is_zero()) return;
-    const Ray sight = spawn_ray_to(point, connection.lens);
-    const Spectrum visible = wants_irradiance
-                                 ? Spectrum(is_unobstructed(scene_, sight, counts.rays) ? pi : 0.0f)
-                                 : shadow_ray_transmittance(scene_, sight, medium, of, counts.rays);
-    if (visible.is_zero()) return;
-    ++counts.splats;
-    splats.add(connection.raster, component, value * visible, of.wavelengths);
-  };
+  CameraSplats camera(scene_, job.wanted, job.count, splats);
   const auto emit = [&](uint32_t i) -> std::optional<LightPath> {
     const uint64_t element = uint64_t(job.light) * 2 + (job.aimed ? 1 : 0);
     Sampler sampler = Sampler::at(pass.seed, pass.index, Stream::light_path, element, i);
     const Vec2f u_position = sampler.next_2d(), u_direction = sampler.next_2d();
     const EmittedRay emitted =
         emission.sample(job.light, u_position, u_direction, sampler.next_1d(), pass.wavelengths);
-    if (emitted.on_surface && job.wanted.has(Component::emission) && !wants_irradiance) {
-      const CameraConnection connection = scene_.camera().connect(
-          emitted.origin.position, scene_.camera().forked_lens_numbers(sampler));
-      const float cosine = dot(connection.direction, emitted.origin.ng);
-      if (connection.importance > 0 && cosine > 0 && emitted.pdf_position > 0)
-        splat(emitted.origin, scene_.light_medium(job.light), Component::emission,
-              scene_.lights()[size_t(job.light)]->emitted(emitted.origin, connection.direction,
-                                                          pass.wavelengths) *
-                  (cosine / emitted.pdf_position),
-              connection, {pass.wavelengths, sampler});
-    }
+    if (emitted.on_surface)
+      camera.show_lamp(job.light, emitted.origin, emitted.pdf_position,
+                       {pass.wavelengths, sampler});
     if (emitted.flux.is_zero() || maximum_events_ < 1) return std::nullopt;
     return LightPath(emitted.ray, emitted.flux, scene_.light_medium(job.light), Lobes::specular,
                      sampler, pass.wavelengths);
   };
+  const auto in_full = [](const auto&...) { return 1.0f; };
   const auto see = [&](const LightVertex& at) {
+    camera.show(at, in_full);
     // Only specular events lead from the lamp to a caustic.
-    const Lobes follow = job.aimed ? at.vertex.lobes() & Lobes::specular : Lobes::all;
-    SurfaceVertex painted;
-    if (wants_irradiance) {
-      painted = at.vertex;
-      painted.paint_white();
-    }
-    const SurfaceVertex& vertex = wants_irradiance ? painted : at.vertex;
-    const Lobes seen = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
-    if (!any(seen)) return follow;
-    const CameraConnection connection =
-        scene_.camera().connect(vertex.position(), scene_.camera().forked_lens_numbers(at.sampler));
-    if (!(connection.importance > 0)) return follow;
-    for (const Lobes lobes : {Lobes::diffuse, Lobes::glossy})
-      if (any(seen & lobes) && job.wanted.has(at.path_class.component_seen_by(lobes)))
-        splat(vertex.point(), vertex.medium_toward(connection.direction, at.state.medium),
-              at.path_class.component_seen_by(lobes),
-              at.state.throughput * vertex.eval_cosine(connection.direction, lobes), connection,
-              {at.state.wavelengths, at.sampler});
-    return follow;
+    return job.aimed ? at.vertex.lobes() & Lobes::specular : Lobes::all;
   };
-  const auto see_in_medium = [&](const LightMediumVertex& at) {
-    if (!job.wanted.has(Component::volume) || wants_irradiance) return;
-    const CameraConnection connection =
-        scene_.camera().connect(at.position, scene_.camera().forked_lens_numbers(at.sampler));
-    if (!(connection.importance > 0)) return;
-    SurfacePoint point;
-    point.position = at.position;
-    splat(point, &at.medium, Component::volume,
-          at.flux * at.medium.phase().eval(at.wo, connection.direction), connection,
-          {at.state.wavelengths, at.sampler});
-  };
-  counts.rays +=
-      trace_light_paths(scene_, begin, end, limits, emit, Handlers{see, see_in_medium}).rays;
-  return counts;
+  const auto see_in_medium = [&](const LightMediumVertex& at) { camera.show(at, in_full); };
+  const LightPathCounts paths =
+      trace_light_paths(scene_, begin, end, limits, emit, Handlers{see, see_in_medium});
+  return {paths.rays + camera.rays(), camera.shown()};
 }
 
 }  // namespace kaustik

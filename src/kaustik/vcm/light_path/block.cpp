@@ -1,0 +1,79 @@
+#include "kaustik/vcm/light_path/block.h"
+
+#include <algorithm>
+
+#include "kaustik/base/parallel.h"
+
+namespace kaustik {
+namespace {
+
+/// Where the elements of each block's list begin in the joint one; last, how many there are.
+template <typename List>
+std::vector<size_t> begins_of(const std::vector<LightBlock>& blocks, List LightBlock::*list) {
+  std::vector<size_t> begins(blocks.size() + 1);
+  for (size_t i = 0; i < blocks.size(); ++i) begins[i + 1] = begins[i] + (blocks[i].*list).size();
+  return begins;
+}
+
+/// One list of all blocks as one, each element changed by `change(element, block)`. Takes it away
+/// from the blocks, one by one: two of everything would be much memory.
+template <typename Element, typename Change>
+std::vector<Element> joined(std::vector<LightBlock>& blocks, std::vector<Element> LightBlock::*list,
+                            const Change& change) {
+  const std::vector<size_t> begins = begins_of(blocks, list);
+  std::vector<Element> result(begins.back());
+  parallel_blocks(blocks.size(), 8, [&](size_t first, size_t last, size_t) {
+    for (size_t i = first; i < last; ++i) {
+      std::vector<Element>& from = blocks[i].*list;
+      for (Element& element : from) change(element, i);
+      std::copy(from.begin(), from.end(), result.begin() + std::ptrdiff_t(begins[i]));
+      from = {};
+    }
+  });
+  return result;
+}
+
+/// So that vertices of the list's neighbourhood are near one another.
+MediumVertices in_order(const std::vector<DiscHierarchy::Disc>& discs,
+                        const std::vector<MergeableMediumVertex>& data) {
+  if (data.empty()) return {};
+  std::vector<Vec3f> positions;
+  positions.reserve(discs.size());
+  for (const DiscHierarchy::Disc& disc : discs) positions.push_back(disc.center);
+  const std::vector<uint32_t> order = order_in_space(positions);
+  std::vector<DiscHierarchy::Disc> ordered(discs.size());
+  MediumVertices result;
+  result.data.resize(data.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    ordered[i] = discs[order[i]];
+    result.data[i] = data[order[i]];
+  }
+  result.discs = DiscHierarchy(std::move(ordered));
+  return result;
+}
+
+}  // namespace
+
+LightVertices join(std::vector<LightBlock>& blocks) {
+  const std::vector<size_t> begins = begins_of(blocks, &LightBlock::vertices);
+  const auto as_it_is = [](const auto&, size_t) {};
+  const auto of_whole = [&](auto& element, size_t block) {
+    element.path += uint32_t(begins[block]);
+  };
+  LightVertices result;
+  result.vertices = joined(blocks, &LightBlock::vertices, as_it_is);
+  result.connectible =
+      joined(blocks, &LightBlock::connectible,
+             [&](ConnectibleVertex& vertex, size_t block) { of_whole(vertex.data, block); });
+  result.beginnings = joined(blocks, &LightBlock::beginnings, of_whole);
+  result.scatterings = joined(blocks, &LightBlock::scatterings, of_whole);
+  result.in_media = in_order(joined(blocks, &LightBlock::discs, as_it_is),
+                             joined(blocks, &LightBlock::in_media, of_whole));
+  std::vector<Vec3f> positions = joined(blocks, &LightBlock::positions, as_it_is);
+  std::vector<LightVertexData> data = joined(blocks, &LightBlock::data, of_whole);
+  blocks.clear();
+  if (!data.empty()) result.tree = {std::move(positions), std::move(data)};
+  return result;
+}
+
+}  // namespace kaustik

@@ -1,0 +1,23 @@
+#pragma once
+#include "kaustik/vcm/light_vertices.h"
+
+namespace kaustik {
+
+/// What a block of light paths leaves, path by path.
+struct LightBlock {
+  std::vector<PathVertex> vertices;
+  std::vector<Vec3f> positions;       ///< of the following, which may be merged
+  std::vector<LightVertexData> data;  ///< `path` counts within the block, here and below
+  std::vector<ConnectibleVertex> connectible;
+  std::vector<DiscHierarchy::Disc> discs;  ///< of the following
+  std::vector<MergeableMediumVertex> in_media;
+  std::vector<LightPathBeginning> beginnings;
+  std::vector<LightScattering> scatterings;
+  uint64_t rays = 0, splats = 0;
+};
+
+/// The vertices of all blocks in their order, of which nothing is left. How many paths there are is
+/// for the caller to say.
+LightVertices join(std::vector<LightBlock>& blocks);
+
+}  // namespace kaustik
