@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "kaustik/photon/coverage/look_through.h"
+
 namespace kaustik {
 namespace {
 
@@ -9,27 +11,21 @@ namespace {
 constexpr float height_share = 0.5f;
 /// Cosine between the vertex's normal and those of surfaces whose photons count.
 constexpr float least_cosine = 0.05f;
-/// Of glass and the like that is looked through.
-constexpr int most_layers = 16;
 
 /// Whether the first surface that the ray meets, but for those that light passes through, keeps
 /// photons on that side.
-bool finds_photons(const PhotonSurroundings& around, const Vec3f& side, Ray ray, uint64_t& rays) {
-  for (int layer = 0; layer < most_layers && ray.t_max > 0; ++layer) {
-    Hit hit;
-    ++rays;
-    if (!around.scene.intersect(ray, hit)) return false;
-    const SurfacePoint point = around.scene.tracer().surface_point(ray, hit);
+bool finds_photons(const PhotonSurroundings& around, const Vec3f& side, const Ray& ray,
+                   uint64_t& rays) {
+  bool found = false;
+  look_through(around.scene, ray, rays, [&](const SurfacePoint& point, const Hit& hit) {
     const Surface& surface = around.scene.surface(hit.shape);
-    if (any(surface.traits.lobes & around.keeping)) {
-      const float cosine = dot(point.ng, side);
-      return (dot(point.ng, ray.direction) < 0 ? cosine : -cosine) > least_cosine;
-    }
-    if (!surface.traits.transmits) return false;
-    ray.t_max -= hit.t;
-    ray.origin = spawn_ray(point, ray.direction).origin;
-  }
-  return false;
+    const bool keeps = any(surface.traits.lobes & around.keeping);
+    const float cosine =
+        dot(point.ng, ray.direction) < 0 ? dot(point.ng, side) : -dot(point.ng, side);
+    found = keeps && cosine > least_cosine;
+    return keeps || !surface.traits.transmits;
+  });
+  return found;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "kaustik/photon/coverage/merge_disk.h"
 
+#include "kaustik/photon/coverage/look_through.h"
+
 namespace kaustik {
 namespace {
 
@@ -14,27 +16,19 @@ constexpr float own_surface = 1e-3f;
 constexpr int most_tries = 32;
 /// Points that are tried at most: slivers are left of hardly any disk.
 constexpr int most_points = 256;
-/// That rays are followed through.
-constexpr int most_layers = 16;
 
 }  // namespace
 
 template <typename Stops>
-float DiskCoverage::distance_to(Ray ray, const Stops& stops) const {
+float DiskCoverage::distance_to(const Ray& ray, const Stops& stops) const {
   float passed = 0;
-  for (int layer = 0; layer < most_layers && ray.t_max > 0; ++layer) {
-    Hit hit;
-    ++rays_;
-    if (!scene_.intersect(ray, hit)) break;
-    const SurfacePoint point = scene_.tracer().surface_point(ray, hit);
-    passed += hit.t;
-    if (stops(point)) return passed;
-    ray.t_max -= hit.t;
-    ray.origin = spawn_ray(point, ray.direction).origin;
-    // Through so many layers it is not followed: they hide what lies behind.
-    if (layer + 1 == most_layers) return passed;
-  }
-  return infinity;
+  const Look look =
+      look_through(scene_, ray, rays_, [&](const SurfacePoint& point, const Hit& hit) {
+        passed += hit.t;
+        return stops(point);
+      });
+  // So many layers that it is not followed through them hide what lies behind.
+  return look == Look::free ? float(infinity) : passed;
 }
 
 DiskCoverage::DiskCoverage(const Scene& scene, const MergeDisk& widest, uint64_t& rays,
@@ -67,7 +61,7 @@ bool DiskCoverage::merges_at(const SurfacePoint& point) const {
 }
 
 bool DiskCoverage::hides(const SurfacePoint& point) const {
-  return point.shape == vertex_.point().shape || !scene_.surface(point.shape).traits.transmits;
+  return kaustik::hides(scene_, point.shape, vertex_.point().shape);
 }
 
 template <typename Stops>

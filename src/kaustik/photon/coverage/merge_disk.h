@@ -114,7 +114,7 @@ class DiskCoverage {
   bool is_way_free(float height, const Vec3f& direction, float distance) const;
   /// How far away the ray meets a point where stops(point) holds; infinite: nowhere.
   template <typename Stops>
-  float distance_to(Ray ray, const Stops& stops) const;
+  float distance_to(const Ray& ray, const Stops& stops) const;
 
   const Scene& scene_;
   const SurfaceVertex& vertex_;

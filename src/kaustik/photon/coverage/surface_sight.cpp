@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kaustik/photon/coverage/look_through.h"
+
 namespace kaustik {
 namespace {
 
@@ -9,8 +11,6 @@ namespace {
 constexpr float straight_height = 1e-3f, bend_height = 0.25f;
 /// By so much normals part over the way where a surface bends away, radians.
 constexpr float bent = 0.02f;
-/// What is between is looked through so many times; then it hides what lies behind.
-constexpr int most_layers_seen = 16;
 
 float largest_coordinate(const Vec3f& p) {
   return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
@@ -18,26 +18,20 @@ float largest_coordinate(const Vec3f& p) {
 
 }  // namespace
 
-bool SurfaceSight::hides(const Hit& hit) const {
-  return hit.shape == shape_ || !scene_.surface(hit.shape).traits.transmits;
-}
-
-bool SurfaceSight::is_free(Ray ray) const {
+bool SurfaceSight::is_free(const Ray& ray) const {
   ++rays_;
   if (!scene_.occluded(ray)) return true;
-  for (int layer = 0; layer < most_layers_seen; ++layer) {
-    Hit hit;
-    ++rays_;
-    if (!scene_.intersect(ray, hit)) return true;
-    if (hides(hit)) return false;
-    const SurfacePoint point = scene_.tracer().surface_point(ray, hit);
-    const Vec3f end = ray.origin + ray.direction * ray.t_max;
-    ray.origin = offset_origin(point, ray.direction);
-    ray.direction = end - ray.origin;
-    ray.t_max = 1;
-    if (!(dot(ray.direction, point.ng) * dot(end - point.position, point.ng) > 0)) return true;
-  }
-  return false;
+  const auto stops = [&](const SurfacePoint&, const Hit& hit) {
+    return hides(scene_, hit.shape, shape_);
+  };
+  // To the end itself, however the offset has moved the origin.
+  const auto pass = [](const SurfacePoint& point, const Hit&, Ray& rest) {
+    const Vec3f end = rest.origin + rest.direction * rest.t_max;
+    const Vec3f origin = offset_origin(point, rest.direction);
+    rest = {origin, end - origin, 1};
+    return dot(rest.direction, point.ng) * dot(end - point.position, point.ng) > 0;
+  };
+  return look_through(scene_, ray, rays_, stops, pass) == Look::free;
 }
 
 bool SurfaceSight::sees(const Vec3f& normal, const Vec3f& other, const Vec3f& other_normal) const {

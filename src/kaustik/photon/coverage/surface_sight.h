@@ -25,11 +25,9 @@ class SurfaceSight {
   bool sees(const Vec3f& normal, const Vec3f& other, const Vec3f& other_normal) const;
 
   /// Whether what stands on the way of a ray as far as t_max hides nothing.
-  bool is_free(Ray ray) const;
+  bool is_free(const Ray& ray) const;
 
  private:
-  bool hides(const Hit& hit) const;
-
   const Scene& scene_;
   const Vec3f position_;
   const uint32_t shape_;
