@@ -102,34 +102,21 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
 }
 
 std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(uint64_t seed) const {
-  {
-    const std::lock_guard lock(light_pass_mutex_);
-    if (light_pass_ && light_pass_seed_ == seed) return light_pass_;
-  }
-  // Outside the lock: it runs in parallel, and a thread that waits for the others may take up any
-  // work meanwhile, this one's too.
-  auto trained = std::make_shared<const LightPass>(scene(), settings_.light_pass, seed);
-  const std::lock_guard lock(light_pass_mutex_);
-  light_pass_ = std::move(trained);
-  light_pass_seed_ = seed;
-  return light_pass_;
+  return light_pass_.get(seed, [&] {
+    return std::make_shared<const LightPass>(scene(), settings_.light_pass, seed);
+  });
 }
 
 std::shared_ptr<const SeenSurfaces> PhotonMapIntegrator::seen_edges(
     uint64_t& rays, const std::stop_token& stop) const {
-  {
-    const std::lock_guard lock(seen_edges_mutex_);
-    if (seen_edges_) return seen_edges_;
-  }
-  if (stop.stop_requested()) return nullptr;
-  // Outside the lock, as above. Not by the photons of a pass: passes don't know of one another.
-  auto found = std::make_shared<SeenSurfaces>(scene());
-  const Vec2i size = scene().film().size;
-  found->find_edges(scene(), reach_share * float(std::max(size.x, size.y)), 0, rays, stop);
-  if (stop.stop_requested()) return nullptr;
-  const std::lock_guard lock(seen_edges_mutex_);
-  seen_edges_ = std::move(found);
-  return seen_edges_;
+  // Not by the photons of a pass: passes don't know of one another.
+  return seen_edges_.get(0, [&]() -> std::shared_ptr<const SeenSurfaces> {
+    if (stop.stop_requested()) return nullptr;
+    auto found = std::make_shared<SeenSurfaces>(scene());
+    const Vec2i size = scene().film().size;
+    found->find_edges(scene(), reach_share * float(std::max(size.x, size.y)), 0, rays, stop);
+    return stop.stop_requested() ? nullptr : found;
+  });
 }
 
 GatherRadii PhotonMapIntegrator::pass_radii(const PhotonMaps& maps, uint32_t index) const {

@@ -1,7 +1,6 @@
 #pragma once
-#include <mutex>
-
 #include "kaustik/photon/coverage/seen_surfaces.h"
+#include "kaustik/photonmap/kept.h"
 #include "kaustik/photonmap/photon_light.h"
 #include "kaustik/transport/illumination_model.h"
 
@@ -51,11 +50,8 @@ class PhotonMapIntegrator final : public IlluminationModel {
 
   PhotonMapSettings settings_;
   std::shared_ptr<const PhotonMaps> stored_maps_;  ///< null: every pass traces its own
-  mutable std::mutex light_pass_mutex_;
-  mutable std::shared_ptr<const LightPass> light_pass_;
-  mutable uint64_t light_pass_seed_ = 0;
-  mutable std::mutex seen_edges_mutex_;
-  mutable std::shared_ptr<const SeenSurfaces> seen_edges_;
+  mutable Kept<LightPass> light_pass_;  ///< by the seed
+  mutable Kept<SeenSurfaces> seen_edges_;
 };
 
 }  // namespace kaustik

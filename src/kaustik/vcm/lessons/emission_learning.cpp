@@ -57,12 +57,12 @@ const GuideMap& EmissionLearning::map_of(int light) {
 namespace {
 
 struct StoredPath {
-  int32_t light = -1;
+  int64_t light = -1;  // as wide as `weight`: bytes between the fields would be anything
   float u[2] = {0, 0};
   float scale = 0, plain = 0;
-  float unused = 0;
   double weight = 0;
 };
+static_assert(sizeof(StoredPath) == 32);
 
 }  // namespace
 
@@ -83,9 +83,9 @@ void EmissionLearning::read(ByteReader& reader) {
   for (const StoredPath& stored : reader.get_array<StoredPath>()) {
     if (stored.light < 0 || size_t(stored.light) >= maps_.size())
       reader.damaged("a path in it begins at no light");
-    map_of(stored.light);
+    map_of(int(stored.light));
     Path path;
-    path.light = stored.light;
+    path.light = int(stored.light);
     path.place.u = {stored.u[0], stored.u[1]};
     path.place.scale = stored.scale;
     path.plain = stored.plain;

@@ -61,8 +61,8 @@ bool VcmLessons::expects(const Pass& pass) const {
          epochs_.contains(epoch_begin(pass.index));
 }
 
-std::vector<const Lesson*> VcmLessons::wanted(uint32_t pass) const {
-  std::vector<const Lesson*> result;
+std::vector<Lesson*> VcmLessons::wanted(uint32_t pass) const {
+  std::vector<Lesson*> result;
   for (const auto& lesson : lessons_)
     if (pass < lesson->end() && lesson->wants(pass)) result.push_back(lesson.get());
   return result;
@@ -77,9 +77,8 @@ bool VcmLessons::wants_samples(uint32_t pass) const {
 
 void VcmLessons::learn(const TaughtPass& taught, const std::stop_token& stop, uint64_t& rays) {
   std::vector<std::pair<Lesson*, std::unique_ptr<LessonSums>>> sums;
-  for (const auto& lesson : lessons_)
-    if (passes_ < lesson->end() && lesson->wants(passes_))
-      sums.emplace_back(lesson.get(), lesson->sums_of(taught, stop, rays));
+  for (Lesson* lesson : wanted(passes_))
+    sums.emplace_back(lesson, lesson->sums_of(taught, stop, rays));
   if (stop.stop_requested()) return;
   for (const auto& [lesson, of_pass] : sums) lesson->add(passes_, *of_pass);
   ++passes_;

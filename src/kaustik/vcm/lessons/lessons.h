@@ -52,7 +52,8 @@ class VcmLessons {
                                           const LightPathEmission& plain);
 
  private:
-  std::vector<const Lesson*> wanted(uint32_t pass) const;
+  /// Those that the pass has anything to teach.
+  std::vector<Lesson*> wanted(uint32_t pass) const;
   std::shared_ptr<VcmPlans> made_plans(uint32_t epoch, const std::stop_token& stop, uint64_t& rays);
 
   std::shared_ptr<const VcmPlans> first_;
