@@ -102,9 +102,8 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
 }
 
 std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(uint64_t seed) const {
-  return light_pass_.get(seed, [&] {
-    return std::make_shared<const LightPass>(scene(), settings_.light_pass, seed);
-  });
+  return light_pass_.get(
+      seed, [&] { return std::make_shared<const LightPass>(scene(), settings_.light_pass, seed); });
 }
 
 std::shared_ptr<const SeenSurfaces> PhotonMapIntegrator::seen_edges(

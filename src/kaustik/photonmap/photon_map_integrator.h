@@ -50,7 +50,7 @@ class PhotonMapIntegrator final : public IlluminationModel {
 
   PhotonMapSettings settings_;
   std::shared_ptr<const PhotonMaps> stored_maps_;  ///< null: every pass traces its own
-  mutable Kept<LightPass> light_pass_;  ///< by the seed
+  mutable Kept<LightPass> light_pass_;             ///< by the seed
   mutable Kept<SeenSurfaces> seen_edges_;
 };
 

@@ -24,39 +24,39 @@ struct EyeLevel {
   int gathers = 0;    ///< gather rays among them
 };
 
-/// All parameters of the photon map integrator.
+/// All parameters of the photon map integrator. Their defaults stand in photon_map_parameters().
 struct PhotonMapSettings {
-  ComponentSet components = ComponentSet::all();
+  ComponentSet components;
   LightPassSettings light_pass;
   std::string photon_file;  ///< stored maps to use instead of tracing; empty: none
   Place photon_file_place;
   EstimateSettings caustic, global;
-  int volume_neighbors = 0;
-  float minimum_radiance = 0;
-  bool visibility = true;  ///< what hides photons counts, and what covers disks
-  float caustic_radius = 0, global_radius = 0;  ///< cap of pass 0, m; 0: from the photons
+  int volume_neighbors;
+  float minimum_radiance;
+  bool visibility;                      ///< what hides photons counts, and what covers disks
+  float caustic_radius, global_radius;  ///< cap of pass 0, m; 0: from the photons
 
-  LightChoice light_choice = LightChoice::one;
-  int light_samples = 1;
-  uint32_t shadow_photons = 0;  ///< rays to emit for them; 0: none
-  ShadowSettings shadows;       ///< without the radius, which is each pass's own
-  float shadow_radius = 0;      ///< cap of pass 0, m; 0: from the photons
-  int diffuse_samples = 0;      ///< gather rays per camera sample where the cache does not serve
-  int importance_photons = 50;
-  int gather_theta_cells = 3, gather_phi_cells = 14;
-  bool importance_by_average = false;  ///< cells weighted by mean flux instead of summed flux
-  float importance_floor = 0.25f;      ///< share of the samples that is spread evenly
+  LightChoice light_choice;
+  int light_samples;
+  uint32_t shadow_photons;  ///< rays to emit for them; 0: none
+  ShadowSettings shadows;   ///< without the radius, which is each pass's own
+  float shadow_radius;      ///< cap of pass 0, m; 0: from the photons
+  int diffuse_samples;      ///< gather rays per camera sample where the cache does not serve
+  int importance_photons;
+  int gather_theta_cells, gather_phi_cells;
+  bool importance_by_average;  ///< cells weighted by mean flux instead of summed flux
+  float importance_floor;      ///< share of the samples that is spread evenly
 
-  bool cache = true;
+  bool cache;
   CacheSettings cache_settings;
 
-  SpecularSampling specular_sampling = SpecularSampling::importance;
-  int specular_samples = 1;
-  LevelOfDetail level_of_detail = LevelOfDetail::none;
-  float level_factor = 0.5f;
-  int maximum_eye_level = 1;
-  bool count_specular_levels = false;
-  uint32_t samples_per_pass = 4;
+  SpecularSampling specular_sampling;
+  int specular_samples;
+  LevelOfDetail level_of_detail;
+  float level_factor;
+  int maximum_eye_level;
+  bool count_specular_levels;
+  uint32_t samples_per_pass;
   std::vector<std::string> notes;  ///< sentences about what is given without effect
 
   static const TypeInfo& info();
