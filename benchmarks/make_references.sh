@@ -19,12 +19,13 @@ trap 'rm -rf "$work"' EXIT
 file_of() {
   case "$1" in
     peer_*) echo "benchmarks/peer_scenes/${1#peer_}/scene.xml" ;;
+    pool_among_lamps | hundredth_of_a_floor | door_ajar | hall_of_lamps) echo "benchmarks/scenes/$1.xml" ;;
     *) echo "scenes/$1/$1.xml" ;;
   esac
 }
 size_of() {
   case "$1" in
-    peer_*) ;;
+    peer_* | pool_among_lamps | hundredth_of_a_floor | door_ajar | hall_of_lamps) ;;
     gallery_*) echo "-D width=400 -D height=300" ;;
     *) echo "-D size=400" ;;
   esac
@@ -97,6 +98,17 @@ make_reference() {
     peer_hidden_light)
       minutes "$scene" path emission,direct,caustic,specular 0.5
       minutes "$scene" lighttracer indirect 8
+      ;;
+    # What learning where to send light is measured on.
+    hundredth_of_a_floor | door_ajar)
+      minutes "$scene" bdpt all 5
+      ;;
+    # Paths from the lamps that reach the pool are far too rare for lighttracer and bdpt.
+    pool_among_lamps)
+      minutes "$scene" auto all 5
+      ;;
+    hall_of_lamps)
+      minutes "$scene" path all 5
       ;;
     gallery_1 | gallery_2 | maze | museum | point_spotlight)
       minutes "$scene" path all 60

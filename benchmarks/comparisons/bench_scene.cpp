@@ -63,10 +63,12 @@ std::vector<std::string> default_scene_names() {
 BenchScene bench_scene(const std::string& name) {
   for (const PeerRow& row : peer_rows)
     if (name == peer_prefix + row.name) return peer_scene(row);
-  const std::string file = root + "/scenes/" + name + "/" + name + ".xml";
+  std::string file = root + "/scenes/" + name + "/" + name + ".xml";
+  if (!std::filesystem::exists(file)) file = root + "/benchmarks/scenes/" + name + ".xml";
   if (name.find('/') != std::string::npos || !std::filesystem::exists(file))
     throw Error(ErrorKind::input, "there is no scene '" + name + "'",
-                "name a folder of scenes/, or peer_ and one of benchmarks/peer_scenes/");
+                "name a folder of scenes/, a file of benchmarks/scenes/, or peer_ and one of "
+                "benchmarks/peer_scenes/");
   return {name,
           file,
           root + "/benchmarks/references/" + name + ".exr",

@@ -34,7 +34,8 @@ struct BenchScene {
 /// What is measured when no scene is named: six that ship, and the six of benchmarks/peer_scenes.
 std::vector<std::string> default_scene_names();
 
-/// Any scene of those folders. Throws Error(input) if there is none of that name.
+/// Any scene of those folders, or of benchmarks/scenes. Throws Error(input) if there is none of
+/// that name.
 BenchScene bench_scene(const std::string& name);
 
 }  // namespace kaustik::bench

@@ -147,17 +147,9 @@ std::string early_tables(const Results& results) {
 }
 
 std::string tables(const Results& results, const std::vector<PeerResult>& peer_results) {
-  std::string text =
-      error_tables(results) + tables_beside_others(results, peer_results) + early_tables(results);
-  const std::string ablation = ablation_table(results);
-  if (!ablation.empty())
-    text +=
-        "\n## Each device off\n\nThe error with a setting changed over that without at equal "
-        "time, without the reference's noise, in parentheses the same of the time that a\npass "
-        "takes (`make ablation`).\n\n" +
-        ablation;
-  return text + "\n## Means\n\nMean of the picture over that of the reference.\n\n" +
-         mean_table(results);
+  return error_tables(results) + tables_beside_others(results, peer_results) +
+         early_tables(results) +
+         "\n## Means\n\nMean of the picture over that of the reference.\n\n" + mean_table(results);
 }
 
 /// Of path tracing and of the headline beside the reference, as far as pictures were kept; else

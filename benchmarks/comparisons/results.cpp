@@ -33,8 +33,9 @@ std::string letter_of(size_t build) {
 
 Results::Results(const std::vector<Measurement>& in_order) {
   for (const Measurement& m : in_order) {
+    if (type_of(m.integrator) != m.integrator) continue;
     add_once(scenes_, m.scene);
-    add_once(type_of(m.integrator) == m.integrator ? integrators_ : variants_, m.integrator);
+    add_once(integrators_, m.integrator);
     std::erase_if(newest_, [&](const Measurement& old) {
       return old.scene == m.scene && old.integrator == m.integrator && old.seed == m.seed;
     });
@@ -74,16 +75,6 @@ std::optional<double> Results::relmse(const std::string& scene, const std::strin
                                       double time) const {
   return mean_over_seeds(scene, integrator,
                          [&](const Measurement& m) { return m.relmse_at(time); });
-}
-
-std::optional<double> Results::relmse_beside(const std::string& other, const std::string& scene,
-                                             const std::string& integrator, double time) const {
-  return mean_over_seeds(scene, integrator, [&](const Measurement& m) -> std::optional<double> {
-    const bool both = std::any_of(newest_.begin(), newest_.end(), [&](const Measurement& o) {
-      return o.scene == scene && o.integrator == other && o.seed == m.seed && o.relmse_at(time);
-    });
-    return both ? m.relmse_at(time) : std::nullopt;
-  });
 }
 
 std::optional<double> Results::mean_ratio(const std::string& scene,

@@ -11,17 +11,16 @@ namespace kaustik::bench {
 /// How tables name the builds of a program.
 std::string letter_of(size_t build);
 
-/// The measurements of a results file by scene and integrator: of each seed the newest.
+/// The measurements of a results file by scene and integrator, but those with settings (see
+/// type_of()): of each seed the newest.
 class Results {
  public:
   explicit Results(const std::vector<Measurement>& in_order);
 
   /// In the order in which they were measured first.
   const std::vector<std::string>& scenes() const { return scenes_; }
-  /// path, bdpt, ppm, vcm, photonmap, auto, others; as far as they were measured without settings.
+  /// path, bdpt, ppm, vcm, photonmap, auto, others.
   const std::vector<std::string>& integrators() const { return integrators_; }
-  /// Those that were measured with settings (see type_of()).
-  const std::vector<std::string>& variants() const { return variants_; }
   bool has(const std::string& integrator) const;
   const std::vector<Measurement>& all() const { return newest_; }
   /// When the scene was looked at, ascending.
@@ -30,9 +29,6 @@ class Results {
   /// The mean over the seeds; nothing: not measured, or no pass had ended.
   std::optional<double> relmse(const std::string& scene, const std::string& integrator,
                                double time) const;
-  /// The same over the seeds that `other` was measured with too.
-  std::optional<double> relmse_beside(const std::string& other, const std::string& scene,
-                                      const std::string& integrator, double time) const;
   std::optional<double> mean_ratio(const std::string& scene, const std::string& integrator) const;
   /// Of whole runs, which may be of different lengths.
   std::optional<double> seconds_per_pass(const std::string& scene,
@@ -59,7 +55,7 @@ class Results {
       const std::function<std::optional<double>(const Measurement&)>& value) const;
 
   std::vector<Measurement> newest_;
-  std::vector<std::string> scenes_, integrators_, variants_, builds_;
+  std::vector<std::string> scenes_, integrators_, builds_;
 };
 
 /// The integrator whose ratios are told: "auto" where it was measured, else "photonmap", which is

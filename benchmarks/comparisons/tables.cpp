@@ -30,19 +30,6 @@ std::optional<ErrorRatio> rival_ratio(const Results& results, const std::string&
                          results.reference_relmse(scene));
 }
 
-/// The last time at which settings were measured: that may be earlier than that of integrators.
-std::optional<double> last_time_of_variants(const Results& results, const std::string& scene) {
-  std::vector<double> times = results.times(scene);
-  const auto has_variant = [&](double time) {
-    return std::any_of(
-        results.variants().begin(), results.variants().end(),
-        [&](const std::string& variant) { return results.relmse(scene, variant, time); });
-  };
-  while (!times.empty() && !has_variant(times.back())) times.pop_back();
-  if (times.empty()) return std::nullopt;
-  return times.back();
-}
-
 }  // namespace
 
 std::string error_table(const Results& results) {
@@ -101,41 +88,6 @@ std::vector<std::string> scenes_that_photonmap_wins(const Results& results) {
     if (gain && gain->value < 1) scenes.push_back(scene);
   }
   return scenes;
-}
-
-std::string ablation_table(const Results& results) {
-  if (results.variants().empty()) return {};
-  const bool several_builds = results.builds().size() > 1;
-  std::vector<std::string> header{"scene", "s"};
-  for (const std::string& variant : results.variants()) header.push_back(variant);
-  if (several_builds) header.emplace_back("build");
-  MarkdownTable table(header);
-  std::vector<GeometricMean> means(results.variants().size());
-  std::vector<std::string> compared = results.variants();
-  for (const std::string& variant : results.variants()) compared.push_back(type_of(variant));
-  for (const std::string& scene : results.scenes()) {
-    const std::optional<double> time = last_time_of_variants(results, scene);
-    if (!time) continue;
-    std::vector<std::string> row{scene, fmt::format("{:g}", *time)};
-    for (size_t i = 0; i < results.variants().size(); ++i) {
-      const std::string& variant = results.variants()[i];
-      const std::string whole = type_of(variant);
-      const std::optional<ErrorRatio> error = noiseless_ratio(
-          results.relmse(scene, variant, *time),
-          results.relmse_beside(variant, scene, whole, *time), results.reference_relmse(scene));
-      const std::optional<ErrorRatio> cost = measured_ratio(
-          results.seconds_per_pass(scene, variant), results.seconds_per_pass(scene, whole));
-      means[i].add(error);
-      row.push_back(
-          fmt::format("{} ({})", cell(error), cost ? fmt::format("{:.2g}", cost->value) : "–"));
-    }
-    if (several_builds) row.push_back(results.builds_of(scene, compared));
-    table.add(row);
-  }
-  std::vector<std::string> last{"geometric mean", ""};
-  for (const GeometricMean& mean : means) last.push_back(cell(mean.value()));
-  table.add(last);
-  return table.text();
 }
 
 std::string mean_table(const Results& results) {

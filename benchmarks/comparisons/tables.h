@@ -31,10 +31,6 @@ std::string early_table(const Results& results);
 /// Where "photonmap" is ahead at the last time.
 std::vector<std::string> scenes_that_photonmap_wins(const Results& results);
 
-/// What becomes of the error, and of the time of a pass, when settings of an integrator are others
-/// than its own: ratios to what it is without them. "" if none were measured.
-std::string ablation_table(const Results& results);
-
 /// Means of the pictures relative to those of the references.
 std::string mean_table(const Results& results);
 

@@ -39,6 +39,9 @@ std::vector<Parameter> parameters(const Techniques& preset) {
                         "Vertices of light paths near a vertex of the camera's path count as if "
                         "they were there (photon mapping)."),
       number_parameter("light_paths", 0.25, "Light paths per camera sample.").range(0.001, 1000),
+      boolean_parameter("choose_light_paths", false,
+                        "A pilot chooses how many light paths there are, or none at all; "
+                        "light_paths is what it looks at first. With it ppm is auto."),
       integer_parameter("connection_samples", 1,
                         "Vertices of light paths that each vertex of the camera's paths is "
                         "connected to.")
@@ -123,6 +126,7 @@ VcmSettings::VcmSettings(const Arguments& arguments)
   guiding = arguments.boolean("guiding");
   guided_scattering = arguments.boolean("guided_scattering");
   light_paths = float(arguments.number("light_paths"));
+  chooses_light_paths = arguments.boolean("choose_light_paths");
   connections = int(arguments.integer("connection_samples"));
   merge_neighbors = int(arguments.integer("merge_neighbors"));
   radius = float(arguments.number("radius"));
