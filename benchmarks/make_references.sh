@@ -99,16 +99,16 @@ make_reference() {
       minutes "$scene" path emission,direct,caustic,specular 0.5
       minutes "$scene" lighttracer indirect 8
       ;;
-    # What learning where to send light is measured on.
-    hundredth_of_a_floor | door_ajar)
-      minutes "$scene" bdpt all 5
-      ;;
-    # Paths from the lamps that reach the pool are far too rare for lighttracer and bdpt.
-    pool_among_lamps)
-      minutes "$scene" auto all 5
+    # What auto learns, chooses and guides is measured on these: make ablation.
+    door_ajar)
+      part "$scene" bdpt all --passes 640
       ;;
     hall_of_lamps)
-      minutes "$scene" path all 5
+      part "$scene" path all --passes 320
+      ;;
+    # Paths from the lamps that reach what is seen are far too rare for lighttracer and bdpt.
+    pool_among_lamps | hundredth_of_a_floor)
+      part "$scene" auto all --passes 512
       ;;
     gallery_1 | gallery_2 | maze | museum | point_spotlight)
       minutes "$scene" path all 60
