@@ -29,7 +29,7 @@ all: build
 setup:
 	@scripts/install_packages.sh build
 
-# A new folder compiles several sources as one, which makes all in a third of the time. Who edits sources
+# A new folder compiles several sources as one. Who edits sources
 # waits less without: cmake --preset release, before the first make.
 configure: setup
 	@cmake --preset release $(if $(wildcard $(BUILD)/CMakeCache.txt),,-D KAUSTIK_UNITY=ON -D KAUSTIK_PRECOMPILED_HEADERS=ON)
