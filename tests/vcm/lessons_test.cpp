@@ -51,12 +51,6 @@ Rendered rendered(const TestScene& scene, const Integrator& integrator, uint32_t
   return result;
 }
 
-bool are_same(const Image& a, const Image& b) {
-  for (int c = 0; c < a.channel_count(); ++c)
-    if (!std::ranges::equal(a.channel(c), b.channel(c))) return false;
-  return a.channel_count() == b.channel_count();
-}
-
 constexpr uint32_t learned = 9, more = 3;
 
 class Learners : public testing::TestWithParam<std::string> {};
@@ -76,8 +70,8 @@ TEST_P(Learners, GoOnWithoutTracingAnew) {
   const Rendered by_itself = rendered(scene, *alone, learned, more);
   const Rendered by_teacher = rendered(scene, *teacher, learned, more);
 
-  EXPECT_TRUE(are_same(by_pupil.image, by_teacher.image));
-  EXPECT_TRUE(are_same(by_pupil.image, by_itself.image));
+  EXPECT_TRUE(same_bits(by_pupil.image, by_teacher.image));
+  EXPECT_TRUE(same_bits(by_pupil.image, by_itself.image));
   EXPECT_EQ(pupil->lessons(), teacher->lessons());
   // As many light paths as the passes have, while who starts alone traces all before.
   EXPECT_EQ(by_pupil.report.photons, by_teacher.report.photons);
@@ -85,7 +79,7 @@ TEST_P(Learners, GoOnWithoutTracingAnew) {
   EXPECT_LT(by_pupil.report.rays, by_itself.report.rays);
   // Earlier passes are those that they would be.
   const Rendered first = rendered(scene, *made(scene, GetParam()), 0, 1);
-  EXPECT_TRUE(are_same(rendered(scene, *pupil, 0, 1).image, first.image));
+  EXPECT_TRUE(same_bits(rendered(scene, *pupil, 0, 1).image, first.image));
 }
 
 TEST_P(Learners, OtherSeedsLearnForThemselves) {
@@ -101,7 +95,7 @@ TEST_P(Learners, OtherSeedsLearnForThemselves) {
     session.run();
     return session.film().image();
   };
-  EXPECT_TRUE(are_same(picture(*pupil), picture(*made(scene, GetParam()))));
+  EXPECT_TRUE(same_bits(picture(*pupil), picture(*made(scene, GetParam()))));
 }
 
 TEST_P(Learners, HoldForAllPassesWhenTheyAreFixed) {

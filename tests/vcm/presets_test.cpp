@@ -19,12 +19,6 @@ Image rendered(const TestScene& scene, const std::string& type, const std::strin
   return session.film().image();
 }
 
-bool are_same(const Image& a, const Image& b) {
-  for (int c = 0; c < a.channel_count(); ++c)
-    if (!std::ranges::equal(a.channel(c), b.channel(c))) return false;
-  return a.channel_count() == b.channel_count();
-}
-
 TestScene lit_room(const std::string& of_ball) {
   return TestScene(camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 20) +
                    flat("rectangle", "", diffuse("0.5, 0.5, 0.5")) +
@@ -37,12 +31,12 @@ TestScene lit_room(const std::string& of_ball) {
 TEST(Presets, AutoIsPpmThatChoosesLightPaths) {
   for (const std::string& ball : {glass(), diffuse("0.2, 0.2, 0.2")}) {
     const TestScene scene = lit_room(ball);
-    EXPECT_TRUE(are_same(rendered(scene, "ppm", set("choose_light_paths", true)),
-                         rendered(scene, "auto", "")));
+    EXPECT_TRUE(same_bits(rendered(scene, "ppm", set("choose_light_paths", true)),
+                          rendered(scene, "auto", "")));
   }
   // Where no light is focused and little scattered, it has none.
   const TestScene scene = lit_room(diffuse("0.2, 0.2, 0.2"));
-  EXPECT_FALSE(are_same(rendered(scene, "ppm", ""), rendered(scene, "auto", "")));
+  EXPECT_FALSE(same_bits(rendered(scene, "ppm", ""), rendered(scene, "auto", "")));
 }
 
 }  // namespace

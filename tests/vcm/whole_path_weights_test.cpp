@@ -18,7 +18,7 @@ using namespace test;
 
 constexpr uint32_t training_paths = 30'000;
 constexpr uint32_t traced_paths = slow_build ? 500 : 2000;
-constexpr double tolerance = 1e-4;
+constexpr double weight_tolerance = 1e-4;
 
 std::string mask(double opacity) {
   return fmt::format(
@@ -153,7 +153,7 @@ struct Sums {
     for (const WholePathWeights::Part& part : weights.parts)
       if (part.weight > 0.01) ++by[size_t(part.by)];
     const double error = std::fabs(weights.sum() - 1);
-    if (!(error <= tolerance + weights.rounding)) ++off;
+    if (!(error <= weight_tolerance + weights.rounding)) ++off;
     if (error - weights.rounding <= largest) return;
     largest = error - weights.rounding;
     worst = what + weights.text();
@@ -220,7 +220,7 @@ TEST(WholePathWeights, NoticeWhatIsForgotten) {
   const Guided guided(lamps_in_a_room());
   const auto expect_noticed = [&](const std::string& name, const WholePathRules& camera) {
     const Sums found = sums(guided.rules, camera, traced_paths / 4);
-    EXPECT_GT(found.largest, 100 * tolerance) << name;
+    EXPECT_GT(found.largest, 100 * weight_tolerance) << name;
     EXPECT_GT(found.off, found.paths / 20) << name;
   };
   const auto with_plans = [&](float survival, float disk) {
