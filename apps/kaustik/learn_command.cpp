@@ -32,7 +32,7 @@ struct LearnOptions {
 LearningSettings learning_settings(const LearnOptions& options) {
   LearningSettings settings{
       options.recipe.seed, options.passes, {}, usable_threads(options.threads)};
-  if (options.spp) settings.samples_per_pass = std::max(1u, *options.spp / options.passes);
+  if (options.spp) settings.samples_per_pass = (*options.spp + options.passes - 1) / options.passes;
   return settings;
 }
 
@@ -83,7 +83,7 @@ void learn_scene(LearnOptions options) {
   if (!options.quiet)
     say("wrote {}: what {} passes of {} samples a pixel taught {}", options.output,
         stored.lessons.passes, stored.samples_per_pass, stored.integrator);
-  if (!interrupt.token().stop_requested()) return;
+  if (!result.cancelled) return;
   warn(fmt::format("cancelled: fewer passes than the {} that were asked for", options.passes));
   throw EndedEarly{};
 }
@@ -117,15 +117,16 @@ void add_learn(CLI::App& program) {
   command->add_option("--integrator", o->recipe.integrator,
                       "Use this method instead of the file's: auto, vcm, ppm, bdpt learn");
   add_light_level(*command, o->levels);
-  command->add_option("--passes", o->passes, "Number of passes to learn from [16]")
-      ->check(whole_number(1, 1 << 10));
+  command->add_option("--passes", o->passes, "Number of passes to learn from, up to 256 [16]")
+      ->check(whole_number(1, 256));
   command
       ->add_option("--spp", o->spp,
-                   "Samples per pixel over all passes; the passes of renders have as many")
+                   "Samples per pixel over all passes; renders with --learned take as many per "
+                   "pass as these")
       ->check(whole_number(1, 1 << 30));
   command->add_flag("--force", o->force, "Replace a file that is there and holds no lessons");
   command->add_option("--seed", o->recipe.seed,
-                      "Seed of all random numbers; that of a render never has the same [0]");
+                      "Seed of all random numbers; renders of the same seed draw others [0]");
   add_texture_memory(*command, o->build);
   command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
   command->add_flag("-q,--quiet", o->quiet, "No progress, no decisions");

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "benchmarks/markdown_table.h"
+#include "kaustik/base/statistics.h"
 
 namespace kaustik::bench {
 namespace {
@@ -41,6 +42,12 @@ double own_error(const Measurement& m) {
   return noise > error / 2 ? std::nan("") : error - noise;
 }
 
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / double(values.size());
+}
+
 std::string text_of(const Worth& worth) {
   return std::isfinite(worth.factor)
              ? fmt::format("{:.2f} ± {:.0f} %", worth.ratio, 100 * (worth.factor - 1))
@@ -56,6 +63,7 @@ std::string text_of(const std::string& scene, const Worth& worth) {
 
 Ablation::Ablation(const std::vector<Measurement>& in_order) {
   for (const Measurement& m : in_order) {
+    if (!m.by_cpu_time) continue;
     add_once(scenes_, m.scene);
     std::erase_if(newest_, [&](const Measurement& old) {
       return old.scene == m.scene && old.integrator == m.integrator && old.seed == m.seed;
@@ -78,23 +86,38 @@ const Measurement* Ablation::find(const std::string& scene, const std::string& i
   return found == newest_.end() ? nullptr : &*found;
 }
 
-std::optional<Worth> Ablation::worth(const std::string& scene, const std::string& variant) const {
-  std::vector<double> logarithms;
+std::optional<std::vector<double>> Ablation::logarithms(const std::string& scene,
+                                                        const std::string& variant) const {
+  std::vector<double> result;
   for (const Measurement& without : newest_) {
     if (without.scene != scene || without.integrator != variant) continue;
     const Measurement* with = find(scene, whole_of(variant), without.seed);
     if (!with || with->seconds.back() != without.seconds.back()) continue;
-    const double logarithm = std::log(own_error(without) / own_error(*with));
-    if (std::isfinite(logarithm)) logarithms.push_back(logarithm);
+    result.push_back(std::log(own_error(without) / own_error(*with)));
+    // Without this seed the others would be those that went badly.
+    if (!std::isfinite(result.back())) return std::nullopt;
   }
-  if (logarithms.empty()) return std::nullopt;
-  const double count = double(logarithms.size());
-  double mean = 0, squares = 0;
-  for (const double l : logarithms) mean += l / count;
-  for (const double l : logarithms) squares += (l - mean) * (l - mean);
-  const double error = count > 1 ? std::sqrt(squares / (count - 1) / count)
-                                 : std::numeric_limits<double>::infinity();
-  return Worth{std::exp(mean), std::exp(error), int(count)};
+  if (result.empty()) return std::nullopt;
+  return result;
+}
+
+std::optional<Worth> Ablation::worth(const std::string& scene, const std::string& variant) const {
+  const auto own = logarithms(scene, variant);
+  if (!own) return std::nullopt;
+  Worth worth;
+  double squares = 0;
+  for (const std::string& each : variants_) {
+    const auto seeds = logarithms(scene, each);
+    if (!seeds || whole_of(each) != whole_of(variant)) continue;
+    const double mean = mean_of(*seeds);
+    for (const double l : *seeds) squares += (l - mean) * (l - mean);
+    worth.freedom += double(seeds->size() - 1);
+  }
+  worth.ratio = std::exp(mean_of(*own));
+  worth.factor = worth.freedom > 0
+                     ? std::exp(std::sqrt(squares / worth.freedom / double(own->size())))
+                     : std::numeric_limits<double>::infinity();
+  return worth;
 }
 
 std::optional<double> Ablation::reference_share(const std::string& scene) const {
@@ -113,8 +136,12 @@ std::optional<double> Ablation::reference_share(const std::string& scene) const 
 
 std::string verdict_of(const std::vector<Worth>& on_scenes) {
   bool helps = false, may_help = false, harms = false, may_harm = false;
+  // One-sided, so that all scenes are right at once in 95 % of cases.
+  const double quantile = std::pow(0.95, 1 / double(std::max<size_t>(1, on_scenes.size())));
   for (const Worth& worth : on_scenes) {
-    const double margin = worth.factor * worth.factor;
+    const double margin = worth.freedom > 0
+                              ? std::pow(worth.factor, student_t_quantile(quantile, worth.freedom))
+                              : std::numeric_limits<double>::infinity();
     helps |= worth.ratio / margin >= least_gain;
     may_help |= worth.ratio * margin >= least_gain;
     harms |= worth.ratio * margin < most_harm;

@@ -12,7 +12,7 @@ namespace kaustik::bench {
 std::string letter_of(size_t build);
 
 /// The measurements of a results file by scene and integrator, but those with settings (see
-/// type_of()): of each seed the newest.
+/// type_of()) and those by CPU time: of each seed the newest.
 class Results {
  public:
   explicit Results(const std::vector<Measurement>& in_order);

@@ -21,7 +21,7 @@ constexpr int side = 48;
 constexpr double most_bytes = 320;
 
 /// A glass ball over a floor: every component but media.
-const TestScene& empty_scene() {
+const TestScene& ball_scene() {
   static const TestScene scene(
       camera("0, -4, 2", "0, 0, 0.5", 45, side) + flat("rectangle", scale("3"), diffuse("0.5")) +
       sphere("0, 0, 0.6", 0.6, glass()) +
@@ -40,7 +40,7 @@ Measured measured(const Integrator& integrator, bool layers) {
   settings.passes = 16;
   settings.samples_per_pass = 1;
   settings.layers = layers;
-  Session session(empty_scene().scene(), integrator, settings);
+  Session session(ball_scene().scene(), integrator, settings);
   const SessionReport report = session.run();
   EXPECT_EQ(report.film_bytes, session.film().bytes());
   constexpr double pixels = side * side;
@@ -58,7 +58,7 @@ TEST(FilmMemory, IsBoundedForAllIntegrators) {
         name == "photonmap"
             ? set("global_photons", 2000) + set("caustic_photons", 2000) + set("cache_samples", 16)
             : "";
-    const auto integrator = empty_scene().integrator(name, parameters);
+    const auto integrator = ball_scene().integrator(name, parameters);
     std::printf("  %-12s", name.c_str());
     for (const bool layers : {true, false}) {
       const Measured is = measured(*integrator, layers);

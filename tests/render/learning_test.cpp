@@ -218,6 +218,60 @@ TEST_F(LearningTest, LessonsOfOtherScenesAreRefused) {
   refused("auto", 12, "damaged", [](StoredLessons& stored) { stored.lessons.bytes.resize(40); });
 }
 
+TEST_F(LearningTest, LessonsAndACheckpointExcludeOneAnother) {
+  Job first(little_room("auto"), part(0, 2, "a.kpt"));
+  first.run();
+  JobSettings both = part(0, 4, "a.kpt");
+  both.begun = read_checkpoint(path("a.kpt"));
+  both.record = both.begun->record;
+  both.learned = learned_of("auto", 2).stored;
+  Job second(little_room("auto"), std::move(both));
+  EXPECT_THROW(second.prepare(), std::logic_error);
+}
+
+/// As many samples in all as without lessons, in passes as long as those that taught; unless it is
+/// said how many a pass has.
+TEST_F(LearningTest, SamplesAreThoseOfTheSceneOrAsSaid) {
+  const auto described = [] {
+    Description description = little_room("auto");
+    override_property(description, "sampler.sample_count=20");
+    return description;
+  };
+  StoredLessons stored;
+  {
+    Description description = described();
+    const PreparedScene prepared = prepare_scene(description, {}, true, {});
+    LearningSettings settings;
+    settings.passes = 2;
+    settings.samples_per_pass = 2;
+    stored = learn(prepared, settings).stored;
+  }
+  const auto samples = [&](std::optional<uint32_t> per_pass) {
+    JobSettings settings;
+    settings.session.samples_per_pass = per_pass;
+    settings.learned = stored;
+    Job job(described(), std::move(settings));
+    const JobResult& result = job.run();
+    return std::pair(result.report.passes, result.report.samples_per_pass);
+  };
+  EXPECT_EQ(samples({}), (std::pair(10u, 2u)));
+  EXPECT_EQ(samples(5), (std::pair(4u, 5u)));
+}
+
+TEST_F(LearningTest, AStopAfterTheLastPassIsNone) {
+  const Description description = little_room("auto");
+  const PreparedScene prepared = prepare_scene(description, {}, true, {});
+  LearningSettings settings;
+  settings.passes = 4;
+  learn(prepared, settings);
+  // All has been learned already.
+  std::stop_source stopped;
+  stopped.request_stop();
+  const Learned again = learn(prepared, settings, stopped.get_token());
+  EXPECT_FALSE(again.cancelled);
+  EXPECT_EQ(again.stored.lessons.passes, 4u);
+}
+
 TEST_F(LearningTest, AnotherSceneForgetsThem) {
   JobSettings settings;
   settings.session.passes = 2;

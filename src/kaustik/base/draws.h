@@ -6,8 +6,8 @@ namespace kaustik {
 
 // What random numbers are drawn for. Every address of a Sampler is made of rows of these tables, so
 // that no two uses share numbers: who needs numbers of his own adds a row, and the assertions below
-// look for collisions. (Points of quadratures, which no sample of a picture meets, have scrambles
-// of their own: Sampler's constructor.)
+// look for collisions. (Points of quadratures, which no sample of a picture meets, are made
+// by Sampler's constructor from any scramble.)
 
 /// Whole paths and the like: see Sampler::at().
 enum class Stream : uint32_t {

@@ -20,9 +20,6 @@ constexpr BinaryFileKind checkpoint_kind = {
     "give a .kpt file that was written by: kaustik render SCENE --checkpoint FILE.kpt",
     "render again with this program: kaustik render SCENE --checkpoint FILE.kpt"};
 
-/// As many as `kaustik render` takes in all.
-constexpr uint32_t most_samples_per_pass = uint32_t(1) << 30;
-
 void put_texts(BinaryWriter& writer, const std::vector<std::string>& texts) {
   writer.put(uint64_t(texts.size()));
   for (const std::string& text : texts) writer.put_text(text);

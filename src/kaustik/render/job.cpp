@@ -31,6 +31,8 @@ std::shared_ptr<Job::Run> Job::current() const {
 
 std::shared_ptr<Job::Run> Job::prepared_run() {
   if (auto run = current()) return run;
+  if (settings_.begun && settings_.learned)
+    throw std::logic_error("Job: passes that go on have their lessons; others can't be given");
   apply_changes(description_, settings_.record.recipe, listener_.messages);
   const auto run = std::make_shared<Run>();
   run->prepared =
@@ -39,7 +41,7 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
                     listener_.messages, previous_);
   previous_ = nullptr;
   if (settings_.begun) check_same_scene(run->prepared, *settings_.begun, settings_.begun_path);
-  teach(run->prepared);
+  with_threads(settings_.session.threads, [&] { teach(run->prepared); });
   const std::lock_guard lock(mutex_);
   run_ = run;
   return run;
@@ -96,7 +98,8 @@ void Job::teach(const PreparedScene& prepared) const {
 void Job::make_session(Run& run) {
   SessionSettings settings = settings_.session;
   settings.keeps_passes = !settings_.checkpoint.empty();
-  if (settings_.learned && !(settings.passes && settings.samples_per_pixel))
+  if (settings_.learned && !settings.samples_per_pass &&
+      !(settings.passes && settings.samples_per_pixel))
     settings.samples_per_pass = settings_.learned->samples_per_pass;
   if (settings.seconds) {
     // What it took to read the scene is of the time that there is.

@@ -37,7 +37,7 @@ struct JobSettings {
   std::optional<Checkpoint> begun;  ///< to go on with; throws if it is of another scene
   std::string begun_path;           ///< its file, for messages
   /// Lessons that hold for all passes, which then have its samples unless `session` says otherwise;
-  /// throws if they are of another scene or integrator, or if it goes on with `begun`, which knows.
+  /// throws if they are of another scene or integrator, and std::logic_error beside `begun`.
   std::optional<StoredLessons> learned;
   std::string learned_path;  ///< its file, for messages
   /// Snapshots show a preview_picture() until the integrator has something to show, where that

@@ -27,12 +27,14 @@ Learned learn(const PreparedScene& prepared, const LearningSettings& settings, s
   const Pass after{teaching_seed(settings.seed), settings.passes, stored.samples_per_pass, {}};
   with_threads(settings.threads, [&] { learned.report = integrator.learn(after, stop, progress); });
   stored.lessons = integrator.lessons();
-  if (stop.stop_requested() && stored.lessons.passes == 0)
+  learned.cancelled = stop.stop_requested() && stored.lessons.passes < settings.passes;
+  if (learned.cancelled && stored.lessons.passes == 0)
     throw Error(ErrorKind::system, "cancelled before anything was learned");
   if (stored.lessons.empty() || stored.lessons.passes == 0)
-    throw Error(ErrorKind::input,
-                fmt::format("integrator {} learns nothing of this scene", stored.integrator),
-                "render it at once, or learn with --integrator auto");
+    throw Error(
+        ErrorKind::input,
+        fmt::format("integrator {} learns nothing of this scene", stored.integrator),
+        "render it without lessons, or learn with another integrator: auto, vcm, ppm, bdpt");
   return learned;
 }
 

@@ -7,10 +7,10 @@
 
 namespace kaustik {
 
-/// What is to be learned from.
+/// The passes that teach.
 struct LearningSettings {
-  /// That the render is to have: the passes here have random numbers of their own, so that what
-  /// they find says nothing of its noise.
+  /// Renders of the same seed have other random numbers: what is learned must say nothing of their
+  /// noise.
   uint64_t seed = 0;
   uint32_t passes = 16;
   std::optional<uint32_t> samples_per_pass;  ///< absent: the integrator's default
@@ -21,6 +21,7 @@ struct LearningSettings {
 struct Learned {
   StoredLessons stored;  ///< `program` and `scene` are left to the caller
   PassReport report;
+  bool cancelled = false;  ///< a stop request came before all passes had taught
 };
 
 /// What the passes teach the scene's integrator, without a picture; once `stop` is requested, what

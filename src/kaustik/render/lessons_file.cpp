@@ -55,7 +55,8 @@ StoredLessons read_lessons(const std::string& path) {
   stored.samples_per_pass = reader.get<uint32_t>();
   stored.lessons = get_lessons(reader);
   reader.expect_end();
-  if (stored.samples_per_pass == 0) reader.damaged("its passes have no samples");
+  if (stored.samples_per_pass == 0 || stored.samples_per_pass > most_samples_per_pass)
+    reader.damaged("the samples of its passes are not valid");
   if (stored.lessons.empty() || stored.lessons.passes == 0) reader.damaged("it holds no lesson");
   return stored;
 }

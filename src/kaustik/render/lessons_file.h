@@ -9,6 +9,9 @@
 
 namespace kaustik {
 
+/// As many as `kaustik render` takes in all.
+inline constexpr uint32_t most_samples_per_pass = uint32_t(1) << 30;
+
 /// Lessons, and what they were learned of.
 struct StoredLessons {
   std::string program;            ///< version

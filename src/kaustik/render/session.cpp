@@ -74,6 +74,8 @@ void Session::plan() {
   const uint32_t by_integrator = integrator_.traits().default_samples_per_pass;
   std::optional<uint32_t> samples = settings_.samples_per_pixel;
   const bool is_open = settings_.seconds || settings_.error;  // else passes alone end it
+  if (!samples && !is_open && scene_.film().sample_count > 0)
+    samples = uint32_t(scene_.film().sample_count);
   if (settings_.samples_per_pass) {
     samples_per_pass_ = *settings_.samples_per_pass;
     if (samples) pass_count_ = divided_up(*samples, samples_per_pass_);
@@ -81,8 +83,6 @@ void Session::plan() {
     if (pass_count_ == 0 && !is_open) pass_count_ = default_passes;
     return;
   }
-  if (!samples && !is_open && scene_.film().sample_count > 0)
-    samples = uint32_t(scene_.film().sample_count);
   if (samples) {
     // A limit of time or error is kept to by passes that are as short as they would be without a
     // number of samples.

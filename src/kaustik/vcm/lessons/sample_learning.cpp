@@ -8,6 +8,7 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/vcm/lessons/block_means.h"
 #include "kaustik/vcm/lessons/training_samples.h"
+#include "kaustik/vcm/plan/pixel_plans.h"
 
 namespace kaustik {
 namespace {
@@ -29,7 +30,7 @@ constexpr double pairs_of_mean = 16;
 constexpr double outliers = 0.001;
 /// Of counts, relative to their mean. Fewer would leave more where light is found by rare chance,
 /// which those that are learned from have not seen.
-constexpr uint32_t least_divisor = 2, most_factor = 4;
+constexpr uint32_t least_divisor = 2;
 /// Less is not worth it.
 constexpr double worth_spreading = 1.05;
 
@@ -97,7 +98,8 @@ std::vector<double> weights_by(const Rule& rule, const Noise& noise, const Block
 /// Doubles the count of one block after the other, where most variance is taken off per ray.
 std::vector<uint32_t> counts_for(const std::vector<double>& weights, const Blocks& blocks,
                                  uint32_t samples) {
-  const uint32_t least = std::max(1u, samples / least_divisor), most = samples * most_factor;
+  const uint32_t least = std::max(1u, samples / least_divisor),
+                 most = samples * SampleSpread::most_factor;
   std::vector<uint32_t> counts(weights.size(), least);
   struct Next {
     double worth;

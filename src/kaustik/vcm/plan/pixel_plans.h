@@ -29,6 +29,9 @@ struct PixelPlan {
 
 /// Camera samples per pixel, by blocks of pixels, of the passes of an epoch.
 struct SampleSpread {
+  /// No count is more than so many times the samples of a pass, nor 0.
+  static constexpr uint32_t most_factor = 4;
+
   uint32_t begin = 0;                   ///< first pass of the epoch
   std::vector<uint32_t> counts;         ///< of a pass
   std::vector<uint32_t> first_indices;  ///< of a replicate's first pass of the epoch

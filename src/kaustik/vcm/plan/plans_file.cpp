@@ -103,6 +103,10 @@ VcmPlans PlansReader::next() {
     seen_ = std::move(seen);
   }
   plans.pixels = PixelPlans::read(reader_, seen_);
+  if (const auto& spread = plans.pixels.spread())
+    for (const uint32_t count : spread->counts)
+      if (count == 0 || count > uint64_t(SampleSpread::most_factor) * plans.samples_per_pixel)
+        reader_.damaged("a block in it has no samples, or too many");
   plans.media = MediumDisks::read(reader_, scene_);
   plans.pilot = read_pilot(reader_, seen_->probes().size());
   const auto decisions = reader_.get<uint64_t>();

@@ -1,0 +1,69 @@
+// Plans as bytes: what comes back, and what is refused.
+#include "kaustik/vcm/plan/plans_file.h"
+
+#include "kaustik/base/error.h"
+#include "kaustik/vcm/plan/plans.h"
+#include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+class PlansFile : public testing::Test {
+ protected:
+  static constexpr uint32_t samples = 4;
+
+  PlansFile()
+      : scene_(camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 16) +
+               flat("rectangle", "", diffuse("0.5, 0.5, 0.5")) +
+               flat("rectangle",
+                    scale("0.1, 0.1, 1") + rotate("1, 0, 0", 180) + translate("0, 0.1, 1.25"),
+                    diffuse("0, 0, 0") + area_light("40, 36, 32")) +
+               sphere("0.2, -0.05, 0.401", 0.4, glass())),
+        settings_(Arguments(ppm_info(), {}, {}, problems_)),
+        plain_(std::make_shared<const LightPathEmission>(scene_.scene(), settings_.aim)) {}
+
+  VcmPlans made() const { return VcmPlanner(scene_.scene(), settings_, plain_).make(samples, {}); }
+  /// Those of the first pass with so many samples in one block, written and read.
+  VcmPlans with_count(uint32_t count) const {
+    VcmPlans plans = made();
+    const size_t blocks = plans.pixels.seen().grid().size();
+    SampleSpread spread{2, std::vector<uint32_t>(blocks, samples), std::vector<uint32_t>(blocks, 0),
+                        std::vector<uint32_t>(blocks, samples)};
+    spread.counts.back() = count;
+    plans.pixels.set_spread(std::make_shared<const SampleSpread>(std::move(spread)));
+    ByteWriter writer;
+    write_plans(writer, plans);
+    ByteReader reader(writer.bytes(), "plans");
+    return PlansReader(reader, scene_.scene(), settings_, *plain_).next();
+  }
+
+  TestScene scene_;
+  Problems problems_;
+  VcmSettings settings_;
+  std::shared_ptr<const LightPathEmission> plain_;
+};
+
+TEST_F(PlansFile, PlansComeBack) {
+  const VcmPlans plans = made(), read = with_count(3);
+  EXPECT_EQ(read.samples_per_pixel, samples);
+  EXPECT_EQ(read.light_paths, plans.light_paths);
+  EXPECT_EQ(read.pixels.other_area(), plans.pixels.other_area());
+  EXPECT_EQ(read.pixels.spread()->counts.back(), 3u);
+  ASSERT_EQ(read.pixels.plans().size(), plans.pixels.plans().size());
+  for (size_t i = 0; i < plans.pixels.plans().size(); ++i)
+    EXPECT_EQ(read.pixels.plans()[i].merge_area, plans.pixels.plans()[i].merge_area) << i;
+}
+
+/// A block without samples would be black, one of very many would take for ever.
+TEST_F(PlansFile, CountsOfSamplesHaveBounds) {
+  EXPECT_NO_THROW(with_count(1));
+  EXPECT_NO_THROW(with_count(4 * samples));
+  EXPECT_THROW(with_count(0), Error);
+  EXPECT_THROW(with_count(4 * samples + 1), Error);
+}
+
+}  // namespace
+}  // namespace kaustik
