@@ -17,9 +17,9 @@ struct MediumSegment {
 /// What fills the space between surfaces; it may differ from place to place. Coefficients count per
 /// scene unit. Immutable, thread-safe. No medium (a null pointer) is vacuum.
 ///
-/// Random numbers: a flight takes one dimension pair of the sampler. What else a medium needs, for
-/// a transmittance too, it draws from forks of the sampler whose keys come from the segment, so
-/// that whoever asks needs not know how much that is.
+/// Random numbers: a flight takes one dimension pair of the sampler. A medium that needs more, for
+/// a transmittance too, adds a row of forks to base/draws.h and draws from those whose numbers come
+/// from the segment, so that whoever asks needs not know how much that is. None does yet.
 class Medium {
  public:
   virtual ~Medium() = default;

@@ -41,8 +41,8 @@ Parameter aim_parameter();
 Aim read_aim(const std::string& name);
 inline constexpr Aim default_aim = Aim::boxes;
 
-/// The only source of emission densities. Per light: by the light's own distribution, or aimed, so
-/// that few rays miss the targets' boxes, with exact densities.
+/// The source of all emission densities but learned ones. Per light: by the light's own
+/// distribution, or aimed, so that few rays miss the targets' boxes, with exact densities.
 /// By `Aim::boxes` a light with a place chooses a target by the flux that goes there and samples
 /// the cone that the target's bounding sphere subtends at the origin (density: the sum over all
 /// cones that hold the direction); an infinite light samples the disks of the bounding spheres

@@ -11,7 +11,6 @@ namespace kaustik {
 namespace {
 
 constexpr uint32_t paths_per_probe = 8;
-/// Of the random numbers' addresses.
 /// The kernel of merging weighs its vertices unevenly: they are worth so many of equal weight.
 constexpr double kernel_efficiency = 0.75;
 /// Light that merging finds more often than this, per camera path of a pass, says nothing about how
