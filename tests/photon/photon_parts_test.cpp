@@ -23,7 +23,7 @@ std::shared_ptr<const Scene> lamps_and_mirror() {
               object("bsdf", "diffuse"))});
 }
 
-StoredPhotons traced(const Scene& scene, PhotonPart part, uint64_t seed = 5) {
+StoredPhotons traced_part(const Scene& scene, PhotonPart part, uint64_t seed = 5) {
   StoredPhotons stored;
   stored.fingerprint = fingerprint_of(scene);
   stored.seed = seed;
@@ -37,7 +37,7 @@ StoredPhotons traced(const Scene& scene, PhotonPart part, uint64_t seed = 5) {
 
 std::vector<StoredPhotons> parts_of(const Scene& scene, uint32_t count) {
   std::vector<StoredPhotons> parts;
-  for (uint32_t i = 0; i < count; ++i) parts.push_back(traced(scene, {i, count}));
+  for (uint32_t i = 0; i < count; ++i) parts.push_back(traced_part(scene, {i, count}));
   return parts;
 }
 
@@ -52,7 +52,7 @@ void expect_same(const PhotonMap& a, const PhotonMap& b) {
 
 TEST(PhotonParts, MergedAreTheWholePass) {
   const auto scene = lamps_and_mirror();
-  const StoredPhotons whole = traced(*scene, {});
+  const StoredPhotons whole = traced_part(*scene, PhotonPart{});
   for (const uint32_t count : {1u, 2u, 5u, 40u}) {
     SCOPED_TRACE(count);
     std::vector<StoredPhotons> parts = parts_of(*scene, count);
@@ -92,10 +92,11 @@ TEST(PhotonParts, WhatDoesNotFitIsRefused) {
   EXPECT_NE(problem_with({}).find("no photon map"), std::string::npos);
   EXPECT_NE(problem_with({parts[0]}).find("part 2 of 2 is missing"), std::string::npos);
   EXPECT_NE(problem_with({parts[1], parts[1]}).find("part 2 of 2 comes twice"), std::string::npos);
-  EXPECT_NE(problem_with({parts[0], traced(*scene, {1, 2}, 6)}).find("different seeds"),
+  EXPECT_NE(problem_with({parts[0], traced_part(*scene, {1, 2}, 6)}).find("different seeds"),
             std::string::npos);
-  EXPECT_NE(problem_with({parts[0], traced(*scene, {1, 3})}).find("different seeds or settings"),
-            std::string::npos);
+  EXPECT_NE(
+      problem_with({parts[0], traced_part(*scene, {1, 3})}).find("different seeds or settings"),
+      std::string::npos);
   StoredPhotons other = parts[1];
   other.fingerprint.sums[3] += 1;
   EXPECT_NE(problem_with({parts[0], other}).find("different scenes"), std::string::npos);

@@ -135,7 +135,10 @@ TEST_P(Learners, LearnWithoutAPicture) {
   EXPECT_EQ(pupil->lessons().passes, 11u);
   EXPECT_EQ(pupil->lessons(), teacher->lessons());
   EXPECT_GT(report.photons, 0u);
-  EXPECT_FALSE(report.decisions.empty());
+  // auto says how many light paths it has; whether they are guided depends.
+  if (GetParam() == "auto") {
+    EXPECT_FALSE(report.decisions.empty());
+  }
   // No further than it is asked to, and not anew.
   EXPECT_EQ(pupil->learn({3, 11, 4, {}}, {}, {}).photons, 0u);
   std::stop_source stopped;
