@@ -17,13 +17,17 @@ namespace {
 
 using namespace test;
 
-Description little_room(const std::string& integrator, int size = 12) {
+Description little_room(const std::string& integrator, int size = 12, int samples = 0) {
+  const std::string sampler =
+      samples > 0 ? "<sampler type=\"independent\"><integer name=\"sample_count\" value=\"" +
+                        std::to_string(samples) + "\"/></sampler>"
+                  : "";
   return parse_mitsuba_xml(
       "<scene version=\"3.0.0\"><integrator type=\"" + integrator +
           "\"/><sensor type=\"perspective\"><float name=\"fov\" value=\"45\"/>"
           "<transform name=\"to_world\"><lookat origin=\"0,-4,2\" target=\"0,0,0.5\" "
           "up=\"0,0,1\"/></transform>" +
-          film_of(size, size) + "</sensor>" + room + "</scene>",
+          film_of(size, size) + sampler + "</sensor>" + room + "</scene>",
       "test.xml", "");
 }
 
@@ -232,11 +236,7 @@ TEST_F(LearningTest, LessonsAndACheckpointExcludeOneAnother) {
 /// As many samples in all as without lessons, in passes as long as those that taught; unless it is
 /// said how many a pass has.
 TEST_F(LearningTest, SamplesAreThoseOfTheSceneOrAsSaid) {
-  const auto described = [] {
-    Description description = little_room("auto");
-    override_property(description, "sampler.sample_count=20");
-    return description;
-  };
+  const auto described = [] { return little_room("auto", 12, 20); };
   StoredLessons stored;
   {
     Description description = described();
