@@ -8,6 +8,7 @@
 #include "kaustik/base/parallel.h"
 #include "kaustik/vcm/lessons/block_means.h"
 #include "kaustik/vcm/lessons/training_samples.h"
+#include "kaustik/vcm/plan/cost_model.h"
 #include "kaustik/vcm/plan/pixel_plans.h"
 
 namespace kaustik {
@@ -19,8 +20,6 @@ constexpr uint32_t pairs_before(uint32_t pass) {
   const uint32_t first = std::min(pass, first_passes);
   return first * first_pairs + (pass - first) * later_pairs;
 }
-/// Rays that take as long as what a sample does beside tracing rays.
-constexpr double rays_of_sample = 3;
 /// Blocks on either side that a block's light and rays are averaged with.
 constexpr int light_reach = 1;
 /// A block counts as if so many pairs more had the picture's mean variance: those that there are
@@ -70,7 +69,7 @@ Blocks blocks_of(const std::vector<SampleLearning::Sums>& all, const std::vector
       size, pixels,
       means_around(of_blocks(all, [](const auto& s) { return s.rays; }), size, light_reach),
       relative_scale(of_blocks(all, [](const auto& s) { return s.light; }), size, light_reach)};
-  for (double& rays : result.rays) rays += rays_of_sample;
+  for (double& rays : result.rays) rays += cost_model.merging;
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/vcm/plan/cost_model.h"
 
 namespace kaustik {
 namespace {
@@ -13,11 +14,6 @@ namespace {
 constexpr std::array<double, 8> chances{1, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05, double(least_survival)};
 /// Times as much as samples whose variance is their mean square, even samples count at most.
 constexpr double most_evenness = 30;
-/// Rays that take as long as finding what merges at a vertex and how much of its disk is covered,
-/// and as adding one light vertex of it up.
-constexpr double rays_of_merging = 3, rays_of_merged = 0.1;
-/// A light path's ray, its vertices sorted and learned from, takes as long as so many rays.
-constexpr double rays_of_light_ray = 3;
 /// Errors count relative to a pixel's light, and this share of the picture's mean light.
 constexpr double even_share_of_probes = 0.1;
 constexpr int rounds = 6;
@@ -54,7 +50,8 @@ double variance(const ProbeStatistics& probe, double kappa, const MergeScale& sc
 
 double rays_to_merge(const ProbeStatistics& probe, const MergeScale& scale) {
   if (!(scale.light_paths > 0)) return 0;
-  return rays_of_merging + rays_of_merged * probe.merged * scale.area * scale.light_paths;
+  return cost_model.merging +
+         cost_model.merged_vertex * probe.merged * scale.area * scale.light_paths;
 }
 
 Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, const MergeScale& scale,
@@ -95,7 +92,7 @@ double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, cons
     light_paths = std::max(light_paths, scales[p].light_paths);
   }
   return merging / double(std::max<size_t>(1, probes.size())) +
-         rays_of_light_ray * costs.light_rays * light_paths;
+         cost_model.light_ray * costs.light_rays * light_paths;
 }
 
 Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
@@ -131,7 +128,7 @@ Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const Pas
     }
     total.squared_error /= double(all.size());
     total.rays /= double(all.size());
-    total.rays += rays_of_light_ray * costs.light_rays * light_paths;
+    total.rays += cost_model.light_ray * costs.light_rays * light_paths;
     if (round == rounds) break;
     for (size_t p = 0; p < all.size(); ++p) {
       const auto time = [&](const Candidate& c) {
