@@ -1,7 +1,7 @@
 # Ways to build all of Kaustik in less time. What they make is the same to the bit.
 #
 # PRECOMPILED_HEADERS: the headers of the standard library, fmt, Imath and gtest are parsed once.
-# UNITY: several sources are compiled as one, which takes a third of the time; but after an edit more is
+# UNITY: several sources are compiled as one, which takes less time; but after an edit more is
 # compiled again. A source that lacks an include still compiles in such builds, so builds without them
 # have to be among the checks.
 option(KAUSTIK_PRECOMPILED_HEADERS "Parse the libraries' headers once" OFF)
