@@ -73,7 +73,7 @@ bench-scenes: configure
 # What each device of auto is worth, into docs/ablation.md: the error without it on ten scenes, by CPU time.
 ablation: configure
 	@cmake --build --preset release --target bench_scenes ablation_page
-	$(comparisons)/bench_scenes --cpu-time --results $(ABLATION) --scenes $(or $(SCENES),$(ablation_scenes)) --seconds $(or $(SECONDS),5) \
+	$(comparisons)/bench_scenes --cpu-time --results $(ABLATION) --scenes $(or $(SCENES),$(ablation_scenes)) --seconds $(or $(SECONDS),10) \
 	  --seeds $(or $(SEEDS),1$(comma)2$(comma)3) --integrators $(or $(INTEGRATORS),$(call joined,$(ablation_integrators)))
 	$(comparisons)/ablation_page $(ABLATION) docs
 	mkdir -p docs/ablation
