@@ -4,6 +4,7 @@
 #include "kaustik/render/scene_warnings.h"
 #include "kaustik/scene/scene_report.h"
 #include "render_job.h"
+#include "scene_options.h"
 #include "texture_memory.h"
 
 namespace kaustik::app {
@@ -30,10 +31,8 @@ void add_info(CLI::App& program) {
       program.add_subcommand("info", "Print what is in a scene and warn of what can't work.");
   auto path = std::make_shared<std::string>();
   auto definitions = std::make_shared<std::vector<std::string>>();
-  command->add_option("scene", *path, "Scene file (Mitsuba XML); - for standard input")->required();
-  command->add_option("-D,--define", *definitions, "Value for $name in the scene file")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
+  add_scene(*command, *path);
+  add_definitions(*command, *definitions);
   auto build = std::make_shared<BuildOptions>();
   add_texture_memory(*command, *build);
   command->callback([path, definitions, build] { info(*path, *definitions, *build); });

@@ -10,6 +10,7 @@
 #include "kaustik/render/learning.h"
 #include "numbers.h"
 #include "render_job.h"
+#include "scene_options.h"
 #include "standard_streams.h"
 #include "texture_memory.h"
 #include "thesis_settings.h"
@@ -103,17 +104,10 @@ void add_learn(CLI::App& program) {
       "b.kpt\n"
       "Give both the same -D, --set and --integrator.");
   auto o = std::make_shared<LearnOptions>();
-  command->add_option("scene", o->recipe.scene, "Scene file (Mitsuba XML); - for standard input")
-      ->required();
+  add_scene(*command, o->recipe.scene);
   command->add_option("-o,--output", o->output, "File of lessons to write, .kln")->required();
-  command->add_option("-D,--define", o->definitions, "Value for $name in the scene file")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--set", o->settings,
-                   "Change a parameter: integrator.max_depth=8, film.width=400, ID.radius=2")
-      ->type_name("OBJECT.PARAMETER=VALUE")
-      ->allow_extra_args(false);
+  add_definitions(*command, o->definitions);
+  add_settings(*command, o->settings, "integrator.max_depth=8, film.width=400, ID.radius=2");
   command->add_option("--integrator", o->recipe.integrator,
                       "Use this method instead of the file's: auto, vcm, ppm, bdpt learn");
   add_light_level(*command, o->levels);

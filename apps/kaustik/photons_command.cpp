@@ -13,6 +13,7 @@
 #include "kaustik/scene/overrides.h"
 #include "numbers.h"
 #include "render_job.h"
+#include "scene_options.h"
 #include "standard_streams.h"
 #include "texture_memory.h"
 #include "thesis_settings.h"
@@ -142,17 +143,10 @@ void add_photons(CLI::App& program) {
       "photons",
       "Trace the photon maps of a scene, store them for other views, print their statistics.");
   auto o = std::make_shared<PhotonsOptions>();
-  command->add_option("scene", o->scene, "Scene file (Mitsuba XML); - for standard input")
-      ->required();
+  add_scene(*command, o->scene);
   command->add_option("-o,--output", o->output, "Photon map to write, .kpm")->required();
-  command->add_option("-D,--define", o->definitions, "Value for $name in the scene file")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--set", o->settings,
-                   "Change a parameter: integrator.caustic_photons=1000000, ID.radius=2")
-      ->type_name("OBJECT.PARAMETER=VALUE")
-      ->allow_extra_args(false);
+  add_definitions(*command, o->definitions);
+  add_settings(*command, o->settings, "integrator.caustic_photons=1000000, ID.radius=2");
   add_light_level(*command, o->levels);
   command
       ->add_option("--part", o->part,

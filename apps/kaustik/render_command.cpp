@@ -15,6 +15,7 @@
 #include "numbers.h"
 #include "picture_output.h"
 #include "render_job.h"
+#include "scene_options.h"
 #include "standard_streams.h"
 #include "texture_memory.h"
 #include "thesis_settings.h"
@@ -175,24 +176,16 @@ void add_render(CLI::App& program) {
       "Variables photonMap.… of the environment set integrator photonmap as in Schregle's thesis: "
       "kaustik help thesis.");
   auto options = std::make_shared<RenderOptions>();
-  command
-      ->add_option("scene", options->recipe.scene, "Scene file (Mitsuba XML); - for standard input")
-      ->required();
+  add_scene(*command, options->recipe.scene);
   command
       ->add_option("-o,--output", options->outputs.files,
                    "Image to write, by extension: exr, hdr, pfm, tif (LogLuv), png, jpg, ppm; - or "
                    "png:- for standard output; may be repeated [SCENE.exr]")
       ->take_all()
       ->allow_extra_args(false);
-  command->add_option("-D,--define", options->definitions, "Value for $name in the scene file")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
-  command
-      ->add_option(
-          "--set", options->settings,
-          "Change a parameter: integrator.caustic_neighbors=200, film.width=400, ID.radius=2")
-      ->type_name("OBJECT.PARAMETER=VALUE")
-      ->allow_extra_args(false);
+  add_definitions(*command, options->definitions);
+  add_settings(*command, options->settings,
+               "integrator.caustic_neighbors=200, film.width=400, ID.radius=2");
   command->add_option("--integrator", options->recipe.integrator,
                       "Use this method instead of the file's: " + integrator_names());
   add_light_level(*command, options->levels);

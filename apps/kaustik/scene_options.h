@@ -1,0 +1,18 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace kaustik::app {
+
+// Options of all commands that read a scene.
+
+/// The scene file itself, the first argument.
+void add_scene(CLI::App& command, std::string& scene);
+/// -D: "name=value" for parse_definitions().
+void add_definitions(CLI::App& command, std::vector<std::string>& definitions);
+/// --set: "object.parameter=value"; `examples` are for people.
+void add_settings(CLI::App& command, std::vector<std::string>& settings,
+                  const std::string& examples);
+
+}  // namespace kaustik::app
