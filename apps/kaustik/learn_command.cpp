@@ -22,7 +22,6 @@ struct LearnOptions {
   RenderRecipe recipe;
   std::string output;
   std::vector<std::string> definitions, settings;
-  LevelOptions levels;
   uint32_t passes = 16;
   std::optional<uint32_t> spp;
   BuildOptions build;
@@ -68,7 +67,7 @@ void learn_scene(LearnOptions options) {
   Description description = load_description(recipe);
   roles.reads(description);
   roles.check();
-  recipe.settings = collected_settings(description, options.levels, options.settings);
+  recipe.settings = collected_settings(description, {}, options.settings);
   apply_changes(description, recipe, terminal_messages());
   const PreparedScene prepared =
       prepare_scene(description, options.build, true, terminal_messages());
@@ -110,7 +109,6 @@ void add_learn(CLI::App& program) {
   add_settings(*command, o->settings, "integrator.max_depth=8, film.width=400, ID.radius=2");
   command->add_option("--integrator", o->recipe.integrator,
                       "Use this method instead of the file's: auto, vcm, ppm, bdpt learn");
-  add_light_level(*command, o->levels);
   command->add_option("--passes", o->passes, "Number of passes to learn from, up to 256 [16]")
       ->check(whole_number(1, 256));
   command
