@@ -27,12 +27,14 @@ constexpr float blurred_pixels = 2;
 /// Surfaces of one camera path that ask for records.
 constexpr size_t cache_points_per_path = 4;
 
-/// The radius that `neighbors` photons take at three quarters of the photons. What is sparser is
-/// better estimated from fewer photons than from far ones: where the dim surroundings of a focus
+/// The largest radius is what this share of the photons take for their neighbours. What is sparser
+/// is better estimated from fewer photons than from far ones: where the dim surroundings of a focus
 /// reach into it for their neighbours, its light is counted twice. Their noise goes with the
-/// passes; for stored maps, where it does not, the radius is twice that of 95 % of the photons.
+/// passes; for stored maps, where it does not, the radius is twice that of a larger share.
+constexpr float quantile = 0.75f, stored_quantile = 0.95f;
 float typical_radius(const PhotonMap& map, int neighbors, bool stored) {
-  return stored ? 2 * map.typical_radius(neighbors, 0.95f) : map.typical_radius(neighbors, 0.75f);
+  return stored ? 2 * map.typical_radius(neighbors, stored_quantile)
+                : map.typical_radius(neighbors, quantile);
 }
 
 /// The walk's vertex as the cache sees it, on the side of `normal`.
@@ -180,7 +182,7 @@ void PhotonMapIntegrator::add_shadow_photons(State& state, const Pass& pass,
   state.shadow_settings = settings_.shadows;
   const float first = settings_.shadow_radius > 0 ? settings_.shadow_radius
                                                   : state.shadows->tree().typical_radius(
-                                                        settings_.shadows.neighbors, 0.75f);
+                                                        settings_.shadows.neighbors, quantile);
   state.shadow_settings.maximum_radius = pass_radius(first, pass.index);
 }
 

@@ -6,9 +6,9 @@ namespace kaustik {
 /// what plans weigh variance against. `cost_tool` measures them in scenes that ship and prints its
 /// medians beside these.
 struct CostModel {
-  double merging = 3;  ///< of a vertex: finding what merges, and how far its disk is covered
-  double merged_vertex = 0.1;  ///< of each light vertex that is added up there
-  double light_ray = 3;        ///< of a light path, its vertices sorted and learned from
+  double merging = 2;  ///< of a vertex: finding what merges, and how far its disk is covered
+  double merged_vertex = 0.01;  ///< of each light vertex that is added up there
+  double light_ray = 2;         ///< of a light path, its vertices sorted and learned from
 };
 inline constexpr CostModel cost_model;
 
