@@ -97,7 +97,7 @@ void measure_merging(const LightVertices& light, double per_point) {
   disk.radius = float(std::sqrt(area / double(pi)));
   disk.flatness = 0.3f * disk.radius;
   disk.least_cosine = 0.5f;
-  disk.weights = weights.matt_vertex({&seen, 1}, float(area), 0.1f, 1);
+  disk.weights = weights.matt_vertex({&seen, 1}, float(area), 0.1f);
   double sum = 0;
   std::vector<double> times;
   for (int i = 0; i < repeats; ++i) {

@@ -14,7 +14,7 @@ namespace {
 /// A whole path x₁ … xₙ with what every technique would find out about it.
 struct WholePath {
   std::vector<PathVertex> vertices;  ///< x₁ … xₙ
-  float pdf_next_event = 0, first_merge_area = 0, first_survival = 1, connected = 1;
+  float pdf_next_event = 0, first_merge_area = 0, first_survival = 1;
 };
 
 /// Densities over some magnitudes; the light's point has no event.
@@ -39,7 +39,6 @@ WholePath random_path(std::mt19937& random, size_t length, double delta_share,
   path.pdf_next_event = density();
   path.first_merge_area = 1e-4f * density();
   path.first_survival = 0.05f + 0.95f * unit(random);
-  path.connected = std::max(0.0f, 1.3f * unit(random) - 0.3f);
   return path;
 }
 
@@ -76,7 +75,6 @@ struct Halves {
     halves.pdf_next_event = path.pdf_next_event;
     halves.first_merge_area = path.first_merge_area;
     halves.first_survival = path.first_survival;
-    halves.connected = path.connected;
   }
   std::vector<PathVertex> camera, light;
   PathHalves halves;
@@ -213,13 +211,12 @@ TEST(PathWeights, OfMattSurfaces) {
     PathHalves stored = halves.halves;
     stored.camera = {&any, 1};
     stored.first_merge_area = -1;
-    stored.first_survival = stored.connected = 1;
+    stored.first_survival = 1;
     const PathWeights::MattMerge merge = weights.matt_merge(stored);
-    const PathWeights::MattVertex vertex = weights.matt_vertex(halves.camera, path.first_merge_area,
-                                                               path.first_survival, path.connected);
-    const float weight =
-        1 / (vertex.base + merge.connection * vertex.on_connection +
-             merge.beyond * vertex.on_beyond + merge.beyond_connected * vertex.on_beyond_connected);
+    const PathWeights::MattVertex vertex =
+        weights.matt_vertex(halves.camera, path.first_merge_area, path.first_survival);
+    const float weight = 1 / (vertex.base + merge.connection * vertex.on_connection +
+                              merge.beyond * vertex.on_beyond);
     ASSERT_NEAR(weight / expected, 1, 1e-4) << n << " vertices, merged at " << t;
   }
   EXPECT_GT(compared, 3000);

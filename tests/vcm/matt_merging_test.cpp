@@ -65,7 +65,7 @@ LightVertices light_vertices(uint32_t count) {
 struct Seen {
   MattDisk disk;
   PathVertex vertex;
-  float area = 0, survival = 1, connected = 1;
+  float area = 0, survival = 1;
 };
 
 /// What a light vertex adds at a disk, by the whole weights.
@@ -90,7 +90,6 @@ void add_by_definition(const LightVertices& light, const PathWeights& weights, c
   path.pdf_next_event = data.pdf_next_event;
   path.first_merge_area = seen.area;
   path.first_survival = seen.survival;
-  path.connected = seen.connected;
   const Spectrum flux = data.flux.spectrum() * (weights.merge(path) * cosine);
   MattLight::Sum& sum = data.specular ? result.after_specular : result.other;
   sum.wide += flux * ((1 - share) * (1 + dot(disk.slope, offset)));
@@ -138,8 +137,7 @@ TEST(MattMerging, FindsWhatALoopFinds) {
     seen.vertex.pdf_camera = 1 + 50 * unit(random);
     seen.area = pi * sqr(disk.radius);
     seen.survival = 0.1f + 0.9f * unit(random);
-    seen.connected = i % 4 == 0 ? 0.0f : 1.0f;
-    disk.weights = weights.matt_vertex({&seen.vertex, 1}, seen.area, seen.survival, seen.connected);
+    disk.weights = weights.matt_vertex({&seen.vertex, 1}, seen.area, seen.survival);
     const MattLight light_there = merging.merge(disk);
     const MattLight expected = by_definition(light, weights, seen);
     expect_same(light_there.after_specular.wide, expected.after_specular.wide);
@@ -164,7 +162,7 @@ TEST(MattMerging, DrawsVerticesByWhatTheyAdd) {
   disk.least_cosine = 0.5f;
   seen.vertex.pdf_camera = 20;
   seen.area = pi * sqr(disk.radius);
-  disk.weights = weights.matt_vertex({&seen.vertex, 1}, seen.area, seen.survival, seen.connected);
+  disk.weights = weights.matt_vertex({&seen.vertex, 1}, seen.area, seen.survival);
   std::vector<MattMerging::Factors> each;
   const MattLight found = merging.merge(disk, &each);
   const Spectrum reflected(0.9f, 0, 0, 0);  // one lane that draws

@@ -58,7 +58,7 @@ class PathWeights::View {
   float connection(float ratio, size_t i) const {
     if (!settings_.techniques.connections || i < 1 || i + 2 > n_ || is_delta(i) || is_delta(i + 1))
       return 0;
-    return ratio * settings_.connections * path_.connected;
+    return ratio * settings_.connections;
   }
   float splat(float ratio) const {
     if (!settings_.techniques.splats || n_ < 3 || is_delta(1)) return 0;
@@ -154,24 +154,13 @@ float PathWeights::weight(const View& path, float own_density) const {
 PathWeights::MattMerge PathWeights::matt_merge(const PathHalves& path) const {
   const View view(settings_, path, View::Meeting::at_last);
   const float density = view.pdf_light(view.t()) * settings_.light_paths * unit_area();
-  if (!(density > 0)) return {1e30f, 1e30f, 0};
-  MattMerge result;
-  result.connection = sqr(view.connection(1 / density, view.t()));
-  const float all = squares_beyond(view, 1 / density);
-  if (!settings_.techniques.connections) {
-    result.beyond = all;
-    return result;
-  }
-  PathHalves alone = path;
-  alone.connected = 0;
-  result.beyond = squares_beyond(View(settings_, alone, View::Meeting::at_last), 1 / density);
-  result.beyond_connected = std::max(0.0f, all - result.beyond);
-  return result;
+  if (!(density > 0)) return {1e30f, 1e30f};
+  return {.connection = sqr(view.connection(1 / density, view.t())),
+          .beyond = squares_beyond(view, 1 / density)};
 }
 
 PathWeights::MattVertex PathWeights::matt_vertex(std::span<const PathVertex> camera,
-                                                 float merge_area, float survival,
-                                                 float connected) const {
+                                                 float merge_area, float survival) const {
   MattVertex result;
   // Splats find what the camera sees directly, by a density that is that of merging but for this:
   if (settings_.techniques.splats && camera.size() == 1)
@@ -179,9 +168,7 @@ PathWeights::MattVertex PathWeights::matt_vertex(std::span<const PathVertex> cam
   constexpr float most = 1e30f;  // infinite factors of what is zero would make no sense
   const float units = unit_area() / merge_area;
   result.on_beyond = std::min(most, sqr(survival * units));
-  if (!settings_.techniques.connections) return result;
-  result.on_connection = std::min(most, sqr(connected * units));
-  result.on_beyond_connected = std::min(most, sqr(connected * survival * units));
+  if (settings_.techniques.connections) result.on_connection = std::min(most, sqr(units));
   return result;
 }
 

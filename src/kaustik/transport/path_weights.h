@@ -50,7 +50,6 @@ struct PathHalves {
   float first_survival = 1;          ///< chance with which camera paths, once behind the first
                                      ///< vertex whose event is not delta, do more than meet a lamp
                                      ///< or the sky, and what merges in a medium on the way
-  float connected = 1;               ///< share of Settings::connections that the pixel has
 };
 
 /// Multiple importance sampling over all ways of finding a path: how much the path counts where it
@@ -116,21 +115,19 @@ class PathWeights {
   /// densities relative to merging on unit_area(), so that they are of no scale.
   struct MattMerge {
     float connection = 0;  ///< of connecting the camera's vertex to the one before
-    float beyond = 0;  ///< of all that is found by paths that go on from the camera's vertex …
-    float beyond_connected = 0;  ///< … but for this, by connecting them
+    float beyond = 0;      ///< of all that paths find by going on from the camera's vertex
   };
-  /// `path`: as for merge(), with any one vertex as the camera half and no roulette there; what is
-  /// connected is that of a pixel which has all;
+  /// `path`: as for merge(), with any one vertex as the camera half and no roulette there;
   /// pdf_camera_last by the surface that the light path met, as if the camera's vertex lay there.
   MattMerge matt_merge(const PathHalves& path) const;
-  /// What stands for the rest: 1/(base + connection · on_connection + beyond · on_beyond +
-  /// beyond_connected · on_beyond_connected) is merge() of a first vertex with a matt surface.
+  /// What stands for the rest: 1/(base + connection · on_connection + beyond · on_beyond) is
+  /// merge() of a first vertex with a matt surface.
   struct MattVertex {
-    float base = 1, on_connection = 0, on_beyond = 0, on_beyond_connected = 0;
+    float base = 1, on_connection = 0, on_beyond = 0;
   };
-  /// `camera`, `merge_area`, `survival` and `connected` as in PathHalves.
-  MattVertex matt_vertex(std::span<const PathVertex> camera, float merge_area, float survival,
-                         float connected) const;
+  /// `camera`, `merge_area` and `survival` as in PathHalves.
+  MattVertex matt_vertex(std::span<const PathVertex> camera, float merge_area,
+                         float survival) const;
 
   /// Whether vertices merge at the last of `camera`.
   bool merges_at(std::span<const PathVertex> camera) const;

@@ -195,7 +195,7 @@ SurfaceMerging::MergedLight SurfaceMerging::merged_matt(
        in_.maximum_events - walk_.events(), weights.bounds.edges, weights.wide.slope,
        weights.narrow.slope,
        in_.weights.matt_vertex(vertices_.list(), vertices_.plan().counted_area(in_.camera_samples),
-                               vertices_.plan().counted_survival(), 1)},
+                               vertices_.plan().counted_survival())},
       each);
   const Spectrum reflected = vertex.diffuse_value();
   MergedLight result;

@@ -117,8 +117,7 @@ HWY_INLINE void add_block(const KdBuckets::Bucket& points, const MattMerging::Bl
                             hn::Set(d, disk.weights.base));
     if (disk.weights.on_connection > 0)
       others = hn::MulAdd(hn::Load(d, block.connection + i), hn::Set(d, disk.weights.on_connection),
-                          hn::MulAdd(hn::Load(d, block.beyond_connected + i),
-                                     hn::Set(d, disk.weights.on_beyond_connected), others));
+                          others);
     const Vec each = hn::Div(cosine, others);
     Vec wide = hn::Mul(each, kernel);
     // 1 − a d² by 1 − d², as far as that is not negative.
@@ -252,7 +251,6 @@ void fill_block(const LightVertices& light, const PathWeights& weights, size_t b
     block.most_before = std::max(block.most_before, data.before);
     block.connection[i] = merge.connection;
     block.beyond[i] = merge.beyond;
-    block.beyond_connected[i] = merge.beyond_connected;
     const int8_t side[3] = {data.side.x(), data.side.y(), data.side.z()};
     for (size_t axis = 0; axis < 3; ++axis) {
       block.side[axis][i] = side[axis];

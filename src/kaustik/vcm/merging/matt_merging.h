@@ -68,7 +68,7 @@ class MattMerging {
   struct alignas(64) Block {
     static constexpr size_t size = KdBuckets::bucket_size;
     float flux[Spectrum::lane_count][size];
-    float connection[size], beyond[size], beyond_connected[size];  ///< PathWeights::MattMerge
+    float connection[size], beyond[size];  ///< PathWeights::MattMerge
     float side_length[size];      ///< of the sides; after floats alone, for vectors lie aligned
     int8_t side[3][size];         ///< LightVertexData::side
     uint16_t before[size];        ///< LightVertexData::before
