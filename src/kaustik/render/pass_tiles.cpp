@@ -67,30 +67,30 @@ void PassTiles::store(size_t tile, const Pixels& pixels) {
     });
     lines->back()[i] = pixels[i].samples;
   }
-  Kept& kept = kept_[tile];
+  StoredTile& stored = stored_[tile];
   size_t size = 0;
   for (size_t line = 0; line <= line_count; ++line) {
     const Bits& bits = (*lines)[line];
     const bool is_uniform = std::equal(bits.begin() + 1, bits.end(), bits.begin());
-    kept.kinds[line] = !is_uniform ? Kind::full : bits[0] != 0 ? Kind::uniform : Kind::zero;
-    size += size_of(kept.kinds[line]);
+    stored.kinds[line] = !is_uniform ? Kind::full : bits[0] != 0 ? Kind::uniform : Kind::zero;
+    size += size_of(stored.kinds[line]);
   }
-  if (kept.numbers.size() != size) kept.numbers = std::vector<float>(size);
-  float* to = kept.numbers.data();
+  if (stored.numbers.size() != size) stored.numbers = std::vector<float>(size);
+  float* to = stored.numbers.data();
   for (size_t line = 0; line <= line_count; ++line) {
-    const size_t numbers = size_of(kept.kinds[line]);
+    const size_t numbers = size_of(stored.kinds[line]);
     if (numbers > 0) std::memcpy(to, (*lines)[line].data(), numbers * sizeof(float));
     to += numbers;
   }
 }
 
 const PassTiles::Line* PassTiles::read(size_t tile, size_t line, Line& uniform) const {
-  const Kept& kept = kept_[tile];
-  if (kept.kinds[line] == Kind::zero) return nullptr;
-  const float* first = kept.numbers.data();
-  for (size_t i = 0; i < line; ++i) first += size_of(kept.kinds[i]);
+  const StoredTile& stored = stored_[tile];
+  if (stored.kinds[line] == Kind::zero) return nullptr;
+  const float* first = stored.numbers.data();
+  for (size_t i = 0; i < line; ++i) first += size_of(stored.kinds[i]);
   // An array is nothing but its elements.
-  if (kept.kinds[line] == Kind::full) return reinterpret_cast<const Line*>(first);
+  if (stored.kinds[line] == Kind::full) return reinterpret_cast<const Line*>(first);
   uniform.fill(*first);
   return &uniform;
 }
@@ -104,7 +104,7 @@ void PassTiles::read_samples(size_t tile, Bits& samples) const {
 }
 
 void PassTiles::load(size_t tile, Pixels& pixels) const {
-  if (kept_[tile].numbers.empty()) return pixels.fill({});
+  if (stored_[tile].numbers.empty()) return pixels.fill({});
   static constexpr Line zeros{};
   std::array<Line, line_count> uniform;
   std::array<const Line*, line_count> lines;
@@ -132,12 +132,12 @@ uint32_t PassTiles::fewest_samples() const {
 }
 
 void PassTiles::clear() {
-  for (Kept& kept : kept_) kept = {};
+  for (StoredTile& stored : stored_) stored = {};
 }
 
 size_t PassTiles::bytes() const {
-  size_t sum = kept_.capacity() * sizeof(Kept);
-  for (const Kept& kept : kept_) sum += kept.numbers.capacity() * sizeof(float);
+  size_t sum = stored_.capacity() * sizeof(StoredTile);
+  for (const StoredTile& stored : stored_) sum += stored.numbers.capacity() * sizeof(float);
   return sum;
 }
 

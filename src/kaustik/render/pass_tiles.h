@@ -41,7 +41,7 @@ class PassTiles {
   static constexpr size_t bias = squares + noise_kinds;
   static constexpr size_t line_count = bias + 3;
 
-  explicit PassTiles(const Vec2i& size) : tiles_(size), kept_(tiles_.count()) {}
+  explicit PassTiles(const Vec2i& size) : tiles_(size), stored_(tiles_.count()) {}
 
   const PictureTiles& tiles() const { return tiles_; }
   /// All zero where nothing was stored.
@@ -59,14 +59,14 @@ class PassTiles {
 
  private:
   enum class Kind : uint8_t { zero, uniform, full };
-  struct Kept {
+  struct StoredTile {
     std::array<Kind, line_count + 1> kinds{};  ///< of the lines, then of the samples
     std::vector<float> numbers;  ///< of uniform lines one, of full ones all; samples as their bits
   };
   static size_t size_of(Kind kind);
 
   PictureTiles tiles_;
-  std::vector<Kept> kept_;
+  std::vector<StoredTile> stored_;
 };
 
 }  // namespace kaustik

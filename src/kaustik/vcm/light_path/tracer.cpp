@@ -43,7 +43,7 @@ class Tracer {
 
  private:
   /// What is kept of a vertex until its path has come to its end.
-  struct Kept {
+  struct MergeablePoint {
     uint32_t path;
     Vec3f position;
     LightVertexData data;
@@ -176,7 +176,7 @@ class Tracer {
                                ? 1.0f
                                : abs_dot(vertex.wo(), vertex.normal()) / std::fabs(cos_geometric);
       data.flux = at.state.throughput * factor;
-      kept_.push_back({at.path - begin_, vertex.position(), data});
+      mergeable_.push_back({at.path - begin_, vertex.position(), data});
     }
   }
 
@@ -197,10 +197,10 @@ class Tracer {
       block_.vertices.insert(block_.vertices.end(), paths_[i].vertices.begin(),
                              paths_[i].vertices.end());
     }
-    for (Kept& kept : kept_) {
-      kept.data.path = begins[kept.path];
-      block_.positions.push_back(kept.position);
-      block_.data.push_back(kept.data);
+    for (MergeablePoint& point : mergeable_) {
+      point.data.path = begins[point.path];
+      block_.positions.push_back(point.position);
+      block_.data.push_back(point.data);
     }
     for (LightScattering& event : scatterings_) {
       if (!paths_[event.path].kept) continue;
@@ -219,7 +219,7 @@ class Tracer {
   CameraSplats splats_;
   uint32_t begin_ = 0;
   std::vector<LightPathUnderWay> paths_;
-  std::vector<Kept> kept_;
+  std::vector<MergeablePoint> mergeable_;
   std::vector<LightScattering> scatterings_;
   LightBlock block_;  ///< `path` counts the paths until gather()
 };

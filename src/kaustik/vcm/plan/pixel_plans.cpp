@@ -8,8 +8,6 @@
 namespace kaustik {
 namespace {
 
-/// Bounds of a pixel's radius, in widths of the pixel on the surface.
-constexpr float least_widths = 1, most_widths = 6;
 /// Most of the radius at later vertices, in distances of what the camera sees.
 constexpr float most_other_radius = 0.03f;
 
@@ -37,10 +35,10 @@ void PixelPlans::choose_disks(const LightVertices& pilot, uint32_t paths, int wa
       const PixelProbe& probe = seen_->probes()[i];
       if (!probe.found || pilot.tree.empty()) continue;
       pilot.tree.nearest(probe.vertex.position(), side_of(probe.vertex), false, neighbors,
-                         most_widths * probe.pixel_width, found);
+                         most_disk_widths * probe.pixel_width, found);
       const float radius = found.complete() ? std::sqrt(found.farthest_sq()) : float(infinity);
-      plans_[i].merge_area = pi * sqr(std::clamp(radius, least_widths * probe.pixel_width,
-                                                 most_widths * probe.pixel_width));
+      plans_[i].merge_area = pi * sqr(std::clamp(radius, least_disk_widths * probe.pixel_width,
+                                                 most_disk_widths * probe.pixel_width));
     }
   });
   fill_gaps();

@@ -13,6 +13,10 @@ namespace kaustik {
 /// Where paths go on seldom they are worth less than they cost; more seldom than this, never.
 inline constexpr float least_survival = 0.02f;
 
+/// Bounds of the radius of a disk at the first vertex, in widths of the pixel there. A smaller one
+/// blurs less than the pixel does anyway, a larger one shows.
+inline constexpr float least_disk_widths = 1, most_disk_widths = 6;
+
 /// What is decided for the first vertex of a pixel's camera paths whose event is not delta.
 struct PixelPlan {
   float merge_area = 0;  ///< of the disk of merging, m²
@@ -40,8 +44,7 @@ struct SampleSpread {
 
 /// The plans of the first pass: a table over blocks of pixels, and one radius for all vertices but
 /// the first. The pixel's radius is that which some light vertices of a pilot pass take, within
-/// bounds from the pixel's footprint: smaller ones would blur less than the pixel does anyway,
-/// larger ones show. Whether paths go on is up to choose_survival().
+/// least_disk_widths and most_disk_widths. Whether paths go on is up to choose_survival().
 class PixelPlans {
  public:
   PixelPlans() = default;

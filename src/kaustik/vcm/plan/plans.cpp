@@ -56,13 +56,12 @@ bool has_hidden_light(const LightVertices& light) {
 /// by no more than theirs.
 MediumDisks medium_disks(const Scene& scene, const VcmSettings& settings,
                          const LightVertices& pilot, uint32_t of_pass, float mean_length) {
-  constexpr float least_widths = 1, most_widths = 6;
   const Vec2i size = scene.film().size;
   const double per_pixel = double(pilot.in_media.size()) / double(pilot.path_count) *
                            double(of_pass) / (double(size.x) * double(size.y));
   const double wanted = std::sqrt(double(settings.merge_neighbors) * double(inv_pi) / per_pixel);
-  const float widths = wanted < double(most_widths) ? float(wanted) : most_widths;
-  return {scene, std::max(least_widths, widths), settings.radius, mean_length};
+  const float widths = wanted < double(most_disk_widths) ? float(wanted) : most_disk_widths;
+  return {scene, std::max(least_disk_widths, widths), settings.radius, mean_length};
 }
 
 /// Whether light of these components may merge.
