@@ -68,6 +68,12 @@ class SurfaceVertex {
   /// Whether a bump or normal map bends the normal (paint or not): photons on such surfaces hold
   /// flux by the geometric normal.
   bool has_relief() const { return has_relief_; }
+  /// Whether f is diffuse_value() for all light that merges here: beside the diffuse lobe there may
+  /// be a delta one, which merges with nothing.
+  bool is_matt() const {
+    return (lobes() & (Lobes::diffuse | Lobes::glossy)) == Lobes::diffuse && !transmits() &&
+           !has_relief();
+  }
   /// What turns irradiance from wi, measured by the geometric normal as photons do, into that by
   /// the shading normal; zero where the two disagree on the side of wi. At most
   /// `largest_irradiance_factor`: it grows without bound at grazing incidence, where a single

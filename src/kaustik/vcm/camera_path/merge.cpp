@@ -51,8 +51,7 @@ void SurfaceMerging::merge() {
   const MergeDisk disk = bounds.are_clear() ? MergeDisk(vertex, radius, bounds.clear_flatness)
                                             : MergeDisk(vertex, radius);
   const DiskWeights weights = disk_weights(disk, bounds);
-  const bool is_matt = vertices_.is_at_first() && lobes == Lobes::diffuse && !vertex.transmits() &&
-                       !vertex.has_relief();
+  const bool is_matt = vertices_.is_at_first() && vertex.is_matt();
   const bool is_all_reached = bounds.are_clear() || !in_.visibility;
   MergedLight light;
   if (is_matt)

@@ -113,13 +113,14 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
       const float radius = reach_ * probe.pixel_width;
       if (!probe.found || !(radius > 0)) continue;
       const MergeDisk disk(probe.vertex, radius);
+      const ProbeLight at_probe(probe, wanted_);
       light.tree.within(
           probe.vertex.position(), disk.side(), false, sqr(radius), [&](uint32_t index, float) {
             const LightVertexData& photon = light.tree.tree().data(index);
             if (photon.path > last_path) return;
             const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
-            const float value = sent_to_camera(probe, photon, wanted_).sum() *
-                                disk.share(offset, photon.side) * inv_pi / sqr(radius);
+            const float value =
+                at_probe.sent(photon) * disk.share(offset, photon.side) * inv_pi / sqr(radius);
             if (value > 0)
               found[block].push_back(
                   {uint32_t(p), photon.path, photon.path + photon.before, value});

@@ -4,9 +4,29 @@
 
 namespace kaustik {
 
-/// Radiance that the vertex of a light path, merging at a probe with a kernel of height 1 and the
-/// only one of its pass, sends to the camera in the wanted components.
-Spectrum sent_to_camera(const PixelProbe& probe, const LightVertexData& photon,
-                        ComponentSet wanted);
+/// What vertices of light paths that merge at a probe send to the camera, in the wanted components.
+class ProbeLight {
+ public:
+  /// `probe` must outlive this.
+  ProbeLight(const PixelProbe& probe, ComponentSet wanted);
+
+  /// Radiance of a vertex that merges with a kernel of height 1 and is the only one of its pass,
+  /// summed over lanes.
+  float sent(const LightVertexData& photon) const {
+    const Spectrum value =
+        is_matt_ ? matt_[photon.specular ? 1 : 0] : value_of(photon.direction.unpack(), photon);
+    return (value * photon.flux.spectrum()).sum();
+  }
+
+ private:
+  bool is_wanted(Lobes lobe, bool specular) const;
+  /// Of the bsdf.
+  Spectrum value_of(const Vec3f& direction, const LightVertexData& photon) const;
+
+  const PixelProbe& probe_;
+  ComponentSet wanted_;
+  bool is_matt_;      ///< the bsdf has one value for all directions
+  Spectrum matt_[2];  ///< that, of light by diffuse events and by specular ones alone
+};
 
 }  // namespace kaustik

@@ -184,6 +184,7 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
       const MergeDisk disk(probe.vertex, widest);
       const Frame frame(disk.side());
       const DiskEdges edges = first.seen().disk_bounds(p, widest).edges;
+      const ProbeLight at_probe(probe, wanted);
       Sums& sums = result[p];
       light.tree.within(
           probe.vertex.position(), disk.side(), false, sqr(widest), [&](uint32_t index, float) {
@@ -198,7 +199,7 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
             // The block's other vertices may have no edges.
             sums.vertices[level] += 1;
             if (!edges.hold(offset)) return;
-            const auto value = double(sent_to_camera(probe, photon, wanted).sum() * share);
+            const auto value = double(at_probe.sent(photon) * share);
             auto& kind = sums.of[photon.specular ? 0 : 1];
             kind.light[level] += value;
             kind.squares[level] += value * value;
