@@ -22,7 +22,7 @@ empty =
 joined = $(subst $(empty) ,,$(1))
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation comparisons references install package docs format clean
+.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references install package docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -78,6 +78,10 @@ ablation: configure
 	$(comparisons)/ablation_page $(ABLATION) docs
 	mkdir -p docs/ablation
 	cmp -s $(ABLATION) docs/ablation/measurements.jsonl || cp $(ABLATION) docs/ablation/measurements.jsonl
+
+# What the constants of the methods are worth, into docs/sensitivity.md: an hour.
+sensitivity: setup
+	scripts/sensitivity.py $(if $(SEEDS),--seeds $(SEEDS)) --page docs/sensitivity.md
 
 # Beside Blender Cycles and POV-Ray at equal time; fails unless every bar is kept:
 # make bench-peers TIME=60 SCENES=metal_ring INTEGRATOR=vcm

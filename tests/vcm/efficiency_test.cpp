@@ -5,6 +5,7 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/vcm/light_pass.h"
+#include "kaustik/vcm/plan/cost_model.h"
 #include "kaustik/vcm/plan/path_pilot.h"
 #include "kaustik/vcm/plan/plans.h"
 #include "tests/support/measure.h"
@@ -50,6 +51,16 @@ TEST(Efficiency, PathsGoOnWhereNothingElseFindsTheLight) {
   EXPECT_EQ(both.plans[1].survival, least_survival);
   // Disks of 1/4096 of the area find as much less.
   EXPECT_EQ(choose({light(0)}, 1, 1.0 / 4096).plans[0].survival, 1);
+}
+
+/// Light that merging finds 4096 times as well: κ = 4 samples count 1 each, and ν is 4096.
+TEST(Efficiency, ExpectedWhereAllGoOn) {
+  const ProbeStatistics probe = light(12);
+  const Efficiency expected = efficiency_of_survivors({probe}, {4, 1}, {{1, 1}});
+  EXPECT_NEAR(expected.squared_error, 1 / (4 + 4096.0) / 1.01, 1e-12);
+  EXPECT_NEAR(expected.rays, 2 + 6 + cost_model.merging + cost_model.light_ray, 1e-12);
+  // Nothing is written, and no chance is better than the chosen one.
+  EXPECT_LT(choose({probe}).expected.time(), expected.time());
 }
 
 /// With 4 samples, all of which go on, and no light paths the error is the variance of 4 samples.

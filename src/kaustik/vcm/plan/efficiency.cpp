@@ -95,9 +95,11 @@ double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, cons
          cost_model.light_ray * costs.light_rays * light_paths;
 }
 
-Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
-                           const std::vector<MergeScale>& scales, std::vector<PixelPlan>& plans) {
-  if (probes.empty()) return {};
+namespace {
+
+std::vector<Candidates> candidates_of(const std::vector<ProbeStatistics>& probes,
+                                      const PassCosts& costs,
+                                      const std::vector<MergeScale>& scales) {
   double radiance = 0;
   for (const ProbeStatistics& probe : probes) radiance += probe.radiance;
   const double least = std::max(1e-30, even_share_of_probes * radiance / double(probes.size()));
@@ -114,21 +116,43 @@ Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const Pas
       all[p] = candidates(probe, costs, scales[p], least);
     }
   });
+  return all;
+}
 
+/// Where each probe has the candidate that is chosen.
+Efficiency expected(const std::vector<Candidates>& all, const std::vector<size_t>& chosen,
+                    const PassCosts& costs, const std::vector<MergeScale>& scales) {
+  Efficiency total;
+  double light_paths = 0;
+  for (size_t p = 0; p < all.size(); ++p) {
+    total.squared_error += all[p][chosen[p]].squared_error;
+    total.rays += all[p][chosen[p]].rays;
+    light_paths = std::max(light_paths, scales[p].light_paths);
+  }
+  total.squared_error /= double(all.size());
+  total.rays /= double(all.size());
+  total.rays += cost_model.light_ray * costs.light_rays * light_paths;
+  return total;
+}
+
+}  // namespace
+
+Efficiency efficiency_of_survivors(const std::vector<ProbeStatistics>& probes,
+                                   const PassCosts& costs, const std::vector<MergeScale>& scales) {
+  if (probes.empty()) return {};
+  return expected(candidates_of(probes, costs, scales), std::vector<size_t>(probes.size(), 0),
+                  costs, scales);
+}
+
+Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
+                           const std::vector<MergeScale>& scales, std::vector<PixelPlan>& plans) {
+  if (probes.empty()) return {};
+  const std::vector<Candidates> all = candidates_of(probes, costs, scales);
   // The least product of two sums is the least weighted sum for weights that are found by turns.
   std::vector<size_t> chosen(all.size(), chances.size() / 2);
   Efficiency total;
   for (int round = 0;; ++round) {
-    total = {};
-    double light_paths = 0;
-    for (size_t p = 0; p < all.size(); ++p) {
-      total.squared_error += all[p][chosen[p]].squared_error;
-      total.rays += all[p][chosen[p]].rays;
-      light_paths = std::max(light_paths, scales[p].light_paths);
-    }
-    total.squared_error /= double(all.size());
-    total.rays /= double(all.size());
-    total.rays += cost_model.light_ray * costs.light_rays * light_paths;
+    total = expected(all, chosen, costs, scales);
     if (round == rounds) break;
     for (size_t p = 0; p < all.size(); ++p) {
       const auto time = [&](const Candidate& c) {

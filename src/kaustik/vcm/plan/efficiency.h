@@ -63,5 +63,8 @@ double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, cons
 /// expected. `scales` by probe; light_paths 0: nothing merges.
 Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
                            const std::vector<MergeScale>& scales, std::vector<PixelPlan>& plans);
+/// What is expected where all samples go on.
+Efficiency efficiency_of_survivors(const std::vector<ProbeStatistics>& probes,
+                                   const PassCosts& costs, const std::vector<MergeScale>& scales);
 
 }  // namespace kaustik

@@ -137,9 +137,10 @@ std::vector<MergeScale> VcmPlans::merge_scales(const std::vector<PixelPlan>& dis
 }
 
 Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
-  Efficiency result;
-  if (chooses_survival)
-    result = choose_survival(pilot->probes, pilot->costs, merge_scales(disks, shrinkage), disks);
+  const std::vector<MergeScale> scales = merge_scales(disks, shrinkage);
+  const Efficiency result = chooses_survival
+                                ? choose_survival(pilot->probes, pilot->costs, scales, disks)
+                                : efficiency_of_survivors(pilot->probes, pilot->costs, scales);
   pixels = pixels.with(std::move(disks));
   return result;
 }
