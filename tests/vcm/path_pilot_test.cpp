@@ -1,0 +1,114 @@
+// What the pilot tells of a matt ball, where all of it is known on paper.
+
+#include "kaustik/vcm/plan/path_pilot.h"
+
+#include <numeric>
+
+#include "tests/vcm/hollow_ball.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+constexpr uint32_t ball_samples = 4;
+constexpr uint32_t paths_of_ball_pass = 9000;
+constexpr float pilot_radius = 0.15f;
+/// Direct light, and light by one more event.
+constexpr int pilot_events = 2;
+constexpr uint32_t pilots = slow_build ? 6 : 48;
+
+/// Vertices of a pass's light paths in a disk; of all there are, and of those that a camera path
+/// would find as often, were there no roulette.
+const double in_disk = paths_of_ball_pass * double(pi) * sqr(double(pilot_radius)) /
+                       HollowBall::wall * HollowBall::mergeable(pilot_events);
+/// m/p of all light by two events: what camera paths find with the density 1/wall, and light paths
+/// without their roulette, merging by a kernel that is worth 3/4 of its vertices.
+const double merged_ratio = 0.75 * in_disk / HollowBall::albedo;
+
+struct BallPilot {
+  std::vector<ProbeStatistics> probes;
+  uint64_t rays = 0;
+};
+
+/// A pilot pass that has the fraction `share` of a pass's light paths.
+BallPilot pilot_of(const HollowBall& ball, uint32_t number, double share) {
+  const PathWeights weights = merging_weights(paths_of_ball_pass, pilot_radius);
+  const LightVertices light =
+      ball.trace(weights, uint32_t(share * paths_of_ball_pass), number, pilot_events);
+  PixelPlans plans(ball.scene());
+  plans.choose_disks(light, paths_of_ball_pass, 30, pilot_radius);
+  const MattMerging no_matt;
+  const CameraPathInputs inputs{.scene = ball.scene(),
+                                .emission = ball.emission(),
+                                .weights = weights,
+                                .light = light,
+                                .matt = no_matt,
+                                .seen = plans.seen(),
+                                .camera_samples = ball_samples,
+                                .merge_radius_sq = sqr(pilot_radius),
+                                .maximum_events = pilot_events};
+  BallPilot result;
+  result.probes = probe_statistics(inputs, plans, {.light_share = share}, result.rays);
+  return result;
+}
+
+double mean_of(const BallPilot& pilot, const std::function<double(const ProbeStatistics&)>& value) {
+  double sum = 0;
+  for (const ProbeStatistics& probe : pilot.probes) sum += value(probe);
+  return sum / double(pilot.probes.size());
+}
+
+/// Light of one event is sampled without noise, and so is light of two by any path that goes on.
+TEST(PathPilot, KnowsRaysAndNoiseOfABall) {
+  const HollowBall ball;
+  const BallPilot pilot = pilot_of(ball, 0, 1);
+  // The balance heuristic, had camera paths 64 times as many as light that is merged.
+  const double even =
+      HollowBall::radiance(2) * 64 * ball_samples / (64 * ball_samples + merged_ratio);
+  for (const ProbeStatistics& probe : pilot.probes) {
+    // To the wall and to the lamp; to the wall, to the lamp, and where another lamp might be.
+    EXPECT_NEAR(probe.rays, 2, 1e-9);
+    EXPECT_NEAR(probe.rays_beyond, 3, 1e-9);
+    EXPECT_NEAR(probe.direct_variance, 0, 1e-9);
+    EXPECT_NEAR(probe.path_variance, 0, 1e-7);
+    EXPECT_NEAR(probe.path_mean_square, sqr(even), 1e-3 * sqr(even));
+    EXPECT_EQ(probe.merged_alone, 0);
+  }
+  EXPECT_EQ(pilot.rays, pilot.probes.size() * 8 * 5);
+}
+
+/// However few of a pass's light paths the pilot has, it counts those of a pass.
+TEST(PathPilot, CountsWhatMergesInABall) {
+  const HollowBall ball;
+  // 17 of 32 bins: 2⁵ is the nearest power of two to what merging finds over what paths find.
+  const size_t bin = size_t(ProbeStatistics::bin_of_one) + 5;
+  ASSERT_NEAR(std::log2(merged_ratio), 5.3, 0.1);
+  const double light = HollowBall::radiance(2);
+  for (const double share : {1.0, 0.25}) {
+    SCOPED_TRACE(share);
+    RunningStatistics merged, radiance, squares;
+    double in_bin = 0;
+    for (uint32_t i = 0; i < pilots; ++i) {
+      const BallPilot pilot = pilot_of(ball, i, share);
+      merged.add(mean_of(pilot, [](const auto& probe) { return probe.merged; }));
+      radiance.add(mean_of(pilot, [](const auto& probe) { return probe.radiance; }));
+      squares.add(mean_of(pilot, [](const auto& probe) {
+        return std::accumulate(probe.squares.begin(), probe.squares.end(), 0.0);
+      }));
+      in_bin += mean_of(pilot, [&](const auto& probe) { return probe.squares[bin]; }) / pilots;
+    }
+    // Elsewhere is what comes at so small an angle that a disk off the wall sees it at another.
+    EXPECT_GT(in_bin, 0.85 * squares.mean());
+    expect_known_mean("vertices in a disk", merged, in_disk, 0.04);
+    expect_known_mean("radiance", radiance, HollowBall::radiance(1) + light, 0.03);
+    // ∫ f²/p, of which either way tells its share by the balance heuristic; light paths have
+    // 1/albedo times as much, for those that are left carry that much more.
+    const double expected = sqr(light) * (ball_samples + merged_ratio / HollowBall::albedo) /
+                            (ball_samples + merged_ratio);
+    expect_known_mean("squares", squares, expected, 0.1);
+  }
+}
+
+}  // namespace
+}  // namespace kaustik

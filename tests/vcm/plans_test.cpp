@@ -1,0 +1,249 @@
+// The planner: what it plans where the answer is known on paper, and that it plans the same again.
+
+#include "kaustik/vcm/plan/plans.h"
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/vcm/plan/cost_model.h"
+#include "kaustik/vcm/plan/plans_file.h"
+#include "tests/vcm/hollow_ball.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+
+VcmSettings settings_of(const TypeInfo& type) {
+  Problems problems;
+  return VcmSettings(Arguments(type, {}, {}, problems));
+}
+
+VcmPlans planned(const TestScene& test, const VcmSettings& settings, uint32_t samples = 4) {
+  const auto plain = std::make_shared<const LightPathEmission>(test.scene(), settings.aim);
+  return VcmPlanner(test.scene(), settings, plain).make(samples, {});
+}
+VcmPlans planned(const std::string& inside, const TypeInfo& type) {
+  return planned(TestScene(inside), settings_of(type));
+}
+
+std::vector<uint8_t> bytes_of(const VcmPlans& plans) {
+  ByteWriter writer;
+  write_plans(writer, plans);
+  return writer.take();
+}
+
+std::string lamp_above(const std::string& radiance = "40, 36, 32") {
+  return flat("rectangle",
+              scale("0.1, 0.1, 1") + rotate("1, 0, 0", 180) + translate("0, 0.1, 1.25"),
+              diffuse("0, 0, 0") + area_light(radiance));
+}
+std::string view_of_floor(const std::string& of_floor, int size = 16) {
+  return camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, size) +
+         flat("rectangle", scale("4, 4, 1"), of_floor);
+}
+
+/// A function of the scene, the settings and the samples of a pass; threads change nothing.
+TEST(VcmPlanner, PlansTheSameAgain) {
+  const TestScene scene(view_of_floor(diffuse("0.5, 0.5, 0.5")) + lamp_above() +
+                        sphere("0.2, -0.05, 0.401", 0.4, glass()));
+  for (const TypeInfo* type : {&auto_info(), &vcm_info()}) {
+    SCOPED_TRACE(type->name);
+    const VcmSettings settings = settings_of(*type);
+    const VcmPlans plans = planned(scene, settings);
+    ASSERT_TRUE(plans.techniques.merging);
+    const std::vector<uint8_t> bytes = bytes_of(plans);
+    for (const int threads : {1, 2, 5})
+      with_threads(threads, [&] {
+        const VcmPlans again = planned(scene, settings);
+        EXPECT_TRUE(bytes_of(again) == bytes) << threads << " threads";
+        EXPECT_EQ(again.pilot_rays, plans.pilot_rays);
+      });
+    EXPECT_FALSE(bytes_of(planned(scene, settings, 8)) == bytes);
+  }
+}
+
+void expect_paths_alone(const VcmPlans& plans) {
+  EXPECT_FALSE(plans.techniques.needs_light_paths());
+  EXPECT_TRUE(plans.techniques.unidirectional && plans.techniques.next_event);
+  EXPECT_EQ(plans.light_paths, 0);
+  for (const PixelPlan& plan : plans.pixels.plans()) EXPECT_EQ(plan.survival, 1);
+  ASSERT_EQ(plans.decisions.size(), 1u);
+  EXPECT_NE(plans.decisions[0].find("camera alone"), std::string::npos);
+}
+
+/// Where nothing can merge, all camera paths go on, alone.
+TEST(VcmPlanner, LeavesLightPathsOutWhereNothingMerges) {
+  // Mirrors all around, a lamp, nothing else.
+  const std::string mirrors = camera("0.2, -0.75, 0.1", "0, 1, 0.1", 60, 16) +
+                              flat("cube", scale("3, 3, 3"), set("flip_normals", true) + mirror()) +
+                              lamp_above();
+  expect_paths_alone(planned(mirrors, auto_info()));
+  const VcmPlans of_mirrors = planned(mirrors, ppm_info());
+  for (const PixelPlan& plan : of_mirrors.pixels.plans()) EXPECT_EQ(plan.survival, 1);
+  EXPECT_EQ(of_mirrors.light_paths, settings_of(ppm_info()).light_paths);
+  // A black floor sends nothing on, however much light falls on it; and there may be no lamp.
+  expect_paths_alone(planned(view_of_floor(diffuse("0, 0, 0")) + lamp_above(), auto_info()));
+  expect_paths_alone(planned(view_of_floor(diffuse("0.5, 0.5, 0.5")), auto_info()));
+}
+
+/// Light that no camera path finds has to be merged, where it is wanted.
+TEST(VcmPlanner, KeepsLightPathsForWhatNothingElseFinds) {
+  const std::string bare = view_of_floor(diffuse("0.5, 0.5, 0.5")) + point_light("0, 0.1, 1.2", 3);
+  const std::string covered = bare + sphere("0, 0.1, 1.2", 0.2, glass());
+  const VcmPlans hidden = planned(covered, auto_info());
+  EXPECT_TRUE(hidden.pilot->needs_merging);
+  EXPECT_TRUE(hidden.techniques.merging);
+  EXPECT_GT(hidden.light_paths, 0);
+  const VcmPlans seen = planned(bare, auto_info());
+  EXPECT_FALSE(seen.pilot->needs_merging);
+  expect_paths_alone(seen);
+  // Nor is light of a point hidden that comes by matt events.
+  const std::string matt = sphere("0.5, 0.1, 0.4", 0.4, diffuse("0.5, 0.5, 0.5"));
+  EXPECT_FALSE(planned(bare + matt, auto_info()).pilot->needs_merging);
+  VcmSettings of_direct = settings_of(auto_info());
+  of_direct.components = ComponentSet();
+  of_direct.components.add(Component::direct);
+  EXPECT_FALSE(planned(TestScene(covered), of_direct).pilot->needs_merging);
+}
+
+/// Costs of the pilot are those of a pass: rays of light paths over camera samples.
+TEST(VcmPlanner, KnowsWhatAPassOfABallCosts) {
+  const HollowBall ball;
+  VcmSettings settings = settings_of(ppm_info());
+  settings.light_paths = 8;
+  settings.maximum_events = 2;
+  settings.radius = 0.1f;
+  settings.guiding = settings.edges = false;
+  const VcmPlans plans = planned(ball.test_scene(), settings);
+  const VcmPilot& pilot = *plans.pilot;
+  EXPECT_EQ(pilot.light_paths, 8);
+  EXPECT_EQ(pilot.costs.camera_samples, 4);
+  // To the wall, and on from there, but for what roulette ends. The pilot has half of 18432 paths,
+  // which tell it to 0.3 %.
+  EXPECT_NEAR(pilot.costs.light_rays, 8 * (1 + HollowBall::albedo), 0.01 * 8 * 1.6);
+  const double in_disk = 8 * 4 * sqr(double(HollowBall::pixels)) * double(pi) * 0.01 *
+                         HollowBall::density() * HollowBall::albedo;
+  double merged = 0;
+  for (size_t i = 0; i < pilot.probes.size(); ++i) {
+    merged += pilot.probes[i].merged / double(pilot.probes.size());
+    EXPECT_EQ(pilot.areas[i], pi * sqr(0.1f));
+  }
+  EXPECT_NEAR(merged / in_disk, 1, 0.2);
+  EXPECT_NEAR(plans.connectible_per_path, 1, 1e-6);  // nothing is connected
+}
+
+/// Plans that were made by a pilot of two probes.
+VcmPlans two_probes() {
+  VcmPilot pilot;
+  ProbeStatistics probe;
+  probe.rays = 2;
+  probe.rays_beyond = 6;
+  probe.radiance = 1;
+  probe.squares[ProbeStatistics::bin_of_one + 6] = 1;
+  probe.path_mean_square = probe.path_variance = 1;
+  pilot.probes = {probe, probe};
+  pilot.areas = {0.5f, 0};  // the second found no surface
+  pilot.costs = {4, 2};
+  pilot.light_paths = 0.5f;
+  VcmPlans plans;
+  plans.techniques.merging = true;
+  plans.light_paths = 2;
+  plans.pilot = std::make_shared<const VcmPilot>(pilot);
+  return plans;
+}
+
+TEST(VcmPlans, ScalesAreRelativeToThePilot) {
+  VcmPlans plans = two_probes();
+  const std::vector<PixelPlan> disks{{1.5f, 1, 1}, {3, 1, 1}};
+  auto scales = plans.merge_scales(disks, 0.25f);
+  ASSERT_EQ(scales.size(), 2u);
+  EXPECT_DOUBLE_EQ(scales[0].area, 0.75);
+  EXPECT_DOUBLE_EQ(scales[1].area, 1);
+  EXPECT_DOUBLE_EQ(scales[0].light_paths, 4);
+  EXPECT_DOUBLE_EQ(scales[1].light_paths, 4);
+  plans.techniques.merging = false;
+  scales = plans.merge_scales(disks, 1);
+  EXPECT_DOUBLE_EQ(scales[0].light_paths, 0);
+}
+
+/// Survival is chosen as choose_survival() does it for those scales, if it is chosen at all.
+TEST(VcmPlans, SettleBySurvival) {
+  VcmPlans plans = two_probes();
+  const TestScene scene(view_of_floor(diffuse("0.5, 0.5, 0.5"), 4));
+  plans.pixels = PixelPlans(scene.scene());
+  ASSERT_EQ(plans.pixels.plans().size(), 1u);
+  VcmPilot one = *plans.pilot;
+  one.probes.pop_back();
+  one.areas.pop_back();
+  plans.pilot = std::make_shared<const VcmPilot>(one);
+  const std::vector<PixelPlan> disks{{1.5f, 0.7f, 3}};
+  std::vector<PixelPlan> expected = disks;
+  const Efficiency by_hand = choose_survival(one.probes, one.costs, {{0.75, 4}}, expected);
+  const Efficiency settled = plans.settle(disks, 0.25f);
+  EXPECT_EQ(settled.squared_error, by_hand.squared_error);
+  EXPECT_EQ(settled.rays, by_hand.rays);
+  EXPECT_LT(expected[0].survival, 1);
+  EXPECT_EQ(plans.pixels.plans()[0].survival, expected[0].survival);
+  EXPECT_EQ(plans.pixels.plans()[0].evenness, expected[0].evenness);
+  EXPECT_EQ(plans.pixels.plans()[0].merge_area, 1.5f);
+
+  plans.chooses_survival = false;
+  const double of_all = 2 + 6 + rays_beside_camera_paths(one.probes, one.costs, {{0.75, 4}});
+  EXPECT_DOUBLE_EQ(plans.settle(disks, 0.25f).rays, of_all);
+  EXPECT_EQ(plans.pixels.plans()[0].survival, 0.7f);
+}
+
+/// What the camera sees from 2 m off counts as near within one degree.
+TEST(VcmPlans, AcceptedAreaGoesByTheDistance) {
+  const TestScene scene(camera("0, 0, 2", "0, 0, 0", 1, 8, "0, 1, 0") +
+                        flat("rectangle", "", diffuse("0.5, 0.5, 0.5")));
+  const double degree = double(pi) / 180;
+  EXPECT_NEAR(accepted_area(PixelPlans(scene.scene())), double(pi) * sqr(2 * std::tan(degree)),
+              1e-5);
+}
+
+/// Merging at both probes, on average, and the light paths' part, by the rows of the cost model.
+TEST(Efficiency, RaysBesideCameraPaths) {
+  std::vector<ProbeStatistics> probes(2);
+  probes[0].merged = 30;
+  probes[1].merged = 10;
+  probes[0].rays = 100;  // the path's own
+  const PassCosts costs{4, 1.5};
+  const double expected = cost_model.merging +
+                          cost_model.merged_vertex * (30 * 2 * 3 + 10 * 0.5 * 3) / 2 +
+                          cost_model.light_ray * 1.5 * 3;
+  EXPECT_DOUBLE_EQ(rays_beside_camera_paths(probes, costs, {{2, 3}, {0.5, 3}}), expected);
+  // Without light paths nothing merges.
+  EXPECT_DOUBLE_EQ(rays_beside_camera_paths(probes, costs, {{2, 0}, {0.5, 0}}), 0);
+  EXPECT_DOUBLE_EQ(rays_beside_camera_paths({}, costs, {}), 0);
+  // They are what choose_survival() adds to the rays of the paths themselves.
+  std::vector<PixelPlan> plans(2);
+  EXPECT_DOUBLE_EQ(choose_survival(probes, costs, {{2, 3}, {0.5, 3}}, plans).rays, expected + 50);
+}
+
+TEST(Efficiency, StatisticsAreAddedByWeight) {
+  ProbeStatistics sum, other;
+  other.squares[7] = 1;
+  other.merged_alone = 2;
+  other.path_mean_square = 3;
+  other.path_variance = 4;
+  other.direct_variance = 5;
+  other.radiance = 6;
+  other.merged = 7;
+  other.rays = 8;
+  other.rays_beyond = 9;
+  sum.add(other, 0.5);
+  sum.add(other, 2);
+  EXPECT_EQ(sum.squares[7], 2.5);
+  EXPECT_EQ(sum.squares[6], 0);
+  EXPECT_EQ(sum.merged_alone, 5);
+  EXPECT_EQ(sum.path_mean_square, 7.5);
+  EXPECT_EQ(sum.path_variance, 10);
+  EXPECT_EQ(sum.direct_variance, 12.5);
+  EXPECT_EQ(sum.radiance, 15);
+  EXPECT_EQ(sum.merged, 17.5);
+  EXPECT_EQ(sum.rays, 20);
+  EXPECT_EQ(sum.rays_beyond, 22.5);
+}
+
+}  // namespace
+}  // namespace kaustik
