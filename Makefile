@@ -11,15 +11,6 @@ PEER_RESULTS ?= out/bench_peers.jsonl
 bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--integrators $(INTEGRATORS)) \
   $(if $(SECONDS),--seconds $(SECONDS)) $(if $(SEEDS),--seeds $(SEEDS)) $(if $(REFERENCES),--references $(REFERENCES))
 comma = ,
-ablation_scenes = peer_cornell,peer_cornell_glass,peer_ring,peer_pool_above,peer_pool_below,peer_hidden_light,$\
-  pool_among_lamps,hundredth_of_a_floor,door_ajar,hall_of_lamps
-# ppm with this setting is auto, whose devices have no parameters of their own.
-whole = ppm:choose_light_paths=true
-ablation_devices = choose_light_paths adaptive guiding guided_scattering choose_survival learn_radii edges visibility correlation
-ablation_integrators = $(whole),$(whole):aim=none$(foreach device,$(ablation_devices),$(comma)$(whole):$(device)=false)
-ABLATION ?= out/ablation.jsonl
-empty =
-joined = $(subst $(empty) ,,$(1))
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
 .PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references install package docs format clean
@@ -70,18 +61,14 @@ bench-scenes: configure
 	$(comparisons)/bench_scenes --results $(RESULTS) $(bench_scenes_options)
 	$(comparisons)/comparisons_page $(RESULTS) --peers $(PEER_RESULTS)
 
-# What each device of auto is worth, into docs/ablation.md: the error without it on ten scenes, by CPU time.
+# What each device of auto is worth, into docs/ablation.md: the time for a given noise without it. A quarter of an hour.
 ablation: configure
-	@cmake --build --preset release --target bench_scenes ablation_page
-	$(comparisons)/bench_scenes --cpu-time --results $(ABLATION) --scenes $(or $(SCENES),$(ablation_scenes)) --seconds $(or $(SECONDS),10) \
-	  --seeds $(or $(SEEDS),1$(comma)2$(comma)3) --integrators $(or $(INTEGRATORS),$(call joined,$(ablation_integrators)))
-	$(comparisons)/ablation_page $(ABLATION) docs
-	mkdir -p docs/ablation
-	cmp -s $(ABLATION) docs/ablation/measurements.jsonl || cp $(ABLATION) docs/ablation/measurements.jsonl
+	@cmake --build --preset release --target kaustik
+	scripts/worth.py devices $(if $(SEEDS),--seeds $(SEEDS)) --page docs/ablation.md
 
 # What the constants of the methods are worth, into docs/sensitivity.md: an hour.
 sensitivity: setup
-	scripts/sensitivity.py $(if $(SEEDS),--seeds $(SEEDS)) --page docs/sensitivity.md
+	scripts/worth.py constants $(if $(SEEDS),--seeds $(SEEDS)) --page docs/sensitivity.md
 
 # Beside Blender Cycles and POV-Ray at equal time; fails unless every bar is kept:
 # make bench-peers TIME=60 SCENES=metal_ring INTEGRATOR=vcm

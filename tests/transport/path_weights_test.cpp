@@ -59,11 +59,6 @@ struct Halves {
     }
     for (size_t i = n; i > t; --i) {
       light.push_back(all[i - 1]);
-      const bool after_delta = i < n && all[i].delta;
-      light.back().spread =
-          i == n ? 1
-                 : weights.spread_after(light[n - i - 1].spread, all[i - 1].pdf_light, all[i - 1],
-                                        after_delta);
       if (i <= t + 2) light.back().pdf_camera = -1;
     }
     halves.camera = camera;
@@ -115,7 +110,6 @@ PathWeights::Settings settings_of(unsigned mask, std::mt19937& random) {
   settings.merge_area = 1e-3f * unit(random);
   settings.accepted_area = 0.1f * unit(random);
   settings.first_medium_share = unit(random);
-  settings.correlation = unit(random) < 0.8f;
   settings.least_spread = unit(random) < 0.5f ? 0.0f : 0.1f;
   return settings;
 }

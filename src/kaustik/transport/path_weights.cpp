@@ -53,7 +53,6 @@ class PathWeights::View {
   }
   /// Up to x_i, i ≤ t, and from x_i on, i > t.
   float camera_spread(size_t i) const { return i >= 1 ? path_.camera[i - 1].spread : 1.0f; }
-  float light_spread(size_t i) const { return i <= n_ ? path_.light[n_ - i].spread : 1.0f; }
 
   float connection(float ratio, size_t i) const {
     if (!settings_.techniques.connections || i < 1 || i + 2 > n_ || is_delta(i) || is_delta(i + 1))
@@ -73,8 +72,8 @@ class PathWeights::View {
     if (!settings_.techniques.unidirectional) return 0;
     return n_ == first_ + 1 ? ratio / first_survival_ : ratio;
   }
-  /// The spreads are those up to x_i and from x_i+1 on.
-  float merge(float ratio, size_t i, float camera_spread, float light_spread) const {
+  /// The spread is that up to x_i.
+  float merge(float ratio, size_t i, float camera_spread) const {
     if (!settings_.techniques.merging || i < 1 || i + 1 > n_ || is_delta(i)) return 0;
     const PathVertex& at = vertex(i);
     const bool in_medium = at.mean_free_path > 0;
@@ -84,9 +83,7 @@ class PathWeights::View {
       return density *
              (in_medium ? at.merge_volume * settings_.first_medium_share : path_.first_merge_area);
     if (camera_spread < settings_.least_spread) return 0;
-    const float either = camera_spread + light_spread - camera_spread * light_spread;
-    const float independent = settings_.correlation && either > 0 ? camera_spread / either : 1.0f;
-    return density * (in_medium ? at.merge_volume : settings_.merge_area) * independent;
+    return density * (in_medium ? at.merge_volume : settings_.merge_area);
   }
   /// 1 ≤ i ≤ n.
   const PathVertex& vertex(size_t i) const {
@@ -102,12 +99,10 @@ class PathWeights::View {
   float first_survival_ = 1;
 };
 
-float PathWeights::squares_at(const View& path, size_t i, float scale, float camera_spread,
-                              float light_spread) const {
+float PathWeights::squares_at(const View& path, size_t i, float scale, float camera_spread) const {
   const size_t n = path.n();
   if (i == 0) return sqr(path.splat(scale));
-  float sum =
-      sqr(path.connection(scale, i)) + sqr(path.merge(scale, i, camera_spread, light_spread));
+  float sum = sqr(path.connection(scale, i)) + sqr(path.merge(scale, i, camera_spread));
   if (i + 1 == n) sum += sqr(path.next_event(scale));
   if (i == n) sum += sqr(path.unidirectional(scale));
   return sum;
@@ -122,21 +117,17 @@ float PathWeights::squares_beyond(const View& path, float scale) const {
     if (i >= 2)
       camera_spread =
           spread_after(camera_spread, path.pdf_camera(i), path.vertex(i), path.is_delta(i - 1));
-    sum += squares_at(path, i, ratio, camera_spread, path.light_spread(i + 1));
+    sum += squares_at(path, i, ratio, camera_spread);
   }
   return sum;
 }
 
 float PathWeights::squares_before(const View& path, float scale) const {
-  const size_t n = path.n();
-  float sum = 0, ratio = scale, light_spread = path.light_spread(path.t() + 1);
+  float sum = 0, ratio = scale;
   for (size_t i = path.t(); i-- > 0;) {
     ratio *= path.pdf_light(i + 1) / path.reach(i + 1);
     if (!(ratio > 0)) break;
-    if (i + 1 < n)
-      light_spread = spread_after(light_spread, path.pdf_light(i + 1), path.vertex(i + 1),
-                                  path.is_delta(i + 2));
-    sum += squares_at(path, i, ratio, path.camera_spread(i), light_spread);
+    sum += squares_at(path, i, ratio, path.camera_spread(i));
   }
   return sum;
 }
@@ -146,7 +137,7 @@ float PathWeights::weight(const View& path, float own_density) const {
   // Relative to one's own, so that squares stay within bounds.
   const float scale = 1 / own_density;
   const size_t t = path.t();
-  const float sum = squares_at(path, t, scale, path.camera_spread(t), path.light_spread(t + 1)) +
+  const float sum = squares_at(path, t, scale, path.camera_spread(t)) +
                     squares_beyond(path, scale) + squares_before(path, scale);
   return sum > 0 ? 1 / sum : 0.0f;
 }
@@ -202,14 +193,14 @@ float PathWeights::connection(const PathHalves& path) const {
 float PathWeights::beyond_merge(const PathHalves& path) const {
   const View view(settings_, path, View::Meeting::at_last);
   const size_t t = view.t();
-  const float density = view.merge(1, t, view.camera_spread(t), view.light_spread(t + 1));
+  const float density = view.merge(1, t, view.camera_spread(t));
   return density > 0 ? squares_beyond(view, 1 / density) : 0.0f;
 }
 
 float PathWeights::merge(const PathHalves& path) const {
   const View view(settings_, path, View::Meeting::at_last);
   const size_t t = view.t();
-  return weight(view, view.merge(1, t, view.camera_spread(t), view.light_spread(t + 1)));
+  return weight(view, view.merge(1, t, view.camera_spread(t)));
 }
 
 }  // namespace kaustik

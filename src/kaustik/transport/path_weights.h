@@ -57,15 +57,11 @@ struct PathHalves {
 /// Densities are those of Vertex Connection and Merging (Georgiev et al. 2012; Hachisuka et al.
 /// 2012): expected numbers per path, those of n light paths and of merging included.
 ///
-/// What merges at a vertex shares the camera's path to it, so n light paths are not n independent
-/// samples. Merging counts by n · c, c = a / (a + b − a b), where a and b are how likely camera
-/// and light paths are to come that near by chance: the products of min(1, density · accepted
-/// area) over the vertices on each side (correlation-aware weights, Grittmann et al. 2021).
-///
 /// Merging at a vertex after the first pays where the camera's paths to it still lie close together
 /// (a footprint in densities alone, no threshold of roughness): elsewhere one more event averages
-/// over so much that what merging adds is not worth its time. It is left out where a is less than
-/// `least_spread`.
+/// over so much that what merging adds is not worth its time. How close is their spread, the
+/// product of min(1, density · accepted area) over the vertices (after Grittmann et al. 2021);
+/// merging is left out where it is less than `least_spread`.
 ///
 /// In media light paths' vertices merge with the segments of camera paths, scattered there or not
 /// (beam radiance estimate, Jarosz, Zwicker and Jensen 2008): a disk that is swept along a segment
@@ -88,8 +84,7 @@ class PathWeights {
     /// At the first vertex in a medium merging counts by this: the samples of a pixel share what
     /// they find.
     float first_medium_share = 1;
-    float accepted_area = 0;  ///< of the correlation, m²
-    bool correlation = true;
+    float accepted_area = 0;  ///< of the spread, m²
     float least_spread = 0.1f;
   };
   PathWeights() = default;
@@ -150,8 +145,7 @@ class PathWeights {
   float weight(const View& path, float own_density) const;
   // Sums of squares of densities times `scale`: of the techniques that meet at x_i or between x_i
   // and x_i+1; of those that meet beyond x_t and before it.
-  float squares_at(const View& path, size_t i, float scale, float camera_spread,
-                   float light_spread) const;
+  float squares_at(const View& path, size_t i, float scale, float camera_spread) const;
   float squares_beyond(const View& path, float scale) const;
   float squares_before(const View& path, float scale) const;
 

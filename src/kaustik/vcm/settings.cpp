@@ -54,9 +54,6 @@ std::vector<Parameter> parameters(const Techniques& preset) {
                        "the size of the pixels and the density of the light paths.")
           .range(0, 1e30)
           .in("m"),
-      boolean_parameter("correlation", true,
-                        "Weights of merging take into account that what is merged shares the "
-                        "camera's path."),
       boolean_parameter("learn_radii", true,
                         "Radii are learned from the light paths of the passes before; else those "
                         "of the first pass shrink."),
@@ -130,7 +127,6 @@ VcmSettings::VcmSettings(const Arguments& arguments)
   connections = int(arguments.integer("connection_samples"));
   merge_neighbors = int(arguments.integer("merge_neighbors"));
   radius = float(arguments.number("radius"));
-  correlation = arguments.boolean("correlation");
   learn_radii = arguments.boolean("learn_radii");
   edges = arguments.boolean("edges");
   visibility = arguments.boolean("visibility");

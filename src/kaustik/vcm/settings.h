@@ -18,7 +18,6 @@ struct VcmSettings {
   int connections = 1;            ///< per vertex of the camera's path
   int merge_neighbors = 30;       ///< light vertices that the first radius is made for
   float radius = 0;             ///< of merging in pass 0, m; 0: from the pixels and the light paths
-  bool correlation = true;      ///< see PathWeights
   bool learn_radii = true;      ///< from the passes before; else the first pass's shrink
   bool edges = true;            ///< disks of merging end at the straight edges around them
   bool visibility = true;       ///< what is hidden does not merge

@@ -198,7 +198,6 @@ PathWeights VcmIntegrator::weights_for(const VcmPlans& plans, const Pass& pass) 
   weights.merge_area = plans.pixels.other_area() * sqr(pass_radius(1, pass.index));
   weights.accepted_area = accepted_area(plans.pixels);
   weights.first_medium_share = 1 / float(pass.samples_per_pixel);
-  weights.correlation = settings_.correlation;
   return PathWeights(weights);
 }
 

@@ -52,8 +52,6 @@ PathVertex next_light_vertex(const VcmLightInputs& in, const LightQuery& query,
     next.pdf_light = (after_delta ? 1.0f : state.pdf_forward) * cosine / distance_sq;
     next.to_previous = path.last.factor(wo) / distance_sq;
   }
-  next.spread =
-      in.weights.spread_after(vertices.back().spread, next.pdf_light, next, vertices.back().delta);
   return next;
 }
 

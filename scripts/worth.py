@@ -1,0 +1,370 @@
+#!/usr/bin/env python3
+"""Measures what devices and constants of the methods are worth: pictures without a device, or with another constant.
+
+Usage: scripts/worth.py devices | constants [--seeds 1,2,3] [--results FILE.jsonl] [--only NAME ...] [--page FILE.md]
+
+Pictures of the same samples and seeds are compared: the relative MSE to the stored reference, and CPU time. Their product is
+what counts: time for a given noise. So a machine that is not quiet disturbs little, and passes that time cuts off nothing.
+
+devices: settings of DEVICES, with build/release/kaustik.
+constants: each constant of CONSTANTS becomes a variable that the environment sets, in a copy of the sources that is built in
+out/worth; there it is multiplied by the factors of its row.
+What FILE.jsonl (out/worth/devices.jsonl, …) holds already of the same sources is not measured again.
+"""
+import argparse
+import hashlib
+import json
+import math
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FOLDER = ROOT / "out/worth"
+
+# Scenes, and samples a pixel, for some seconds each: light through a gap, many lamps, caustics of glass, metal and water,
+# a small visible part of a large scene.
+SCENES = {"door_ajar": 48, "hall_of_lamps": 32, "pool_among_lamps": 24, "hundredth_of_a_floor": 32, "metal_ring": 16,
+          "peer_cornell_glass": 16, "peer_ring": 16, "peer_pool_below": 8}
+AUTO = ("auto", ["door_ajar", "pool_among_lamps", "metal_ring", "peer_cornell_glass"])
+CACHE = ("photonmap", ["peer_cornell_glass", "metal_ring"])
+
+# ppm with this setting is auto, whose devices have no parameters of their own.
+WHOLE = ("ppm", "choose_light_paths=true")
+DEVICES = ["aim=none"] + [f"{name}=false" for name in (
+    "choose_light_paths", "adaptive", "guiding", "guided_scattering", "choose_survival", "learn_radii", "edges", "visibility")] + [
+        "splats=true connections=true"]
+# A device is to lower the product by so much in some scene, and to raise it by no more than that in any.
+WANTED, TOLERATED = 1.1, 0.95
+
+# A file below src/kaustik, a constant in it, what it is multiplied by, and where it counts.
+HALF_DOUBLE = (0.5, 2.0)
+CONSTANTS = [
+    ("vcm/plan/cost_model.h", "merging", HALF_DOUBLE, AUTO),
+    ("vcm/plan/cost_model.h", "merged_vertex", (0.1, 10.0), AUTO),
+    ("vcm/plan/cost_model.h", "light_ray", HALF_DOUBLE, AUTO),
+    ("vcm/plan/efficiency.cpp", "most_evenness", HALF_DOUBLE, AUTO),
+    ("vcm/plan/efficiency.cpp", "share_of_mean_unknown", (0.1, 10.0), AUTO),
+    ("vcm/plan/pixel_plans.h", "most_disk_widths", HALF_DOUBLE, AUTO),
+    ("vcm/plan/pixel_plans.cpp", "most_other_radius", HALF_DOUBLE, AUTO),
+    ("vcm/plan/plans.cpp", "worth_a_pilot", (0.8, 1.25), AUTO),
+    ("vcm/plan/plans.cpp", "few_paths", HALF_DOUBLE, AUTO),
+    ("vcm/plan/plans.cpp", "worth_guiding", (0.8, 1.25), AUTO),
+    ("vcm/plan/plans.cpp", "worth_fewer", (0.8, 1.25), AUTO),
+    ("vcm/plan/plans.cpp", "near_per_distance", HALF_DOUBLE, AUTO),
+    ("vcm/plan/path_pilot.cpp", "most_merged", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/radius_learning.cpp", "tolerated", (0.7, 1.4), AUTO),
+    ("vcm/lessons/radius_learning.cpp", "least_directions", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/radius_learning.cpp", "least_share", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/radius_learning.cpp", "least_left", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/radius_learning.cpp", "most_vertices", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/sample_learning.cpp", "pairs_of_mean", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/sample_learning.cpp", "outliers", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/sample_learning.cpp", "worth_spreading", (0.96, 1.05), AUTO),
+    ("vcm/lessons/emission_learning.cpp", "plain_share", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/emission_learning.cpp", "least_paths", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/emission_learning.cpp", "worthwhile", (0.8, 1.25), AUTO),
+    ("vcm/lessons/emission_learning.cpp", "worth_its_time", (0.8, 1.25), AUTO),
+    ("vcm/lessons/scatter_learning.cpp", "most_events_in_cell", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/scatter_learning.cpp", "events_of_all", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/scatter_learning.cpp", "least_unguided", (0.7, 1.3), AUTO),
+    ("vcm/lessons/scatter_learning.cpp", "least_gain", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/light_path_use.cpp", "least_light", HALF_DOUBLE, AUTO),
+    ("transport/path_weights.h", "least_spread", HALF_DOUBLE, AUTO),
+    ("photon/coverage/merge_disk.h", "flatness_", HALF_DOUBLE, AUTO),
+    ("photon/coverage/merge_disk.h", "least_cosine_", (0.5, 1.5), AUTO),
+    ("photon/coverage/merge_disk.cpp", "height_share", HALF_DOUBLE, AUTO),
+    ("photon/coverage/merge_disk.cpp", "per_clearance", HALF_DOUBLE, AUTO),
+    ("photon/coverage/merge_disk.cpp", "most_tries", HALF_DOUBLE, AUTO),
+    ("photon/coverage/surface_edges.cpp", "wall_height", HALF_DOUBLE, AUTO),
+    ("photon/coverage/surface_edges.cpp", "same_height", HALF_DOUBLE, AUTO),
+    ("photon/coverage/surface_edges.cpp", "low_height", HALF_DOUBLE, AUTO),
+    ("photon/coverage/surface_edges.cpp", "gentle", HALF_DOUBLE, AUTO),
+    ("photon/coverage/surface_edges.cpp", "end_angle", HALF_DOUBLE, AUTO),
+    ("photon/coverage/surface_edges.cpp", "least_sine", HALF_DOUBLE, AUTO),
+    ("photon/light_pass.cpp", "largest_first_weight", HALF_DOUBLE, CACHE),
+    ("transport/vertex.h", "largest_irradiance_factor", HALF_DOUBLE, CACHE),
+    ("photonmap/photon_map_integrator.cpp", "stored_quantile", (0.9, 1.05), CACHE),
+    ("photonmap/photon_map_integrator.cpp", "quantile", (0.75, 1.2), CACHE),
+    ("irradiance/record_reach.h", "total_error_scale", HALF_DOUBLE, CACHE),
+]
+
+TUNED_H = r"""
+#pragma once
+#include <cstdlib>
+namespace kaustik_tuned {
+inline double value(const char* name, double otherwise) {
+  const char* set = std::getenv(name);
+  return set ? std::strtod(set, nullptr) : otherwise;
+}
+}  // namespace kaustik_tuned
+"""
+
+
+def variable_of(file, name):
+    return re.sub(r"\W", "_", "KAUSTIK_TUNE_" + pathlib.Path(file).stem + "_" + name)
+
+
+def declaration_of(name):
+    return re.compile(r"(\b" + re.escape(name) + r"\s*=\s*)([-+.\w]+)(?=\s*[;,])")
+
+
+def value_in(text, name, file):
+    found = declaration_of(name).findall(text)
+    if len(found) != 1:
+        sys.exit(f"{file} has {len(found)} definitions of '{name}'; mend the table in {__file__}")
+    return float(found[0][1].rstrip("fu"))
+
+
+def made_variable(text, file, name):
+    """The same text where `name` has the value of the environment, if it has one."""
+    begin = declaration_of(name).search(text).start()
+    line = text.rfind("\n", 0, begin) + 1
+    head = text[line:begin]
+    kind = re.search(r"(double|float|int|uint32_t|size_t)\b", head).group(1)
+    head = head.replace("static constexpr", "static inline const").replace("constexpr", "const")
+    made = declaration_of(name).sub(
+        lambda m: f'{m[1]}{kind}(kaustik_tuned::value("{variable_of(file, name)}", {m[2]}))', text[begin:], 1)
+    return (text[:line] + head + made).replace("inline constexpr CostModel cost_model", "inline const CostModel cost_model")
+
+
+def values_of_code():
+    texts = {}
+    for file, name, _, _ in CONSTANTS:
+        texts.setdefault(file, (ROOT / "src/kaustik" / file).read_text())
+    return {(file, name): value_in(texts[file], name, file) for file, name, _, _ in CONSTANTS}
+
+
+def files_of_repository(*folders):
+    listed = subprocess.run(["git", "ls-files", "-z", *folders], cwd=ROOT, check=True, capture_output=True).stdout
+    return sorted(path for path in map(os.fsdecode, listed.split(b"\0")) if path and (ROOT / path).is_file())
+
+
+def digest_of_sources():
+    """Of what makes pictures; the table of this script may grow."""
+    digest = hashlib.sha256()
+    for path in files_of_repository("src", "apps", "scenes", "benchmarks/scenes"):
+        digest.update(f"{path}\0".encode() + (ROOT / path).read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def build(folder):
+    """The program with variables."""
+    source = folder / "source"
+    contents = {path: (ROOT / path).read_bytes() for path in files_of_repository()}
+    for file, name, _, _ in CONSTANTS:
+        path = f"src/kaustik/{file}"
+        contents[path] = made_variable(contents[path].decode(), file, name).encode()
+    contents["tuned.h"] = TUNED_H.encode()
+    for path, content in contents.items():  # what is the same already is not compiled again
+        copy = source / path
+        if copy.exists() and copy.read_bytes() == content:
+            continue
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        copy.write_bytes(content)
+    target = folder / "build"
+    subprocess.run(["cmake", "-G", "Ninja", "-S", source, "-B", target, "-D", "CMAKE_BUILD_TYPE=Release", "-D",
+                    f"CMAKE_CXX_FLAGS=-include {source}/tuned.h", "-D", "KAUSTIK_UNITY=ON", "-D", "KAUSTIK_TESTS=OFF", "-D",
+                    "KAUSTIK_BENCHMARKS=OFF"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", target, "--target", "kaustik"], check=True)
+    return target / "kaustik"
+
+
+def files_of(scene):
+    """The scene, and its reference."""
+    if scene.startswith("peer_"):
+        folder = ROOT / "benchmarks/peer_scenes" / scene.removeprefix("peer_")
+        return folder / "scene.xml", ROOT / "benchmarks/references" / f"{scene}.exr"
+    shipped = ROOT / "scenes" / scene / f"{scene}.xml"
+    file = shipped if shipped.exists() else ROOT / "benchmarks/scenes" / f"{scene}.xml"
+    return file, ROOT / "benchmarks/references" / f"{scene}.exr"
+
+
+def render(program, scene, integrator, settings, seed, environment):
+    """Relative MSE to the reference, and CPU seconds."""
+    file, reference = files_of(scene)
+    picture = FOLDER / "picture.exr"
+    options = [option for setting in settings for option in ("--set", f"integrator.{setting}")]
+    begin = os.times()
+    subprocess.run([program, "render", file, "-q", "--float", "--integrator", integrator, *options, "--spp", str(SCENES[scene]),
+                    "--seed", str(seed), "-o", picture], check=True, env=dict(os.environ, **environment),
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    end = os.times()
+    compared = subprocess.run([program, "compare", picture, reference], check=True, capture_output=True, text=True).stdout
+    error = float(re.search(r"^relative_mse_trimmed\s+(\S+)", compared, re.M).group(1))
+    return error, end.children_user + end.children_system - begin.children_user - begin.children_system
+
+
+class Measurements:
+    """Errors and times of (scene, integrator, settings, seed, environment), kept in a file with what they were made of."""
+
+    def __init__(self, file, sources):
+        self.file, self.sources, self.known = file, sources, {}
+        if file.exists():
+            for line in file.read_text().splitlines():
+                row = json.loads(line)
+                if row["sources"] == sources:
+                    self.known[json.dumps(row["key"])] = (row["error"], row["seconds"])
+
+    def measure(self, program, keys):
+        missing = [key for key in keys if json.dumps(key) not in self.known]
+        begin = time.monotonic()
+        for done, key in enumerate(missing):
+            scene, integrator, settings, seed, environment = key
+            error, seconds = render(program, scene, integrator, settings, seed, environment)
+            self.known[json.dumps(key)] = (error, seconds)
+            with self.file.open("a") as out:
+                out.write(json.dumps({"key": key, "error": error, "seconds": seconds, "sources": self.sources}) + "\n")
+            left = (time.monotonic() - begin) / (done + 1) * (len(missing) - done - 1)
+            what = " ".join([scene, integrator, *settings, *(f"{name}={value}" for name, value in environment.items())])
+            print(f"# {done + 1} of {len(missing)}, {left / 60:.0f} min left: {what}, seed {seed}: {error:.4g}, {seconds:.1f} s",
+                  file=sys.stderr)
+
+    def ratio(self, others, owns):
+        """Of errors, of times, of their product with the standard error of its logarithm: one key a seed on each side."""
+        pairs = [(self.known.get(json.dumps(other)), self.known.get(json.dumps(own))) for other, own in zip(others, owns)]
+        if any(not other or not own for other, own in pairs):
+            return None
+        errors = [math.log(other[0] / own[0]) for other, own in pairs]
+        # Times differ by what else the machine does, not by seed.
+        seconds = math.log(sum(other[1] for other, _ in pairs) / sum(own[1] for _, own in pairs))
+        mean = sum(errors) / len(errors)
+        spread = math.sqrt(sum((error - mean) ** 2 for error in errors) / max(1, len(errors) - 1) / len(errors))
+        return math.exp(mean), math.exp(seconds), math.exp(mean + seconds), spread
+
+
+def cell_of(found):
+    if not found:
+        return "–"
+    error, seconds, product, spread = found
+    if abs(error - 1) < 1e-6:
+        return f"same, time {seconds:.2f}"
+    return f"**{product:.2f}** ± {100 * spread:.0f} %: {error:.2f} × {seconds:.2f}"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
+
+
+def keys_of_device(scene, device, seeds):
+    integrator, whole = WHOLE
+    settings = [whole] + device.split()
+    if device.startswith("choose_light_paths"):
+        settings = []
+    return [[scene, integrator, settings, seed, {}] for seed in seeds]
+
+
+def verdict(found):
+    """By 95 % bounds of the scenes that tell most and least."""
+    known = [(product, spread) for _, _, product, spread in found if abs(product - 1) > 1e-9]
+    helps = any(product * math.exp(-1.96 * spread) >= WANTED for product, spread in known)
+    might = any(product * math.exp(1.96 * spread) >= WANTED for product, spread in known)
+    harms = any(product * math.exp(1.96 * spread) < TOLERATED for product, spread in known)
+    words = ["helps" if helps else "may help" if might else "does not help"]
+    return ", ".join(words + (["harms"] if harms else []))
+
+
+DEVICES_TEXT = """# What each device of `auto` is worth
+
+`auto` learns, chooses and guides by itself. Here each of these is switched off alone, in pictures of the same samples and
+seeds. A cell has **the time for a given noise without the device over that with it**: the ratio of the errors times the ratio
+of the times. More than 1 speaks for the device. An error is the relative MSE to the stored reference without the worst 0.1 %
+of the pixels; a time is CPU time; ± is one standard error over the seeds. "Same": the pictures are the same bits. The last
+row adds splats and connections, which `auto` leaves out: there more than 1 speaks for leaving them out. Errors hold
+the references' own noise, which draws ratios a little toward 1.
+
+A device is to be worth {wanted} in a scene that people could have, and no less than {tolerated} in any. Of `pool_among_lamps`
+and `hundredth_of_a_floor` the reference is `auto` itself, of a long run: bias that both have does not show there.
+
+`make ablation` writes this page: seeds {seeds}; samples a pixel: {samples}.
+"""
+
+
+def devices(arguments, seeds):
+    program = ROOT / "build/release/kaustik"
+    measured = Measurements(arguments.results or FOLDER / "devices.jsonl", digest_of_sources())
+    wanted = [device for device in DEVICES if not arguments.only or device.split("=")[0] in arguments.only]
+    scenes = [scene for scene in SCENES if not arguments.scenes or scene in arguments.scenes]
+    measured.measure(program, [key for scene in scenes for seed in seeds for device in ["", *wanted]
+                               for key in keys_of_device(scene, device, [seed])])
+    rows, verdicts = [], []
+    for device in DEVICES:
+        found = {scene: measured.ratio(keys_of_device(scene, device, seeds), keys_of_device(scene, "", seeds)) for scene in SCENES}
+        known = {scene: ratio for scene, ratio in found.items() if ratio}
+        if not known:
+            continue
+        most, least = max(known, key=lambda s: known[s][2]), min(known, key=lambda s: known[s][2])
+        mean = math.exp(sum(math.log(ratio[2]) for ratio in known.values()) / len(known))
+        verdicts.append([device, f"{most}: {known[most][2]:.2f}", f"{least}: {known[least][2]:.2f}", f"{mean:.2f}",
+                         verdict(known.values())])
+        rows.append([device] + [cell_of(found[scene]) for scene in SCENES])
+    text = DEVICES_TEXT.format(wanted=WANTED, tolerated=TOLERATED, seeds=", ".join(map(str, seeds)),
+                               samples=", ".join(f"{scene} {samples}" for scene, samples in SCENES.items()))
+    text += "\n" + table(["without", "most", "least", "geometric mean", "the device"], verdicts)
+    return text + "\n## Scene by scene\n\n" + table(["without", *SCENES], rows)
+
+
+CONSTANTS_TEXT = """# What the constants of the methods are worth
+
+Each constant is changed alone, in pictures of the same samples and seeds. A cell has **the time for a given noise with the
+other value over that with the value in the code**: the ratio of the errors times the ratio of the times. More than 1 speaks
+for the code. Errors, times and ± are those of [the page on devices](ablation.md); "same": the pictures are the same bits.
+
+The constants of `vcm/plan/cost_model.h` are measured: `cost_tool` prints them. `kernel_efficiency` (¾) is derived: the square
+of the kernel's integral over its square's integral and its area.
+
+`make sensitivity` writes this page: seeds {seeds}; samples a pixel: {samples}.
+"""
+
+
+def keys_of_constant(where, scene, file, name, value, seeds):
+    return [[scene, where[0], [], seed, {variable_of(file, name): repr(value)} if name else {}] for seed in seeds]
+
+
+def constants(arguments, seeds):
+    program, values = build(FOLDER), values_of_code()
+    measured = Measurements(arguments.results or FOLDER / "constants.jsonl", digest_of_sources())
+    rows = [row for row in CONSTANTS if not arguments.only or row[1] in arguments.only]
+    own = [key for where in (AUTO, CACHE) for scene in where[1] for key in keys_of_constant(where, scene, "", "", 0, seeds)]
+    measured.measure(program, own + [
+        key for file, name, factors, where in rows for factor in factors for scene in where[1]
+        for key in keys_of_constant(where, scene, file, name, values[file, name] * factor, seeds)])
+    text = CONSTANTS_TEXT.format(seeds=", ".join(map(str, seeds)),
+                                 samples=", ".join(f"{scene} {SCENES[scene]}" for scene in dict.fromkeys(AUTO[1] + CACHE[1])))
+    for where in (AUTO, CACHE):
+        cells = []
+        for file, name, factors, of in CONSTANTS:
+            for value in [values[file, name] * factor for factor in factors if of is where]:
+                found = [measured.ratio(keys_of_constant(where, scene, file, name, value, seeds),
+                                        keys_of_constant(where, scene, "", "", 0, seeds)) for scene in where[1]]
+                if any(found):
+                    cells.append([f"`{name.rstrip('_')}` ({pathlib.Path(file).name})", f"{values[file, name]:g}", f"{value:g}",
+                                  *map(cell_of, found)])
+        text += f"\n## `{where[0]}`\n\n" + table(["constant", "value", "instead", *where[1]], cells)
+    return text
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=["devices", "constants"])
+    parser.add_argument("--seeds", default="1,2,3")
+    parser.add_argument("--results", type=pathlib.Path)
+    parser.add_argument("--only", nargs="*", default=[])
+    parser.add_argument("--scenes", nargs="*", default=[])
+    parser.add_argument("--page", type=pathlib.Path)
+    arguments = parser.parse_args()
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    seeds = [int(seed) for seed in arguments.seeds.split(",")]
+    text = {"devices": devices, "constants": constants}[arguments.what](arguments, seeds)
+    if arguments.page:
+        arguments.page.write_text(text)
+    else:
+        print(text)
+
+
+if __name__ == "__main__":
+    main()
