@@ -27,9 +27,9 @@ FOLDER = ROOT / "out/worth"
 
 # Scenes, and samples a pixel, for some seconds each: light through a gap, many lamps, caustics of glass, metal and water,
 # a small visible part of a large scene.
-SCENES = {"door_ajar": 48, "hall_of_lamps": 32, "pool_among_lamps": 24, "hundredth_of_a_floor": 32, "metal_ring": 16,
+SCENES = {"door_ajar": 160, "hall_of_lamps": 32, "pool_among_lamps": 24, "hundredth_of_a_floor": 64, "metal_ring": 8,
           "peer_cornell_glass": 16, "peer_ring": 16, "peer_pool_below": 8}
-AUTO = ("auto", ["door_ajar", "pool_among_lamps", "metal_ring", "peer_cornell_glass"])
+AUTO = ("auto", ["hall_of_lamps", "pool_among_lamps", "peer_cornell_glass", "peer_ring"])
 CACHE = ("photonmap", ["peer_cornell_glass", "metal_ring"])
 
 # ppm with this setting is auto, whose devices have no parameters of their own.
@@ -68,6 +68,7 @@ CONSTANTS = [
     ("vcm/lessons/emission_learning.cpp", "least_paths", HALF_DOUBLE, AUTO),
     ("vcm/lessons/emission_learning.cpp", "worthwhile", (0.8, 1.25), AUTO),
     ("vcm/lessons/emission_learning.cpp", "worth_its_time", (0.8, 1.25), AUTO),
+    ("vcm/lessons/emission_learning.cpp", "worth_aiming_less", (0.9, 1.05), AUTO),
     ("vcm/lessons/scatter_learning.cpp", "most_events_in_cell", HALF_DOUBLE, AUTO),
     ("vcm/lessons/scatter_learning.cpp", "events_of_all", HALF_DOUBLE, AUTO),
     ("vcm/lessons/scatter_learning.cpp", "least_unguided", (0.7, 1.3), AUTO),

@@ -16,6 +16,21 @@ constexpr double worthwhile = 0.8;
 /// All of it is taken up where it falls at least to this share: learned paths bring more vertices,
 /// which take their time.
 constexpr double worth_its_time = 0.65;
+/// Of the share that is aimed so much may be left: never nothing, for what was not seen.
+constexpr std::array<float, 3> aimed_parts{1, 0.5f, 0.2f};
+/// Less is aimed, where nothing else is learned, if that takes off as much, and so many paths say
+/// so.
+constexpr double worth_aiming_less = 0.95;
+constexpr size_t least_paths_for_aim = 1024;
+
+/// Of what was learned only how much is aimed.
+std::vector<LightPathEmission::Guide> aims_alone(const LightPathEmission& plain,
+                                                 std::vector<LightPathEmission::Guide> guides) {
+  for (size_t i = 0; i < guides.size(); ++i)
+    guides[i] = {
+        .chance = plain.chance(int(i)), .share = 0, .aimed = guides[i].aimed, .rays = nullptr};
+  return guides;
+}
 
 }  // namespace
 
@@ -23,8 +38,9 @@ constexpr double worth_its_time = 0.65;
 struct EmissionLearning::OfLight {
   std::vector<GuideSquare::Point> points;
   size_t paths = 0;
-  double plain_moment = 0;  ///< Σ f² q/p by the plain emission of this light alone
-  double root = 0;          ///< of the least moment that is known
+  /// Σ f² q/p by the plain emission of this light alone, for each of aimed_parts.
+  std::array<double, aimed_parts.size()> plain_moments{};
+  double root = 0;  ///< of the least moment that is known
 };
 
 EmissionLearning::EmissionLearning(const LightPathEmission& plain)
@@ -40,6 +56,7 @@ void EmissionLearning::add(const LightPathStart& start, double use) {
   path.light = start.light;
   path.weight = use * use * density;
   path.plain = plain_.plain_pdf(start.light, origin, direction);
+  path.own = plain_.own_pdf(start.light, origin, direction);
   if (!(path.weight > 0 && path.plain > 0) || !std::isfinite(path.weight)) return;
   path.place = map_of(start.light).place_of(origin, direction);
   paths_.push_back(path);
@@ -57,10 +74,10 @@ const GuideMap& EmissionLearning::map_of(int light) {
 namespace {
 
 struct StoredPath {
-  int64_t light = -1;  // as wide as `weight`: bytes between the fields would be anything
-  float u[2] = {0, 0};
-  float scale = 0, plain = 0;
   double weight = 0;
+  float u[2] = {0, 0};
+  float scale = 0, plain = 0, own = 0;
+  int32_t light = -1;
 };
 static_assert(sizeof(StoredPath) == 32);
 
@@ -70,11 +87,12 @@ void EmissionLearning::write(ByteWriter& writer) const {
   std::vector<StoredPath> stored;
   stored.reserve(paths_.size());
   for (const Path& path : paths_)
-    stored.push_back({.light = path.light,
+    stored.push_back({.weight = path.weight,
                       .u = {path.place.u.x, path.place.u.y},
                       .scale = path.place.scale,
                       .plain = path.plain,
-                      .weight = path.weight});
+                      .own = path.own,
+                      .light = path.light});
   writer.put_array(stored);
 }
 
@@ -89,20 +107,29 @@ void EmissionLearning::read(ByteReader& reader) {
     path.place.u = {stored.u[0], stored.u[1]};
     path.place.scale = stored.scale;
     path.plain = stored.plain;
+    path.own = stored.own;
     path.weight = stored.weight;
     paths_.push_back(path);
   }
 }
 
+double EmissionLearning::plain_pdf(const Path& path, float aimed) const {
+  const float all = plain_.aimed_share(path.light);
+  const double part = all > 0 ? double(aimed / all) : 0.0;
+  return double(path.own) + part * (double(path.plain) - double(path.own));
+}
+
 /// By every `step`th path from `first` on.
-LightPathEmission EmissionLearning::learn(size_t first, size_t step) const {
+std::vector<LightPathEmission::Guide> EmissionLearning::learn(size_t first, size_t step) const {
   std::vector<OfLight> lights(maps_.size());
   size_t count = 0;
   for (size_t i = first; i < paths_.size(); i += step, ++count) {
     const Path& path = paths_[i];
     OfLight& of = lights[size_t(path.light)];
     ++of.paths;
-    of.plain_moment += path.weight / double(path.plain);
+    const float aimed = plain_.aimed_share(path.light);
+    for (size_t part = 0; part < aimed_parts.size(); ++part)
+      of.plain_moments[part] += path.weight / plain_pdf(path, aimed * aimed_parts[part]);
     if (path.place.scale > 0)
       of.points.push_back({path.place.u, path.weight / double(path.place.scale)});
   }
@@ -111,7 +138,10 @@ LightPathEmission EmissionLearning::learn(size_t first, size_t step) const {
   size_t only_once = 0;
   for (size_t i = 0; i < lights.size(); ++i) {
     OfLight& of = lights[i];
-    double moment = of.plain_moment;
+    const auto least = std::min_element(of.plain_moments.begin(), of.plain_moments.end());
+    guides[i].aimed =
+        plain_.aimed_share(int(i)) * aimed_parts[size_t(least - of.plain_moments.begin())];
+    double moment = *least;
     if (of.points.size() >= least_paths) {
       GuideSquare square(std::move(of.points));
       if (square.expected_sum() < worthwhile * moment) {
@@ -132,7 +162,7 @@ LightPathEmission EmissionLearning::learn(size_t first, size_t step) const {
     guides[i].chance = float(chance);
     if (guides[i].rays) guides[i].share = float(by_use / chance);
   }
-  return {plain_, guides};
+  return guides;
 }
 
 double EmissionLearning::second_moment(const LightPathEmission& emission, size_t first,
@@ -140,8 +170,9 @@ double EmissionLearning::second_moment(const LightPathEmission& emission, size_t
   double sum = 0;
   for (size_t i = first; i < paths_.size(); i += step) {
     const Path& path = paths_[i];
+    const auto plain = float(plain_pdf(path, emission.aimed_share(path.light)));
     const double density = double(emission.chance(path.light)) *
-                           double(emission.pdf_of_chosen(path.light, path.plain, path.place));
+                           double(emission.pdf_of_chosen(path.light, plain, path.place));
     sum += path.weight / density;
   }
   return sum;
@@ -153,10 +184,19 @@ double EmissionLearning::second_moment(const LightPathEmission& emission) const 
 
 std::shared_ptr<const LightPathEmission> EmissionLearning::learned() const {
   if (paths_.size() < least_paths) return nullptr;
-  double guided = 0;
-  for (size_t half = 0; half < 2; ++half) guided += second_moment(learn(half, 2), 1 - half, 2);
-  if (!(guided < worth_its_time * second_moment(plain_))) return nullptr;
-  return std::make_shared<const LightPathEmission>(learn(0, 1));
+  double guided = 0, aimed = 0;
+  for (size_t half = 0; half < 2; ++half) {
+    std::vector<LightPathEmission::Guide> guides = learn(half, 2);
+    guided += second_moment({plain_, guides}, 1 - half, 2);
+    aimed += second_moment({plain_, aims_alone(plain_, guides)}, 1 - half, 2);
+  }
+  const double plain = second_moment(plain_);
+  const std::vector<LightPathEmission::Guide> guides = learn(0, 1);
+  if (guided < worth_its_time * std::min(plain, aimed))
+    return std::make_shared<const LightPathEmission>(plain_, guides);
+  if (paths_.size() >= least_paths_for_aim && aimed < worth_aiming_less * plain)
+    return std::make_shared<const LightPathEmission>(plain_, aims_alone(plain_, guides));
+  return nullptr;
 }
 
 }  // namespace kaustik

@@ -11,7 +11,8 @@ namespace kaustik {
 /// et al. 2018, and the variance-aware target of Rath et al. 2020). With f the use of a path and q
 /// the density with which it was emitted, the second moment of an estimate by another density p is
 /// Σ f² q/p, up to a factor. It is least where lights are chosen by the root of their part of it,
-/// and the directions of each light by a GuideSquare.
+/// and the directions of each light by a GuideSquare. What a light aims at specular objects takes
+/// from the rest: how much of it is left is learned by the same sum.
 class EmissionLearning {
  public:
   /// Learns on top of `plain`, which must outlive this and whatever is learned.
@@ -39,12 +40,15 @@ class EmissionLearning {
   struct Path {
     int light = -1;
     GuideMap::Place place;
-    float plain = 0;    ///< density of its ray once the light is chosen, by the plain emission
+    float plain = 0;    ///< density of its ray once the light is chosen, by the plain emission …
+    float own = 0;      ///< … and by the light's own distribution alone
     double weight = 0;  ///< f² q
   };
   struct OfLight;
   const GuideMap& map_of(int light);
-  LightPathEmission learn(size_t first, size_t step) const;
+  /// Density of a path's ray once the light is chosen, where such a share of its rays is aimed.
+  double plain_pdf(const Path& path, float aimed) const;
+  std::vector<LightPathEmission::Guide> learn(size_t first, size_t step) const;
   double second_moment(const LightPathEmission& emission, size_t first, size_t step) const;
 
   const LightPathEmission& plain_;

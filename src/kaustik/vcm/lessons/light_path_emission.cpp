@@ -71,13 +71,12 @@ bool LightPathEmission::has_aimed_rays(int light) const {
 
 LightPathEmission::LightPathEmission(const LightPathEmission& plain,
                                      const std::vector<Guide>& guides)
-    : scene_(plain.scene_),
-      own_(plain.own_),
-      aimed_(plain.aimed_),
-      aimed_shares_(plain.aimed_shares_),
-      guides_(guides) {
+    : scene_(plain.scene_), own_(plain.own_), aimed_(plain.aimed_), guides_(guides) {
   std::vector<double> chances;
-  for (const Guide& guide : guides) chances.push_back(double(guide.chance));
+  for (const Guide& guide : guides) {
+    chances.push_back(double(guide.chance));
+    aimed_shares_.push_back(guide.aimed);
+  }
   set_chances(chances);
 }
 
@@ -137,6 +136,11 @@ EmissionDensity LightPathEmission::pdf(int light, const SurfacePoint& origin,
   return density(light, origin, direction);
 }
 
+float LightPathEmission::own_pdf(int light, const SurfacePoint& origin,
+                                 const Vec3f& direction) const {
+  return own_->pdf(light, origin, direction);
+}
+
 float LightPathEmission::plain_pdf(int light, const SurfacePoint& origin,
                                    const Vec3f& direction) const {
   const float aimed = aimed_shares_[size_t(light)];
@@ -176,6 +180,7 @@ void LightPathEmission::write(ByteWriter& writer) const {
   for (const Guide& guide : guides_) {
     writer.put(guide.chance);
     writer.put(guide.share);
+    writer.put(guide.aimed);
     writer.put(uint8_t(guide.rays ? 1 : 0));
     if (guide.rays) guide.rays->square().write(writer);
   }
@@ -190,9 +195,11 @@ LightPathEmission LightPathEmission::read(ByteReader& reader, const LightPathEmi
   for (size_t i = 0; i < count; ++i) {
     guides[i].chance = reader.get<float>();
     guides[i].share = reader.get<float>();
-    if (!(guides[i].chance >= 0 && guides[i].chance <= 1 && guides[i].share >= 0 &&
-          guides[i].share <= 1))
-      reader.damaged("a chance in it is none");
+    guides[i].aimed = reader.get<float>();
+    for (const float chance : {guides[i].chance, guides[i].share, guides[i].aimed})
+      if (!(chance >= 0 && chance <= 1)) reader.damaged("a chance in it is none");
+    if (guides[i].aimed > plain.aimed_share(int(i)))
+      reader.damaged("rays of a light in it are aimed at nothing");
     if (!reader.get_flag()) {
       if (guides[i].share > 0) reader.damaged("a light in it has no guide");
       continue;

@@ -37,6 +37,7 @@ class LightPathEmission {
   struct Guide {
     float chance = 0;  ///< of the light; they sum to 1
     float share = 0;   ///< of its rays that are drawn by `rays`
+    float aimed = 0;   ///< of the others, aimed at specular objects
     std::shared_ptr<const GuidedLight> rays;
   };
   /// `plain` with the chances, and learned rays for a share, of `guides`, one for each light.
@@ -58,7 +59,11 @@ class LightPathEmission {
 
   const Scene& scene() const { return *scene_; }
   float chance(int light) const { return chance_[size_t(light)]; }
-  /// Joint density of the rays of a light that was chosen, without what was learned.
+  /// Share of a light's rays, but for those that were learned, that is aimed at specular objects.
+  float aimed_share(int light) const { return aimed_shares_[size_t(light)]; }
+  /// Joint density of the rays of a light that was chosen, by its own distribution alone.
+  float own_pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const;
+  /// The same with those that are aimed, and that search.
   float plain_pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const;
   /// The same with what was learned, for a ray whose plain density is known.
   float pdf_of_chosen(int light, float plain, const GuideMap::Place& place) const;
