@@ -5,6 +5,7 @@
 
 #include "geometry_support.h"
 #include "kaustik/base/parallel.h"
+#include "tests/support/type_rows.h"
 
 namespace kaustik::test {
 namespace {
@@ -283,17 +284,7 @@ TEST(RayTracer, SameHitsFromAnyNumberOfThreadsAndBuilds) {
   }
 }
 
-TEST(RayTracer, RegistryNamesEveryTypeOnce) {
-  std::vector<std::string> names;
-  for (const ShapeType& type : shape_types()) {
-    EXPECT_EQ(type.info.family, "shape");
-    EXPECT_FALSE(type.info.sentence.empty());
-    names.push_back(type.info.name);
-  }
-  const std::vector<std::string> expected = {"obj",  "ply",    "mesh",     "rectangle", "cube",
-                                             "disk", "sphere", "cylinder", "sdf"};
-  EXPECT_EQ(names, expected);
-}
+TEST(RayTracer, RegistryNamesEveryTypeOnce) { expect_rows_of("shape", shape_types()); }
 
 }  // namespace
 }  // namespace kaustik::test

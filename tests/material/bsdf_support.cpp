@@ -1,7 +1,10 @@
 #include "tests/material/bsdf_support.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <typeinfo>
 
+#include "kaustik/base/error.h"
 #include "kaustik/image/picture_reader.h"
 
 namespace kaustik::test {
@@ -24,6 +27,19 @@ std::shared_ptr<const Bsdf> make_bsdf(
     return t.create({arguments, std::move(nested), texture});
   }
   throw std::invalid_argument("no bsdf type " + type);
+}
+
+std::shared_ptr<const Bsdf> make_usual_bsdf(const BsdfType& type) {
+  const std::vector nested(size_t(type.minimum_nested), make_bsdf("diffuse"));
+  try {
+    return make_bsdf(type.info.name, {}, nested);
+  } catch (const Error&) {
+    // It asks for a texture.
+    std::map<std::string, std::shared_ptr<const Texture>> textures;
+    for (const Parameter& parameter : type.info.parameters)
+      if (parameter.accepts_texture) textures[parameter.name] = make_texture("checkerboard");
+    return make_bsdf(type.info.name, {}, nested, std::move(textures));
+  }
 }
 
 std::shared_ptr<const Texture> make_texture(const std::string& type,
@@ -123,6 +139,13 @@ std::vector<BsdfInstance> make_instances() {
   };
 }
 
+bool has_like(const std::vector<BsdfInstance>& instances, const Bsdf& bsdf) {
+  return std::any_of(instances.begin(), instances.end(), [&](const BsdfInstance& instance) {
+    const Bsdf& other = *instance.bsdf;
+    return typeid(other) == typeid(bsdf);
+  });
+}
+
 Vec3f direction(double degrees, double azimuth_degrees) {
   const double theta = degrees * std::numbers::pi / 180;
   const double phi = azimuth_degrees * std::numbers::pi / 180;
@@ -210,9 +233,19 @@ Vec3d DirectionGrid::integrate(size_t cell, const std::function<Vec3d(const Vec3
 }
 
 const std::vector<BsdfInstance>& bsdf_instances() {
-  static const std::vector<BsdfInstance> instances = make_instances();
+  static const std::vector<BsdfInstance> instances = [] {
+    std::vector<BsdfInstance> all = make_instances();
+    for (const BsdfType& type : bsdf_types()) {
+      const auto usual = make_usual_bsdf(type);
+      if (usual->traits().lobes != Lobes::none && !has_like(all, *usual))
+        all.push_back({type.info.name, usual});
+    }
+    return all;
+  }();
   return instances;
 }
+
+bool has_instance_like(const Bsdf& bsdf) { return has_like(bsdf_instances(), bsdf); }
 
 const std::vector<Vec3f>& outgoing_directions() {
   static const std::vector<Vec3f> directions = {direction(0, 0), direction(35, 20),

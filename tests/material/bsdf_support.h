@@ -15,6 +15,8 @@ std::shared_ptr<const Bsdf> make_bsdf(
     const std::string& type, const std::vector<Property>& properties = {},
     std::vector<std::shared_ptr<const Bsdf>> nested = {},
     std::map<std::string, std::shared_ptr<const Texture>> textures = {});
+/// With the values that a scene need not give, around matt bsdfs if it is made of others.
+std::shared_ptr<const Bsdf> make_usual_bsdf(const BsdfType& type);
 /// Throws Error as build_scene() would, with places in scene.xml.
 std::shared_ptr<const Texture> make_texture(const std::string& type,
                                             std::vector<Property> properties = {});
@@ -24,7 +26,10 @@ struct BsdfInstance {
   std::string name;
   std::shared_ptr<const Bsdf> bsdf;
 };
+/// One at least of every registered type that has lobes: where none is listed, the usual one.
 const std::vector<BsdfInstance>& bsdf_instances();
+/// Whether one of them is of the same class.
+bool has_instance_like(const Bsdf& bsdf);
 
 /// From the normal to grazing, on several azimuths; unit, all with z > 0.
 const std::vector<Vec3f>& outgoing_directions();

@@ -12,6 +12,7 @@
 #include "kaustik/base/statistics.h"
 #include "kaustik/base/warp.h"
 #include "tests/material/bsdf_support.h"
+#include "tests/support/type_rows.h"
 
 namespace kaustik {
 namespace {
@@ -399,14 +400,14 @@ TEST(blendbsdf, a_chain_asks_each_bsdf_a_few_times) {
   }
 }
 
-/// All but "null", which has nothing to test here.
+TEST(bsdf_types, are_rows) { expect_rows_of("bsdf", bsdf_types()); }
+
+/// But for what has nothing to test.
 TEST(bsdf_types, are_all_in_the_table_of_instances) {
-  std::vector<std::string> names;
-  for (const BsdfType& type : bsdf_types()) names.push_back(type.info.name);
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"diffuse", "phong", "thinphong", "difftrans", "dielectric",
-                                      "conductor", "roughconductor", "twosided", "mask",
-                                      "blendbsdf", "bumpmap", "normalmap", "null"}));
+  for (const BsdfType& type : bsdf_types()) {
+    const auto usual = make_usual_bsdf(type);
+    EXPECT_EQ(has_instance_like(*usual), usual->traits().lobes != Lobes::none) << type.info.name;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <limits>
@@ -9,6 +10,7 @@
 
 #include "kaustik/image/image_io.h"
 #include "tests/material/bsdf_support.h"
+#include "tests/support/type_rows.h"
 
 namespace kaustik {
 namespace {
@@ -202,11 +204,31 @@ TEST(bitmap, repairs_negative_and_broken_values) {
   }
 }
 
-TEST(texture_types, are_all_there) {
-  std::vector<std::string> names;
-  for (const TextureType& type : texture_types()) names.push_back(type.info.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"bitmap", "checkerboard", "noise", "marble", "wood",
-                                             "tiles", "waves"}));
+TEST(texture_types, are_rows) { expect_rows_of("texture", texture_types()); }
+
+/// With the values that a scene need not give; a bitmap needs a picture.
+TEST(texture_types, keep_within_their_bounds) {
+  const Picture picture({{0.25f, 1}, {0.5f, 0}});
+  for (const TextureType& type : texture_types()) {
+    SCOPED_TRACE(type.info.name);
+    const Parameter* file = type.info.find("filename");
+    const auto texture = file ? make_texture(type.info.name, {property("filename", picture.path())})
+                              : make_texture(type.info.name);
+    EXPECT_LE(texture->mean().max_lane(), texture->maximum());
+    for (const float far : {0.0f, 1.0f, 1e4f, 1e30f})
+      for (int i = 0; i < 200; ++i) {
+        TextureCoordinates at = point(far * std::sin(float(i)), far * std::cos(0.7f * float(i)));
+        at.position = Vec3f(at.uv.x, at.uv.y, far * std::sin(2.3f * float(i)));
+        at.normal = {0, 0, 1};
+        at.width = i % 3 == 0 ? 0.1f : 0.0f;
+        at.uv_width = Vec2f(at.width, at.width);
+        const Spectrum value = texture->eval(at, {});
+        ASSERT_TRUE(value.is_finite());
+        ASSERT_LE(value.max_lane(), texture->maximum() * (1 + 1e-5f));
+        for (int lane = 0; lane < Spectrum::lane_count; ++lane) ASSERT_GE(value[lane], 0);
+        ASSERT_TRUE(std::isfinite(texture->scalar(at)));
+      }
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "kaustik/base/sampler.h"
 #include "tests/scene/scene_support.h"
+#include "tests/support/type_rows.h"
 
 namespace kaustik {
 namespace {
@@ -289,11 +290,9 @@ TEST(Camera, APinholeNeedsNoNumbers) {
 }
 
 TEST(Camera, TypesAndFilmsAreRows) {
-  ASSERT_EQ(camera_types().size(), 1u);
-  EXPECT_EQ(camera_types()[0].info.name, "perspective");
-  ASSERT_EQ(film_types().size(), 1u);
-  EXPECT_EQ(film_types()[0].info.name, "hdrfilm");
-  expect_problem(std::string("<sensor type=\"thinlens\"/>") + any_shape, "2:1", "thinlens",
+  expect_rows_of("sensor", camera_types());
+  expect_rows_of("film", film_types());
+  expect_problem(std::string("<sensor type=\"no_camera\"/>") + any_shape, "2:1", "no_camera",
                  "perspective");
 }
 
