@@ -107,8 +107,11 @@ make_reference() {
       part "$scene" path all --passes 320
       ;;
     # Paths from the lamps that reach what is seen are far too rare for lighttracer and bdpt.
-    pool_among_lamps | hundredth_of_a_floor)
+    pool_among_lamps)
       part "$scene" auto all --passes 512
+      ;;
+    hundredth_of_a_floor)
+      part "$scene" auto all --passes 2560
       ;;
     gallery_1 | gallery_2 | maze | museum | point_spotlight)
       minutes "$scene" path all 60
