@@ -190,13 +190,10 @@ size_t measure_search(const std::string& name, const Cloud& cloud) {
 /// Keeps all threads of this arena busy for a while, so that the system spreads them over the
 /// processors: that can take it longer than one tree takes to build.
 void wake_threads(int threads) {
-  tbb::parallel_for(
-      0, threads,
-      [](int) {
-        const auto start = std::chrono::steady_clock::now();
-        while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(100)) continue;
-      },
-      tbb::simple_partitioner());
+  parallel_blocks(size_t(threads), 1, [](size_t, size_t, size_t) {
+    const auto start = std::chrono::steady_clock::now();
+    while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(100)) continue;
+  });
 }
 
 /// Fills trees with `threads` threads; preparing the input isn't timed.

@@ -93,7 +93,7 @@ BEGIN {
 
   not_in_word = "[^A-Za-z0-9_]"
   own("Imath", "^Imath/", "base", "")
-  own("oneTBB", "^(tbb|oneapi)/", "base photon", "")
+  own("oneTBB", "^(tbb|oneapi)/", "base", not_in_word "tbb::")
   own("fmt", "^fmt/", "base image geometry material medium light scene transport photon irradiance " \
     "vcm photonmap integrator render loader apps", "")
   own("OpenEXR", "^(OpenEXR/)?(Imf|Iex)", "image", not_in_word "(Imf|OPENEXR_IMF_NAMESPACE)::")
@@ -110,7 +110,7 @@ BEGIN {
   own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")
   own("nanoflann", "^nanoflann", "", not_in_word "nanoflann::")
   own("nlohmann-json", "^nlohmann/", "", not_in_word "nlohmann::")
-  system_headers = "^(sys/[a-z]+|unistd|fcntl|signal|sched|stdlib|malloc|immintrin|poll)\\.h$"
+  system_headers = "^(sys/[a-z]+|sanitizer/tsan_interface|unistd|fcntl|signal|sched|stdlib|malloc|immintrin|poll)\\.h$"
 }
 
 FILENAME == "CMakeLists.txt" {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "kaustik/base/thread_order.h"
+
 namespace kaustik {
 namespace {
 
@@ -25,8 +27,11 @@ Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {
           RTCRayN_tfar(rays, n, i)};
 }
 
+/// Embree's tasks call it, on any thread, while a structure is built.
 void shape_bounds(const RTCBoundsFunctionArguments* arguments) {
+  happens_after(arguments->geometryUserPtr);
   const Bounds3f b = static_cast<const Shape*>(arguments->geometryUserPtr)->bounds();
+  happens_before(arguments->geometryUserPtr);
   RTCBounds& out = *arguments->bounds_o;
   out.lower_x = b.min.x, out.lower_y = b.min.y, out.lower_z = b.min.z;
   out.upper_x = b.max.x, out.upper_y = b.max.y, out.upper_z = b.max.z;
@@ -63,6 +68,7 @@ void occluded_by_shape(const RTCOccludedFunctionNArguments* arguments) {
 
 EmbreeDevice::EmbreeDevice() : device_(rtcNewDevice(nullptr)) {
   if (!device_) throw error_of(rtcGetDeviceError(nullptr), "no device");
+  happens_before(this);
   rtcSetDeviceErrorFunction(device_, on_error, this);
   rtcSetDeviceMemoryMonitorFunction(device_, on_memory, this);
 }
@@ -77,6 +83,7 @@ EmbreeDevice::~EmbreeDevice() {
 }
 
 void EmbreeDevice::on_error(void* self, RTCError code, const char* text) {
+  happens_after(self);
   auto& device = *static_cast<EmbreeDevice*>(self);
   const std::lock_guard lock(device.error_mutex_);
   if (device.error_code_ != RTC_ERROR_NONE) return;
@@ -86,6 +93,7 @@ void EmbreeDevice::on_error(void* self, RTCError code, const char* text) {
 }
 
 bool EmbreeDevice::on_memory(void* self, ssize_t bytes, bool) {
+  happens_after(self);
   static_cast<EmbreeDevice*>(self)->bytes_ += int64_t(bytes);
   return true;
 }
@@ -127,6 +135,7 @@ void EmbreeScene::build() {
   }
   for (const Placement& placement : placements_) attach(instance_geometry(placement));
   rtcCommitScene(scene_);
+  for (const auto& shape : shapes_) happens_after(shape.get());
   device_->check();
 }
 
@@ -155,6 +164,7 @@ RTCGeometry EmbreeScene::mesh_geometry(const TriangleMesh& mesh) {
 }
 
 RTCGeometry EmbreeScene::user_geometry(const Shape& shape) {
+  happens_before(&shape);
   RTCGeometry part = rtcNewGeometry(device_->get(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(part, 1);
   rtcSetGeometryUserData(part, const_cast<Shape*>(&shape));

@@ -1,7 +1,6 @@
 // Building the buckets: points are split at the median of the longest side of their bounds, with
 // subtree sizes such that every bucket but the last is full.
 
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -113,7 +112,7 @@ void split(TreePoint* points, size_t count, size_t child_size) {
     split_left();
     split_right();
   } else {
-    tbb::parallel_invoke(split_left, split_right);
+    in_parallel(split_left, split_right);
   }
 }
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <tbb/parallel_invoke.h>
+#include "kaustik/base/parallel.h"
 
 namespace kaustik {
 
@@ -142,7 +142,7 @@ class KdForest {
       lower();
       upper();
     } else {
-      tbb::parallel_invoke(lower, upper);
+      in_parallel(lower, upper);
     }
   }
 
