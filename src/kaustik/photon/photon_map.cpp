@@ -7,6 +7,13 @@
 namespace kaustik {
 namespace {
 
+/// What std::lgamma returns; that writes the global signgam, too, which is a data race of two
+/// renders.
+double log_gamma(double x) {
+  int sign = 0;
+  return ::lgamma_r(x, &sign);
+}
+
 /// Weight of a photon at squared distance d² from the centre of a disk of radius r.
 class KernelWeight {
  public:
@@ -227,8 +234,7 @@ float pass_radius(float first_radius, uint32_t index) {
   // i = index.
   constexpr double alpha = 2.0 / 3.0;
   const double i = index;
-  const double log_product =
-      std::lgamma(i + 1 + alpha) - std::lgamma(1 + alpha) - std::lgamma(i + 2);
+  const double log_product = log_gamma(i + 1 + alpha) - log_gamma(1 + alpha) - log_gamma(i + 2);
   return first_radius * float(std::exp(0.5 * log_product));
 }
 

@@ -1,7 +1,6 @@
 // Building the buckets: points are split at the median of the longest side of their bounds, with
 // subtree sizes such that every bucket but the last is full.
 
-
 #include <algorithm>
 #include <array>
 #include <memory>
