@@ -88,6 +88,7 @@ const std::vector<Contender>& contenders() {
       contender("cornell_box", 6000, by("lighttracer", lit, 1, 8)),
       contender("cornell_box", 7000, by("bdpt", lit, 1, 4)),
       narrow(contender("cornell_box", 8000, by("vcm", lit, 1, 4))),
+      with_own_radii(contender("cornell_box", 9000, by("ppm", lit, 2, 4))),
       with_own_radii(contender("cornell_box", 10000, by("auto", lit, 2, 4))),
       with_own_radii(contender("cornell_box", 11000, by("photonmap", lit, 1, 4))),
       contender("cornell_spheres", 12000, by("path", "direct", 1, 8)),
