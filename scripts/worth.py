@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 """Measures what devices and constants of the methods are worth: pictures without a device, or with another constant.
 
-Usage: scripts/worth.py devices | constants [--seeds 1,2,3] [--results FILE.jsonl] [--only NAME ...] [--page FILE.md]
-
 Pictures of the same samples and seeds are compared: the relative MSE to the stored reference, and CPU time. Their product is
 what counts: time for a given noise. So a machine that is not quiet disturbs little, and passes that time cuts off nothing.
 
 devices: settings of DEVICES, with build/release/kaustik.
 constants: each constant of CONSTANTS becomes a variable that the environment sets, in a copy of the sources that is built in
 out/worth; there it is multiplied by the factors of its row.
-What FILE.jsonl (out/worth/devices.jsonl, …) holds already of the same sources is not measured again.
+check: whether the tables of this script name constants and settings that there are.
+What out/worth/devices.jsonl or constants.jsonl hold already of the same program, scenes and references is not measured again.
 """
 import argparse
+import collections
 import hashlib
 import json
 import math
@@ -29,14 +29,17 @@ FOLDER = ROOT / "out/worth"
 # a small visible part of a large scene.
 SCENES = {"door_ajar": 160, "hall_of_lamps": 32, "pool_among_lamps": 24, "hundredth_of_a_floor": 64, "metal_ring": 8,
           "peer_cornell_glass": 16, "peer_ring": 16, "peer_pool_below": 8}
-AUTO = ("auto", ["hall_of_lamps", "pool_among_lamps", "peer_cornell_glass", "peer_ring"])
+AUTO = ("auto", ["hall_of_lamps", "peer_cornell_glass", "peer_ring"])
 CACHE = ("photonmap", ["peer_cornell_glass", "metal_ring"])
 
 # ppm with this setting is auto, whose devices have no parameters of their own.
 WHOLE = ("ppm", "choose_light_paths=true")
 DEVICES = ["aim=none"] + [f"{name}=false" for name in (
-    "choose_light_paths", "adaptive", "guiding", "guided_scattering", "choose_survival", "learn_radii", "edges", "visibility")] + [
-        "splats=true connections=true"]
+    "choose_light_paths", "adaptive", "guiding", "guided_scattering", "choose_survival", "learn_radii", "edges", "visibility")]
+# What auto leaves out.
+ADDITIONS = ["splats=true connections=true"]
+# Student's t for bounds of 95 % on both sides, by seeds.
+T_95 = {2: 12.71, 3: 4.30, 4: 3.18, 5: 2.78, 6: 2.57, 7: 2.45, 8: 2.36}
 # A device is to lower the product by so much in some scene, and to raise it by no more than that in any.
 WANTED, TOLERATED = 1.1, 0.95
 
@@ -88,7 +91,6 @@ CONSTANTS = [
     ("photon/coverage/surface_edges.cpp", "least_sine", HALF_DOUBLE, AUTO),
     ("photon/light_pass.cpp", "largest_first_weight", HALF_DOUBLE, CACHE),
     ("transport/vertex.h", "largest_irradiance_factor", HALF_DOUBLE, CACHE),
-    ("photonmap/photon_map_integrator.cpp", "stored_quantile", (0.9, 1.05), CACHE),
     ("photonmap/photon_map_integrator.cpp", "quantile", (0.75, 1.2), CACHE),
     ("irradiance/record_reach.h", "total_error_scale", HALF_DOUBLE, CACHE),
 ]
@@ -144,10 +146,10 @@ def files_of_repository(*folders):
     return sorted(path for path in map(os.fsdecode, listed.split(b"\0")) if path and (ROOT / path).is_file())
 
 
-def digest_of_sources():
-    """Of what makes pictures; the table of this script may grow."""
-    digest = hashlib.sha256()
-    for path in files_of_repository("src", "apps", "scenes", "benchmarks/scenes"):
+def digest_of(program):
+    """Of the program and all that it is measured with."""
+    digest = hashlib.sha256(pathlib.Path(program).read_bytes())
+    for path in files_of_repository("scenes", "benchmarks/scenes", "benchmarks/peer_scenes", "benchmarks/references"):
         digest.update(f"{path}\0".encode() + (ROOT / path).read_bytes())
     return digest.hexdigest()[:16]
 
@@ -160,6 +162,9 @@ def build(folder):
         path = f"src/kaustik/{file}"
         contents[path] = made_variable(contents[path].decode(), file, name).encode()
     contents["tuned.h"] = TUNED_H.encode()
+    for old in source.rglob("*"):
+        if old.is_file() and str(old.relative_to(source)) not in contents:
+            old.unlink()
     for path, content in contents.items():  # what is the same already is not compiled again
         copy = source / path
         if copy.exists() and copy.read_bytes() == content:
@@ -184,13 +189,13 @@ def files_of(scene):
     return file, ROOT / "benchmarks/references" / f"{scene}.exr"
 
 
-def render(program, scene, integrator, settings, seed, environment):
+def render(program, scene, samples, integrator, settings, seed, environment):
     """Relative MSE to the reference, and CPU seconds."""
     file, reference = files_of(scene)
     picture = FOLDER / "picture.exr"
     options = [option for setting in settings for option in ("--set", f"integrator.{setting}")]
     begin = os.times()
-    subprocess.run([program, "render", file, "-q", "--float", "--integrator", integrator, *options, "--spp", str(SCENES[scene]),
+    subprocess.run([program, "render", file, "-q", "--float", "--integrator", integrator, *options, "--spp", str(samples),
                     "--seed", str(seed), "-o", picture], check=True, env=dict(os.environ, **environment),
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     end = os.times()
@@ -200,25 +205,26 @@ def render(program, scene, integrator, settings, seed, environment):
 
 
 class Measurements:
-    """Errors and times of (scene, integrator, settings, seed, environment), kept in a file with what they were made of."""
+    """Errors and times of (scene, samples, integrator, settings, seed, environment), kept in a file with a digest of what they
+    were made of."""
 
-    def __init__(self, file, sources):
-        self.file, self.sources, self.known = file, sources, {}
+    def __init__(self, file, digest):
+        self.file, self.digest, self.known = file, digest, {}
         if file.exists():
             for line in file.read_text().splitlines():
                 row = json.loads(line)
-                if row["sources"] == sources:
+                if row["digest"] == digest:
                     self.known[json.dumps(row["key"])] = (row["error"], row["seconds"])
 
     def measure(self, program, keys):
         missing = [key for key in keys if json.dumps(key) not in self.known]
         begin = time.monotonic()
         for done, key in enumerate(missing):
-            scene, integrator, settings, seed, environment = key
-            error, seconds = render(program, scene, integrator, settings, seed, environment)
+            scene, samples, integrator, settings, seed, environment = key
+            error, seconds = render(program, *key)
             self.known[json.dumps(key)] = (error, seconds)
             with self.file.open("a") as out:
-                out.write(json.dumps({"key": key, "error": error, "seconds": seconds, "sources": self.sources}) + "\n")
+                out.write(json.dumps({"key": key, "error": error, "seconds": seconds, "digest": self.digest}) + "\n")
             left = (time.monotonic() - begin) / (done + 1) * (len(missing) - done - 1)
             what = " ".join([scene, integrator, *settings, *(f"{name}={value}" for name, value in environment.items())])
             print(f"# {done + 1} of {len(missing)}, {left / 60:.0f} min left: {what}, seed {seed}: {error:.4g}, {seconds:.1f} s",
@@ -230,20 +236,24 @@ class Measurements:
         if any(not other or not own for other, own in pairs):
             return None
         errors = [math.log(other[0] / own[0]) for other, own in pairs]
-        # Times differ by what else the machine does, not by seed.
-        seconds = math.log(sum(other[1] for other, _ in pairs) / sum(own[1] for _, own in pairs))
-        mean = sum(errors) / len(errors)
-        spread = math.sqrt(sum((error - mean) ** 2 for error in errors) / max(1, len(errors) - 1) / len(errors))
-        return math.exp(mean), math.exp(seconds), math.exp(mean + seconds), spread
+        products = [error + math.log(other[1] / own[1]) for error, (other, own) in zip(errors, pairs)]
+        count = len(pairs)
+        mean, mean_error = sum(products) / count, sum(errors) / count
+        spread = math.sqrt(sum((x - mean) ** 2 for x in products) / (count - 1) / count) if count > 1 else math.inf
+        return Ratio(math.exp(mean), spread, math.exp(mean_error), math.exp(mean - mean_error), count)
 
 
-def cell_of(found):
-    if not found:
+# The product and the standard error of its logarithm; the ratios of errors and of times; seeds.
+Ratio = collections.namedtuple("Ratio", "product spread error seconds seeds")
+
+
+def cell_of(ratio):
+    if not ratio:
         return "–"
-    error, seconds, product, spread = found
-    if abs(error - 1) < 1e-6:
-        return f"same, time {seconds:.2f}"
-    return f"**{product:.2f}** ± {100 * spread:.0f} %: {error:.2f} × {seconds:.2f}"
+    if abs(ratio.error - 1) < 1e-6:
+        return f"same, time {ratio.seconds:.2f}"
+    deviation = f" ± {100 * ratio.spread:.0f} %" if math.isfinite(ratio.spread) else ""
+    return f"**{ratio.product:.2f}**{deviation}: {ratio.error:.2f} × {ratio.seconds:.2f}"
 
 
 def table(head, rows):
@@ -253,20 +263,20 @@ def table(head, rows):
 
 def keys_of_device(scene, device, seeds):
     integrator, whole = WHOLE
-    settings = [whole] + device.split()
-    if device.startswith("choose_light_paths"):
-        settings = []
-    return [[scene, integrator, settings, seed, {}] for seed in seeds]
+    settings = [] if device.startswith("choose_light_paths") else [whole] + device.split()
+    return [[scene, SCENES[scene], integrator, settings, seed, {}] for seed in seeds]
 
 
-def verdict(found):
-    """By 95 % bounds of the scenes that tell most and least."""
-    known = [(product, spread) for _, _, product, spread in found if abs(product - 1) > 1e-9]
-    helps = any(product * math.exp(-1.96 * spread) >= WANTED for product, spread in known)
-    might = any(product * math.exp(1.96 * spread) >= WANTED for product, spread in known)
-    harms = any(product * math.exp(1.96 * spread) < TOLERATED for product, spread in known)
-    words = ["helps" if helps else "may help" if might else "does not help"]
-    return ", ".join(words + (["harms"] if harms else []))
+def verdict(ratios):
+    """By bounds of 95 % in each scene by itself; pictures that are the same tell nothing."""
+    def bound(ratio, side):
+        return ratio.product * math.exp(side * T_95.get(ratio.seeds, 1.96) * ratio.spread)
+
+    known = [ratio for ratio in ratios if abs(ratio.error - 1) > 1e-6]
+    helps, might = (sum(bound(ratio, side) >= WANTED for ratio in known) for side in (-1, 1))
+    harms = sum(bound(ratio, 1) < TOLERATED for ratio in known)
+    words = [f"helps in {helps}" if helps else f"may help in {might}" if might else "does not help"]
+    return ", ".join(words + ([f"harms in {harms}"] if harms else []))
 
 
 DEVICES_TEXT = """# What each device of `auto` is worth
@@ -274,11 +284,11 @@ DEVICES_TEXT = """# What each device of `auto` is worth
 `auto` learns, chooses and guides by itself. Here each of these is switched off alone, in pictures of the same samples and
 seeds. A cell has **the time for a given noise without the device over that with it**: the ratio of the errors times the ratio
 of the times. More than 1 speaks for the device. An error is the relative MSE to the stored reference without the worst 0.1 %
-of the pixels; a time is CPU time; ± is one standard error over the seeds. "Same": the pictures are the same bits. The last
-row adds splats and connections, which `auto` leaves out: there more than 1 speaks for leaving them out. Errors hold
+of the pixels; a time is CPU time; ± is one standard error over the seeds. "Same": the pictures are the same bits. Errors hold
 the references' own noise, which draws ratios a little toward 1.
 
-A device is to be worth {wanted} in a scene that people could have, and no less than {tolerated} in any. Of `pool_among_lamps`
+A device is to be worth {wanted} in a scene that people could have, and no less than {tolerated} in any; bounds of 95 % tell in how many scenes
+it is. Of `pool_among_lamps`
 and `hundredth_of_a_floor` the reference is `auto` itself, of a long run: bias that both have does not show there.
 
 `make ablation` writes this page: seeds {seeds}; samples a pixel: {samples}.
@@ -287,26 +297,27 @@ and `hundredth_of_a_floor` the reference is `auto` itself, of a long run: bias t
 
 def devices(arguments, seeds):
     program = ROOT / "build/release/kaustik"
-    measured = Measurements(arguments.results or FOLDER / "devices.jsonl", digest_of_sources())
-    wanted = [device for device in DEVICES if not arguments.only or device.split("=")[0] in arguments.only]
-    scenes = [scene for scene in SCENES if not arguments.scenes or scene in arguments.scenes]
-    measured.measure(program, [key for scene in scenes for seed in seeds for device in ["", *wanted]
+    measured = Measurements(FOLDER / "devices.jsonl", digest_of(program))
+    wanted = [device for device in DEVICES + ADDITIONS if not arguments.only or device.split("=")[0] in arguments.only]
+    measured.measure(program, [key for scene in SCENES for seed in seeds for device in ["", *wanted]
                                for key in keys_of_device(scene, device, [seed])])
-    rows, verdicts = [], []
-    for device in DEVICES:
+    rows, verdicts = {}, []
+    for device in DEVICES + ADDITIONS:
         found = {scene: measured.ratio(keys_of_device(scene, device, seeds), keys_of_device(scene, "", seeds)) for scene in SCENES}
         known = {scene: ratio for scene, ratio in found.items() if ratio}
-        if not known:
+        rows[device] = [device] + [cell_of(found[scene]) for scene in SCENES]
+        if not known or device in ADDITIONS:
             continue
-        most, least = max(known, key=lambda s: known[s][2]), min(known, key=lambda s: known[s][2])
-        mean = math.exp(sum(math.log(ratio[2]) for ratio in known.values()) / len(known))
-        verdicts.append([device, f"{most}: {known[most][2]:.2f}", f"{least}: {known[least][2]:.2f}", f"{mean:.2f}",
+        most, least = (choose(known, key=lambda scene: known[scene].product) for choose in (max, min))
+        mean = math.exp(sum(math.log(ratio.product) for ratio in known.values()) / len(known))
+        verdicts.append([device, f"{most}: {known[most].product:.2f}", f"{least}: {known[least].product:.2f}", f"{mean:.2f}",
                          verdict(known.values())])
-        rows.append([device] + [cell_of(found[scene]) for scene in SCENES])
     text = DEVICES_TEXT.format(wanted=WANTED, tolerated=TOLERATED, seeds=", ".join(map(str, seeds)),
                                samples=", ".join(f"{scene} {samples}" for scene, samples in SCENES.items()))
     text += "\n" + table(["without", "most", "least", "geometric mean", "the device"], verdicts)
-    return text + "\n## Scene by scene\n\n" + table(["without", *SCENES], rows)
+    text += "\n## Scene by scene\n\n" + table(["without", *SCENES], [rows[device] for device in DEVICES])
+    return text + ("\n## What `auto` leaves out\n\nHere more than 1 speaks for leaving it out.\n\n"
+                   + table(["with", *SCENES], [rows[device] for device in ADDITIONS]))
 
 
 CONSTANTS_TEXT = """# What the constants of the methods are worth
@@ -323,12 +334,12 @@ of the kernel's integral over its square's integral and its area.
 
 
 def keys_of_constant(where, scene, file, name, value, seeds):
-    return [[scene, where[0], [], seed, {variable_of(file, name): repr(value)} if name else {}] for seed in seeds]
+    return [[scene, SCENES[scene], where[0], [], seed, {variable_of(file, name): repr(value)} if name else {}] for seed in seeds]
 
 
 def constants(arguments, seeds):
     program, values = build(FOLDER), values_of_code()
-    measured = Measurements(arguments.results or FOLDER / "constants.jsonl", digest_of_sources())
+    measured = Measurements(FOLDER / "constants.jsonl", digest_of(program))
     rows = [row for row in CONSTANTS if not arguments.only or row[1] in arguments.only]
     own = [key for where in (AUTO, CACHE) for scene in where[1] for key in keys_of_constant(where, scene, "", "", 0, seeds)]
     measured.measure(program, own + [
@@ -349,15 +360,35 @@ def constants(arguments, seeds):
     return text
 
 
+def check(program):
+    """Ends the program if a table names what there is not."""
+    values_of_code()
+    known = subprocess.run([program, "help", WHOLE[0]], check=True, capture_output=True, text=True).stdout
+    for setting in " ".join(DEVICES + ADDITIONS + [WHOLE[1]]).split():
+        name = setting.split("=")[0]
+        if not re.search(rf"^\s*{name} \(", known, re.M):
+            sys.exit(f"integrator '{WHOLE[0]}' has no parameter '{name}'; mend the table in {__file__}")
+    for scene in SCENES:
+        for file in files_of(scene):
+            if not file.exists():
+                sys.exit(f"there is no {file}; mend the table in {__file__}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["devices", "constants"])
-    parser.add_argument("--seeds", default="1,2,3")
-    parser.add_argument("--results", type=pathlib.Path)
-    parser.add_argument("--only", nargs="*", default=[])
-    parser.add_argument("--scenes", nargs="*", default=[])
-    parser.add_argument("--page", type=pathlib.Path)
+    parser.add_argument("what", choices=["devices", "constants", "check"])
+    parser.add_argument("--seeds", default="1,2,3", help="[%(default)s]")
+    parser.add_argument("--only", nargs="+", default=[], metavar="NAME", help="measure these devices or constants alone")
+    parser.add_argument("--page", type=pathlib.Path, metavar="FILE.md", help="where to write the tables [standard output]")
+    parser.add_argument("--program", default=ROOT / "build/release/kaustik", help="for check [%(default)s]")
     arguments = parser.parse_args()
+    if arguments.what == "check":
+        return check(arguments.program)
+    names = [device.split("=")[0] for device in DEVICES + ADDITIONS] if arguments.what == "devices" else [
+        row[1] for row in CONSTANTS]
+    for name in arguments.only:
+        if name not in names:
+            parser.error(f"there is no '{name}' among {', '.join(names)}")
     FOLDER.mkdir(parents=True, exist_ok=True)
     seeds = [int(seed) for seed in arguments.seeds.split(",")]
     text = {"devices": devices, "constants": constants}[arguments.what](arguments, seeds)

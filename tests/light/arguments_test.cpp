@@ -32,7 +32,11 @@ class Unsampleable final : public Shape {
   TriangleMesh tessellate(int) const override { return {}; }
 };
 
-TEST(LightArguments, NamesOfAllTypes) { test::expect_rows_of("emitter", light_types()); }
+TEST(LightArguments, NamesOfAllTypes) {
+  test::expect_rows_of("emitter", light_types());
+  for (const LightType& type : light_types())
+    EXPECT_EQ(type.needs_shape, type.info.name == "area") << type.info.name;
+}
 
 TEST(LightArguments, ContradictionsAreErrors) {
   const Value number(1.0), place(Vec3d(1, 2, 3));

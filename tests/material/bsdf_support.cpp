@@ -245,8 +245,6 @@ const std::vector<BsdfInstance>& bsdf_instances() {
   return instances;
 }
 
-bool has_instance_like(const Bsdf& bsdf) { return has_like(bsdf_instances(), bsdf); }
-
 const std::vector<Vec3f>& outgoing_directions() {
   static const std::vector<Vec3f> directions = {direction(0, 0), direction(35, 20),
                                                 direction(70, 140), direction(87, 250)};

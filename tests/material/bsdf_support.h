@@ -28,8 +28,6 @@ struct BsdfInstance {
 };
 /// One at least of every registered type that has lobes: where none is listed, the usual one.
 const std::vector<BsdfInstance>& bsdf_instances();
-/// Whether one of them is of the same class.
-bool has_instance_like(const Bsdf& bsdf);
 
 /// From the normal to grazing, on several azimuths; unit, all with z > 0.
 const std::vector<Vec3f>& outgoing_directions();

@@ -402,13 +402,5 @@ TEST(blendbsdf, a_chain_asks_each_bsdf_a_few_times) {
 
 TEST(bsdf_types, are_rows) { expect_rows_of("bsdf", bsdf_types()); }
 
-/// But for what has nothing to test.
-TEST(bsdf_types, are_all_in_the_table_of_instances) {
-  for (const BsdfType& type : bsdf_types()) {
-    const auto usual = make_usual_bsdf(type);
-    EXPECT_EQ(has_instance_like(*usual), usual->traits().lobes != Lobes::none) << type.info.name;
-  }
-}
-
 }  // namespace
 }  // namespace kaustik

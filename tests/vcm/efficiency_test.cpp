@@ -53,13 +53,14 @@ TEST(Efficiency, PathsGoOnWhereNothingElseFindsTheLight) {
   EXPECT_EQ(choose({light(0)}, 1, 1.0 / 4096).plans[0].survival, 1);
 }
 
-/// Light that merging finds 4096 times as well: κ = 4 samples count 1 each, and ν is 4096.
+/// Light that merging finds 4096 times as well: κ = 4 samples count 1 each, however even what they
+/// find is, for plans say nothing of that; and ν is 4096.
 TEST(Efficiency, ExpectedWhereAllGoOn) {
-  const ProbeStatistics probe = light(12);
+  const ProbeStatistics probe = light(12, 0.001);
   const Efficiency expected = efficiency_of_survivors({probe}, {4, 1}, {{1, 1}});
   EXPECT_NEAR(expected.squared_error, 1 / (4 + 4096.0) / 1.01, 1e-12);
   EXPECT_NEAR(expected.rays, 2 + 6 + cost_model.merging + cost_model.light_ray, 1e-12);
-  // Nothing is written, and no chance is better than the chosen one.
+  // No chance is better than the chosen one.
   EXPECT_LT(choose({probe}).expected.time(), expected.time());
 }
 

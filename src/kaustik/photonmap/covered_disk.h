@@ -12,8 +12,7 @@ struct PhotonSurroundings {
   Lobes keeping;
 };
 
-/// The estimate is no more than this, of one point less that is tried: more of them cost more than
-/// what small shares are worth.
+/// One point less than this is tried at most: more would cost more than small shares are worth.
 inline constexpr int most_covering_tries = 16;
 
 /// An estimate of one over the share of a disk around the vertex, by the weights of the kernel,

@@ -11,7 +11,7 @@ namespace kaustik {
 /// connecting the halves where they meet. With Q_i the product of the camera's densities up to x_i
 /// and of the lights' beyond it, x_i is
 ///   connected to x_i+1 with density Q_i · connections,
-///   merged with Q_i · p_light(x_i) · n A_i c_i (in media a volume in place of the area A_i),
+///   merged with Q_i · p_light(x_i) · n A_i (in media a volume in place of the area A_i),
 /// and the whole path is splatted with Q_0 · n, sampled with Q_n-1 · p_next / p_light(x_n), met
 /// with Q_n. `ratio` is Q_i / Q_t.
 class PathWeights::View {
@@ -51,7 +51,7 @@ class PathWeights::View {
     const bool meets = i == t_ || (i == t_ + 1 && meeting_ == Meeting::between);
     return !meets && i >= 1 && i <= n_ && vertex(i).delta;
   }
-  /// Up to x_i, i ≤ t, and from x_i on, i > t.
+  /// Up to x_i, i ≤ t.
   float camera_spread(size_t i) const { return i >= 1 ? path_.camera[i - 1].spread : 1.0f; }
 
   float connection(float ratio, size_t i) const {

@@ -28,7 +28,7 @@ struct PathVertex {
   float pdf_light = 0;    ///< with which paths from the lights find it
   float to_previous = 0;  ///< density per solid angle at the vertex to that of its predecessor (on
                           ///< the path that is followed)
-  float spread = 1;       ///< see PathWeights; along the path up to and with this vertex
+  float spread = 1;       ///< see PathWeights; of the camera's path up to and with this vertex
   float mean_free_path = 0;  ///< 1/σ_t of the medium (mean over the lanes), m; 0: on a surface
   float merge_volume = 0;  ///< of merging in the medium, m³: what camera paths that are scattered
                            ///< in 1 m³ around the vertex have along their segments for it
@@ -84,7 +84,7 @@ class PathWeights {
     /// At the first vertex in a medium merging counts by this: the samples of a pixel share what
     /// they find.
     float first_medium_share = 1;
-    float accepted_area = 0;  ///< of the spread, m²
+    float accepted_area = 0;  ///< of the disk within which paths count as close, m²
     float least_spread = 0.1f;
   };
   PathWeights() = default;

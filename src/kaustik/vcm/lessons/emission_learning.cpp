@@ -7,7 +7,8 @@ namespace kaustik {
 namespace {
 
 /// Share of the light paths that what was learned never takes from the others: whatever was not
-/// seen has at least so much of the chance that it would have without.
+/// seen has at least so much of the chance that it would have without (of what only aimed rays come
+/// to, times the part of them that is left).
 constexpr double plain_share = 0.2;
 /// Directions of a light are learned from so many of its paths on …
 constexpr size_t least_paths = 64;
@@ -102,6 +103,9 @@ void EmissionLearning::read(ByteReader& reader) {
     if (stored.light < 0 || size_t(stored.light) >= maps_.size())
       reader.damaged("a path in it begins at no light");
     map_of(int(stored.light));
+    for (const double value : {double(stored.plain), double(stored.own), stored.weight})
+      if (!(value >= 0) || !std::isfinite(value)) reader.damaged("a density in it is none");
+    if (!(stored.plain > 0)) reader.damaged("a density in it is none");
     Path path;
     path.light = int(stored.light);
     path.place.u = {stored.u[0], stored.u[1]};
@@ -138,10 +142,12 @@ std::vector<LightPathEmission::Guide> EmissionLearning::learn(size_t first, size
   size_t only_once = 0;
   for (size_t i = 0; i < lights.size(); ++i) {
     OfLight& of = lights[i];
-    const auto least = std::min_element(of.plain_moments.begin(), of.plain_moments.end());
-    guides[i].aimed =
-        plain_.aimed_share(int(i)) * aimed_parts[size_t(least - of.plain_moments.begin())];
-    double moment = *least;
+    size_t part = 0;
+    if (of.paths >= least_paths)
+      part = size_t(std::min_element(of.plain_moments.begin(), of.plain_moments.end()) -
+                    of.plain_moments.begin());
+    guides[i].aimed = plain_.aimed_share(int(i)) * aimed_parts[part];
+    double moment = of.plain_moments[part];
     if (of.points.size() >= least_paths) {
       GuideSquare square(std::move(of.points));
       if (square.expected_sum() < worthwhile * moment) {
@@ -191,11 +197,11 @@ std::shared_ptr<const LightPathEmission> EmissionLearning::learned() const {
     aimed += second_moment({plain_, aims_alone(plain_, guides)}, 1 - half, 2);
   }
   const double plain = second_moment(plain_);
-  const std::vector<LightPathEmission::Guide> guides = learn(0, 1);
-  if (guided < worth_its_time * std::min(plain, aimed))
-    return std::make_shared<const LightPathEmission>(plain_, guides);
-  if (paths_.size() >= least_paths_for_aim && aimed < worth_aiming_less * plain)
-    return std::make_shared<const LightPathEmission>(plain_, aims_alone(plain_, guides));
+  const bool may_aim_less = paths_.size() >= least_paths_for_aim;
+  if (guided < worth_its_time * (may_aim_less ? std::min(plain, aimed) : plain))
+    return std::make_shared<const LightPathEmission>(plain_, learn(0, 1));
+  if (may_aim_less && aimed < worth_aiming_less * plain)
+    return std::make_shared<const LightPathEmission>(plain_, aims_alone(plain_, learn(0, 1)));
   return nullptr;
 }
 

@@ -63,7 +63,7 @@ class LightPathEmission {
   float aimed_share(int light) const { return aimed_shares_[size_t(light)]; }
   /// Joint density of the rays of a light that was chosen, by its own distribution alone.
   float own_pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const;
-  /// The same with those that are aimed, and that search.
+  /// The same of own, aimed and searching rays together.
   float plain_pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const;
   /// The same with what was learned, for a ray whose plain density is known.
   float pdf_of_chosen(int light, float plain, const GuideMap::Place& place) const;

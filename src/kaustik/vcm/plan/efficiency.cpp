@@ -70,33 +70,6 @@ Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, cons
   return result;
 }
 
-}  // namespace
-
-void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
-  for (size_t i = 0; i < squares.size(); ++i) squares[i] += weight * other.squares[i];
-  merged_alone += weight * other.merged_alone;
-  path_mean_square += weight * other.path_mean_square;
-  path_variance += weight * other.path_variance;
-  direct_variance += weight * other.direct_variance;
-  radiance += weight * other.radiance;
-  merged += weight * other.merged;
-  rays += weight * other.rays;
-  rays_beyond += weight * other.rays_beyond;
-}
-
-double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
-                                const std::vector<MergeScale>& scales) {
-  double merging = 0, light_paths = 0;
-  for (size_t p = 0; p < probes.size(); ++p) {
-    merging += rays_to_merge(probes[p], scales[p]);
-    light_paths = std::max(light_paths, scales[p].light_paths);
-  }
-  return merging / double(std::max<size_t>(1, probes.size())) +
-         cost_model.light_ray * costs.light_rays * light_paths;
-}
-
-namespace {
-
 std::vector<Candidates> candidates_of(const std::vector<ProbeStatistics>& probes,
                                       const PassCosts& costs,
                                       const std::vector<MergeScale>& scales) {
@@ -119,29 +92,54 @@ std::vector<Candidates> candidates_of(const std::vector<ProbeStatistics>& probes
   return all;
 }
 
+double rays_of_light_paths(const PassCosts& costs, const std::vector<MergeScale>& scales) {
+  double light_paths = 0;
+  for (const MergeScale& scale : scales) light_paths = std::max(light_paths, scale.light_paths);
+  return cost_model.light_ray * costs.light_rays * light_paths;
+}
+
 /// Where each probe has the candidate that is chosen.
 Efficiency expected(const std::vector<Candidates>& all, const std::vector<size_t>& chosen,
                     const PassCosts& costs, const std::vector<MergeScale>& scales) {
   Efficiency total;
-  double light_paths = 0;
   for (size_t p = 0; p < all.size(); ++p) {
     total.squared_error += all[p][chosen[p]].squared_error;
     total.rays += all[p][chosen[p]].rays;
-    light_paths = std::max(light_paths, scales[p].light_paths);
   }
   total.squared_error /= double(all.size());
   total.rays /= double(all.size());
-  total.rays += cost_model.light_ray * costs.light_rays * light_paths;
+  total.rays += rays_of_light_paths(costs, scales);
   return total;
 }
 
 }  // namespace
 
+void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
+  for (size_t i = 0; i < squares.size(); ++i) squares[i] += weight * other.squares[i];
+  merged_alone += weight * other.merged_alone;
+  path_mean_square += weight * other.path_mean_square;
+  path_variance += weight * other.path_variance;
+  direct_variance += weight * other.direct_variance;
+  radiance += weight * other.radiance;
+  merged += weight * other.merged;
+  rays += weight * other.rays;
+  rays_beyond += weight * other.rays_beyond;
+}
+
+double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
+                                const std::vector<MergeScale>& scales) {
+  double merging = 0;
+  for (size_t p = 0; p < probes.size(); ++p) merging += rays_to_merge(probes[p], scales[p]);
+  return merging / double(std::max<size_t>(1, probes.size())) + rays_of_light_paths(costs, scales);
+}
+
 Efficiency efficiency_of_survivors(const std::vector<ProbeStatistics>& probes,
                                    const PassCosts& costs, const std::vector<MergeScale>& scales) {
   if (probes.empty()) return {};
-  return expected(candidates_of(probes, costs, scales), std::vector<size_t>(probes.size(), 0),
-                  costs, scales);
+  std::vector<ProbeStatistics> even = probes;  // plans of those have evenness 1
+  for (ProbeStatistics& probe : even) probe.path_mean_square = 0;
+  return expected(candidates_of(even, costs, scales), std::vector<size_t>(probes.size(), 0), costs,
+                  scales);
 }
 
 Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,

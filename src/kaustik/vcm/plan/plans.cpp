@@ -117,7 +117,9 @@ void choose_light_paths(VcmPlans& plans) {
 }  // namespace
 
 void VcmPlans::guide_by(const LightPathUse& learned) {
-  if (const auto found = learned.emission().learned()) emission = found;
+  const EmissionLearning& learning = learned.emission();
+  if (const auto found = learning.learned())
+    if (learning.second_moment(*found) < learning.second_moment(*emission)) emission = found;
   if (!scattering) return;
   const LightPathUse::Noise& noise = learned.noise();
   const bool pays = noise.guided < noise.unguided;
@@ -268,7 +270,6 @@ VcmPlanner::PilotLight VcmPlanner::trace_pilot(const Guides& guides, uint32_t ro
   PathWeights::Settings pilot;
   pilot.techniques.merging = settings_.techniques.merging;
   pilot.techniques.connections = settings_.techniques.connections;
-  pilot.accepted_area = accepted_area(plans.pixels);
   const PathWeights weights(pilot);
   SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
   Pass pass;
