@@ -125,8 +125,8 @@ TEST_F(ParallelPlates, LightTracer) {
   check("lighttracer", render(scene_, "lighttracer", "", {350}));
 }
 TEST_F(ParallelPlates, Bdpt) { check("bdpt", render(scene_, "bdpt", "", {16})); }
-TEST_F(ParallelPlates, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {24})); }
-TEST_F(ParallelPlates, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {24})); }
+TEST_F(ParallelPlates, Vcm) { check("vcm", render(scene_, "vcm", many_light_paths(), {28})); }
+TEST_F(ParallelPlates, Ppm) { check("ppm", render(scene_, "ppm", many_light_paths(), {28})); }
 TEST_F(ParallelPlates, Auto) { check("auto", render(scene_, "auto", "", {24})); }
 /// Few neighbours of many photons, because their disks leave the plates at the mirrors.
 TEST_F(ParallelPlates, PhotonMap) {
