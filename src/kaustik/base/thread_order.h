@@ -3,7 +3,9 @@
 // is built without it. Nothing is done in other builds.
 
 #ifdef KAUSTIK_THREAD_SANITIZER
-#include <sanitizer/tsan_interface.h>
+// As <sanitizer/tsan_interface.h> declares them, which installed headers don't show.
+extern "C" void __tsan_acquire(void* place);
+extern "C" void __tsan_release(void* place);
 #endif
 
 namespace kaustik {
