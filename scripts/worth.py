@@ -287,16 +287,15 @@ of the times. More than 1 speaks for the device. An error is the relative MSE to
 of the pixels; a time is CPU time; ± is one standard error over the seeds. "Same": the pictures are the same bits. Errors hold
 the references' own noise, which draws ratios a little toward 1.
 
-A device is to be worth {wanted} in a scene that people could have, and no less than {tolerated} in any; bounds of 95 % tell in how many scenes
-it is. Of `pool_among_lamps`
-and `hundredth_of_a_floor` the reference is `auto` itself, of a long run: bias that both have does not show there.
+A device is to be worth {wanted} in a scene that people could have, and no less than {tolerated} in any. It helps, or harms, in
+the scenes whose 95 % bounds (Student's t over the seeds) tell so. Of `pool_among_lamps` and `hundredth_of_a_floor` the reference is `auto` itself, of a long run: bias that both have does not show there.
 
 `make ablation` writes this page: seeds {seeds}; samples a pixel: {samples}.
 """
 
 
 def devices(arguments, seeds):
-    program = ROOT / "build/release/kaustik"
+    program = arguments.program
     measured = Measurements(FOLDER / "devices.jsonl", digest_of(program))
     wanted = [device for device in DEVICES + ADDITIONS if not arguments.only or device.split("=")[0] in arguments.only]
     measured.measure(program, [key for scene in SCENES for seed in seeds for device in ["", *wanted]
@@ -374,14 +373,26 @@ def check(program):
                 sys.exit(f"there is no {file}; mend the table in {__file__}")
 
 
+def seed_list(text):
+    seeds = [int(seed) for seed in text.split(",") if seed.isdecimal()]
+    if len(seeds) != len(text.split(",")) or len(set(seeds)) != len(seeds):
+        raise argparse.ArgumentTypeError(f"'{text}' is no list of different seeds such as 1,2,3")
+    return seeds
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=["devices", "constants", "check"])
-    parser.add_argument("--seeds", default="1,2,3", help="[%(default)s]")
+    parser.add_argument("--seeds", type=seed_list, default="1,2,3", help="[%(default)s]")
     parser.add_argument("--only", nargs="+", default=[], metavar="NAME", help="measure these devices or constants alone")
     parser.add_argument("--page", type=pathlib.Path, metavar="FILE.md", help="where to write the tables [standard output]")
-    parser.add_argument("--program", default=ROOT / "build/release/kaustik", help="for check [%(default)s]")
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/kaustik",
+                        help="for devices and check [%(default)s]")
     arguments = parser.parse_args()
+    if arguments.what != "constants" and not os.access(arguments.program, os.X_OK):
+        parser.error(f"there is no program {arguments.program}; build it first: make build")
+    if arguments.page and not os.access(arguments.page.resolve().parent, os.W_OK):
+        parser.error(f"{arguments.page} can't be written there; --page takes a file in a folder that there is")
     if arguments.what == "check":
         return check(arguments.program)
     names = [device.split("=")[0] for device in DEVICES + ADDITIONS] if arguments.what == "devices" else [
@@ -390,8 +401,7 @@ def main():
         if name not in names:
             parser.error(f"there is no '{name}' among {', '.join(names)}")
     FOLDER.mkdir(parents=True, exist_ok=True)
-    seeds = [int(seed) for seed in arguments.seeds.split(",")]
-    text = {"devices": devices, "constants": constants}[arguments.what](arguments, seeds)
+    text = {"devices": devices, "constants": constants}[arguments.what](arguments, arguments.seeds)
     if arguments.page:
         arguments.page.write_text(text)
     else:
