@@ -133,7 +133,7 @@ class LightPass::Tracer {
     const LightPathLimits limits{pass_.settings_.maximum_events, pass_.settings_.traced, in_media,
                                  largest_weight_};
     const auto start = [&](uint32_t photon) { return emit(sampler_of(photon)); };
-    const auto meet = [this](const LightVertex& at) {
+    const auto on_surface = [this](const LightVertex& at) {
       switch (kind_) {
         case Kind::global:
           return meet_global(at);
@@ -144,11 +144,12 @@ class LightPass::Tracer {
       }
       return Lobes::all;
     };
-    const auto scatter = [this](const LightMediumVertex& at) { store(at); };
+    const auto on_medium_vertex = [this](const LightMediumVertex& at) { store(at); };
     const LightPathCounts ends =
         kind_ == Kind::volume
-            ? trace_light_paths(pass_.scene_, begin, end, limits, start, Handlers{meet, scatter})
-            : trace_light_paths(pass_.scene_, begin, end, limits, start, meet);
+            ? trace_light_paths(pass_.scene_, begin, end, limits, start,
+                                Handlers{on_surface, on_medium_vertex})
+            : trace_light_paths(pass_.scene_, begin, end, limits, start, on_surface);
     rays += ends.rays;
     counts.escaped += ends.escaped;
     counts.absorbed += ends.absorbed + ends.absorbed_in_media;

@@ -28,13 +28,13 @@ class Tracer {
     limits.needs_reverse_pdf = true;
     limits.guide = in_.scattering;
     const auto emit = [this](uint32_t i) { return start(i); };
-    const auto meet = Handlers{[this](const LightVertex& at) {
-                                 add_vertex(at);
-                                 return Lobes::all;
-                               },
-                               [this](const LightMediumVertex& at) { show_in_medium(at); },
-                               [this](const LightMediumEvent& event) { add_event(event.at); }};
-    block_.rays = trace_light_paths(in_.scene, begin, end, limits, emit, meet).rays;
+    const auto handlers = Handlers{[this](const LightVertex& at) {
+                                     add_vertex(at);
+                                     return Lobes::all;
+                                   },
+                                   [this](const LightMediumVertex& at) { show_in_medium(at); },
+                                   [this](const LightMediumEvent& event) { add_event(event.at); }};
+    block_.rays = trace_light_paths(in_.scene, begin, end, limits, emit, handlers).rays;
     block_.rays += splats_.rays();
     block_.splats = splats_.shown();
     gather();
