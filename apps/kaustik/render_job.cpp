@@ -6,6 +6,7 @@
 #include "exit_codes.h"
 #include "failures.h"
 #include "kaustik/integrator/override_integrator.h"
+#include "kaustik/render/part_picture.h"
 #include "picture_output.h"
 #include "standard_streams.h"
 
@@ -23,6 +24,15 @@ void tell_of_first_seconds(const std::string& integrator, std::optional<double> 
       fmt::format("auto: in {} s or less photonmap is most often less noisy (--integrator "
                   "photonmap), with a bias that stays",
                   first_seconds));
+}
+
+/// What there is of a render whose time was over before every pixel had a sample.
+Image first_look(const Job& job) {
+  Image image = job.snapshot().value();
+  const MetadataValue* shown = image.find_metadata(incomplete_key);
+  warn(fmt::format("the time was over before every pixel had a sample: the picture is {}",
+                   shown ? std::get<std::string>(*shown) : "incomplete"));
+  return image;
 }
 
 void tell_of_result(const JobResult& result, const Job& job, const SessionSettings& settings,
@@ -73,7 +83,8 @@ void run_job(Description description, JobSettings settings, bool quiet,
   line.finish();
   tell_of_result(result, job, session, quiet);
   const SessionReport& report = result.report;
-  if (report.passes == 0) {
+  const bool is_first_look = report.passes == 0 && !report.cancelled;
+  if (report.passes == 0 && !is_first_look) {
     warn("ended before every pixel had a sample: nothing is written, what was there before stays");
     throw EndedEarly{};
   }
@@ -84,7 +95,7 @@ void run_job(Description description, JobSettings settings, bool quiet,
     failures.attempt(checkpoint, [&] { std::rethrow_exception(result.checkpoint_failure); });
   write_pictures(job.film(), result.record,
                  {{session.threads, report.incomplete_pass, report.part}, quiet}, failures,
-                 [&] { return job.image(); });
+                 [&] { return is_first_look ? first_look(job) : job.image(); });
   failures.throw_if_any();
   if (report.cancelled) throw EndedEarly{};
 }

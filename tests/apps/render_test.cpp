@@ -134,6 +134,24 @@ TEST_F(Render, TimeLimitIsKept) {
   EXPECT_GT(brightness("a.exr"), 0);
 }
 
+TEST_F(Render, TimeThatIsTooShortForASampleWritesAFirstLook) {
+  write("long.xml", small_scene("<integrator type=\"photonmap\"><integer name=\"global_photons\" "
+                                "value=\"2000000000\"/></integrator>"));
+  const RunResult result =
+      run_well({"render", "long.xml", "--time", "0.1s", "-o", "a.exr", "-o", "a.png", "--denoise"});
+  EXPECT_TRUE(contains(result.err,
+                       "the time was over before every pixel had a sample: the picture "
+                       "is a first look"))
+      << result.err;
+  EXPECT_GT(brightness("a.exr"), 0);
+  EXPECT_TRUE(exists("a.png"));
+  const Image image = read_image(path("a.exr"));
+  EXPECT_TRUE(image.find_metadata("incomplete"));
+  const MetadataValue* passes = image.find_metadata("passes");
+  ASSERT_TRUE(passes);
+  EXPECT_EQ(std::get<int64_t>(*passes), 0);
+}
+
 TEST_F(Render, ErrorLimitIsKept) {
   const auto passes = [&](const std::vector<std::string>& arguments) {
     std::vector<std::string> all = {"render", "path.xml", "-o", "a.exr"};

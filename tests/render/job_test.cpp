@@ -11,6 +11,8 @@
 #include <filesystem>
 
 #include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/render/finished_picture.h"
+#include "kaustik/render/part_picture.h"
 #include "tests/support/same_bits.h"
 #include "tests/support/scripted_integrator.h"
 
@@ -178,6 +180,7 @@ TEST(Job, PreviewsAreThereBeforeTheFirstLightPass) {
     EXPECT_EQ(early.has_value(), previews);
     if (early) {
       EXPECT_EQ(early->channel_count(), 3);
+      EXPECT_TRUE(early->find_metadata(incomplete_key));
       double sum = 0, exact = 0;
       const Image whole = job.image();
       for (int y = 0; y < 24; ++y)
@@ -190,6 +193,34 @@ TEST(Job, PreviewsAreThereBeforeTheFirstLightPass) {
     }
     EXPECT_TRUE(same_bits(job.image(), rendered("photonmap", 2)));
   }
+}
+
+/// By a clock that runs away once it was asked: the first look is no part of the film.
+TEST(Job, TimeThatIsTooShortLeavesAFirstLook) {
+  for (const std::string integrator : {"photonmap", "vcm", "path"})
+    for (const bool is_short : {true, false}) {
+      SCOPED_TRACE(integrator);
+      std::atomic<int> asked = 0;
+      JobSettings settings = settings_for(2);
+      settings.session.seconds = 100;
+      settings.session.clock = [&] { return asked++ > 0 && is_short ? 1000.0 : 0.0; };
+      Job job(room_with(integrator, 40), settings);
+      const JobResult& result = job.run();
+      EXPECT_FALSE(result.report.cancelled);
+      EXPECT_EQ(result.report.passes, is_short ? 0u : 2u);
+      EXPECT_EQ(job.film().pass_count(), result.report.passes);
+      const std::optional<Image> picture = job.snapshot();
+      ASSERT_TRUE(picture);
+      EXPECT_GT(picture->at(20, 34, 0), 0);  // the lit floor
+      const auto says_it = [](const Image& image) {
+        return image.find_metadata(incomplete_key) != nullptr;
+      };
+      EXPECT_EQ(says_it(*picture), is_short);
+      EXPECT_EQ(says_it(finished_picture(*picture, job.film(), result.record, {}, {})), is_short);
+      if (!is_short) {
+        EXPECT_TRUE(same_bits(job.image(), rendered(integrator, 2, 40)));
+      }
+    }
 }
 
 TEST(Job, EditsMakeAllAnew) {

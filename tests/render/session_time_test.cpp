@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <thread>
 
 #include "kaustik/render/part_picture.h"
@@ -196,6 +197,71 @@ TEST(SessionTime, ExceptionsOfCallbacksEndIt) {
     EXPECT_LT(session.film().pass_count(), 5u);
     EXPECT_TRUE(is_everywhere(*session.snapshot(), 2));
   }
+}
+
+/// 4096 samples of a millisecond each, but no more than a second or so.
+TEST(SessionTime, AFirstPassThatWouldBeLateIsNoFilmButHasASnapshot) {
+  CountedClock clock;
+  const auto scene = scene_with(film_of(64, 64), room);
+  Script script;
+  script.sample = [&](const Vec2f&, Sampler&, SampleSink& sink) {
+    clock.advance(1);
+    sink.add(Component::direct, Spectrum(2));
+  };
+  const Scripted integrator(script);
+  SessionSettings settings;
+  settings.clock = clock.reader();
+  settings.threads = 2;
+  for (const double seconds : {0.1, 10.0}) {
+    settings.seconds = seconds;
+    Session session(*scene, integrator, settings);
+    const double begin = clock.reader()();
+    const SessionReport report = session.run();
+    const bool is_late = seconds < 1;
+    EXPECT_FALSE(report.cancelled);
+    EXPECT_FALSE(report.incomplete_pass && is_late);
+    EXPECT_EQ(report.passes, is_late ? 0u : 1u);
+    EXPECT_EQ(session.film().pass_count(), report.passes);
+    EXPECT_LT(clock.reader()() - begin, is_late ? 1.1 : 1.1 * seconds);
+    // A sixteenth of the pixels at least have samples, and show them to the others.
+    const std::optional<Image> picture = session.snapshot();
+    ASSERT_TRUE(picture);
+    EXPECT_TRUE(is_everywhere(*picture, 2));
+    EXPECT_EQ(picture->find_metadata(incomplete_key) != nullptr, is_late);
+  }
+}
+
+/// Tells nothing of its progress until it is stopped.
+class Silent final : public Integrator {
+ public:
+  explicit Silent(CountedClock& clock) : clock_(clock) {}
+  std::unique_ptr<PassState> prepare(const Pass&, SplatBuffer&, std::stop_token stop,
+                                     const ProgressFunction&) const override {
+    clock_.advance(3000);
+    // What is never stopped ends, too, and the test fails.
+    const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!stop.stop_requested() && std::chrono::steady_clock::now() < last)
+      std::this_thread::yield();
+    return std::make_unique<PassState>();
+  }
+  void sample(const PassState&, const Vec2f&, Sampler&, SampleSink&) const override {}
+
+ private:
+  CountedClock& clock_;
+};
+
+TEST(SessionTime, FirstLightPassesAreHaltedThatTellNothing) {
+  CountedClock clock;
+  const auto scene = plain_scene();
+  const Silent integrator(clock);
+  SessionSettings settings;
+  settings.clock = clock.reader();
+  settings.seconds = 2;
+  Session session(*scene, integrator, settings);
+  const SessionReport report = session.run();
+  EXPECT_EQ(report.passes, 0u);
+  EXPECT_FALSE(report.cancelled);
+  EXPECT_FALSE(session.snapshot());
 }
 
 TEST(PartPicture, WeighsByShares) {

@@ -7,6 +7,7 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/denoise.h"
+#include "kaustik/render/part_picture.h"
 
 namespace kaustik {
 namespace {
@@ -31,7 +32,7 @@ void set_metadata(Image& image, const Film& film, const RenderRecord& record,
                        fmt::format("{} x {} pixels at ({}, {}) of {} x {}", image.width(),
                                    image.height(), f.x, f.y, f.width, f.height));
   if (facts.incomplete_pass)
-    image.set_metadata("incomplete", std::string("ended within the first pass"));
+    image.set_metadata(incomplete_key, std::string("ended within the first pass"));
   if (!record.outputs.reproducible) image.set_metadata("render_seconds", record.seconds);
 }
 
@@ -56,7 +57,8 @@ Image finished_picture(Image image, const Film& film, const RenderRecord& record
                        const PictureFacts& facts, const Messages& messages) {
   if (record.view.frame.width > 0) image.set_frame(record.view.frame);
   set_metadata(image, film, record, facts);
-  if (record.outputs.denoise) smooth_noise(image, facts.threads, messages);
+  if (record.outputs.denoise && !image.find_metadata("denoised"))
+    smooth_noise(image, facts.threads, messages);
   return image;
 }
 

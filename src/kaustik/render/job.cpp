@@ -125,9 +125,13 @@ void Job::make_session(Run& run) {
   run.session = std::move(session);
 }
 
-void Job::make_preview(Run& run) {
+bool Job::begins_with_light(const Run& run) const {
   const IntegratorType* type = find_integrator_type(run.prepared.view.integrator);
-  if (settings_.begun || (type && type->is_from_camera_alone)) return;
+  return !settings_.begun && !(type && type->is_from_camera_alone);
+}
+
+void Job::make_preview(Run& run) {
+  if (run.preview) return;
   std::shared_ptr<const Image> preview;
   with_threads(settings_.session.threads, [&] {
     preview = std::make_shared<const Image>(
@@ -139,7 +143,7 @@ void Job::make_preview(Run& run) {
 
 void Job::render() {
   const std::shared_ptr<Run> run = prepared_run();
-  if (settings_.previews) make_preview(*run);
+  if (settings_.previews && begins_with_light(*run)) make_preview(*run);
   make_session(*run);
   const bool keeps = !settings_.checkpoint.empty();
   CheckpointKeeper keeper(settings_.checkpoint, settings_.every_s, result_.record,
@@ -151,6 +155,7 @@ void Job::render() {
   });
   const SessionReport& report = result_.report;
   result_.record.seconds += report.seconds;
+  if (report.passes == 0 && !report.cancelled && !session.has_picture()) make_preview(*run);
   if (!keeps || report.passes == 0) return;
   if (report.incomplete_pass)
     return listener_.messages.warn("no pass was finished: there is no checkpoint");

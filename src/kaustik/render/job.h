@@ -41,7 +41,8 @@ struct JobSettings {
   std::optional<StoredLessons> learned;
   std::string learned_path;  ///< its file, for messages
   /// Snapshots show a preview_picture() until the integrator has something to show, where that
-  /// begins with a light pass. It takes a fraction of a second of the render.
+  /// begins with a light pass. It takes a fraction of a second of the render. Whatever is said
+  /// here, they do so where time has ended the render before that.
   bool previews = false;
   std::chrono::steady_clock::time_point clock_start = std::chrono::steady_clock::now();
 };
@@ -82,7 +83,9 @@ class Job {
   void cancel();
 
   /// Session::snapshot(), or the preview; none before the scene is built, and after edit() until
-  /// there is something to be seen of the new one.
+  /// there is something to be seen of the new one. incomplete_key tells pictures that are not yet
+  /// the integrator's, with a sample of each pixel. After the end there is one unless the job was
+  /// cancelled.
   std::optional<Image> snapshot() const;
   /// Cancels, waits, and takes another description in the place of the one before: scene,
   /// integrator and film are made anew, with the recipe's changes; the scene shares with the one
@@ -108,6 +111,7 @@ class Job {
   /// Hands the integrator what was learned before.
   void teach(const PreparedScene& prepared) const;
   void make_session(Run& run);
+  bool begins_with_light(const Run& run) const;
   void make_preview(Run& run);
 
   Description description_;

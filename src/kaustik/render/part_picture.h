@@ -6,6 +6,9 @@
 
 namespace kaustik {
 
+/// Metadata of a picture that ended within the first pass: the value says what it shows.
+inline constexpr const char* incomplete_key = "incomplete";
+
 /// Adds a part of a pass to a film's image, which holds the mean of the passes before. It counts as
 /// the share of the pass that was taken, wherever the samples lie: a share that follows from the
 /// clock does not bias what they tell. Errors fall as they do with so many passes; their layers say

@@ -28,7 +28,8 @@ struct SessionSettings {
   /// Of each pass, whatever is said above; then `samples_per_pixel` only says how many passes.
   std::optional<uint32_t> samples_per_pass;
   /// Stop then. A pass that is not finished until then counts as the part that it is, where each
-  /// pixel has a sample: Session::image(). Of the first pass so much is always rendered.
+  /// pixel has a sample: Session::image(). For so much of the first pass it is waited a twentieth
+  /// of the time longer, at least half a second; else the film stays empty.
   std::optional<double> seconds;
   /// Others will go on with the passes, so one at least is finished whatever the time, and all have
   /// the samples that they would have without a limit of time.
@@ -95,17 +96,18 @@ class Session {
 
   /// Renders until a stop rule holds or `stop` is requested; then the film holds what is finished:
   /// whole passes, or fewer samples of the first pass where each pixel has at least one, or
-  /// nothing. What throws in it, callbacks included, ends it, and the film holds the passes before.
-  /// `progress` is called from one thread at a time, a few times per second. `pass_done`
-  /// is called after every finished pass, when no thread works: film() may be looked at then, and
-  /// `stop` requested. What it takes counts as time of the session.
+  /// nothing; snapshot() may have something even then. What throws in it, callbacks included, ends
+  /// it, and the film holds the passes before. `progress` is called from one thread at a time, a
+  /// few times per second. `pass_done` is called after every finished pass, when no thread works:
+  /// film() may be looked at then, and `stop` requested. What it takes counts as time of the
+  /// session.
   SessionReport run(std::stop_token stop = {},
                     const std::function<void(const Progress&)>& progress = {},
                     const std::function<void()>& pass_done = {});
 
   /// From any thread, at any time, in callbacks too: a whole picture of what there is. Of finished
   /// passes; in the first one of the samples so far, and pixels without any show those of a pixel
-  /// near by. None: not even that is there.
+  /// near by: then incomplete_key says so. None: not even that is there.
   std::optional<Image> snapshot() const;
   bool has_picture() const { return has_picture_; }
   /// Not while run() goes on: the film's image, with the part of a pass at its end.
@@ -131,9 +133,11 @@ class Session {
   bool is_good_enough(double error) const;
   /// Whether pass `index`, the next one, is to be rendered.
   bool goes_on(uint32_t index, const Monitor& monitor) const;
-  /// Whether the pass is to be rendered whole, or one sample of each pixel at least if there is no
-  /// picture yet, however late that is.
+  /// Whether the next pass is to be rendered whole however late that is.
   bool must_be_finished(const Monitor& monitor) const;
+  /// When the next pass is given up if it is no picture yet, in seconds of the session; absent:
+  /// never.
+  std::optional<double> last_second(const Monitor& monitor) const;
   PassEnd render_pass(uint32_t index, std::stop_token stop, Monitor& monitor);
   /// Takes the pass's samples. False if it was halted: then pixels have fewer, maybe none.
   bool render_camera(const Pass& pass, const PassState& state, const std::stop_token& stop,

@@ -5,8 +5,10 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/render/part_picture.h"
+#include "kaustik/render/sample_sum.h"
 #include "kaustik/render/session.h"
 #include "kaustik/render/session_monitor.h"
+#include "kaustik/render/watch.h"
 
 namespace kaustik {
 namespace {
@@ -22,39 +24,13 @@ constexpr int samples_per_look = 16;
 /// end in time.
 constexpr double passes_ahead = 2;
 
+/// How much longer than the time asked for it is waited for a picture, relative to it, and at
+/// least, s.
+constexpr double patience = 0.05, least_patience = 0.5;
+
 /// Samples of a pixel that are summed before their sum is added to the others: a float would lose
 /// single ones in a sum of millions.
 constexpr uint32_t samples_per_block = 256;
-
-/// The film's edge: what comes in lanes becomes RGB here. Returns how many components were not
-/// finite and left out.
-int add_sample(const SampleSink& sink, PassPixel& sum) {
-  int dropped = 0;
-  std::array<Spectrum, component_count> finite{};
-  for (int c = 0; c < component_count; ++c) {
-    const Spectrum radiance = rgb_from_lanes(sink.radiance(Component(c)), sink.wavelengths());
-    if (radiance.is_finite())
-      sum.radiance[size_t(c)] += finite[size_t(c)] = radiance;
-    else
-      ++dropped;
-  }
-  const std::array<float, noise_kinds> values = by_noise_kind(finite);
-  for (size_t k = 0; k < noise_kinds; ++k) sum.squares[k] += sqr(values[k]);
-  const Spectrum bias = rgb_from_lanes(sink.bias(), sink.wavelengths());
-  if (bias.is_finite())
-    sum.bias += bias;
-  else
-    ++dropped;
-  const FirstHit& hit = sink.first_hit();
-  if (!hit.albedo.is_finite() || !is_finite(hit.normal) || !std::isfinite(hit.depth))
-    return dropped + 1;
-  // As white light shows it.
-  sum.first_hit.albedo +=
-      rgb_from_lanes(hit.albedo * white_light(sink.wavelengths()), sink.wavelengths());
-  sum.first_hit.normal += hit.normal;
-  sum.first_hit.depth += hit.depth;
-  return dropped;
-}
 
 void add_scaled(const PassPixel& pixel, float scale, PassPixel& sum) {
   for (size_t c = 0; c < size_t(component_count); ++c) sum.radiance[c] += pixel.radiance[c] * scale;
@@ -78,14 +54,20 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
   const Pass pass{settings_.seed, index, samples_per_pass_, {}};
   clear_pixels(monitor);
   monitor.tell(Progress::Stage::light, false);
-  const bool may_be_late = must_be_finished(monitor);
   std::stop_source halt;
   const std::stop_callback forward(stop, [&] { halt.request_stop(); });
-  const auto state = integrator_.prepare(pass, splats_, halt.get_token(), [&](double share) {
-    monitor.light_pass_at(share);
-    if (settings_.seconds && !may_be_late && monitor.elapsed() > *settings_.seconds)
-      halt.request_stop();
-  });
+  const std::optional<double> last = last_second(monitor);
+  const auto halt_if_late = [&] {
+    if (last && monitor.elapsed() > *last) halt.request_stop();
+  };
+  const auto state = [&] {
+    std::optional<Watch> watch;
+    if (last) watch.emplace(halt_if_late);
+    return integrator_.prepare(pass, splats_, halt.get_token(), [&](double share) {
+      monitor.light_pass_at(share);
+      halt_if_late();
+    });
+  }();
   note_memory();
   // Half a light pass is of no use: what it has brought is a part of the light only.
   if (halt.stop_requested()) return PassEnd::discarded;
@@ -150,7 +132,13 @@ double Session::share_taken(const Pass& pass, const PassState& state) const {
 }
 
 bool Session::must_be_finished(const Monitor& monitor) const {
-  return film_.pass_count() == 0 || (settings_.keeps_passes && monitor.passes_done() == 0);
+  return settings_.keeps_passes && monitor.passes_done() == 0;
+}
+
+std::optional<double> Session::last_second(const Monitor& monitor) const {
+  if (!settings_.seconds || must_be_finished(monitor)) return std::nullopt;
+  if (film_.pass_count() > 0) return settings_.seconds;
+  return *settings_.seconds + std::max(least_patience, patience * *settings_.seconds);
 }
 
 /// Samples that all pixels get before any gets more.
@@ -193,15 +181,15 @@ bool Session::render_camera(const Pass& pass, const PassState& state, const std:
   CameraPass camera{pass, state, stop, monitor};
   // If there is no picture yet, all pixels get a sample, then another, two more, four more …, so
   // that there is one as soon as can be; and if it may not be finished, so that it is one then.
-  const bool is_first = film_.pass_count() == 0, must_end = must_be_finished(monitor);
+  const bool is_first = film_.pass_count() == 0;
+  camera.last_second = last_second(monitor);
   const bool may_be_cut =
-      settings_.seconds && !must_end &&
+      camera.last_second &&
       (monitor.passes_done() == 0 ||
        monitor.elapsed() + passes_ahead * monitor.last_pass_seconds() > *settings_.seconds);
   Round round;
-  if (is_first) round = {first_stride, 1};
   if (may_be_cut) round = {1, 1};
-  if (!must_end) camera.last_second = settings_.seconds;
+  if (is_first) round = {first_stride, 1};
   // Those that must be there.
   const uint32_t always =
       settings_.keeps_passes ? integrator_.traits().default_samples_per_pass : 1;
@@ -342,6 +330,9 @@ Image Session::first_samples(std::unique_lock<std::mutex> lock) const {
     });
   }
   lock.unlock();
+  if (std::find(is_shown.begin(), is_shown.end(), uint8_t(0)) != is_shown.end())
+    image.set_metadata(incomplete_key,
+                       std::string("samples of some pixels only, which others show, too"));
   const auto seen = [&](int at, int stride) { return at - at % stride; };
   for (int y = 0; y < film_.height(); ++y)
     for (int x = 0; x < film_.width(); ++x) {

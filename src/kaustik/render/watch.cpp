@@ -1,0 +1,25 @@
+#include "kaustik/render/watch.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <utility>
+
+namespace kaustik {
+namespace {
+
+constexpr std::chrono::milliseconds interval(20);
+
+void watch(const std::stop_token& ended, const std::function<void()>& look) {
+  std::mutex mutex;
+  std::condition_variable_any end;
+  std::unique_lock lock(mutex);
+  while (!end.wait_for(lock, ended, interval, [&] { return ended.stop_requested(); })) look();
+}
+
+}  // namespace
+
+Watch::Watch(std::function<void()> look)
+    : thread_([look = std::move(look)](const std::stop_token& ended) { watch(ended, look); }) {}
+
+}  // namespace kaustik
