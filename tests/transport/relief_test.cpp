@@ -237,6 +237,26 @@ TEST(Footprint, FiltersTextures) {
   EXPECT_NEAR(albedo({-0.05f, -0.5f, 0}, {100, 0, false}), 0.5f, 0.02f);
 }
 
+TEST(Footprint, IsTheCamerasWhereItSeesLightPaths) {
+  const auto scene = scene_of(rectangle(
+      "<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"checkerboard\">"
+      "<rgb name=\"color0\" value=\"1\"/><rgb name=\"color1\" value=\"0\"/></texture></bsdf>"));
+  const Vec3f toward_camera = normalize(Vec3f(1, 0, 0.3f)), toward_lamp = {0, 0, 1};
+  for (const float x : {-0.05f, 0.03f})
+    for (const float width : {0.001f, 0.01f, 0.08f}) {
+      const Vec3f at(x, -0.5f, 0);
+      const SurfaceVertex camera = seen(*scene, at, toward_camera, {width, 0, false});
+      SurfaceVertex light = seen(*scene, at, toward_lamp, {0.4f, 0, false}, TransportMode::flux);
+      const auto difference = [&] {
+        return std::fabs(light.albedo(Lobes::all)[0] - camera.albedo(Lobes::all)[0]);
+      };
+      EXPECT_GT(difference(), 0.01f) << x << " " << width;
+      ASSERT_TRUE(light.has_textures());
+      light.look_up_from(*scene, toward_camera, width);
+      EXPECT_LT(difference(), 1e-4f) << x << " " << width;
+    }
+}
+
 TEST(Footprint, GrowsByDistanceAndScattering) {
   Footprint f{0, 0.01f, false};
   f.travel(5);

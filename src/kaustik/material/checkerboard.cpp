@@ -39,7 +39,8 @@ class Checkerboard final : public Texture {
   static float square_wave(float x, float width) {
     const float rest = x - std::floor(x);
     if (!(width > 1e-6f)) return rest > 0.5f ? -1.0f : 1.0f;
-    return (triangle_wave(x + 0.5f * width) - triangle_wave(x - 0.5f * width)) / width;
+    // Within one period: far out, floats would lose narrow footprints.
+    return (triangle_wave(rest + 0.5f * width) - triangle_wave(rest - 0.5f * width)) / width;
   }
   /// Its integral.
   static float triangle_wave(float x) { return 0.5f - std::fabs(x - std::floor(x) - 0.5f); }

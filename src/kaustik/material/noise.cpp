@@ -1,5 +1,9 @@
 #include "kaustik/material/noise.h"
 
+#include <algorithm>
+#include <vector>
+
+#include "kaustik/base/sampler.h"
 #include "kaustik/base/to_integer.h"
 
 namespace kaustik {
@@ -127,6 +131,69 @@ Vec3f noise_vector(const Vec3f& p, uint32_t seed) {
   return {cell.value(0), cell.value(6), cell.value(12)};
 }
 
+namespace {
+
+/// How often values of noise are within narrow bins, and their sums.
+struct NoiseHistogram {
+  static constexpr int bins = 8192;
+  static constexpr float largest = 1.2f;
+  std::vector<double> counts = std::vector<double>(bins), sums = counts;
+
+  void add(float value) {
+    const int bin = to_integer((value / largest + 1) * (bins / 2), 0, bins - 1);
+    ++counts[size_t(bin)];
+    sums[size_t(bin)] += double(value);
+  }
+};
+
+NoiseClasses classes_of(const NoiseHistogram& histogram, double count_of_class) {
+  NoiseClasses means{};
+  size_t i = 0;
+  double room = count_of_class, sum = 0;
+  for (size_t bin = 0; bin < size_t(NoiseHistogram::bins); ++bin) {
+    double left = histogram.counts[bin];
+    while (left > 0) {
+      const double part = std::min(left, room);
+      sum += histogram.sums[bin] * part / histogram.counts[bin];
+      left -= part;
+      room -= part;
+      if (room > 0) continue;
+      means[i++] = float(sum / count_of_class);
+      room = count_of_class;
+      sum = 0;
+    }
+  }
+  return means;
+}
+
+}  // namespace
+
+const NoiseClasses& noise_classes() {
+  static const NoiseClasses classes = [] {
+    constexpr uint32_t samples = 1 << 20;
+    NoiseHistogram histogram;
+    for (uint32_t i = 0; i < samples; ++i) {
+      Sampler sampler(0x6e6f697365, i);
+      const Vec2f u = sampler.next_2d();
+      const float value = gradient_noise_value({u.x, u.y, sampler.next_1d()}, i);
+      // The noise is symmetrical over space.
+      histogram.add(value);
+      histogram.add(-value);
+    }
+    return classes_of(histogram, 2.0 * samples / double(NoiseClasses().size()));
+  }();
+  return classes;
+}
+
+namespace {
+
+/// An offset of its own keeps the octaves' zeros, at the corners of their cells, apart.
+Vec3f octave_place(const Vec3f& p, int i, float frequency) {
+  return p * frequency + Vec3f(1.7f, 9.2f, 5.3f) * float(i);
+}
+
+}  // namespace
+
 template <class Value, class Noise>
 Value FractalNoise::octave_sum(Value sum, const Vec3f& p, float width, const Noise& noise) const {
   float strength = 1, strengths = 0, frequency = 1;
@@ -134,9 +201,7 @@ Value FractalNoise::octave_sum(Value sum, const Vec3f& p, float width, const Noi
     strengths += strength;
     const float visible = strength * noise_visibility(width * frequency);
     if (visible < 1e-4f) continue;
-    // An offset of its own keeps the octaves' zeros, at the corners of their cells, apart.
-    const Vec3f shifted = p * frequency + Vec3f(1.7f, 9.2f, 5.3f) * float(i);
-    sum = sum + noise(shifted, seed + uint32_t(i), frequency) * visible;
+    sum = sum + noise(octave_place(p, i, frequency), seed + uint32_t(i), frequency) * visible;
   }
   return sum * (1 / strengths);
 }
@@ -157,6 +222,20 @@ float FractalNoise::value(const Vec3f& p, float width) const {
 Vec3f FractalNoise::vector(const Vec3f& p, float width) const {
   return octave_sum(Vec3f(0.0f), p, width,
                     [](const Vec3f& at, uint32_t of, float) { return noise_vector(at, of); });
+}
+
+float FractalNoise::share(int i) const {
+  float strength = 1, strengths = 0, of_octave = 0;
+  for (int j = 0; j < octaves; ++j, strength *= gain) {
+    strengths += strength;
+    if (j == i) of_octave = strength;
+  }
+  return of_octave / strengths;
+}
+
+float FractalNoise::octave(int i, const Vec3f& p) const {
+  return share(i) *
+         gradient_noise_value(octave_place(p, i, std::exp2(float(i))), seed + uint32_t(i));
 }
 
 float cell_random(int x, int y, int z, uint32_t seed) {

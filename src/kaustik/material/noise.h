@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include "kaustik/base/vec.h"
@@ -25,6 +26,11 @@ float gradient_noise_value(const Vec3f& p, uint32_t seed);
 /// one by one.
 Vec3f noise_vector(const Vec3f& p, uint32_t seed);
 
+/// What such values are like over space: their means within classes that are equally frequent, from
+/// the lowest to the highest. Symmetrical about 0.
+using NoiseClasses = std::array<float, 256>;
+const NoiseClasses& noise_classes();
+
 /// How much is left of noise with features of size 1 in a mean over a footprint: near to 1 for
 /// widths below a half, to 0 for widths over 2.
 inline float noise_visibility(float width) { return std::exp(-0.8f * width * width); }
@@ -41,6 +47,10 @@ struct FractalNoise {
   float value(const Vec3f& p, float width) const;
   /// Of three noises, each on its own.
   Vec3f vector(const Vec3f& p, float width) const;
+  /// What one octave adds to value() at width 0.
+  float octave(int i, const Vec3f& p) const;
+  /// Its share of the octaves' strengths.
+  float share(int i) const;
 
  private:
   template <class Value, class Noise>

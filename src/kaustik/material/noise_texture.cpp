@@ -16,8 +16,7 @@ class NoiseTexture final : public Texture {
         amplitude_(float(arguments.number("amplitude"))),
         noise_{int(arguments.integer("octaves")), float(arguments.number("roughness")),
                uint32_t(arguments.integer("seed"))},
-        space_(arguments.transform("to_world")),
-        mean_(sampled_mean(*this, float(32 * arguments.number("scale")))) {}
+        space_(arguments.transform("to_world")) {}
 
   Spectrum eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const override {
     return mixed(color0_.at(wavelengths), color1_.at(wavelengths), 0.5f + 0.8f * noise(at).value);
@@ -25,7 +24,8 @@ class NoiseTexture final : public Texture {
   float maximum() const override {
     return std::max(color0_.rgb().max_lane(), color1_.rgb().max_lane());
   }
-  Spectrum mean() const override { return mean_; }
+  /// Exact: the noise is symmetrical, and so is what it is cut off at.
+  Spectrum mean() const override { return (color0_.rgb() + color1_.rgb()) * 0.5f; }
   HeightGradient height_gradient(const TextureCoordinates& at) const override {
     return {{0, 0}, space_.gradient(noise(at).gradient * (amplitude_ * frequency_))};
   }
@@ -39,7 +39,6 @@ class NoiseTexture final : public Texture {
   float frequency_, amplitude_;
   FractalNoise noise_;
   SpaceTransform space_;
-  Spectrum mean_;
 };
 
 const TypeInfo& noise_info() {

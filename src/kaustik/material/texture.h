@@ -27,7 +27,8 @@ struct HeightGradient {
 };
 
 /// A value that varies over a surface, or in space: a colour, or one number. Immutable. All answers
-/// are means over the footprint, or near to that.
+/// are means over the footprint, or near to that; over many places their mean is that of the
+/// texture itself, whatever the footprint.
 class Texture {
  public:
   virtual ~Texture() = default;
@@ -40,9 +41,8 @@ class Texture {
   virtual float maximum() const = 0;
   /// Whether eval() gives the same everywhere.
   virtual bool is_constant() const { return false; }
-  /// Mean over the uv square in RGB mode, for importance and previews; of textures in space an
-  /// estimate, good to about a hundredth of the span of their colours, of the mean over a large
-  /// volume.
+  /// Mean over the uv square in RGB mode, for importance and previews; of textures in space
+  /// over a large volume.
   virtual Spectrum mean() const = 0;
 
   /// Gradient of the height, m, of the relief that goes with the texture; for textures that know of
@@ -55,10 +55,6 @@ float luminance_of(const Spectrum& rgb);
 
 /// A texture of one value.
 std::shared_ptr<const Texture> make_constant_texture(const SpectralValue& value);
-
-/// Mean of eval() in RGB mode over `count` points in a cube with sides of `extent` m about the
-/// origin, which is also the uv square that many times.
-Spectrum sampled_mean(const Texture& texture, float extent, int count = 4096);
 
 struct TextureType {
   const TypeInfo& info;

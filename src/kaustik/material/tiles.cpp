@@ -3,29 +3,11 @@
 #include "kaustik/material/noise.h"
 #include "kaustik/material/procedural_parameters.h"
 #include "kaustik/material/space_transform.h"
+#include "kaustik/material/tile_row.h"
 #include "kaustik/material/uv_transform.h"
 
 namespace kaustik {
 namespace {
-
-/// Tiles along one axis: from 0 to `size`, then a joint, and so on with a given period.
-struct Row {
-  float size, period;
-
-  /// Share of tile between x − width/2 and x + width/2.
-  float coverage(float x, float width) const {
-    const float rest = x - std::floor(x / period) * period;
-    if (!(width > 1e-6f * period)) return rest < size ? 1.0f : 0.0f;
-    return (tile_before(x + 0.5f * width) - tile_before(x - 0.5f * width)) / width;
-  }
-
- private:
-  /// Length of tile between 0 and x.
-  float tile_before(float x) const {
-    const float whole = std::floor(x / period);
-    return whole * size + std::min(x - whole * period, size);
-  }
-};
 
 /// Where a point lies in the pattern.
 struct Place {
@@ -81,7 +63,7 @@ class Tiles final : public Texture {
 
   SpectralValue color_, joint_color_;
   float joint_;
-  Row rows_[2];
+  TileRow rows_[2];
   float offset_, variation_, bevel_, depth_, tilt_;
   uint32_t seed_;
   bool in_space_;

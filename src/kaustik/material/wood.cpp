@@ -1,18 +1,14 @@
 #include "kaustik/base/to_integer.h"
 #include "kaustik/material/bsdf_kinds.h"
-#include "kaustik/material/noise.h"
 #include "kaustik/material/procedural_parameters.h"
 #include "kaustik/material/space_transform.h"
+#include "kaustik/material/tile_row.h"
+#include "kaustik/material/wood_shade.h"
 
 namespace kaustik {
 namespace {
 
-float smooth_step(float from, float to, float x) {
-  const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
-
-/// Planks and rings that are told apart; farther out floats have lost them.
+/// Planks that are told apart; farther out floats have lost them.
 float within_cells(float x) { return std::clamp(x, -1e6f, 1e6f); }
 
 /// Wood whose grain runs along x: year rings about the axis of the trunk, fibres and pores along
@@ -23,45 +19,48 @@ class Wood final : public Texture {
       : early_(color_argument(arguments, "color0")),
         late_(color_argument(arguments, "color1")),
         ring_(float(arguments.number("ring_width"))),
-        grain_(float(arguments.number("grain"))),
         depth_(float(arguments.number("depth"))),
         plank_width_(float(arguments.number("plank_width"))),
         plank_length_(float(arguments.number("plank_length"))),
         seed_(uint32_t(arguments.integer("seed"))),
         space_(arguments.transform("to_world")),
-        mean_(sampled_mean(*this, 64 * std::max(ring_, plank_width_))) {}
+        shade_(ring_, float(arguments.number("grain")), seed_) {}
 
   Spectrum eval(const TextureCoordinates& at, const Wavelengths& wavelengths) const override {
     const Piece piece = piece_at(space_.point(at), space_.width(at));
-    return mixed(early_.at(wavelengths), late_.at(wavelengths), shade(piece, space_.width(at))) *
+    return mixed(early_.at(wavelengths), late_.at(wavelengths), shade_(piece.p, space_.width(at))) *
            piece.brightness;
   }
   float maximum() const override {
     return std::max(early_.rgb().max_lane(), late_.rgb().max_lane());
   }
-  Spectrum mean() const override { return mean_; }
+  Spectrum mean() const override;
   HeightGradient height_gradient(const TextureCoordinates& at) const override;
 
  private:
   /// A point in the trunk that it was sawn from.
   struct Piece {
     Vec3f p;                  ///< m
-    float brightness = 1;     ///< of the plank; dark in the gap beside it
+    float brightness = 1;     ///< of the plank; dark in the gaps beside it
     float to_gap = infinity;  ///< distance to the plank's edge, m
   };
   Piece piece_at(const Vec3f& p, float width) const;
-  /// 0 early wood, 1 late wood.
-  float shade(const Piece& piece, float width) const;
-  float fibres(const Vec3f& p, float width) const;
   float height(const Vec3f& p, float width) const;
+
+  /// Of a plank by its uniform number, where so much of it is no gap.
+  static float brightness(float tone, float wood) {
+    return (1 - 0.3f * tone) * (0.25f + 0.75f * wood);
+  }
+  /// From the end of one on.
+  static TileRow between_gaps(float period) { return {std::max(0.0f, period - gap_), period}; }
 
   static constexpr float gap_ = 0.0012f;  ///< between planks, m
 
   SpectralValue early_, late_;
-  float ring_, grain_, depth_, plank_width_, plank_length_;
+  float ring_, depth_, plank_width_, plank_length_;
   uint32_t seed_;
   SpaceTransform space_;
-  Spectrum mean_;
+  WoodShade shade_;
 };
 
 Wood::Piece Wood::piece_at(const Vec3f& p, float width) const {
@@ -78,11 +77,10 @@ Wood::Piece Wood::piece_at(const Vec3f& p, float width) const {
         std::min(std::min(fy, 1 - fy) * plank_width_, std::min(fx, 1 - fx) * plank_length_);
     const float visible = std::max(0.0f, 1 - width / plank_width_);
     const float tone = 0.5f + visible * (cell_random(row, column, 2, seed_) - 0.5f);
-    // A gap that is narrower than the footprint darkens its share.
-    const float covered =
-        std::clamp((0.5f * (gap_ + width) - piece.to_gap) / std::max(width, 1e-6f), 0.0f, 1.0f) *
-        std::min(1.0f, gap_ / std::max(width, gap_));
-    piece.brightness = (1 - 0.3f * tone) * (1 - 0.75f * covered);
+    const float wood =
+        between_gaps(plank_width_).coverage(fy * plank_width_ - 0.5f * gap_, width) *
+        between_gaps(plank_length_).coverage(fx * plank_length_ - 0.5f * gap_, width);
+    piece.brightness = brightness(tone, wood);
   }
   // The heart of the trunk lies beside the board, so that flat and standing rings both occur.
   const float across = cell_random(row, column, 3, seed_) - 0.5f;
@@ -94,42 +92,17 @@ Wood::Piece Wood::piece_at(const Vec3f& p, float width) const {
   return piece;
 }
 
-float Wood::fibres(const Vec3f& p, float width) const {
-  // Fibres are thin and long; what counts for fading is their width.
-  const float f = 5.0f / ring_;
-  const Vec3f stretched(p.x * f * 0.02f, p.y * f, p.z * f);
-  const FractalNoise noise{3, 0.7f, seed_ + 101};
-  return noise.value(stretched, width * f);
-}
-
-float Wood::shade(const Piece& piece, float width) const {
-  const Vec3f& p = piece.p;
-  const float inverse = 1 / ring_;
-  // Trunks are neither round nor straight.
-  const Vec3f slow(p.x * inverse * 0.012f, p.y * inverse * 0.09f, p.z * inverse * 0.09f);
-  const float bent = FractalNoise{3, 0.5f, seed_ + 7}.value(slow, 0.09f * width * inverse);
-  const float radius = std::hypot(p.y, p.z) * inverse + 4.5f * bent;
-  const float year = std::floor(radius), within = radius - year;
-  // Late wood gets denser through the year and ends sharply; years differ.
-  const float strength = 0.55f + 0.45f * cell_random(lattice_cell(within_cells(year)), 0, 9, seed_);
-  const float blur = width * inverse;
-  const float ring = smooth_step(0.1f, 0.95f, within) *
-                     (1 - smooth_step(0.94f - 0.3f * std::min(blur, 1.0f), 1.0f, within)) *
-                     strength;
-  const float visible = noise_visibility(blur);
-  const float mean_ring = 0.32f;
-  const float fine = fibres(p, width);
-  const float f = 9.0f / ring_;
-  const float pores = std::max(
-      0.0f, gradient_noise_value({p.x * f * 0.035f, p.y * f, p.z * f}, seed_ + 131) - 0.3f);
-  return 0.08f + 0.75f * (mean_ring + visible * (ring - mean_ring)) +
-         grain_ * (0.9f * fine + 1.2f * noise_visibility(width * f) * pores);
+Spectrum Wood::mean() const {
+  const Spectrum wood = mixed(early_.rgb(), late_.rgb(), shade_.mean());
+  if (!(plank_width_ > 0)) return wood;
+  const TileRow across = between_gaps(plank_width_), along = between_gaps(plank_length_);
+  return wood * brightness(0.5f, across.size / across.period * (along.size / along.period));
 }
 
 float Wood::height(const Vec3f& p, float width) const {
   const Piece piece = piece_at(p, width);
   const float edge = plank_width_ > 0 ? smooth_step(0, 0.0025f, piece.to_gap) : 1.0f;
-  return depth_ * fibres(piece.p, width) + 0.0008f * edge;
+  return depth_ * shade_.fibres(piece.p, width) + 0.0008f * edge;
 }
 
 HeightGradient Wood::height_gradient(const TextureCoordinates& at) const {

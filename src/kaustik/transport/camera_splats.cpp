@@ -10,6 +10,15 @@ struct CameraSplats::Sight {
   std::optional<Spectrum> visible = std::nullopt;  ///< once it is known
 };
 
+SurfaceVertex CameraSplats::seen(SurfaceVertex vertex, const CameraConnection& connection) const {
+  if (wants_irradiance())
+    vertex.paint_white();
+  else
+    vertex.look_up_from(scene_, connection.direction,
+                        scene_.camera().traits().pixel_spread * connection.distance);
+  return vertex;
+}
+
 void CameraSplats::add(Component component, const Spectrum& value, Sight& sight) {
   if (value.is_zero()) return;
   if (!sight.visible) {

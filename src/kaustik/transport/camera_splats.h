@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "kaustik/transport/light_path.h"
 #include "kaustik/transport/splat_buffer.h"
 #include "kaustik/transport/visibility.h"
@@ -8,7 +10,8 @@ namespace kaustik {
 /// Shows the camera what light paths meet: each vertex by a point of the lens that a fork of the
 /// path's numbers tells, as far as nothing stands between. Where the film asks for irradiance,
 /// surfaces are painted white and count π times, whatever stands in a medium between, and nothing
-/// else is shown. Not thread-safe but for `splats`, which many may add to.
+/// else is shown. Textures are those that the camera sees, whatever footprint the light has there:
+/// paths from both ends find the same. Not thread-safe but for `splats`, which many may add to.
 class CameraSplats {
  public:
   /// `paths`: how many there are, each of which stands for all light. All must outlive this.
@@ -19,15 +22,12 @@ class CameraSplats {
   /// where it is found like this, `vertex` being that which is seen.
   template <typename Weigh>
   void show(const LightVertex& at, const Weigh& weigh) {
-    SurfaceVertex painted;
-    if (wants_irradiance()) {
-      painted = at.vertex;
-      painted.paint_white();
-    }
-    const SurfaceVertex& vertex = wants_irradiance() ? painted : at.vertex;
-    if (!any(vertex.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
-    const CameraConnection connection = connect(vertex.position(), at.sampler);
+    if (!wants_irradiance() && !any(at.vertex.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
+    const CameraConnection connection = connect(at.vertex.position(), at.sampler);
     if (!(connection.importance > 0)) return;
+    std::optional<SurfaceVertex> as_seen;
+    if (wants_irradiance() || at.vertex.has_textures()) as_seen = seen(at.vertex, connection);
+    const SurfaceVertex& vertex = as_seen ? *as_seen : at.vertex;
     const float weight = weigh(connection, vertex);
     if (weight > 0) add(at, vertex, connection, weight);
   }
@@ -55,6 +55,8 @@ class CameraSplats {
     const Camera& camera = scene_.camera();
     return camera.connect(point, camera.forked_lens_numbers(sampler));
   }
+  /// What a light path has met, as it is in the picture.
+  SurfaceVertex seen(SurfaceVertex vertex, const CameraConnection& connection) const;
   /// Turns what a path sends to the camera, W/sr, into radiance of the pixel.
   float scale(const CameraConnection& connection, float weight) const {
     return weight * connection.importance / (sqr(connection.distance) * paths_);

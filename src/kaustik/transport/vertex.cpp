@@ -32,7 +32,7 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
     context_.move_to(at, wavelengths);
   } else {
     const UvDerivatives derivatives = scene.tracer().uv_derivatives(point_);
-    context_.move_to(texture_place(scene, footprint, derivatives), wavelengths);
+    context_.move_to(texture_place(scene, wo_, footprint.width, derivatives), wavelengths);
     if (needs(asked, SurfaceNeeds::relief)) bend_normal(scene, footprint, derivatives);
     if (needs(asked, SurfaceNeeds::tangent)) turn_to_tangent(derivatives.dpdu);
   }
@@ -52,14 +52,21 @@ void SurfaceVertex::turn_to(const Vec3f& normal) {
   wo_local_ = frame_.to_local(wo_);
 }
 
-TextureCoordinates SurfaceVertex::texture_place(const Scene& scene, const Footprint& footprint,
+void SurfaceVertex::look_up_from(const Scene& scene, const Vec3f& direction, float beam_width) {
+  context_.move_to(
+      texture_place(scene, direction, beam_width, scene.tracer().uv_derivatives(point_)),
+      context_.wavelengths());
+}
+
+TextureCoordinates SurfaceVertex::texture_place(const Scene& scene, const Vec3f& toward_beam,
+                                                float beam_width,
                                                 const UvDerivatives& derivatives) const {
   TextureCoordinates at;
   at.uv = point_.uv;
   at.position = point_.position;
   at.normal = point_.ng;
   // The ellipse that the beam cuts out of the surface, as a disk of the same area.
-  at.width = footprint.width / std::sqrt(std::max(abs_dot(wo_, point_.ng), 0.01f));
+  at.width = beam_width / std::sqrt(std::max(abs_dot(toward_beam, point_.ng), 0.01f));
   // At the poles of a sphere u goes all round in no way at all.
   constexpr float largest_width = 16;
   const auto in_uv = [&](const Vec3f& derivative) {

@@ -34,6 +34,12 @@ class SurfaceVertex {
   /// radiance E/π by the diffuse lobe. It is smooth: bump and normal maps don't bend its normal.
   void paint_white();
 
+  /// Whether its bsdf looks up textures.
+  bool has_textures() const { return needs(traits_.needs, SurfaceNeeds::texture); }
+  /// Looks textures up as whoever sees it from `direction` does, by a beam that is so wide here.
+  /// The relief stays.
+  void look_up_from(const Scene& scene, const Vec3f& direction, float beam_width);
+
   const SurfacePoint& point() const { return point_; }
   const Vec3f& position() const { return point_.position; }
   const Bsdf& bsdf() const { return *bsdf_; }
@@ -99,7 +105,7 @@ class SurfaceVertex {
   }
   void turn_to(const Vec3f& normal);
   float adjoint_factor(const Vec3f& wi, const Vec3f& wi_local) const;
-  TextureCoordinates texture_place(const Scene& scene, const Footprint& footprint,
+  TextureCoordinates texture_place(const Scene& scene, const Vec3f& toward_beam, float beam_width,
                                    const UvDerivatives& derivatives) const;
   void bend_normal(const Scene& scene, const Footprint& footprint,
                    const UvDerivatives& derivatives);
