@@ -61,7 +61,7 @@ PixelPlans learned_radii(const Scene& scene, const Density& density, size_t coun
   std::vector<RadiusLearning::Sums> sums(first.seen().probes().size());
   for (uint32_t pass = 0; pass < passes; ++pass) {
     const auto added = RadiusLearning::sums_of(first, light_of(density, count, seed + pass, plain),
-                                               ComponentSet::all());
+                                               ComponentSet::all(), sums);
     for (size_t i = 0; i < sums.size(); ++i) sums[i].add(added[i]);
   }
   return first.with(learning.plans(first, sums, passes, 1));
@@ -166,6 +166,42 @@ TEST(RadiusLearning, DisksThatAreHalfCoveredAreAsWideAsOthers) {
                              open, [](float, float) { return 1.0f; }, Edges::not_looked_for, 48));
   std::printf("  %.4f m at the end\n", radii.mean());
   if (!slow_build) expect_near_means("at the end of a strip", radii, tolerance, largest_error);
+}
+
+/// Disks that hold too many light vertices to be taken are not summed up again: plans stay.
+TEST(RadiusLearning, LeavesOutHopelessDisks) {
+  const TestScene scene = floor_scene();
+  constexpr size_t dense = 150'000, sparse = 10'000;  // light vertices of a pass
+  PixelPlans first(scene.scene());
+  const auto even = [](float, float) { return 1.0f; };
+  first.choose_disks(light_of(even, dense, 99), uint32_t(dense), 20, 0);
+  uint64_t rays = 0;
+  const RadiusLearning learning(scene.scene(), first, rays);
+  const std::vector<RadiusLearning::Sums> none(first.seen().probes().size());
+  const auto sums_after = [&](size_t count, bool narrows) {
+    auto sums = none;
+    for (uint32_t pass = 0; pass < 4; ++pass) {
+      if (narrows && pass > 0) RadiusLearning::narrow(sums, pass);
+      const auto added =
+          RadiusLearning::sums_of(first, light_of(even, count, pass), ComponentSet::all(), sums);
+      for (size_t i = 0; i < sums.size(); ++i) sums[i].add(added[i]);
+    }
+    return sums;
+  };
+  const auto whole = sums_after(dense, false), narrowed = sums_after(dense, true);
+  const auto of_whole = learning.plans(first, whole, 4, 1);
+  const auto of_narrowed = learning.plans(first, narrowed, 4, 1);
+  constexpr size_t widest = RadiusLearning::level_count - 1;
+  for (size_t p = 0; p < none.size(); ++p) {
+    if (!first.seen().probes()[p].found) continue;
+    ASSERT_LT(narrowed[p].levels, widest);
+    EXPECT_EQ(narrowed[p].vertices[narrowed[p].levels - 1],
+              whole[p].vertices[narrowed[p].levels - 1]);
+    EXPECT_LT(narrowed[p].vertices[widest], whole[p].vertices[widest] / 3) << "of one pass, not 4";
+    EXPECT_EQ(of_narrowed[p].merge_area, of_whole[p].merge_area);
+  }
+  for (const RadiusLearning::Sums& sums : sums_after(sparse, true))
+    EXPECT_EQ(sums.levels, widest + 1);
 }
 
 TEST(RadiusLearning, RaysAreCountedAndStopRequestsSeen) {

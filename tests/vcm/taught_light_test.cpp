@@ -95,7 +95,7 @@ TEST(RadiusLearning, SumsUpTheLightOfABall) {
   for (uint32_t number = 0; number < lesson_passes; ++number) {
     const auto sums = RadiusLearning::sums_of(
         plans, ball.trace(merging_weights(paths, 0.1f), paths, number, 1 << 20),
-        ComponentSet::all());
+        ComponentSet::all(), std::vector<RadiusLearning::Sums>(plans.seen().probes().size()));
     std::array<double, 2> of_light{}, of_vertices{};
     double x = 0;
     for (size_t p = 0; p < sums.size(); ++p) {

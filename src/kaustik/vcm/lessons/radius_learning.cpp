@@ -28,6 +28,9 @@ constexpr double least_share = 0.05;
 constexpr double least_left = 0.125;
 /// What merges at a vertex costs time: more than so many per pass are not worth theirs.
 constexpr double most_vertices = 600;
+/// Disks with so many times more are not looked at any longer, but for the first: disks around tell
+/// of one another, and later passes may have fewer.
+constexpr double hopeless = 2;
 
 double level_radius(const PixelProbe& probe, int level) {
   return double(probe.pixel_width) * std::exp2(0.5 * level);
@@ -64,21 +67,23 @@ constexpr auto levels = size_t(RadiusLearning::level_count);
 
 }  // namespace
 
+/// Of the `count` smallest disks.
 RadiusLearning::Disagreement::Pairs RadiusLearning::disagreement_of(const KindSums& sums,
+                                                                    size_t count,
                                                                     const Levels& of) {
   Disagreement::Pairs result{};
   // Where next to nothing has arrived, a single vertex more would do.
   const double of_one =
-      sums.light[levels - 1] > 0 ? sums.squares[levels - 1] / sums.light[levels - 1] : 0.0;
+      sums.light[count - 1] > 0 ? sums.squares[count - 1] / sums.light[count - 1] : 0.0;
   std::array<double, levels> area{}, share{}, light{};
-  for (size_t i = 0; i < levels; ++i) {
+  for (size_t i = 0; i < count; ++i) {
     const Level& level = of[i];
     area[i] = level.moments.one * sqr(level.radius);
     share[i] = std::max(0.05, level.share);
     light[i] = (sums.light[i] + level.slope_x * sums.x[i] + level.slope_y * sums.y[i]) *
                level.scale / share[i];
   }
-  for (size_t i = 1; i < levels; ++i)
+  for (size_t i = 1; i < count; ++i)
     for (size_t j = 0; j < i; ++j) {
       if (sqr(sums.light[j]) < least_directions * sums.squares[j]) continue;
       if (!(area[i] > area[j])) continue;
@@ -107,7 +112,7 @@ RadiusLearning::Disagreement RadiusLearning::disagreement_of(const Sums& sums, c
   Disagreement result;
   for (size_t k = 0; k < kind_count; ++k) {
     const auto counts = [&](size_t i) { return sums.of[k].light[i] > least_share * all[i]; };
-    Disagreement::Pairs& pairs = result.of[k] = disagreement_of(sums.of[k], of);
+    Disagreement::Pairs& pairs = result.of[k] = disagreement_of(sums.of[k], sums.levels, of);
     for (size_t i = 1; i < levels; ++i)
       for (size_t j = 0; j < i; ++j)
         if (!counts(i) && !counts(j)) pairs[i][j] = 0;
@@ -172,7 +177,8 @@ RadiusLearning::RadiusLearning(const Scene& scene, const PixelPlans& first, uint
 
 std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& first,
                                                           const LightVertices& light,
-                                                          ComponentSet wanted) {
+                                                          ComponentSet wanted,
+                                                          const std::vector<Sums>& so_far) {
   std::vector<Sums> result(first.seen().probes().size());
   if (light.tree.empty()) return result;
   parallel_blocks(result.size(), 16, [&](size_t begin, size_t end, size_t) {
@@ -180,7 +186,8 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
       const PixelProbe& probe = first.seen().probes()[p];
       if (!probe.found || !(probe.pixel_width > 0)) continue;
       const double least_sq = sqr(level_radius(probe, 0));
-      const auto widest = float(level_radius(probe, level_count - 1));
+      const size_t count = so_far[p].levels;
+      const auto widest = float(level_radius(probe, int(count) - 1));
       const MergeDisk disk(probe.vertex, widest);
       const Frame frame(disk.side());
       const DiskEdges edges = first.seen().disk_bounds(p, widest).edges;
@@ -195,7 +202,7 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
             const double reach_sq = double(disk.least_radius_sq(offset));
             size_t level = 0;
             for (double limit = least_sq; reach_sq > limit; limit *= 2) ++level;
-            if (level >= levels) return;
+            if (level >= count) return;
             // The block's other vertices may have no edges.
             sums.vertices[level] += 1;
             if (!edges.hold(offset)) return;
@@ -206,10 +213,10 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
             kind.x[level] += value * double(dot(offset, frame.x));
             kind.y[level] += value * double(dot(offset, frame.y));
           });
-      for (size_t level = 1; level < levels; ++level)
+      for (size_t level = 1; level < count; ++level)
         sums.vertices[level] += sums.vertices[level - 1];
       for (auto& kind : sums.of)
-        for (size_t level = 1; level < levels; ++level) {
+        for (size_t level = 1; level < count; ++level) {
           kind.light[level] += kind.light[level - 1];
           kind.squares[level] += kind.squares[level - 1];
           kind.x[level] += kind.x[level - 1];
@@ -218,6 +225,16 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
     }
   });
   return result;
+}
+
+void RadiusLearning::narrow(std::vector<Sums>& sums, uint32_t passes) {
+  for (Sums& of : sums) {
+    const auto end = of.vertices.begin() + std::ptrdiff_t(of.levels);
+    const auto first = std::find_if(of.vertices.begin(), end, [&](double vertices) {
+      return vertices > hopeless * most_vertices * passes;
+    });
+    if (first != end) of.levels = size_t(first - of.vertices.begin()) + 1;
+  }
 }
 
 /// The widest disk that agrees with all smaller ones, by the mean over the probes around: a single
@@ -257,7 +274,7 @@ std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std:
         return float(pi * sqr(level_radius(probe, level))) / shrinkage;
       };
       const auto is_too_wide = [&](size_t i) {
-        return sums[p].vertices[i] > most_vertices * passes ||
+        return i >= sums[p].levels || sums[p].vertices[i] > most_vertices * passes ||
                levels_[p][i].moments.one < least_left * std::numbers::pi;
       };
       int level = int(levels) - 1;

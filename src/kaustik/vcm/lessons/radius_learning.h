@@ -37,6 +37,8 @@ class RadiusLearning {
   struct Sums {
     std::array<KindSums, kind_count> of;
     std::array<double, level_count> vertices{};  ///< wanted or not
+    /// Disks from this one on are no longer summed up: see narrow().
+    size_t levels = level_count;
     void add(const Sums& other) {
       for (size_t i = 0; i < size_t(level_count); ++i) vertices[i] += other.vertices[i];
       for (size_t k = 0; k < kind_count; ++k) of[k].add(other.of[k]);
@@ -56,9 +58,12 @@ class RadiusLearning {
   RadiusLearning(const Scene& scene, const PixelPlans& first, uint64_t& rays,
                  const std::stop_token& stop = {});
 
-  /// What the light vertices of one pass add, per probe of `first`.
+  /// What the light vertices of one pass add to `so_far`, per probe of `first`.
   static std::vector<Sums> sums_of(const PixelPlans& first, const LightVertices& light,
-                                   ComponentSet wanted);
+                                   ComponentSet wanted, const std::vector<Sums>& so_far);
+  /// Leaves out disks in which `passes` passes had so many light vertices that none will be taken:
+  /// most vertices of a dense caustic are in them.
+  static void narrow(std::vector<Sums>& sums, uint32_t passes);
   /// The plans for what `passes` passes have summed up: those of the first pass with other disks.
   /// Shrinking is up to the caller, `shrinkage` of the areas is taken off beforehand.
   std::vector<PixelPlan> plans(const PixelPlans& first, const std::vector<Sums>& sums,
@@ -79,7 +84,8 @@ class RadiusLearning {
   using Levels = std::array<Level, level_count>;
   static Levels levels_of(const Scene& scene, const PixelProbe& probe, const PixelPlans& first,
                           size_t number, uint64_t& rays);
-  static Disagreement::Pairs disagreement_of(const KindSums& sums, const Levels& levels);
+  static Disagreement::Pairs disagreement_of(const KindSums& sums, size_t count,
+                                             const Levels& levels);
   static Disagreement disagreement_of(const Sums& sums, const Levels& levels);
 
   std::vector<Levels> levels_;  ///< of each probe

@@ -19,7 +19,7 @@ void RadiusLesson::begin() { sums_.assign(sums_.size(), {}); }
 std::unique_ptr<LessonSums> RadiusLesson::sums_of(const TaughtPass& taught, const std::stop_token&,
                                                   uint64_t&) const {
   auto sums = std::make_unique<RadiusSums>();
-  sums->of_probes = RadiusLearning::sums_of(first_.pixels, taught.light, wanted_);
+  sums->of_probes = RadiusLearning::sums_of(first_.pixels, taught.light, wanted_, sums_);
   return sums;
 }
 
@@ -37,10 +37,14 @@ void RadiusLesson::apply(VcmPlans& plans, uint32_t epoch, const std::stop_token&
   }
   const float shrinkage = sqr(pass_radius(1, epoch));
   plans.settle(radii_->plans(first_.pixels, sums_, epoch, shrinkage), shrinkage);
+  RadiusLearning::narrow(sums_, epoch);
 }
 
 void RadiusLesson::read(ByteReader& reader) {
   sums_ = reader.get_array<RadiusLearning::Sums>(sums_.size());
+  for (const RadiusLearning::Sums& sums : sums_)
+    if (sums.levels < 1 || sums.levels > size_t(RadiusLearning::level_count))
+      reader.damaged("a probe in it has no disks");
 }
 
 }  // namespace kaustik
