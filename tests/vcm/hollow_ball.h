@@ -19,9 +19,9 @@ class HollowBall {
   static constexpr double wall = 4 * double(pi);  ///< m²: the radius is 1 m
   static constexpr int pixels = 24;               ///< on a side
 
-  /// `fov`: of the picture, degrees.
-  explicit HollowBall(double fov = 100)
-      : scene_(camera("0.2, -0.75, 0.1", "0, 1, 0.1", fov, pixels) +
+  /// `fov`: of the picture, degrees; of `side` pixels on a side.
+  explicit HollowBall(double fov = 100, int side = pixels)
+      : scene_(camera("0.2, -0.75, 0.1", "0, 1, 0.1", fov, side) +
                sphere("0, 0, 0", 1, diffuse("0.6, 0.6, 0.6"), true) + point_light("0, 0, 0", 1)),
         emission_(scene_.scene()) {}
 

@@ -78,6 +78,24 @@ TEST(PathPilot, KnowsRaysAndNoiseOfABall) {
   EXPECT_EQ(pilot.rays, pilot.probes.size() * 8 * 5);
 }
 
+/// Four times the pixels are hardly more work, and what is told stays the same.
+TEST(PathPilot, TakesFewerPathsOfEachProbeOfALargePicture) {
+  const auto paths_of = [](int side) {
+    const BallPilot pilot = pilot_of(HollowBall(100, side), 0, 0.1);
+    for (const ProbeStatistics& probe : pilot.probes) {
+      EXPECT_NEAR(probe.rays, 2, 1e-9);
+      EXPECT_NEAR(probe.rays_beyond, 3, 1e-9);
+      EXPECT_NEAR(probe.direct_variance, 0, 1e-9);
+    }
+    EXPECT_EQ(pilot.probes.size() * 16, size_t(side) * size_t(side));
+    return double(pilot.rays) / 5;
+  };
+  EXPECT_EQ(paths_of(256), 8 * 64 * 64);
+  EXPECT_EQ(paths_of(512), 8 * 128 * 128);
+  EXPECT_EQ(paths_of(640), 5 * 160 * 160);
+  EXPECT_LT(paths_of(832), 1 << 17);
+}
+
 /// However few of a pass's light paths the pilot has, it counts those of a pass.
 TEST(PathPilot, CountsWhatMergesInABall) {
   const HollowBall ball;

@@ -10,7 +10,10 @@
 namespace kaustik {
 namespace {
 
-constexpr uint32_t paths_per_probe = 8;
+/// Paths of a probe: so many, but fewer in large pictures, so that there are hardly more in all.
+/// What is told of a block then rests on more blocks around.
+constexpr uint32_t most_paths_per_probe = 8, least_paths_per_probe = 3;
+constexpr size_t most_paths = 1 << 17;
 /// The kernel of merging weighs its vertices unevenly: they are worth so many of equal weight.
 constexpr double kernel_efficiency = 0.75;
 /// Light that merging finds more often than this, per camera path of a pass, says nothing about how
@@ -36,11 +39,12 @@ double light_of_pilot(const SampleSink& sink) {
 /// beside merging: from both follows how much more merging would find it.
 class Recorder final : public LightWeights {
  public:
-  Recorder(CameraPath& path, const SampleSink& sink, ProbeStatistics& result)
+  Recorder(CameraPath& path, const SampleSink& sink, uint32_t paths, ProbeStatistics& result)
       : beside_merging_(path.weights()),
         alone_(path.inputs(), path.vertices(), false),
         sink_(sink),
         camera_samples_(double(path.inputs().camera_samples)),
+        paths_(double(paths)),
         result_(result) {}
 
   float sampled(const Scatterer& vertex, const DirectLight& light) override {
@@ -65,7 +69,7 @@ class Recorder final : public LightWeights {
     const double share = camera_samples_ / (camera_samples_ + ratio_);
     beyond_ += light * share;
     even_ += light * most_merged * camera_samples_ / (most_merged * camera_samples_ + ratio_);
-    result_.squares[size_t(bin_of(ratio_))] += light * light * share / paths_per_probe;
+    result_.squares[size_t(bin_of(ratio_))] += light * light * share / paths_;
   }
   /// The path has left the probed vertex, and found what every path looks for there.
   void go_on() {
@@ -92,6 +96,7 @@ class Recorder final : public LightWeights {
   CameraPathWeights alone_;
   const SampleSink& sink_;
   double camera_samples_;
+  double paths_;  ///< of the probe
   ProbeStatistics& result_;
   bool goes_on_ = false;
   double seen_ = 0, ratio_ = 0, direct_ = 0, beyond_ = 0, even_ = 0;
@@ -121,23 +126,45 @@ void add_merged(CameraPath& path, float samples, double light_share, ProbeStatis
   }
 }
 
+/// In a picture of that size, of which a crop window is planned as the whole is.
+uint32_t paths_per_probe(const Vec2i& size) {
+  const size_t blocks =
+      size_t(size.x) * size_t(size.y) / (SeenSurfaces::block_size * SeenSurfaces::block_size);
+  return uint32_t(std::clamp<size_t>(most_paths / std::max<size_t>(1, blocks),
+                                     least_paths_per_probe, most_paths_per_probe));
+}
+
+/// Of each probe the mean over it and those beside it.
+std::vector<ProbeStatistics> smoothed(const std::vector<ProbeStatistics>& single,
+                                      const BlockGrid& grid) {
+  std::vector<ProbeStatistics> result(single.size());
+  parallel_blocks(single.size(), 256, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) {
+      int count = 0;
+      grid.visit_around(i, [&](size_t) { ++count; });
+      grid.visit_around(i, [&](size_t near) { result[i].add(single[near], 1.0 / double(count)); });
+    }
+  });
+  return result;
+}
+
 /// Unbiased variance of values of this sum and these squares.
 double variance_of(double sum, double squares, double count) {
   return std::max(0.0, squares - sum * sum / count) / (count - 1);
 }
 
 ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& probe, PixelPlan plan,
-                              size_t index, const PilotLimits& limits) {
+                              size_t index, uint32_t paths, const PilotLimits& limits) {
   ProbeStatistics result;
   plan.survival = plan.evenness = 1;
-  constexpr double count = paths_per_probe;
+  const double count = paths;
   double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
-  for (uint32_t i = 0; i < paths_per_probe; ++i) {
+  for (uint32_t i = 0; i < paths; ++i) {
     Sampler sampler = Sampler::at(0, 0, Stream::pilot_path, index, i);
     SampleSink sink(limits.components);
     CameraPath path(in, plan, probe.raster, sampler, sink);
     CameraWalk& walk = path.walk();
-    Recorder recorder(path, sink, result);
+    Recorder recorder(path, sink, paths, result);
     uint64_t rays_before = 0;
     bool is_behind = false;
     const auto go_beyond = [&] {
@@ -187,24 +214,18 @@ std::vector<ProbeStatistics> probe_statistics(const CameraPathInputs& inputs,
                                               const PixelPlans& plans, const PilotLimits& limits,
                                               uint64_t& rays, const std::stop_token& stop) {
   const std::vector<PixelProbe>& probes = plans.seen().probes();
+  const uint32_t paths = paths_per_probe(inputs.scene.film().size);
   std::vector<ProbeStatistics> single(probes.size());
   parallel_blocks(probes.size(), 16, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end && !stop.stop_requested(); ++i)
-      single[i] = statistics_at(inputs, probes[i], plans.plans()[i], i, limits);
+      single[i] = statistics_at(inputs, probes[i], plans.plans()[i], i, paths, limits);
   });
   double counted = 0;
-  for (const ProbeStatistics& s : single) counted += paths_per_probe * (s.rays + s.rays_beyond);
+  for (const ProbeStatistics& s : single) counted += paths * (s.rays + s.rays_beyond);
   rays += to_integer(std::round(counted), uint64_t(0), uint64_t(1) << 53);
-  std::vector<ProbeStatistics> result(probes.size());
   const BlockGrid& grid = plans.seen().grid();
-  parallel_blocks(probes.size(), 256, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) {
-      int count = 0;
-      grid.visit_around(i, [&](size_t) { ++count; });
-      grid.visit_around(i, [&](size_t near) { result[i].add(single[near], 1.0 / double(count)); });
-    }
-  });
-  return result;
+  std::vector<ProbeStatistics> result = smoothed(single, grid);
+  return paths < most_paths_per_probe ? smoothed(result, grid) : result;
 }
 
 }  // namespace kaustik
