@@ -1,8 +1,8 @@
 // How well renders keep to the time that they are given, reading the scene included:
 //   time_tool [--size N] [NAME ...]   scenes, integrators and times by name ("10s"); all without
-// Prints the time asked for, the time taken, when the first picture was there for a snapshot, the
-// passes and the share of another one, and the processor time over the threads (what a machine
-// takes that does nothing else, if all is parallel).
+// Prints the time asked for, the time taken, when the first picture, or look, was there for a
+// snapshot, the passes and the share of another one, and the processor time over the threads (what
+// a machine takes that does nothing else, if all is parallel).
 #include <sys/resource.h>
 
 #include <atomic>
@@ -18,7 +18,7 @@
 #include "kaustik/integrator/override_integrator.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/loader/scene_format.h"
-#include "kaustik/render/session.h"
+#include "kaustik/render/job.h"
 #include "kaustik/scene/overrides.h"
 
 namespace {
@@ -66,21 +66,19 @@ void measure(const Asked& asked) {
   override_integrator(description, asked.integrator);
   override_property(description, fmt::format("film.width={}", asked.size));
   override_property(description, fmt::format("film.height={}", asked.size));
-  const auto scene = build_scene(description);
-  std::vector<std::string> warnings;
-  const auto integrator = make_integrator(description, *scene, warnings);
-  SessionSettings settings;
-  settings.seconds = std::max(1e-3, asked.seconds - seconds_since(start));
-  Session session(*scene, *integrator, settings);
+  JobSettings settings;
+  settings.clock_start = start;
+  settings.session.seconds = asked.seconds;
+  settings.previews = true;
+  Job job(std::move(description), std::move(settings));
   std::atomic<bool> ended = false;
   double first_picture = 0, first_processor = 0;
   std::thread viewer([&] {
-    while (!session.has_picture() && !ended)
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    while (!job.snapshot() && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     first_picture = seconds_since(start);
     first_processor = processor_since();
   });
-  const SessionReport report = session.run();
+  const SessionReport report = job.run().report;
   const double taken = seconds_since(start), processor = processor_since();
   ended = true;
   viewer.join();
@@ -89,7 +87,9 @@ void measure(const Asked& asked) {
       "{:3} passes of {} + {:.2f}{}\n",
       asked.scene, asked.integrator, asked.seconds, taken, processor, first_picture,
       first_processor, report.passes, report.samples_per_pass, report.part,
-      report.incomplete_pass ? ", not finished" : "");
+      report.passes == 0       ? ", a first look"
+      : report.incomplete_pass ? ", not finished"
+                               : "");
   std::fflush(stdout);
 }
 

@@ -17,7 +17,7 @@ namespace kaustik {
 namespace {
 
 /// That it takes at most, about.
-constexpr double most_samples = 1 << 15;
+constexpr double most_samples = 20000;
 
 /// The picture in squares of pixels, each of which is a pixel of a small picture.
 class Squares {
