@@ -1,5 +1,6 @@
-// Bytes a pixel that film, pass and splats take together after 64 passes, in scenes that ship: the
-// table of docs/command_line.md, and what check_film_memory() expects. `memory_tool [SCENE ...]`.
+// Bytes a pixel that film, pass and splats take together at most, in scenes that ship: the table of
+// docs/command_line.md, and what check_film_memory() foresees.
+// `memory_tool [PASSES [SIZE [SCENE ...]]]`: 64 passes of 128 × 128 pixels if it is not told.
 #include "benchmarks/markdown_table.h"
 #include "benchmarks/shipped_scenes.h"
 #include "kaustik/base/error.h"
@@ -8,16 +9,18 @@
 #include "kaustik/render/session.h"
 #include "kaustik/scene/overrides.h"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
 namespace {
 
 using namespace kaustik;
 
-constexpr int size = 64;
-constexpr uint32_t passes = 64;
-
-std::string measured(const std::string& scene_name, const std::string& type) {
+std::string measured(const std::string& scene_name, const std::string& type, uint32_t passes,
+                     int size) {
   Description description = bench::load_shipped(scene_name);
   override_integrator(description, type);
   override_property(description, fmt::format("film.width={}", size));
@@ -39,16 +42,19 @@ std::string measured(const std::string& scene_name, const std::string& type) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> scenes(argv + 1, argv + argc);
+  const uint32_t passes = argc > 1 ? uint32_t(std::stoul(argv[1])) : 64;
+  const int size = argc > 2 ? std::stoi(argv[2]) : 128;
+  std::vector<std::string> scenes(argv + std::min(3, argc), argv + argc);
   if (scenes.empty()) scenes = {"cornell_spheres", "metal_ring", "maze", "pool_below", "museum"};
-  const std::vector<std::string> types = {"path", "bdpt", "vcm", "lighttracer"};
+  const std::vector<std::string> types = {"path", "bdpt",      "vcm",
+                                          "auto", "photonmap", "lighttracer"};
   std::vector<std::string> header = {"scene"};
   for (const std::string& type : types) header.push_back("`" + type + "`");
   bench::MarkdownTable table(header);
   try {
     for (const std::string& scene : scenes) {
       std::vector<std::string> row = {scene};
-      for (const std::string& type : types) row.push_back(measured(scene, type));
+      for (const std::string& type : types) row.push_back(measured(scene, type, passes, size));
       table.add(row);
     }
   } catch (const Error& error) {

@@ -9,6 +9,7 @@
 #include "kaustik/base/statistics.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/render/film_errors.h"
+#include "kaustik/render/rounded_line.h"
 #include "tests/support/pass_of.h"
 
 namespace kaustik {
@@ -333,6 +334,95 @@ TEST(Film, NoiseOfTheBiasIsNoBias) {
     for (int x = 0; x < side; ++x)
       mean_square += std::pow(double(value_at(image, x, y, "error.R")), 2) / (side * side);
   EXPECT_LT(std::sqrt(mean_square), 0.05);
+}
+
+/// Whether passes are summed by one film, or by parts that are added in any order, all has the same
+/// bits: what is rounded before it is summed, too.
+TEST(Film, PartsMakeTheWholeInAnyOrder) {
+  constexpr int side = 40, count = 24;
+  const FilmLayers layers{ComponentSet::all(), true};
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> power(-9, 4);
+  Film whole(film_settings(side, side), layers);
+  std::vector<Film> parts(5, whole);
+  for (uint32_t pass = 0; pass < count; ++pass) {
+    std::vector<PassPixel> pixels(size_t{side} * side);
+    for (PassPixel& pixel : pixels) {
+      for (Spectrum& radiance : pixel.radiance)
+        radiance = {std::exp2(power(random)), std::exp2(power(random)), 0.3f, 0};
+      pixel.squares = {std::exp2(power(random)), std::exp2(power(random))};
+      pixel.bias = Spectrum(std::exp2(power(random)) - 1);
+      pixel.samples = 1 + uint32_t(random() % 7);
+    }
+    whole.add_pass(tiled(pixels, whole), pass);
+    parts[random() % parts.size()].add_pass(tiled(pixels, whole), pass);
+  }
+  std::shuffle(parts.begin(), parts.end(), random);
+  for (size_t i = 1; i < parts.size(); ++i) parts[0].add(parts[i]);
+  for (size_t pixel = 0; pixel < whole.pixel_count(); ++pixel)
+    for (size_t number = 0; number < whole.numbers().count; ++number)
+      ASSERT_TRUE(parts[0].sum(pixel, number) == whole.sum(pixel, number))
+          << pixel << ' ' << number;
+}
+
+/// Errors from rounded numbers are those from exact ones up to the standard error of the rounding,
+/// which is at most a unit over the root of the passes: in the dark beside a lamp, too, and with
+/// little noise; and light that is always the same has none.
+TEST(Film, RoundingLeavesErrorsTheirDigits) {
+  constexpr int side = 16, count = 64;
+  std::mt19937 random(4);
+  std::normal_distribution<float> noise;
+  Film film(film_settings(side, side), {ComponentSet::all()});
+  const auto brightness = [](size_t i) { return i % 3 == 0 ? 1e3f : i % 3 == 1 ? 1.0f : 0.01f; };
+  const auto spread = [](size_t i) { return i % 4 == 0 ? 0 : i % 4 == 1 ? 0.3f : 0.003f; };
+  std::vector<std::array<RunningStatistics, 3>> channels(side * side);
+  std::vector<RunningStatistics> luminances(side * side);
+  std::vector<std::array<double, replicate_count>> replicates(side * side);
+  for (uint32_t pass = 0; pass < count; ++pass) {
+    std::vector<PassPixel> pixels(side * side);
+    for (size_t i = 0; i < pixels.size(); ++i) {
+      Spectrum& radiance = pixels[i].radiance[size_t(Component::direct)];
+      for (int lane = 0; lane < 3; ++lane)
+        radiance.set(lane, brightness(i) * (1 + spread(i) * noise(random)));
+      for (int lane = 0; lane < 3; ++lane) channels[i][size_t(lane)].add(double(radiance[lane]));
+      const auto luminance = double(photopic({radiance[0], radiance[1], radiance[2]}));
+      luminances[i].add(luminance);
+      replicates[i][pass % replicate_count] += luminance;
+    }
+    film.add_pass(tiled(pixels, film), pass);
+  }
+  std::vector<double> variances;
+  for (const auto& sums : replicates) {
+    RunningStatistics means;
+    for (const double sum : sums) means.add(sum * replicate_count / count);
+    variances.push_back(sqr(means.standard_error()));
+  }
+  // The geometric mean of the luminances is 2.15.
+  const double rounding = std::ldexp(2, -luminance_bits) / std::sqrt(count);
+  const FilmErrors errors(film);
+  for (size_t i = 0; i < variances.size(); ++i) {
+    const int x = int(i) % side, y = int(i) / side;
+    double around = 0, neighbours = 0;
+    for (int v = std::max(0, y - 2); v <= std::min(side - 1, y + 2); ++v)
+      for (int u = std::max(0, x - 2); u <= std::min(side - 1, x + 2); ++u)
+        around += variances[size_t(v * side + u)], ++neighbours;
+    const double pooled =
+        0.6 * variances[i] + 0.4 * std::min(10 * variances[i], around / neighbours);
+    ChannelSums sums;
+    for (size_t lane = 0; lane < 3; ++lane) {
+      sums.totals[lane] = film.total(i, int(lane));
+      sums.squares[lane] = film.total_squares(i, int(lane));
+    }
+    sums.luminance_squares = film.luminance_squares(i);
+    const Vec3f error = errors.of_pixel(i, sums);
+    for (int lane = 0; lane < 3; ++lane) {
+      const double exact = spread(i) == 0 ? 0
+                                          : channels[i][size_t(lane)].standard_error() *
+                                                std::sqrt(pooled) / luminances[i].standard_error();
+      EXPECT_TRUE(spread(i) > 0 || error[lane] == 0) << i;
+      EXPECT_NEAR(double(error[lane]), exact, 1e-4 * exact + rounding) << i << ' ' << lane;
+    }
+  }
 }
 
 /// Without layers the picture and what is told of its error keep their bits.

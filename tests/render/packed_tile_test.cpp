@@ -106,6 +106,20 @@ const std::vector<Kind>& kinds() {
       {"noisy", [](auto& random, size_t, size_t) { return power(random, -6, 3); }},
       {"one in a hundred is bright",
        [](auto& random, size_t, size_t) { return random() % 100 == 0 ? 1e5f : 0.3f; }},
+      {"one in six is faint",
+       [](auto& random, size_t place, size_t) {
+         return place % 6 == 0 ? power(random, -7, -6) : power(random, -0.3f, 0.3f);
+       }},
+      {"one in six is bright, one in five faint",
+       [](auto& random, size_t place, size_t) {
+         const float value = power(random, -0.3f, 0.3f);
+         return place % 6 == 0 ? -1e6f * value : place % 5 == 0 ? 1e-6f * value : value;
+       }},
+      {"one in six is faint, one in five giant",
+       [](auto& random, size_t place, size_t) {
+         const float value = power(random, -0.3f, 0.3f);
+         return place % 5 == 0 ? 1e15f * value : place % 6 == 0 ? 1e-8f * value : value;
+       }},
       {"one pixel alone", [](auto&, size_t place, size_t) { return place == 77 ? 0.3f : 0; }},
       {"of both signs",
        [](auto& random, size_t, size_t) {
@@ -206,6 +220,9 @@ TEST(PackedTile, TakesWhatTheNumbersNeed) {
   EXPECT_LT(bytes_of("tame", 1024), 5.5);
   EXPECT_LT(bytes_of("one in a hundred is bright", 8), 6.5);
   EXPECT_LT(bytes_of("noisy", 64), 8);
+  // Bits that few need are kept for these alone: else a word had 50, and 70.
+  EXPECT_LT(bytes_of("one in six is faint", 16), 5.6);
+  EXPECT_LT(bytes_of("one in six is bright, one in five faint", 16), 6.8);
   // Nothing takes more than this.
   EXPECT_LT(bytes_of("all floats", 64), 52);
 }

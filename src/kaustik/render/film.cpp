@@ -7,6 +7,7 @@
 #include "kaustik/image/photometry.h"
 #include "kaustik/render/film_errors.h"
 #include "kaustik/render/film_memory.h"
+#include "kaustik/render/rounded_line.h"
 
 namespace kaustik {
 namespace {
@@ -58,14 +59,16 @@ class Film::Addition {
     for (size_t i = 0; i < tile_pixels; ++i)
       luminances[i] =
           photopic(Vec3f(float(totals_[0][i]), float(totals_[1][i]), float(totals_[2][i])));
+    rounded_luminances_ = luminances;
+    round_line(rounded_luminances_, luminance_bits);
     packer.begin(film_.sums_[tile]);
     if (film_.layers_.in_images)
-      add_layers(tile, packer, luminances);
+      add_layers(tile, packer);
     else
       for (const auto& sums : exact_totals_) packer.add(sums);
     for (size_t r = 0; r < replicate_count; ++r) {
       if (r == replicate_)
-        packer.add(luminances);
+        packer.add(rounded_luminances_);
       else
         packer.keep();
     }
@@ -92,24 +95,26 @@ class Film::Addition {
     }
   }
 
-  void add_layers(size_t tile, TilePacker& packer, const PassTiles::Line& luminances) {
+  void add_layers(size_t tile, TilePacker& packer) {
     size_t line = PassTiles::radiance;
     for (; line < PassTiles::first_hit; ++line) add_line(tile, line, packer);
     for (const Totals& totals : totals_) add_squares(totals, packer);
-    for (; line < PassTiles::bias; ++line) add_line(tile, line, packer);
+    for (; line < PassTiles::squares; ++line) add_line(tile, line, packer);
+    for (; line < PassTiles::bias; ++line) add_rounded(tile, line, sample_bits, packer);
     std::array<uint32_t, tile_pixels> samples;
     pass_.read_samples(tile, samples);
     for (size_t i = 0; i < tile_pixels; ++i)
       products_[i] = 1 / double(samples[i] > 0 ? samples[i] : samples_);
+    round_line(products_, sample_bits);
     packer.add(products_);
-    add_squares(luminances, packer);
+    add_squares(rounded_luminances_, packer);
   }
 
   void add_bias(size_t tile, TilePacker& packer) {
     for (size_t half = 0; half < bias_halves; ++half)
       for (size_t lane = 0; lane < FilmNumbers::lanes; ++lane) {
         if (half == replicate_ % bias_halves)
-          add_line(tile, PassTiles::bias + lane, packer);
+          add_rounded(tile, PassTiles::bias + lane, bias_bits, packer);
         else
           packer.keep();
       }
@@ -122,9 +127,18 @@ class Film::Addition {
       packer.keep();
   }
 
+  void add_rounded(size_t tile, size_t line, int bits, TilePacker& packer) {
+    const auto* values = pass_.read(tile, line, uniform_);
+    if (!values) return packer.keep();
+    rounded_ = *values;
+    round_line(rounded_, bits);
+    packer.add(rounded_);
+  }
+
   template <typename Values>
   void add_squares(const Values& values, TilePacker& packer) {
     for (size_t i = 0; i < tile_pixels; ++i) products_[i] = double(values[i]) * double(values[i]);
+    round_line(products_, square_bits);
     packer.add(products_);
   }
 
@@ -132,7 +146,7 @@ class Film::Addition {
   const PassTiles& pass_;
   size_t replicate_;
   uint32_t samples_;
-  PassTiles::Line uniform_;
+  PassTiles::Line uniform_, rounded_, rounded_luminances_;
   std::array<Totals, FilmNumbers::lanes> totals_;
   std::array<std::array<Fixed, tile_pixels>, FilmNumbers::lanes> exact_totals_;
   Totals products_;

@@ -51,7 +51,8 @@ struct FilmNumbers {
 
 /// The picture as the sum of its finished passes and of their squares, in exact arithmetic: the
 /// same bits in whatever order the passes come, and whether they come one by one or as another
-/// film's sums.
+/// film's sums. What only errors are computed from is rounded in each pass before it is summed:
+/// round_line().
 class Film {
  public:
   /// Throws Error(input) when the picture does not fit into memory, with what its passes take:

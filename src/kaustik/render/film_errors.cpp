@@ -213,8 +213,15 @@ Vec3f FilmErrors::of_pixel(size_t pixel, const ChannelSums& sums) const {
       variance[int(lane)] = float(variance_over_passes(sums.totals[lane], sums.squares[lane]));
     const double luminance_over_passes =
         variance_over_passes(luminance_sum(pixel), sums.luminance_squares);
-    if (is_known() && luminance_over_passes > 0)
-      variance *= float(pooled_variance(pixel) / luminance_over_passes);
+    if (is_known()) {
+      const double pooled = pooled_variance(pixel);
+      // Squares that are rounded may not tell noise that is next to nothing: then all channels have
+      // the luminance's.
+      if (luminance_over_passes > 0)
+        variance *= float(pooled / luminance_over_passes);
+      else
+        variance = Vec3f(float(pooled), float(pooled), float(pooled));
+    }
   }
   Vec3f error;
   for (int lane = 0; lane < 3; ++lane)

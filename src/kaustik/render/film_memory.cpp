@@ -3,22 +3,48 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "kaustik/base/memory.h"
+#include "kaustik/render/rounded_line.h"
 
 namespace kaustik {
 namespace {
 
-// Bytes of one number of a pixel, as they were measured in the scene that ships and takes most,
-// after 64 passes (64 × 64 pixels, memory_tool: larger pictures take less): sums of floats, of
-// their squares, and of the luminances of a sixteenth of the passes. Of the six components five are
-// there.
-constexpr double of_sum = 5.5, of_square = 10.5, of_replicate = 4.75;
-constexpr double components_there = 5;
+// A word of a sum has the significant bits of what is summed, those that sums of so many passes
+// grow by, and those by which the numbers of a tile differ in size. That much and no more they may
+// spread on average over a tile's pixels for the film to keep to these figures: bits beyond, which
+// few have, are kept apart.
+constexpr double bits_of_passes = 10;  ///< 1024
+constexpr double bits_of_replicate_passes = bits_of_passes - 4, bits_of_half = bits_of_passes - 1;
+static_assert(replicate_count == 16 && bias_halves == 2);
+constexpr double float_bits = std::numeric_limits<float>::digits;
+constexpr double spread_of_light = 24;  ///< of components of the light, exact
+constexpr double spread_of_samples = 16, spread_of_surfaces = 8;
+/// Of what is rounded to a common power of two, only what is larger than most.
+constexpr double spread_of_rounded = 6;
+/// The sign, what rounding may carry, and flags of what is kept apart.
+constexpr double bits_beside = 3;
+
+constexpr double bytes_of(double significant, double spread, double growth) {
+  return (significant + spread + growth + bits_beside) / 8;
+}
+constexpr double of_light = bytes_of(float_bits, spread_of_light, bits_of_passes);
+constexpr double of_surface = bytes_of(float_bits, spread_of_surfaces, bits_of_passes);
+constexpr double of_square = bytes_of(square_bits + 1, 2 * spread_of_rounded, bits_of_passes);
+constexpr double of_sample_square = bytes_of(sample_bits + 1, spread_of_samples, bits_of_passes);
+constexpr double of_inverse_samples = bytes_of(sample_bits + 1, spread_of_rounded, bits_of_passes);
+constexpr double of_replicate =
+    bytes_of(luminance_bits + 1, spread_of_rounded, bits_of_replicate_passes);
+constexpr double of_bias = bytes_of(bias_bits + 1, spread_of_rounded, bits_of_half);
+
 /// What the pixels of a tile share: headers, pointers and what the allocator adds.
 constexpr double of_tile = 2;
-/// Exact sums of a lane of splats, and how many components they come to.
-constexpr double of_splat_lane = 12, components_of_splats = 4;
+/// Exact sums of a lane of splats. What lamps send to the camera itself few integrators splat, and
+/// these take no camera samples, so that other numbers are missing.
+constexpr double of_splat_lane = 12, unsplatted_components = 1;
+/// The luminance of a pixel while a pass is added to the film.
+constexpr double of_luminance = sizeof(float);
 /// Of errors: luminances, their variances and those of the pixels around; with bias, its sums and
 /// their squares.
 constexpr double of_errors = 4 * sizeof(double), of_bias_errors = 76;
@@ -33,32 +59,30 @@ double count_of(ComponentSet components) {
 
 }  // namespace
 
-double FilmMemory::peak() const { return film + std::max({pass + splats, errors + image}); }
+double FilmMemory::peak() const { return std::max(rendering(), film + errors + image); }
 
 FilmMemory expected_film_memory(const FilmLayers& layers, bool splats) {
-  const double components = std::min(components_there, count_of(layers.components));
-  const double bias = layers.bias ? bias_halves * lanes_of_sum : 0;
+  const double lanes_of_light = lanes_of_sum * count_of(layers.components);
+  const double lanes_of_bias = layers.bias ? lanes_of_sum : 0;
   FilmMemory memory;
-  memory.film = of_tile + of_replicate * replicate_count + of_sum * bias;
+  memory.film = of_tile + of_replicate * replicate_count + of_bias * bias_halves * lanes_of_bias;
   double channels = lanes_of_sum;
   if (layers.in_images) {
-    memory.film +=
-        of_sum * (lanes_of_sum * components + FilmNumbers::first_hit_lanes + noise_kinds + 1) +
-        of_square * (lanes_of_sum + 1);
-    channels += lanes_of_sum * count_of(layers.components) + FilmNumbers::first_hit_lanes +
-                lanes_of_sum + (layers.bias ? lanes_of_sum : 0) + noise_kinds;
+    memory.film += of_light * lanes_of_light + of_surface * FilmNumbers::first_hit_lanes +
+                   of_sample_square * noise_kinds + of_inverse_samples +
+                   of_square * (lanes_of_sum + 1);
+    channels +=
+        lanes_of_light + FilmNumbers::first_hit_lanes + lanes_of_sum + lanes_of_bias + noise_kinds;
   } else {
-    memory.film += of_sum * lanes_of_sum;
+    memory.film += of_light * lanes_of_sum;
   }
-  const double numbers = lanes_of_sum * components + FilmNumbers::first_hit_lanes + noise_kinds +
-                         (layers.bias ? lanes_of_sum : 0);
-  memory.pass = of_tile + sizeof(float) * numbers;
-  // Tiles that are finished hold no splats any more, others no pass yet.
+  const double numbers =
+      lanes_of_light + FilmNumbers::first_hit_lanes + noise_kinds + lanes_of_bias + 1;
+  memory.pass = of_tile + sizeof(float) * numbers + of_luminance;
   if (splats)
     memory.splats =
-        std::max(0.0, of_splat_lane * lanes_of_sum *
-                              std::min(components_of_splats, count_of(layers.components)) -
-                          memory.pass);
+        of_tile + of_splat_lane * lanes_of_sum *
+                      std::max(1.0, count_of(layers.components) - unsplatted_components);
   memory.errors = of_errors + (layers.bias ? of_bias_errors : 0);
   memory.image = sizeof(float) * channels;
   return memory;

@@ -6,8 +6,8 @@ namespace kaustik {
 /// Bytes per pixel of what a render holds beside the scene and what the integrator keeps.
 struct FilmMemory {
   double film = 0;    ///< the sums
-  double pass = 0;    ///< the pass that is being rendered
-  double splats = 0;  ///< of its light paths, beyond what the pass takes once they are in it
+  double pass = 0;    ///< the pass that is being rendered, and what adding it takes
+  double splats = 0;  ///< of its light paths; of all tiles beside the pass where that may be cut
   double errors = 0;  ///< while they are computed: no pass is held then
   double image = 0;   ///< that is written, as floats; no pass is held then
   /// Held at the same time while passes are rendered.
@@ -16,8 +16,10 @@ struct FilmMemory {
   double peak() const;
 };
 
-/// What pictures take as a rule. The film packs its sums: smooth pictures and few passes take less,
-/// and sums of 256 times the passes a byte more for each number.
+/// What pictures take at most, by the bits that each number needs: for 1024 passes, and as far as
+/// the numbers of a tile do not spread wider than film_memory.cpp foresees. Smooth pictures, few
+/// passes and components that are not there take less; 256 times the passes take a byte more for
+/// each number.
 FilmMemory expected_film_memory(const FilmLayers& layers, bool splats);
 
 /// Throws Error(input), at the film's place, where such a picture does not fit into this machine's

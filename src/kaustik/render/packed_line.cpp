@@ -37,20 +37,25 @@ uint8_t* write_set_aside(size_t place, const WideSum& sum, uint8_t* at) {
 void read_line(const LineHeader& header, const uint8_t* content, size_t first, size_t count,
                Fixed* sums, size_t stride) {
   const bool is_uniform = header.counts == uniform_line;
-  const int width = header.width;
-  for (size_t i = 0; i < count; ++i) {
-    Fixed& sum = sums[i * stride];
-    if (is_uniform)
-      sum = load<Fixed>(content);
-    else if (width == 0)
-      sum = 0;
-    else if (width > most_narrow)
-      sum = word_at<Fixed>(content, width, first + i) << header.shift;
-    else
-      sum = Fixed(word_at<int64_t>(content, width, first + i)) << header.shift;
+  const int width = header.width();
+  if (header.is_split()) {
+    SplitReader words(content, width, first);
+    for (size_t i = 0; i < count; ++i) sums[i * stride] = words.next() << header.shift;
+  } else {
+    for (size_t i = 0; i < count; ++i) {
+      Fixed& sum = sums[i * stride];
+      if (is_uniform)
+        sum = load<Fixed>(content);
+      else if (width == 0)
+        sum = 0;
+      else if (width > most_narrow)
+        sum = word_at<Fixed>(content, width, first + i) << header.shift;
+      else
+        sum = Fixed(word_at<int64_t>(content, width, first + i)) << header.shift;
+    }
   }
   if (is_uniform) return;
-  content += words_per_line / 8 * header.width;
+  content += word_bytes(header, content);
   for_set_aside(content, header.entries(), [&](size_t place, WideSum sum) {
     if (place < first || place >= first + count) return;
     Fixed& of_pixel = sums[(place - first) * stride];

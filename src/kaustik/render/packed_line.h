@@ -2,7 +2,7 @@
 // The sums of one number of all pixels of a tile as they are packed: a header, words, and what is
 // set aside.
 
-#include "kaustik/render/packed_words.h"
+#include "kaustik/render/split_words.h"
 
 namespace kaustik {
 
@@ -23,20 +23,30 @@ inline constexpr int set_aside_bits = 8 * int(entry_bytes);
 inline constexpr uint16_t has_more = 0x8000;
 
 struct LineHeader {
-  uint8_t width = 0, shift = 0;
+  uint8_t packed_width = 0;  ///< bits of a word, and `split_line` if words are split
+  uint8_t shift = 0;
   /// Entries of what is set aside (10 bits), numbers that were when the window was chosen (6 bits,
   /// at most 63); or `uniform_line`.
   uint16_t counts = 0;
   size_t entries() const { return counts & 0x3ffu; }
+  bool is_split() const;
+  int width() const;
 };
+inline constexpr uint8_t split_line = 0x80;
+inline bool LineHeader::is_split() const { return (packed_width & split_line) != 0; }
+inline int LineHeader::width() const { return packed_width & ~split_line; }
 inline constexpr size_t line_header_bytes = sizeof(LineHeader);
 inline constexpr uint16_t uniform_line = 0xffff;
 inline constexpr size_t most_counted = 63;
 
 /// What follows a header, which may be that of a line that is the same all over: its sum alone.
-inline size_t content_bytes(const LineHeader& header) {
+inline size_t word_bytes(const LineHeader& header, const uint8_t* content) {
+  if (header.is_split()) return load<WordSplit>(content).bytes;
+  return words_per_line / 8 * size_t(header.width());
+}
+inline size_t content_bytes(const LineHeader& header, const uint8_t* content) {
   if (header.counts == uniform_line) return sizeof(Fixed);
-  return words_per_line / 8 * header.width + header.entries() * entry_bytes;
+  return word_bytes(header, content) + header.entries() * entry_bytes;
 }
 
 /// Calls take(place, sum) for all that is set aside.

@@ -6,10 +6,10 @@
 namespace kaustik {
 
 const uint8_t* PackedTile::content_of(size_t line, size_t lines) const {
-  size_t at = line_header_bytes * lines;
+  const uint8_t* at = content_.data() + line_header_bytes * lines;
   for (size_t i = 0; i < line; ++i)
-    at += content_bytes(load<LineHeader>(content_.data() + line_header_bytes * i));
-  return content_.data() + at;
+    at += content_bytes(load<LineHeader>(content_.data() + line_header_bytes * i), at);
+  return at;
 }
 
 void PackedTile::read(size_t line, size_t lines,
@@ -28,7 +28,7 @@ void PackedTile::read_pixels(size_t lines, size_t first, size_t count, Fixed* su
   for (size_t line = 0; line < lines; ++line) {
     const auto header = load<LineHeader>(content_.data() + line_header_bytes * line);
     read_line(header, content, first, count, sums + line, lines);
-    content += content_bytes(header);
+    content += content_bytes(header, content);
   }
 }
 
@@ -60,9 +60,10 @@ void TilePacker::keep() {
   } else {
     const auto header = load<LineHeader>(tile_->content_.data() + line_header_bytes * line_);
     store(header_at, header);
-    std::memcpy(written_, read_, content_bytes(header));
-    read_ += content_bytes(header);
-    written_ += content_bytes(header);
+    const size_t bytes = content_bytes(header, read_);
+    std::memcpy(written_, read_, bytes);
+    read_ += bytes;
+    written_ += bytes;
   }
   ++line_;
 }

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace kaustik {
 namespace {
 
-/// Power and width of words.
+/// Power and width of words, and how many of their bits at either end only few have.
 struct Window {
-  int shift = 0, top = 0;
+  int shift = 0, top = 0, low = 0, high = 0;
 };
+/// A split must spare a line so many bits: it takes time.
+constexpr int price_of_split = 2 * int(words_per_line);
+constexpr int bits_of_flags = int(words_per_line);
 
 /// Numbers by their lowest and by their highest bit.
 struct BitCounts {
@@ -36,25 +40,58 @@ struct BitCounts {
   std::array<int, most + 1> lowest{}, width{};
 };
 
-/// What takes least if those that do not fit are set aside. Both ends are chosen for themselves.
+/// One end of a window: which bits all have from there on, and how many beyond only few.
+struct WindowEnd {
+  int core = 0, few = 0;
+};
+
+/// What takes least if so many numbers end at each bit, counted away from the core: those that end
+/// beyond the few are set aside, and each bit that all have takes one of each number.
+template <typename CountAt>
+WindowEnd best_end(int bits, const CountAt& count_at) {
+  WindowEnd best{bits, 0};
+  int least = bits * int(words_per_line), outside = 0;
+  for (int end = bits; end >= 0; --end) {
+    // `end`: bits that there is room for at all.
+    const int set_aside = set_aside_bits * outside;
+    if (set_aside >= least) break;
+    if (const int cost = set_aside + end * int(words_per_line); cost < least)
+      least = cost, best = {end, 0};
+    int few = 0;
+    for (int core = end - 1; core >= 0 && end - core <= most_narrow; --core) {
+      few += count_at(core + 1);
+      const int cost = set_aside + core * int(words_per_line) + few * (end - core) + bits_of_flags +
+                       price_of_split;
+      if (cost < least) least = cost, best = {core, end - core};
+    }
+    outside += count_at(end);
+  }
+  return best;
+}
+
+/// What takes least. Both ends are chosen for themselves.
 Window best_window(const BitCounts& counts) {
-  Window best;
-  int outside = 0, least = 0;
-  for (int shift = 1; shift < top_of_words; ++shift) {
-    outside += counts.lowest[size_t(shift - 1)];
-    const int cost = set_aside_bits * outside - int(words_per_line) * shift;
-    if (cost < least) least = cost, best.shift = shift;
-  }
-  outside = 0;
-  least = int(words_per_line) * top_of_words;
-  best.top = top_of_words;
-  for (int top = top_of_words - 1; top >= 0; --top) {
-    outside += counts.width[size_t(top + 1)];
-    const int cost = set_aside_bits * outside + int(words_per_line) * top;
-    if (cost < least) least = cost, best.top = top;
-  }
+  int lowest = 0, highest = 0;
+  while (lowest < top_of_words && counts.lowest[size_t(lowest)] == 0) ++lowest;
+  for (int width = 1; width <= BitCounts::most; ++width)
+    if (counts.width[size_t(width)] > 0) highest = std::min(width, top_of_words);
+  const int out_of_words =
+      std::accumulate(counts.width.begin() + top_of_words + 1, counts.width.end(), 0);
+  if (lowest >= highest) return {};
+  const int bits = highest - lowest;
+  // Of the bits from the highest down, and from the lowest up.
+  const WindowEnd below =
+      best_end(bits, [&](int end) { return end == 0 ? 0 : counts.lowest[size_t(highest - end)]; });
+  const WindowEnd above = best_end(bits, [&](int end) {
+    return counts.width[size_t(lowest + end)] +
+           (end == bits && highest == top_of_words ? out_of_words : 0);
+  });
+  Window best{highest - below.core - below.few, lowest + above.core + above.few, below.few,
+              above.few};
+  if (best.low + best.high >= best.top - best.shift) best.low = best.high = 0;
   best.shift = std::max(best.shift, best.top - most_wide);
   if (best.shift >= best.top) return {};
+  if (best.low + best.high >= best.top - best.shift) best.low = best.high = 0;
   return best;
 }
 
@@ -64,6 +101,7 @@ void SumLine::clear() {
   shift_ = width_ = 0;
   is_wide_ = has_window_ = false;
   is_zero_ = true;
+  split_ = {};
   words_.fill(0);
   for (const WideWord& wide : set_aside_) set_aside_at_[wide.place] = 0;
   set_aside_.clear();
@@ -180,18 +218,50 @@ void SumLine::choose_window() {
       words_[i] = int64_t(word);
   }
   set_aside_when_chosen_ = set_aside_.size();
+  split_ = {};
+  if (width_ == 0) return;
+  split_.low = uint8_t(window.low);
+  split_.high = uint8_t(window.high);
+  const auto [below, above] = count_split();
+  split_.few_low = uint8_t(std::min<size_t>(below, 255));
+  split_.few_high = uint8_t(std::min<size_t>(above, 255));
+}
+
+std::pair<size_t, size_t> SumLine::count_split() const {
+  const auto count_in = [this](const auto& words) {
+    const int low = split_.low, core = width_ - low - split_.high;
+    size_t below = 0, above = 0;
+    for (const auto word : words) {
+      below += is_below(word, low) ? 1 : 0;
+      above += is_above(word, low, core) ? 1 : 0;
+    }
+    return std::pair(below, above);
+  };
+  return is_wide_ ? count_in(wide_words_) : count_in(words_);
+}
+
+bool SumLine::is_split_well() const {
+  if (!split_.is_split()) return true;
+  const auto [below, above] = count_split();
+  const auto is_well = [](size_t few, size_t when_chosen) {
+    return few <= when_chosen + when_chosen / 4 + 8;
+  };
+  return is_well(below, split_.few_low) && is_well(above, split_.few_high);
 }
 
 void SumLine::make_fit() {
   const int needed = width_needed();
   const size_t tolerated = set_aside_when_chosen_ + set_aside_when_chosen_ / 4 + 2;
   if (!has_window_ || needed > width_ + 1 || set_aside_.size() > tolerated) return choose_window();
-  if (needed <= width_) return;
-  // One bit more for all, or those set aside that need it.
-  const bool can_grow =
-      width_ + 1 + shift_ <= top_of_words && width_ != most_narrow && width_ != most_wide;
-  if (!can_grow || count_beyond(width_) == 1) return choose_window();
-  ++width_;
+  if (needed > width_) {
+    // One bit more for all, or those set aside that need it.
+    const bool can_grow = width_ + 1 + shift_ <= top_of_words && width_ != most_narrow &&
+                          width_ != most_wide && split_.high < most_narrow;
+    if (!can_grow || count_beyond(width_) == 1) return choose_window();
+    ++width_;
+    if (split_.high > 0) ++split_.high;
+  }
+  if (!is_split_well()) choose_window();
 }
 
 int SumLine::width_needed() const {
@@ -224,8 +294,8 @@ bool SumLine::is_uniform() const {
 const uint8_t* SumLine::unpack(const uint8_t* header_at, const uint8_t* content) {
   clear();
   const auto header = load<LineHeader>(header_at);
-  const uint8_t* end = content + content_bytes(header);
-  is_zero_ = header.counts == 0 && header.width == 0;
+  const uint8_t* end = content + content_bytes(header, content);
+  is_zero_ = header.counts == 0 && header.packed_width == 0;
   has_window_ = header.counts != uniform_line && !is_zero_;
   if (header.counts == uniform_line) {
     const auto value = load<Fixed>(content);
@@ -239,19 +309,35 @@ const uint8_t* SumLine::unpack(const uint8_t* header_at, const uint8_t* content)
     return end;
   }
   shift_ = header.shift;
-  width_ = header.width;
+  width_ = header.width();
   is_wide_ = width_ > most_narrow;
-  if (is_wide_)
+  if (header.is_split()) {
+    split_ = load<WordSplit>(content);
+    is_wide_ ? read_split_words(content, width_, wide_words_)
+             : read_split_words(content, width_, words_);
+  } else if (is_wide_) {
     read_words(content, width_, wide_words_);
-  else if (width_ > 0)
+  } else if (width_ > 0) {
     read_words(content, width_, words_);
-  content += words_per_line / 8 * size_t(width_);
+  }
+  content += word_bytes(header, content);
   set_aside_when_chosen_ = header.counts >> 10;
   for_set_aside(content, header.entries(), [&](size_t place, const WideSum& sum) {
     set_aside_.push_back({place, sum});
     set_aside_at_[place] = uint16_t(set_aside_.size());
   });
   return end;
+}
+
+uint8_t* SumLine::write_all(uint8_t* to) const {
+  if (split_.is_split())
+    return is_wide_ ? write_split_words(wide_words_, width_, split_, to)
+                    : write_split_words(words_, width_, split_, to);
+  if (is_wide_)
+    write_words(wide_words_, width_, to);
+  else if (width_ > 0)
+    write_words(words_, width_, to);
+  return to + words_per_line / 8 * size_t(width_);
 }
 
 uint8_t* SumLine::pack(uint8_t* header_at, uint8_t* content) {
@@ -261,22 +347,17 @@ uint8_t* SumLine::pack(uint8_t* header_at, uint8_t* content) {
       const LineHeader header{0, 0, value != 0 ? uniform_line : uint16_t(0)};
       store(header_at, header);
       store(content, value);
-      return content + content_bytes(header);
+      return content + content_bytes(header, content);
     }
   }
   make_fit();
-  uint8_t* at = content;
-  if (is_wide_)
-    write_words(wide_words_, width_, at);
-  else if (width_ > 0)
-    write_words(words_, width_, at);
-  at += words_per_line / 8 * size_t(width_);
+  uint8_t* at = write_all(content);
   uint8_t* const entries = at;
   for (const WideWord& wide : set_aside_) at = write_set_aside(wide.place, wide.sum, at);
   const auto count_of_entries = size_t(at - entries) / entry_bytes;
   const size_t chosen = std::min(set_aside_when_chosen_, most_counted);
-  store(header_at,
-        LineHeader{uint8_t(width_), uint8_t(shift_), uint16_t(count_of_entries | chosen << 10)});
+  store(header_at, LineHeader{uint8_t(width_ | (split_.is_split() ? split_line : 0)),
+                              uint8_t(shift_), uint16_t(count_of_entries | chosen << 10)});
   return at;
 }
 

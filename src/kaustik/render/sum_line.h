@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "kaustik/render/packed_line.h"
@@ -21,7 +22,7 @@ class SumLine {
   void add(const SumLine& other);
 
   /// Bytes that packing takes at most.
-  static constexpr size_t largest_packed = 16 * count + 36 * count + 64;
+  static constexpr size_t largest_packed = 16 * count + 36 * count + 256;
   /// Reads what pack() has written; returns its end.
   const uint8_t* unpack(const uint8_t* header, const uint8_t* content);
   /// Writes in as few bytes as can be without much ado: 4 of header, and content. Returns its end.
@@ -45,12 +46,18 @@ class SumLine {
   void choose_window();
   int width_needed() const;
   size_t count_beyond(int width) const;
+  /// Words with bits below and above the core.
+  std::pair<size_t, size_t> count_split() const;
+  /// Whether as few words as when the split was chosen have bits beside the core.
+  bool is_split_well() const;
   bool is_uniform() const;
+  uint8_t* write_all(uint8_t* to) const;
 
   int shift_ = 0, width_ = 0;  ///< bits: a word is less than 2^(width − 1), either way
   bool is_wide_ = false;       ///< which of the two holds the words
   bool is_zero_ = true;        ///< nothing was added
   bool has_window_ = false;    ///< power and width were chosen
+  WordSplit split_;
   std::array<int64_t, count> words_{};
   std::array<Fixed, count> wide_words_;
   std::vector<WideWord> set_aside_;
