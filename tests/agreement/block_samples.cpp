@@ -53,6 +53,7 @@ Components render_blocks(const BlockRender& render) {
   override_property(description, "film.width=" + std::to_string(render.size));
   override_property(description, "film.height=" + std::to_string(render.size));
   override_property(description, "integrator.components=" + render.components);
+  if (!render.setting.empty()) override_property(description, render.setting);
   const auto scene = build_scene(description);
   if (render.radius_share > 0)
     override_property(
@@ -77,36 +78,42 @@ Components render_blocks(const BlockRender& render) {
 }
 
 void write_blocks(const Components& components, const std::string& path) {
-  std::vector<std::string> names;
-  size_t blocks = 0;
-  for (const auto& [component, replicates] : components)
-    for (int r = 0; r < replicate_total; ++r) {
-      names.push_back(channel_name(component, r));
-      blocks = replicates[size_t(r)].size();
-    }
+  const size_t blocks = components.begin()->second.at(0).size();
   const int columns = int(std::lround(std::sqrt(double(blocks))));
-  Image image(columns, columns, names);
-  for (const auto& [component, replicates] : components)
+  Image image(columns, columns, {});
+  for (const auto& [component, replicates] : components) {
+    const std::vector<double> means = mean_of_renders(replicates);
+    const int of_means = image.add_channel(component);
+    image.set_keeps_floats(of_means);
+    std::copy(means.begin(), means.end(), image.channel(of_means).begin());
     for (int r = 0; r < replicate_total; ++r) {
-      const auto channel = image.channel(image.find_channel(channel_name(component, r)));
-      std::copy(replicates[size_t(r)].begin(), replicates[size_t(r)].end(), channel.begin());
+      const auto shares = image.channel(image.add_channel(channel_name(component, r)));
+      for (size_t b = 0; b < blocks; ++b)
+        shares[b] = means[b] > 0 ? float(double(replicates[size_t(r)][b]) / means[b] - 1) : 0.0f;
     }
+  }
   write_image(image, path);
 }
 
 Components read_blocks(const std::string& path) {
   const Image image = read_image(path);
+  const auto channel = [&](const std::string& name) {
+    const int index = image.find_channel(name);
+    if (index < 0)
+      throw Error(ErrorKind::input, path + " has no channel " + name,
+                  "make it anew: make_block_references");
+    return image.channel(index);
+  };
   Components components;
   for (const std::string& name : image.channel_names()) {
     const std::string component = name.substr(0, name.find('.'));
     if (components.contains(component)) continue;
+    const auto means = channel(component);
     for (int r = 0; r < replicate_total; ++r) {
-      const int index = image.find_channel(channel_name(component, r));
-      if (index < 0)
-        throw Error(ErrorKind::input, path + " has no channel " + channel_name(component, r),
-                    "make it anew: make_block_references");
-      const auto channel = image.channel(index);
-      components[component].emplace_back(channel.begin(), channel.end());
+      const auto shares = channel(channel_name(component, r));
+      std::vector<float>& row = components[component].emplace_back();
+      for (size_t b = 0; b < means.size(); ++b)
+        row.push_back(float(double(means[b]) * (1 + double(shares[b]))));
     }
   }
   return components;

@@ -25,6 +25,7 @@ struct BlockRender {
   int size = 256;     ///< pixels; a multiple of `block_pixels`
   std::string integrator;
   std::string components;            ///< "direct,caustic"
+  std::string setting;               ///< one property besides, "integrator.aim=none"; or ""
   uint32_t passes = 1, samples = 1;  ///< of each render; samples per pixel and pass
   uint64_t first_seed = 1;
   /// Radius of merging as a share of the scene's bounding sphere; 0: the method's own.
@@ -33,7 +34,9 @@ struct BlockRender {
 
 Components render_blocks(const BlockRender& render);
 
-/// An EXR with one pixel per block, and channels such as "caustic.07".
+/// An EXR with one pixel per block: the mean of the renders, such as "caustic", with 32 bits, and
+/// by what share of that each render differs, such as "caustic.07", with 16. So rounding takes less
+/// than a thousandth of the noise, however small that is.
 void write_blocks(const Components& components, const std::string& path);
 /// Throws Error if it is no such file.
 Components read_blocks(const std::string& path);

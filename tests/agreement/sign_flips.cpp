@@ -58,6 +58,52 @@ double share_of_signs(const std::array<Differences, R>& k) {
   return double(as_large) / double(patterns);
 }
 
+/// Of one block: the renders' differences and how they scatter about their mean.
+struct BlockDifferences {
+  Differences d{};
+  double mean = 0, variance = 0;
+};
+
+std::vector<BlockDifferences> all_differences(const Replicates& tested, const Replicates& reference,
+                                              double planted) {
+  std::vector<BlockDifferences> all(reference.at(0).size());
+  for (size_t b = 0; b < all.size(); ++b) {
+    all[b].d = differences(tested, reference, b, planted);
+    const RunningStatistics statistics = statistics_of(all[b].d);
+    all[b].mean = statistics.mean();
+    all[b].variance = statistics.variance();
+  }
+  return all;
+}
+
+/// The mean of relative variances over the blocks around each, in its own light. `all` may hold
+/// more than the picture's blocks: to those it is the mean over the picture.
+std::vector<double> variances_around(const std::vector<BlockDifferences>& all,
+                                     const std::vector<double>& light, size_t picture_blocks) {
+  const int columns = int(std::lround(std::sqrt(double(picture_blocks))));
+  std::vector<double> around(all.size());
+  for (int y = 0; y < columns; ++y)
+    for (int x = 0; x < columns; ++x) {
+      double sum = 0;
+      int count = 0;
+      for (int v = std::max(0, y - reach); v <= std::min(columns - 1, y + reach); ++v)
+        for (int u = std::max(0, x - reach); u <= std::min(columns - 1, x + reach); ++u) {
+          const auto b = size_t(v) * size_t(columns) + size_t(u);
+          if (!(light[b] > 0)) continue;
+          sum += all[b].variance / (light[b] * light[b]);
+          ++count;
+        }
+      const auto b = size_t(y) * size_t(columns) + size_t(x);
+      if (count > 0) around[b] = sum / count * light[b] * light[b];
+    }
+  RunningStatistics whole;
+  for (size_t b = 0; b < picture_blocks; ++b)
+    if (light[b] > 0) whole.add(all[b].variance / (light[b] * light[b]));
+  for (size_t b = picture_blocks; b < all.size(); ++b)
+    around[b] = whole.mean() * light[b] * light[b];
+  return around;
+}
+
 double sum_of(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value;
@@ -99,12 +145,14 @@ bool Verdict::rejects(double level) const {
 Verdict compare(const Replicates& all_tested, const Replicates& all_reference, double planted) {
   const auto [tested, reference] = with_dark_ones_pooled(all_tested, all_reference);
   Verdict verdict;
-  const size_t blocks = reference.at(0).size();
+  const std::vector<double> light = mean_of_renders(reference);
+  const std::vector<BlockDifferences> all = all_differences(tested, reference, planted);
+  const std::vector<double> around = variances_around(all, light, all_reference.at(0).size());
   std::array<Differences, R> k{};
   Differences whole{};
   size_t counted = 0;
-  for (size_t b = 0; b < blocks; ++b) {
-    const Differences d = differences(tested, reference, b, planted);
+  for (size_t b = 0; b < all.size(); ++b) {
+    const Differences& d = all[b].d;
     double squares = 0;
     for (size_t r = 0; r < R; ++r) {
       squares += d[r] * d[r];
@@ -112,10 +160,10 @@ Verdict compare(const Replicates& all_tested, const Replicates& all_reference, d
     }
     if (!(squares > 0)) continue;  // both black
     ++counted;
+    const double usual = around[b] > 0 ? double(R) * around[b] : squares;
     for (size_t i = 0; i < R; ++i)
-      for (size_t j = 0; j < R; ++j) k[i][j] += d[i] * d[j] / squares;
-    const RunningStatistics statistics = statistics_of(d);
-    const double t = statistics.mean() / statistics.standard_error();
+      for (size_t j = 0; j < R; ++j) k[i][j] += d[i] * d[j] / usual;
+    const double t = all[b].mean / std::sqrt(std::max(all[b].variance, around[b]) / double(R));
     if (std::fabs(t) > std::fabs(verdict.worst_t)) {
       verdict.worst_t = t;
       verdict.worst_block = int(b);
@@ -125,7 +173,7 @@ Verdict compare(const Replicates& all_tested, const Replicates& all_reference, d
   verdict.p_worst = sidak_p(student_p(verdict.worst_t), counted);
   verdict.p_blocks = share_of_signs(k);
   const RunningStatistics mean = statistics_of(whole);
-  const double reference_sum = sum_of(mean_of_renders(reference));
+  const double reference_sum = sum_of(light);
   verdict.p_mean = student_p(mean.mean() / mean.standard_error());
   verdict.mean_difference = mean.mean() / reference_sum;
   verdict.mean_difference_error = mean.standard_error() / reference_sum;

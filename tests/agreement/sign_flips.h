@@ -5,7 +5,11 @@
 // symmetrically about zero where both have the same distribution, and nearly so where both have the
 // same expectation: whatever the tails, and however blocks depend on one another, all 2^R ways of
 // choosing the signs of the R differences are equally likely. So the sum over blocks of squared
-// differences, each over its own sum of squares, is compared with what it is for all other signs.
+// sums of differences, each over the noise there, is compared with what it is for all other signs.
+//
+// Some paths are found by rare chance, but then count much. Blocks where all renders have missed
+// them know nothing of that noise. So noise is the mean over the blocks around, as a share of their
+// light.
 
 #include "tests/agreement/block_samples.h"
 
@@ -13,8 +17,12 @@ namespace kaustik::agreement {
 
 /// Blocks with less light than this part of the picture's mean count together as one. What there is
 /// of light in them may be due to so few samples, at the rim of a shadow or in the tail of a
-/// pixel's filter, that all renders of a set have missed it and know of no noise.
+/// pixel's filter, that all renders of a set have missed it and know of no noise. Together they are
+/// taken to be as noisy as a block is on the mean.
 inline constexpr double dark_share = 0.05;
+
+/// Blocks to every side that tell of a block's noise.
+inline constexpr int reach = 3;
 
 /// Chances of such differences, or larger ones, where there is none in truth.
 struct Verdict {

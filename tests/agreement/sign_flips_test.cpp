@@ -49,6 +49,35 @@ TEST(SignFlips, RejectTheRightShareOfEqualExpectations) {
   EXPECT_LE(worst, 22);
 }
 
+/// Mean 1, a fifth of it in events so rare that most blocks are without in all renders.
+Replicates rare_events(uint32_t seed) {
+  std::mt19937 random(seed);
+  constexpr double chance = 0.02;
+  std::bernoulli_distribution event(chance);
+  std::normal_distribution<double> normal;
+  Replicates all;
+  for (int r = 0; r < replicate_total; ++r) {
+    std::vector<float>& row = all.emplace_back();
+    for (size_t b = 0; b < blocks; ++b)
+      row.push_back(float(0.8 + 0.01 * normal(random) + (event(random) ? 0.2 / chance : 0)));
+  }
+  return all;
+}
+
+TEST(SignFlips, RareEventsAreNoBias) {
+  Replicates exact;
+  for (int r = 0; r < replicate_total; ++r) exact.emplace_back(blocks, 1.0f);
+  constexpr int trials = 100;
+  int rejected = 0, found = 0;
+  for (uint32_t trial = 0; trial < trials; ++trial) {
+    const Replicates tested = rare_events(trial);
+    rejected += compare(tested, exact).rejects(0.05);
+    found += compare(tested, exact, 0.2).rejects(0.05);
+  }
+  EXPECT_LE(rejected, 14);  // 5 ± 2.2
+  EXPECT_EQ(found, trials);
+}
+
 TEST(SignFlips, FindABiasOfAll) {
   const Replicates a = noisy(1), b = noisy(2);
   EXPECT_FALSE(compare(a, b).rejects(1e-4));
@@ -63,7 +92,7 @@ TEST(SignFlips, FindABiasOfOneBlockAndOneWithoutAMean) {
   Replicates one = noisy(3), striped = one;
   for (auto& row : one) row[77] += 6;
   for (auto& row : striped)
-    for (size_t b = 0; b < blocks; ++b) row[b] += b % 2 == 0 ? 0.1f : -0.1f;
+    for (size_t b = 0; b < blocks; ++b) row[b] += b % 2 == 0 ? 0.15f : -0.15f;
   const Verdict of_one = compare(one, noisy(4)), of_stripes = compare(striped, noisy(4));
   EXPECT_EQ(of_one.worst_block, 77);
   EXPECT_LT(of_one.p_worst, 1e-5);
