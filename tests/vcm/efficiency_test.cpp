@@ -3,6 +3,8 @@
 
 #include "kaustik/vcm/plan/efficiency.h"
 
+#include <algorithm>
+
 #include "kaustik/base/parallel.h"
 #include "kaustik/vcm/light_pass.h"
 #include "kaustik/vcm/plan/cost_model.h"
