@@ -16,11 +16,11 @@ namespace {
 using namespace test;
 
 /// Chance that one quick or one long test fails where all is right.
-constexpr double level = 1e-3;
+constexpr double means_level = 1e-3;
 constexpr float widths[] = {1e-4f, 1e-3f, 3e-3f, 0.01f, 0.03f, 0.1f, 0.3f, 1.0f};  ///< m
 constexpr int width_total = int(std::size(widths));
 
-struct Named {
+struct SeededTexture {
   std::string name;
   std::vector<std::shared_ptr<const Texture>> seeds;
 };
@@ -38,8 +38,8 @@ std::string picture_in(const TemporaryFolder& folder) {
 }
 
 /// Every type as it is by itself, and those whose parameters make other patterns.
-std::vector<Named> textures(const TemporaryFolder& folder, int64_t seeds) {
-  std::vector<Named> all;
+std::vector<SeededTexture> textures(const TemporaryFolder& folder, int64_t seeds) {
+  std::vector<SeededTexture> all;
   const auto add = [&](const std::string& name, const std::string& type,
                        std::vector<Property> properties) {
     all.push_back({name, {}});
@@ -86,7 +86,7 @@ struct Found {
 };
 
 /// `planted`: by so much footprints brighten.
-Found look_up(const Named& texture, int places, double planted) {
+Found look_up(const SeededTexture& texture, int places, double planted) {
   Found found;
   std::mt19937 random(5);
   for (int i = 0; i < places; ++i) {
@@ -107,10 +107,10 @@ Found look_up(const Named& texture, int places, double planted) {
 /// footprint, or to tell another.
 int offenders(int places, int64_t seeds, double planted = 0, bool prints = false) {
   const TemporaryFolder folder;
-  const std::vector<Named> all = textures(folder, seeds);
-  const double of_one = sidak_level(level, int(all.size()) * (width_total + 1));
+  const std::vector<SeededTexture> all = textures(folder, seeds);
+  const double of_one = sidak_level(means_level, int(all.size()) * (width_total + 1));
   int total = 0;
-  for (const Named& texture : all) {
+  for (const SeededTexture& texture : all) {
     const Found found = look_up(texture, places, planted);
     const double mean = found.at_points.mean();
     bool offends = z_test_p_value(found.at_points, double(texture.seeds[0]->mean()[1])) < of_one;
