@@ -2,7 +2,8 @@
 """Measures what devices and constants of the methods are worth: pictures without a device, or with another constant.
 
 Pictures of the same samples and seeds are compared: the relative MSE to the stored reference, and CPU time. Their product is
-what counts: time for a given noise. So a machine that is not quiet disturbs little, and passes that time cuts off nothing.
+what counts: time for a given noise. Each is made by one thread, several at a time: threads that wait for one another would
+count, too. So a machine that is not quiet disturbs little, and passes that time cuts off nothing.
 
 devices: settings of DEVICES, with build/release/kaustik.
 constants: each constant of CONSTANTS becomes a variable that the environment sets, in a copy of the sources that is built in
@@ -12,6 +13,7 @@ What out/worth/devices.jsonl or constants.jsonl hold already of the same program
 """
 import argparse
 import collections
+import concurrent.futures
 import hashlib
 import json
 import math
@@ -20,6 +22,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import threading
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -64,6 +67,7 @@ CONSTANTS = [
     ("vcm/lessons/radius_learning.cpp", "least_share", HALF_DOUBLE, AUTO),
     ("vcm/lessons/radius_learning.cpp", "least_left", HALF_DOUBLE, AUTO),
     ("vcm/lessons/radius_learning.cpp", "most_vertices", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/radius_learning.cpp", "hopeless", HALF_DOUBLE, AUTO),
     ("vcm/lessons/sample_learning.cpp", "pairs_of_mean", HALF_DOUBLE, AUTO),
     ("vcm/lessons/sample_learning.cpp", "outliers", HALF_DOUBLE, AUTO),
     ("vcm/lessons/sample_learning.cpp", "worth_spreading", (0.96, 1.05), AUTO),
@@ -192,16 +196,20 @@ def files_of(scene):
 def render(program, scene, samples, integrator, settings, seed, environment):
     """Relative MSE to the reference, and CPU seconds."""
     file, reference = files_of(scene)
-    picture = FOLDER / "picture.exr"
+    picture = FOLDER / f"picture_{threading.get_ident()}.exr"
     options = [option for setting in settings for option in ("--set", f"integrator.{setting}")]
-    begin = os.times()
-    subprocess.run([program, "render", file, "-q", "--float", "--integrator", integrator, *options, "--spp", str(samples),
-                    "--seed", str(seed), "-o", picture], check=True, env=dict(os.environ, **environment),
-                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    end = os.times()
+    rendering = subprocess.Popen(
+        [program, "render", file, "-q", "--float", "--threads", "1", "--integrator", integrator, *options, "--spp", str(samples),
+         "--seed", str(seed), "-o", picture], env=dict(os.environ, **environment), stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL)
+    _, status, usage = os.wait4(rendering.pid, 0)
+    rendering.returncode = os.waitstatus_to_exitcode(status)
+    if rendering.returncode != 0:
+        raise subprocess.CalledProcessError(rendering.returncode, rendering.args)
     compared = subprocess.run([program, "compare", picture, reference], check=True, capture_output=True, text=True).stdout
+    picture.unlink()
     error = float(re.search(r"^relative_mse_trimmed\s+(\S+)", compared, re.M).group(1))
-    return error, end.children_user + end.children_system - begin.children_user - begin.children_system
+    return error, usage.ru_utime + usage.ru_stime
 
 
 class Measurements:
@@ -216,19 +224,26 @@ class Measurements:
                 if row.get("digest") == digest:
                     self.known[json.dumps(row["key"])] = (row["error"], row["seconds"])
 
-    def measure(self, program, keys):
+    def measure(self, program, keys, jobs):
         missing = [key for key in keys if json.dumps(key) not in self.known]
         begin = time.monotonic()
-        for done, key in enumerate(missing):
-            scene, samples, integrator, settings, seed, environment = key
-            error, seconds = render(program, *key)
-            self.known[json.dumps(key)] = (error, seconds)
-            with self.file.open("a") as out:
-                out.write(json.dumps({"key": key, "error": error, "seconds": seconds, "digest": self.digest}) + "\n")
-            left = (time.monotonic() - begin) / (done + 1) * (len(missing) - done - 1)
-            what = " ".join([scene, integrator, *settings, *(f"{name}={value}" for name, value in environment.items())])
-            print(f"# {done + 1} of {len(missing)}, {left / 60:.0f} min left: {what}, seed {seed}: {error:.4g}, {seconds:.1f} s",
-                  file=sys.stderr)
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            running = {pool.submit(render, program, *key): key for key in missing}
+            try:
+                for done, future in enumerate(concurrent.futures.as_completed(running), 1):
+                    left = (time.monotonic() - begin) / done * (len(missing) - done)
+                    self.add(running[future], *future.result(), f"{done} of {len(missing)}, {left / 60:.0f} min left")
+            except BaseException:
+                pool.shutdown(cancel_futures=True)
+                raise
+
+    def add(self, key, error, seconds, progress):
+        self.known[json.dumps(key)] = (error, seconds)
+        with self.file.open("a") as out:
+            out.write(json.dumps({"key": key, "error": error, "seconds": seconds, "digest": self.digest}) + "\n")
+        scene, _, integrator, settings, seed, environment = key
+        what = " ".join([scene, integrator, *settings, *(f"{name}={value}" for name, value in environment.items())])
+        print(f"# {progress}: {what}, seed {seed}: {error:.4g}, {seconds:.1f} s", file=sys.stderr)
 
     def ratio(self, others, owns):
         """Of errors, of times, of their product with the standard error of its logarithm: one key a seed on each side."""
@@ -284,7 +299,7 @@ DEVICES_TEXT = """# What each device of `auto` is worth
 `auto` learns, chooses and guides by itself. Here each of these is switched off alone, in pictures of the same samples and
 seeds. A cell has **the time for a given noise without the device over that with it**: the ratio of the errors times the ratio
 of the times. More than 1 speaks for the device. An error is the relative MSE to the stored reference without the worst 0.1 %
-of the pixels; a time is CPU time; ± is one standard error over the seeds. "Same": the pictures are the same bits. Errors hold
+of the pixels; a time is CPU time of one thread; ± is one standard error over the seeds. "Same": the pictures are the same bits. Errors hold
 the references' own noise, which draws ratios a little toward 1.
 
 A device is to be worth {wanted} in a scene that people could have, and no less than {tolerated} in any. It helps, or harms, in
@@ -299,7 +314,7 @@ def devices(arguments, seeds):
     measured = Measurements(FOLDER / "devices.jsonl", digest_of(program))
     wanted = [device for device in DEVICES + ADDITIONS if not arguments.only or device.split("=")[0] in arguments.only]
     measured.measure(program, [key for scene in SCENES for seed in seeds for device in ["", *wanted]
-                               for key in keys_of_device(scene, device, [seed])])
+                               for key in keys_of_device(scene, device, [seed])], arguments.jobs)
     rows, verdicts = {}, []
     for device in DEVICES + ADDITIONS:
         found = {scene: measured.ratio(keys_of_device(scene, device, seeds), keys_of_device(scene, "", seeds)) for scene in SCENES}
@@ -343,7 +358,7 @@ def constants(arguments, seeds):
     own = [key for where in (AUTO, CACHE) for scene in where[1] for key in keys_of_constant(where, scene, "", "", 0, seeds)]
     measured.measure(program, own + [
         key for file, name, factors, where in rows for factor in factors for scene in where[1]
-        for key in keys_of_constant(where, scene, file, name, values[file, name] * factor, seeds)])
+        for key in keys_of_constant(where, scene, file, name, values[file, name] * factor, seeds)], arguments.jobs)
     text = CONSTANTS_TEXT.format(seeds=", ".join(map(str, seeds)),
                                  samples=", ".join(f"{scene} {SCENES[scene]}" for scene in dict.fromkeys(AUTO[1] + CACHE[1])))
     for where in (AUTO, CACHE):
@@ -385,6 +400,7 @@ def main():
     parser.add_argument("what", choices=["devices", "constants", "check"])
     parser.add_argument("--seeds", type=seed_list, default="1,2,3", help="[%(default)s]")
     parser.add_argument("--only", nargs="+", default=[], metavar="NAME", help="measure these devices or constants alone")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="pictures that are made at a time [%(default)s]")
     parser.add_argument("--page", type=pathlib.Path, metavar="FILE.md", help="where to write the tables [standard output]")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/kaustik",
                         help="for devices and check [%(default)s]")
