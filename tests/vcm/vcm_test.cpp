@@ -89,7 +89,7 @@ TEST(Vcm, AnyLightLong) {
     double share;  ///< of the samples that the noisiest takes
     std::string light;
   } rows[] = {{"point", 0.9, point_light("0.3, -0.2, 1.2", 2)},
-              {"directional", 0.75, directional_light("0.2, 0.3, -1", 2)},
+              {"directional", 0.9, directional_light("0.2, 0.3, -1", 2)},
               {"constant", 0.8, constant_light(1)},
               {"two-sided lamp", 1.15,
                flat("rectangle", scale("0.3, 0.3, 1") + translate("0, 0.4, 0.9"),
