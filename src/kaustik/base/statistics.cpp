@@ -8,28 +8,14 @@
 #include <numeric>
 #include <vector>
 
+#include "kaustik/base/log_gamma.h"
+
 namespace kaustik {
 namespace {
 
 constexpr double tiny = 1e-300;
 constexpr double relative_precision = 1e-15;
 constexpr int most_terms = 100000;
-
-/// log Γ(x), x > 0, by Lanczos's approximation (g = 7, n = 9; Godfrey's coefficients). Own because
-/// std::lgamma writes the global signgam, which is a data race.
-double log_gamma(double x) {
-  constexpr double coefficients[] = {
-      0.99999999999980993,  676.5203681218851,     -1259.1392167224028,
-      771.32342877765313,   -176.61502916214059,   12.507343278686905,
-      -0.13857109526572012, 9.9843695780195716e-6, 1.5056327351493116e-7};
-  if (x < 0.5)
-    return std::log(std::numbers::pi / std::sin(std::numbers::pi * x)) - log_gamma(1 - x);
-  x -= 1;
-  double sum = coefficients[0];
-  for (int i = 1; i < 9; ++i) sum += coefficients[i] / (x + i);
-  const double t = x + 7.5;
-  return 0.5 * std::log(2 * std::numbers::pi) + (x + 0.5) * std::log(t) - t + std::log(sum);
-}
 
 /// P(a, x) by its power series; converges fast for x < a + 1.
 double lower_gamma_series(double a, double x) {

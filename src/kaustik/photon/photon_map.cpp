@@ -2,17 +2,11 @@
 
 #include <bit>
 
+#include "kaustik/base/log_gamma.h"
 #include "kaustik/photon/lane_draw.h"
 
 namespace kaustik {
 namespace {
-
-/// What std::lgamma returns; that writes the global signgam, too, which is a data race of two
-/// renders.
-double log_gamma(double x) {
-  int sign = 0;
-  return ::lgamma_r(x, &sign);
-}
 
 /// Weight of a photon at squared distance d² from the centre of a disk of radius r.
 class KernelWeight {
