@@ -1,6 +1,7 @@
-// Digests of small pictures of all shipped scenes by all integrators, all layers: who changes the
-// shape of the program compares them before and after. `digest_tool [NAME ...]`: scenes and
-// integrators by name, all without one. They hold for one binary on one instruction set.
+// Digests of small pictures of all shipped scenes by all integrators, of the light and surfaces
+// that they show and of the layers that tell errors: who changes the shape of the program compares
+// them before and after. `digest_tool [NAME ...]`: scenes and integrators by name, all without one.
+// They hold for one binary on one instruction set.
 #include <bit>
 #include <filesystem>
 #include <set>
@@ -41,19 +42,26 @@ std::vector<std::string> integrator_names() {
   return names;
 }
 
-/// FNV-1a over the bytes of all channels.
-uint64_t digest_of(const Image& image) {
+bool tells_errors(const std::string& channel) {
+  return channel.starts_with("error.") || channel.starts_with("bias.") ||
+         channel.starts_with("noise.");
+}
+
+/// FNV-1a over the bytes of the channels that tell errors, or of all others.
+uint64_t digest_of(const Image& image, bool of_errors) {
   uint64_t digest = 0xcbf29ce484222325u;
-  for (int c = 0; c < image.channel_count(); ++c)
+  for (int c = 0; c < image.channel_count(); ++c) {
+    if (tells_errors(image.channel_names()[size_t(c)]) != of_errors) continue;
     for (const float value : image.channel(c)) {
       const auto bits = std::bit_cast<uint32_t>(value);
       for (int shift = 0; shift < 32; shift += 8)
         digest = (digest ^ ((bits >> shift) & 0xff)) * 0x100000001b3u;
     }
+  }
   return digest;
 }
 
-uint64_t picture_digest(const std::string& scene_name, const std::string& integrator_name) {
+Image picture_of(const std::string& scene_name, const std::string& integrator_name) {
   Description description =
       load_scene((scenes_folder / scene_name / (scene_name + ".xml")).string());
   override_integrator(description, integrator_name);
@@ -68,7 +76,7 @@ uint64_t picture_digest(const std::string& scene_name, const std::string& integr
   settings.samples_per_pass = samples_per_pass;
   Session session(*scene, *integrator, settings);
   session.run();
-  return digest_of(session.film().image());
+  return session.film().image();
 }
 
 }  // namespace
@@ -91,7 +99,9 @@ int main(int argc, char** argv) {
   for (const std::string& scene : selected(scenes))
     for (const std::string& integrator : selected(integrators)) {
       try {
-        fmt::print("{:<16}{:<12}{:016x}\n", scene, integrator, picture_digest(scene, integrator));
+        const Image picture = picture_of(scene, integrator);
+        fmt::print("{:<16}{:<12}{:016x} errors {:016x}\n", scene, integrator,
+                   digest_of(picture, false), digest_of(picture, true));
       } catch (const Error& error) {
         ++failed;
         fmt::print("{:<16}{:<12}{}\n", scene, integrator, error.what());

@@ -1,5 +1,5 @@
-// Bytes a pixel that film, pass and splats take together at most, in scenes that ship: the table of
-// docs/command_line.md, and what check_film_memory() foresees.
+// Bytes a pixel that film, pass and splats take together at most, in scenes that ship, and in
+// brackets what check_film_memory() foresees.
 // `memory_tool [PASSES [SIZE [SCENE ...]]]`: 64 passes of 128 × 128 pixels if it is not told.
 #include "benchmarks/markdown_table.h"
 #include "benchmarks/shipped_scenes.h"

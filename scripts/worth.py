@@ -46,6 +46,9 @@ T_95 = {2: 12.71, 3: 4.30, 4: 3.18, 5: 2.78, 6: 2.57, 7: 2.45, 8: 2.36}
 # A device is to lower the product by so much in some scene, and to raise it by no more than that in any.
 WANTED, TOLERATED = 1.1, 0.95
 
+# How each picture is made.
+HOW = ["-q", "--float", "--threads", "1"]
+
 # A file below src/kaustik, a constant in it, what it is multiplied by, and where it counts.
 HALF_DOUBLE = (0.5, 2.0)
 CONSTANTS = [
@@ -151,8 +154,8 @@ def files_of_repository(*folders):
 
 
 def digest_of(program):
-    """Of the program and all that it is measured with."""
-    digest = hashlib.sha256(pathlib.Path(program).read_bytes())
+    """Of the program, all that it is measured with, and how."""
+    digest = hashlib.sha256(pathlib.Path(program).read_bytes() + " ".join(HOW).encode())
     for path in files_of_repository("scenes", "benchmarks/scenes", "benchmarks/peer_scenes", "benchmarks/references"):
         digest.update(f"{path}\0".encode() + (ROOT / path).read_bytes())
     return digest.hexdigest()[:16]
@@ -199,15 +202,17 @@ def render(program, scene, samples, integrator, settings, seed, environment):
     picture = FOLDER / f"picture_{threading.get_ident()}.exr"
     options = [option for setting in settings for option in ("--set", f"integrator.{setting}")]
     rendering = subprocess.Popen(
-        [program, "render", file, "-q", "--float", "--threads", "1", "--integrator", integrator, *options, "--spp", str(samples),
+        [program, "render", file, *HOW, "--integrator", integrator, *options, "--spp", str(samples),
          "--seed", str(seed), "-o", picture], env=dict(os.environ, **environment), stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(rendering.pid, 0)
     rendering.returncode = os.waitstatus_to_exitcode(status)
     if rendering.returncode != 0:
         raise subprocess.CalledProcessError(rendering.returncode, rendering.args)
-    compared = subprocess.run([program, "compare", picture, reference], check=True, capture_output=True, text=True).stdout
-    picture.unlink()
+    try:
+        compared = subprocess.run([program, "compare", picture, reference], check=True, capture_output=True, text=True).stdout
+    finally:
+        picture.unlink()
     error = float(re.search(r"^relative_mse_trimmed\s+(\S+)", compared, re.M).group(1))
     return error, usage.ru_utime + usage.ru_stime
 
@@ -233,8 +238,11 @@ class Measurements:
                 for done, future in enumerate(concurrent.futures.as_completed(running), 1):
                     left = (time.monotonic() - begin) / done * (len(missing) - done)
                     self.add(running[future], *future.result(), f"{done} of {len(missing)}, {left / 60:.0f} min left")
-            except BaseException:
+            except BaseException:  # what runs comes to its end, and is not lost
                 pool.shutdown(cancel_futures=True)
+                for future, key in running.items():
+                    if future.done() and not future.cancelled() and not future.exception() and json.dumps(key) not in self.known:
+                        self.add(key, *future.result(), "at the end")
                 raise
 
     def add(self, key, error, seconds, progress):

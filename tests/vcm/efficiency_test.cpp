@@ -239,7 +239,7 @@ Forecast measured(const TestScene& test, const Integrator& integrator) {
   return result;
 }
 
-/// The error that a pilot expects of merging beside paths that nearly all go on, and of merging
+/// The error that a pilot expects of merging beside paths most of which go on, and of merging
 /// alone, is that of passes of ppm. Four light paths per camera sample make merging's share in it
 /// the larger.
 TEST(PathPilot, ExpectsTheVarianceOfMergingLong) {

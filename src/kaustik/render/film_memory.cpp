@@ -40,8 +40,8 @@ constexpr double of_bias = bytes_of(bias_bits + 1, spread_of_rounded, bits_of_ha
 
 /// What the pixels of a tile share: headers, pointers and what the allocator adds.
 constexpr double of_tile = 2;
-/// Exact sums of a lane of splats. What lamps send to the camera itself few integrators splat, and
-/// these take no camera samples, so that other numbers are missing.
+/// Exact sums of a lane of splats. One component is not splatted: what lamps send straight to the
+/// camera. Integrators that do splat it have no camera samples, and so less of other numbers.
 constexpr double of_splat_lane = 12, unsplatted_components = 1;
 /// The luminance of a pixel while a pass is added to the film.
 constexpr double of_luminance = sizeof(float);

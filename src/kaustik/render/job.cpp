@@ -155,7 +155,10 @@ void Job::render() {
   });
   const SessionReport& report = result_.report;
   result_.record.seconds += report.seconds;
-  if (report.passes == 0 && !report.cancelled && !session.has_picture()) make_preview(*run);
+  if (report.passes == 0 && !report.cancelled && !session.has_picture()) {
+    make_preview(*run);
+    result_.report.cancelled = stop_.stop_requested();
+  }
   if (!keeps || report.passes == 0) return;
   if (report.incomplete_pass)
     return listener_.messages.warn("no pass was finished: there is no checkpoint");

@@ -156,11 +156,12 @@ Image small_picture(const Scene& scene, const Squares& squares, uint64_t seed,
 Image preview_picture(const Scene& scene, uint64_t seed, const std::stop_token& stop) {
   const Squares squares(scene.film().crop_size);
   Image small = small_picture(scene, squares, seed, stop);
-  if (can_denoise(small)) small = denoise(small);
+  const bool is_smooth = can_denoise(small);
+  if (is_smooth) small = denoise(small);
   Image image = squares.spread(small);
-  image.set_metadata("denoised", std::string("true"));
-  image.set_metadata(incomplete_key,
-                     std::string("a first look: few paths from the camera, smoothed"));
+  if (is_smooth) image.set_metadata("denoised", std::string("true"));
+  image.set_metadata(incomplete_key, std::string("a first look: few paths from the camera") +
+                                         (is_smooth ? ", smoothed" : ""));
   return image;
 }
 

@@ -24,8 +24,8 @@ constexpr int samples_per_look = 16;
 /// end in time.
 constexpr double passes_ahead = 2;
 
-/// How much longer than the time asked for it is waited for a picture, relative to it, and at
-/// least, s.
+/// A session without a picture goes on so much longer than it was asked to: a share of that time,
+/// and seconds at least.
 constexpr double patience = 0.05, least_patience = 0.5;
 
 /// Samples of a pixel that are summed before their sum is added to the others: a float would lose
@@ -331,8 +331,9 @@ Image Session::first_samples(std::unique_lock<std::mutex> lock) const {
   }
   lock.unlock();
   if (std::find(is_shown.begin(), is_shown.end(), uint8_t(0)) != is_shown.end())
-    image.set_metadata(incomplete_key,
-                       std::string("samples of some pixels only, which others show, too"));
+    image.set_metadata(
+        incomplete_key,
+        std::string("samples of some pixels; the others show those of a pixel near by"));
   const auto seen = [&](int at, int stride) { return at - at % stride; };
   for (int y = 0; y < film_.height(); ++y)
     for (int x = 0; x < film_.width(); ++x) {

@@ -237,24 +237,25 @@ void RadiusLearning::narrow(std::vector<Sums>& sums, uint32_t passes) {
   }
 }
 
-/// The widest disk that agrees with all smaller ones, by the mean over the probes around: a single
-/// one's noise would choose among its levels by chance.
+/// The widest disk that agrees with all smaller ones, by the mean over the probes around that have
+/// it: a single one's noise would choose among its levels by chance.
 int RadiusLearning::widest_level(const std::vector<Disagreement>& disagreements,
-                                 const PixelPlans& first, size_t probe) const {
+                                 const std::vector<Sums>& sums, const PixelPlans& first,
+                                 size_t probe) const {
   Disagreement sum;
-  int count = 0;
+  std::array<int, levels> count{};
   first.seen().grid().visit_around(probe, [&](size_t i) {
     if (!first.seen().probes()[i].found) return;
-    ++count;
+    for (size_t level = 0; level < sums[i].levels; ++level) ++count[level];
     for (size_t k = 0; k < kind_count; ++k)
-      for (size_t level = 1; level < levels; ++level)
+      for (size_t level = 1; level < sums[i].levels; ++level)
         for (size_t smaller = 0; smaller < level; ++smaller)
           sum.of[k][level][smaller] += disagreements[i].of[k][level][smaller];
   });
   for (size_t level = 1; level < levels; ++level)
     for (size_t smaller = 0; smaller < level; ++smaller)
       for (const auto& kind : sum.of)
-        if (double(kind[level][smaller]) > tolerated * count) return int(level) - 1;
+        if (double(kind[level][smaller]) > tolerated * count[level]) return int(level) - 1;
   return int(levels) - 1;
 }
 
@@ -280,7 +281,7 @@ std::vector<PixelPlan> RadiusLearning::plans(const PixelPlans& first, const std:
       int level = int(levels) - 1;
       while (level > 0 && is_too_wide(size_t(level))) --level;
       most[p] = area_of(level);
-      result[p].merge_area = area_of(std::min(level, widest_level(disagreements, first, p)));
+      result[p].merge_area = area_of(std::min(level, widest_level(disagreements, sums, first, p)));
     }
   });
   result = smoothed(first, result);

@@ -70,8 +70,8 @@ class RadiusLearning {
                                uint32_t passes, float shrinkage) const;
 
  private:
-  int widest_level(const std::vector<Disagreement>& disagreements, const PixelPlans& first,
-                   size_t probe) const;
+  int widest_level(const std::vector<Disagreement>& disagreements, const std::vector<Sums>& sums,
+                   const PixelPlans& first, size_t probe) const;
 
   /// A disk of a probe: what its edges leave of it, and how that is covered.
   struct Level {

@@ -36,15 +36,16 @@ void RadiusLesson::apply(VcmPlans& plans, uint32_t epoch, const std::stop_token&
     radii_ = std::move(made);
   }
   const float shrinkage = sqr(pass_radius(1, epoch));
-  plans.settle(radii_->plans(first_.pixels, sums_, epoch, shrinkage), shrinkage);
+  // First, so that plans are the same if they are asked for once more.
   RadiusLearning::narrow(sums_, epoch);
+  plans.settle(radii_->plans(first_.pixels, sums_, epoch, shrinkage), shrinkage);
 }
 
 void RadiusLesson::read(ByteReader& reader) {
   sums_ = reader.get_array<RadiusLearning::Sums>(sums_.size());
   for (const RadiusLearning::Sums& sums : sums_)
     if (sums.levels < 1 || sums.levels > size_t(RadiusLearning::level_count))
-      reader.damaged("a probe in it has no disks");
+      reader.damaged("a probe in it has another number of disks");
 }
 
 }  // namespace kaustik
