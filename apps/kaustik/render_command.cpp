@@ -204,7 +204,7 @@ void add_render(CLI::App& program) {
                    "Number of the first pass; --passes and --spp count from it [0]")
       ->check(whole_number(0, 1 << 30));
   command->add_option("--time", options->time,
-                      "Stop then: 60s, 5m, 1h30m (sooner than a sample of each pixel: a first look)");
+                      "Stop then: 60s, 5m, 1h30m; a first look if pixels lack samples then");
   auto* checkpoint = command->add_option(
       "--checkpoint", options->checkpoint,
       "Keep the finished passes in this file, .kpt: kaustik resume, kaustik merge");
