@@ -111,11 +111,11 @@ TEST(SessionTime, PlansNoLongerPassesThanThereIsTime) {
     settings.keeps_passes = keeps;
     return Session(*scene, integrator, settings).samples_per_pass();
   };
-  EXPECT_EQ(samples(4, 200, false), 4u);  // the integrator's
-  EXPECT_EQ(samples(0.25, 200, false), 1u);
-  EXPECT_EQ(samples(1.8, 200, false), 2u);
+  EXPECT_EQ(samples(1, 200, false), 4u);  // the integrator's
+  EXPECT_EQ(samples(0.06, 200, false), 1u);
+  EXPECT_EQ(samples(0.45, 200, false), 2u);
   EXPECT_EQ(samples(1e-6, 8, false), 1u);
-  EXPECT_EQ(samples(0.25, 200, true), 4u);  // others will go on with them
+  EXPECT_EQ(samples(0.06, 200, true), 4u);  // others will go on with them
 }
 
 TEST(SessionTime, SnapshotsOfTheFirstPassAreWholePictures) {

@@ -22,9 +22,9 @@ constexpr uint32_t least_passes = 4;
 /// kept, grow with them.
 constexpr uint32_t most_times_default = 4;
 constexpr uint64_t most_samples_of_pass = uint64_t(1) << 22;
-/// Of pictures that there is less time for passes have fewer samples in proportion, so that the
-/// first one takes about a tenth of the time (auto, two cores, simple scenes).
-constexpr double pixels_per_second = 1 << 14;
+/// Of pictures that there is less time for passes have fewer samples in proportion: light passes
+/// are shorter then.
+constexpr double pixels_per_second = 1 << 16;
 
 uint32_t divided_up(uint32_t a, uint32_t b) { return a / b + (a % b > 0 ? 1 : 0); }
 
