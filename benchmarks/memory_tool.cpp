@@ -10,6 +10,7 @@
 #include "kaustik/scene/overrides.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,11 @@ std::string measured(const std::string& scene_name, const std::string& type, uin
 }  // namespace
 
 int main(int argc, char** argv) {
-  const uint32_t passes = argc > 1 ? uint32_t(std::stoul(argv[1])) : 64;
-  const int size = argc > 2 ? std::stoi(argv[2]) : 128;
+  const int passes = argc > 1 ? std::atoi(argv[1]) : 64, size = argc > 2 ? std::atoi(argv[2]) : 128;
+  if (passes < 1 || size < 1) {
+    fmt::print(stderr, "usage: memory_tool [PASSES [SIZE [SCENE ...]]], both numbers at least 1\n");
+    return 2;
+  }
   std::vector<std::string> scenes(argv + std::min(3, argc), argv + argc);
   if (scenes.empty()) scenes = {"cornell_spheres", "metal_ring", "maze", "pool_below", "museum"};
   const std::vector<std::string> types = {"path", "bdpt",      "vcm",
@@ -54,7 +58,8 @@ int main(int argc, char** argv) {
   try {
     for (const std::string& scene : scenes) {
       std::vector<std::string> row = {scene};
-      for (const std::string& type : types) row.push_back(measured(scene, type, passes, size));
+      for (const std::string& type : types)
+        row.push_back(measured(scene, type, uint32_t(passes), size));
       table.add(row);
     }
   } catch (const Error& error) {

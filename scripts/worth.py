@@ -412,12 +412,18 @@ def seed_list(text):
     return seeds
 
 
+def job_count(text):
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of pictures: one or more")
+    return int(text)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=["devices", "constants", "check"])
     parser.add_argument("--seeds", type=seed_list, default="1,2,3", help="[%(default)s]")
     parser.add_argument("--only", nargs="+", default=[], metavar="NAME", help="measure these devices or constants alone")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="pictures that are made at a time [%(default)s]")
+    parser.add_argument("--jobs", type=job_count, default=os.cpu_count(), help="pictures that are made at a time [%(default)s]")
     parser.add_argument("--page", type=pathlib.Path, metavar="FILE.md", help="where to write the tables [standard output]")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/kaustik",
                         help="for devices and check [%(default)s]")
