@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Runs the commands that the documentation prints, as far as they need nothing but this repository.
 
-Usage: scripts/docs_commands.py PROGRAM [PAGE.md ...]; without pages: all but CHANGELOG.md, which
-tells of earlier versions.
+Usage: scripts/docs_commands.py PROGRAM [PAGE.md ... | help]; without pages: all but CHANGELOG.md, which
+tells of earlier versions, and what PROGRAM's own --help prints; `help`: this alone.
 
 Each fenced block ```sh of a page is run by bash, one after another, in a folder of the page's own that shows the
 repository's scenes, docs and so on. There `kaustik` is PROGRAM with its work made short (shortened() below says how), so that
@@ -12,9 +12,13 @@ not see:
     <!-- given: cp scenes/cornell_spheres/cornell_spheres.xml scene.xml -->    commands that make what the block takes for granted
     <!-- not run: needs root -->                                               and why
 
-Of blocks that are not run and of `kaustik …` within text the subcommands and options are looked up in --help instead,
-of `make …` the targets in the Makefile. Exits with 1 if anything is wrong.
+Of blocks that are not run and of commands within text it is looked up whether there is what they name: of `kaustik …` the
+subcommands and options in --help, of `make …` the targets in the Makefile, of other programs (`build/release/…`, `…_tool`,
+`…_bench`) their sources, of `scripts/…` the files, and of both the options in their text, of `--preset` the presets. In
+--help commands stand in lines of their own, or at the end of a sentence after a colon; these run, with a scene.xml, an
+a.exr and a b.exr. All others are looked up. Exits with 1 if anything is wrong.
 """
+import json
 import os
 import pathlib
 import re
@@ -26,12 +30,16 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGES = ("*.md", "docs/**/*.md", "scenes/**/*.md", "benchmarks/**/*.md", "data/*.md", "examples/**/*.md")
+PAGES = ("*.md", "docs/**/*.md", "scenes/**/*.md", "benchmarks/**/*.md", "data/*.md", "examples/**/*.md", "tests/**/*.md")
 SIZE = 24  # of pictures
 MOST_PASSES = 2
 MOST_SECONDS = 0.2
 MOST_PHOTONS = 20000
 BLOCK_SECONDS = 120  # then something hangs
+# What examples of --help take for granted.
+HELP_GIVEN = r"""
+sed '/<integrator/,/<.integrator>/d; /"size"/s/400/800/; s|"meshes/|"scenes/metal_ring/meshes/|' scenes/metal_ring/metal_ring.xml >scene.xml
+kaustik render scene.xml -o a.exr; cp a.exr b.exr; mkdir -p pictures"""
 
 
 class Block:
@@ -138,7 +146,10 @@ class Program:
             sys.exit(f"docs_commands: {path} --help lists no commands")
 
     def help(self, arguments):
-        return subprocess.run([self.path, *arguments, "--help"], capture_output=True, text=True).stdout
+        return self.output([*arguments, "--help"])
+
+    def output(self, arguments):
+        return subprocess.run([self.path, *arguments], capture_output=True, text=True).stdout
 
     def options_of(self, command):
         if command not in self.options:
@@ -158,9 +169,59 @@ class Program:
         return None
 
 
-def make_targets():
-    phony = re.search(r"^\.PHONY:(.*)$", (ROOT / "Makefile").read_text(), re.MULTILINE)
-    return set(phony[1].split())
+class Sources:
+    """What the repository has beside the program: targets, presets, programs, scripts."""
+
+    def __init__(self):
+        phony = re.search(r"^\.PHONY:(.*)$", (ROOT / "Makefile").read_text(), re.MULTILINE)
+        self.targets = set(phony[1].split())
+        presets = json.loads((ROOT / "CMakePresets.json").read_text())
+        self.presets = {preset["name"] for kind, list_ in presets.items() if kind.endswith("Presets") for preset in list_}
+        self.programs = {}  # name: its sources
+        for path in [ROOT / "apps", ROOT / "tests", ROOT / "benchmarks", ROOT / "scenes"]:
+            for cmake in path.glob("**/CMakeLists.txt"):
+                for name in re.findall(r"add_executable\((\w+)", cmake.read_text()):
+                    self.programs[name] = list(cmake.parent.glob("**/*.cpp"))
+        for source in [*ROOT.glob("benchmarks/*_bench.cpp"), *ROOT.glob("benchmarks/*_tool.cpp")]:
+            self.programs[source.stem] = [source]
+        for room in (ROOT / "tests").iterdir():
+            if room.is_dir():
+                self.programs["test_" + room.name] = None  # GoogleTest knows its options
+
+    def complaint(self, words):
+        """What is wrong with a command of another program than kaustik; None: nothing."""
+        command = pathlib.PurePath(words[0])
+        if command.name == "make":
+            unknown = [word for word in words[1:] if re.fullmatch(r"[a-z-]+", word) and word not in self.targets]
+            return f"the Makefile has no target '{unknown[0]}'" if unknown else None
+        if command.name in ("cmake", "ctest"):
+            named = [words[at + 1] for at, word in enumerate(words[:-1]) if word == "--preset"]
+            unknown = [name for name in named if name not in self.presets]
+            return f"there is no preset '{unknown[0]}'" if unknown else None
+        if command.parts[0] in ("scripts", ".ci"):
+            files = [ROOT / command]
+            if not files[0].is_file():
+                return f"there is no {command}"
+            if files[0].read_text().startswith("#!") and not os.access(files[0], os.X_OK):
+                return f"{command} cannot be run"
+        else:
+            if command.parts[0] == "build" and command.parts[1] not in self.presets:
+                return f"no preset builds into {command.parent}"
+            if command.name == "kaustik" or command.name.isupper():  # build/release/benchmarks/NAME
+                return None
+            if command.name not in self.programs:
+                return f"there is no program '{command.name}'"
+            files = self.programs[command.name]
+        for word in words[1:]:
+            option = re.match(r"--[a-z][\w-]*", word)
+            if option and option[0] != "--help" and files is not None and not any(option[0] in file.read_text() for file in files):
+                return f"'{command.name}' knows no option {option[0]}"
+        return None
+
+
+def is_command(word):
+    return word in ("kaustik", "make", "cmake", "ctest") or re.match(
+        r"(build/\w+/[\w/]+|scripts/[\w.]+|\.ci/\w+|\w+_(tool|bench))$", word)
 
 
 def commands_in(text):
@@ -171,21 +232,18 @@ def commands_in(text):
         except ValueError:
             continue
         for at, word in enumerate(words):
-            if word in ("kaustik", "make"):
+            if is_command(word):
                 yield words[at:]
                 break
 
 
-def mention_complaints(program, targets, text):
+def mention_complaints(program, sources, text):
     for words in commands_in(text):
-        if words[0] == "kaustik":
-            complaint = program.complaint(words[1:])
-            if complaint:
-                yield complaint
-        else:
-            for word in words[1:]:
-                if re.fullmatch(r"[a-z-]+", word) and word not in targets:
-                    yield f"the Makefile has no target '{word}'"
+        is_kaustik = pathlib.PurePath(words[0]).name == "kaustik"
+        complaint = program.complaint(words[1:]) if is_kaustik else None
+        complaint = complaint or (sources.complaint(words) if words[0] != "kaustik" else None)
+        if complaint:
+            yield complaint
 
 
 def show(folder, work):
@@ -239,15 +297,15 @@ class Report:
         self.failures.append(f"{place}: {text}")
 
 
-def check_page(page, program, targets, report):
+def check_page(page, program, sources, report):
     path = pathlib.Path(page)
     text = (path if path.is_absolute() else ROOT / path).read_text()
     blocks, prose = blocks_and_text(page, text)
     for number, line in prose:
         for code in re.findall(r"(?<!`)`([^`]+)`(?!`)", line):
-            if re.match(r"(kaustik|make) ", code):
+            if is_command(code.split()[0] if code.split() else ""):
                 report.mentions += 1
-                for complaint in mention_complaints(program, targets, code):
+                for complaint in mention_complaints(program, sources, code):
                     report.fail(f"{page}:{number}", complaint)
     with tempfile.TemporaryDirectory() as name:
         folder, work = pathlib.Path(name), None
@@ -259,17 +317,51 @@ def check_page(page, program, targets, report):
                 continue
             if block.reason is not None:
                 report.reasons.append(f"{block.place()}: {block.reason}")
-                for complaint in mention_complaints(program, targets, content):
+                for complaint in mention_complaints(program, sources, content):
                     report.fail(block.place(), complaint)
                 continue
             work = work or prepare_folder(folder, page, program)
-            report.blocks += 1
-            report.commands += sum(words[0] == "kaustik" for words in commands_in(content))
-            start = time.monotonic()
-            failure = run_block(block, folder, work)
-            report.slowest.append((time.monotonic() - start, block.place()))
-            if failure:
-                report.fail(block.place(), failure)
+            run_and_report(block, folder, work, report)
+
+
+def run_and_report(block, folder, work, report):
+    report.blocks += 1
+    report.commands += sum(words[0] == "kaustik" for words in commands_in("\n".join(block.lines)))
+    start = time.monotonic()
+    failure = run_block(block, folder, work)
+    report.slowest.append((time.monotonic() - start, block.place()))
+    if failure:
+        report.fail(block.place(), failure)
+
+
+def check_help(program, report):
+    """The examples that the program prints, and what else its help names."""
+    texts = {" ".join(["kaustik", *words, "--help"]): program.help(words) for words in [[], *([c] for c in program.commands)]}
+    texts["kaustik help thesis"] = program.output(["help", "thesis"])
+    examples = {}  # most commands end with the same words
+    for page, text in texts.items():
+        block = Block(page, 0, "sh", ["SCENE=scene.xml"], None)
+        for number, line in enumerate(text.splitlines(), 1):
+            example = re.match(r"\s+((?:env (?:\S+=\S* )+)?kaustik .*)", line) or \
+                (re.match(r"[A-Z][^:]*: (kaustik .+?)\.?$", line) if number > 2 else None)
+            if example:
+                block.line = block.line or number
+                block.lines.append(example[1].replace("SCENE", "$SCENE"))
+                continue
+            for mention in re.findall(r"(?<!Usage: )\bkaustik (?!\[)[a-z][^:;,).]*", line):
+                report.mentions += 1
+                complaint = program.complaint(mention.split()[1:2] + re.findall(r" (--?[a-z][\w-]*)", mention))
+                # "pixels that kaustik rendered"
+                if complaint and not re.match(r"kaustik \w+ed\b", mention):
+                    report.fail(f"{page}:{number}", complaint)
+        if block.lines:
+            examples.setdefault("\n".join(block.lines), block)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        work = prepare_folder(folder, "help", program)
+        given = Block("help", 0, "sh", [HELP_GIVEN], None)
+        for block in [given, *examples.values()]:
+            run_and_report(block, folder, work, report)
 
 
 def main(arguments):
@@ -280,9 +372,12 @@ def main(arguments):
     pages = arguments[1:] or sorted(
         str(page.relative_to(ROOT)) for pattern in PAGES for page in ROOT.glob(pattern) if page.name != "CHANGELOG.md")
     program = Program(str(pathlib.Path(arguments[0]).resolve()))
-    report, targets = Report(), make_targets()
+    report, sources = Report(), Sources()
     for page in pages:
-        check_page(page, program, targets, report)
+        if page != "help":
+            check_page(page, program, sources, report)
+    if len(arguments) == 1 or "help" in pages:
+        check_help(program, report)
     for seconds, place in sorted(report.slowest, reverse=True)[:3]:
         print(f"{seconds:.1f} s: {place}")
     print(f"{report.blocks} blocks run, with {report.commands} commands of kaustik; {report.mentions} mentions looked up; "

@@ -3,7 +3,7 @@
 # Usage: docs_commands_test.sh PROGRAM
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
-program=$1
+program=$(realpath "$1")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 failures=0
@@ -35,6 +35,8 @@ test -s a.exr
 <!-- not run: needs root -->
 ```sh
 make install
+build/release/benchmarks/glossy_tool 8 64 rough_wall diffuse_samples=16
+scripts/worth.py devices --page docs/ablation.md
 ```
 PAGE
 plant "no option --time" <<'PAGE'
@@ -83,5 +85,51 @@ plant "does not say that it is" <<'PAGE'
 kaustik info scenes/metal_ring/metal_ring.xml
 ```
 PAGE
+plant "no program 'shiny_tool'" <<'PAGE'
+`shiny_tool 8 64 rough_wall` prints it.
+PAGE
+plant "no program 'test_nothing'" <<'PAGE'
+`build/release/tests/test_nothing --gtest_filter=a`
+PAGE
+plant "no preset builds into" <<'PAGE'
+`build/releese/kaustik`
+PAGE
+plant "'time_tool' knows no option --sizes" <<'PAGE'
+`time_tool --sizes 800 museum auto 5s`
+PAGE
+plant "there is no scripts/none.sh" <<'PAGE'
+`scripts/none.sh`
+PAGE
+plant "'worth.py' knows no option --pages" <<'PAGE'
+<!-- not run: takes hours -->
+```sh
+scripts/worth.py devices --pages docs/ablation.md
+```
+PAGE
+plant "no preset 'relaese'" <<'PAGE'
+`cmake --preset relaese`
+PAGE
+
+# plant_help MESSAGE TEXT: so must a program whose `learn --help` ends with TEXT.
+plant_help() {
+  local output
+  cat >"$folder/kaustik" <<SCRIPT
+#!/bin/sh
+"$program" "\$@"
+status=\$?
+[ "\$*" != "learn --help" ] || echo "$2"
+exit \$status
+SCRIPT
+  chmod +x "$folder/kaustik"
+  if output=$("$root"/scripts/docs_commands.py "$folder/kaustik" help 2>&1); then
+    echo "not found in help: '$1'"
+    failures=$((failures + 1))
+  elif [[ $output != *"$1"* ]]; then
+    printf "instead of '%s' came\n%s\n" "$1" "$output"
+    failures=$((failures + 1))
+  fi
+}
+plant_help "kaustik learn --help:" "  kaustik learn scene.xml -o b.kln --no-such-option"
+plant_help "no 'kaustik lern'" "Learn with it: -o, or so (kaustik lern)."
 [[ $failures == 0 ]] && echo "docs_commands_test: passed"
 exit "$failures"
