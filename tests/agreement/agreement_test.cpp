@@ -1,6 +1,6 @@
 // Every method against stored references, block by block: pictures of real size, whose parts no
 // analytic test reaches. Seeds are fixed, so each result is always the same. The references were
-// made by other methods, see scenes.cpp, and their noise counts. Long but for the scenes "…_64".
+// made by other methods, see scenes.cpp, and their noise counts.
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,7 @@ constexpr double level = 1e-4;
 /// A bias of the whole component that has to be found, else the test says nothing.
 constexpr double bias_to_find = 0.03;
 constexpr int coarse_parts = 4;  ///< per side of the picture
-
-class Agreement : public testing::TestWithParam<Contender> {};
+constexpr int quick_size = 64;   ///< of pictures that are compared in each run
 
 void check_without_bias(const std::string& component, const Replicates& tested,
                         const Replicates& reference) {
@@ -51,8 +50,7 @@ void check_tolerance(const std::string& component, const Replicates& tested,
       << component << " is too noisy to tell";
 }
 
-TEST_P(Agreement, WithTheReference) {
-  const Contender& contender = GetParam();
+void check(const Contender& contender) {
   const Components reference = read_blocks(reference_path(contender.reference));
   const Components tested = render_blocks(contender.render);
   for (const auto& [component, replicates] : tested)
@@ -63,10 +61,32 @@ TEST_P(Agreement, WithTheReference) {
       check_without_bias(component, replicates, reference.at(component));
 }
 
+std::vector<Contender> contenders_of(bool quick) {
+  std::vector<Contender> chosen;
+  for (const Contender& contender : contenders())
+    if (quick == (contender.render.size == quick_size)) chosen.push_back(contender);
+  return chosen;
+}
+
 std::string name_of(const testing::TestParamInfo<Contender>& of) {
   return of.param.reference + "_" + of.param.render.integrator;
 }
-INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::ValuesIn(contenders()), name_of);
+
+class Agreement : public testing::TestWithParam<Contender> {};
+
+TEST_P(Agreement, WithTheReference) {
+#ifdef KAUSTIK_SLOW_BUILD
+  GTEST_SKIP() << "in slow builds methods run in all other tests";
+#endif
+  check(GetParam());
+}
+INSTANTIATE_TEST_SUITE_P(Small, Agreement, testing::ValuesIn(contenders_of(true)), name_of);
+
+class AgreementAtRealSize : public testing::TestWithParam<Contender> {};
+
+TEST_P(AgreementAtRealSize, WithTheReferenceLong) { check(GetParam()); }
+INSTANTIATE_TEST_SUITE_P(Scenes, AgreementAtRealSize, testing::ValuesIn(contenders_of(false)),
+                         name_of);
 
 }  // namespace
 }  // namespace kaustik::agreement
