@@ -16,16 +16,25 @@
 namespace kaustik::agreement {
 namespace {
 
+double luminance_of(const Vec3f& value) {
+  return 0.2126 * double(value.x) + 0.7152 * double(value.y) + 0.0722 * double(value.z);
+}
+
+std::vector<float> pixel_luminances(const Image& image, const std::string& component) {
+  const RgbView rgb = rgb_view(image, component);
+  std::vector<float> values(image.pixel_count());
+  for (size_t i = 0; i < values.size(); ++i) values[i] = float(luminance_of(rgb[i]));
+  return values;
+}
+
 std::vector<float> block_luminances(const Image& image, const std::string& component) {
   const RgbView rgb = rgb_view(image, component);
   const int columns = image.width() / block_pixels, rows = image.height() / block_pixels;
   std::vector<double> sums(size_t(columns) * size_t(rows));
   for (int y = 0; y < rows * block_pixels; ++y)
-    for (int x = 0; x < columns * block_pixels; ++x) {
-      const Vec3f value = rgb[size_t(y) * size_t(image.width()) + size_t(x)];
+    for (int x = 0; x < columns * block_pixels; ++x)
       sums[size_t(y / block_pixels) * size_t(columns) + size_t(x / block_pixels)] +=
-          0.2126 * double(value.x) + 0.7152 * double(value.y) + 0.0722 * double(value.z);
-    }
+          luminance_of(rgb[size_t(y) * size_t(image.width()) + size_t(x)]);
   std::vector<float> means;
   for (const double sum : sums) means.push_back(float(sum / (block_pixels * block_pixels)));
   return means;
@@ -46,7 +55,7 @@ std::string channel_name(const std::string& component, int replicate) {
 
 }  // namespace
 
-Components render_blocks(const BlockRender& render) {
+Rendered render_replicates(const BlockRender& render) {
   Description description = load_scene(std::string(KAUSTIK_SOURCE_DIR) + "/scenes/" + render.scene +
                                        "/" + render.scene + ".xml");
   override_integrator(description, render.integrator);
@@ -62,7 +71,7 @@ Components render_blocks(const BlockRender& render) {
                                               double(bounding_radius(scene->tracer().bounds()))));
   std::vector<std::string> warnings;
   const auto integrator = make_integrator(description, *scene, warnings);
-  Components found;
+  Rendered found;
   for (int replicate = 0; replicate < replicate_total; ++replicate) {
     SessionSettings settings;
     settings.seed = render.first_seed + uint64_t(replicate);
@@ -71,10 +80,20 @@ Components render_blocks(const BlockRender& render) {
     Session session(*scene, *integrator, settings);
     session.run();
     const Image image = session.image();
-    for (const std::string& component : split(render.components))
-      found[component].push_back(block_luminances(image, component));
+    for (const std::string& component : split(render.components)) {
+      found.blocks[component].push_back(block_luminances(image, component));
+      found.pixels[component].push_back(pixel_luminances(image, component));
+    }
+    if (integrator->traits().estimates_bias)
+      found.blocks[bias_layer].push_back(block_luminances(image, bias_layer));
   }
   return found;
+}
+
+Components render_blocks(const BlockRender& render) {
+  Components blocks = render_replicates(render).blocks;
+  blocks.erase(bias_layer);
+  return blocks;
 }
 
 void write_blocks(const Components& components, const std::string& path) {

@@ -1,6 +1,7 @@
 #pragma once
 // Pictures of scenes that ship as luminances of blocks of pixels, from renders that are independent
 // of one another. Block means are nearer to a normal distribution than pixels, and hardly blurred.
+// Pixels by themselves: pixel_tests.h.
 
 #include <cstdint>
 #include <map>
@@ -32,6 +33,17 @@ struct BlockRender {
   double radius_share = 0;
 };
 
+/// The layer of what an integrator tells of its own bias, beside the components.
+inline constexpr const char* bias_layer = "bias";
+
+/// The same renders twice.
+struct Rendered {
+  Components blocks;  ///< those that were asked for, and `bias_layer` where it is told
+  Components pixels;  ///< those that were asked for
+};
+Rendered render_replicates(const BlockRender& render);
+
+/// Of the blocks alone: Rendered::blocks but for the bias.
 Components render_blocks(const BlockRender& render);
 
 /// An EXR with one pixel per block: the mean of the renders, such as "caustic", with 32 bits, and

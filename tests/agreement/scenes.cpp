@@ -1,11 +1,18 @@
 #include "tests/agreement/scenes.h"
 
 #include <ostream>
+#include <stdexcept>
 
 namespace kaustik::agreement {
 
 std::string reference_path(const std::string& name) {
   return std::string(KAUSTIK_SOURCE_DIR) + "/tests/agreement/references/" + name + ".exr";
+}
+
+const ReferenceRecipe& recipe_of(const std::string& name) {
+  for (const ReferenceRecipe& recipe : reference_recipes())
+    if (recipe.name == name) return recipe;
+  throw std::invalid_argument("no reference is called " + name);
 }
 
 namespace {
@@ -20,6 +27,8 @@ BlockRender by(const std::string& integrator, const std::string& components, uin
   return render;
 }
 
+constexpr int real_size = 256;
+
 ReferenceRecipe recipe(const std::string& name, const std::string& scene, int size,
                        std::vector<BlockRender> parts) {
   for (BlockRender& part : parts) {
@@ -28,6 +37,13 @@ ReferenceRecipe recipe(const std::string& name, const std::string& scene, int si
     part.first_seed = 1'000'000;
   }
   return {name, std::move(parts)};
+}
+
+ReferenceRecipe pixel_recipe(const std::string& scene, BlockRender part) {
+  ReferenceRecipe made = recipe(scene + "_pixels", scene, real_size, {std::move(part)});
+  made.parts[0].first_seed = 2'000'000;
+  made.is_of_pixels = true;
+  return made;
 }
 
 /// Merges in disks of so small a part of the scene that the bias is below the tolerance: what is
@@ -43,6 +59,21 @@ Contender narrow(BlockRender render) {
   return {{}, std::move(render), narrow_tolerance};
 }
 Contender with_own_radii(BlockRender render) { return {{}, std::move(render), own_tolerance}; }
+/// After passes enough that plans have changed by what was learned: passes 1, 2, 4 and 8 do so.
+constexpr uint32_t lesson_passes = 9, lesson_samples = 4;
+BlockRender taught(const std::string& integrator, const std::string& components) {
+  return by(integrator, components, lesson_passes, lesson_samples);
+}
+Contender as_told(BlockRender render) {
+  Contender contender{{}, std::move(render)};
+  contender.tells_bias = true;
+  contender.note = "taught";
+  return contender;
+}
+Contender noted(Contender contender, const std::string& note) {
+  contender.note = note;
+  return contender;
+}
 /// Photon mapping that gathers at each point: the irradiance cache would take minutes.
 Contender without_cache(BlockRender render) {
   render.setting = "integrator.irradiance_cache=false";
@@ -50,15 +81,22 @@ Contender without_cache(BlockRender render) {
 }
 Contender exact(BlockRender render) { return {{}, std::move(render), 0}; }
 
-/// Appends methods that are compared in one scene. Seeds are those of no other render.
+/// Of its own, whatever rows come or go before.
+Contender seeded(uint64_t first_seed, Contender contender) {
+  contender.render.first_seed = first_seed;
+  return contender;
+}
+
+/// Appends methods that are compared in one scene. Seeds are those of no other render of it.
 void compare_with(const std::string& reference, std::vector<Contender> methods,
                   std::vector<Contender>& table) {
-  const bool is_small = reference.ends_with("_64");
+  const BlockRender& scene = recipe_of(reference).parts.at(0);
   for (Contender& contender : methods) {
     contender.reference = reference;
-    contender.render.scene = is_small ? reference.substr(0, reference.size() - 3) : reference;
-    contender.render.size = is_small ? 64 : 256;
-    contender.render.first_seed = 1000 * (table.size() + 1);
+    contender.render.scene = scene.scene;
+    contender.render.size = scene.size;
+    if (contender.render.first_seed == BlockRender().first_seed)
+      contender.render.first_seed = 1000 * (table.size() + 1);
     table.push_back(std::move(contender));
   }
 }
@@ -78,6 +116,10 @@ const std::vector<ReferenceRecipe>& reference_recipes() {
              {by("path", "direct", 1, 8), by("lighttracer", "indirect", 1, 16)}),
       recipe("gallery_1", "gallery_1", 256,
              {by("path", "direct", 1, 8), by("lighttracer", "indirect", 1, 16)}),
+      recipe("cornell_spheres_specular", "cornell_spheres", 256, {by("path", "specular", 1, 16)}),
+      recipe("museum_indirect", "museum", 256, {by("path", "indirect", 1, 8)}),
+      pixel_recipe("cornell_box", by("path", "direct", 1, 16)),
+      pixel_recipe("cornell_spheres", by("path", "direct", 1, 16)),
   };
   return recipes;
 }
@@ -87,10 +129,11 @@ void PrintTo(const Contender& contender, std::ostream* out) {
 }
 
 // Paths from the camera alone find focused light by rare chance: no sum of so few is normal. What
-// lighttracer does not see (specular, emission) is compared nowhere; localphong and raytracing
-// claim direct light alone. At 64 × 64 pixels ppm has disks as wide as the frame of the box: a
-// corner of the picture gets 11 % too much indirect light. Of the light that leaves the lamp of
-// metal_ring to all sides, too few paths of lighttracer end in the picture to tell of direct light.
+// lighttracer does not see, specular, is compared where path finds it well; localphong and
+// raytracing claim direct light alone. At 64 × 64 pixels ppm has disks as wide as the frame of the
+// box: a corner of the picture gets 11 % too much indirect light. Of the light that leaves the lamp
+// of metal_ring to all sides, too few paths of lighttracer end in the picture to tell of direct
+// light.
 //
 // Disks carry light out of caustics: in cornell_spheres auto carries 1.4 % of the sixteenth of the
 // picture that has the caustic into the next, which has a nineteenth of its light and gets 27 %
@@ -149,6 +192,20 @@ const std::vector<Contender>& contenders() {
     compare_with("point_spotlight",
                  {exact(by("localphong", direct, 1, 1)), exact(by("raytracing", direct, 1, 1))},
                  table);
+    // What passes teach is applied, and light that other rows leave out.
+    compare_with("cornell_spheres",
+                 {seeded(61'000, as_told(taught("auto", focused))),
+                  seeded(62'000, noted(narrow(taught("vcm", focused)), "taught"))},
+                 table);
+    compare_with("cornell_spheres_specular",
+                 {seeded(63'000, as_told(taught("auto", "specular"))),
+                  seeded(64'000, exact(by("bdpt", "specular", 1, 8)))},
+                 table);
+    compare_with("metal_ring",
+                 {seeded(64'000, as_told(taught("auto", focused))),
+                  seeded(65'000, noted(narrow(taught("ppm", "caustic")), "taught"))},
+                 table);
+    compare_with("museum_indirect", {seeded(69'000, exact(by("bdpt", "indirect", 1, 2)))}, table);
     return table;
   }();
   return all;

@@ -10,12 +10,16 @@
 
 namespace kaustik::agreement {
 
-/// Renders whose components together are the reference of a scene. No component is in two of them.
+/// Renders whose components together are a reference. No component is in two of them.
 struct ReferenceRecipe {
-  std::string name;  ///< of the file: the scene, or the scene and its size
+  std::string name;  ///< of the file: the scene, and what sets it apart
   std::vector<BlockRender> parts;
+  /// Kept as pixels, their means and errors (pixel_tests.h), instead of all renders' blocks.
+  bool is_of_pixels = false;
 };
 const std::vector<ReferenceRecipe>& reference_recipes();
+/// Throws std::invalid_argument if there is none.
+const ReferenceRecipe& recipe_of(const std::string& name);
 
 /// A method that is compared with a reference.
 struct Contender {
@@ -24,6 +28,10 @@ struct Contender {
   /// How far each of 4 × 4 parts of the picture may be from the reference, for methods that are
   /// consistent but have a bias at a finite number of passes; 0: has no bias at all.
   double tolerance = 0;
+  /// Merged light of each of these parts may be away by what the method tells of its own bias, and
+  /// no more; direct light has none.
+  bool tells_bias = false;
+  std::string note = {};  ///< tells rows of one method in one scene apart
 };
 const std::vector<Contender>& contenders();
 /// For messages of gtest.

@@ -201,4 +201,22 @@ double p_beyond(const Replicates& tested, const Replicates& reference, double to
   return sidak_p(least_p, wanted.size());
 }
 
+double p_beyond_told(const Replicates& tested, const Replicates& reference, const Replicates& told,
+                     double planted) {
+  const size_t blocks = reference.at(0).size();
+  double least_p = 1;
+  for (size_t b = 0; b < blocks; ++b) {
+    const Differences d = differences(tested, reference, b, planted);
+    Differences left = d;
+    for (size_t r = 0; r < R; ++r) left[r] -= double(told[r][b]);
+    const RunningStatistics of_all = statistics_of(d), of_rest = statistics_of(left);
+    // Between the two ends: no evidence. Beyond one of them: the nearer one is to be left.
+    if (of_all.mean() * of_rest.mean() <= 0) continue;
+    const double t = std::min(std::fabs(of_all.mean()) / of_all.standard_error(),
+                              std::fabs(of_rest.mean()) / of_rest.standard_error());
+    least_p = std::min(least_p, student_t_cdf(-t, double(R - 1)));
+  }
+  return sidak_p(least_p, blocks);
+}
+
 }  // namespace kaustik::agreement

@@ -50,4 +50,10 @@ double smallest_bias_found(const Replicates& tested, const Replicates& reference
 double p_beyond(const Replicates& tested, const Replicates& reference, double tolerance,
                 double planted = 0);
 
+/// The same where the tested renders tell of their own bias, block by block: where in truth the
+/// difference of the means is anything between nothing and what is told. So what is told must not
+/// be too little, nor of the wrong sign. It is as noisy as the renders, which counts.
+double p_beyond_told(const Replicates& tested, const Replicates& reference, const Replicates& told,
+                     double planted = 0);
+
 }  // namespace kaustik::agreement

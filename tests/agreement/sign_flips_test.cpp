@@ -123,6 +123,26 @@ TEST(SignFlips, AToleranceIsWhatItSays) {
   EXPECT_LT(p_beyond(coarser(a, 20, 10), coarser(b, 20, 10), 0.05, 0.3), 1e-4);
 }
 
+TEST(SignFlips, ABiasThatIsToldMayBeThereAndNoMore) {
+  const Replicates exact = noisy(7);
+  const auto with = [](uint32_t seed, float factor) {
+    Replicates all = noisy(seed);
+    for (auto& row : all)
+      for (size_t b = 0; b < blocks; ++b) row[b] += b < blocks / 2 ? factor : -factor;
+    return all;
+  };
+  const auto coarse = [](const Replicates& fine) { return coarser(fine, 20, 10); };
+  // What is told is noisy, too.
+  Replicates told = with(9, 0.3f);
+  for (auto& row : told)
+    for (float& value : row) value -= 1;
+  EXPECT_GT(p_beyond_told(coarse(with(8, 0.2f)), coarse(exact), coarse(told)), 0.01);
+  EXPECT_GT(p_beyond_told(coarse(with(8, 0)), coarse(exact), coarse(told)), 0.01);
+  EXPECT_LT(p_beyond_told(coarse(with(8, 0.6f)), coarse(exact), coarse(told)), 1e-4);
+  EXPECT_LT(p_beyond_told(coarse(with(8, -0.3f)), coarse(exact), coarse(told)), 1e-4);
+  EXPECT_LT(p_beyond_told(coarse(with(8, 0.2f)), coarse(exact), coarse(told), 0.3), 1e-4);
+}
+
 TEST(SignFlips, CoarserBlocksAreMeans) {
   Replicates rows = {{1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31}};
   EXPECT_EQ(coarser(rows, 4, 2)[0], (std::vector<float>{6, 10, 22, 26}));

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "kaustik/base/error.h"
+#include "tests/agreement/pixel_tests.h"
 #include "tests/agreement/scenes.h"
 
 int main(int argc, char** argv) {
@@ -15,9 +16,15 @@ int main(int argc, char** argv) {
     for (const ReferenceRecipe& recipe : reference_recipes()) {
       if (!wanted.empty() && std::count(wanted.begin(), wanted.end(), recipe.name) == 0) continue;
       const auto start = std::chrono::steady_clock::now();
+      const std::string path = reference_path(recipe.name);
       Components components;
-      for (const BlockRender& part : recipe.parts) components.merge(render_blocks(part));
-      write_blocks(components, reference_path(recipe.name));
+      for (const BlockRender& part : recipe.parts)
+        components.merge(recipe.is_of_pixels ? render_replicates(part).pixels
+                                             : render_blocks(part));
+      if (recipe.is_of_pixels)
+        write_pixels(moments_of(components), path);
+      else
+        write_blocks(components, path);
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
       std::printf("%s: %.1f s\n", recipe.name.c_str(), seconds.count());
       ++made;
