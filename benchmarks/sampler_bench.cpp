@@ -41,7 +41,7 @@ Sampler sampler_of(Points points, const Pass& pass, const Vec2i& pixel, int widt
 void add_pass(const Scene& scene, const Integrator& integrator, Points points, const Pass& pass,
               std::vector<Spectrum>& sum) {
   const FilmSettings& film = scene.film();
-  SplatBuffer splats({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  SplatBuffer splats = SplatBuffer::nowhere();
   const auto state = integrator.prepare(pass, splats, {}, {});
   parallel_blocks(size_t(film.size.y), 1, [&](size_t begin, size_t end, size_t) {
     for (auto y = int(begin); y < int(end); ++y)

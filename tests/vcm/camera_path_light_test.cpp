@@ -87,8 +87,12 @@ TEST(CameraPath, MeetsAndSamplesTheLightOfAFurnace) {
       SplatBuffer nowhere(furnace.scene().film(), ComponentSet());
       PassReport report;
       const LightVertices light =
-          trace_light_vertices({furnace.scene(), emission, weights, ComponentSet::all(), 1 << 20,
-                                light_paths, 4, plans, 1},
+          trace_light_vertices({.scene = furnace.scene(),
+                                .emission = emission,
+                                .weights = weights,
+                                .light_paths = light_paths,
+                                .camera_samples = 4,
+                                .plans = plans},
                                Pass{1, number, 1}, Stream::light_path, nowhere, {}, {}, report);
       const MattMerging matt(light, weights);
       const CameraPathInputs inputs{

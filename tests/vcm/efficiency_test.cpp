@@ -113,11 +113,15 @@ TEST(PathPilot, ExpectsTheVarianceOfPathTracing) {
   settings.techniques.merging = true;
   settings.light_paths = 4096;
   const PathWeights weights(settings);
-  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  SplatBuffer nowhere = SplatBuffer::nowhere();
   PassReport report;
-  const LightVertices vertices = trace_light_vertices(
-      {scene, emission, weights, ComponentSet::all(), 1 << 20, 4096, 1, PixelPlans(), 1}, Pass{},
-      Stream::training, nowhere, {}, {}, report);
+  const LightVertices vertices =
+      trace_light_vertices({.scene = scene,
+                            .emission = emission,
+                            .weights = weights,
+                            .light_paths = 4096,
+                            .plans = PixelPlans()},
+                           Pass{}, Stream::training, nowhere, {}, {}, report);
   PixelPlans plans(scene);
   plans.choose_disks(vertices, 4096, 30, 0);
   const MattMerging no_matt;
@@ -182,11 +186,14 @@ Forecast forecast(const Scene& scene, const Techniques& techniques, double light
   settings.merge_area = pi * sqr(merge_radius);
   settings.accepted_area = accepted_area(plans);
   const PathWeights weights(settings);
-  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  SplatBuffer nowhere = SplatBuffer::nowhere();
   PassReport report;
   const LightVertices vertices =
-      trace_light_vertices({scene, emission, weights, ComponentSet::all(), 1 << 20,
-                            uint32_t(light_share * of_pass), 1, PixelPlans(), 1},
+      trace_light_vertices({.scene = scene,
+                            .emission = emission,
+                            .weights = weights,
+                            .light_paths = uint32_t(light_share * of_pass),
+                            .plans = PixelPlans()},
                            Pass{}, Stream::training, nowhere, {}, {}, report);
   plans.choose_disks(vertices, of_pass, 30, merge_radius);
   const MattMerging no_matt;

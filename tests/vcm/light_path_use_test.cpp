@@ -51,15 +51,19 @@ UsefulPaths useful_paths(const std::string& text) {
   PathWeights::Settings settings;
   settings.techniques.merging = true;
   const PathWeights weights(settings);
-  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  SplatBuffer nowhere = SplatBuffer::nowhere();
   const auto paths = [&](const LightPathEmission& emission, uint32_t index) {
     Pass pass;
     pass.index = index;
     PassReport report;
-    return trace_light_vertices(
-        {scene, emission, weights, ComponentSet::all(), 100, LightPathUse::most_paths, 1,
-         PixelPlans(), 1, LightPathUse::most_paths},
-        pass, Stream::training, nowhere, {}, {}, report);
+    return trace_light_vertices({.scene = scene,
+                                 .emission = emission,
+                                 .weights = weights,
+                                 .maximum_events = 100,
+                                 .light_paths = LightPathUse::most_paths,
+                                 .plans = PixelPlans(),
+                                 .remembered_paths = LightPathUse::most_paths},
+                                pass, Stream::training, nowhere, {}, {}, report);
   };
   LightPathUse use(scene, plain, ComponentSet::all());
   use.learn(paths(LightPathEmission(plain, use.targets()), 0));
@@ -102,15 +106,21 @@ TEST(LightPathUse, NoiseOfUnguidedPathsLong) {
   PathWeights::Settings settings;
   settings.techniques.merging = true;
   const PathWeights weights(settings);
-  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  SplatBuffer nowhere = SplatBuffer::nowhere();
   const auto paths = [&](const ScatterGuide* guide, uint32_t index) {
     Pass pass;
     pass.index = index;
     PassReport report;
-    return trace_light_vertices(
-        {scene, plain, weights, ComponentSet::all(), 100, LightPathUse::most_pilot_paths, 1,
-         PixelPlans(), 1, LightPathUse::most_pilot_paths, MediumDisks(), guide, true},
-        pass, Stream::training, nowhere, {}, {}, report);
+    return trace_light_vertices({.scene = scene,
+                                 .emission = plain,
+                                 .weights = weights,
+                                 .maximum_events = 100,
+                                 .light_paths = LightPathUse::most_pilot_paths,
+                                 .plans = PixelPlans(),
+                                 .remembered_paths = LightPathUse::most_pilot_paths,
+                                 .scattering = guide,
+                                 .remembers_scattering = true},
+                                pass, Stream::training, nowhere, {}, {}, report);
   };
   LightPathUse use(scene, plain, ComponentSet::all());
   use.learn(paths(nullptr, 0));

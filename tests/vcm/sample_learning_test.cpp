@@ -95,8 +95,8 @@ std::vector<PixelSamples> samples_of(const TestScene& scene, const Integrator& i
                                      uint32_t pass_index, uint32_t samples = 4) {
   const Pass pass{3, pass_index, samples};
   const bool splats = integrator.traits().splats;
-  SplatBuffer buffer(splats ? scene.scene().film() : FilmSettings{{1, 1}, {0, 0}, {1, 1}, {}, 0},
-                     splats ? integrator.traits().components : ComponentSet());
+  SplatBuffer buffer = splats ? SplatBuffer(scene.scene().film(), integrator.traits().components)
+                              : SplatBuffer::nowhere();
   const auto state = integrator.prepare(pass, buffer, {}, {});
   std::vector<PixelSamples> result;
   const Vec2i size = scene.scene().film().crop_size;

@@ -60,7 +60,7 @@ std::string lights_outside() {
          directional_light("0.3, 0.2, -1", 1) + constant_light(0.05);
 }
 
-Techniques every_technique() { return {true, true, true, true, true}; }
+Techniques every_technique() { return {.splats = true, .connections = true, .merging = true}; }
 
 PathWeights path_weights_by(const Techniques& techniques) {
   PathWeights::Settings settings;
@@ -195,7 +195,7 @@ void expect_sums_of_one(const Guided& guided, int least_of_each) {
   // Of what is told by rounding there is little.
   EXPECT_GT(all.delta, int(traced_paths / 40));
   for (size_t i = 0; i < all.by.size(); ++i) EXPECT_GT(all.by[i], least_of_each) << found_names[i];
-  const Techniques some[] = {{true, true, true, true, false}, {true, true, false, false, true}};
+  const Techniques some[] = {{.splats = true, .connections = true}, {.merging = true}};
   for (const Techniques& techniques : some) {
     const WholePathRules rules = guided.with(techniques);
     const Sums found = sums(rules, rules, traced_paths / 4);

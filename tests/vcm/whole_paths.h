@@ -29,19 +29,16 @@ struct WholePathRules {
   /// Paths whose pass and numbers these are.
   LightVertices trace(const Pass& pass, uint32_t paths, SplatBuffer& splats) const {
     PassReport report;
-    return trace_light_vertices({scene,
-                                 *emission,
-                                 weights,
-                                 ComponentSet::all(),
-                                 maximum_events,
-                                 paths,
-                                 camera_samples,
-                                 plans,
-                                 1,
-                                 paths,
-                                 {},
-                                 scattering.get(),
-                                 true},
+    return trace_light_vertices({.scene = scene,
+                                 .emission = *emission,
+                                 .weights = weights,
+                                 .maximum_events = maximum_events,
+                                 .light_paths = paths,
+                                 .camera_samples = camera_samples,
+                                 .plans = plans,
+                                 .remembered_paths = paths,
+                                 .scattering = scattering.get(),
+                                 .remembers_scattering = true},
                                 pass, Stream::light_path, splats, {}, {}, report);
   }
 };

@@ -122,7 +122,7 @@ Image small_picture(const Scene& scene, const Squares& squares, uint64_t seed,
   std::vector<std::string> warnings;
   const auto path =
       make_integrator_alone(Object{"integrator", "path", "", {}, {}, {}}, scene, warnings);
-  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  SplatBuffer nowhere = SplatBuffer::nowhere();
   const Pass pass{seed, 0, 1, {}};
   const auto state = path->prepare(pass, nowhere, stop, [](double) {});
   PassTiles tiles(squares.count());

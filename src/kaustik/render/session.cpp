@@ -41,9 +41,8 @@ Session::Session(const Scene& scene, const Integrator& integrator, const Session
       integrator_(integrator),
       settings_(settings),
       film_(std::move(begun)),
-      splats_(
-          integrator.traits().splats ? scene.film() : FilmSettings{{1, 1}, {0, 0}, {1, 1}, {}, 0},
-          integrator.traits().components),
+      splats_(integrator.traits().splats ? SplatBuffer(scene.film(), integrator.traits().components)
+                                         : SplatBuffer::nowhere()),
       pass_({film_.width(), film_.height()}),
       is_finished_(pass_.tiles().count()),
       tile_mutexes_(std::make_unique<std::mutex[]>(pass_.tiles().count())),

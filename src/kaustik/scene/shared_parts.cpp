@@ -80,8 +80,14 @@ void SceneBuilder::make_light(const LightType& type, const PendingLight& pending
         type.info.find("to_world") ? arguments.transform("to_world") : identity;
     const PictureReader::Mark mark = pictures_.mark();
     const bool has_tables = made.tables != nullptr;
-    made.light = type.create({arguments, to_world, pending.shape, pending.shape_index, bounds_,
-                              pattern, &pictures_, &made.tables});
+    made.light = type.create({.arguments = arguments,
+                              .to_world = to_world,
+                              .shape = pending.shape,
+                              .shape_index = pending.shape_index,
+                              .scene_bounds = bounds_,
+                              .pattern = pattern,
+                              .pictures = &pictures_,
+                              .tables = &made.tables});
     if (!is_known) made.pictures = pictures_.use_since(mark);
     ++counts_.lights;
     if (made.tables && !has_tables) ++counts_.light_tables;

@@ -60,9 +60,15 @@ bool scatter_light_path(const SurfaceVertex& vertex, Lobes follow, const LightPa
 }
 
 LightMediumVertex medium_vertex(const LightPath& path, const Medium::Flight& flight) {
-  LightMediumVertex vertex{{0, 0, 0},  -path.ray.direction, *path.state.medium,
-                           {},         path.path_class,     0,
-                           path.state, path.index,          path.sampler};
+  LightMediumVertex vertex{.position = {0, 0, 0},
+                           .wo = -path.ray.direction,
+                           .medium = *path.state.medium,
+                           .flux = {},
+                           .path_class = path.path_class,
+                           .distance = 0,
+                           .state = path.state,
+                           .path = path.index,
+                           .sampler = path.sampler};
   if (!flight.scattered) return vertex;
   vertex.position = path.ray.origin + path.ray.direction * flight.distance;
   vertex.flux = path.state.throughput * flight.weight;

@@ -194,8 +194,14 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
       return true;
     }
     path.boundaries = 0;
-    const Lobes follow = handler(LightVertex{vertex, path.state, path.path_class, path.distance,
-                                             path.index, path.ray, hit, path.sampler});
+    const Lobes follow = handler(LightVertex{.vertex = vertex,
+                                             .state = path.state,
+                                             .path_class = path.path_class,
+                                             .distance = path.distance,
+                                             .path = path.index,
+                                             .ray = path.ray,
+                                             .hit = hit,
+                                             .sampler = path.sampler});
     if (!any(follow)) return ended(counts.stopped);
     if (path.path_class.events() >= limits.maximum_events) return ended(counts.too_long);
     if (!scatter_light_path(vertex, follow, limits, path)) return ended(counts.absorbed);

@@ -14,7 +14,9 @@ struct Techniques {
   /// Whether light is found at all where the camera does not look straight at it.
   bool any() const { return unidirectional || next_event || needs_light_paths(); }
   /// Those of them that need no light paths.
-  Techniques of_camera_paths() const { return {unidirectional, next_event, false, false, false}; }
+  Techniques of_camera_paths() const {
+    return {.unidirectional = unidirectional, .next_event = next_event};
+  }
   /// Whether light paths are traced.
   bool needs_light_paths() const { return splats || connections || merging; }
 };

@@ -52,6 +52,12 @@ SplatBuffer::SplatBuffer(const FilmSettings& film, ComponentSet wanted)
       wanted_(wanted),
       sums_(tiles_.count() * component_count) {}
 
+SplatBuffer SplatBuffer::nowhere() {
+  FilmSettings one_pixel;
+  one_pixel.size = one_pixel.crop_size = {1, 1};
+  return {one_pixel, ComponentSet()};
+}
+
 SplatSums& SplatBuffer::sums(size_t tile, Component component) {
   return made_once(sums_[tile * component_count + size_t(component)]);
 }

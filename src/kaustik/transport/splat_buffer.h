@@ -43,6 +43,8 @@ class SplatBuffer {
  public:
   /// Keeps red, green and blue.
   SplatBuffer(const FilmSettings& film, ComponentSet wanted);
+  /// Takes what is of no picture: it wants no component.
+  static SplatBuffer nowhere();
   ~SplatBuffer() { clear(); }
 
   bool wants(Component component) const { return wanted_.has(component); }

@@ -13,12 +13,12 @@ struct VcmLightInputs {
   const Scene& scene;
   const LightPathEmission& emission;
   const PathWeights& weights;
-  ComponentSet components;
-  int maximum_events;
-  uint32_t light_paths;
-  float camera_samples;  ///< per pixel
+  ComponentSet components = ComponentSet::all();
+  int maximum_events = 1 << 20;
+  uint32_t light_paths = 1;
+  float camera_samples = 1;  ///< per pixel
   const PixelPlans& plans;
-  float shrinkage;  ///< of the disks of merging since the first pass
+  float shrinkage = 1;  ///< of the disks of merging since the first pass
   /// Paths whose beginnings are remembered; their vertices are kept as if merging were wanted.
   uint32_t remembered_paths = 0;
   MediumDisks media = {};

@@ -78,14 +78,14 @@ const TypeInfo& vcm_info() {
       "integrator", "vcm",
       "Vertex connection and merging: paths from the camera and from the lights, combined in every "
       "way; each way can be switched off.",
-      parameters({true, true, true, true, true})};
+      parameters({.splats = true, .connections = true, .merging = true})};
   return info;
 }
 
 const TypeInfo& bdpt_info() {
   static const TypeInfo info{"integrator", "bdpt",
                              "Bidirectional path tracing: vcm without merging, unbiased.",
-                             parameters({true, true, true, true, false})};
+                             parameters({.splats = true, .connections = true})};
   return info;
 }
 
@@ -94,7 +94,7 @@ const TypeInfo& ppm_info() {
       "integrator", "ppm",
       "Progressive photon mapping: vcm with merging at the camera's vertices, light sampling and "
       "lights met by chance.",
-      parameters({true, true, false, false, true})};
+      parameters({.merging = true})};
   return info;
 }
 
@@ -132,9 +132,11 @@ VcmSettings::VcmSettings(const Arguments& arguments)
   visibility = arguments.boolean("visibility");
   choose_survival = arguments.boolean("choose_survival");
   samples_per_pass = uint32_t(arguments.integer("samples_per_pass"));
-  techniques = {arguments.boolean("unidirectional"), arguments.boolean("next_event"),
-                arguments.boolean("splats"), arguments.boolean("connections"),
-                arguments.boolean("merging")};
+  techniques = {.unidirectional = arguments.boolean("unidirectional"),
+                .next_event = arguments.boolean("next_event"),
+                .splats = arguments.boolean("splats"),
+                .connections = arguments.boolean("connections"),
+                .merging = arguments.boolean("merging")};
 }
 
 }  // namespace kaustik

@@ -189,13 +189,20 @@ SurfaceMerging::MergedLight SurfaceMerging::merged_matt(
     const MergeDisk& disk, const DiskWeights& weights,
     std::vector<MattMerging::Factors>* each) const {
   const SurfaceVertex& vertex = walk_.vertex();
-  const MattLight light = in_.matt.merge(
-      {vertex.position(), disk.side(), disk.radius(), disk.flatness(), disk.least_cosine(),
-       in_.maximum_events - walk_.events(), weights.bounds.edges, weights.wide.slope,
-       weights.narrow.slope,
-       in_.weights.matt_vertex(vertices_.list(), vertices_.plan().counted_area(in_.camera_samples),
-                               vertices_.plan().counted_survival())},
-      each);
+  const MattLight light =
+      in_.matt.merge({.center = vertex.position(),
+                      .normal = disk.side(),
+                      .radius = disk.radius(),
+                      .flatness = disk.flatness(),
+                      .least_cosine = disk.least_cosine(),
+                      .most_before = in_.maximum_events - walk_.events(),
+                      .edges = weights.bounds.edges,
+                      .slope = weights.wide.slope,
+                      .narrow_slope = weights.narrow.slope,
+                      .weights = in_.weights.matt_vertex(
+                          vertices_.list(), vertices_.plan().counted_area(in_.camera_samples),
+                          vertices_.plan().counted_survival())},
+                     each);
   const Spectrum reflected = vertex.diffuse_value();
   MergedLight result;
   const auto add = [&](Component component, const MattLight::Sum& sum) {
