@@ -180,5 +180,19 @@ TEST(TransportWavelengths, APrismSpreadsTheLanes) {
   }
 }
 
+/// Ambient light is a curve until it is asked for its lanes.
+TEST(TransportWavelengths, AmbientLightIsACurve) {
+  const TestScene scene(camera("0, 0, 2", "0, 0, 0", 20, 4, "0, 1, 0") +
+                        flat("rectangle", "", diffuse("0.5, 0.5, 0.5")));
+  for (const char* type : {"localphong", "raytracing"}) {
+    const auto integrator = scene.integrator(type, spectrum("ambient", "400:1, 800:3"));
+    const Lanes lanes = measure(scene.scene(), *integrator, 1);
+    for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
+      const double expected = 0.5 * (1 + 2 * (double(four[lane]) - 400) / 400);
+      EXPECT_NEAR(lanes[size_t(lane)].mean(), expected, 1e-4 * expected) << type << ' ' << lane;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -1,7 +1,5 @@
 #include "kaustik/integrator/local_light.h"
 
-#include "kaustik/base/color.h"
-
 namespace kaustik {
 
 std::vector<Parameter> LocalLight::parameters() {
@@ -24,13 +22,15 @@ std::vector<Parameter> LocalLight::parameters() {
 LocalLight::LocalLight(const Arguments& arguments)
     : sampling_{LightChoice::all, int(arguments.integer("light_samples"))},
       rules_{arguments.boolean("shadows"), true},
-      ambient_(emission_spectrum(arguments.color("ambient"))) {}
+      ambient_(SpectralValue::emission(arguments.color("ambient"))) {}
 
 void LocalLight::add_to(CameraWalk& walk, Lobes lobes) const {
   walk.add_direct_light(0, 0, sampling_, rules_);
-  if (ambient_.is_zero() || !walk.wants_photon_light(Component::indirect)) return;
+  if (!walk.wants_photon_light(Component::indirect)) return;
+  const Spectrum ambient = ambient_.at(walk.wavelengths());
+  if (ambient.is_zero()) return;
   // What a surface reflects of light that is the same from everywhere is its albedo.
-  walk.add_photon_light(Component::indirect, ambient_ * walk.vertex().albedo(lobes));
+  walk.add_photon_light(Component::indirect, ambient * walk.vertex().albedo(lobes));
 }
 
 }  // namespace kaustik

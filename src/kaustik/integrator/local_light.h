@@ -1,6 +1,7 @@
 #pragma once
 // What the classical illumination models know of the light at a surface: what comes straight from
 // the lamps, and a constant for all the rest.
+#include "kaustik/base/spectral_value.h"
 #include "kaustik/transport/illumination_model.h"
 
 namespace kaustik {
@@ -18,7 +19,7 @@ class LocalLight {
  private:
   LightSampling sampling_;
   LightRules rules_;
-  Spectrum ambient_;  ///< radiance that comes from everywhere, W/(sr·m²)
+  SpectralValue ambient_;  ///< radiance that comes from everywhere, W/(sr·m²)
 };
 
 }  // namespace kaustik
