@@ -63,7 +63,7 @@ Cost cost_of(const Integrator& integrator) {
   Cost cost;
   for (uint32_t index = 0; index <= passes; ++index) {
     const Pass pass{1, index, samples, {}};
-    SplatBuffer splats({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+    SplatBuffer splats = SplatBuffer::nowhere();
     const double begin = cpu_seconds();
     const auto state = integrator.prepare(pass, splats, {}, {});
     const double prepared = cpu_seconds();
@@ -94,7 +94,7 @@ double merged(const Scene& scene, int merge_neighbors) {
   settings.light_paths = 1;
   settings.merge_neighbors = merge_neighbors;
   const auto plain = std::make_shared<const LightPathEmission>(scene, settings.aim);
-  const VcmPlans plans = VcmPlanner(scene, settings, plain).make(samples, {});
+  const VcmPlans plans = *VcmPlanner(scene, settings, plain).make(samples, {}).plans;
   double sum = 0;
   for (const ProbeStatistics& probe : plans.pilot->probes) sum += probe.merged;
   return sum / double(std::max<size_t>(1, plans.pilot->probes.size()));

@@ -148,16 +148,22 @@ FirstPass first_pass(const Scene& scene) {
   const auto plain = std::make_shared<const LightPathEmission>(scene, settings.aim);
   const uint32_t samples = settings.samples_per_pass;
   FirstPass pass;
-  pass.plans = VcmPlanner(scene, settings, plain).make(samples, {});
+  pass.plans = *VcmPlanner(scene, settings, plain).make(samples, {}).plans;
   PathWeights::Settings weights;
   weights.techniques = pass.plans.techniques;
-  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  SplatBuffer nowhere = SplatBuffer::nowhere();
   PassReport report;
   pass.light = trace_light_vertices(
-      {scene, *pass.plans.emission, PathWeights(weights), settings.components,
-       settings.maximum_events,
-       light_path_count(scene.film().crop_size, samples, pass.plans.light_paths), float(samples),
-       pass.plans.pixels, 1, 0, pass.plans.media, pass.plans.scattering.get(), false},
+      {.scene = scene,
+       .emission = *pass.plans.guides.emission,
+       .weights = PathWeights(weights),
+       .components = settings.components,
+       .maximum_events = settings.maximum_events,
+       .light_paths = light_path_count(scene.film().crop_size, samples, pass.plans.light_paths),
+       .camera_samples = float(samples),
+       .plans = pass.plans.pixels,
+       .media = pass.plans.media,
+       .scattering = pass.plans.guides.scattering.get()},
       {1, 0, samples}, Stream::light_path, nowhere, {}, {}, report);
   return pass;
 }

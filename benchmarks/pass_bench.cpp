@@ -51,7 +51,7 @@ double camera_seconds(Description description, const Scene& scene, const std::st
     override_property(description, "integrator." + setting);
   std::vector<std::string> warnings;
   const auto integrator = make_integrator(description, scene, warnings);
-  SplatBuffer splats({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  SplatBuffer splats = SplatBuffer::nowhere();
   const auto state = integrator->prepare(Pass(), splats, {}, {});
   return camera_seconds(*integrator, *state);
 }
@@ -73,7 +73,7 @@ int main() {
   const auto plain = std::make_shared<const LightPathEmission>(*scene, settings.aim);
   VcmPlans plans;
   const double planning =
-      bench::seconds_of([&] { plans = VcmPlanner(*scene, settings, plain).make(1, {}); });
+      bench::seconds_of([&] { plans = *VcmPlanner(*scene, settings, plain).make(1, {}).plans; });
   report("plans", planning, "once: pilots of light paths and camera paths, edges");
 
   PathWeights::Settings of_weights;
@@ -85,10 +85,15 @@ int main() {
   const PathWeights weights(of_weights);
   LightVertices light;
   const double tracing = seconds_per_pass([&](const Pass& pass) {
-    SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+    SplatBuffer nowhere = SplatBuffer::nowhere();
     PassReport of_pass;
-    light = trace_light_vertices({*scene, *plans.emission, weights, settings.components,
-                                  settings.maximum_events, light_paths, 1, plans.pixels, 1},
+    light = trace_light_vertices({.scene = *scene,
+                                  .emission = *plans.guides.emission,
+                                  .weights = weights,
+                                  .components = settings.components,
+                                  .maximum_events = settings.maximum_events,
+                                  .light_paths = light_paths,
+                                  .plans = plans.pixels},
                                  pass, Stream::light_path, nowhere, {}, {}, of_pass);
   });
   const std::span<const LightVertexData> all = light.tree.tree().data();

@@ -198,7 +198,7 @@ TEST(Auto, PilotIsCheap) {
   double spent = 0;
   for (uint32_t pass = 0; pass < passes; ++pass) {
     const auto state = integrator->prepare({0, pass, samples}, splats, {}, {});
-    ASSERT_EQ(state->report.decisions.size(), 1u);
+    ASSERT_FALSE(state->report.decisions.empty());
     ASSERT_TRUE(is_for_camera_alone(state->report.decisions[0]));
     spent += double(state->report.rays);
   }

@@ -25,7 +25,9 @@ class PlansFile : public testing::Test {
         settings_(Arguments(ppm_info(), {}, {}, problems_)),
         plain_(std::make_shared<const LightPathEmission>(scene_.scene(), settings_.aim)) {}
 
-  VcmPlans made() const { return VcmPlanner(scene_.scene(), settings_, plain_).make(samples, {}); }
+  VcmPlans made() const {
+    return *VcmPlanner(scene_.scene(), settings_, plain_).make(samples, {}).plans;
+  }
   /// Those of the first pass with so many samples in one block, written and read.
   VcmPlans with_count(uint32_t count) const {
     VcmPlans plans = made();

@@ -193,20 +193,17 @@ TEST_F(TaughtByHand, NoiseIsTheSumOfSquaredUses) {
 TEST_F(TaughtByHand, PlansAreGuidedByIt) {
   const auto before = std::make_shared<const ScatterGuide>(ScatterGuide::Parts());
   const auto guided = [&](std::shared_ptr<const ScatterGuide> scattering) {
-    VcmPlans plans;
-    plans.emission = plain_;
-    plans.scattering = std::move(scattering);
-    plans.guide_by(*use_);
-    return plans;
+    return LightGuides{.emission = plain_, .scattering = std::move(scattering)}.guided_by(*use_);
   };
   EXPECT_EQ(guided(before).emission, plain_);
   EXPECT_EQ(guided(before).scattering, nullptr);
   teach(3);
-  const VcmPlans plans = guided(before);
-  ASSERT_NE(plans.emission, plain_);
+  const LightGuides guides = guided(before);
+  ASSERT_NE(guides.emission, plain_);
   const SurfacePoint lamp;
-  EXPECT_GT(plans.emission->pdf(0, lamp, {0, 0, 1}).rest, 3 * plain_->pdf(0, lamp, {0, 0, 1}).rest);
-  EXPECT_TRUE(plans.scattering && plans.scattering != before);
+  EXPECT_GT(guides.emission->pdf(0, lamp, {0, 0, 1}).rest,
+            3 * plain_->pdf(0, lamp, {0, 0, 1}).rest);
+  EXPECT_TRUE(guides.scattering && guides.scattering != before);
   EXPECT_EQ(guided(nullptr).scattering, nullptr);
   teach(0.5f);
   EXPECT_EQ(guided(before).scattering, nullptr);

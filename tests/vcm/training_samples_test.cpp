@@ -62,14 +62,20 @@ TEST(TrainingSamples, PairsTellTheVariance) {
   int same = 0;
   RunningStatistics variance, light;
   std::array<std::array<int, 2>, 3> seen{};
+  PlanWindow window;
+  window.size = {10, 7};
+  const BlockGrid grid(window, 4);
+  const Pass pass{5, 0, 4, {}};
+  std::vector<Vec2f> where;
+  const TakeSample take = [&](const Vec2f& at, Sampler& sampler, SampleSink& to) {
+    where.push_back(at);
+    take_coin(at, sampler, to);
+  };
   for (uint32_t i = 0; i < pairs; ++i) {
     // The block at the lower right corner, of which the picture has 2 × 3 pixels.
-    std::vector<Vec2f> where;
-    const TrainingPair pair = training_pair({{10, 7}, {8, 4}, {4, 4}, 5, 9}, i, i, filter, wanted,
-                                            [&](const Vec2f& at, Sampler& sampler, SampleSink& to) {
-                                              where.push_back(at);
-                                              take_coin(at, sampler, to);
-                                            });
+    where.clear();
+    const TrainingPair pair = training_pair(
+        {.grid = grid, .filter = filter, .components = wanted, .pass = pass, .take = take}, {5, i});
     ASSERT_EQ(where.size(), 2u);
     const Vec2i pixel(int(where[0].x), int(where[0].y));
     ASSERT_TRUE(pixel.x >= 8 && pixel.x < 10 && pixel.y >= 4 && pixel.y < 7);

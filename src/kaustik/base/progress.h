@@ -10,6 +10,12 @@ namespace kaustik {
 /// May be empty.
 using ProgressFunction = std::function<void(double)>;
 
+/// Progress of part `i` of `count` parts that are alike. `whole` must outlive it.
+inline ProgressFunction part_of(const ProgressFunction& whole, uint32_t i, uint32_t count) {
+  if (!whole) return {};
+  return [&whole, i, count](double share) { whole((i + share) / count); };
+}
+
 /// Counts work that many threads do.
 class WorkCounter {
  public:

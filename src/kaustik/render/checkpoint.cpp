@@ -15,7 +15,7 @@ namespace {
 
 constexpr BinaryFileKind checkpoint_kind = {
     {0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
-    7,
+    8,
     "checkpoint",
     "give a .kpt file that was written by: kaustik render SCENE --checkpoint FILE.kpt",
     "render again with this program: kaustik render SCENE --checkpoint FILE.kpt"};

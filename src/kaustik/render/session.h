@@ -78,7 +78,7 @@ struct SessionReport {
   /// Share of a pass that was taken after those of the film: Session::image() has it, too.
   double part = 0;
   std::vector<std::string> warnings;
-  std::vector<std::string> decisions;  ///< PassReport::decisions
+  std::vector<std::string> decisions;  ///< PassReport::decisions of the last pass
 };
 
 /// Runs passes of an integrator over tiles of the picture on all threads, and sums them on the

@@ -73,7 +73,8 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
   if (halt.stop_requested()) return PassEnd::discarded;
   monitor.light_pass_done(state->report);
   add_new(state->report.warnings, report_.warnings);
-  add_new(state->report.decisions, report_.decisions);
+  // Later ones take the place of earlier ones: what is decided changes as passes teach.
+  report_.decisions = state->report.decisions;
   const bool complete =
       !integrator_.traits().samples_camera || render_camera(pass, *state, stop, monitor);
   uint32_t samples = samples_per_pass_;

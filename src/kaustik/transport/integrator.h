@@ -112,7 +112,8 @@ enum class LessonUse {
   fixed   ///< they hold for all passes, which teach nothing more
 };
 
-/// A method of computing the picture. Const and thread-safe; owns no loop, no film, no clock.
+/// A method of computing the picture. Const and thread-safe; owns no film, no clock, and no loop
+/// over the passes of a picture. (It may trace passes that only teach it.)
 class Integrator {
  public:
   virtual ~Integrator() = default;

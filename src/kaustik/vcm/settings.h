@@ -26,6 +26,11 @@ struct VcmSettings {
   bool adaptive = true;              ///< camera samples go where passes before find them to differ
   bool chooses_light_paths = false;  ///< how many, or none at all, by what a pilot tells
 
+  /// Whether light paths learn where to begin, and where to go on.
+  bool guides_light_paths() const {
+    return guiding && (techniques.merging || techniques.connections);
+  }
+
   /// Of one of the tables below.
   explicit VcmSettings(const Arguments& arguments);
 };

@@ -3,40 +3,24 @@
 #include <algorithm>
 #include <bit>
 
-#include "kaustik/photon/photon_map.h"
-#include "kaustik/vcm/lessons/guide_lesson.h"
-#include "kaustik/vcm/lessons/radius_lesson.h"
-#include "kaustik/vcm/lessons/sample_lesson.h"
+#include "kaustik/vcm/lessons/lesson_kinds.h"
 #include "kaustik/vcm/plan/plans_file.h"
 
 namespace kaustik {
-namespace {
 
-bool learns_radii(const VcmPlans& plans, const VcmSettings& settings) {
-  return plans.techniques.merging && settings.learn_radii && !(settings.radius > 0);
-}
-
-bool learns_samples(const VcmPlans& plans, const VcmSettings& settings) {
-  // A single sample can't be shared out.
-  return settings.adaptive && plans.pilot && plans.samples_per_pixel > 1;
-}
-
-bool learns_guides(const VcmPlans& plans) {
-  return plans.use && plans.techniques.needs_light_paths();
-}
-
-}  // namespace
-
-VcmLessons::VcmLessons(const Scene& scene, std::shared_ptr<const VcmPlans> first,
-                       const VcmSettings& settings, uint64_t seed)
-    : first_(std::move(first)), seed_(seed) {
-  if (learns_radii(*first_, settings))
-    lessons_.push_back(std::make_unique<RadiusLesson>(scene, *first_, settings.components));
-  if (learns_samples(*first_, settings))
-    lessons_.push_back(std::make_unique<SampleLesson>(scene, *first_, settings.components));
-  if (learns_guides(*first_)) lessons_.push_back(std::make_unique<GuideLesson>(*first_->use));
+VcmLessons::VcmLessons(const Scene& scene, const VcmSettings& settings,
+                       const LightPathEmission& plain, const FirstPlans& first, uint64_t seed)
+    : scene_(scene),
+      settings_(settings),
+      first_(first.plans),
+      seed_(seed),
+      lessons_(make_lessons({.scene = scene,
+                             .settings = settings,
+                             .plain = plain,
+                             .first = *first_,
+                             .use = first.use})),
+      epochs_{{0, first_}} {
   for (const auto& lesson : lessons_) end_ = std::max(end_, lesson->end());
-  epochs_ = {{0, first_}};
 }
 
 void VcmLessons::begin(uint64_t seed) {
@@ -50,44 +34,104 @@ uint32_t VcmLessons::epoch_begin(uint32_t pass) const {
   return std::min(end_, std::bit_floor(pass));
 }
 
-bool VcmLessons::knows_epoch(uint32_t epoch) const {
-  return epochs_.contains(epoch) || epoch >= passes_;
+bool VcmLessons::serve(const Pass& pass) const {
+  const uint32_t epoch = epoch_begin(pass.index);
+  return seed_ == pass.seed && first_->samples_per_pixel == pass.samples_per_pixel &&
+         (epochs_.contains(epoch) || epoch >= passes_);
 }
 
-bool VcmLessons::expects(const Pass& pass) const {
+bool VcmLessons::is_next(const Pass& pass) const {
   // Sums of an epoch whose plans are still to be made stay as they are.
-  return seed_ == pass.seed && passes_ == pass.index &&
-         first_->samples_per_pixel == pass.samples_per_pixel && pass.index < end_ &&
+  return serve(pass) && passes_ == pass.index && pass.index < end_ &&
          epochs_.contains(epoch_begin(pass.index));
 }
 
-std::vector<Lesson*> VcmLessons::wanted(uint32_t pass) const {
-  std::vector<Lesson*> result;
+LessonNeeds VcmLessons::needs_of(uint32_t pass) const {
+  LessonNeeds needs;
   for (const auto& lesson : lessons_)
-    if (pass < lesson->end() && lesson->wants(pass)) result.push_back(lesson.get());
-  return result;
+    if (pass < lesson->end()) needs = needs.with(lesson->needs_of(pass));
+  return needs;
 }
 
-bool VcmLessons::wants(uint32_t pass) const { return !wanted(pass).empty(); }
-
-bool VcmLessons::wants_samples(uint32_t pass) const {
-  return std::any_of(lessons_.begin(), lessons_.end(),
-                     [&](const auto& lesson) { return lesson->wants_samples(pass); });
-}
-
-void VcmLessons::learn(const TaughtPass& taught, const std::stop_token& stop, uint64_t& rays) {
+void VcmLessons::take(const VcmPass& traced, const std::stop_token& stop, uint64_t& rays) {
+  const BlockGrid& grid = traced.plans().pixels.seen().grid();
+  const TakeSample sample = [&](const Vec2f& raster, Sampler& sampler, SampleSink& sink) {
+    traced.sample(grid.window().in_crop(raster), sampler, sink);
+  };
   std::vector<std::pair<Lesson*, std::unique_ptr<LessonSums>>> sums;
-  for (Lesson* lesson : wanted(passes_))
-    sums.emplace_back(lesson, lesson->sums_of(taught, stop, rays));
+  for (const auto& lesson : lessons_) {
+    if (passes_ >= lesson->end() || !lesson->needs_of(passes_).any()) continue;
+    const std::vector<TrainingPlace> places = lesson->places(traced.pass());
+    const std::vector<TrainingPair> pairs = training_pairs({.grid = grid,
+                                                            .filter = scene_.film().filter,
+                                                            .components = settings_.components,
+                                                            .pass = traced.pass(),
+                                                            .take = sample},
+                                                           places, stop);
+    for (const TrainingPair& pair : pairs) rays += pair.rays[0] + pair.rays[1];
+    if (stop.stop_requested()) return;
+    sums.emplace_back(
+        lesson.get(),
+        lesson->sums_of(
+            {.pass = traced.pass(), .light = traced.light(), .places = places, .pairs = pairs}));
+  }
   if (stop.stop_requested()) return;
   for (const auto& [lesson, of_pass] : sums) lesson->add(passes_, *of_pass);
   ++passes_;
 }
 
-std::shared_ptr<VcmPlans> VcmLessons::made_plans(uint32_t epoch, const std::stop_token& stop,
-                                                 uint64_t& rays) {
+void VcmLessons::learn(const VcmPass& traced, const std::stop_token& stop, uint64_t& rays) {
+  if (is_next(traced.pass())) take(traced, stop, rays);
+}
+
+void VcmLessons::trace_next(const Pass& next, const std::stop_token& stop,
+                            const ProgressFunction& progress, PassReport& report) {
+  const auto plans = plans_of(epoch_begin(next.index), stop, report.rays);
+  if (stop.stop_requested()) return;
+  const LessonNeeds needs = needs_of(next.index);
+  if (!needs.any()) {
+    ++passes_;
+    return;
+  }
+  VcmPass missing(scene_, settings_, plans, next);
+  // Nobody sees its splats; what camera samples connect to is of use for these alone.
+  SplatBuffer nowhere = SplatBuffer::nowhere();
+  missing.trace_light(
+      {.splats = false, .connections = needs.pairs, .remembered_paths = needs.remembered_paths},
+      nowhere, stop, progress, report);
+  take(missing, stop, report.rays);
+}
+
+uint32_t VcmLessons::make_up(const Pass& pass, uint32_t until, const std::stop_token& stop,
+                             const ProgressFunction& progress, PassReport& report) {
+  const uint32_t count = until - std::min(until, passes_);
+  for (uint32_t i = 0; i < count && !stop.stop_requested(); ++i) {
+    Pass missing = pass;
+    missing.index = passes_;
+    trace_next(missing, stop, part_of(progress, i, count + 1), report);
+  }
+  return count;
+}
+
+PassPlans VcmLessons::plans_for(const Pass& pass, const std::stop_token& stop,
+                                const ProgressFunction& progress, PassReport& report) {
+  const uint32_t begin = epoch_begin(pass.index);
+  PassPlans result;
+  result.made_up = make_up(pass, begin, stop, progress, report);
+  result.plans = stop.stop_requested() ? first_ : plans_of(begin, stop, report.rays);
+  result.remembered_paths = needs_of(pass.index).remembered_paths;
+  return result;
+}
+
+std::shared_ptr<const VcmPlans> VcmLessons::made_plans(uint32_t epoch, const std::stop_token& stop,
+                                                       uint64_t& rays) {
   auto plans = std::make_shared<VcmPlans>(*epochs_.rbegin()->second);
+  plans->decisions = first_->decisions;
   for (const auto& lesson : lessons_) lesson->apply(*plans, epoch, stop, rays);
+  if (stop.stop_requested()) return first_;
+  for (const auto& lesson : lessons_)
+    if (std::string text = lesson->decision(*plans, epoch); !text.empty())
+      plans->decisions.push_back(std::move(text));
   return plans;
 }
 
@@ -96,30 +140,15 @@ std::shared_ptr<const VcmPlans> VcmLessons::plans_of(uint32_t epoch, const std::
   const auto found = epochs_.find(epoch);
   if (found != epochs_.end()) return found->second;
   auto plans = made_plans(epoch, stop, rays);
-  if (stop.stop_requested()) return first_;
-  return epochs_[epoch] = std::move(plans);
+  if (!stop.stop_requested()) epochs_[epoch] = plans;
+  return plans;
 }
 
 std::shared_ptr<const VcmPlans> VcmLessons::fixed_plans(const std::stop_token& stop,
                                                         uint64_t& rays) {
   const auto found = epochs_.find(passes_);
-  auto plans = found != epochs_.end() ? std::make_shared<VcmPlans>(*found->second)
-                                      : made_plans(passes_, stop, rays);
-  if (stop.stop_requested()) return first_;
-  // Passes begin with the radii that the last one would have had.
-  std::vector<PixelPlan> disks = plans->pixels.plans();
-  if (plans->pilot) {
-    for (PixelPlan& disk : disks) disk.merge_area *= sqr(pass_radius(1, passes_));
-    plans->settle(std::move(disks), 1);
-  }
-  if (const auto& spread = plans->pixels.spread()) {
-    SampleSpread from_begin;
-    from_begin.counts = spread->counts;
-    from_begin.first_indices.assign(spread->counts.size(), 0);
-    from_begin.next_indices = spread->counts;
-    plans->pixels.set_spread(std::make_shared<const SampleSpread>(std::move(from_begin)));
-  }
-  return plans;
+  const auto last = found != epochs_.end() ? found->second : made_plans(passes_, stop, rays);
+  return std::make_shared<const VcmPlans>(last->begun_anew(passes_));
 }
 
 void VcmLessons::write(ByteWriter& writer) const {
@@ -129,7 +158,6 @@ void VcmLessons::write(ByteWriter& writer) const {
   const auto& [epoch, plans] = *epochs_.rbegin();
   writer.put(epoch);
   write_plans(writer, *plans);
-  if (first_->use) first_->use->write(writer);
   for (const auto& lesson : lessons_) lesson->write(writer);
 }
 
@@ -139,22 +167,16 @@ std::unique_ptr<VcmLessons> VcmLessons::read(ByteReader& reader, const Scene& sc
   const auto seed = reader.get<uint64_t>();
   const auto passes = reader.get<uint32_t>();
   PlansReader plans(reader, scene, settings, plain);
-  VcmPlans first = plans.next();
+  const FirstPlans first{.plans = std::make_shared<const VcmPlans>(plans.next())};
   const auto epoch = reader.get<uint32_t>();
-  std::shared_ptr<const VcmPlans> of_epoch = std::make_shared<const VcmPlans>(plans.next());
-  if (first.use) {
-    auto use = std::make_shared<LightPathUse>(scene, plain, settings.components);
-    use->read(reader);
-    first.use = use;
-  }
-  auto lessons = std::make_unique<VcmLessons>(
-      scene, std::make_shared<const VcmPlans>(std::move(first)), settings, seed);
+  auto of_epoch = std::make_shared<const VcmPlans>(plans.next());
+  auto lessons = std::make_unique<VcmLessons>(scene, settings, plain, first, seed);
   for (const auto& lesson : lessons->lessons_) lesson->read(reader);
   reader.expect_end();
   if (epoch > passes || (epoch > 0 && epoch != lessons->epoch_begin(epoch)))
     reader.damaged("its passes belong to no epoch");
   lessons->passes_ = passes;
-  lessons->epochs_ = {{epoch, of_epoch}};
+  lessons->epochs_ = {{epoch, std::move(of_epoch)}};
   return lessons;
 }
 

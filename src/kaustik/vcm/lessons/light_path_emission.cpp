@@ -136,6 +136,11 @@ EmissionDensity LightPathEmission::pdf(int light, const SurfacePoint& origin,
   return density(light, origin, direction);
 }
 
+size_t LightPathEmission::guided_lights() const {
+  return size_t(std::count_if(guides_.begin(), guides_.end(),
+                              [](const Guide& guide) { return guide.share > 0; }));
+}
+
 float LightPathEmission::own_pdf(int light, const SurfacePoint& origin,
                                  const Vec3f& direction) const {
   return own_->pdf(light, origin, direction);

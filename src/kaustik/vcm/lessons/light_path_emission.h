@@ -58,6 +58,9 @@ class LightPathEmission {
   EmissionDensity pdf(int light, const SurfacePoint& origin, const Vec3f& direction) const;
 
   const Scene& scene() const { return *scene_; }
+  /// Whether anything has been learned, and of how many lights the rays have.
+  bool is_guided() const { return !guides_.empty(); }
+  size_t guided_lights() const;
   float chance(int light) const { return chance_[size_t(light)]; }
   /// Share of a light's rays, but for those that were learned, that is aimed at specular objects.
   float aimed_share(int light) const { return aimed_shares_[size_t(light)]; }

@@ -79,7 +79,7 @@ std::vector<AimTarget> boxes_around(std::vector<Vec3f> points, size_t count) {
 }  // namespace
 
 LightPathUse::LightPathUse(const Scene& scene, const LightPathEmission& plain, ComponentSet wanted)
-    : wanted_(wanted), emission_(plain) {
+    : light_count_(scene.lights().size()), wanted_(wanted), emission_(plain) {
   // What merges in a crop window comes from around it, too. Guides that knew the window alone left
   // it darker.
   const FilmSettings& film = scene.film();
@@ -187,12 +187,12 @@ LightPathUse::Noise LightPathUse::noise_of(const Seen& seen) const {
 }
 
 LightPathUse::Seen LightPathUse::seen_in(const LightVertices& light) const {
-  Seen seen{.beginnings = light.beginnings,
-            .scatterings = light.scatterings,
-            .arrivals = {},
-            .paths = light.remembered_paths};
-  if (light.tree.empty()) seen.beginnings.clear();
-  if (!seen.beginnings.empty()) seen.arrivals = arrivals(light);
+  Seen seen;
+  seen.paths = light.remembered_paths;
+  if (light.tree.empty() || light.beginnings.empty()) return seen;
+  seen.beginnings = light.beginnings;
+  seen.scatterings = light.scatterings;
+  seen.arrivals = arrivals(light);
   return seen;
 }
 
@@ -228,22 +228,6 @@ void LightPathUse::learn(const Seen& seen) {
     if (beginning.path < squares.size() && squares[beginning.path] > 0)
       emission_.add(beginning.start, std::sqrt(squares[beginning.path]));
   learn_scattering(seen, squares);
-}
-
-void LightPathUse::write(ByteWriter& writer) const {
-  writer.put_array(arrived_);
-  writer.put(paths_);
-  writer.put(noise_);
-  emission_.write(writer);
-  scattering_.write(writer);
-}
-
-void LightPathUse::read(ByteReader& reader) {
-  arrived_ = reader.get_array<double>(probes_.size());
-  paths_ = reader.get<double>();
-  noise_ = reader.get<Noise>();
-  emission_.read(reader);
-  scattering_.read(reader);
 }
 
 }  // namespace kaustik

@@ -33,8 +33,13 @@ class LightPathUse {
     std::vector<LightScattering> scatterings;
     std::vector<Arrival> arrivals;
     uint32_t paths = 0;  ///< LightVertices::remembered_paths
+
+    /// For read_seen().
+    void write(ByteWriter& writer) const;
   };
   Seen seen_in(const LightVertices& light) const;
+  /// What Seen::write() wrote, of the same scene. Throws as ByteReader does.
+  Seen read_seen(ByteReader& reader) const;
   /// Learns from the next pass.
   void learn(const Seen& seen);
   void learn(const LightVertices& light) { learn(seen_in(light)); }
@@ -71,6 +76,7 @@ class LightPathUse {
   /// Of each probe: all the light that it sends to the camera, and `floor` times the mean.
   std::vector<double> totals(double floor) const;
 
+  size_t light_count_;  ///< of the scene
   ComponentSet wanted_;
   std::vector<PixelProbe> probes_;
   std::vector<float> direct_;    ///< light that the probes send to the camera straight from lights

@@ -1,13 +1,11 @@
 #include "kaustik/vcm/lessons/sample_learning.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numeric>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/vcm/lessons/block_means.h"
-#include "kaustik/vcm/lessons/training_samples.h"
 #include "kaustik/vcm/plan/cost_model.h"
 #include "kaustik/vcm/plan/pixel_plans.h"
 
@@ -166,37 +164,31 @@ SampleLearning::SampleLearning(const BlockGrid& grid, bool is_sparing)
   sums_.resize(pixels_.size());
 }
 
-std::vector<SampleLearning::Sums> SampleLearning::take_samples(
-    const PixelFilter& filter, ComponentSet wanted, const Pass& pass, const TakeSample& take,
-    const std::stop_token& stop, uint64_t& rays) const {
-  std::vector<Sums> result(sums_.size());
-  const uint32_t pairs = pass.index < first_passes && !is_sparing_ ? first_pairs : later_pairs;
+std::vector<TrainingPlace> SampleLearning::places(uint32_t pass) const {
+  const uint32_t pairs = pass < first_passes && !is_sparing_ ? first_pairs : later_pairs;
   // Two passes, an even and an odd one, look at the same blocks, the next two at the others.
   const auto is_left_out = [&](size_t block) {
-    if (!is_sparing_ || pass.index < first_passes) return false;
+    if (!is_sparing_ || pass < first_passes) return false;
     const Vec2i at = grid_.block(block);
-    return (uint32_t(at.x + at.y) + pass.index / 2) % 2 == 1;
+    return (uint32_t(at.x + at.y) + pass / 2) % 2 == 1;
   };
-  const auto add_pair = [&](size_t block, uint32_t pair) {
-    const Vec2i first = grid_.first_pixel(block);
-    // Pixels of one block stratify one another over the passes.
-    const uint32_t number = pairs_before(pass.index) + pair;
-    const TrainingPair found =
-        training_pair({grid_.window().size, first, Vec2i(grid_.block_size()), pass.seed, block},
-                      number, number, filter, wanted, take);
-    const uint64_t pair_rays = found.rays[0] + found.rays[1];
-    result[block].add({1, found.variance, found.light, double(pair_rays) / 2});
-    return pair_rays;
-  };
-  std::atomic<uint64_t> counted{0};
-  parallel_blocks(result.size(), 16, [&](size_t begin, size_t end, size_t) {
-    uint64_t sum = 0;
-    for (size_t block = begin; block < end && !stop.stop_requested(); ++block)
-      for (uint32_t pair = 0; pair < pairs && !is_left_out(block); ++pair)
-        sum += add_pair(block, pair);
-    counted += sum;
-  });
-  rays += counted;
+  std::vector<TrainingPlace> result;
+  result.reserve(sums_.size() * pairs);
+  // Pixels of one block stratify one another over the passes.
+  for (size_t block = 0; block < sums_.size(); ++block)
+    for (uint32_t pair = 0; pair < pairs && !is_left_out(block); ++pair)
+      result.push_back({uint32_t(block), pairs_before(pass) + pair});
+  return result;
+}
+
+std::vector<SampleLearning::Sums> SampleLearning::sums_of(
+    std::span<const TrainingPlace> places, std::span<const TrainingPair> pairs) const {
+  std::vector<Sums> result(sums_.size());
+  for (size_t i = 0; i < places.size(); ++i) {
+    const TrainingPair& pair = pairs[i];
+    result[places[i].block].add(
+        {1, pair.variance, pair.light, double(pair.rays[0] + pair.rays[1]) / 2});
+  }
   return result;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <array>
-#include <stop_token>
+#include <span>
 #include <vector>
 
 #include "kaustik/base/bytes.h"
@@ -36,11 +36,12 @@ class SampleLearning {
   /// path tracer's.
   explicit SampleLearning(const BlockGrid& grid, bool is_sparing = false);
 
-  /// A few samples of `wanted` components in every block, for that pass alone: they are none of the
-  /// picture's. `take` takes them, at places of the grid's window. Counts their rays.
-  std::vector<Sums> take_samples(const PixelFilter& filter, ComponentSet wanted, const Pass& pass,
-                                 const TakeSample& take, const std::stop_token& stop,
-                                 uint64_t& rays) const;
+  /// Pairs that a pass is asked for: a few in every block, for that pass alone.
+  std::vector<TrainingPlace> places(uint32_t pass) const;
+  /// What the pairs at those places add, by block.
+  std::vector<Sums> sums_of(std::span<const TrainingPlace> places,
+                            std::span<const TrainingPair> pairs) const;
+  size_t block_count() const { return sums_.size(); }
   /// What they tell.
   void learn(const std::vector<Sums>& samples, uint32_t pass);
   /// What was learned, and the same back. Reading throws as ByteReader does.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kaustik/base/parallel.h"
 #include "kaustik/vcm/lessons/block_means.h"
 
 namespace kaustik {
@@ -20,29 +21,40 @@ double all_light(const SampleSink& sink) {
 
 }  // namespace
 
-TrainingPair training_pair(const TrainingPlace& place, uint32_t pixel_number, uint32_t number,
-                           const PixelFilter& filter, ComponentSet components,
-                           const TakeSample& take) {
-  const Vec2i size(std::min(place.block.x, place.picture.x - place.first.x),
-                   std::min(place.block.y, place.picture.y - place.first.y));
-  const Vec2f where =
-      Sampler::at(place.seed, 0, Stream::training_pair, place.number, pixel_number).next_2d();
-  const Vec2i pixel = place.first + Vec2i(std::min(int(where.x * float(size.x)), size.x - 1),
-                                          std::min(int(where.y * float(size.y)), size.y - 1));
+TrainingPair training_pair(const TrainingInputs& in, const TrainingPlace& place) {
+  const Vec2i first = in.grid.first_pixel(place.block), picture = in.grid.window().size;
+  const Vec2i size(std::min(in.grid.block_size(), picture.x - first.x),
+                   std::min(in.grid.block_size(), picture.y - first.y));
+  const auto numbers = [&](uint32_t element, uint32_t index) {
+    return Sampler::at(in.pass.seed, element, Stream::training_pair, place.block, index);
+  };
+  const Vec2f where = numbers(0, place.number).next_2d();
+  const Vec2i pixel = first + Vec2i(std::min(int(where.x * float(size.x)), size.x - 1),
+                                    std::min(int(where.y * float(size.y)), size.y - 1));
   TrainingPair result;
   std::array<double, 2> light{};
   for (uint32_t i = 0; i < 2; ++i) {
     // Samples that stratify one another would differ too much, and passes are to be independent.
-    Sampler sampler =
-        Sampler::at(place.seed, 1 + 2 * number + i, Stream::training_pair, place.number, 0);
-    const Vec2f offset = filter.sample(sampler.next_2d());
-    SampleSink sink(components);
-    take({float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y}, sampler, sink);
+    Sampler sampler = numbers(1 + 2 * place.number + i, 0);
+    const Vec2f offset = in.filter.sample(sampler.next_2d());
+    SampleSink sink(in.components);
+    in.take({float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y}, sampler, sink);
     light[i] = all_light(sink);
     result.rays[i] = sink.rays();
   }
   result.variance = 0.5 * sqr(light[0] - light[1]);
   result.light = (light[0] + light[1]) / 2;
+  return result;
+}
+
+std::vector<TrainingPair> training_pairs(const TrainingInputs& in,
+                                         std::span<const TrainingPlace> places,
+                                         const std::stop_token& stop) {
+  std::vector<TrainingPair> result(places.size());
+  parallel_blocks(places.size(), 16, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end && !stop.stop_requested(); ++i)
+      result[i] = training_pair(in, places[i]);
+  });
   return result;
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <span>
+#include <stop_token>
 #include <vector>
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/transport/block_grid.h"
 #include "kaustik/transport/integrator.h"
 
 namespace kaustik {
@@ -15,22 +18,31 @@ struct TrainingPair {
   std::array<uint64_t, 2> rays{};
 };
 
-/// Where a pair is taken.
+/// A pair that somebody asks for: pair number `number` of a block, all of which have random numbers
+/// of their own, at its pixel number `number`, which stratify one another.
 struct TrainingPlace {
-  Vec2i picture;       ///< its size
-  Vec2i first, block;  ///< of a block of pixels: its first pixel, and how many there are on a side
-  uint64_t seed = 0;
-  uint64_t number = 0;  ///< of the block, among the picture's
+  uint32_t block = 0;  ///< of a grid
+  uint32_t number = 0;
 };
 
-/// Takes a sample at a place of the raster.
+/// Takes a sample at a place of the raster of the grid's window.
 using TakeSample = std::function<void(const Vec2f& raster, Sampler& sampler, SampleSink& sink)>;
 
-/// Pair number `number` of a block, all of which have random numbers of their own, at its pixel
-/// number `pixel`, which stratify one another.
-TrainingPair training_pair(const TrainingPlace& place, uint32_t pixel, uint32_t number,
-                           const PixelFilter& filter, ComponentSet components,
-                           const TakeSample& take);
+/// How pairs are taken.
+struct TrainingInputs {
+  const BlockGrid& grid;
+  const PixelFilter& filter;
+  ComponentSet components;
+  const Pass& pass;
+  const TakeSample& take;
+};
+
+/// One pair.
+TrainingPair training_pair(const TrainingInputs& in, const TrainingPlace& place);
+/// Pairs at those places, in their order. Fewer are worth anything if it was stopped.
+std::vector<TrainingPair> training_pairs(const TrainingInputs& in,
+                                         std::span<const TrainingPlace> places,
+                                         const std::stop_token& stop);
 
 /// One over the square of the light that the noise of a block counts relative to: the mean over the
 /// blocks around as far as `reach`, and a tenth of the picture's mean.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kaustik/photon/photon_map.h"
 #include "kaustik/vcm/lessons/radius_learning.h"
 #include "kaustik/vcm/light_pass.h"
 #include "kaustik/vcm/plan/path_pilot.h"
@@ -89,8 +90,8 @@ std::string described(const VcmPlans& plans, double gain) {
       plans.light_paths, 100 * going_on, why);
 }
 
-/// Settles how many light paths there are, if any, and says so.
-void choose_light_paths(VcmPlans& plans) {
+/// The same with as many light paths as pay, if any do, and says so.
+VcmPlans with_light_paths_that_pay(const VcmPlans& plans) {
   const std::vector<PixelPlan> disks = plans.pixels.plans();
   const auto with = [&](float light_paths) {
     VcmPlans result = plans;
@@ -110,20 +111,30 @@ void choose_light_paths(VcmPlans& plans) {
   }
   const double gain = needs_merging ? std::numeric_limits<double>::infinity()
                                     : of_paths_alone.second.time() / best.second.time();
-  plans = std::move(best.first);
-  plans.decisions.push_back(described(plans, gain));
+  VcmPlans result = std::move(best.first);
+  result.decisions.push_back(described(result, gain));
+  return result;
+}
+
+std::string described(const LightGuides& guides) {
+  return fmt::format(
+      "light paths are guided where matt surfaces scatter them: {:.2g} times less to do for what "
+      "they bring, by a pilot's estimate",
+      1 / guides.noise_of_guided);
 }
 
 }  // namespace
 
-void VcmPlans::guide_by(const LightPathUse& learned) {
+LightGuides LightGuides::guided_by(const LightPathUse& learned) const {
+  LightGuides result = *this;
   const EmissionLearning& learning = learned.emission();
   if (const auto found = learning.learned())
-    if (learning.second_moment(*found) < learning.second_moment(*emission)) emission = found;
-  if (!scattering) return;
+    if (learning.second_moment(*found) < learning.second_moment(*emission)) result.emission = found;
+  if (!scattering) return result;
   const LightPathUse::Noise& noise = learned.noise();
   const bool pays = noise.guided < noise.unguided;
-  scattering = pays ? learned.scattering().learned() : nullptr;
+  result.scattering = pays ? learned.scattering().learned() : nullptr;
+  return result;
 }
 
 std::vector<MergeScale> VcmPlans::merge_scales(const std::vector<PixelPlan>& disks,
@@ -147,6 +158,23 @@ Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
   return result;
 }
 
+VcmPlans VcmPlans::begun_anew(uint32_t passes) const {
+  VcmPlans result = *this;
+  if (pilot) {
+    std::vector<PixelPlan> disks = pixels.plans();
+    for (PixelPlan& disk : disks) disk.merge_area *= sqr(pass_radius(1, passes));
+    result.settle(std::move(disks), 1);
+  }
+  if (const auto& spread = pixels.spread()) {
+    SampleSpread from_begin;
+    from_begin.counts = spread->counts;
+    from_begin.first_indices.assign(spread->counts.size(), 0);
+    from_begin.next_indices = spread->counts;
+    result.pixels.set_spread(std::make_shared<const SampleSpread>(std::move(from_begin)));
+  }
+  return result;
+}
+
 uint32_t light_path_count(const Vec2i& size, uint32_t samples_per_pixel, float light_paths) {
   const double of_sample = double(light_paths) * double(size.x) * double(size.y);
   const double most =
@@ -166,129 +194,150 @@ float accepted_area(const PixelPlans& pixels) {
   return pi * sqr(near_per_distance * pixels.seen().mean_distance());
 }
 
-VcmPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& stop) const {
-  VcmPlans plans = plan(samples_per_pixel, stop);
-  if (plans.scattering && plans.techniques.needs_light_paths())
-    plans.decisions.push_back(fmt::format(
-        "light paths are guided where matt surfaces scatter them: {:.2g} times less to do for what "
-        "they bring, by a pilot's estimate",
-        1 / plans.noise_of_guided));
-  return plans;
-}
-
-VcmPlans VcmPlanner::plan(uint32_t samples_per_pixel, const std::stop_token& stop) const {
+FirstPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& stop) const {
   VcmPlans plans;
   plans.samples_per_pixel = samples_per_pixel;
-  plans.emission = plain_;
+  plans.guides.emission = plain_;
   plans.techniques = settings_.techniques;
   plans.light_paths = settings_.light_paths;
   plans.chooses_survival = settings_.choose_survival;
-  if (!settings_.techniques.merging && !settings_.techniques.connections) return plans;
+  if (!settings_.techniques.merging && !settings_.techniques.connections)
+    return {.plans = std::make_shared<const VcmPlans>(std::move(plans))};
   if (settings_.techniques.merging) plans.pixels = PixelPlans(scene_);
   const uint32_t of_pass =
       light_path_count(scene_.film(), samples_per_pixel, settings_.light_paths);
   const uint32_t count =
       std::min({of_pass, most_pilot_paths, std::max(fewest_pilot_paths, of_pass / 2)});
-  const PilotLight light = search_light(plans, count, stop);
-  if (!light.vertices.connectible.empty())
+  const FoundLight found = search_light(count, stop);
+  const LightVertices& vertices = found.light.vertices;
+  plans.guides = found.light.guides;
+  if (!vertices.connectible.empty())
     plans.connectible_per_path =
-        float(light.vertices.connectible.size()) / float(light.vertices.connectible_paths());
-  if (!settings_.techniques.merging || stop.stop_requested()) return plans;
-  plans.pixels.choose_disks(light.vertices, of_pass, settings_.merge_neighbors, settings_.radius,
-                            stop);
-  plans.media =
-      medium_disks(scene_, settings_, light.vertices, of_pass, plans.pixels.seen().mean_distance());
-  plans.pilot = std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass, stop));
-  if (stop.stop_requested()) return plans;
-  if (settings_.chooses_light_paths)
-    choose_light_paths(plans);
-  else
-    plans.settle(plans.pixels.plans(), 1);
-  if (plans.techniques.merging && settings_.edges)
-    plans.pixels.find_edges(scene_, RadiusLearning::widest_widths(), settings_.radius,
-                            plans.pilot_rays, stop);
-  return plans;
+        float(vertices.connectible.size()) / float(vertices.connectible_paths());
+  uint64_t rays = found.rays;
+  if (settings_.techniques.merging && !stop.stop_requested())
+    plans = with_merging(std::move(plans), found.light, of_pass, stop, rays);
+  if (plans.guides.scattering && plans.techniques.needs_light_paths())
+    plans.decisions.push_back(described(plans.guides));
+  return {
+      .plans = std::make_shared<const VcmPlans>(std::move(plans)), .use = found.use, .rays = rays};
 }
 
-VcmPlanner::PilotLight VcmPlanner::search_light(VcmPlans& plans, uint32_t count,
-                                                const std::stop_token& stop) const {
-  if (!settings_.guiding) return trace_pilot({plain_, nullptr}, 0, count, plans, stop);
-  const auto use = std::make_shared<LightPathUse>(scene_, *plain_, settings_.components);
-  plans.use = use;
-  const auto searching = std::make_shared<const LightPathEmission>(*plain_, use->targets());
+VcmPlanner::FoundLight VcmPlanner::search_light(uint32_t count, const std::stop_token& stop) const {
+  FoundLight found;
+  const auto trace = [&](const std::shared_ptr<const LightPathEmission>& emission, uint32_t round) {
+    found.light = trace_pilot({.emission = emission}, round, count, stop);
+    found.rays += found.light.rays;
+  };
+  if (!settings_.guiding) {
+    trace(plain_, 0);
+    return found;
+  }
+  found.use = std::make_shared<LightPathUse>(scene_, *plain_, settings_.components);
+  const auto searching = std::make_shared<const LightPathEmission>(*plain_, found.use->targets());
   std::shared_ptr<const LightPathEmission> emission = searching;
+  LightGuides guides{.emission = plain_};
   for (uint32_t pilots = 1;; ++pilots) {
-    PilotLight light = trace_pilot({emission, nullptr}, pilots - 1, count, plans, stop);
-    if (stop.stop_requested()) return light;
-    use->learn(light.vertices);
-    const EmissionLearning& learning = use->emission();
-    const double before = learning.second_moment(*plans.emission);
-    plans.guide_by(*use);
-    const double after = learning.second_moment(*plans.emission);
-    const bool searches = plans.emission == plain_ && learning.size() < few_paths;
+    trace(emission, pilots - 1);
+    if (stop.stop_requested()) return found;
+    found.use->learn(found.light.vertices);
+    const EmissionLearning& learning = found.use->emission();
+    const double before = learning.second_moment(*guides.emission);
+    guides = guides.guided_by(*found.use);
+    const double after = learning.second_moment(*guides.emission);
+    const bool searches = guides.emission == plain_ && learning.size() < few_paths;
     if (pilots == most_pilots || !(searches || after < worth_a_pilot * before)) {
       // All else is to be told by light as passes will have it.
-      if (emission != plans.emission) {
-        light = trace_pilot({plans.emission, nullptr}, pilots, count, plans, stop);
-        if (!stop.stop_requested()) use->learn(light.vertices);
+      if (emission != guides.emission) {
+        trace(guides.emission, pilots);
+        if (!stop.stop_requested()) found.use->learn(found.light.vertices);
       }
-      return guide_scattering(plans, *use, std::move(light), pilots + 1, count, stop);
+      return guide_scattering(std::move(found), pilots + 1, count, stop);
     }
-    emission = searches ? searching : plans.emission;
+    emission = searches ? searching : guides.emission;
   }
 }
 
-VcmPlanner::PilotLight VcmPlanner::guide_scattering(VcmPlans& plans, LightPathUse& use,
-                                                    PilotLight light, uint32_t round,
+VcmPlanner::FoundLight VcmPlanner::guide_scattering(FoundLight found, uint32_t round,
                                                     uint32_t count,
                                                     const std::stop_token& stop) const {
-  if (!settings_.guided_scattering) return light;
+  if (!settings_.guided_scattering) return found;
+  LightPathUse& use = *found.use;
+  LightGuides guides = found.light.guides;
   const uint32_t of_trial = std::max(1u, count / trial_part);
-  const double unguided_rays = double(light.rays) / double(count) * double(of_trial);
+  const double unguided_rays = double(found.light.rays) / double(count) * double(of_trial);
   for (const uint32_t end = round + most_pilots; round < end; ++round) {
     const auto learned = use.scattering().learned();
     if (!learned) break;
-    const PilotLight trial = trace_pilot({plans.emission, learned}, round, of_trial, plans, stop);
-    if (stop.stop_requested()) return light;
+    const PilotLight trial =
+        trace_pilot({.emission = guides.emission, .scattering = learned}, round, of_trial, stop);
+    found.rays += trial.rays;
+    if (stop.stop_requested()) return found;
     use.learn_scattering(trial.vertices);
     const LightPathUse::Noise& noise = use.noise();
     const double guided = noise.guided * double(trial.rays);
-    const double least = plans.scattering ? plans.noise_of_guided : worth_guiding;
+    const double least = guides.scattering ? guides.noise_of_guided : worth_guiding;
     if (!(guided < least * noise.unguided * unguided_rays)) break;
-    plans.noise_of_guided = guided / (noise.unguided * unguided_rays);
-    plans.scattering = learned;
+    guides.noise_of_guided = guided / (noise.unguided * unguided_rays);
+    guides.scattering = learned;
   }
-  if (!plans.scattering) return light;
-  light = trace_pilot({plans.emission, plans.scattering}, round + 1, count, plans, stop);
+  if (!guides.scattering) return found;
+  found.light = trace_pilot(guides, round + 1, count, stop);
+  found.rays += found.light.rays;
   use.forget_emission();
-  if (!stop.stop_requested()) use.learn(light.vertices);
-  return light;
+  if (!stop.stop_requested()) use.learn(found.light.vertices);
+  return found;
 }
 
-VcmPlanner::PilotLight VcmPlanner::trace_pilot(const Guides& guides, uint32_t round, uint32_t count,
-                                               VcmPlans& plans, const std::stop_token& stop) const {
+VcmPlanner::PilotLight VcmPlanner::trace_pilot(const LightGuides& guides, uint32_t round,
+                                               uint32_t count, const std::stop_token& stop) const {
   PathWeights::Settings pilot;
   pilot.techniques.merging = settings_.techniques.merging;
   pilot.techniques.connections = settings_.techniques.connections;
   const PathWeights weights(pilot);
-  SplatBuffer nowhere({{1, 1}, {0, 0}, {1, 1}, {}, 0}, ComponentSet());
+  SplatBuffer nowhere = SplatBuffer::nowhere();
   Pass pass;
   pass.index = round;
   PassReport report;
-  PilotLight light;
+  PilotLight light{.guides = guides, .vertices = {}};
   light.vertices = trace_light_vertices(
-      {scene_, *guides.emission, weights, settings_.components, settings_.maximum_events, count, 1,
-       PixelPlans(), 1, settings_.guiding ? LightPathUse::most_pilot_paths : 0, MediumDisks(),
-       guides.scattering.get(), settings_.guided_scattering},
+      {.scene = scene_,
+       .emission = *guides.emission,
+       .weights = weights,
+       .components = settings_.components,
+       .maximum_events = settings_.maximum_events,
+       .light_paths = count,
+       .camera_samples = 1,
+       .plans = PixelPlans(),
+       .shrinkage = 1,
+       .remembered_paths = settings_.guiding ? LightPathUse::most_pilot_paths : 0,
+       .scattering = guides.scattering.get(),
+       .remembers_scattering = settings_.guided_scattering},
       pass, Stream::pilot_light, nowhere, stop, {}, report);
-  light.guides = guides;
   light.rays = report.rays;
-  plans.pilot_rays += report.rays;
   return light;
 }
 
-VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light, uint32_t light_paths,
-                                const std::stop_token& stop) const {
+VcmPlans VcmPlanner::with_merging(VcmPlans plans, const PilotLight& light, uint32_t of_pass,
+                                  const std::stop_token& stop, uint64_t& rays) const {
+  plans.pixels.choose_disks(light.vertices, of_pass, settings_.merge_neighbors, settings_.radius,
+                            stop);
+  plans.media =
+      medium_disks(scene_, settings_, light.vertices, of_pass, plans.pixels.seen().mean_distance());
+  plans.pilot = std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass, stop, rays));
+  if (stop.stop_requested()) return plans;
+  if (settings_.chooses_light_paths)
+    plans = with_light_paths_that_pay(plans);
+  else
+    plans.settle(plans.pixels.plans(), 1);
+  if (plans.techniques.merging && settings_.edges)
+    plans.pixels.find_edges(scene_, RadiusLearning::widest_widths(), settings_.radius, rays, stop);
+  return plans;
+}
+
+VcmPilot VcmPlanner::make_pilot(const VcmPlans& plans, const PilotLight& light,
+                                uint32_t light_paths, const std::stop_token& stop,
+                                uint64_t& rays) const {
   VcmPilot pilot;
   PathWeights::Settings settings;
   settings.techniques = settings_.techniques;
@@ -314,7 +363,7 @@ VcmPilot VcmPlanner::make_pilot(VcmPlans& plans, const PilotLight& light, uint32
   const double light_share = double(light.vertices.path_count) / double(light_paths);
   pilot.probes = probe_statistics(inputs, plans.pixels,
                                   {.light_share = light_share, .components = settings_.components},
-                                  plans.pilot_rays, stop);
+                                  rays, stop);
   for (const PixelPlan& plan : plans.pixels.plans()) pilot.areas.push_back(plan.merge_area);
   pilot.light_paths = plans.light_paths;
   pilot.needs_merging = scene_.has_scattering() || (is_merging_wanted(settings_.components) &&

@@ -25,34 +25,47 @@ struct VcmPilot {
   bool needs_merging = false;
 };
 
+/// Where light paths begin, and where they go on from matt surfaces.
+struct LightGuides {
+  std::shared_ptr<const LightPathEmission> emission;
+  std::shared_ptr<const ScatterGuide> scattering = nullptr;  ///< null: not guided
+  /// Noise times rays of what is scattered by a guide, relative to that without, in the pilot's
+  /// last trial.
+  double noise_of_guided = 1;
+
+  /// The same by what was learned.
+  LightGuides guided_by(const LightPathUse& learned) const;
+};
+
 /// What connection and merging know before a pass, from pilot passes and from finished ones.
 struct VcmPlans {
   uint32_t samples_per_pixel = 0;
-  std::shared_ptr<const LightPathEmission> emission;
-  std::shared_ptr<const ScatterGuide> scattering;  ///< of light paths; null: not guided
-  /// Its noise times rays, relative to that without, in the trial of the pilot's last guide.
-  double noise_of_guided = 1;
+  LightGuides guides;
   Techniques techniques;
   float light_paths = 0;  ///< per camera sample
   PixelPlans pixels;
   MediumDisks media;                      ///< of the first pass
   std::shared_ptr<const VcmPilot> pilot;  ///< null: nothing merges
-  uint64_t pilot_rays = 0;
-  std::vector<std::string> decisions;  ///< what was chosen by itself, for the user
+  std::vector<std::string> decisions;     ///< what was chosen by itself, for the user
   /// Vertices that may be connected, per light path: what the weights go by.
   float connectible_per_path = 1;
-  /// Of the light paths of the pilot passes; null: emission is not guided.
-  std::shared_ptr<const LightPathUse> use;
-
   bool chooses_survival = true;  ///< else camera paths always go on
 
-  /// Guides the light paths of passes to come by what was learned.
-  void guide_by(const LightPathUse& learned);
   /// Gives the probes these disks and, as the pilot tells if that is wanted, chances of going on,
   /// for passes whose disks have `shrinkage` times the area.
   Efficiency settle(std::vector<PixelPlan> disks, float shrinkage);
   /// How merging in such disks differs from the pilot's, by probe.
   std::vector<MergeScale> merge_scales(const std::vector<PixelPlan>& disks, float shrinkage) const;
+  /// The same for passes from 0 on, the first of which has what the pass after `passes` would have.
+  VcmPlans begun_anew(uint32_t passes) const;
+};
+
+/// What the planner has found out.
+struct FirstPlans {
+  std::shared_ptr<const VcmPlans> plans;
+  /// What the light paths of the pilot passes taught; null: they are not guided.
+  std::shared_ptr<const LightPathUse> use = nullptr;
+  uint64_t rays = 0;  ///< that it took
 };
 
 /// Light paths of a pass of a picture of that size, with so many per camera sample.
@@ -71,30 +84,35 @@ class VcmPlanner {
       : scene_(scene), settings_(settings), plain_(plain) {}
 
   /// Worth nothing if it was stopped.
-  VcmPlans make(uint32_t samples_per_pixel, const std::stop_token& stop) const;
+  FirstPlans make(uint32_t samples_per_pixel, const std::stop_token& stop) const;
 
  private:
-  struct Guides {
-    std::shared_ptr<const LightPathEmission> emission;
-    std::shared_ptr<const ScatterGuide> scattering;
-  };
-  VcmPlans plan(uint32_t samples_per_pixel, const std::stop_token& stop) const;
   /// The light paths of a pilot pass.
   struct PilotLight {
-    Guides guides;
+    LightGuides guides;
     LightVertices vertices;
     uint64_t rays = 0;
   };
-  /// Guides, and the light paths that tell all else, of pilot passes of so many paths.
-  PilotLight search_light(VcmPlans& plans, uint32_t count, const std::stop_token& stop) const;
-  /// Guides scattering, too, if that leaves less noise than `light`; the light of the plans then.
-  /// The pilot passes are numbered from `round` on.
-  PilotLight guide_scattering(VcmPlans& plans, LightPathUse& use, PilotLight light, uint32_t round,
-                              uint32_t count, const std::stop_token& stop) const;
-  PilotLight trace_pilot(const Guides& guides, uint32_t round, uint32_t count, VcmPlans& plans,
+  /// What pilot passes have found: guides, and light that goes by them, which tells all else.
+  struct FoundLight {
+    PilotLight light;
+    std::shared_ptr<LightPathUse> use = nullptr;  ///< null: not guided
+    uint64_t rays = 0;                            ///< of all pilot passes
+  };
+  /// By pilot passes of so many paths.
+  FoundLight search_light(uint32_t count, const std::stop_token& stop) const;
+  /// The same with scattering guided, too, if that leaves less noise. The pilot passes are numbered
+  /// from `round` on.
+  FoundLight guide_scattering(FoundLight found, uint32_t round, uint32_t count,
+                              const std::stop_token& stop) const;
+  PilotLight trace_pilot(const LightGuides& guides, uint32_t round, uint32_t count,
                          const std::stop_token& stop) const;
-  VcmPilot make_pilot(VcmPlans& plans, const PilotLight& light, uint32_t light_paths,
-                      const std::stop_token& stop) const;
+  /// The same plans with disks of merging, a pilot, and what that tells. Counts the rays.
+  VcmPlans with_merging(VcmPlans plans, const PilotLight& light, uint32_t of_pass,
+                        const std::stop_token& stop, uint64_t& rays) const;
+  /// By the disks of `plans`. Counts the rays.
+  VcmPilot make_pilot(const VcmPlans& plans, const PilotLight& light, uint32_t light_paths,
+                      const std::stop_token& stop, uint64_t& rays) const;
 
   const Scene& scene_;
   const VcmSettings& settings_;

@@ -68,9 +68,9 @@ std::shared_ptr<const VcmPilot> read_pilot(ByteReader& reader, size_t probes) {
 
 void write_plans(ByteWriter& writer, const VcmPlans& plans) {
   writer.put(plans.samples_per_pixel);
-  plans.emission->write(writer);
-  write_scattering(writer, plans.scattering.get());
-  writer.put(plans.noise_of_guided);
+  plans.guides.emission->write(writer);
+  write_scattering(writer, plans.guides.scattering.get());
+  writer.put(plans.guides.noise_of_guided);
   writer.put(plans.techniques);
   writer.put(plans.light_paths);
   plans.pixels.write(writer);
@@ -79,16 +79,15 @@ void write_plans(ByteWriter& writer, const VcmPlans& plans) {
   writer.put(uint64_t(plans.decisions.size()));
   for (const std::string& decision : plans.decisions) writer.put_text(decision);
   writer.put(plans.connectible_per_path);
-  writer.put(uint8_t(plans.use ? 1 : 0));
 }
 
 VcmPlans PlansReader::next() {
   VcmPlans plans;
   plans.samples_per_pixel = reader_.get<uint32_t>();
-  plans.emission =
+  plans.guides.emission =
       std::make_shared<const LightPathEmission>(LightPathEmission::read(reader_, plain_));
-  plans.scattering = read_scattering(reader_);
-  plans.noise_of_guided = reader_.get<double>();
+  plans.guides.scattering = read_scattering(reader_);
+  plans.guides.noise_of_guided = reader_.get<double>();
   const auto techniques = reader_.get<std::array<uint8_t, sizeof(Techniques)>>();
   for (const uint8_t flag : techniques)
     if (flag > 1) reader_.damaged("a technique in it is neither on nor off");
@@ -113,9 +112,6 @@ VcmPlans PlansReader::next() {
   for (uint64_t i = 0; i < decisions; ++i) plans.decisions.push_back(reader_.get_text());
   plans.connectible_per_path = reader_.get<float>();
   plans.chooses_survival = settings_.choose_survival;
-  // What it holds comes after the plans.
-  if (reader_.get_flag())
-    plans.use = std::make_shared<const LightPathUse>(scene_, plain_, settings_.components);
   return plans;
 }
 

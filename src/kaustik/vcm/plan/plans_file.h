@@ -7,8 +7,7 @@ namespace kaustik {
 /// Plans as bytes: all but what the scene and the settings tell again.
 void write_plans(ByteWriter& writer, const VcmPlans& plans);
 
-/// Reads plans of one picture, which share what it shows. Of VcmPlans::use only whether it is there
-/// comes back.
+/// Reads plans of one picture, which share what it shows.
 class PlansReader {
  public:
   /// All must outlive this.

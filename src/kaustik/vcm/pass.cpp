@@ -1,0 +1,78 @@
+#include "kaustik/vcm/pass.h"
+
+#include "kaustik/photon/photon_map.h"
+#include "kaustik/vcm/camera_path/camera_path.h"
+#include "kaustik/vcm/light_pass.h"
+
+namespace kaustik {
+
+VcmPass::VcmPass(const Scene& scene, const VcmSettings& settings,
+                 std::shared_ptr<const VcmPlans> plans, const Pass& pass)
+    : scene_(scene),
+      settings_(settings),
+      plans_(std::move(plans)),
+      pass_(pass),
+      weights_(make_weights()),
+      shrinkage_(sqr(pass_radius(1, pass.index))),
+      media_(plans_->media.shrunk(shrinkage_)) {}
+
+PathWeights VcmPass::make_weights() const {
+  PathWeights::Settings weights;
+  weights.techniques = plans_->techniques;
+  weights.light_paths =
+      float(light_path_count(scene_.film(), pass_.samples_per_pixel, plans_->light_paths));
+  weights.connections = float(settings_.connections) / plans_->connectible_per_path;
+  weights.merge_area = plans_->pixels.other_area() * sqr(pass_radius(1, pass_.index));
+  weights.accepted_area = accepted_area(plans_->pixels);
+  weights.first_medium_share = 1 / float(pass_.samples_per_pixel);
+  return PathWeights(weights);
+}
+
+void VcmPass::trace_light(const LightPathAims& aims, SplatBuffer& splats, std::stop_token stop,
+                          const ProgressFunction& progress, PassReport& report) {
+  if (!plans_->techniques.needs_light_paths()) return;
+  PathWeights::Settings traced = weights_.settings();
+  traced.techniques.splats = traced.techniques.splats && aims.splats;
+  traced.techniques.connections = traced.techniques.connections && aims.connections;
+  light_ = trace_light_vertices(
+      {.scene = scene_,
+       .emission = *plans_->guides.emission,
+       .weights = PathWeights(traced),
+       .components = settings_.components,
+       .maximum_events = settings_.maximum_events,
+       .light_paths = light_path_count(scene_.film(), pass_.samples_per_pixel, plans_->light_paths),
+       .camera_samples = float(pass_.samples_per_pixel),
+       .plans = plans_->pixels,
+       .shrinkage = shrinkage_,
+       .remembered_paths = aims.remembered_paths,
+       .media = media_,
+       .scattering = plans_->guides.scattering.get(),
+       .remembers_scattering = plans_->guides.scattering != nullptr},
+      pass_, Stream::light_path, splats, stop, progress, report);
+  if (plans_->techniques.merging) matt_ = MattMerging(light_, weights_);
+  connection_scale_ = float(double(light_.connectible.size()) /
+                            (double(settings_.connections) * double(light_.connectible_paths())));
+}
+
+void VcmPass::sample(const Vec2f& raster, Sampler& sampler, SampleSink& sink) const {
+  trace_camera_path({.scene = scene_,
+                     .emission = *plans_->guides.emission,
+                     .weights = weights_,
+                     .light = light_,
+                     .matt = matt_,
+                     .seen = plans_->pixels.seen(),
+                     // On average: what all weights go by, so those of all ways of finding a path
+                     // still sum to 1 where a pixel gets more or fewer.
+                     .camera_samples = float(pass_.samples_per_pixel),
+                     .connection_scale = connection_scale_,
+                     .merge_radius_sq = weights_.settings().merge_area * inv_pi,
+                     .media = media_,
+                     .maximum_events = settings_.maximum_events,
+                     .roulette_depth = settings_.roulette_depth,
+                     .connections = settings_.connections,
+                     .scattering = plans_->guides.scattering.get(),
+                     .visibility = settings_.visibility},
+                    plans_->pixels.at(raster, shrinkage_), raster, sampler, sink);
+}
+
+}  // namespace kaustik

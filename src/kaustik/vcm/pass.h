@@ -1,0 +1,58 @@
+#pragma once
+#include <memory>
+
+#include "kaustik/transport/integrator.h"
+#include "kaustik/vcm/light_vertices.h"
+#include "kaustik/vcm/merging/matt_merging.h"
+#include "kaustik/vcm/merging/medium_disks.h"
+#include "kaustik/vcm/plan/plans.h"
+#include "kaustik/vcm/settings.h"
+
+namespace kaustik {
+
+/// What is made of the light paths of a pass.
+struct LightPathAims {
+  bool splats = true;             ///< they are splatted, if that is a technique
+  bool connections = true;        ///< and may be connected
+  uint32_t remembered_paths = 0;  ///< paths whose beginnings are remembered
+};
+
+/// A pass of connection and merging: its plans, its weights, its light paths once they have been
+/// traced, and its camera samples. Stays where it is made.
+class VcmPass {
+ public:
+  /// Without light paths. `scene` and `settings` must outlive this.
+  VcmPass(const Scene& scene, const VcmSettings& settings, std::shared_ptr<const VcmPlans> plans,
+          const Pass& pass);
+  VcmPass(const VcmPass&) = delete;
+  VcmPass& operator=(const VcmPass&) = delete;
+
+  /// The pass's light paths, if the plans have any, and all that samples need of them. Counts rays
+  /// and vertices. Worth nothing if it was stopped.
+  void trace_light(const LightPathAims& aims, SplatBuffer& splats, std::stop_token stop,
+                   const ProgressFunction& progress, PassReport& report);
+  /// A camera sample at a place of the film's raster.
+  void sample(const Vec2f& raster, Sampler& sampler, SampleSink& sink) const;
+
+  const Scene& scene() const { return scene_; }
+  const VcmSettings& settings() const { return settings_; }
+  const VcmPlans& plans() const { return *plans_; }
+  const Pass& pass() const { return pass_; }
+  const LightVertices& light() const { return light_; }
+
+ private:
+  PathWeights make_weights() const;
+
+  const Scene& scene_;
+  const VcmSettings& settings_;
+  std::shared_ptr<const VcmPlans> plans_;
+  Pass pass_;
+  PathWeights weights_;
+  float shrinkage_;    ///< of the disks of merging since the first pass
+  MediumDisks media_;  ///< shrunk
+  LightVertices light_;
+  MattMerging matt_;
+  float connection_scale_ = 0;
+};
+
+}  // namespace kaustik
