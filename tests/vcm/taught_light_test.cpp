@@ -27,7 +27,7 @@ TEST(ProbeLight, IsFluxTimesBsdf) {
   vertex.flux = Spectrum(1, 2, 3, 0);
   vertex.direction = PackedDirection(probe.vertex.normal());
   vertex.specular = false;
-  const auto sent = [&](ComponentSet wanted) { return ProbeLight(probe, wanted).sent(vertex); };
+  const auto sent = [&](ComponentSet wanted) { return ProbeLight(probe, wanted, {}).sent(vertex); };
   const double expected = 0.6 / double(pi) * (1 + 2 + 3);
   EXPECT_NEAR(sent(only(Component::indirect)), expected, 1e-5);
   EXPECT_EQ(sent(only(Component::caustic)), 0);
@@ -48,7 +48,7 @@ TEST(ProbeLight, IsOfBothLobes) {
   vertex.flux = Spectrum(1, 1, 1, 0);
   vertex.direction = PackedDirection(from);
   vertex.specular = false;
-  const auto sent = [&](ComponentSet wanted) { return ProbeLight(probe, wanted).sent(vertex); };
+  const auto sent = [&](ComponentSet wanted) { return ProbeLight(probe, wanted, {}).sent(vertex); };
   const float diffuse = probe.vertex.eval(from, Lobes::diffuse).sum();
   const float glossy = probe.vertex.eval(from, Lobes::glossy).sum();
   EXPECT_GT(std::min(diffuse, glossy), 0.05f);

@@ -52,6 +52,13 @@ void SurfaceVertex::turn_to(const Vec3f& normal) {
   wo_local_ = frame_.to_local(wo_);
 }
 
+SurfaceVertex SurfaceVertex::in(const Wavelengths& wavelengths) const {
+  SurfaceVertex result = *this;
+  if (!(wavelengths == result.wavelengths()))
+    result.context_.move_to(result.context_.texture(), wavelengths);
+  return result;
+}
+
 void SurfaceVertex::look_up_from(const Scene& scene, const Vec3f& direction, float beam_width) {
   context_.move_to(
       texture_place(scene, direction, beam_width, scene.tracer().uv_derivatives(point_)),

@@ -30,6 +30,9 @@ class SurfaceVertex {
   void meet(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
             const Footprint& footprint, const Wavelengths& wavelengths);
 
+  /// The same in light of other wavelengths, with the widths of a beam and the relief as they are.
+  SurfaceVertex in(const Wavelengths& wavelengths) const;
+
   /// Lays ideally white paint on the side that is seen, whatever lies below: irradiance E there is
   /// radiance E/π by the diffuse lobe. It is smooth: bump and normal maps don't bend its normal.
   void paint_white();

@@ -65,6 +65,7 @@ struct LightPathBeginning {
 
 /// The vertices of the light paths of a pass. Immutable once built.
 struct LightVertices {
+  Wavelengths wavelengths;           ///< of flux
   std::vector<PathVertex> vertices;  ///< path by path, from the light's point on
   SidedTree<LightVertexData> tree;   ///< those that may be merged
   MediumVertices in_media;           ///< those in media that may be merged

@@ -113,7 +113,7 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
       const float radius = reach_ * probe.pixel_width;
       if (!probe.found || !(radius > 0)) continue;
       const MergeDisk disk(probe.vertex, radius);
-      const ProbeLight at_probe(probe, wanted_);
+      const ProbeLight at_probe(probe, wanted_, light.wavelengths);
       light.tree.within(
           probe.vertex.position(), disk.side(), false, sqr(radius), [&](uint32_t index, float) {
             const LightVertexData& photon = light.tree.tree().data(index);

@@ -2,15 +2,18 @@
 
 namespace kaustik {
 
-ProbeLight::ProbeLight(const PixelProbe& probe, ComponentSet wanted)
-    : probe_(probe), wanted_(wanted), is_matt_(probe.vertex.is_matt()) {
+ProbeLight::ProbeLight(const PixelProbe& probe, ComponentSet wanted, const Wavelengths& wavelengths)
+    : vertex_(probe.vertex.in(wavelengths)),
+      path_(probe.path),
+      wanted_(wanted),
+      is_matt_(vertex_.is_matt()) {
   if (!is_matt_) return;
   for (const bool specular : {false, true})
-    if (is_wanted(Lobes::diffuse, specular)) matt_[specular] = probe.vertex.diffuse_value();
+    if (is_wanted(Lobes::diffuse, specular)) matt_[specular] = vertex_.diffuse_value();
 }
 
 bool ProbeLight::is_wanted(Lobes lobe, bool specular) const {
-  CameraPathClass whole = probe_.path;
+  CameraPathClass whole = path_;
   whole.add_event(lobe);
   whole.add_event(specular ? Lobes::glossy : Lobes::diffuse);
   return wanted_.has(whole.component());
@@ -19,8 +22,8 @@ bool ProbeLight::is_wanted(Lobes lobe, bool specular) const {
 Spectrum ProbeLight::value_of(const Vec3f& direction, const LightVertexData& photon) const {
   Spectrum value;
   for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy})
-    if (any(probe_.vertex.lobes() & lobe) && is_wanted(lobe, photon.specular))
-      value += probe_.vertex.eval(direction, lobe);
+    if (any(vertex_.lobes() & lobe) && is_wanted(lobe, photon.specular))
+      value += vertex_.eval(direction, lobe);
   return value;
 }
 

@@ -191,7 +191,7 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
       const MergeDisk disk(probe.vertex, widest);
       const Frame frame(disk.side());
       const DiskEdges edges = first.seen().disk_bounds(p, widest).edges;
-      const ProbeLight at_probe(probe, wanted);
+      const ProbeLight at_probe(probe, wanted, light.wavelengths);
       Sums& sums = result[p];
       light.tree.within(
           probe.vertex.position(), disk.side(), false, sqr(widest), [&](uint32_t index, float) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "kaustik/base/lane_sum.h"
 #include "kaustik/base/parallel.h"
 #include "kaustik/vcm/lessons/block_means.h"
 
@@ -16,7 +17,7 @@ double all_light(const SampleSink& sink) {
   Spectrum sum;
   for (int c = 0; c < component_count; ++c)
     if (sink.radiance(Component(c)).is_finite()) sum += sink.radiance(Component(c));
-  return double(sum.sum());
+  return double(lane_sum(sum, sink.wavelengths()));
 }
 
 }  // namespace
@@ -37,7 +38,7 @@ TrainingPair training_pair(const TrainingInputs& in, const TrainingPlace& place)
     // Samples that stratify one another would differ too much, and passes are to be independent.
     Sampler sampler = numbers(1 + 2 * place.number + i, 0);
     const Vec2f offset = in.filter.sample(sampler.next_2d());
-    SampleSink sink(in.components);
+    SampleSink sink(in.components, in.pass.wavelengths);
     in.take({float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y}, sampler, sink);
     light[i] = all_light(sink);
     result.rays[i] = sink.rays();
