@@ -53,6 +53,7 @@ PassReport VcmLearning::learn(const Pass& pass, const std::stop_token& stop,
   PassReport report;
   const std::lock_guard lock(mutex_);
   if (fixed_) return report;
+  report.warnings = settings_.warnings;
   isolated([&] {
     begin_lessons(pass, stop, report);
     if (stop.stop_requested()) return;

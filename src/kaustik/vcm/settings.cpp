@@ -1,5 +1,7 @@
 #include "kaustik/vcm/settings.h"
 
+#include <fmt/format.h>
+
 #include "kaustik/transport/integrator.h"
 #include "kaustik/transport/integrator_parameters.h"
 
@@ -114,7 +116,8 @@ VcmSettings::VcmSettings(const Arguments& arguments)
       maximum_events(read_maximum_events(arguments)),
       roulette_depth(int(arguments.integer("rr_depth"))),
       adaptive(arguments.boolean("adaptive")) {
-  if (&arguments.info() == &auto_info()) {
+  // By its name: tables are copied.
+  if (arguments.info().name == auto_info().name) {
     techniques.merging = true;
     chooses_light_paths = true;
     return;
@@ -137,6 +140,37 @@ VcmSettings::VcmSettings(const Arguments& arguments)
                 .splats = arguments.boolean("splats"),
                 .connections = arguments.boolean("connections"),
                 .merging = arguments.boolean("merging")};
+}
+
+VcmSettings settings_for(const Scene& scene, const Arguments& arguments) {
+  VcmSettings settings(arguments);
+  if (!scene.has_scattering()) return settings;
+  const auto has_asked = [&](const char* name, bool value) {
+    return arguments.info().find(name) && arguments.given(name) && arguments.boolean(name) == value;
+  };
+  if (settings.guides_light_paths())
+    settings.decisions.emplace_back(
+        "media scatter light: light paths are not guided, for of what use they are is known on "
+        "surfaces alone");
+  for (const char* name : {"guiding", "guided_scattering"})
+    if (settings.guides_light_paths() && has_asked(name, true))
+      settings.warnings.push_back(
+          fmt::format("{} has no effect where media scatter light: leave it out", name));
+  settings.guiding = false;
+  // The pilot knows of surfaces alone, too, and then can't choose. What few vertices merge in thin
+  // media leaves bright dots that connections take off.
+  if (!settings.chooses_light_paths) return settings;
+  settings.decisions.emplace_back(
+      "media scatter light, of which a pilot knows nothing: vertices of light paths are connected "
+      "to the camera and to its paths, too");
+  for (const char* name : {"splats", "connections"})
+    if (has_asked(name, false))
+      settings.warnings.push_back(fmt::format(
+          "{} can't be left out where media scatter light and a pilot chooses: leave out "
+          "choose_light_paths",
+          name));
+  settings.techniques.splats = settings.techniques.connections = true;
+  return settings;
 }
 
 }  // namespace kaustik

@@ -1,4 +1,7 @@
 #pragma once
+#include <string>
+#include <vector>
+
 #include "kaustik/photon/emission/emission.h"
 #include "kaustik/transport/component.h"
 #include "kaustik/transport/path_weights.h"
@@ -31,9 +34,15 @@ struct VcmSettings {
     return guiding && (techniques.merging || techniques.connections);
   }
 
+  // For the user: what the scene has changed of that, and what of it was asked for otherwise.
+  std::vector<std::string> decisions, warnings;
+
   /// Of one of the tables below.
   explicit VcmSettings(const Arguments& arguments);
 };
+
+/// The same with what can't be had in the scene switched off, and what it needs switched on.
+VcmSettings settings_for(const Scene& scene, const Arguments& arguments);
 
 /// "vcm": all techniques, each of which can be switched off.
 const TypeInfo& vcm_info();

@@ -1,22 +1,6 @@
 #include "kaustik/vcm/vcm.h"
 
 namespace kaustik {
-namespace {
-
-/// The user's, but for what can't be had where media scatter.
-VcmSettings settings_for(const Scene& scene, const Arguments& arguments) {
-  VcmSettings settings(arguments);
-  if (!scene.has_scattering()) return settings;
-  // It knows of what use paths are on surfaces alone.
-  settings.guiding = false;
-  // So does the pilot, which then can't choose. What few vertices merge in thin media leaves bright
-  // dots that connections take off.
-  if (settings.chooses_light_paths)
-    settings.techniques.splats = settings.techniques.connections = true;
-  return settings;
-}
-
-}  // namespace
 
 struct VcmIntegrator::State final : PassState {
   State(const Scene& scene, const VcmSettings& settings, std::shared_ptr<const VcmPlans> plans,
@@ -46,6 +30,7 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
   state->report = std::move(report);
   const VcmPlans& plans = *found.plans;
   state->report.decisions = plans.decisions;
+  state->report.warnings = settings_.warnings;
   if (!plans.techniques.any())
     state->report.warnings.emplace_back(
         "all techniques are switched off: only lights that the camera sees straight are there; "

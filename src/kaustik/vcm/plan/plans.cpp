@@ -219,6 +219,8 @@ FirstPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& s
     plans = with_merging(std::move(plans), found.light, of_pass, stop, rays);
   if (plans.guides.scattering && plans.techniques.needs_light_paths())
     plans.decisions.push_back(described(plans.guides));
+  plans.decisions.insert(plans.decisions.end(), settings_.decisions.begin(),
+                         settings_.decisions.end());
   return {
       .plans = std::make_shared<const VcmPlans>(std::move(plans)), .use = found.use, .rays = rays};
 }
