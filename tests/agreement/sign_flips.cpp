@@ -58,10 +58,11 @@ double share_of_signs(const std::array<Differences, R>& k) {
   return double(as_large) / double(patterns);
 }
 
-/// Of one block: the renders' differences and how they scatter about their mean.
+/// Of one block: the renders' differences, how they scatter about their mean, and about zero. The
+/// last is the same for all signs.
 struct BlockDifferences {
   Differences d{};
-  double mean = 0, variance = 0;
+  double mean = 0, variance = 0, mean_square = 0;
 };
 
 std::vector<BlockDifferences> all_differences(const Replicates& tested, const Replicates& reference,
@@ -72,14 +73,16 @@ std::vector<BlockDifferences> all_differences(const Replicates& tested, const Re
     const RunningStatistics statistics = statistics_of(all[b].d);
     all[b].mean = statistics.mean();
     all[b].variance = statistics.variance();
+    for (const double value : all[b].d) all[b].mean_square += value * value / double(R);
   }
   return all;
 }
 
-/// The mean of relative variances over the blocks around each, in its own light. `all` may hold
-/// more than the picture's blocks: to those it is the mean over the picture.
-std::vector<double> variances_around(const std::vector<BlockDifferences>& all,
-                                     const std::vector<double>& light, size_t picture_blocks) {
+/// The mean of relative variances (or mean squares) over the blocks around each, in its own light.
+/// `all` may hold more than the picture's blocks: to those it is the mean over the picture.
+std::vector<double> means_around(double BlockDifferences::*noise,
+                                 const std::vector<BlockDifferences>& all,
+                                 const std::vector<double>& light, size_t picture_blocks) {
   const int columns = int(std::lround(std::sqrt(double(picture_blocks))));
   std::vector<double> around(all.size());
   for (int y = 0; y < columns; ++y)
@@ -90,7 +93,7 @@ std::vector<double> variances_around(const std::vector<BlockDifferences>& all,
         for (int u = std::max(0, x - reach); u <= std::min(columns - 1, x + reach); ++u) {
           const auto b = size_t(v) * size_t(columns) + size_t(u);
           if (!(light[b] > 0)) continue;
-          sum += all[b].variance / (light[b] * light[b]);
+          sum += all[b].*noise / (light[b] * light[b]);
           ++count;
         }
       const auto b = size_t(y) * size_t(columns) + size_t(x);
@@ -98,7 +101,7 @@ std::vector<double> variances_around(const std::vector<BlockDifferences>& all,
     }
   RunningStatistics whole;
   for (size_t b = 0; b < picture_blocks; ++b)
-    if (light[b] > 0) whole.add(all[b].variance / (light[b] * light[b]));
+    if (light[b] > 0) whole.add(all[b].*noise / (light[b] * light[b]));
   for (size_t b = picture_blocks; b < all.size(); ++b)
     around[b] = whole.mean() * light[b] * light[b];
   return around;
@@ -147,23 +150,24 @@ Verdict compare(const Replicates& all_tested, const Replicates& all_reference, d
   Verdict verdict;
   const std::vector<double> light = mean_of_renders(reference);
   const std::vector<BlockDifferences> all = all_differences(tested, reference, planted);
-  const std::vector<double> around = variances_around(all, light, all_reference.at(0).size());
+  const size_t picture_blocks = all_reference.at(0).size();
+  const std::vector<double> variances =
+      means_around(&BlockDifferences::variance, all, light, picture_blocks);
+  // The same for all signs, as variances about the mean would not be.
+  const std::vector<double> mean_squares =
+      means_around(&BlockDifferences::mean_square, all, light, picture_blocks);
   std::array<Differences, R> k{};
   Differences whole{};
   size_t counted = 0;
   for (size_t b = 0; b < all.size(); ++b) {
     const Differences& d = all[b].d;
-    double squares = 0;
-    for (size_t r = 0; r < R; ++r) {
-      squares += d[r] * d[r];
-      whole[r] += d[r];
-    }
-    if (!(squares > 0)) continue;  // both black
+    for (size_t r = 0; r < R; ++r) whole[r] += d[r];
+    if (!(all[b].mean_square > 0)) continue;  // both black
     ++counted;
-    const double usual = around[b] > 0 ? double(R) * around[b] : squares;
+    const double usual = double(R) * (mean_squares[b] > 0 ? mean_squares[b] : all[b].mean_square);
     for (size_t i = 0; i < R; ++i)
       for (size_t j = 0; j < R; ++j) k[i][j] += d[i] * d[j] / usual;
-    const double t = all[b].mean / std::sqrt(std::max(all[b].variance, around[b]) / double(R));
+    const double t = all[b].mean / std::sqrt(std::max(all[b].variance, variances[b]) / double(R));
     if (std::fabs(t) > std::fabs(verdict.worst_t)) {
       verdict.worst_t = t;
       verdict.worst_block = int(b);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -47,6 +48,33 @@ TEST(SignFlips, RejectTheRightShareOfEqualExpectations) {
   EXPECT_LE(all_blocks, 22);
   EXPECT_GE(all_blocks, 1);
   EXPECT_LE(worst, 22);
+}
+
+/// Mean 1; all blocks of each quarter of the picture share their noise. So few regions may all look
+/// less noisy than they are.
+Replicates noisy_quarters(uint32_t seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  Replicates all;
+  for (int r = 0; r < replicate_total; ++r) {
+    std::vector<float>& row = all.emplace_back(blocks);
+    std::array<double, 4> noise{};
+    for (double& of_quarter : noise) of_quarter = 0.2 * normal(random);
+    constexpr size_t columns = 20;
+    for (size_t b = 0; b < blocks; ++b)
+      row[b] = float(1 + noise[2 * (b / columns * 2 / columns) + b % columns * 2 / columns]);
+  }
+  return all;
+}
+
+/// Were noise another for other signs, such that make it small would be taken for a bias: about the
+/// mean instead of zero, of twice as many pictures.
+TEST(SignFlips, AllSignsAreEquals) {
+  constexpr uint32_t trials = 1000;
+  int rejected = 0;
+  for (uint32_t trial = 0; trial < trials; ++trial)
+    rejected += compare(noisy_quarters(2 * trial), noisy_quarters(2 * trial + 1)).p_blocks < 0.02;
+  EXPECT_LE(rejected, 33);  // 20 ± 4.4
 }
 
 /// Mean 1, a fifth of it in events so rare that most blocks are without in all renders.
