@@ -27,7 +27,6 @@ struct Options {
   std::vector<double> seconds;  ///< empty: each scene's own
   std::vector<uint64_t> seeds;  ///< likewise
   int threads = 0;              ///< 0: all
-  bool by_cpu_time = false;
   /// A folder whose references go before those that came with the scenes.
   std::string references = std::string(KAUSTIK_SOURCE_DIR) + "/benchmarks/references";
   std::string results = "out/bench_scenes.jsonl";
@@ -117,8 +116,7 @@ Image measure(const BenchScene& scene, const Image& reference, Measurement& m) {
   SessionSettings settings;
   settings.seed = m.seed;
   settings.threads = m.threads;
-  const Snapshots taken = render_with_snapshots(
-      *built, *method, settings, m.by_cpu_time ? Clock::cpu : Clock::wall, m.seconds, reference);
+  const Snapshots taken = render_with_snapshots(*built, *method, settings, m.seconds, reference);
   for (const std::optional<ImageComparison>& picture : taken.pictures)
     m.relmse.push_back(picture ? error_of(*picture) : std::nan(""));
   m.mean_ratio = taken.pictures.back() ? ratio_of_means(*taken.pictures.back()) : std::nan("");
@@ -154,7 +152,6 @@ class SceneBench {
     m.seed = seed;
     m.seconds = options_.seconds.empty() ? scene_.seconds : options_.seconds;
     m.threads = options_.threads;
-    m.by_cpu_time = options_.by_cpu_time;
     m.program = program_;
     m.reference_mean_ratio = reference_mean_ratio_;
     const DescriptionDigest digest =
@@ -166,7 +163,7 @@ class SceneBench {
 
   bool covers(const Measurement& old, const Measurement& m) const {
     return old.scene == m.scene && old.integrator == m.integrator && old.seed == m.seed &&
-           old.threads == m.threads && old.by_cpu_time == m.by_cpu_time && old.inputs == m.inputs &&
+           old.threads == m.threads && old.inputs == m.inputs &&
            (old.program == m.program || options_.any_program) &&
            std::all_of(m.seconds.begin(), m.seconds.end(),
                        [&](double t) { return old.relmse_at(t).has_value(); });
@@ -223,8 +220,6 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--seeds", options.seeds, "One run per seed [1,2; of peer_NAME 1,2,3]")
       ->delimiter(',');
   app.add_option("--threads", options.threads, "Threads [all]")->check(CLI::Range(1, 4096));
-  app.add_flag("--cpu-time", options.by_cpu_time,
-               "Seconds are CPU time over threads: for ratios on a machine that is not quiet");
   app.add_option(
          "--references", options.references,
          "Folder whose SCENE.exr are compared with instead of those that came with the scene")

@@ -34,7 +34,6 @@ Measurement measurement_of(const nlohmann::json& line) {
   m.relmse.resize(m.seconds.size(), not_a_number);
   m.mean_ratio = number_of(line.at("mean_ratio"));
   m.threads = line.at("threads");
-  m.by_cpu_time = line.value("by_cpu_time", false);
   m.passes = line.at("passes");
   m.samples_per_pass = line.at("samples_per_pass");
   m.load_seconds = number_of(line.at("load_seconds"));
@@ -63,7 +62,6 @@ std::string Measurement::to_json_line() const {
                                     {"relmse", relmse},
                                     {"mean_ratio", mean_ratio},
                                     {"threads", threads},
-                                    {"by_cpu_time", by_cpu_time},
                                     {"passes", passes},
                                     {"samples_per_pass", samples_per_pass},
                                     {"load_seconds", load_seconds},

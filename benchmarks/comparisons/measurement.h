@@ -17,7 +17,6 @@ struct Measurement {
   std::string scene, integrator;
   uint64_t seed = 0;
   std::vector<double> seconds;  ///< when the picture was looked at, without loading the scene
-  bool by_cpu_time = false;     ///< those are of Clock::cpu
   /// Error (error_of in quality.h) of the picture after the last pass that had ended by then; NaN
   /// (null in the file): none had.
   std::vector<double> relmse;

@@ -33,7 +33,7 @@ std::string letter_of(size_t build) {
 
 Results::Results(const std::vector<Measurement>& in_order) {
   for (const Measurement& m : in_order) {
-    if (type_of(m.integrator) != m.integrator || m.by_cpu_time) continue;
+    if (type_of(m.integrator) != m.integrator) continue;
     add_once(scenes_, m.scene);
     add_once(integrators_, m.integrator);
     std::erase_if(newest_, [&](const Measurement& old) {

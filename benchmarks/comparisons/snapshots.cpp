@@ -2,7 +2,6 @@
 
 #include <sys/resource.h>
 #include <atomic>
-#include <functional>
 #include <limits>
 
 namespace kaustik::bench {
@@ -29,14 +28,13 @@ Image colors_of(const Image& image) {
 /// Looks at the film of a session between its passes, when it is time to.
 class Photographer {
  public:
-  Photographer(const Session& session, std::function<double()> clock,
-               const std::vector<double>& times, const Image& reference)
-      : session_(session), clock_(std::move(clock)), times_(times), reference_(reference) {
+  Photographer(const Session& session, const std::vector<double>& times, const Image& reference)
+      : session_(session), times_(times), reference_(reference) {
     result_.samples_per_pass = session.samples_per_pass();
   }
 
   /// Time of rendering, without that of looking.
-  double elapsed() const { return clock_() - start_ - looking_seconds_; }
+  double elapsed() const { return seconds_since(start_) - looking_seconds_; }
   bool is_over() const { return elapsed() > times_.back(); }
 
   void pass_done() {
@@ -62,19 +60,18 @@ class Photographer {
       result_.pictures.push_back(latest_);
   }
   void look() {
-    const double begin = clock_();
+    const auto begin = std::chrono::steady_clock::now();
     const Image image = session_.film().image();
     latest_ = compare_images(image, reference_);
     result_.last = colors_of(image);
     result_.passes = session_.film().pass_count();
-    looking_seconds_ = looking_seconds_ + clock_() - begin;
+    looking_seconds_ = looking_seconds_ + seconds_since(begin);
   }
 
   const Session& session_;
-  std::function<double()> clock_;  ///< seconds
   const std::vector<double>& times_;
   const Image& reference_;
-  double start_ = clock_();
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::atomic<double> looking_seconds_ = 0;  ///< threads at work read it
   double last_pass_end_ = 0;
   std::optional<ImageComparison> latest_;
@@ -84,8 +81,8 @@ class Photographer {
 }  // namespace
 
 Snapshots render_with_snapshots(const Scene& scene, const Integrator& integrator,
-                                const SessionSettings& settings, Clock clock,
-                                const std::vector<double>& times, const Image& reference) {
+                                const SessionSettings& settings, const std::vector<double>& times,
+                                const Image& reference) {
   SessionSettings endless = settings;
   endless.seconds = std::numeric_limits<double>::infinity();
   Session session(scene, integrator, endless);
@@ -93,10 +90,7 @@ Snapshots render_with_snapshots(const Scene& scene, const Integrator& integrator
   const double cpu_before = cpu_seconds();
   const auto start = std::chrono::steady_clock::now();
   const double threads = std::max(1, settings.threads);
-  Photographer photographer(
-      session,
-      [&, clock] { return clock == Clock::wall ? seconds_since(start) : cpu_seconds() / threads; },
-      times, reference);
+  Photographer photographer(session, times, reference);
   const auto stop_in_time = [&](const Progress&) {
     if (photographer.is_over()) stop.request_stop();
   };

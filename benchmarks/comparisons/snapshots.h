@@ -16,18 +16,11 @@ struct Snapshots {
   double cpu_share = 0;  ///< CPU time over time × threads
 };
 
-/// What goes by while a picture is rendered.
-enum class Clock {
-  wall,  ///< what people wait for, on a machine that does nothing else
-  /// CPU time of the program over its threads: little changed by what else the machine does.
-  cpu
-};
-
-/// Renders until the last of `times` (seconds of `clock` from the start of rendering, ascending),
-/// whatever other limits the settings have, on as many threads as they name. Looking at the picture
-/// stops the clock.
+/// Renders until the last of `times` (seconds from the start of rendering, ascending), whatever
+/// other limits the settings have, on as many threads as they name. Looking at the picture stops
+/// the clock.
 Snapshots render_with_snapshots(const Scene& scene, const Integrator& integrator,
-                                const SessionSettings& settings, Clock clock,
-                                const std::vector<double>& times, const Image& reference);
+                                const SessionSettings& settings, const std::vector<double>& times,
+                                const Image& reference);
 
 }  // namespace kaustik::bench

@@ -91,8 +91,8 @@ class PeerComparison {
     SessionSettings settings;
     settings.seed = options_.seed;
     settings.threads = options_.threads;
-    const Snapshots ours = render_with_snapshots(*scene_, *integrator_, settings, Clock::wall,
-                                                 {theirs.seconds}, reference_);
+    const Snapshots ours =
+        render_with_snapshots(*scene_, *integrator_, settings, {theirs.seconds}, reference_);
     if (!ours.pictures.back())
       throw Error(ErrorKind::system, "no pass has ended in time", "ask for more seconds");
     const ImageComparison& our_picture = *ours.pictures.back();
