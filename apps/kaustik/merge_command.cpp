@@ -5,6 +5,7 @@
 #include "file_roles.h"
 #include "kaustik/render/checkpoint.h"
 #include "kaustik/render/photon_tracing.h"
+#include "kaustik/render/program_version.h"
 #include "picture_output.h"
 #include "standard_streams.h"
 
@@ -48,10 +49,10 @@ std::vector<std::string> images_of(const MergeOptions& options) {
 /// One file after the other, so that two films are in memory at most.
 Checkpoint merged_checkpoints(const std::vector<std::string>& paths) {
   Checkpoint whole = read_checkpoint(paths.front());
-  check_program(whole, paths.front(), KAUSTIK_VERSION);
+  check_program(paths.front(), whole.record.program, KAUSTIK_VERSION);
   for (size_t i = 1; i < paths.size(); ++i) {
     const Checkpoint part = read_checkpoint(paths[i]);
-    check_program(part, paths[i], KAUSTIK_VERSION);
+    check_program(paths[i], part.record.program, KAUSTIK_VERSION);
     merge_checkpoint(whole, paths.front(), part, paths[i]);
   }
   return whole;

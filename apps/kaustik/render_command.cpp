@@ -12,6 +12,7 @@
 #include "file_roles.h"
 #include "kaustik/image/tone_mapping.h"
 #include "kaustik/integrator/registry.h"
+#include "kaustik/render/program_version.h"
 #include "numbers.h"
 #include "picture_output.h"
 #include "render_job.h"
@@ -60,7 +61,7 @@ void render(RenderOptions options) {
     roles.reads(*options.learned);
     job.learned = read_lessons(*options.learned);
     job.learned_path = *options.learned;
-    check_program(*job.learned, *options.learned, KAUSTIK_VERSION);
+    check_program(*options.learned, job.learned->program, KAUSTIK_VERSION);
   }
   if (options.outputs.files.empty() && is_standard_stream(recipe.scene))
     throw Error(ErrorKind::input, "a scene from standard input gives its picture no name",

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "console.h"
 #include "kaustik/base/file.h"
+#include "kaustik/render/program_version.h"
 #include "kaustik/render/resume.h"
 #include "numbers.h"
 #include "picture_file.h"
@@ -106,7 +107,7 @@ void resume(const ResumeOptions& options) {
   roles.reads(options.checkpoint);
   check_output_path(options.checkpoint);
   Checkpoint checkpoint = read_checkpoint(options.checkpoint);
-  check_program(checkpoint, options.checkpoint, KAUSTIK_VERSION);
+  check_program(options.checkpoint, checkpoint.record.program, KAUSTIK_VERSION);
   RenderRecord& record = checkpoint.record;
   if (!options.scene.empty()) record.recipe.scene = options.scene;
   if (options.outputs.empty())

@@ -57,9 +57,10 @@ class CheckpointsOfAnotherProgram : public ProgramTest {
     const RunResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 2) << result.err;
     EXPECT_TRUE(
-        contains(result.err, file + ": the checkpoint was written by Kaustik 0.0.9, this is"))
+        contains(result.err, file + ": this file was written by Kaustik 0.0.9, this program is"))
         << result.err;
-    EXPECT_TRUE(contains(result.err, "remedy: use that version, or render again")) << result.err;
+    EXPECT_TRUE(contains(result.err, "remedy: use that version, or write the file again"))
+        << result.err;
     EXPECT_EQ(files(), before);
   }
 };

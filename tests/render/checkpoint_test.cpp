@@ -274,12 +274,6 @@ TEST_F(CheckpointFile, MergingRefusesWhatDoesNotBelongTogether) {
   expect_same_bits(whole.film, little_film({0, 3}));
 }
 
-TEST_F(CheckpointFile, OtherVersionsAreRefused) {
-  const Checkpoint checkpoint{little_record(), little_film(), {}};
-  check_program(checkpoint, "a.kpt", "1.2.3");
-  EXPECT_THROW(check_program(checkpoint, "a.kpt", "1.2.4"), Error);
-}
-
 TEST_F(CheckpointFile, AFrameHoldsTheFilm) {
   const auto write_with = [&](const PictureFrame& frame) {
     RenderRecord record = little_record();

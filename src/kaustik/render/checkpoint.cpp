@@ -253,16 +253,6 @@ Checkpoint read_checkpoint(const std::string& path) {
 
 bool is_checkpoint(const std::string& path) { return is_of_kind(checkpoint_kind, path); }
 
-void check_program(const Checkpoint& checkpoint, const std::string& path,
-                   const std::string& program) {
-  if (checkpoint.record.program == program) return;
-  throw Error(ErrorKind::input,
-              fmt::format("the checkpoint was written by Kaustik {}, this is {}: their passes may "
-                          "differ",
-                          checkpoint.record.program, program),
-              "use that version, or render again with this one", place_in(path));
-}
-
 void merge_checkpoint(Checkpoint& whole, const std::string& whole_path, const Checkpoint& part,
                       const std::string& path) {
   const auto fail = [&](const std::string& message, const std::string& remedy) {

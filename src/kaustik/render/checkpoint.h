@@ -81,11 +81,6 @@ Checkpoint read_checkpoint(const std::string& path);
 /// Whether the file starts as checkpoints do. Throws Error(input) if it cannot be read.
 bool is_checkpoint(const std::string& path);
 
-/// Throws Error(input), at `path`, if the checkpoint was not written by version `program`: passes
-/// of different versions do not belong together.
-void check_program(const Checkpoint& checkpoint, const std::string& path,
-                   const std::string& program);
-
 /// The passes of both, in `whole`, with the record of the part whose passes begin first, so that
 /// the order of parts makes no difference; where they were to write different images, it names
 /// none. Of their lessons it keeps those of more passes. Throws Error(input), at `path`, where part

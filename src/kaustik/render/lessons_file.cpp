@@ -1,10 +1,9 @@
 // docs/checkpoints.md describes the file; what is put and got here is that, in its order.
 #include "kaustik/render/lessons_file.h"
 
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "kaustik/base/checksum.h"
-#include "kaustik/base/error.h"
 
 namespace kaustik {
 namespace {
@@ -62,15 +61,6 @@ StoredLessons read_lessons(const std::string& path) {
 }
 
 bool is_lessons_file(const std::string& path) { return is_of_kind(lessons_kind, path); }
-
-void check_program(const StoredLessons& stored, const std::string& path,
-                   const std::string& program) {
-  if (stored.program == program) return;
-  throw Error(
-      ErrorKind::input,
-      fmt::format("the lessons were written by Kaustik {}, this is {}", stored.program, program),
-      lessons_kind.if_unusable, place_in(path));
-}
 
 uint64_t digest_of(const Lessons& lessons) {
   return std::max<uint64_t>(1, checksum(lessons.bytes));

@@ -33,10 +33,6 @@ StoredLessons read_lessons(const std::string& path);
 /// Whether the file starts as those of lessons do. Throws Error(input) if it cannot be read.
 bool is_lessons_file(const std::string& path);
 
-/// Throws Error(input), at `path`, if the lessons were not learned by version `program`.
-void check_program(const StoredLessons& stored, const std::string& path,
-                   const std::string& program);
-
 /// Differs in all likelihood between lessons that differ; never 0.
 uint64_t digest_of(const Lessons& lessons);
 
