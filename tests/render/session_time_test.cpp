@@ -268,6 +268,24 @@ TEST(SessionTime, FirstLightPassesAreHaltedThatTellNothing) {
   EXPECT_FALSE(session.snapshot());
 }
 
+/// Its exceptions, thrown in a thread of the session's own, reach who has called run().
+TEST(SessionTime, AClockThatFailsInALightPassEndsIt) {
+  CountedClock clock;
+  const auto scene = plain_scene();
+  const Silent integrator(clock);
+  SessionSettings settings;
+  settings.clock = [read = clock.reader()] {
+    const double now = read();
+    if (now > 1) throw std::runtime_error("the clock is broken");
+    return now;
+  };
+  settings.seconds = 2;
+  Session session(*scene, integrator, settings);
+  EXPECT_THROW(session.run(), std::runtime_error);
+  EXPECT_TRUE(integrator.was_stopped);
+  EXPECT_EQ(session.film().pass_count(), 0u);
+}
+
 TEST(PartPicture, WeighsByShares) {
   Image image(1, 1,
               {"R", "G", "B", "caustic.G", "albedo.B", "N.Y", "depth.Z", "error.R", "bias.B",

@@ -60,13 +60,24 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
   const auto halt_if_late = [&] {
     if (last && monitor.elapsed() > *last) halt.request_stop();
   };
+  // What fails here ends the light pass, which need not come to its end for that.
+  const auto look = [&] {
+    try {
+      halt_if_late();
+    } catch (...) {
+      halt.request_stop();
+      throw;
+    }
+  };
   const auto state = [&] {
     std::optional<Watch> watch;
-    if (last) watch.emplace(halt_if_late);
-    return integrator_.prepare(pass, splats_, halt.get_token(), [&](double share) {
+    if (last) watch.emplace(look);
+    auto prepared = integrator_.prepare(pass, splats_, halt.get_token(), [&](double share) {
       monitor.light_pass_at(share);
       halt_if_late();
     });
+    if (watch) watch->end();
+    return prepared;
   }();
   note_memory();
   // Half a light pass is of no use: what it has brought is a part of the light only.

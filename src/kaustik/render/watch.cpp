@@ -20,6 +20,18 @@ void watch(const std::stop_token& ended, const std::function<void()>& look) {
 }  // namespace
 
 Watch::Watch(std::function<void()> look)
-    : thread_([look = std::move(look)](const std::stop_token& ended) { watch(ended, look); }) {}
+    : thread_([this, look = std::move(look)](const std::stop_token& ended) {
+        try {
+          watch(ended, look);
+        } catch (...) {
+          failure_ = std::current_exception();
+        }
+      }) {}
+
+void Watch::end() {
+  thread_.request_stop();
+  if (thread_.joinable()) thread_.join();
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
 
 }  // namespace kaustik
