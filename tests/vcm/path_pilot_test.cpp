@@ -31,16 +31,12 @@ struct BallPilot {
   uint64_t rays = 0;
 };
 
-/// A pilot pass that has the fraction `share` of a pass's light paths.
-BallPilot pilot_of(const HollowBall& ball, uint32_t number, double share) {
+BallPilot pilot_of(const Scene& scene, const LightPathEmission& emission, const PixelPlans& plans,
+                   const LightVertices& light, double share) {
   const PathWeights weights = merging_weights(paths_of_ball_pass, pilot_radius);
-  const LightVertices light =
-      ball.trace(weights, uint32_t(share * paths_of_ball_pass), number, pilot_events);
-  PixelPlans plans(ball.scene());
-  plans.choose_disks(light, paths_of_ball_pass, 30, pilot_radius);
   const MattMerging no_matt;
-  const CameraPathInputs inputs{.scene = ball.scene(),
-                                .emission = ball.emission(),
+  const CameraPathInputs inputs{.scene = scene,
+                                .emission = emission,
                                 .weights = weights,
                                 .light = light,
                                 .matt = no_matt,
@@ -51,6 +47,16 @@ BallPilot pilot_of(const HollowBall& ball, uint32_t number, double share) {
   BallPilot result;
   result.probes = probe_statistics(inputs, plans, {.light_share = share}, result.rays);
   return result;
+}
+
+/// A pilot pass that has the fraction `share` of a pass's light paths.
+BallPilot pilot_of(const HollowBall& ball, uint32_t number, double share) {
+  const LightVertices light =
+      ball.trace(merging_weights(paths_of_ball_pass, pilot_radius),
+                 uint32_t(share * paths_of_ball_pass), number, pilot_events);
+  PixelPlans plans(ball.scene());
+  plans.choose_disks(light, paths_of_ball_pass, 30, pilot_radius);
+  return pilot_of(ball.scene(), ball.emission(), plans, light, share);
 }
 
 double mean_of(const BallPilot& pilot, const std::function<double(const ProbeStatistics&)>& value) {
@@ -94,6 +100,33 @@ TEST(PathPilot, TakesFewerPathsOfEachProbeOfALargePicture) {
   EXPECT_EQ(paths_of(512), 8 * 128 * 128);
   EXPECT_EQ(paths_of(640), 5 * 160 * 160);
   EXPECT_LT(paths_of(832), 1 << 17);
+  // From there on some probes tell of those around: 259 blocks in a row, of which each second one.
+  EXPECT_EQ(paths_of(1036), 7 * 130 * 130);
+}
+
+/// Blocks without paths of their own are told what is seen around them: half of the picture is a
+/// wall, and half is nothing.
+TEST(PathPilot, TellsWhatIsWhereInALargePicture) {
+  const TestScene half(camera("0, -4, 0", "0, 0, 0", 30, 900) +
+                       flat("rectangle",
+                            scale("3, 3, 1") + rotate("1, 0, 0", 90) + translate("-3, 0, 0"),
+                            diffuse("0.5, 0.5, 0.5")) +
+                       point_light("-1, -3, 0", 1));
+  const PixelPlans plans(half.scene());
+  const BallPilot pilot =
+      pilot_of(half.scene(), LightPathEmission(half.scene()), plans, LightVertices(), 1);
+  const BlockGrid& grid = plans.seen().grid();
+  ASSERT_EQ(pilot.probes.size(), grid.size());
+  size_t of_wall = 0, of_nothing = 0;
+  for (size_t i = 0; i < grid.size(); ++i) {
+    constexpr int averaged = 6;  // blocks
+    if (std::abs(2 * grid.block(i).x - grid.count().x) <= 2 * averaged) continue;
+    const bool is_wall = plans.seen().probes()[i].found;
+    ++(is_wall ? of_wall : of_nothing);
+    ASSERT_NEAR(pilot.probes[i].rays, is_wall ? 2 : 1, 1e-9) << i;
+  }
+  EXPECT_GT(of_wall, grid.size() / 3);
+  EXPECT_GT(of_nothing, grid.size() / 3);
 }
 
 /// However few of a pass's light paths the pilot has, it counts those of a pass.

@@ -11,7 +11,8 @@ namespace kaustik {
 namespace {
 
 /// Paths of a probe: so many, but fewer in large pictures, so that there are hardly more in all.
-/// What is told of a block then rests on more blocks around.
+/// What is told of a block then rests on more blocks around. Fewer than three tell little of a
+/// variance: in still larger pictures only some probes have paths.
 constexpr uint32_t most_paths_per_probe = 8, least_paths_per_probe = 3;
 constexpr size_t most_paths = 1 << 17;
 /// The kernel of merging weighs its vertices unevenly: they are worth so many of equal weight.
@@ -126,15 +127,22 @@ void add_merged(CameraPath& path, float samples, double light_share, ProbeStatis
   }
 }
 
-/// In a picture of that size, of which a crop window is planned as the whole is.
-uint32_t paths_per_probe(const Vec2i& size) {
-  const size_t blocks =
-      size_t(size.x) * size_t(size.y) / (SeenSurfaces::block_size * SeenSurfaces::block_size);
-  return uint32_t(std::clamp<size_t>(most_paths / std::max<size_t>(1, blocks),
-                                     least_paths_per_probe, most_paths_per_probe));
-}
+/// Which probes have paths: of every so many blocks in a row and in a column one, and how many.
+struct PilotDensity {
+  int stride = 1;
+  uint32_t paths = 0;
 
-/// Of each probe the mean over it and those beside it.
+  /// In a picture of that size, of which a crop window is planned as the whole is.
+  explicit PilotDensity(const Vec2i& size) {
+    const size_t blocks =
+        std::max<size_t>(1, size_t(size.x) * size_t(size.y) / sqr(SeenSurfaces::block_size));
+    const auto affordable = [&] { return most_paths * size_t(sqr(stride)) / blocks; };
+    while (affordable() < least_paths_per_probe) ++stride;
+    paths = uint32_t(std::min<size_t>(affordable(), most_paths_per_probe));
+  }
+};
+
+/// Of each the mean over it and those beside it.
 std::vector<ProbeStatistics> smoothed(const std::vector<ProbeStatistics>& single,
                                       const BlockGrid& grid) {
   std::vector<ProbeStatistics> result(single.size());
@@ -146,6 +154,14 @@ std::vector<ProbeStatistics> smoothed(const std::vector<ProbeStatistics>& single
     }
   });
   return result;
+}
+
+/// Of a cell of stride × stride blocks, some of which may lie beyond the grid.
+Vec2i middle_block(const BlockGrid& grid, const Vec2i& cell, int stride) {
+  const auto along = [&](int number, int count) {
+    return std::min(number * stride + stride / 2, count - 1);
+  };
+  return {along(cell.x, grid.count().x), along(cell.y, grid.count().y)};
 }
 
 /// Unbiased variance of values of this sum and these squares.
@@ -214,18 +230,27 @@ std::vector<ProbeStatistics> probe_statistics(const CameraPathInputs& inputs,
                                               const PixelPlans& plans, const PilotLimits& limits,
                                               uint64_t& rays, const std::stop_token& stop) {
   const std::vector<PixelProbe>& probes = plans.seen().probes();
-  const uint32_t paths = paths_per_probe(inputs.scene.film().size);
-  std::vector<ProbeStatistics> single(probes.size());
-  parallel_blocks(probes.size(), 16, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end && !stop.stop_requested(); ++i)
-      single[i] = statistics_at(inputs, probes[i], plans.plans()[i], i, paths, limits);
+  const PilotDensity density(inputs.scene.film().size);
+  const BlockGrid& grid = plans.seen().grid();
+  // Of so many blocks each, whose middle one's probe has paths.
+  const BlockGrid cells(grid.window(), grid.block_size() * density.stride);
+  std::vector<ProbeStatistics> single(cells.size());
+  parallel_blocks(single.size(), 16, [&](size_t begin, size_t end, size_t) {
+    for (size_t cell = begin; cell < end && !stop.stop_requested(); ++cell) {
+      const size_t i = grid.index_of(middle_block(grid, cells.block(cell), density.stride));
+      single[cell] = statistics_at(inputs, probes[i], plans.plans()[i], i, density.paths, limits);
+    }
   });
   double counted = 0;
-  for (const ProbeStatistics& s : single) counted += paths * (s.rays + s.rays_beyond);
+  for (const ProbeStatistics& s : single) counted += density.paths * (s.rays + s.rays_beyond);
   rays += to_integer(std::round(counted), uint64_t(0), uint64_t(1) << 53);
-  const BlockGrid& grid = plans.seen().grid();
-  std::vector<ProbeStatistics> result = smoothed(single, grid);
-  return paths < most_paths_per_probe ? smoothed(result, grid) : result;
+  std::vector<ProbeStatistics> of_cells = smoothed(single, cells);
+  if (density.paths < most_paths_per_probe) of_cells = smoothed(of_cells, cells);
+  if (density.stride == 1) return of_cells;
+  std::vector<ProbeStatistics> result(probes.size());
+  for (size_t i = 0; i < result.size(); ++i)
+    result[i] = of_cells[cells.index_of(grid.block(i) / density.stride)];
+  return result;
 }
 
 }  // namespace kaustik

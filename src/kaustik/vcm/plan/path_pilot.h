@@ -12,7 +12,8 @@ struct PilotLimits {
   ComponentSet components = ComponentSet::all();  ///< that are wanted
 };
 
-/// A few camera paths at every probe of `plans`, and the light vertices that merge there: how well
+/// A few camera paths at the probes of `plans`, in pictures of more than about 836 × 836 pixels at
+/// some of them, so that they are 2¹⁷ at most; and the light vertices that merge there: how well
 /// either way finds the light. `inputs`: of the pilot pass; its weights know merging alone of what
 /// light paths do, and count those of a real pass. What comes back is averaged over the probes
 /// around; one for each probe. Counts the rays. Returns early once `stop` is requested.
