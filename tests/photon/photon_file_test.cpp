@@ -150,6 +150,7 @@ TEST_F(PhotonFile, KeepsEverything) {
   EXPECT_TRUE(read.fingerprint.matches(written.fingerprint));
   EXPECT_EQ(read.fingerprint.sums, written.fingerprint.sums);
   EXPECT_EQ(read.seed, written.seed);
+  EXPECT_TRUE(read.wavelengths.is_rgb());
   EXPECT_EQ(read.settings.global_photons, 20000u);
   EXPECT_EQ(read.settings.caustic_photons, 20000u);
   EXPECT_EQ(read.settings.maximum_events, 9);
@@ -192,6 +193,23 @@ TEST_F(PhotonFile, EmptyMaps) {
   EXPECT_TRUE(read.scene.empty());
 }
 
+TEST_F(PhotonFile, WavelengthsAreKept) {
+  StoredPhotons photons;
+  photons.wavelengths = {440, 500, 580, 660.5f};
+  write_photon_file(path(), photons);
+  EXPECT_EQ(read_photon_file(path()).wavelengths, photons.wavelengths);
+  // They stand behind the frame's begin, two empty texts, the fingerprint's numbers and the seed.
+  const size_t at = 16 + 8 + 8 + 8 + 8 * SceneFingerprint::sum_count + 8;
+  const Bytes good = contents();
+  for (const float wrong : {0.0f, -440.0f, infinity}) {
+    Bytes bytes = good;
+    std::memcpy(bytes.data() + at + sizeof(float), &wrong, sizeof wrong);
+    seal(bytes);
+    put(bytes);
+    expect_refused("its wavelengths are not valid");
+  }
+}
+
 TEST_F(PhotonFile, WhatIsNoPhotonMapIsRefused) {
   expect_refused("cannot read");
   put({});
@@ -207,7 +225,7 @@ TEST_F(PhotonFile, OtherVersionsAndByteOrdersAreNamed) {
   bytes[12] = 9;
   seal(bytes);
   put(bytes);
-  expect_refused("has version 9, this program reads version 5");
+  expect_refused("has version 9, this program reads version 6");
   bytes = good;
   std::swap(bytes[8], bytes[11]);
   std::swap(bytes[9], bytes[10]);

@@ -100,6 +100,9 @@ TEST(PhotonParts, WhatDoesNotFitIsRefused) {
   StoredPhotons other = parts[1];
   other.fingerprint.sums[3] += 1;
   EXPECT_NE(problem_with({parts[0], other}).find("different scenes"), std::string::npos);
+  other = parts[1];
+  other.wavelengths = {440, 500, 580, 660};
+  EXPECT_NE(problem_with({parts[0], other}).find("different wavelengths"), std::string::npos);
   EXPECT_EQ(problem_with(parts), "none");
 }
 

@@ -239,6 +239,42 @@ TEST(PhotonMapOptions, CountsOfZeroSwitchStoredPhotonsOff) {
   std::remove(file.c_str());
 }
 
+TEST(PhotonMapOptions, StoredPhotonsOfOtherWavelengthsAreRefused) {
+  const std::string room = round_room(diffuse("0.5, 0.5, 0.5"), balls);
+  const TestScene scene(room);
+  const std::string file = testing::TempDir() + "kaustik_wavelengths.kpm";
+  StoredPhotons photons_of_room =
+      trace_photon_maps(
+          description_of(room + "<integrator type=\"photonmap\">" + photons() + "</integrator>"),
+          scene.scene(), 1, 0)
+          .photons;
+  const Wavelengths four(440, 500, 580, 660);
+  const auto refusal = [&](const Wavelengths& stored, const Wavelengths& rendered) -> std::string {
+    photons_of_room.wavelengths = stored;
+    write_photon_file(file, photons_of_room);
+    const auto integrator = scene.integrator(
+        "photonmap", set("photon_map", file.c_str()) + set("irradiance_cache", false));
+    SplatBuffer splats(scene.scene().film(), ComponentSet());
+    try {
+      integrator->prepare({1, 0, 1, rendered}, splats, {}, {});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      EXPECT_TRUE(error.problems().at(0).place.file);
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refusal({}, {}), "");
+  EXPECT_EQ(refusal(four, four), "");
+  const std::string text = refusal({}, four);
+  for (const char* part : {file.c_str(), "holds photons of red, green and blue",
+                           "has light of 440, 500, 580 and 660 nm", "leave out 'photon_map'"})
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  EXPECT_NE(refusal(four, {}), "");
+  EXPECT_NE(refusal(four, {440, 500, 580, 661}), "");
+  std::remove(file.c_str());
+}
+
 /// A lamp so strong and so close to the wall that the radiance there is infinite.
 TEST(PhotonMapOptions, DroppedGatherRaysAreTold) {
   const TestScene scene(camera("0, -0.8, 0", "0, 1, -0.2", 75, 8) +

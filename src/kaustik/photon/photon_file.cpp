@@ -1,6 +1,6 @@
 // The content of a .kpm file, in the frame of base/binary_file.h:
 //   scene (u64 length, bytes), fingerprint: counts (u64 length, bytes), numbers (u64), 16 sums (f64
-//   each); seed (u64),
+//   each); seed (u64), wavelengths (4 × f32, nm; zeros: red, green and blue),
 //   settings: global_photons, caustic_photons (u32), maximum_events (i32), traced, reradiate, aim
 //   (u8 each), target_budget (i32),
 //   part index and count (u32 each),
@@ -22,13 +22,28 @@ namespace {
 
 constexpr BinaryFileKind photon_map_kind = {
     {0x89, 'K', 'P', 'M', '\r', '\n', 0x1a, '\n'},
-    5,  // Photon's layout is part of the file's
+    6,  // Photon's layout is part of the file's
     "photon map",
     "give a .kpm file that was written by: kaustik photons SCENE -o MAP.kpm",
     "write it again with this program: kaustik photons SCENE -o MAP.kpm"};
 constexpr size_t bytes_per_photon = sizeof(Vec3f) + sizeof(Photon);
 constexpr size_t bytes_per_light = 7 * sizeof(uint64_t);
 static_assert(std::is_trivially_copyable_v<Photon> && sizeof(Vec3f) == 12);
+
+void put_wavelengths(BinaryWriter& writer, const Wavelengths& wavelengths) {
+  for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+    writer.put(wavelengths.is_rgb() ? 0.0f : wavelengths[lane]);
+}
+
+Wavelengths get_wavelengths(BinaryReader& reader) {
+  std::array<float, Spectrum::lane_count> nm{};
+  for (float& of_lane : nm) of_lane = reader.get<float>();
+  const auto all = [&](const auto& is_so) { return std::all_of(nm.begin(), nm.end(), is_so); };
+  if (all([](float of_lane) { return of_lane == 0; })) return {};
+  if (!all([](float of_lane) { return std::isfinite(of_lane) && of_lane > 0; }))
+    reader.damaged("its wavelengths are not valid");
+  return {nm[0], nm[1], nm[2], nm[3]};
+}
 
 void put_settings(BinaryWriter& writer, const LightPassSettings& s) {
   writer.put(s.global_photons);
@@ -132,6 +147,7 @@ void write_photon_file(const std::string& path, const StoredPhotons& photons) {
   writer.put_text(photons.scene);
   put_fingerprint(writer, photons.fingerprint);
   writer.put(photons.seed);
+  put_wavelengths(writer, photons.wavelengths);
   put_settings(writer, photons.settings);
   put_map(writer, photons.maps.global, photons.maps.global_report);
   put_map(writer, photons.maps.caustic, photons.maps.caustic_report);
@@ -144,6 +160,7 @@ StoredPhotons read_photon_file(const std::string& path) {
   photons.scene = reader.get_text();
   photons.fingerprint = get_fingerprint(reader);
   photons.seed = reader.get<uint64_t>();
+  photons.wavelengths = get_wavelengths(reader);
   photons.settings = get_settings(reader);
   photons.maps.global = get_map(reader, photons.maps.global_report);
   photons.maps.caustic = get_map(reader, photons.maps.caustic_report);

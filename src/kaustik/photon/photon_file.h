@@ -11,6 +11,7 @@ struct StoredPhotons {
   std::string scene;  ///< the scene file that they come from, for people
   SceneFingerprint fingerprint;
   uint64_t seed = 0;
+  Wavelengths wavelengths;     ///< that the maps were traced at
   LightPassSettings settings;  ///< that the maps were traced with
   PhotonMaps maps;
 };

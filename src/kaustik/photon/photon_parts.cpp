@@ -71,6 +71,9 @@ void check(std::span<const StoredPhotons> parts) {
     if (!part.fingerprint.matches(first.fingerprint))
       refuse("the photon maps are of different scenes: " + first.scene + " and " + part.scene,
              "trace all parts from the same scene");
+    if (part.wavelengths != first.wavelengths)
+      refuse("the photon maps were traced at different wavelengths",
+             "trace all parts at the same ones");
     if (part.seed != first.seed || settings_key(part.settings) != settings_key(first.settings))
       refuse("the photon maps were traced with different seeds or settings",
              "trace all parts with the same --seed and --set, and the same number of parts");
@@ -102,6 +105,7 @@ StoredPhotons merged_photons(std::span<const StoredPhotons> parts) {
   whole.scene = parts.front().scene;
   whole.fingerprint = parts.front().fingerprint;
   whole.seed = parts.front().seed;
+  whole.wavelengths = parts.front().wavelengths;
   whole.settings = parts.front().settings;
   whole.settings.part = {};
   Photons global, caustic;

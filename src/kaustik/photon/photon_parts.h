@@ -10,7 +10,7 @@ namespace kaustik {
 void sort_photons(PhotonMaps& maps);
 
 /// The maps of a whole pass from all of its parts, in any order. Throws Error(input) if a part is
-/// missing or comes twice, or parts are of different scenes, seeds or settings.
+/// missing or comes twice, or parts are of different scenes, wavelengths, seeds or settings.
 StoredPhotons merged_photons(std::span<const StoredPhotons> parts);
 
 }  // namespace kaustik

@@ -1,5 +1,7 @@
 #include "kaustik/photonmap/photon_map_integrator.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "kaustik/base/parallel.h"
@@ -100,7 +102,21 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
                 "leave out 'photon_map', or set 'volume_photons' to 0 for a picture without that "
                 "light",
                 settings_.photon_file_place);
+  stored_wavelengths_ = stored.wavelengths;
   stored_maps_ = std::make_shared<const PhotonMaps>(std::move(stored.maps));
+}
+
+void PhotonMapIntegrator::check_stored_wavelengths(const Wavelengths& wavelengths) const {
+  if (stored_wavelengths_ == wavelengths) return;
+  const auto text = [](const Wavelengths& of) {
+    return of.is_rgb() ? std::string("red, green and blue")
+                       : fmt::format("{:g}, {:g}, {:g} and {:g} nm", of[0], of[1], of[2], of[3]);
+  };
+  throw Error(ErrorKind::input,
+              fmt::format("{} holds photons of {}, this pass has light of {}",
+                          settings_.photon_file, text(stored_wavelengths_), text(wavelengths)),
+              "leave out 'photon_map': each pass then traces photons at its own wavelengths",
+              settings_.photon_file_place);
 }
 
 std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(uint64_t seed) const {
@@ -135,7 +151,10 @@ GatherRadii PhotonMapIntegrator::pass_radii(const PhotonMaps& maps, uint32_t ind
 std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
     const Pass& pass, PassReport& report, std::stop_token stop,
     const ProgressFunction& progress) const {
-  if (stored_maps_) return stored_maps_;
+  if (stored_maps_) {
+    check_stored_wavelengths(pass.wavelengths);
+    return stored_maps_;
+  }
   const auto lights = light_pass(pass.seed);
   auto maps = std::make_shared<const PhotonMaps>(
       lights->trace(pass.seed, pass.index, stop, progress, pass.wavelengths));

@@ -26,6 +26,8 @@ class PhotonMapIntegrator final : public IlluminationModel {
   std::shared_ptr<const PhotonMaps> maps_of(const Pass& pass, PassReport& report,
                                             std::stop_token stop,
                                             const ProgressFunction& progress) const;
+  /// Throws Error(input) unless the stored maps were traced at these.
+  void check_stored_wavelengths(const Wavelengths& wavelengths) const;
   GatherRadii pass_radii(const PhotonMaps& maps, uint32_t index) const;
   void add_shadow_photons(State& state, const Pass& pass, std::stop_token stop) const;
   void add_warnings(State& state) const;
@@ -50,6 +52,7 @@ class PhotonMapIntegrator final : public IlluminationModel {
 
   PhotonMapSettings settings_;
   std::shared_ptr<const PhotonMaps> stored_maps_;  ///< null: every pass traces its own
+  Wavelengths stored_wavelengths_;                 ///< of those
   mutable Kept<LightPass> light_pass_;             ///< by the seed
   mutable Kept<SeenSurfaces> seen_edges_;
 };

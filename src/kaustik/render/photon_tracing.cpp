@@ -62,7 +62,7 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
   const uint64_t refused_before = scene.tracer().refused_rays();
   with_threads(threads, [&] {
     const LightPass pass(scene, photons.settings, seed);
-    photons.maps = pass.trace(seed, 0, stop, progress);
+    photons.maps = pass.trace(seed, 0, stop, progress, photons.wavelengths);
     sort_photons(photons.maps);
     for (const std::string& warning : pass.warnings(photons.maps))
       traced.warnings.push_back(warning);
