@@ -1,13 +1,16 @@
 // How well renders keep to the time that they are given, reading the scene included:
 //   time_tool [--size N] [NAME ...]   scenes, integrators and times by name ("10s"); all without
-// Prints the time asked for, the time taken, when the first picture, or look, was there for a
-// snapshot, the passes and the share of another one, and the processor time over the threads (what
-// a machine takes that does nothing else, if all is parallel).
+// Prints the time asked for and when the render ended; when there was a first look (a preview, or
+// samples of some pixels), a first picture in which each pixel has a sample, and a first whole
+// pass; the passes and the share of another one. In brackets the processor time over the threads
+// (what a machine takes that does nothing else, if all is parallel). "-": there was none. Looking
+// takes a fifth of a thread until there is a picture, and may miss by four times what it takes.
 #include <sys/resource.h>
 
-#include <atomic>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -19,6 +22,7 @@
 #include "kaustik/integrator/registry.h"
 #include "kaustik/loader/scene_format.h"
 #include "kaustik/render/job.h"
+#include "kaustik/render/part_picture.h"
 #include "kaustik/scene/overrides.h"
 
 namespace {
@@ -49,6 +53,64 @@ double processor_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+/// Since the begin of a render, s.
+struct Moment {
+  double wall = 0, processor = 0;
+};
+
+class Stopwatch {
+ public:
+  Clock::time_point start() const { return start_; }
+  Moment now() const {
+    return {seconds_since(start_),
+            (processor_seconds() - processor_before_) / std::thread::hardware_concurrency()};
+  }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+  double processor_before_ = processor_seconds();
+};
+
+std::string text_of(const std::optional<Moment>& moment) {
+  return moment ? fmt::format("{:6.2f} s ({:6.2f})", moment->wall, moment->processor)
+                : fmt::format("{:>17}", "-");
+}
+
+/// Looks at a job until there is a picture.
+class Viewer {
+ public:
+  Viewer(const Job& job, const Stopwatch& stopwatch)
+      : job_(job), stopwatch_(stopwatch), thread_([this](const std::stop_token& ended) {
+          while (!picture_ && !ended.stop_requested()) {
+            const Clock::time_point begin = Clock::now();
+            look();
+            std::this_thread::sleep_for(std::max<Clock::duration>(std::chrono::milliseconds(2),
+                                                                  4 * (Clock::now() - begin)));
+          }
+        }) {}
+  /// After the job's.
+  void end() {
+    thread_.request_stop();
+    thread_.join();
+    if (!picture_) look();
+  }
+  // After end().
+  const std::optional<Moment>& first_look() const { return look_; }
+  const std::optional<Moment>& first_picture() const { return picture_; }
+
+ private:
+  void look() {
+    const std::optional<Image> image = job_.snapshot();
+    if (image && !look_) look_ = stopwatch_.now();
+    if (image && !image->find_metadata(incomplete_key)) picture_ = stopwatch_.now();
+  }
+
+  const Job& job_;
+  const Stopwatch& stopwatch_;
+  std::optional<Moment> look_, picture_;
+  std::jthread thread_;
+};
+
 struct Asked {
   std::string scene, integrator;
   double seconds = 0;
@@ -56,37 +118,32 @@ struct Asked {
 };
 
 void measure(const Asked& asked) {
-  const Clock::time_point start = Clock::now();
-  const double processor_before = processor_seconds();
-  const auto processor_since = [&] {
-    return (processor_seconds() - processor_before) / std::thread::hardware_concurrency();
-  };
+  const Stopwatch stopwatch;
   Description description =
       load_scene((scenes_folder / asked.scene / (asked.scene + ".xml")).string());
   override_integrator(description, asked.integrator);
   override_property(description, fmt::format("film.width={}", asked.size));
   override_property(description, fmt::format("film.height={}", asked.size));
   JobSettings settings;
-  settings.clock_start = start;
+  settings.clock_start = stopwatch.start();
   settings.session.seconds = asked.seconds;
   settings.previews = true;
-  Job job(std::move(description), std::move(settings));
-  std::atomic<bool> ended = false;
-  double first_picture = 0, first_processor = 0;
-  std::thread viewer([&] {
-    while (!job.snapshot() && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    first_picture = seconds_since(start);
-    first_processor = processor_since();
-  });
+  std::optional<Moment> first_pass;
+  JobListener listener;
+  listener.pass_done = [&](const Film&) {
+    if (!first_pass) first_pass = stopwatch.now();
+  };
+  Job job(std::move(description), std::move(settings), listener);
+  Viewer viewer(job, stopwatch);
   const SessionReport report = job.run().report;
-  const double taken = seconds_since(start), processor = processor_since();
-  ended = true;
-  viewer.join();
+  const Moment end = stopwatch.now();
+  viewer.end();
   fmt::print(
-      "{:15} {:11} {:5g} s  taken {:6.2f} s ({:6.2f})  first picture {:6.2f} s ({:6.2f})  "
-      "{:3} passes of {} + {:.2f}{}\n",
-      asked.scene, asked.integrator, asked.seconds, taken, processor, first_picture,
-      first_processor, report.passes, report.samples_per_pass, report.part,
+      "{:15} {:11} {:5g} s asked, ended {}  first look {}  picture {}  pass {}  {:3} passes of {} "
+      "+ {:.2f}{}\n",
+      asked.scene, asked.integrator, asked.seconds, text_of(end), text_of(viewer.first_look()),
+      text_of(viewer.first_picture()), text_of(first_pass), report.passes, report.samples_per_pass,
+      report.part,
       report.passes == 0       ? ", a first look"
       : report.incomplete_pass ? ", not finished"
                                : "");
