@@ -23,6 +23,9 @@ constexpr double freedom_of_pool = [] {
   constexpr double pixels = sqr(2 * pool_reach + 1), own = 1 - share_around * (1 - 1 / pixels);
   return 1 / (sqr(own) + sqr(1 - own) / (pixels - 1));
 }();
+/// Rounded squares tell nothing if the luminance's variance over passes is less than this share of
+/// that of its replicates: of normal noise it is so in one of a million pixels.
+constexpr double least_over_passes = 0.25;
 /// Share of the picture's mean luminance under which a pixel's own counts less and less.
 constexpr double dark_share = 0.01;
 
@@ -215,9 +218,9 @@ Vec3f FilmErrors::of_pixel(size_t pixel, const ChannelSums& sums) const {
         variance_over_passes(luminance_sum(pixel), sums.luminance_squares);
     if (is_known()) {
       const double pooled = pooled_variance(pixel);
-      // Squares that are rounded may not tell noise that is next to nothing: then all channels have
-      // the luminance's.
-      if (luminance_over_passes > 0)
+      // Squares that are rounded may not tell noise that is next to nothing beside the tile's
+      // light: then all channels have the luminance's.
+      if (luminance_over_passes > least_over_passes * luminance_variance(pixel))
         variance *= float(pooled / luminance_over_passes);
       else
         variance = Vec3f(float(pooled), float(pooled), float(pooled));
