@@ -178,17 +178,17 @@ TEST(RadiusLearning, LeavesOutHopelessDisks) {
   uint64_t rays = 0;
   const RadiusLearning learning(scene.scene(), first, rays);
   const std::vector<RadiusLearning::Sums> none(first.seen().probes().size());
-  const auto sums_after = [&](size_t count, bool narrows) {
+  const auto sums_after = [&](const auto& density, size_t count, bool narrows) {
     auto sums = none;
     for (uint32_t pass = 0; pass < 4; ++pass) {
       if (narrows && pass > 0) RadiusLearning::narrow(sums, pass);
       const auto added =
-          RadiusLearning::sums_of(first, light_of(even, count, pass), ComponentSet::all(), sums);
+          RadiusLearning::sums_of(first, light_of(density, count, pass), ComponentSet::all(), sums);
       for (size_t i = 0; i < sums.size(); ++i) sums[i].add(added[i]);
     }
     return sums;
   };
-  const auto whole = sums_after(dense, false), narrowed = sums_after(dense, true);
+  const auto whole = sums_after(even, dense, false), narrowed = sums_after(even, dense, true);
   const auto of_whole = learning.plans(first, whole, 4, 1);
   const auto of_narrowed = learning.plans(first, narrowed, 4, 1);
   constexpr size_t widest = RadiusLearning::level_count - 1;
@@ -200,8 +200,27 @@ TEST(RadiusLearning, LeavesOutHopelessDisks) {
     EXPECT_LT(narrowed[p].vertices[widest], whole[p].vertices[widest] / 3) << "of one pass, not 4";
     EXPECT_EQ(of_narrowed[p].merge_area, of_whole[p].merge_area);
   }
-  for (const RadiusLearning::Sums& sums : sums_after(sparse, true))
+  for (const RadiusLearning::Sums& sums : sums_after(even, sparse, true))
     EXPECT_EQ(sums.levels, widest + 1);
+
+  // Beside a step in density the sparse side keeps its disks, and plans are as without.
+  const auto step = [](float x, float) { return x < 0 ? 1.0f : float(sparse) / float(dense); };
+  constexpr size_t half_each = (dense + sparse) / 2;
+  const auto whole_step = sums_after(step, half_each, false),
+             narrowed_step = sums_after(step, half_each, true);
+  const auto of_whole_step = learning.plans(first, whole_step, 4, 1);
+  const auto of_narrowed_step = learning.plans(first, narrowed_step, 4, 1);
+  constexpr double too_many = 600 * 4;  // vertices that no plan takes of four passes
+  size_t narrower = 0, whole_disks = 0;
+  for (size_t p = 0; p < none.size(); ++p) {
+    if (!first.seen().probes()[p].found) continue;
+    for (size_t level = narrowed_step[p].levels; level <= widest; ++level)
+      EXPECT_GT(whole_step[p].vertices[level], too_many) << p << ' ' << level;
+    ++(narrowed_step[p].levels <= widest ? narrower : whole_disks);
+    EXPECT_EQ(of_narrowed_step[p].merge_area, of_whole_step[p].merge_area) << p;
+  }
+  EXPECT_GT(narrower, none.size() / 3);
+  EXPECT_GT(whole_disks, none.size() / 4);
 }
 
 TEST(RadiusLearning, RaysAreCountedAndStopRequestsSeen) {
