@@ -7,6 +7,16 @@ function allow(room, others,    n, names, i) {
   for (i = 1; i <= n; ++i) may[room, names[i]] = 1
 }
 
+# A subfolder of a room may include itself, what lies in the room's own folder, and these others.
+function allow_folder(folder, others,    n, names, i, room) {
+  known_folder[folder] = 1
+  may_folder[folder, folder] = 1
+  room = folder
+  sub(/\/.*/, "", room)
+  n = split(others, names, " ")
+  for (i = 1; i <= n; ++i) may_folder[folder, room "/" names[i]] = 1
+}
+
 # Headers that match the pattern belong to these rooms; so do names that match in_code.
 function own(library, pattern, rooms, in_code,    n, names, i) {
   ++libraries
@@ -30,6 +40,13 @@ function room_of(path,    parts) {
   return parts[1]
 }
 
+# ROOM/SUBFOLDER of src/kaustik/ROOM/SUBFOLDER/FILE or kaustik/ROOM/SUBFOLDER/FILE; "" if there is none.
+function folder_of(path,    parts, n) {
+  sub(/^(src\/)?kaustik\//, "", path)
+  n = split(path, parts, "/")
+  return n > 2 ? parts[1] "/" parts[2] : ""
+}
+
 function is_product_code() { return area == "src" || area == "apps" }
 
 function check_room_include(header,    parts, other) {
@@ -42,6 +59,9 @@ function check_room_include(header,    parts, other) {
   } else if (!is_product_code() && !((room, other) in may) && !(room in sees_all)) {
     complain("tests of room '" room "' must not include '" header "'")
   }
+  if (area == "src" && other == room && folder != "" && folder_of(header) != "" &&
+      !((folder, folder_of(header)) in may_folder))
+    complain("folder '" folder "' must not include '" header "'")
   if (room == "loader" && area == "src" && other == "scene" && header != "kaustik/scene/description.h")
     complain("of room 'scene' the loader may include description.h only, not '" header "'")
 }
@@ -91,6 +111,16 @@ BEGIN {
   sees_all["vcm"]; sees_all["photonmap"]; sees_all["integrator"]; sees_all["render"]; sees_all["apps"]; sees_all["benchmarks"]
   sees_all["support"]; sees_all["fuzz"]; sees_all["agreement"]; sees_all["scene"]; sees_all["transport"]
 
+  allow_folder("photon/kd_tree", "")
+  allow_folder("photon/emission", "")
+  allow_folder("photon/coverage", "")
+  # Plans hold what lessons taught, and lessons change plans: the two know each other.
+  allow_folder("vcm/merging", "")
+  allow_folder("vcm/light_path", "")
+  allow_folder("vcm/camera_path", "merging plan lessons")
+  allow_folder("vcm/plan", "camera_path merging lessons")
+  allow_folder("vcm/lessons", "plan")
+
   not_in_word = "[^A-Za-z0-9_]"
   own("Imath", "^Imath/", "base", "")
   own("oneTBB", "^(tbb|oneapi)/", "base", not_in_word "tbb::")
@@ -132,6 +162,8 @@ FNR == 1 {
   sub(/\/.*/, "", area)
   room = room_of(FILENAME)
   if (area == "src" && !(room in known)) complain("room '" room "' is not in the table of rooms")
+  folder = area == "src" ? folder_of(FILENAME) : ""
+  if (folder != "" && !(folder in known_folder)) complain("folder '" folder "' is not in the table of folders")
   ++files
 }
 

@@ -35,6 +35,23 @@ plant src/kaustik/light/light.h '#include "kaustik/material/bsdf.h"' "room 'ligh
 plant src/kaustik/irradiance/hemisphere.cpp '#  include "kaustik/photon/photon.h"' "must not include"
 plant src/kaustik/loader/mitsuba_xml.cpp '#include "kaustik/scene/scene.h"' "description.h only"
 plant src/kaustik/scene/scene.h '#include "kaustik/nowhere/thing.h"' "there is no room 'nowhere'"
+# The two methods over photons know nothing of each other, and what is below knows neither.
+plant src/kaustik/vcm/vcm.cpp '#include "kaustik/photonmap/photon_map_integrator.h"' "room 'vcm' must not include"
+plant src/kaustik/vcm/plan/plans.cpp '#include "kaustik/irradiance/hemisphere.h"' "room 'vcm' must not include"
+plant src/kaustik/vcm/settings.cpp '#include "kaustik/integrator/registry.h"' "room 'vcm' must not include"
+plant src/kaustik/photonmap/photon_light.cpp '#include "kaustik/vcm/vcm.h"' "room 'photonmap' must not include"
+plant src/kaustik/photon/photon_map.h '#include "kaustik/vcm/light_vertices.h"' "room 'photon' must not include"
+plant src/kaustik/photon/light_pass.cpp '#include "kaustik/photonmap/photon_light.h"' "room 'photon' must not include"
+plant src/kaustik/irradiance/hemisphere.cpp '#include "kaustik/vcm/vcm.h"' "room 'irradiance' must not include"
+plant CMakeLists.txt 'kaustik_room(vcm kaustik_photon kaustik_photonmap)' "room 'vcm' must not link 'photonmap'"
+plant CMakeLists.txt 'kaustik_room(photonmap kaustik_photon kaustik_vcm)' "room 'photonmap' must not link 'vcm'"
+# Subfolders.
+plant src/kaustik/vcm/lessons/lesson.h '#include "kaustik/vcm/camera_path/connect.h"' "folder 'vcm/lessons' must not include"
+plant src/kaustik/vcm/merging/matt_merging.h '#include "kaustik/vcm/plan/plans.h"' "folder 'vcm/merging' must not include"
+plant src/kaustik/vcm/light_path/block.h '#include "kaustik/vcm/camera_path/inputs.h"' "folder 'vcm/light_path' must not include"
+plant src/kaustik/photon/kd_tree/kd_tree.h '#include "kaustik/photon/coverage/merge_disk.h"' "folder 'photon/kd_tree' must not include"
+plant src/kaustik/photon/emission/aim_light.cpp '#include "kaustik/photon/kd_tree/kd_tree.h"' "folder 'photon/emission' must not include"
+plant src/kaustik/vcm/attic/thing.h '#include "kaustik/vcm/plan/plans.h"' "folder 'vcm/attic' must not include"
 plant src/kaustik/attic/thing.h '#include "kaustik/base/vec.h"' "room 'attic'"
 plant src/kaustik/scene/scene.h '#include "camera.h"' 'write "kaustik/ROOM/camera.h"'
 plant apps/kaustik/main.cpp '#include "kaustik/photon/photon_map.h"' "room 'apps' must not include"

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "kaustik/vcm/lessons/block_means.h"
+#include "kaustik/transport/block_means.h"
 #include "tests/vcm/hollow_ball.h"
 
 namespace kaustik {

@@ -2,7 +2,7 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/photometry.h"
-#include "kaustik/vcm/lessons/block_means.h"
+#include "kaustik/transport/block_means.h"
 
 namespace kaustik {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "kaustik/base/parallel.h"
-#include "kaustik/vcm/lessons/block_means.h"
+#include "kaustik/transport/block_means.h"
 #include "kaustik/vcm/plan/cost_model.h"
 #include "kaustik/vcm/plan/pixel_plans.h"
 

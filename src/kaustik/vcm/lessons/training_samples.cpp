@@ -5,7 +5,7 @@
 
 #include "kaustik/base/lane_sum.h"
 #include "kaustik/base/parallel.h"
-#include "kaustik/vcm/lessons/block_means.h"
+#include "kaustik/transport/block_means.h"
 
 namespace kaustik {
 namespace {

@@ -1,4 +1,4 @@
-#include "kaustik/vcm/lessons/block_means.h"
+#include "kaustik/transport/block_means.h"
 
 #include <algorithm>
 #include <cstddef>
