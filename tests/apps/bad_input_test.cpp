@@ -173,11 +173,11 @@ TEST_F(BadInput, MessagesInMeshesSayWhoNamedThem) {
 
 TEST_F(BadInput, EmptyScenesAndMissingCameras) {
   write("scene.xml", "<scene version=\"3.0.0\"/>");
-  expect_refused("scene.xml:1:1", "the scene has no camera", "add <sensor");
+  expect_refused("scene.xml:1:1", "the scene has no camera", "add a sensor");
   write("scene.xml", scene_with({"", false, true, true}));
-  expect_refused("scene.xml:1:1", "the scene has no camera", "add <sensor");
+  expect_refused("scene.xml:1:1", "the scene has no camera", "add a sensor");
   write("scene.xml", scene_with({"<sensor type=\"perspective\"/>", true, true, true}));
-  expect_refused("scene.xml:3:1", "second camera", "keep one; the first is on line 2");
+  expect_refused("scene.xml:3:1", "second camera", "keep one; the first is here: scene.xml:2:1");
 }
 
 /// A scene whose film has this size.
@@ -307,7 +307,8 @@ TEST_F(BadInput, BumpMapsAndMixtures) {
                           remedy);
   };
   const std::string diffuse = "<bsdf type=\"diffuse\"/>";
-  refuse("<bsdf type=\"bumpmap\">" + diffuse + "</bsdf>", "'bumpmap' has no texture", "<texture");
+  refuse("<bsdf type=\"bumpmap\">" + diffuse + "</bsdf>", "'bumpmap' has no texture",
+         "put a texture into it");
   refuse("<bsdf type=\"bumpmap\"><texture type=\"noise\"/></bsdf>", "holds 0 bsdfs", "1");
   const std::string bumped =
       "<bsdf type=\"bumpmap\"><texture type=\"noise\"/>" + diffuse + "</bsdf>";

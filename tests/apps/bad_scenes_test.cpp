@@ -94,7 +94,7 @@ std::vector<BadScene> without_light() {
       flat("rectangle", scale("0.5") + facing_down("0, 0, 1.9"), diffuse("0") + area_light("1"));
   return {
       {"no_light", view() + floor(), 0, 0,
-       "the scene has no light: the picture will be black; add an <emitter>"},
+       "the scene has no light: the picture will be black; add an emitter"},
       {"lights_without_power",
        view() + floor() + lamp + point_light("0, 0, 2", 0) + directional_light("0, 0, -1", 0) +
            constant_light(0),

@@ -187,7 +187,7 @@ TEST_F(Render, ASceneWithoutLightIsBlackWithAWarning) {
     const RunResult result =
         run_well({"render", "dark.xml", "-q", "--integrator", integrator, "-o", "a.exr"});
     EXPECT_TRUE(contains(result.err, "no light")) << result.err;
-    EXPECT_TRUE(contains(result.err, "add an <emitter>")) << result.err;
+    EXPECT_TRUE(contains(result.err, "add an emitter")) << result.err;
     EXPECT_EQ(brightness("a.exr"), 0);
   }
 }

@@ -23,6 +23,13 @@ TEST(error, leaves_out_what_is_unknown) {
                "command line:4: bad");
 }
 
+TEST(error, tells_where_the_first_of_two_is) {
+  EXPECT_EQ(text_of(place_in("a.xml", 2, 8)), "a.xml:2:8");
+  EXPECT_EQ(keep_one(place_in("a.xml", 2, 8)), "keep one; the first is here: a.xml:2:8");
+  EXPECT_EQ(keep_one(place_in("a program")), "keep one; the first is here: a program");
+  EXPECT_EQ(keep_one({}), "keep one");
+}
+
 TEST(error, shows_the_line_with_a_caret) {
   const std::string path = testing::TempDir() + "kaustik_error_test.xml";
   std::ofstream(path) << "<scene>\n\t<bsdf type=\"difuse\"/>\n</scene>\n";

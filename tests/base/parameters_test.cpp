@@ -158,7 +158,7 @@ TEST(arguments, unknown_choice) {
 
 TEST(arguments, given_twice) {
   EXPECT_EQ(check({given("radius", 2.0), given("radius", 3.0)}).text,
-            "s.xml:5:3: 'radius' is given twice\n  remedy: keep one; the first is on line 5");
+            "s.xml:5:3: 'radius' is given twice\n  remedy: keep one; the first is here: s.xml:5:3");
 }
 
 TEST(arguments, missing) {

@@ -122,24 +122,25 @@ TEST(BuildScene, GroupsThatCannotBe) {
   expect_problem(camera + "\n<shape type=\"shapegroup\" id=\"g\"/>" + instance, "3:1",
                  "the shape group is empty", "add a shape");
   expect_problem(camera + "\n<shape type=\"instance\"/>", "3:1",
-                 "an instance needs exactly one shape group", "<ref");
+                 "an instance needs exactly one shape group", "of type 'shapegroup'");
   expect_problem(camera + "\n<shape type=\"sphere\" id=\"g\"/>" + instance, "3:30",
-                 "an instance needs exactly one shape group", "<ref");
+                 "an instance needs exactly one shape group", "of type 'shapegroup'");
 }
 
 TEST(BuildScene, WhatIsMissing) {
-  expect_problem(sphere, "1:1", "the scene has no camera", "<sensor");
-  expect_problem("", "1:1", "the scene has no camera", "<sensor");
+  expect_problem(sphere, "1:1", "the scene has no camera", "add a sensor of type 'perspective'");
+  expect_problem("", "1:1", "the scene has no camera", "add a sensor of type 'perspective'");
   expect_problem(camera + "<shape type=\"ply\"/>", "2:29", "shape 'ply' needs 'filename'");
 }
 
 TEST(BuildScene, WhatIsThereTwice) {
-  expect_problem(camera + "\n" + camera + sphere, "3:1", "second camera", "line 2");
+  expect_problem(camera + "\n" + camera + sphere, "3:1", "second camera",
+                 "keep one; the first is here: test.xml:2:1");
   expect_problem(
       "<sensor type=\"perspective\"><film type=\"hdrfilm\"/>\n<film "
       "type=\"hdrfilm\"/></sensor>" +
           sphere,
-      "3:1", "second film", "line 2");
+      "3:1", "second film", "the first is here: test.xml:2:");
   expect_problem(camera +
                      "<shape type=\"disk\"><bsdf type=\"diffuse\"/>\n<bsdf "
                      "type=\"diffuse\"/></shape>",
@@ -179,17 +180,36 @@ TEST(BuildScene, WhichIntegratorIsTheScenes) {
   } catch (const Error& error) {
     const std::string text = error.what();
     EXPECT_NE(text.find("no integrator of its own"), std::string::npos) << text;
-    EXPECT_NE(text.find("lines 2, 3"), std::string::npos) << text;
+    EXPECT_NE(text.find("here: test.xml:2:1, test.xml:3:1"), std::string::npos) << text;
   }
+}
+
+/// Descriptions of programs may have no places: messages then tell of none.
+TEST(BuildScene, DescriptionsWithoutPlaces) {
+  const auto sensor = [] {
+    return std::make_shared<Object>(Object{"sensor", "perspective", "", {}, {}, {}});
+  };
+  const auto ball = std::make_shared<Object>(Object{"shape", "sphere", "", {}, {}, {}});
+  const Description two{std::make_shared<Object>(
+      Object{"scene", "", "", {}, {{"", sensor()}, {"", sensor()}, {"", ball}}, {}})};
+  try {
+    build_scene(two);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "the scene has a second camera\n  remedy: keep one");
+  }
+  const Description one{
+      std::make_shared<Object>(Object{"scene", "", "", {}, {{"", sensor()}, {"", ball}}, {}})};
+  EXPECT_EQ(build_scene(one)->surface(0).name, "shape 'sphere'");
 }
 
 TEST(BuildScene, WhatStandsInTheWrongPlace) {
   expect_problem(camera + sphere + "\n<film type=\"hdrfilm\"/>", "3:1",
-                 "a film cannot stand at the top", "put it into the <sensor>");
+                 "a film cannot stand at the top", "put it into the sensor");
   expect_problem(camera + "\n<shape type=\"sphere\"><film type=\"hdrfilm\"/></shape>", "3:22",
                  "shape 'sphere' cannot hold a film", "bsdf, emitter");
   expect_problem(camera + sphere + "\n<emitter type=\"area\"/>", "3:1", "stands outside of a shape",
-                 "inside the <shape>");
+                 "into the shape that shines");
   expect_problem(camera + "\n<shape type=\"sphere\"><emitter type=\"point\"/></shape>", "3:22",
                  "cannot belong to a shape", "at the top");
   expect_problem(camera + sphere + "\n<float name=\"gamma\" value=\"1\"/>", "3:1",

@@ -38,12 +38,7 @@ std::string excerpt(const Place& place) {
 
 std::string describe(const Problem& problem) {
   std::string text;
-  if (problem.place.file) {
-    text = *problem.place.file;
-    if (problem.place.line > 0) text += fmt::format(":{}", problem.place.line);
-    if (problem.place.column > 0) text += fmt::format(":{}", problem.place.column);
-    text += ": ";
-  }
+  if (problem.place.file) text = text_of(problem.place) + ": ";
   text += problem.message;
   if (problem.place.file && problem.place.column > 0) text += excerpt(problem.place);
   if (!problem.remedy.empty()) text += "\n  remedy: " + problem.remedy;
@@ -78,6 +73,19 @@ size_t edit_distance(std::string_view a, std::string_view b, size_t limit) {
 }
 
 }  // namespace
+
+std::string text_of(const Place& place) {
+  if (!place.file) return {};
+  std::string text = *place.file;
+  if (place.line > 0) text += fmt::format(":{}", place.line);
+  if (place.column > 0) text += fmt::format(":{}", place.column);
+  return text;
+}
+
+std::string keep_one(const Place& first) {
+  const std::string text = text_of(first);
+  return text.empty() ? "keep one" : fmt::format("keep one; the first is here: {}", text);
+}
 
 Error::Error(ErrorKind kind, std::vector<Problem> problems)
     : kind_(kind), problems_(std::move(problems)) {

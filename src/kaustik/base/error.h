@@ -51,6 +51,11 @@ class Problems {
   std::vector<Problem> problems_;
 };
 
+/// "file:line:column", as far as it is known; "" if nothing is.
+std::string text_of(const Place& place);
+/// A remedy for what is there twice: tells where the first one stands, if that is known.
+std::string keep_one(const Place& first);
+
 /// The candidate with the smallest edit distance to `name`, or "" if none is near.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 /// "did you mean 'x'? Valid: a, b, c", for a remedy.

@@ -364,8 +364,8 @@ void Arguments::accept(const Property& property, Problems& problems) {
   }
   Slot& slot = slots_[size_t(parameter - info_->parameters.data())];
   if (slot.given) {
-    problems.add(fmt::format("'{}' is given twice", property.name),
-                 fmt::format("keep one; the first is on line {}", slot.place.line), property.place);
+    problems.add(fmt::format("'{}' is given twice", property.name), keep_one(slot.place),
+                 property.place);
     return;
   }
   slot.given = true;

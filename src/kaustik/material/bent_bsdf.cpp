@@ -56,7 +56,7 @@ std::shared_ptr<const Texture> relief_texture(const BsdfInputs& inputs, const st
   auto texture = inputs.texture(name);
   if (!texture)
     throw Error(ErrorKind::input, "bsdf '" + inputs.arguments.info().name + "' has no texture",
-                "put <texture name=\"" + name + "\" type=…> into it", inputs.arguments.place());
+                "put a texture into it, named '" + name + "'", inputs.arguments.place());
   return texture;
 }
 

@@ -45,7 +45,7 @@ const TypeInfo& homogeneous_info() {
       "medium",
       "homogeneous",
       "Haze, water, milk: absorbs and scatters light, the same everywhere. Give 'albedo' and "
-      "'sigma_t', or 'sigma_a' and 'sigma_s'; a nested <phase> says where it scatters to.",
+      "'sigma_t', or 'sigma_a' and 'sigma_s'; a nested phase function says where it scatters to.",
       {color_parameter("albedo", 0.75, "Share of the light taken out that is scattered.")
            .range(0, 1),
        color_parameter("sigma_t", 1, "Extinction: what is taken out of a beam.").in("1/m"),

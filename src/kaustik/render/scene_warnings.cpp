@@ -124,7 +124,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
 
 std::string darkness_warning(const Scene& scene) {
   if (scene.lights().empty())
-    return "the scene has no light: the picture will be black; add an <emitter> to it";
+    return "the scene has no light: the picture will be black; add an emitter to it";
   const bool may_shine = std::ranges::any_of(scene.lights(), [](const auto& light) {
     return light->traits().is_only_seen || light->traits().power.sum() > 0;
   });
@@ -132,9 +132,9 @@ std::string darkness_warning(const Scene& scene) {
   if (may_shine && scene.surface_count() == 0 && scene.environment_lights().empty() &&
       !scene.has_media())
     return "the scene has no shape that its lamps could light: the picture will be black; add a "
-           "<shape> to it";
+           "shape to it";
   if (may_shine) return {};
-  return "no light of the scene has power: the picture will be black; give an <emitter> more than "
+  return "no light of the scene has power: the picture will be black; give an emitter more than "
          "0";
 }
 

@@ -32,10 +32,11 @@ std::vector<std::shared_ptr<Object>> integrators_of_top(const Description& descr
   return at_top;
 }
 
-std::vector<int> lines_of(const std::vector<std::shared_ptr<Object>>& objects) {
-  std::vector<int> lines;
-  for (const auto& object : objects) lines.push_back(int(object->place.line));
-  return lines;
+std::vector<std::string> places_of(const std::vector<std::shared_ptr<Object>>& objects) {
+  std::vector<std::string> places;
+  for (const auto& object : objects)
+    if (std::string place = text_of(object->place); !place.empty()) places.push_back(place);
+  return places;
 }
 
 }  // namespace
@@ -65,12 +66,11 @@ std::shared_ptr<Object> find_integrator(const Description& description) {
   std::erase_if(of_scene, [&](const auto& object) { return of_shapes.contains(object.get()); });
   if (of_scene.empty())
     throw Error(ErrorKind::input, "the scene has no integrator of its own: shapes refer to each",
-                fmt::format("give it one that no shape refers to; the others are on the lines {}",
-                            fmt::join(lines_of(at_top), ", ")),
+                fmt::format("give it one that no shape refers to; the others are here: {}",
+                            fmt::join(places_of(at_top), ", ")),
                 at_top.back()->place);
   if (of_scene.size() > 1)
-    throw Error(ErrorKind::input, "the scene has a second integrator",
-                fmt::format("keep one; the first is on line {}", of_scene[0]->place.line),
+    throw Error(ErrorKind::input, "the scene has a second integrator", keep_one(of_scene[0]->place),
                 of_scene[1]->place);
   return of_scene[0];
 }

@@ -70,8 +70,7 @@ std::string contradicting_media(const Scene& scene) {
                       "{} of '{}', {}", outside ? "the exterior" : "the interior", surface.name,
                       crossed ? "though the ray did not come that way: is a mesh not closed?"
                               : "but that is not the sensor's medium: does the sensor lack a "
-                                "<medium>, or "
-                                "is the mesh around it not closed?");
+                                "medium, or is the mesh around it not closed?");
               }
               crossed = true;
               medium = outside ? surface.interior.get() : surface.exterior.get();

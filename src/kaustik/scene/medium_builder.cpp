@@ -59,7 +59,7 @@ void SceneBuilder::read_media(const Object& shape, Surface& surface) {
     if (child.object->family != "medium") continue;
     if (child.name != "interior" && child.name != "exterior") {
       problems_.add("the shape does not say on which side the medium is",
-                    "write <medium name=\"interior\" …> or <ref name=\"exterior\" …>",
+                    "let the shape hold it under the name 'interior' or 'exterior'",
                     child.object->place);
       continue;
     }

@@ -38,7 +38,7 @@ std::shared_ptr<Object> find_object(Description& description, const std::string&
   if (of_family.size() > 1)
     throw Error(ErrorKind::input,
                 fmt::format("the scene has {} objects '{}'", of_family.size(), name),
-                "give the one that you mean an id in the scene file and use that");
+                "give the one that you mean an id in the scene and use that");
   throw Error(ErrorKind::input, fmt::format("the scene has no object '{}'", name),
               suggest(name, names));
 }

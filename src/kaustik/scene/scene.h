@@ -19,7 +19,7 @@ namespace kaustik {
 struct Surface {
   std::shared_ptr<const Bsdf> bsdf;  ///< never null
   int light = -1;                    ///< index into Scene::lights(), −1: none
-  std::string name;                  ///< the shape's id or "type, line n", for messages
+  std::string name;                  ///< the shape's id or "shape 'type' on line n", for messages
   /// The integrator that the shape itself holds, if any: how this surface looks.
   std::shared_ptr<const Object> illumination;
   std::shared_ptr<const Medium> interior, exterior;  ///< null: vacuum, or see separates_media()

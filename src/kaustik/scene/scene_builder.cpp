@@ -17,7 +17,8 @@ namespace {
 
 std::string display_name(const Object& object) {
   if (!object.id.empty()) return object.id;
-  return fmt::format("{} '{}' on line {}", object.family, object.type, object.place.line);
+  const std::string name = fmt::format("{} '{}'", object.family, object.type);
+  return object.place.line > 0 ? fmt::format("{} on line {}", name, object.place.line) : name;
 }
 
 std::vector<std::string> texture_parameters(const TypeInfo& info) {
@@ -125,8 +126,8 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
                   "put it into the object that it belongs to", property.place);
   for (const Child& child : scene.children) add_top_level(*child.object);
   if (!sensor_)
-    problems_.add("the scene has no camera", "add <sensor type=\"perspective\"> with a to_world",
-                  scene.place);
+    problems_.add("the scene has no camera",
+                  "add a sensor of type 'perspective', with a 'to_world'", scene.place);
   else
     collecting(sensor_->place, [&] { make_sensor(*sensor_); });
   problems_.throw_if_any();
@@ -169,9 +170,7 @@ void SceneBuilder::add_top_level(const Object& object) {
     pending_lights_.push_back({&object, nullptr, -1});
   } else if (object.family == "sensor") {
     if (sensor_)
-      problems_.add("the scene has a second camera",
-                    fmt::format("keep one; the first is on line {}", sensor_->place.line),
-                    object.place);
+      problems_.add("the scene has a second camera", keep_one(sensor_->place), object.place);
     sensor_ = &object;
   } else if (object.family == "bsdf" || object.family == "texture" || object.family == "medium") {
     // Checked where it is used, and here so that a mistake in an unused one is told as well.
@@ -186,9 +185,9 @@ void SceneBuilder::add_top_level(const Object& object) {
   } else if (object.family != "integrator") {
     const bool is_of_sensor = object.family == "film" || object.family == "sampler";
     problems_.add(fmt::format("a {} cannot stand at the top of a scene", object.family),
-                  is_of_sensor ? "put it into the <sensor>"
+                  is_of_sensor ? "put it into the sensor"
                   : object.family == "rfilter"
-                      ? "put it into the <film>"
+                      ? "put it into the film"
                       : "it may hold: shape, bsdf, texture, medium, emitter, sensor, integrator",
                   object.place);
   }
@@ -274,8 +273,8 @@ void SceneBuilder::add_instance(const Object& object) {
   const Arguments arguments = arguments_of(instance_info(), object);
   refuse_children(object, {"shape"});
   if (object.children.size() != 1 || object.children[0].object->type != "shapegroup") {
-    problems_.add("an instance needs exactly one shape group", "refer to one with <ref id=…/>",
-                  object.place);
+    problems_.add("an instance needs exactly one shape group",
+                  "put one into it, a shape of type 'shapegroup', or refer to it", object.place);
     return;
   }
   const Transform& to_world = arguments.transform("to_world");
@@ -412,7 +411,7 @@ void SceneBuilder::make_lights() {
           type->needs_shape
               ? fmt::format("emitter '{}' stands outside of a shape", pending.object->type)
               : fmt::format("emitter '{}' cannot belong to a shape", pending.object->type),
-          type->needs_shape ? "put it inside the <shape> that shines"
+          type->needs_shape ? "put it into the shape that shines"
                             : "put it at the top of the scene",
           pending.object->place);
       continue;

@@ -18,9 +18,7 @@ void SceneBuilder::make_sensor(const Object& object) {
   for (const Child& child : object.children) {
     if (child.object->family != "film") continue;
     if (film)
-      problems_.add("the camera has a second film",
-                    fmt::format("keep one; the first is on line {}", film->place.line),
-                    child.object->place);
+      problems_.add("the camera has a second film", keep_one(film->place), child.object->place);
     film = child.object.get();
   }
   static const Object default_film{"film", "hdrfilm", "", {}, {}, {}};
