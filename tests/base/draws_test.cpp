@@ -1,4 +1,7 @@
 // The tables of what random numbers are drawn for.
+#include <filesystem>
+#include <fstream>
+#include <regex>
 #include <set>
 #include <utility>
 
@@ -83,7 +86,47 @@ TEST(draws, every_row_has_numbers_of_its_own) {
         row, [&](uint64_t i) { return Sampler::at(1, 0, row.use, i, 0); }, streams);
   EXPECT_EQ(streams.size(), 2 * std::size(stream_rows));
   EXPECT_EQ(different(streams), streams.size());
+  std::multiset<Numbers> points;
+  for (const QuadratureRow& row : quadrature_rows)
+    if (row.of == Integrand::light || row.of == Integrand::aim)
+      add_numbers(
+          row, [&](uint64_t i) { return Sampler::of(row.use, 0, i); }, points);
+  EXPECT_GT(points.size(), 7u);
+  EXPECT_EQ(different(points), points.size());
   // Asked twice, the same are found.
   at_vertex.insert(numbers_of(parent.fork(Fork::lens)));
   EXPECT_EQ(different(at_vertex) + 1, at_vertex.size());
+}
+
+namespace {
+
+/// Whether a line of a source makes a sampler of any scramble: `Sampler(7, i)`, `Sampler s{7, i}`.
+bool is_scrambled_by_hand(const std::string& line) {
+  static const std::regex pattern("(^|[^A-Za-z_:])Sampler( [a-z_]+)?[({][^&]*,");
+  return std::regex_search(line, pattern);
+}
+
+}  // namespace
+
+TEST(draws, samplers_are_made_of_rows) {
+  EXPECT_TRUE(is_scrambled_by_hand("  Sampler sampler(0x61696d, k);"));
+  EXPECT_TRUE(is_scrambled_by_hand("const Vec2f u = Sampler(scramble + 2, k).next_2d();"));
+  EXPECT_TRUE(is_scrambled_by_hand("  const Sampler numbers{0, 0};"));
+  EXPECT_FALSE(is_scrambled_by_hand("Sampler sampler = Sampler::of(Quadrature::aim_box, k);"));
+  EXPECT_FALSE(is_scrambled_by_hand("void scatter(Sampler& sampler, const Vec2f& u);"));
+  EXPECT_FALSE(is_scrambled_by_hand("EmissionSampler sampler(scene, lobes);"));
+  size_t sources = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(
+           std::string(KAUSTIK_SOURCE_DIR) + "/src/kaustik")) {
+    const std::filesystem::path& path = entry.path();
+    if (path.extension() != ".cpp" && path.extension() != ".h") continue;
+    // The second makes Parent::waves, of a seed that the scene names.
+    if (path.filename() == "sampler.h" || path.filename() == "wave_field.cpp") continue;
+    std::ifstream file(path);
+    ++sources;
+    for (std::string line; std::getline(file, line);)
+      EXPECT_FALSE(is_scrambled_by_hand(line)) << path << ": a row of base/draws.h is missing:\n"
+                                               << line;
+  }
+  EXPECT_GT(sources, 300u);
 }

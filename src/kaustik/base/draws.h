@@ -6,8 +6,7 @@ namespace kaustik {
 
 // What random numbers are drawn for. Every address of a Sampler is made of rows of these tables, so
 // that no two uses share numbers: who needs numbers of his own adds a row, and the assertions below
-// look for collisions. (Points of quadratures, which no sample of a picture meets, are made
-// by Sampler's constructor from any scramble.)
+// look for collisions. Sampler's constructor, which takes any scramble, is for these and for tests.
 
 /// Whole paths and the like: see Sampler::at().
 enum class Stream : uint32_t {
@@ -27,7 +26,8 @@ enum class Stream : uint32_t {
   direct_probe,
   pilot_light,
   pilot_path,
-  training_pair
+  training_pair,
+  preview
 };
 
 /// More numbers beside those of a sampler: see Sampler::fork().
@@ -63,6 +63,25 @@ enum class Split : uint32_t {
 /// Several samples of each index: see Sampler::one_of().
 enum class Series : uint32_t { light_sample, connection };
 
+/// Points of quadratures, which are the same in all renders: see Sampler::of().
+enum class Quadrature : uint32_t {
+  albedo,
+  noise_class,
+  light_texture,
+  mesh_face,
+  light_medium,
+  aim_peak,
+  aim_cone,
+  aim_sphere,
+  aim_or_own,
+  aim_cell,
+  aim_box
+};
+
+/// What quadratures are of. Those of one integrand have no points in common; others may, since
+/// nothing is made of both.
+enum class Integrand : uint32_t { bsdf, texture, light, medium, aim };
+
 /// Whose forks, splits or series they are. Samplers of different parents have no numbers in common.
 enum class Parent : uint32_t {
   vertex,        ///< of a path, or a segment: a sampler on its way
@@ -78,7 +97,8 @@ enum class Parent : uint32_t {
 template <typename Use, typename Of>
 struct DrawRow {
   Use use;
-  Of of;  ///< the parent; of a stream the number that it shares with no others, or few
+  /// The parent; of a quadrature the integrand; of a stream a number that few others share.
+  Of of;
   uint64_t first, count;
   const char* what;
 };
@@ -86,6 +106,7 @@ using StreamRow = DrawRow<Stream, uint32_t>;
 using ForkRow = DrawRow<Fork, Parent>;
 using SplitRow = DrawRow<Split, Parent>;
 using SeriesRow = DrawRow<Series, Parent>;
+using QuadratureRow = DrawRow<Quadrature, Integrand>;
 
 inline constexpr uint64_t most_elements = uint64_t(1) << 40;
 
@@ -107,6 +128,7 @@ inline constexpr StreamRow stream_rows[] = {
     {Stream::pilot_light, 13, 0, most_elements, "light paths before the first pass"},
     {Stream::pilot_path, 14, 0, most_elements, "camera paths before the first pass, by block"},
     {Stream::training_pair, 15, 0, most_elements, "pairs of samples to learn from, by block"},
+    {Stream::preview, 16, 0, most_elements, "first looks, by square"},
 };
 
 inline constexpr uint64_t most_lights = 0x70000000;
@@ -144,10 +166,27 @@ inline constexpr SeriesRow series_rows[] = {
     {Series::connection, Parent::vertex, 1, 1, "light vertices to connect"},
 };
 
+inline constexpr uint64_t most_faces = uint64_t(1) << 32;
+
+inline constexpr QuadratureRow quadrature_rows[] = {
+    {Quadrature::albedo, Integrand::bsdf, 0, 1 << 16, "albedos, by node of a table"},
+    {Quadrature::noise_class, Integrand::texture, 0x6e6f697365, 1, "how often noise has a value"},
+    {Quadrature::light_texture, Integrand::light, 0x7061747465726e, 1, "a lamp's mean radiance"},
+    {Quadrature::mesh_face, Integrand::light, 0, most_faces, "that of a triangle, by triangle"},
+    {Quadrature::light_medium, Integrand::medium, 0, 1, "what is left of light from infinity"},
+    {Quadrature::aim_peak, Integrand::aim, 0x61696d, 1, "the most that a lamp emits"},
+    {Quadrature::aim_cone, Integrand::aim, 0x61696e, 1, "what it emits into a cone"},
+    {Quadrature::aim_sphere, Integrand::aim, 0x61696f, 1, "what it sends to a sphere"},
+    {Quadrature::aim_or_own, Integrand::aim, 0x616970, 1, "whether aiming it pays"},
+    {Quadrature::aim_cell, Integrand::aim, 0x70726f6a, 1, "what it emits into a cell"},
+    {Quadrature::aim_box, Integrand::aim, 0x706f696e74, 1, "how flux varies by the boxes aimed at"},
+};
+
 constexpr const StreamRow& row_of(Stream stream) { return stream_rows[size_t(stream)]; }
 constexpr const ForkRow& row_of(Fork fork) { return fork_rows[size_t(fork)]; }
 constexpr const SplitRow& row_of(Split split) { return split_rows[size_t(split)]; }
 constexpr const SeriesRow& row_of(Series series) { return series_rows[size_t(series)]; }
+constexpr const QuadratureRow& row_of(Quadrature use) { return quadrature_rows[size_t(use)]; }
 
 /// Whether both rows may mean the same numbers.
 template <typename Row>
@@ -166,9 +205,10 @@ constexpr bool are_sound(const Row (&rows)[count], Use last) {
   }
   return true;
 }
-static_assert(are_sound(stream_rows, Stream::training_pair));
+static_assert(are_sound(stream_rows, Stream::preview));
 static_assert(are_sound(fork_rows, Fork::delta_branch));
 static_assert(are_sound(split_rows, Split::wave));
 static_assert(are_sound(series_rows, Series::connection));
+static_assert(are_sound(quadrature_rows, Quadrature::aim_box));
 
 }  // namespace kaustik

@@ -37,6 +37,14 @@ class Sampler {
     return {hash_mix(a, row.first + element), index};
   }
 
+  /// Point `index` of a quadrature; those of different `number` (below its row's count) are
+  /// independent.
+  static Sampler of(Quadrature use, uint32_t index, uint64_t number = 0) {
+    const QuadratureRow& row = row_of(use);
+    assert(number < row.count);
+    return {row.first + number, index};
+  }
+
   float next_1d() { return next_2d().x; }
   /// In [0, 1)².
   Vec2f next_2d();

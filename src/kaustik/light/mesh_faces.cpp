@@ -23,7 +23,8 @@ void weigh_by_radiance(const TriangleMesh& mesh, const EmissionPattern& pattern,
   for (const LightTree::Item& item : items) {
     Spectrum sum;
     for (uint32_t i = 0; i < points; ++i) {
-      const Vec2f b = square_to_triangle(Sampler(uint64_t(item.light), i).next_2d());
+      const auto triangle = uint64_t(item.light);
+      const Vec2f b = square_to_triangle(Sampler::of(Quadrature::mesh_face, i, triangle).next_2d());
       sum += pattern.radiance(triangle_surface_point(mesh, uint32_t(item.light), b.x, b.y), {});
     }
     radiances.push_back(importance_of(sum));

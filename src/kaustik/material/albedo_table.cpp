@@ -38,7 +38,7 @@ AlbedoTable::AlbedoTable(bool isotropic,
       const Vec3f wo(r * std::cos(phi), r * std::sin(phi), z);
       Spectrum sum;
       for (uint32_t n = 0; n < samples_per_node; ++n)
-        sum += weight(wo, Sampler(uint64_t(nodes_.size()), n).next_2d());
+        sum += weight(wo, Sampler::of(Quadrature::albedo, n, nodes_.size()).next_2d());
       nodes_.push_back(sum / float(samples_per_node));
     }
   }

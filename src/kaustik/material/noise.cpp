@@ -173,7 +173,7 @@ const NoiseClasses& noise_classes() {
     constexpr uint32_t samples = 1 << 20;
     NoiseHistogram histogram;
     for (uint32_t i = 0; i < samples; ++i) {
-      Sampler sampler(0x6e6f697365, i);
+      Sampler sampler = Sampler::of(Quadrature::noise_class, i);
       const Vec2f u = sampler.next_2d();
       const float value = gradient_noise_value({u.x, u.y, sampler.next_1d()}, i);
       // The noise is symmetrical over space.

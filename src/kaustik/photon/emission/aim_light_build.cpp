@@ -10,8 +10,6 @@
 namespace kaustik {
 namespace {
 
-/// Addresses of the random numbers that estimates are made with; always the same.
-constexpr uint64_t probe_scramble = 0x61696d;
 constexpr int directions_per_probe = 4;
 
 /// Whether bounds leave it open that light comes from `light` to the sphere.
@@ -77,7 +75,7 @@ void AimedLight::set_own_limit() {
       light_->emission_pdf_position(light_->placed().sample_origin({0.5f, 0.5f}).point);
   peak_ = light_->traits().power.max_lane() * origins / (on_surface_ ? pi : 4 * pi);
   for (uint32_t k = 0; k < 16; ++k) {
-    Sampler sampler(probe_scramble, k);
+    Sampler sampler = Sampler::of(Quadrature::aim_peak, k);
     const Vec2f u = sampler.next_2d();
     const EmissionSample s = light_->sample_emission(u, sampler.next_2d(), {});
     if (s.pdf_direction > 0)
@@ -101,7 +99,7 @@ double AimedLight::flux_into_cone(const SurfacePoint& origin, const AimCone& con
       cone.own ? own_solid_angle_ : std::min(2.0f * pi * cone.one_minus_cos, own_solid_angle_);
   double sum = 0;
   for (uint32_t k = 0; k < directions_per_probe; ++k) {
-    Sampler sampler(probe_scramble + 1, directions_per_probe * probe + k);
+    Sampler sampler = Sampler::of(Quadrature::aim_cone, directions_per_probe * probe + k);
     const Vec2f u = sampler.next_2d();
     const Vec3f direction = cone.own
                                 ? own_direction(origin, sampler.next_2d(), u)
@@ -119,7 +117,7 @@ double AimedLight::flux_toward(const AimSphere& sphere, int probes) const {
   double sum = 0;
   const float threshold = kind_ == Kind::ball ? cap_threshold(sphere) : 0.0f;
   for (uint32_t k = 0; k < uint32_t(probes); ++k) {
-    const Vec2f u = Sampler(probe_scramble + 2, k).next_2d();
+    const Vec2f u = Sampler::of(Quadrature::aim_sphere, k).next_2d();
     SurfacePoint origin;
     if (kind_ == Kind::ball) {
       origin.ng = origin.ns = cap_direction(sphere.center, threshold, u);
@@ -176,7 +174,7 @@ bool own_serves_as_well(const Light& light,
   double own_squares = 0, aimed_squares = 0;
   int useful = 0;
   for (uint32_t k = 0; k < uint32_t(probes); ++k) {
-    Sampler sampler(probe_scramble + 3, k);
+    Sampler sampler = Sampler::of(Quadrature::aim_or_own, k);
     const Vec2f u = sampler.next_2d();
     const EmissionSample s = light.sample_emission(u, sampler.next_2d(), {});
     const float aimed = aimed_pdf(s.point, s.direction);

@@ -79,7 +79,7 @@ EmittedRay EmissionSampler::sample(int light, const Vec2f& u_position, const Vec
 void EmissionSampler::dim(int light, EmittedRay& emitted, const Wavelengths& wavelengths) const {
   const Medium* medium = scene_->light_medium(light);
   if (!medium || !scene_->lights()[size_t(light)]->is_infinite()) return;
-  const Sampler by_segment(0, 0);
+  const Sampler by_segment = Sampler::of(Quadrature::light_medium, 0);
   emitted.flux *= medium->transmittance({emitted.ray.origin, emitted.ray.direction, infinity},
                                         wavelengths, by_segment);
 }

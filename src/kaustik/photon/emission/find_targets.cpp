@@ -77,7 +77,7 @@ double spread(const std::vector<AimTarget>& targets, const std::vector<AimTarget
   }
   double inverse_counts = 0, weights = 0;
   for (size_t k = 0; k < points.size(); ++k) {
-    Sampler sampler(0x706f696e74, uint32_t(k));
+    Sampler sampler = Sampler::of(Quadrature::aim_box, uint32_t(k));
     const Vec2f u = sampler.next_2d(), v = sampler.next_2d();
     const Bounds3f& box = points[k].box;
     const Vec3f size = box.max - box.min;

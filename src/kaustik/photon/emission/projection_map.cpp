@@ -8,9 +8,6 @@
 namespace kaustik {
 namespace {
 
-/// Address of the random numbers that estimates are made with; always the same.
-constexpr uint64_t projection_scramble = 0x70726f6a;
-
 /// Everything that may be seen of a box from points of `place`, as a box seen from one point.
 Bounds3f seen_from(const Bounds3f& box, const Bounds3f& place, const Bounds3f& scene_bounds) {
   float coordinates = std::max(max_abs(box.min), max_abs(box.max));
@@ -49,7 +46,7 @@ ProjectionMap::ProjectionMap(const Light& light, const Shape* shape, const Proje
     for (int k = 0; k < inputs.probes; ++k) {
       SurfacePoint origin;
       float density = 0;
-      const Vec2f u = Sampler(projection_scramble, uint32_t(k)).next_2d();
+      const Vec2f u = Sampler::of(Quadrature::aim_cell, uint32_t(k)).next_2d();
       if (!origins_.sample(direction, u, origin, density)) continue;
       const float cosine = on_surface_ ? std::max(dot(origin.ng, direction), 0.0f) : 1.0f;
       sum += double(light_->emitted(origin, direction, {}).max_lane() * (cosine / density));
