@@ -222,7 +222,8 @@ class Grammar {
   }
 
   std::string sensor() {
-    std::string result = "<sensor type=\"perspective\">";
+    const TypeInfo& type = draw_.one_of(camera_types()).info;
+    std::string result = open(type);
     if (draw_.chance(values_.wildness)) {
       result += values_.transform("to_world");
     } else {
@@ -232,23 +233,24 @@ class Grammar {
           "0\" up=\"0, 1, 0\"/></transform>",
           from.x, from.y, from.z);
     }
-    result += properties(camera_types().front().info, {"to_world", "focal_length"});
+    result += properties(type, {"to_world", "focal_length"});
     if (draw_.chance(0.15)) result += medium("");
-    return result + film() + "</sensor>\n";
+    return result + film() + close(type);
   }
 
   std::string film() {
-    std::string result =
-        "<film type=\"hdrfilm\"><integer name=\"width\" value=\"6\"/><integer name=\"height\" "
-        "value=\"6\"/>";
+    const TypeInfo& type = draw_.one_of(film_types()).info;
+    std::string result = open(type) +
+                         "<integer name=\"width\" value=\"6\"/><integer name=\"height\" "
+                         "value=\"6\"/>";
     if (draw_.chance(0.1)) result += "<string name=\"quantity\" value=\"irradiance\"/>";
     if (draw_.chance(0.1))
       result +=
           "<integer name=\"crop_offset_x\" value=\"2\"/><integer name=\"crop_height\" "
           "value=\"3\"/>";
-    const TypeInfo& filter = draw_.one_of(filter_infos());
+    const TypeInfo& filter = draw_.one_of(filter_types()).info;
     if (draw_.chance(0.5)) result += open(filter) + properties(filter) + close(filter);
-    result += "</film>";
+    result += close(type);
     const TypeInfo& sampler = draw_.one_of(sampler_infos());
     if (draw_.chance(0.1)) result += open(sampler) + properties(sampler) + close(sampler);
     return result;

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "kaustik/base/statistics.h"
-#include "kaustik/medium/medium.h"
+#include "kaustik/medium/medium_kinds.h"
 
 namespace kaustik {
 namespace {
@@ -14,17 +14,28 @@ const Wavelengths four(440, 500, 580, 660);
 const SpectralCurve ramp{{{400, 0}, {800, 1}}};
 const Spectrum ramp_lanes(0.1f, 0.25f, 0.45f, 0.65f);
 
-std::shared_ptr<const Medium> make_medium(const std::vector<Property>& properties) {
-  const MediumType& type = medium_types().front();
+std::shared_ptr<const Medium> make_medium(const MediumType& type,
+                                          const std::vector<Property>& properties) {
   Problems problems;
   const Arguments arguments(type.info, properties, {}, problems);
   problems.throw_if_any();
   return type.create({arguments, isotropic_phase_function()});
 }
 
+std::shared_ptr<const Medium> make_homogeneous(const std::vector<Property>& properties) {
+  return make_medium(homogeneous_type(), properties);
+}
+
 std::shared_ptr<const Medium> haze() {
-  return make_medium(
+  return make_homogeneous(
       {{"sigma_t", Value(ramp), {}}, {"albedo", Value(0.5), {}}, {"scale", Value(2.0), {}}});
+}
+
+/// Of each row one with its usual values; and haze.
+std::vector<std::shared_ptr<const Medium>> media_of_all_types() {
+  std::vector<std::shared_ptr<const Medium>> media = {haze()};
+  for (const MediumType& type : medium_types()) media.push_back(make_medium(type, {}));
+  return media;
 }
 
 MediumSegment of_length(float length) { return {{0, 0, 0}, {0, 0, 1}, length}; }
@@ -38,7 +49,8 @@ TEST(medium_wavelengths, coefficients_stay_curves) {
   expect_lanes(medium->extinction({}, four), ramp_lanes * 2);
   expect_lanes(medium->scattering({}, four), ramp_lanes);
   EXPECT_NE(medium->extinction({}, {}), medium->extinction({}, four));
-  const auto by_parts = make_medium({{"sigma_s", Value(ramp), {}}, {"sigma_a", Value(0.5), {}}});
+  const auto by_parts =
+      make_homogeneous({{"sigma_s", Value(ramp), {}}, {"sigma_a", Value(0.5), {}}});
   expect_lanes(by_parts->extinction({}, four), ramp_lanes + Spectrum(0.5f));
   expect_lanes(by_parts->scattering({}, four), ramp_lanes);
   // What densities are counted by does not follow the wavelengths.
@@ -78,28 +90,56 @@ TEST(medium_wavelengths, flights_have_the_right_weights_in_every_lane) {
   }
 }
 
+// What all media promise, whatever they are made of: light passes as flights pass, and is scattered
+// as if it were sure to be.
+TEST(medium_wavelengths, flights_agree_with_transmittances_in_all_media) {
+  constexpr int count = 20000;
+  const Spectrum shares(1, 0.5f, 0.2f, 1);
+  for (const auto& medium : media_of_all_types()) {
+    ASSERT_NE(medium, nullptr);
+    const MediumSegment segment = of_length(0.8f);
+    std::array<RunningStatistics, 4> differences, ways;
+    for (int i = 0; i < count; ++i) {
+      Sampler sampler(8, uint32_t(i));
+      const Spectrum left = medium->transmittance(segment, four, sampler);
+      const Medium::Flight flight = medium->sample_flight(segment, shares, four, sampler);
+      const Medium::Flight collision = medium->sample_collision(segment, shares, four, sampler);
+      EXPECT_EQ(collision.scattered, medium->scatters());
+      for (int lane = 0; lane < 4; ++lane) {
+        const double weight = double(flight.weight[lane]);
+        differences[size_t(lane)].add((flight.scattered ? 0 : weight) - double(left[lane]));
+        ways[size_t(lane)].add((flight.scattered ? weight : 0) - double(collision.weight[lane]));
+      }
+    }
+    for (const auto& of_lanes : {differences, ways})
+      for (const RunningStatistics& difference : of_lanes) EXPECT_NEAR(difference.mean(), 0, 2e-3);
+  }
+}
+
 TEST(medium_wavelengths, flights_take_one_pair_of_numbers_and_transmittances_none) {
-  const auto medium = haze();
-  Sampler sampler(3, 4), same(3, 4);
-  medium->transmittance(of_length(1), four, sampler);
-  medium->sample_flight(of_length(1), Spectrum(1), four, sampler);
-  medium->sample_collision(of_length(1), Spectrum(1), {}, sampler);
-  same.skip_pair(), same.skip_pair();
-  EXPECT_EQ(sampler.next_2d(), same.next_2d());
+  for (const auto& medium : media_of_all_types()) {
+    Sampler sampler(3, 4), same(3, 4);
+    medium->transmittance(of_length(1), four, sampler);
+    medium->sample_flight(of_length(1), Spectrum(1), four, sampler);
+    medium->sample_collision(of_length(1), Spectrum(1), {}, sampler);
+    same.skip_pair(), same.skip_pair();
+    EXPECT_EQ(sampler.next_2d(), same.next_2d());
+  }
 }
 
 TEST(medium_wavelengths, media_of_one_colour_may_differ) {
   const auto medium = haze();
   EXPECT_TRUE(medium->is_like(*haze()));
+  for (const auto& one : media_of_all_types()) EXPECT_TRUE(one->is_like(*one));
   const Spectrum rgb = medium->extinction({}, {});
   const auto metamer =
-      make_medium({{"sigma_t", Value(Rgb{double(rgb[0]), double(rgb[1]), double(rgb[2])}), {}},
-                   {"albedo", Value(0.5), {}}});
+      make_homogeneous({{"sigma_t", Value(Rgb{double(rgb[0]), double(rgb[1]), double(rgb[2])}), {}},
+                        {"albedo", Value(0.5), {}}});
   EXPECT_FALSE(medium->is_like(*metamer));
 }
 
 TEST(medium_wavelengths, what_does_nothing_is_vacuum) {
-  EXPECT_EQ(make_medium({{"sigma_t", Value(0.0), {}}}), nullptr);
+  EXPECT_EQ(make_homogeneous({{"sigma_t", Value(0.0), {}}}), nullptr);
 }
 
 }  // namespace

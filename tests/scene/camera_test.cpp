@@ -70,6 +70,34 @@ TEST(Camera, FieldsOfViewByAxis) {
       }
 }
 
+// What any camera promises: a point on a ray that it draws is seen where that was drawn for,
+// through the same point of the lens.
+TEST(Camera, EveryTypeSeesPointsWhereItsRaysGo) {
+  FilmSettings film;
+  film.size = film.crop_size = {32, 24};
+  for (const CameraType& type : camera_types()) {
+    SCOPED_TRACE(type.info.name);
+    Problems problems;
+    const Arguments arguments(type.info, {}, {}, problems);
+    problems.throw_if_any();
+    const std::unique_ptr<Camera> camera = type.create(arguments, film);
+    for (uint32_t i = 0; i < 100; ++i) {
+      Sampler sampler(11, i);
+      const Vec2f raster = sampler.next_2d() * Vec2f(film.size);
+      const Vec2f lens = camera->lens_numbers(sampler);
+      const Ray ray = camera->sample_ray(raster, lens);
+      const float distance = 0.5f + 10 * sampler.next_1d();
+      const CameraConnection seen = camera->connect(ray.origin + ray.direction * distance, lens);
+      EXPECT_GT(seen.importance, 0);
+      EXPECT_NEAR(seen.raster.x, raster.x, 1e-3);
+      EXPECT_NEAR(seen.raster.y, raster.y, 1e-3);
+      EXPECT_NEAR(seen.distance, distance, 1e-4f * distance);
+      EXPECT_LT(length(seen.lens - ray.origin), 1e-5f);
+      EXPECT_LT(length(seen.direction + ray.direction), 1e-5f);
+    }
+  }
+}
+
 TEST(Camera, FocalLength) {
   const auto scene = seen_by("<string name=\"focal_length\" value=\"35mm\"/>" + film(36, 24));
   EXPECT_NEAR(scene->camera().traits().horizontal_fov, 2 * std::atan(18.0 / 35) * degrees, 1e-3);

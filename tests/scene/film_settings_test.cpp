@@ -6,6 +6,8 @@
 
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/statistics.h"
+#include "kaustik/scene/filter_kinds.h"
+#include "tests/support/type_rows.h"
 
 namespace kaustik {
 namespace {
@@ -23,14 +25,18 @@ struct FilterCase {
   PixelFilter filter;
 };
 
+/// Each row with its usual values, and some with others.
 std::vector<FilterCase> filters() {
-  using Kind = PixelFilter::Kind;
-  return {{"box", {Kind::box, 0.5f, 0}},
-          {"wide box", {Kind::box, 1.7f, 0}},
-          {"tent", {Kind::tent, 1, 0}},
-          {"wide tent", {Kind::tent, 2.5f, 0}},
-          {"gaussian", {Kind::gaussian, 2, 0.5f}},
-          {"cut gaussian", {Kind::gaussian, 1, 0.8f}}};
+  std::vector<FilterCase> result = {{"wide box", box_filter(1.7f)},
+                                    {"wide tent", tent_filter(2.5f)},
+                                    {"cut gaussian", gaussian_filter(0.8f, 1)}};
+  for (const FilterType& type : filter_types()) {
+    Problems problems;
+    const Arguments arguments(type.info, {}, {}, problems);
+    problems.throw_if_any();
+    result.push_back({type.info.name, type.create(arguments)});
+  }
+  return result;
 }
 
 /// Chi-square of offsets scaled by `scale` against the filter's density, over 24 × 24 cells of a
@@ -61,6 +67,13 @@ double p_value(const PixelFilter& filter, float scale) {
   EXPECT_NEAR(mass, 1, 0.01) << "the filter is not normalised";
   for (double& e : expected) e /= mass;
   return chi_square_p_value(observed, expected);
+}
+
+TEST(PixelFilter, TypesAreDescribed) { test::expect_rows_of("rfilter", filter_types()); }
+
+TEST(PixelFilter, IsAPixelWideUnlessSaid) {
+  EXPECT_EQ(PixelFilter().radius(), 0.5f);
+  EXPECT_EQ(PixelFilter().eval({0.4f, -0.4f}), 1);
 }
 
 TEST(PixelFilter, SamplesFollowTheDensity) {

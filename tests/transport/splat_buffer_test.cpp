@@ -5,15 +5,17 @@
 #include <random>
 #include <thread>
 
+#include "kaustik/scene/filter_kinds.h"
+
 namespace kaustik {
 namespace {
 
 constexpr int size = 16;
 
-FilmSettings film_with(PixelFilter::Kind kind, float radius, float stddev = 0) {
+FilmSettings film_with(const PixelFilter& filter) {
   FilmSettings film;
   film.size = film.crop_size = {size, size};
-  film.filter = PixelFilter(kind, radius, stddev);
+  film.filter = filter;
   return film;
 }
 
@@ -36,16 +38,15 @@ std::vector<Vec2f> inner_points(uint32_t count) {
 }
 
 TEST(SplatBuffer, WeightsOfPartitioningFiltersSumToOne) {
-  for (const FilmSettings& film :
-       {film_with(PixelFilter::Kind::box, 0.5f), film_with(PixelFilter::Kind::box, 1.5f),
-        film_with(PixelFilter::Kind::tent, 1), film_with(PixelFilter::Kind::tent, 2)})
+  for (const FilmSettings& film : {film_with(box_filter(0.5f)), film_with(box_filter(1.5f)),
+                                   film_with(tent_filter(1)), film_with(tent_filter(2))})
     for (const Vec2f& point : inner_points(200)) EXPECT_NEAR(total(film, point), 1, 1e-5);
 }
 
 // A Gaussian's samples at integer distances sum to 1 only in the mean over positions; the ripple is
 // 2 exp(−2π²σ²) along each axis (Poisson's sum).
 TEST(SplatBuffer, WeightsOfGaussiansSumToOneInTheMean) {
-  const FilmSettings film = film_with(PixelFilter::Kind::gaussian, 2, 0.5f);
+  const FilmSettings film = film_with(gaussian_filter(0.5f, 2));
   constexpr int steps = 32;
   double sum = 0;
   for (int y = 0; y < steps; ++y)
@@ -58,7 +59,7 @@ TEST(SplatBuffer, WeightsOfGaussiansSumToOneInTheMean) {
 }
 
 TEST(SplatBuffer, WeightsFollowTheFilter) {
-  const FilmSettings film = film_with(PixelFilter::Kind::tent, 1);
+  const FilmSettings film = film_with(tent_filter(1));
   SplatBuffer buffer(film, ComponentSet::all());
   buffer.add({5.75f, 3.5f}, Component::caustic, {2, 4, 8, 0}, {});
   EXPECT_FLOAT_EQ(buffer.value(5, 3, Component::caustic)[0], 2 * 0.75f);
@@ -69,7 +70,7 @@ TEST(SplatBuffer, WeightsFollowTheFilter) {
 }
 
 TEST(SplatBuffer, EdgesKeepWhatFallsInside) {
-  const FilmSettings film = film_with(PixelFilter::Kind::tent, 1);
+  const FilmSettings film = film_with(tent_filter(1));
   EXPECT_NEAR(total(film, {0, 8.5f}), 0.5, 1e-6);  // half of it lies beyond the edge
   EXPECT_NEAR(total(film, {-0.4f, 8.5f}), 0.1, 1e-6);
   EXPECT_EQ(total(film, {-0.6f, 8.5f}), 0);
@@ -79,7 +80,7 @@ TEST(SplatBuffer, EdgesKeepWhatFallsInside) {
 
 // The buffer is an edge: what comes in lanes is kept as RGB.
 TEST(SplatBuffer, TurnsWavelengthsIntoColours) {
-  SplatBuffer buffer(film_with(PixelFilter::Kind::box, 0.5f), ComponentSet::all());
+  SplatBuffer buffer(film_with(box_filter(0.5f)), ComponentSet::all());
   const Wavelengths four(440, 500, 580, 660);
   const Spectrum lanes(1, 2, 3, 4), rgb = rgb_from_lanes(lanes, four);
   buffer.add({3.5f, 3.5f}, Component::direct, lanes, four);
@@ -89,7 +90,7 @@ TEST(SplatBuffer, TurnsWavelengthsIntoColours) {
 }
 
 TEST(SplatBuffer, DropsAndCountsWhatIsNotFinite) {
-  SplatBuffer buffer(film_with(PixelFilter::Kind::box, 0.5f), ComponentSet::all());
+  SplatBuffer buffer(film_with(box_filter(0.5f)), ComponentSet::all());
   buffer.add({3.5f, 3.5f}, Component::direct, Spectrum(infinity, 0, 0, 0), {});
   buffer.add({3.5f, 3.5f}, Component::direct,
              Spectrum(0, std::numeric_limits<float>::quiet_NaN(), 0, 0), {});
@@ -103,7 +104,7 @@ TEST(SplatBuffer, DropsAndCountsWhatIsNotFinite) {
 TEST(SplatBuffer, IgnoresComponentsThatNobodyWants) {
   ComponentSet wanted;
   wanted.add(Component::caustic);
-  SplatBuffer buffer(film_with(PixelFilter::Kind::box, 0.5f), wanted);
+  SplatBuffer buffer(film_with(box_filter(0.5f)), wanted);
   EXPECT_TRUE(buffer.wants(Component::caustic));
   EXPECT_FALSE(buffer.wants(Component::direct));
   buffer.add({3.5f, 3.5f}, Component::direct, Spectrum(1), {});
@@ -140,7 +141,7 @@ void expect_same_bits(const SplatBuffer& a, const SplatBuffer& b) {
 }
 
 TEST(SplatBuffer, OrderAndThreadsMakeNoDifference) {
-  const FilmSettings film = film_with(PixelFilter::Kind::gaussian, 2, 0.5f);
+  const FilmSettings film = film_with(gaussian_filter(0.5f, 2));
   const std::vector<Splat> list = splats(5000);
   SplatBuffer forward(film, ComponentSet::all()), backward(film, ComponentSet::all()),
       parallel(film, ComponentSet::all());
@@ -217,7 +218,7 @@ TEST(SplatSums, ThreadsMakeNoDifference) {
 }
 
 TEST(SplatBuffer, TakesMemoryWhereSomethingHasCome) {
-  FilmSettings film = film_with(PixelFilter::Kind::box, 0.5f);
+  FilmSettings film = film_with(box_filter(0.5f));
   film.size = film.crop_size = {100, 40};
   SplatBuffer buffer(film, ComponentSet::all());
   const size_t empty = buffer.bytes();

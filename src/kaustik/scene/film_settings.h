@@ -1,43 +1,12 @@
 #pragma once
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "kaustik/base/parameters.h"
 #include "kaustik/base/vec.h"
+#include "kaustik/scene/pixel_filter.h"
 
 namespace kaustik {
-
-/// The pixel filter, normalised to integral 1 over the raster plane. Camera rays are drawn from it,
-/// so every sample belongs to one pixel alone; splats are weighted by it.
-class PixelFilter {
- public:
-  enum class Kind { box, tent, gaussian };
-  PixelFilter() = default;
-  PixelFilter(Kind kind, float radius, float stddev);
-
-  /// Offset from the pixel's centre, in pixels.
-  Vec2f sample(const Vec2f& u) const;
-  /// Density of that offset; zero beyond radius().
-  float eval(const Vec2f& offset) const { return eval_1d(offset.x) * eval_1d(offset.y); }
-  float radius() const { return radius_; }
-
- private:
-  float eval_1d(float x) const;
-  float sample_1d(float u) const;
-
-  Kind kind_ = Kind::box;
-  float radius_ = 0.5f;
-  float stddev_ = 0.5f;
-  float gaussian_offset_ = 0, gaussian_norm_ = 1;
-  /// Of the Gaussian's distribution function: its values at evenly spaced offsets, and for evenly
-  /// spaced values the last of these below.
-  struct Table {
-    std::vector<float> cdf;
-    std::vector<uint16_t> guide;
-  };
-  std::shared_ptr<const Table> table_;
-};
 
 /// What the picture holds.
 enum class Quantity : uint8_t {
@@ -66,8 +35,7 @@ struct FilmType {
 /// "hdrfilm".
 const std::vector<FilmType>& film_types();
 
-/// Tables of the filters and the samplers.
-const std::vector<TypeInfo>& filter_infos();
+/// Tables of the samplers.
 const std::vector<TypeInfo>& sampler_infos();
 
 }  // namespace kaustik

@@ -1,6 +1,5 @@
 // The camera's part of SceneBuilder: sensor, film, filter, sampler.
-#include <fmt/format.h>
-
+#include "kaustik/scene/filter_kinds.h"
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/scene_builder.h"
 
@@ -38,27 +37,19 @@ void SceneBuilder::read_film(const Object& object) {
   const Arguments arguments = arguments_of(type->info, object);
   collecting(object.place, [&] { film_ = type->create(arguments); });
   refuse_children(object, {"rfilter"});
-  film_.filter = PixelFilter(PixelFilter::Kind::gaussian, 2.0f, 0.5f);
+  film_.filter = gaussian_filter(0.5f, 2.0f);
   for (const Child& child : object.children)
     if (child.object->family == "rfilter") read_filter(*child.object);
 }
 
 void SceneBuilder::read_filter(const Object& object) {
-  const TypeInfo* info = find_row(filter_infos(), object.type);
-  if (!info) {
-    unknown_type(object, names_of(filter_infos()));
+  const FilterType* type = find_row(filter_types(), object.type);
+  if (!type) {
+    unknown_type(object, names_of(filter_types()));
     return;
   }
   refuse_children(object, {});
-  const Arguments arguments = arguments_of(*info, object);
-  if (info->name == "gaussian") {
-    const auto stddev = float(arguments.number("stddev"));
-    film_.filter = PixelFilter(PixelFilter::Kind::gaussian, 4 * stddev, stddev);
-  } else {
-    film_.filter =
-        PixelFilter(info->name == "box" ? PixelFilter::Kind::box : PixelFilter::Kind::tent,
-                    float(arguments.number("radius")), 0);
-  }
+  film_.filter = type->create(arguments_of(type->info, object));
 }
 
 void SceneBuilder::read_sampler(const Object& object) {

@@ -22,7 +22,7 @@ TypeTables all_of_scenes() {
   types.add_rows(phase_function_types());
   types.add_rows(camera_types());
   types.add_rows(film_types());
-  for (const TypeInfo& info : filter_infos()) types.add(info);
+  types.add_rows(filter_types());
   for (const TypeInfo& info : sampler_infos()) types.add(info);
   return types;
 }
