@@ -9,6 +9,8 @@ install(DIRECTORY src/kaustik DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT 
         FILES_MATCHING PATTERN "*.h"
         REGEX "/(geometry/embree_scene|image/tiff_memory)\\.h$" EXCLUDE
         REGEX "/loader/(xml_document|mitsuba_(element|reader|transform))\\.h$" EXCLUDE)
+install(FILES ${PROJECT_BINARY_DIR}/include/kaustik/base/version.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kaustik/base COMPONENT development)
 install(EXPORT kaustikTargets NAMESPACE kaustik:: DESTINATION ${KAUSTIK_CMAKE_DIR}
         COMPONENT development)
 configure_package_config_file(cmake/kaustikConfig.cmake.in

@@ -68,6 +68,29 @@ check_mean() {
     END { exit NR != 1 || bad }' <<<"$1" || fail "mean radiance is not $2: $1"
 }
 
+# The version of the headers, of the package and of the program is one.
+check_version() {
+  cat >>"$work/consumer/CMakeLists.txt" <<'EOF'
+add_executable(version version.cpp)
+target_link_libraries(version PRIVATE kaustik::kaustik)
+target_compile_definitions(version PRIVATE FOUND="${kaustik_VERSION}")
+EOF
+  cat >"$work/consumer/version.cpp" <<'EOF'
+#include <cstdio>
+#include "kaustik/base/version.h"
+int main() {
+  std::printf("%s %s %d.%d.%d\n", KAUSTIK_VERSION, FOUND, KAUSTIK_VERSION_MAJOR, KAUSTIK_VERSION_MINOR,
+              KAUSTIK_VERSION_PATCH);
+}
+EOF
+  configure "$work/consumer" && cmake --build "$work/consumer/build" --target version >"$work/log" 2>&1 || fail "$(cat "$work/log")"
+  local told expected
+  told=$("$work/consumer/build/version")
+  expected=$("$work/program/bin/kaustik" --version)
+  [[ -n $expected && $told == "$expected $expected $expected" ]] ||
+    fail "versions of the headers, the package, and by parts are '$told', that of the program is '$expected'"
+}
+
 install_component program
 check_program_alone
 install_component development
@@ -78,6 +101,7 @@ check_no_paths "$work/prefix"
 make_consumer
 configure "$work/consumer" || fail "$(cat "$work/log")"
 cmake --build "$work/consumer/build" >"$work/log" 2>&1 || fail "$(cat "$work/log")"
+check_version
 # Half of a sky of 1 is reflected.
 check_mean "$("$work/consumer/build/mean_radiance")" 0.5
 

@@ -7,6 +7,7 @@
 #include "console.h"
 #include "exit_codes.h"
 #include "file_roles.h"
+#include "kaustik/base/version.h"
 #include "kaustik/render/learning.h"
 #include "numbers.h"
 #include "render_job.h"

@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "exit_codes.h"
 #include "kaustik/base/error.h"
+#include "kaustik/base/version.h"
 #include "standard_streams.h"
 
 namespace {

@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "failures.h"
 #include "file_roles.h"
+#include "kaustik/base/version.h"
 #include "kaustik/render/checkpoint.h"
 #include "kaustik/render/photon_tracing.h"
 #include "kaustik/render/program_version.h"

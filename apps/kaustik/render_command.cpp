@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "console.h"
 #include "file_roles.h"
+#include "kaustik/base/version.h"
 #include "kaustik/image/tone_mapping.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/render/program_version.h"

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "console.h"
 #include "kaustik/base/file.h"
+#include "kaustik/base/version.h"
 #include "kaustik/render/program_version.h"
 #include "kaustik/render/resume.h"
 #include "numbers.h"
