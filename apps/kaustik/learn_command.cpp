@@ -1,14 +1,10 @@
 #include <fmt/format.h>
 
-#include <chrono>
-#include <filesystem>
-
 #include "commands.h"
 #include "console.h"
 #include "exit_codes.h"
 #include "file_roles.h"
 #include "kaustik/base/version.h"
-#include "kaustik/render/learning.h"
 #include "numbers.h"
 #include "render_job.h"
 #include "scene_options.h"
@@ -30,32 +26,13 @@ struct LearnOptions {
   bool force = false, quiet = false;
 };
 
-LearningSettings learning_settings(const LearnOptions& options) {
-  LearningSettings settings{
-      options.recipe.seed, options.passes, {}, usable_threads(options.threads)};
+SessionSettings session_settings(const LearnOptions& options) {
+  SessionSettings settings;
+  settings.seed = options.recipe.seed;
+  settings.passes = options.passes;
+  settings.threads = usable_threads(options.threads);
   if (options.spp) settings.samples_per_pass = (*options.spp + options.passes - 1) / options.passes;
   return settings;
-}
-
-Learned learned(const LearnOptions& options, const PreparedScene& prepared,
-                const InterruptGuard& interrupt) {
-  ProgressLine line(options.quiet);
-  const auto start = std::chrono::steady_clock::now();
-  try {
-    Learned result =
-        learn(prepared, learning_settings(options), interrupt.token(), [&](double share) {
-          line.show(
-              share,
-              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        });
-    line.finish();
-    return result;
-  } catch (const Error& error) {
-    line.finish();
-    if (!interrupt.token().stop_requested()) throw;
-    say("{}: nothing is written", error.what());
-    throw EndedEarly{};
-  }
 }
 
 void learn_scene(LearnOptions options) {
@@ -68,15 +45,18 @@ void learn_scene(LearnOptions options) {
   Description description = load_description(recipe);
   roles.reads(description);
   roles.check();
-  recipe.settings = collected_settings(description, {}, options.settings);
-  apply_changes(description, recipe, terminal_messages());
-  const PreparedScene prepared =
-      prepare_scene(description, options.build, true, terminal_messages());
-  const InterruptGuard interrupt;
-  Learned result = learned(options, prepared, interrupt);
-  StoredLessons& stored = result.stored;
-  stored.program = KAUSTIK_VERSION;
-  stored.scene = std::filesystem::path(recipe.scene).lexically_normal().string();
+  recipe.settings = collected_settings(integrator_of(description, recipe), {}, options.settings);
+  JobSettings settings;
+  settings.task = JobTask::learn;
+  settings.record.program = KAUSTIK_VERSION;
+  settings.record.recipe = recipe;
+  settings.session = session_settings(options);
+  settings.build = options.build;
+  Job job(std::move(description), std::move(settings), {terminal_messages(), {}, {}});
+  Learned result;
+  run_to_the_end(job, options.quiet,
+                 [&](const ProgressFunction& progress) { result = job.learn(progress); });
+  const StoredLessons& stored = result.stored;
   write_lessons(options.output, stored);
   if (!options.quiet)
     for (const std::string& decision : result.report.decisions) note(decision);

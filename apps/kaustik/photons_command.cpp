@@ -1,16 +1,12 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <chrono>
-#include <filesystem>
 
 #include "commands.h"
 #include "console.h"
 #include "exit_codes.h"
 #include "file_roles.h"
-#include "kaustik/loader/load_options.h"
-#include "kaustik/render/photon_tracing.h"
-#include "kaustik/scene/overrides.h"
+#include "kaustik/scene/scene.h"
 #include "numbers.h"
 #include "render_job.h"
 #include "scene_options.h"
@@ -22,11 +18,11 @@ namespace kaustik::app {
 namespace {
 
 struct PhotonsOptions {
-  std::string scene, output;
+  RenderRecipe recipe;
+  std::string output;
   std::vector<std::string> definitions, settings;
   LevelOptions levels;
   std::string part;
-  uint64_t seed = 0;
   BuildOptions build;
   int threads = 0;
   bool force = false;
@@ -78,61 +74,42 @@ void print_map(const char* name, const Scene& scene, const PhotonMap& map,
   if (report.lights.size() > 1) print_counts("all", report.total());
 }
 
-TracedPhotons traced(const PhotonsOptions& options, const PhotonPart& part,
-                     const Description& description, const Scene& scene,
-                     const InterruptGuard& interrupt) {
-  say("tracing photons of {}", options.scene);
-  ProgressLine line(false);
-  const auto start = std::chrono::steady_clock::now();
-  try {
-    TracedPhotons photons = trace_photon_maps(
-        description, scene, options.seed, usable_threads(options.threads), interrupt.token(),
-        [&](double share) {
-          line.show(
-              share,
-              std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        },
-        part);
-    line.finish();
-    return photons;
-  } catch (const Error& error) {
-    if (!interrupt.token().stop_requested()) throw;
-    line.finish();
-    say("{}: nothing is written", error.what());
-    throw EndedEarly{};
-  }
-}
-
-void trace_photons(const PhotonsOptions& options) {
+void trace_photons(PhotonsOptions options) {
   const PhotonPart part = parse_part(options.part);
+  RenderRecipe& recipe = options.recipe;
   FileRoles roles;
-  roles.reads_scene(options.scene);
+  roles.reads_scene(recipe.scene);
   // Photon maps are replaced by new ones without a question, as pictures are.
   roles.writes(options.output, {"a photon map", is_photon_file},
                options.force ? Replacing::anything : Replacing::own_kind, "");
-  LoadOptions load;
-  load.definitions = parse_definitions(options.definitions);
-  Description description = read_scene(options.scene, load);
+  recipe.definitions = parse_definitions(options.definitions);
+  Description description = load_description(recipe);
   roles.reads(description);
   roles.check();
-  // Before the settings, so that they speak of the integrator that is used.
-  use_integrator(description, "photonmap");
-  apply_settings(description, options.levels, options.settings);
-  const auto scene = build_scene_and_tell(description, options.build, terminal_messages());
-
-  // To the end: what is traced is worth being written.
-  const InterruptGuard interrupt;
-  TracedPhotons traced_photons = traced(options, part, description, *scene, interrupt);
-  StoredPhotons& stored = traced_photons.photons;
-  stored.scene = std::filesystem::path(options.scene).lexically_normal().string();
+  recipe.integrator = "photonmap";
+  recipe.settings =
+      collected_settings(integrator_of(description, recipe), options.levels, options.settings);
+  JobSettings settings;
+  settings.task = JobTask::trace_photons;
+  settings.record.recipe = recipe;
+  settings.session.seed = recipe.seed;
+  settings.session.threads = usable_threads(options.threads);
+  settings.build = options.build;
+  Job job(std::move(description), std::move(settings), {terminal_messages(), {}, {}});
+  TracedPhotons traced;
+  run_to_the_end(job, false, [&](const ProgressFunction& progress) {
+    say("tracing photons of {}", recipe.scene);
+    traced = job.trace_photons(part, progress);
+  });
+  const StoredPhotons& stored = traced.photons;
   write_photon_file(options.output, stored);
 
   fmt::print("scene: {} ({})\n", stored.scene, stored.fingerprint.counts);
-  print_map("global", *scene, stored.maps.global, stored.maps.global_report);
-  print_map("caustic", *scene, stored.maps.caustic, stored.maps.caustic_report);
+  print_map("global", job.scene(), stored.maps.global, stored.maps.global_report);
+  print_map("caustic", job.scene(), stored.maps.caustic, stored.maps.caustic_report);
   fmt::print("traced in {}, trees built in {}\n", duration_text(stored.maps.trace_seconds),
              duration_text(stored.maps.build_seconds));
-  for (const std::string& warning : traced_photons.warnings) warn(warning);
+  for (const std::string& warning : traced.warnings) warn(warning);
   say("wrote {}", options.output);
 }
 
@@ -143,7 +120,7 @@ void add_photons(CLI::App& program) {
       "photons",
       "Trace the photon maps of a scene, store them for other views, print their statistics.");
   auto o = std::make_shared<PhotonsOptions>();
-  add_scene(*command, o->scene);
+  add_scene(*command, o->recipe.scene);
   command->add_option("-o,--output", o->output, "Photon map to write, .kpm")->required();
   add_definitions(*command, o->definitions);
   add_settings(*command, o->settings, "integrator.caustic_photons=1000000, ID.radius=2");
@@ -153,7 +130,7 @@ void add_photons(CLI::App& program) {
                    "Trace only part I of N, to be put together with kaustik merge [all]")
       ->type_name("I/N");
   command->add_flag("--force", o->force, "Replace a file that is there and is no photon map");
-  command->add_option("--seed", o->seed, "Seed of all random numbers [0]");
+  command->add_option("--seed", o->recipe.seed, "Seed of all random numbers [0]");
   add_texture_memory(*command, o->build);
   command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
   command->callback([o] { trace_photons(*o); });

@@ -95,11 +95,10 @@ void render(RenderOptions options) {
   roles.reads(description);
   roles.check();
   // What the thesis sets is a photon map's.
-  if (!find_integrator(description) && sets_thesis_photon_map(options.levels)) {
+  if (!integrator_of(description, recipe) && sets_thesis_photon_map(options.levels))
     recipe.integrator = "photonmap";
-    use_integrator(description, recipe.integrator);
-  }
-  recipe.settings = collected_settings(description, options.levels, options.settings);
+  recipe.settings =
+      collected_settings(integrator_of(description, recipe), options.levels, options.settings);
   RenderRecord& record = job.record;
   record.program = KAUSTIK_VERSION;
   record.recipe = recipe;

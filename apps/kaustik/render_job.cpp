@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "console.h"
 #include "exit_codes.h"
 #include "failures.h"
-#include "kaustik/integrator/override_integrator.h"
 #include "kaustik/render/part_picture.h"
+#include "kaustik/scene/scene.h"
 #include "picture_output.h"
 #include "standard_streams.h"
 
@@ -54,17 +56,37 @@ Description read_scene(const std::string& path, const LoadOptions& options) {
 
 Messages terminal_messages() { return {note, warn}; }
 
-void use_integrator(Description& description, const std::string& type) {
-  const std::string left_out = override_integrator(description, type);
-  if (!left_out.empty()) note(left_out);
-}
-
 Description load_description(const RenderRecipe& recipe) {
   LoadOptions load;
   load.definitions = recipe.definitions;
-  Description description = read_scene(recipe.scene, load);
-  if (!recipe.integrator.empty()) use_integrator(description, recipe.integrator);
-  return description;
+  return read_scene(recipe.scene, load);
+}
+
+std::optional<Object> integrator_of(const Description& description, const RenderRecipe& recipe) {
+  if (!recipe.integrator.empty()) return Object{"integrator", recipe.integrator, "", {}, {}, {}};
+  const auto own = find_integrator(description);
+  return own ? std::optional(*own) : std::nullopt;
+}
+
+void run_to_the_end(Job& job, bool quiet,
+                    const std::function<void(const ProgressFunction&)>& work) {
+  job.prepare();
+  const InterruptGuard interrupt;
+  const std::stop_callback forward(interrupt.token(), [&] { job.cancel(); });
+  ProgressLine line(quiet);
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    work([&](double share) {
+      line.show(share,
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    });
+    line.finish();
+  } catch (const Error& error) {
+    line.finish();
+    if (!interrupt.token().stop_requested()) throw;
+    say("{}: nothing is written", error.what());
+    throw EndedEarly{};
+  }
 }
 
 void run_job(Description description, JobSettings settings, bool quiet,

@@ -7,14 +7,18 @@ namespace kaustik::app {
 /// Reads a scene file, or standard input ("-"). Throws Error.
 Description read_scene(const std::string& path, const LoadOptions& options);
 
-/// The recipe's scene file with its definitions and its integrator, before its settings.
+/// The recipe's scene file with its definitions; the job makes the other changes.
 Description load_description(const RenderRecipe& recipe);
 
-/// Takes another integrator than the file's, and tells what the file says that it has no use for.
-void use_integrator(Description& description, const std::string& type);
+/// The integrator that the recipe asks for, else the description's own; none: Kaustik's default.
+std::optional<Object> integrator_of(const Description& description, const RenderRecipe& recipe);
 
 /// To the terminal.
 Messages terminal_messages();
+
+/// Prepares the job and calls work(progress), with progress of a share of the work; if a signal
+/// cancels it, and what was done so far is of no use (work() throws Error), throws EndedEarly.
+void run_to_the_end(Job& job, bool quiet, const std::function<void(const ProgressFunction&)>& work);
 
 /// Renders with progress, keeps the checkpoint and writes the pictures of the settings' record.
 /// `prepared` is called when the scene is built. Throws Error, of all that could not be written,

@@ -122,10 +122,9 @@ std::vector<std::string> environment() {
   return variables;
 }
 
-std::vector<Setting> thesis_settings(const Description& description,
+std::vector<Setting> thesis_settings(const std::optional<Object>& integrator,
                                      const std::vector<std::string>& variables,
                                      std::vector<std::string>& report) {
-  const auto integrator = find_integrator(description);
   std::vector<Setting> settings;
   for (const std::string& entry : variables) {
     const size_t equals = std::min(entry.find('='), entry.size());
@@ -172,10 +171,11 @@ bool sets_thesis_photon_map(const LevelOptions& levels) {
   return false;
 }
 
-std::vector<Setting> collected_settings(const Description& description, const LevelOptions& levels,
+std::vector<Setting> collected_settings(const std::optional<Object>& integrator,
+                                        const LevelOptions& levels,
                                         const std::vector<std::string>& settings) {
   std::vector<std::string> report;
-  std::vector<Setting> result = thesis_settings(description, environment(), report);
+  std::vector<Setting> result = thesis_settings(integrator, environment(), report);
   for (const std::string& sentence : report) note(sentence);
   const auto set_level = [&](const char* option, const char* parameter, std::optional<int> level) {
     if (level)
@@ -186,12 +186,6 @@ std::vector<Setting> collected_settings(const Description& description, const Le
   set_level("-e", "max_eye_level", levels.eye);
   for (const std::string& setting : settings) result.push_back(setting_of_command_line(setting));
   return result;
-}
-
-void apply_settings(Description& description, const LevelOptions& levels,
-                    const std::vector<std::string>& settings) {
-  for (const Setting& setting : collected_settings(description, levels, settings))
-    override_property(description, setting);
 }
 
 void print_thesis_variables() {

@@ -13,11 +13,11 @@ namespace kaustik::app {
 /// The variables of this program's environment, as "name=value".
 std::vector<std::string> environment();
 
-/// What the thesis's variables among `variables` change in the description's photonmap integrator
-/// (the default one if the scene names none); settings made later win. `report` gets a sentence
-/// for each, or one that none has a say because the integrator is another. Throws Error for an
-/// unknown photonMap.… and for what is no value; the integrator's table checks numbers and names.
-std::vector<Setting> thesis_settings(const Description& description,
+/// What the thesis's variables among `variables` change in `integrator`, if that is a photonmap
+/// (or none: then it becomes one); settings made later win. `report` gets a sentence for each, or
+/// one that none has a say because the integrator is another. Throws Error for an unknown
+/// photonMap.… and for what is no value; the integrator's table checks numbers and names.
+std::vector<Setting> thesis_settings(const std::optional<Object>& integrator,
                                      const std::vector<std::string>& variables,
                                      std::vector<std::string>& report);
 
@@ -33,11 +33,9 @@ bool sets_thesis_photon_map(const LevelOptions& levels);
 
 /// What the variables of this program's environment (it tells of them), the options and `settings`
 /// ("object.parameter=value") change, in the order in which they apply: later ones win.
-std::vector<Setting> collected_settings(const Description& description, const LevelOptions& levels,
+std::vector<Setting> collected_settings(const std::optional<Object>& integrator,
+                                        const LevelOptions& levels,
                                         const std::vector<std::string>& settings);
-/// The same, applied.
-void apply_settings(Description& description, const LevelOptions& levels,
-                    const std::vector<std::string>& settings);
 
 /// The variables with their meaning, for `kaustik help thesis`.
 void print_thesis_variables();

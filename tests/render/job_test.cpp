@@ -49,6 +49,76 @@ Image rendered(const std::string& integrator, uint32_t passes, int size = 24) {
   return job.image();
 }
 
+JobSettings settings_to(JobTask task) {
+  JobSettings settings = settings_for(3);
+  settings.task = task;
+  settings.session.seed = 5;
+  settings.record.program = "test";
+  settings.record.recipe.scene = "rooms/./a.xml";
+  settings.record.recipe.integrator = task == JobTask::learn ? "auto" : "photonmap";
+  return settings;
+}
+
+// What the commands learn and photons do goes by the same preparation as a render.
+TEST(Job, LearnsWhatTheRecipesIntegratorLearns) {
+  Job job(room_with("path", 12), settings_to(JobTask::learn));
+  const Learned learned = job.learn();
+  EXPECT_EQ(learned.stored.integrator, "auto");
+  EXPECT_EQ(learned.stored.program, "test");
+  EXPECT_EQ(learned.stored.scene, "rooms/a.xml");
+  EXPECT_EQ(learned.stored.lessons.passes, 3u);
+  EXPECT_EQ(learned.stored.samples_per_pass, 2u);
+  const PreparedScene prepared = prepare_scene(room_with("auto", 12), {}, true, {});
+  const StoredLessons same =
+      learn(prepared, {.seed = 5, .passes = 3, .samples_per_pass = 2, .threads = 1}).stored;
+  EXPECT_EQ(digest_of(learned.stored.lessons), digest_of(same.lessons));
+  EXPECT_EQ(learned.stored.digest.scene, same.digest.scene);
+}
+
+TEST(Job, TracesThePhotonsOfTheRecipesIntegrator) {
+  const std::string path = "photons of a map that is not there.kpm";
+  Description description = room_with("photonmap");
+  find_integrator(description)->properties.push_back({"photon_map", path, {}});
+  JobSettings settings = settings_to(JobTask::trace_photons);
+  settings.record.recipe.settings.push_back({"integrator", "global_photons", "3000", "test"});
+  Job job(std::move(description), std::move(settings));
+  const TracedPhotons traced = job.trace_photons();
+  EXPECT_EQ(traced.photons.settings.caustic_photons, 4000u);
+  EXPECT_EQ(traced.photons.settings.global_photons, 3000u);
+  EXPECT_EQ(traced.photons.seed, 5u);
+  EXPECT_EQ(traced.photons.scene, "rooms/a.xml");
+  EXPECT_GT(traced.photons.maps.caustic.size(), 100u);
+  EXPECT_EQ(job.scene().surface_count(), 3u);
+}
+
+TEST(Job, DoesItsTaskAlone) {
+  Job learns(room_with("auto", 4), settings_to(JobTask::learn));
+  EXPECT_THROW(learns.run(), std::logic_error);
+  EXPECT_THROW(learns.start(), std::logic_error);
+  EXPECT_THROW(learns.trace_photons(), std::logic_error);
+  EXPECT_THROW(learns.wait(), std::logic_error);
+  Job renders(room_with("path", 4), settings_for(1));
+  EXPECT_THROW(renders.learn(), std::logic_error);
+  EXPECT_EQ(renders.run().report.passes, 1u);
+  learns.cancel();
+  EXPECT_THROW(learns.learn(), Error);
+  EXPECT_THROW(learns.learn(), std::logic_error) << "it was begun before";
+}
+
+// The integrator is changed once, so what it has no use for is told once.
+TEST(Job, ChangesTheIntegratorOnce) {
+  std::vector<std::string> notes;
+  JobSettings settings = settings_for(1);
+  settings.record.recipe.integrator = "path";
+  Job job(room_with("photonmap", 4), std::move(settings),
+          {{[&](const std::string& text) { notes.push_back(text); }, {}}, {}, {}});
+  job.run();
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0],
+            "integrator 'path' has no use for what the scene says of its 'photonmap': "
+            "caustic_photons, global_photons");
+}
+
 TEST(Job, TwoAtOnceHaveTheBitsThatTheyHaveAlone) {
   for (const auto& [one, other] : {std::pair("path", "photonmap"), std::pair("vcm", "auto")}) {
     SCOPED_TRACE(one);

@@ -1,6 +1,7 @@
 #include "kaustik/render/job.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -8,11 +9,17 @@
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/render/checkpoint_keeper.h"
-#include "kaustik/render/learning.h"
 #include "kaustik/render/preview.h"
 #include "kaustik/render/resume.h"
 
 namespace kaustik {
+namespace {
+
+std::string scene_name(const RenderRecipe& recipe) {
+  return std::filesystem::path(recipe.scene).lexically_normal().string();
+}
+
+}  // namespace
 
 Job::Job(Description description, JobSettings settings, JobListener listener)
     : description_(std::move(description)),
@@ -35,10 +42,15 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
     throw std::logic_error("Job: passes that go on have their lessons; others can't be given");
   apply_changes(description_, settings_.record.recipe, listener_.messages);
   const auto run = std::make_shared<Run>();
-  run->prepared =
-      prepare_scene(description_, settings_.build,
-                    !settings_.checkpoint.empty() || settings_.begun || settings_.learned,
-                    listener_.messages, previous_);
+  if (settings_.task == JobTask::trace_photons)
+    run->prepared.scene =
+        build_scene_and_tell(description_, settings_.build, listener_.messages, previous_);
+  else
+    run->prepared =
+        prepare_scene(description_, settings_.build,
+                      settings_.task == JobTask::learn || !settings_.checkpoint.empty() ||
+                          settings_.begun || settings_.learned,
+                      listener_.messages, previous_);
   previous_ = nullptr;
   if (settings_.begun) check_same_scene(run->prepared, *settings_.begun, settings_.begun_path);
   with_threads(settings_.session.threads, [&] { teach(run->prepared); });
@@ -52,15 +64,20 @@ void Job::prepare() {
   prepared_run();
 }
 
+void Job::begin(JobTask task, const char* function) {
+  if (settings_.task != task)
+    throw std::logic_error(std::string("Job::") + function + ": the job's task is another");
+  if (std::exchange(is_started_, true))
+    throw std::logic_error(std::string("Job::") + function + ": the job was started before");
+}
+
 void Job::start() {
-  if (is_started_) throw std::logic_error("Job::start: the job was started before");
-  is_started_ = true;
+  begin(JobTask::render, "start");
   thread_ = std::thread([this] { work(); });
 }
 
 const JobResult& Job::run() {
-  if (is_started_) throw std::logic_error("Job::run: the job was started before");
-  is_started_ = true;
+  begin(JobTask::render, "run");
   work();
   return wait();
 }
@@ -75,6 +92,31 @@ const JobResult& Job::wait() {
 void Job::cancel() {
   const std::lock_guard lock(mutex_);
   stop_.request_stop();
+}
+
+Learned Job::learn(const ProgressFunction& progress) {
+  begin(JobTask::learn, "learn");
+  const SessionSettings& session = settings_.session;
+  LearningSettings settings;
+  settings.seed = session.seed;
+  settings.passes = session.passes.value_or(settings.passes);
+  settings.samples_per_pass = session.samples_per_pass;
+  settings.threads = session.threads;
+  const std::shared_ptr<Run> run = prepared_run();
+  Learned learned = kaustik::learn(run->prepared, settings, stop_.get_token(), progress);
+  learned.stored.program = settings_.record.program;
+  learned.stored.scene = scene_name(settings_.record.recipe);
+  return learned;
+}
+
+TracedPhotons Job::trace_photons(const PhotonPart& part, const ProgressFunction& progress) {
+  begin(JobTask::trace_photons, "trace_photons");
+  const SessionSettings& session = settings_.session;
+  const std::shared_ptr<Run> run = prepared_run();
+  TracedPhotons traced = trace_photon_maps(description_, *run->prepared.scene, session.seed,
+                                           session.threads, stop_.get_token(), progress, part);
+  traced.photons.scene = scene_name(settings_.record.recipe);
+  return traced;
 }
 
 void Job::work() {
@@ -201,6 +243,8 @@ void Job::edit(Description description) {
   failure_ = nullptr;
   if (std::exchange(is_started_, false)) start();
 }
+
+const Scene& Job::scene() const { return *current()->prepared.scene; }
 
 const Film& Job::film() const { return current()->session->film(); }
 

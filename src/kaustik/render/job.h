@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
-#include "kaustik/render/lessons_file.h"
-#include "kaustik/render/prepared_scene.h"
+#include "kaustik/render/learning.h"
+#include "kaustik/render/photon_tracing.h"
 #include "kaustik/render/session.h"
 
 namespace kaustik {
@@ -25,8 +25,13 @@ struct JobListener {
   std::function<void(const Film&)> pass_done;
 };
 
+/// What a job makes of its scene: a picture by run() or start(), lessons by learn(), photon maps by
+/// trace_photons().
+enum class JobTask : uint8_t { render, learn, trace_photons };
+
 /// What a job is to do.
 struct JobSettings {
+  JobTask task = JobTask::render;
   /// The program's version, the recipe, whose changes the job makes, its plan and outputs. What it
   /// lacks is filled in: samples per pass, passes, digest, view.
   RenderRecord record;
@@ -57,9 +62,9 @@ struct JobResult {
 };
 
 /// A render from a description to a film, in a thread of its own: scene, integrator, session and
-/// checkpoint. Prints nothing and keeps nothing global, so that there may be many at once; each
-/// has the bits that it has alone. Its functions are called by one owner, snapshot() and cancel()
-/// from any thread.
+/// checkpoint. Or, in the caller's thread, what else is made of a scene: JobTask. Prints nothing
+/// and keeps nothing global, so that there may be many at once; each has the bits that it has
+/// alone. Its functions are called by one owner, snapshot() and cancel() from any thread.
 class Job {
  public:
   Job(Description description, JobSettings settings, JobListener listener = {});
@@ -68,8 +73,8 @@ class Job {
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  /// Builds the scene and the integrator here and now; else start() does it in its thread. Throws
-  /// Error.
+  /// Builds the scene and the integrator (photon maps need none) here and now; else start() does it
+  /// in its thread. Throws Error.
   void prepare();
   /// Begins and returns at once. The description must not change from here on.
   void start();
@@ -79,8 +84,16 @@ class Job {
   const JobResult& wait();
   /// start() and wait() in this thread.
   const JobResult& run();
-  /// Ends the render soon, as SessionReport::cancelled says; a scene that is being built is built.
+  /// Ends it soon, as SessionReport::cancelled says; a scene that is being built is built.
   void cancel();
+
+  /// What `session.passes` passes (16 unless it says so) of the session's seed teach; complete, for
+  /// a file. Throws as kaustik::learn() does, and std::logic_error if it is not the job's task.
+  Learned learn(const ProgressFunction& progress = {});
+  /// The photon maps of the session's seed, or a part of them; complete, for a file. The recipe
+  /// says by which integrator "photonmap". Throws as trace_photon_maps() does, and std::logic_error
+  /// if it is not the job's task.
+  TracedPhotons trace_photons(const PhotonPart& part = {}, const ProgressFunction& progress = {});
 
   /// Session::snapshot(), or the preview; none before the scene is built, and after edit() until
   /// there is something to be seen of the new one. incomplete_key tells pictures that are not yet
@@ -94,6 +107,8 @@ class Job {
   /// another scene do not belong; not what ended the render before.
   void edit(Description description);
 
+  /// After prepare().
+  const Scene& scene() const;
   // Only while it does not run, after the session was made.
   const Film& film() const;
   Image image() const;  ///< Session::image()
@@ -106,6 +121,7 @@ class Job {
   };
   std::shared_ptr<Run> current() const;
   std::shared_ptr<Run> prepared_run();
+  void begin(JobTask task, const char* function);
   void work();
   void render();
   /// Hands the integrator what was learned before.

@@ -17,8 +17,8 @@ struct PreparedScene {
   std::optional<DescriptionDigest> digest;
 };
 
-/// Makes the changes of a recipe: its integrator, then its settings. They change the description's
-/// objects. Throws Error.
+/// Makes the changes of a recipe, once: its integrator, then its settings. They change the
+/// description's objects. Throws Error.
 void apply_changes(Description& description, const RenderRecipe& recipe, const Messages& messages);
 
 /// Says how much memory large meshes will take, before they are read.
