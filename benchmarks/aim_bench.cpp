@@ -78,13 +78,15 @@ Result measure(const Scene& scene, const std::vector<Place>& places, Aim aim) {
   std::vector<RunningStatistics> irradiances(places.size());
   std::vector<double> seconds;
   double stored = 0;
+  Scratch scratch;
   for (uint32_t i = 0; i < passes; ++i) {
     const PhotonMaps maps = pass.trace(1, i);
     seconds.push_back(maps.trace_seconds);
     stored += double(maps.caustic.size());
     for (size_t k = 0; k < places.size(); ++k)
-      irradiances[k].add(double(
-          maps.caustic.irradiance(places[k].position, places[k].side, estimate).value.sum()));
+      irradiances[k].add(
+          double(maps.caustic.irradiance(places[k].position, places[k].side, estimate, scratch)
+                     .value.sum()));
   }
   Result result;
   result.seconds = bench::median(seconds);

@@ -38,6 +38,7 @@ void measure_estimate(const PhotonMap& map) {
   settings.neighbors = neighbors;
   settings.kernel = Kernel::cone;
   KdTree<3, Vec3f, Photon>::Neighbors found;
+  Scratch scratch;
   double sum = 0;
   std::vector<double> searches, estimates;
   for (int i = 0; i < repeats; ++i) {
@@ -49,7 +50,7 @@ void measure_estimate(const PhotonMap& map) {
     }));
     estimates.push_back(cpu_seconds_of([&] {
       for (const auto& [position, side] : queries)
-        sum += double(map.irradiance(position, side, settings).value.sum());
+        sum += double(map.irradiance(position, side, settings, scratch).value.sum());
     }));
   }
   const double search = bench::median(searches), estimate = bench::median(estimates);

@@ -61,11 +61,12 @@ std::optional<SurfaceVertex> vertex_behind(const Scene& scene, const Vec2f& rast
 Image picture_of_estimates(const SceneRun& run, const PhotonMap& map,
                            const EstimateSettings& settings) {
   Image image(size, size, {"R", "G", "B"});
+  Scratch scratch;
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       const auto vertex = vertex_behind(run.scene(), {float(x) + 0.5f, float(y) + 0.5f});
       if (!vertex) continue;
-      const Spectrum radiance = map.radiance(*vertex, Lobes::diffuse, settings).value;
+      const Spectrum radiance = map.radiance(*vertex, Lobes::diffuse, settings, scratch).value;
       for (int c = 0; c < 3; ++c) image.at(x, y, c) = radiance[c];
     }
   return image;
@@ -78,13 +79,15 @@ std::string importance_grid(const SceneRun& run, const PhotonMap& map, const Vec
   const Frame frame(normal);
   std::vector<float> importance(size_t(grid.count()));
   std::vector<Vec3f> directions;
-  map.visit_nearest(
-      vertex.position(), normal, 50, infinity, [&](const Photon& photon, const Vec3f& position) {
-        const Vec3f local = frame.to_local(photon.incident_direction(position, vertex.position()));
-        if (!(local.z > 0)) return;
-        importance[size_t(grid.cell_of(local))] += photon.flux.spectrum().max_lane();
-        directions.push_back(local);
-      });
+  Scratch scratch;
+  map.visit_nearest(vertex.position(), normal, 50, infinity, scratch,
+                    [&](const Photon& photon, const Vec3f& position) {
+                      const Vec3f local =
+                          frame.to_local(photon.incident_direction(position, vertex.position()));
+                      if (!(local.z > 0)) return;
+                      importance[size_t(grid.cell_of(local))] += photon.flux.spectrum().max_lane();
+                      directions.push_back(local);
+                    });
   return draw_hemisphere(grid, importance, directions);
 }
 

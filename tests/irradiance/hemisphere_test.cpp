@@ -113,7 +113,7 @@ Replicates replicate(const RadianceSource& source, const Vec3f& normal, int samp
 /// Knows where the lamp is, and likes some cells for no reason.
 class AimedRectangle : public RectangleSource {
  public:
-  bool importance(const SurfacePoint&, const Frame& frame, const HemisphereGrid& grid,
+  bool importance(const SurfacePoint&, const Frame& frame, const HemisphereGrid& grid, Scratch&,
                   std::vector<float>& cell_importance) const override {
     cell_importance.assign(size_t(grid.count()), 0.0f);
     cell_importance[size_t(grid.cell_of(normalize(frame.to_local(Vec3f(0.4f, 0.05f, 0.5f)))))] = 5;
@@ -145,10 +145,10 @@ TEST(hemisphere, extra_samples_follow_the_importance) {
     mutable std::vector<int> rays;
     mutable HemisphereGrid grid;
     bool importance(const SurfacePoint& at, const Frame& frame, const HemisphereGrid& g,
-                    std::vector<float>& cell_importance) const override {
+                    Scratch& scratch, std::vector<float>& cell_importance) const override {
       grid = g;
       rays.assign(size_t(g.count()), 0);
-      return AimedRectangle::importance(at, frame, g, cell_importance);
+      return AimedRectangle::importance(at, frame, g, scratch, cell_importance);
     }
     Incoming incoming(const SurfacePoint& from, const Vec3f& d, Sampler& s) const override {
       ++rays[size_t(grid.cell_of(d))];  // the frame of +z is the world's

@@ -67,13 +67,14 @@ RunningStatistics lookups_over_estimates(int neighbors, size_t stride, bool at_o
     const IrradianceMap map(
         photons, at_own_photons ? own_places(photons, stride) : other_places(count, stride, seed),
         settings);
+    Scratch scratch;
     RunningStatistics looked_up, estimated;
     for (int i = 0; i < 4000; ++i) {
       const Vec3f at(0.1f + 0.8f * float(i % 64) / 64, 0.1f + 0.8f * float(i) / 4000, 0);
-      const float estimate = photons.irradiance(at, up, settings).value[0];
+      const float estimate = photons.irradiance(at, up, settings, scratch).value[0];
       Spectrum irradiance;
       // As gather rays do it: where nothing is near, the estimate itself.
-      looked_up.add(double(map.lookup(at, up, irradiance) ? irradiance[0] : estimate));
+      looked_up.add(double(map.lookup(at, up, irradiance, scratch) ? irradiance[0] : estimate));
       estimated.add(double(estimate));
     }
     ratio.add(looked_up.mean() / estimated.mean());
@@ -108,17 +109,19 @@ TEST(IrradianceMap, KnowsSidesAndItsReach) {
   const IrradianceMap map(two_sided_map(5000, 3), other_places(5000, 3, 3), settings);
   EXPECT_FALSE(map.empty());
   Spectrum above, below, none;
-  ASSERT_TRUE(map.lookup({0.5f, 0.5f, 0}, up, above));
-  ASSERT_TRUE(map.lookup({0.5f, 0.5f, 0}, -up, below));
+  Scratch scratch;
+  ASSERT_TRUE(map.lookup({0.5f, 0.5f, 0}, up, above, scratch));
+  ASSERT_TRUE(map.lookup({0.5f, 0.5f, 0}, -up, below, scratch));
   EXPECT_NEAR(above[0], 1, 0.6f);
   EXPECT_NEAR(below[0], 100, 60);
-  EXPECT_FALSE(map.lookup({0.5f, 0.5f, 0}, {1, 0, 0}, none));
-  EXPECT_FALSE(map.lookup({0.5f, 0.5f, 0.4f}, up, none));
+  EXPECT_FALSE(map.lookup({0.5f, 0.5f, 0}, {1, 0, 0}, none, scratch));
+  EXPECT_FALSE(map.lookup({0.5f, 0.5f, 0.4f}, up, none, scratch));
 }
 
 TEST(IrradianceMap, EmptyFromNothing) {
   Spectrum irradiance;
-  EXPECT_FALSE(IrradianceMap().lookup({0, 0, 0}, up, irradiance));
+  Scratch scratch;
+  EXPECT_FALSE(IrradianceMap().lookup({0, 0, 0}, up, irradiance, scratch));
   EXPECT_TRUE(IrradianceMap(PhotonMap(), other_places(100, 1, 1), {}).empty());
   EstimateSettings off;
   off.neighbors = 0;
@@ -131,10 +134,11 @@ TEST(IrradianceMap, SameForAnyNumberOfThreads) {
   const auto values = [&](int threads) {
     std::vector<float> result;
     with_threads(threads, [&] {
+      Scratch scratch;
       const IrradianceMap map(photons, other_places(5000, 4, 9), {});
       for (float x = 0; x < 1; x += 0.01f) {
         Spectrum irradiance;
-        map.lookup({x, x, 0}, up, irradiance);
+        map.lookup({x, x, 0}, up, irradiance, scratch);
         result.push_back(irradiance[0]);
       }
     });

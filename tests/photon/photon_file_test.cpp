@@ -105,6 +105,7 @@ void expect_same_map(const PhotonMap& a, const PhotonMap& b) {
   EXPECT_NEAR(a.mean_flux(), b.mean_flux(), 1e-6f * a.mean_flux());
   EstimateSettings estimate;
   estimate.neighbors = 12;
+  Scratch scratch;
   for (uint32_t i = 0; i < a.size(); i += 7) {
     // Every photon is there with all its data …
     const Photon& photon = a.tree().data(i);
@@ -114,8 +115,8 @@ void expect_same_map(const PhotonMap& a, const PhotonMap& b) {
     EXPECT_TRUE(found);
     // … and what is estimated from it is the same.
     for (const float z : {1.0f, -1.0f}) {
-      const auto of_a = a.irradiance(a.tree().key(i), {0, 0, z}, estimate);
-      const auto of_b = b.irradiance(a.tree().key(i), {0, 0, z}, estimate);
+      const auto of_a = a.irradiance(a.tree().key(i), {0, 0, z}, estimate, scratch);
+      const auto of_b = b.irradiance(a.tree().key(i), {0, 0, z}, estimate, scratch);
       EXPECT_EQ(of_a.found, of_b.found);
       EXPECT_EQ(of_a.radius, of_b.radius);
       EXPECT_NEAR(of_a.value[1], of_b.value[1], 1e-5f * of_a.value[1]);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "kaustik/base/statistics.h"
+#include "tests/photon/counted_allocations.h"
 #include "tests/photon/emission_scenes.h"
 
 namespace kaustik {
@@ -18,6 +19,8 @@ constexpr int seed_divisor = 1;
 #endif
 
 const Vec3f z_axis(0, 0, 1);
+
+Scratch estimate_lists;  // tests run one after another
 
 Photon photon_of(float flux, const Vec3f& side = z_axis) {
   Photon photon;
@@ -120,7 +123,8 @@ RunningStatistics estimates(const Case& c) {
     const PhotonMap map = uniform_map(photons_per_map, uint64_t(map_index) + 1);
     for (float y = 0.05f; y < 0.95f; y += spacing)
       for (float x = 0.05f; x < 0.95f; x += spacing)
-        statistics.add(double(map.irradiance({x, y, 0}, z_axis, settings).value[0]));
+        statistics.add(
+            double(map.irradiance({x, y, 0}, z_axis, settings, estimate_lists).value[0]));
   }
   return statistics;
 }
@@ -168,7 +172,8 @@ TEST(DensityEstimate, HasTheRightMeanWherePathsLeaveClusters) {
       const PhotonMap map = clustered_map(paths, spread, told, seed);
       for (float y = 0.05f; y < 0.95f; y += 0.04f)
         for (float x = 0.05f; x < 0.95f; x += 0.04f)
-          statistics.add(double(map.irradiance({x, y, 0}, z_axis, settings).value[0]));
+          statistics.add(
+              double(map.irradiance({x, y, 0}, z_axis, settings, estimate_lists).value[0]));
     }
     return statistics;
   };
@@ -212,13 +217,15 @@ TEST(DensityEstimate, SaysWhatItIsMadeOf) {
   const PhotonMap map = uniform_map(1000, 5);
   EstimateSettings settings;
   settings.neighbors = 40;
-  const DensityEstimate complete = map.irradiance({0.5f, 0.5f, 0}, z_axis, settings);
+  const DensityEstimate complete =
+      map.irradiance({0.5f, 0.5f, 0}, z_axis, settings, estimate_lists);
   EXPECT_EQ(complete.found, 40);
   EXPECT_NEAR(complete.value[0], 39e-3f / (pi * sqr(complete.radius)), 1e-4f);
   EXPECT_NEAR(complete.value[2], 3 * complete.value[0], 1e-4f);
 
   settings.maximum_radius = complete.radius * 0.7f;
-  const DensityEstimate incomplete = map.irradiance({0.5f, 0.5f, 0}, z_axis, settings);
+  const DensityEstimate incomplete =
+      map.irradiance({0.5f, 0.5f, 0}, z_axis, settings, estimate_lists);
   EXPECT_LT(incomplete.found, 40);
   EXPECT_FLOAT_EQ(incomplete.radius, settings.maximum_radius);
   EXPECT_NEAR(incomplete.value[0], float(incomplete.found) * 1e-3f / (pi * sqr(incomplete.radius)),
@@ -227,23 +234,23 @@ TEST(DensityEstimate, SaysWhatItIsMadeOf) {
 
 TEST(DensityEstimate, NothingFromNothing) {
   EstimateSettings settings;
-  EXPECT_TRUE(PhotonMap().irradiance({0, 0, 0}, z_axis, settings).value.is_zero());
+  EXPECT_TRUE(PhotonMap().irradiance({0, 0, 0}, z_axis, settings, estimate_lists).value.is_zero());
   EXPECT_TRUE(PhotonMap().empty());
   EXPECT_EQ(PhotonMap().mean_flux(), 0.0f);
   const PhotonMap map = uniform_map(100, 1);
   EXPECT_FLOAT_EQ(map.mean_flux(), 0.03f);  // of the largest lane
   settings.neighbors = 0;
-  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, z_axis, settings).value.is_zero());
+  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, z_axis, settings, estimate_lists).value.is_zero());
   // More neighbours than there are photons and no bound on the radius: no density is known.
   settings.neighbors = 101;
-  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, z_axis, settings).value.is_zero());
+  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, z_axis, settings, estimate_lists).value.is_zero());
   // One neighbour sets the radius of an empty disk.
   settings.neighbors = 1;
-  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, z_axis, settings).value.is_zero());
+  EXPECT_TRUE(map.irradiance({0.5f, 0.5f, 0}, z_axis, settings, estimate_lists).value.is_zero());
   // All in one place: no radius.
   const PhotonMap point(std::vector<Vec3f>(50, Vec3f(0, 0, 0)), std::vector<Photon>(50));
   settings.neighbors = 10;
-  EXPECT_TRUE(point.irradiance({0, 0, 0}, z_axis, settings).value.is_zero());
+  EXPECT_TRUE(point.irradiance({0, 0, 0}, z_axis, settings, estimate_lists).value.is_zero());
 }
 
 // ---------------------------------------------------------------- sides
@@ -272,14 +279,15 @@ TEST(PhotonSides, ThinWall) {
       settings.maximum_radius = radius;
       const float x = number(random);
       const Vec3f at(x, number(random), 1e-4f);
-      const DensityEstimate with = wall.irradiance(at, z_axis, settings);
-      const DensityEstimate without = front.irradiance(at, z_axis, settings);
+      const DensityEstimate with = wall.irradiance(at, z_axis, settings, estimate_lists);
+      const DensityEstimate without = front.irradiance(at, z_axis, settings, estimate_lists);
       EXPECT_EQ(with.found, without.found);
       EXPECT_EQ(with.radius, without.radius);
       EXPECT_NEAR(with.value[0], without.value[0], 1e-4f * without.value[0]);
       EXPECT_GT(without.value[0], 0);
       // Seen from behind, only those of the far side.
-      EXPECT_GT(wall.irradiance(at, -z_axis, settings).value[0], 100 * with.value[0]);
+      EXPECT_GT(wall.irradiance(at, -z_axis, settings, estimate_lists).value[0],
+                100 * with.value[0]);
     }
 }
 
@@ -292,7 +300,7 @@ TEST(PhotonSides, VisitNearestRejectsThemToo) {
   }
   const PhotonMap map(positions, photons);
   int visited = 0;
-  map.visit_nearest({0, 0, 0}, z_axis, 10, infinity,
+  map.visit_nearest({0, 0, 0}, z_axis, 10, infinity, estimate_lists,
                     [&](const Photon& photon, const Vec3f& position) {
                       ++visited;
                       EXPECT_GT(photon.side.dot(z_axis), 0);
@@ -352,12 +360,12 @@ TEST(PhotonRadiance, DiffuseIsReflectedIrradiance) {
   const PhotonMap map = uniform_map(5000, 8);
   const SurfaceVertex vertex = floor_vertex(*scene, {0.5f, 0.5f, 0});
   const EstimateSettings settings;
-  const Spectrum irradiance = map.irradiance(vertex, settings).value;
-  const Spectrum radiance = map.radiance(vertex, Lobes::all, settings).value;
+  const Spectrum irradiance = map.irradiance(vertex, settings, estimate_lists).value;
+  const Spectrum radiance = map.radiance(vertex, Lobes::all, settings, estimate_lists).value;
   const float reflectance[] = {0.6f, 0.3f, 0.1f};
   for (int lane = 0; lane < 3; ++lane)
     EXPECT_NEAR(radiance[lane], reflectance[lane] / pi * irradiance[lane], 1e-6f);
-  EXPECT_TRUE(map.radiance(vertex, Lobes::glossy, settings).value.is_zero());
+  EXPECT_TRUE(map.radiance(vertex, Lobes::glossy, settings, estimate_lists).value.is_zero());
 }
 
 /// Every photon by the direction from the query to where it came from, not as it was stored.
@@ -382,13 +390,31 @@ TEST(PhotonRadiance, GlossyByIncidentDirections) {
   EstimateSettings settings;
   settings.maximum_radius = 0.1f;
   settings.neighbors = 5000;
-  const Spectrum irradiance = lit.irradiance(vertex, settings).value;
+  const Spectrum irradiance = lit.irradiance(vertex, settings, estimate_lists).value;
   for (const Lobes lobes : {Lobes::all, Lobes::glossy}) {
     const Spectrum expected = vertex.eval(normalize(lamp - at), lobes) * irradiance;
-    const Spectrum found = lit.radiance(vertex, lobes, settings).value;
+    const Spectrum found = lit.radiance(vertex, lobes, settings, estimate_lists).value;
     EXPECT_NEAR(found[0], expected[0], 2e-3f * expected[0]);
     EXPECT_GT(found[0], 0);
   }
+}
+
+/// The first estimate makes the lists, which serve for all that follow.
+TEST(PhotonRadiance, EstimatesDoNotAllocate) {
+  const auto scene = floor_scene(test::object(
+      "bsdf", "phong",
+      {{"diffuse_reflectance", Rgb{0.3, 0.3, 0.3}}, {"specular_reflectance", Rgb{0.5, 0.5, 0.5}}}));
+  const PhotonMap map = uniform_map(5000, 8);
+  const SurfaceVertex vertex = floor_vertex(*scene, {0.5f, 0.5f, 0});
+  Scratch scratch;
+  const auto estimate = [&] {
+    map.irradiance(vertex, {}, scratch);
+    return map.radiance(vertex, Lobes::all, {}, scratch).value;
+  };
+  EXPECT_FALSE(estimate().is_zero());
+  const int64_t before = test::allocation_count();
+  for (int i = 0; i < 10; ++i) estimate();
+  EXPECT_EQ(test::allocation_count() - before, 0);
 }
 
 // ---------------------------------------------------------------- radii

@@ -149,16 +149,20 @@ class Sight : public testing::Test {
   }
   VisibilityEstimate seen(int light, int level = 0) {
     const ShadowMap map(positions_, photons_);
-    const Ray ray{Vec3f(0, 0, 1), Vec3f(0, 0, -1)};
+    const SurfaceVertex vertex = vertex_at(0);
+    return ShadowVisibility(&map, settings_, vertex, level, scratch_).of(light);
+  }
+  SurfaceVertex vertex_at(float x) const {
+    const Ray ray{Vec3f(x, 0, 1), Vec3f(0, 0, -1)};
     Hit hit;
     EXPECT_TRUE(scene_->intersect(ray, hit));
-    const SurfaceVertex vertex(*scene_, ray, hit, TransportMode::radiance);
-    return ShadowVisibility(&map, settings_, vertex, level).of(light);
+    return {*scene_, ray, hit, TransportMode::radiance};
   }
   std::shared_ptr<const Scene> scene_ = make_scene({floor_at(0, white())});
   ShadowSettings settings_{8, 1, 1};
   std::vector<Vec3f> positions_;
   std::vector<ShadowPhoton> photons_;
+  Scratch scratch_;
 };
 
 void expect_sight(const VisibilityEstimate& sight, float known, float by_ray) {
@@ -193,6 +197,22 @@ TEST_F(Sight, KnowsNothingOfTheOtherSideAndOfFarPhotons) {
   expect_sight(seen(1), 0, 1);
   settings_.maximum_radius = 3;
   expect_sight(seen(1), 1, 0);
+}
+
+/// What is asked at another vertex meanwhile changes nothing.
+TEST_F(Sight, TwoAtATimeKnowTheirOwn) {
+  for (int i = 0; i < 2; ++i) {
+    add(0, false, 0.01 * i);
+    add(0, true, 5 + 0.01 * i);
+  }
+  const ShadowMap map(positions_, photons_);
+  const SurfaceVertex lit_vertex = vertex_at(0), dark_vertex = vertex_at(5);
+  ShadowVisibility lit(&map, settings_, lit_vertex, 0, scratch_);
+  expect_sight(lit.of(0), 1, 0);
+  ShadowVisibility dark(&map, settings_, dark_vertex, 0, scratch_);
+  expect_sight(dark.of(0), 0, 0);
+  expect_sight(lit.of(0), 1, 0);
+  expect_sight(dark.of(0), 0, 0);
 }
 
 TEST_F(Sight, KnowsNothingWithoutPhotons) { expect_sight(seen(0), 0, 1); }

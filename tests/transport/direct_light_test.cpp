@@ -40,6 +40,27 @@ class FloorUnderAStrip {
   test::StripMesh strip_{64};
 };
 
+/// In proportion to what each of many point lamps brings, the last ones like the first.
+TEST(LightShares, AreThoseOfManyLights) {
+  std::string lamps;
+  const auto intensity_of = [](int lamp) { return 1 + lamp % 7; };
+  for (int i = 0; i < 70; ++i)
+    lamps += fmt::format(
+        R"(<emitter type="point"><point name="position" x="0" y="0" z="{}"/>
+           <rgb name="intensity" value="{}"/></emitter>)",
+        i % 10 == 9 ? -1 : 1, intensity_of(i));
+  const auto scene = scene_of("<shape type=\"rectangle\"/>" + lamps);
+  const LightShares shares(*scene, vertex_at(*scene, {0, 0, 0}), 1000);
+  int total = 0;
+  for (int i = 0; i < 70; ++i)
+    if (i % 10 != 9) total += intensity_of(i);
+  for (int i = 0; i < 70; ++i) {
+    const int expected =
+        i % 10 == 9 ? 0 : int(std::round(1000.0 * intensity_of(i) / double(total)));
+    EXPECT_EQ(shares.samples_of(size_t(i)), expected) << i;
+  }
+}
+
 /// The deeper the level the noisier, and the mean stays.
 TEST(RecursionLevel, MakesLightsCoarserAndKeepsTheirMean) {
   const auto scene = FloorUnderAStrip().scene();

@@ -333,8 +333,8 @@ TEST(DirectLight, IrradianceByEveryLight) {
             return double(light.radiance[0]) * double(light.light == 1 ? 1.0f : light.wi.z);
           }));
     }
-    std::vector<int> counts;
-    share_light_samples(*scene, vertex, samples, counts);
+    const LightShares shares(*scene, vertex, samples);
+    const std::vector<int> counts{shares.samples_of(0), shares.samples_of(1)};
     EXPECT_EQ(counts, (samples == 1 ? std::vector<int>{1, 1} : std::vector<int>{8, 1}));
     EXPECT_EQ(taken, 20000 * (counts[0] + counts[1]));
     EXPECT_GE(of_disk, taken / 2);

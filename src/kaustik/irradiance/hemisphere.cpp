@@ -40,14 +40,14 @@ struct Plan {
 
 /// Where the samples go. Without known importance all of them are spread evenly.
 Plan plan_samples(const RadianceSource& source, const SurfacePoint& at, const Frame& frame,
-                  const HemisphereSettings& settings, float u) {
+                  const HemisphereSettings& settings, float u, Scratch& scratch) {
   const int samples = std::max(1, settings.samples);
   const float share = std::clamp(settings.importance_share, 0.0f, 1.0f);
   Plan plan;
   std::vector<float> importance;
   if (share > 0) {
     plan.grid = HemisphereGrid::for_samples(to_integer(float(samples) * (1 - share), 1, samples));
-    if (source.importance(at, frame, plan.grid, importance) &&
+    if (source.importance(at, frame, plan.grid, scratch, importance) &&
         clean_importance(size_t(plan.grid.count()), importance)) {
       plan.counts = samples_per_cell(importance, samples - plan.grid.count(), u);
       return plan;
@@ -67,8 +67,15 @@ float inverse_distance_of(float distance) {
 class HemisphereSampling {
  public:
   HemisphereSampling(const RadianceSource& source, const SurfacePoint& at, const Frame& frame,
-                     const HemisphereGrid& grid, const Sampler& sampler, const Medium* medium)
-      : source_(source), at_(at), frame_(frame), grid_(grid), sampler_(sampler), medium_(medium) {}
+                     const HemisphereGrid& grid, const Sampler& sampler, const Medium* medium,
+                     Scratch& scratch)
+      : source_(source),
+        at_(at),
+        frame_(frame),
+        grid_(grid),
+        sampler_(sampler),
+        medium_(medium),
+        scratch_(scratch) {}
 
   HemisphereCell sample_cell(int index, uint32_t count, HemisphereEstimate& estimate) {
     HemisphereCell cell;
@@ -85,7 +92,7 @@ class HemisphereSampling {
       cell.open = true;
       sampler.start_vertex(0);
       const RadianceSource::Incoming incoming =
-          source_.incoming_through(medium_, at_, direction, sampler);
+          source_.incoming_through(medium_, at_, direction, sampler, scratch_);
       ++estimate.rays;
       if (!incoming.radiance.is_finite()) {
         ++estimate.dropped;
@@ -111,6 +118,7 @@ class HemisphereSampling {
   const HemisphereGrid& grid_;
   const Sampler& sampler_;
   const Medium* medium_;
+  Scratch& scratch_;
   uint32_t next_index_ = 0;
 };
 
@@ -237,10 +245,11 @@ HemisphereEstimate sample_hemisphere(const RadianceSource& source, const Surface
                                      const Sampler& sampler, const Medium* medium) {
   const Frame frame(normal);
   Sampler offset = sampler;
-  const Plan plan = plan_samples(source, at, frame, settings, offset.next_1d());
+  Scratch scratch;  // for all rays
+  const Plan plan = plan_samples(source, at, frame, settings, offset.next_1d(), scratch);
 
   HemisphereEstimate estimate;
-  HemisphereSampling sampling(source, at, frame, plan.grid, sampler, medium);
+  HemisphereSampling sampling(source, at, frame, plan.grid, sampler, medium, scratch);
   std::vector<HemisphereCell> cells(plan.counts.size());
   for (size_t i = 0; i < cells.size(); ++i)
     cells[i] = sampling.sample_cell(int(i), plan.counts[i], estimate);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/base/scratch.h"
 #include "kaustik/base/spectrum.h"
 #include "kaustik/geometry/ray.h"
 #include "kaustik/medium/medium.h"
@@ -37,17 +38,19 @@ class RadianceSource {
   /// the block of vertex 0.
   virtual Incoming incoming(const SurfacePoint& from, const Vec3f& direction,
                             Sampler& sampler) const = 0;
-  /// The same where the surface lies in `medium` (null: vacuum), for sources that know media.
+  /// The same where the surface lies in `medium` (null: vacuum), for sources that know media, and
+  /// with lists for those that need some.
   virtual Incoming incoming_through(const Medium* medium, const SurfacePoint& from,
-                                    const Vec3f& direction, Sampler& sampler) const {
-    (void)medium;
+                                    const Vec3f& direction, Sampler& sampler,
+                                    Scratch& scratch) const {
+    (void)medium, (void)scratch;
     return incoming(from, direction, sampler);
   }
   /// Relative importance ≥ 0 of the cells in the hemisphere of `frame`.z, one number a cell; false
   /// if unknown (then all are alike). Called before any ray of that hemisphere is traced.
   virtual bool importance(const SurfacePoint& at, const Frame& frame, const HemisphereGrid& grid,
-                          std::vector<float>& cell_importance) const {
-    (void)at, (void)frame, (void)grid, (void)cell_importance;
+                          Scratch& scratch, std::vector<float>& cell_importance) const {
+    (void)at, (void)frame, (void)grid, (void)scratch, (void)cell_importance;
     return false;
   }
 };

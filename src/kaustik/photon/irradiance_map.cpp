@@ -32,6 +32,7 @@ IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide
   std::atomic<uint64_t> all_rays{0};
   parallel_blocks(places.size(), 256, [&](size_t begin, size_t end, size_t) {
     uint64_t block_rays = 0;
+    Scratch scratch;
     for (size_t i = begin; i < end; ++i) {
       positions[i] = places[i].position;
       PhotonVisibility visibility;
@@ -40,7 +41,7 @@ IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide
         visibility = {&sight.emplace(*scene, positions[i], SurfaceSight::no_shape, block_rays),
                       radical_inverse(uint32_t(i))};
       const DensityEstimate estimate =
-          map.irradiance(positions[i], places[i].side.unpack(), settings, visibility);
+          map.irradiance(positions[i], places[i].side.unpack(), settings, scratch, visibility);
       entries[i].irradiance = estimate.value;
       entries[i].side = places[i].side;
     }
@@ -51,9 +52,10 @@ IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide
 }
 
 bool IrradianceMap::lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance,
-                           const SurfaceSight* sight) const {
+                           Scratch& scratch, const SurfaceSight* sight) const {
   if (empty()) return false;
-  static thread_local SidedTree<Entry>::Neighbors neighbors;
+  const auto borrowed = scratch.borrow<SidedTree<Entry>::Neighbors>();
+  SidedTree<Entry>::Neighbors& neighbors = *borrowed;
   const auto take = [&](size_t i) {
     const uint32_t index = neighbors.index(i);
     const Entry& entry = tree_.tree().data(index);

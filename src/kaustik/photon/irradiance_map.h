@@ -30,7 +30,7 @@ class IrradianceMap {
   /// none within the maximum radius of the estimates. (Not within the radius of that place's own
   /// estimate: bright places have small ones, so that would favour dark places.) With `sight`, of
   /// the position, the nearest of the next few that it sees.
-  bool lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance,
+  bool lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance, Scratch& scratch,
               const SurfaceSight* sight = nullptr) const;
 
  private:

@@ -70,14 +70,13 @@ class PathSet {
   size_t mask_ = 0;
 };
 
-/// What photons up to each of them add to an estimate; one list for each thread.
-std::vector<Spectrum>& empty_running_sums() {
-  static thread_local std::vector<Spectrum> sums;
-  sums.clear();
-  return sums;
-}
-
 }  // namespace
+
+struct PhotonMap::Lists {
+  Neighbors neighbors;
+  PathSet met;
+  std::vector<Spectrum> running_sums;  ///< what photons up to each of them add
+};
 
 PhotonMap::PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons) {
   double sum = 0;
@@ -86,21 +85,16 @@ PhotonMap::PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons) 
   tree_ = {std::move(positions), std::move(photons)};
 }
 
-PhotonMap::Neighbors& PhotonMap::workspace() {
-  static thread_local Neighbors neighbors;
-  return neighbors;
-}
-
-size_t PhotonMap::count_until(const Neighbors& neighbors, size_t count, size_t paths) const {
-  static thread_local PathSet met;
-  met.start(count);
+size_t PhotonMap::count_until(Lists& lists, size_t count, size_t paths) const {
+  lists.met.start(count);
   for (size_t i = 0; i < count; ++i)
-    if (met.insert(tree().data(neighbors.index(i)).path) && --paths == 0) return i + 1;
+    if (lists.met.insert(tree().data(lists.neighbors.index(i)).path) && --paths == 0) return i + 1;
   return count + 1;
 }
 
 PhotonMap::Disk PhotonMap::find_disk(const Vec3f& position, const Vec3f& side, bool both_sides,
-                                     const EstimateSettings& settings, Neighbors& neighbors) const {
+                                     const EstimateSettings& settings, Lists& lists) const {
+  Neighbors& neighbors = lists.neighbors;
   const auto paths = size_t(settings.neighbors);
   for (size_t wanted = paths;; wanted = std::min(2 * wanted, size())) {
     tree_.nearest(position, side, both_sides, int(wanted), settings.maximum_radius, neighbors);
@@ -108,23 +102,23 @@ PhotonMap::Disk PhotonMap::find_disk(const Vec3f& position, const Vec3f& side, b
     const Disk all{sqr(settings.maximum_radius), found, found};
     if (found < paths) return all;
     // Most often no path comes twice. The farthest of a complete set stands last.
-    if (found == paths && count_until(neighbors, found, paths) == paths)
+    if (found == paths && count_until(lists, found, paths) == paths)
       return {neighbors.farthest_sq(), paths - 1, paths};
     if (found > paths) {
       neighbors.sort();
-      const size_t needed = count_until(neighbors, found, paths);
+      const size_t needed = count_until(lists, found, paths);
       if (needed <= found) return {neighbors.distance_sq(needed - 1), needed - 1, needed};
     }
     if (!neighbors.complete() || wanted >= size()) return all;
   }
 }
 
-Spectrum PhotonMap::visible(const std::vector<Spectrum>& running_sums, const Neighbors& neighbors,
-                            const Vec3f& normal, const PhotonVisibility& visibility) const {
-  const Spectrum& sum = running_sums.back();
+Spectrum PhotonMap::visible(const Lists& lists, const Vec3f& normal,
+                            const PhotonVisibility& visibility) const {
+  const Spectrum& sum = lists.running_sums.back();
   if (!visibility.sight || sum.is_zero()) return sum;
-  return LaneDraw(running_sums, visibility.u).remaining(sum, [&](size_t i) {
-    const uint32_t index = neighbors.index(i);
+  return LaneDraw(lists.running_sums, visibility.u).remaining(sum, [&](size_t i) {
+    const uint32_t index = lists.neighbors.index(i);
     const Vec3f side = tree().data(index).side.unpack();
     return visibility.sight->sees(dot(side, normal) < 0 ? -normal : normal, tree().key(index),
                                   side);
@@ -132,57 +126,61 @@ Spectrum PhotonMap::visible(const std::vector<Spectrum>& running_sums, const Nei
 }
 
 DensityEstimate PhotonMap::irradiance(const Vec3f& position, const Vec3f& side,
-                                      const EstimateSettings& settings,
+                                      const EstimateSettings& settings, Scratch& scratch,
                                       const PhotonVisibility& visibility) const {
   DensityEstimate estimate;
   if (settings.neighbors <= 0 || empty()) return estimate;
-  Neighbors& neighbors = workspace();
-  const Disk disk = find_disk(position, side, false, settings, neighbors);
+  const auto lists = scratch.borrow<Lists>();
+  const Neighbors& neighbors = lists->neighbors;
+  const Disk disk = find_disk(position, side, false, settings, *lists);
   estimate.found = int(disk.found);
   estimate.radius = std::sqrt(disk.radius_sq);
   if (disk.count == 0 || !std::isfinite(disk.radius_sq) || !(disk.radius_sq > 0)) return estimate;
   const KernelWeight weight(settings, disk.radius_sq);
   Spectrum sum;
-  std::vector<Spectrum>& running_sums = empty_running_sums();
+  std::vector<Spectrum>& running_sums = lists->running_sums;
+  running_sums.clear();
   for (size_t i = 0; i < disk.count; ++i) {
     sum += tree().data(neighbors.index(i)).flux.spectrum() * weight(neighbors.distance_sq(i));
     running_sums.push_back(sum);
   }
-  estimate.value = visible(running_sums, neighbors, side, visibility);
+  estimate.value = visible(*lists, side, visibility);
   return estimate;
 }
 
 DensityEstimate PhotonMap::irradiance(const SurfaceVertex& vertex, const EstimateSettings& settings,
-                                      const PhotonVisibility& visibility) const {
+                                      Scratch& scratch, const PhotonVisibility& visibility) const {
   const Vec3f& ng = vertex.point().ng;
-  return irradiance(vertex.position(), vertex.on_front() ? ng : -ng, settings, visibility);
+  return irradiance(vertex.position(), vertex.on_front() ? ng : -ng, settings, scratch, visibility);
 }
 
 DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
-                                    const EstimateSettings& settings,
+                                    const EstimateSettings& settings, Scratch& scratch,
                                     const PhotonVisibility& visibility) const {
   const Lobes asked = lobes & vertex.lobes();
   const Vec3f side = vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
   if (!any(asked)) return {};
   const bool is_opaque_matt = asked == Lobes::diffuse && !vertex.transmits();
   if (is_opaque_matt && !vertex.has_relief()) {
-    DensityEstimate estimate = irradiance(vertex.position(), side, settings, visibility);
+    DensityEstimate estimate = irradiance(vertex.position(), side, settings, scratch, visibility);
     estimate.value *= vertex.diffuse_value();
     return estimate;
   }
   DensityEstimate estimate;
   if (settings.neighbors <= 0 || empty()) return estimate;
-  Neighbors& neighbors = workspace();
+  const auto lists = scratch.borrow<Lists>();
+  const Neighbors& neighbors = lists->neighbors;
   const bool both_sides = vertex.transmits();
   const Disk disk = find_disk(vertex.position(), both_sides ? vertex.point().ng : side, both_sides,
-                              settings, neighbors);
+                              settings, *lists);
   estimate.found = int(disk.found);
   estimate.radius = std::sqrt(disk.radius_sq);
   if (disk.count == 0 || !std::isfinite(disk.radius_sq) || !(disk.radius_sq > 0)) return estimate;
   const KernelWeight weight(settings, disk.radius_sq);
   const Spectrum diffuse = is_opaque_matt ? vertex.diffuse_value() : Spectrum();
   Spectrum sum;
-  std::vector<Spectrum>& running_sums = empty_running_sums();
+  std::vector<Spectrum>& running_sums = lists->running_sums;
+  running_sums.clear();
   for (size_t i = 0; i < disk.count; ++i) {
     const uint32_t index = neighbors.index(i);
     const Photon& photon = tree().data(index);
@@ -193,7 +191,7 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
     sum += f * photon.flux.spectrum() * share;
     running_sums.push_back(sum);
   }
-  estimate.value = visible(running_sums, neighbors, side, visibility);
+  estimate.value = visible(*lists, side, visibility);
   return estimate;
 }
 

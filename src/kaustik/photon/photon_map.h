@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "kaustik/base/scratch.h"
 #include "kaustik/photon/coverage/surface_sight.h"
 #include "kaustik/photon/kd_tree/sided_tree.h"
 #include "kaustik/transport/vertex.h"
@@ -66,23 +67,24 @@ class PhotonMap {
   /// Irradiance on the side of `vertex` from which it is seen. Photons that arrived on the other
   /// side are rejected during the search.
   DensityEstimate irradiance(const SurfaceVertex& vertex, const EstimateSettings& settings,
-                             const PhotonVisibility& visibility = {}) const;
+                             Scratch& scratch, const PhotonVisibility& visibility = {}) const;
   /// The same at a bare point of a surface whose geometric normal on the lit side is `side`.
   DensityEstimate irradiance(const Vec3f& position, const Vec3f& side,
-                             const EstimateSettings& settings,
+                             const EstimateSettings& settings, Scratch& scratch,
                              const PhotonVisibility& visibility = {}) const;
   /// Radiance that the lobes of `vertex` send toward its wo; for purely diffuse lobes the same as
   /// f_d times the irradiance.
   DensityEstimate radiance(const SurfaceVertex& vertex, Lobes lobes,
-                           const EstimateSettings& settings,
+                           const EstimateSettings& settings, Scratch& scratch,
                            const PhotonVisibility& visibility = {}) const;
 
   /// Photons near a point, for importance sampling: calls visit(photon, position) for each of at
   /// most `count` that arrived on the side `side`.
   template <typename Visit>
   void visit_nearest(const Vec3f& position, const Vec3f& side, int count, float maximum_radius,
-                     const Visit& visit) const {
-    auto& neighbors = workspace();
+                     Scratch& scratch, const Visit& visit) const {
+    const auto borrowed = scratch.borrow<Neighbors>();
+    Neighbors& neighbors = *borrowed;
     tree_.nearest(position, side, false, count, maximum_radius, neighbors);
     for (size_t i = 0; i < neighbors.size(); ++i)
       visit(tree().data(neighbors.index(i)), tree().key(neighbors.index(i)));
@@ -95,17 +97,18 @@ class PhotonMap {
     float radius_sq = 0;
     size_t count = 0, found = 0;
   };
-  static Neighbors& workspace();
-  /// `both_sides` as for SidedTree::nearest().
+  /// What an estimate needs meanwhile.
+  struct Lists;
+  /// `both_sides` as for SidedTree::nearest(). Leaves the neighbours in `lists`.
   Disk find_disk(const Vec3f& position, const Vec3f& side, bool both_sides,
-                 const EstimateSettings& settings, Neighbors& neighbors) const;
-  /// What is left of what the first neighbours add; running sums, one for each of them. `normal`:
-  /// of the surface.
-  Spectrum visible(const std::vector<Spectrum>& running_sums, const Neighbors& neighbors,
-                   const Vec3f& normal, const PhotonVisibility& visibility) const;
+                 const EstimateSettings& settings, Lists& lists) const;
+  /// What is left of what the first neighbours add, of which there are running sums. `normal`: of
+  /// the surface.
+  Spectrum visible(const Lists& lists, const Vec3f& normal,
+                   const PhotonVisibility& visibility) const;
   /// How many of the first `count` neighbours there are until `paths` different paths are met;
   /// count + 1: there are fewer.
-  size_t count_until(const Neighbors& neighbors, size_t count, size_t paths) const;
+  size_t count_until(Lists& lists, size_t count, size_t paths) const;
 
   SidedTree<Photon> tree_;
   float mean_flux_ = 0;

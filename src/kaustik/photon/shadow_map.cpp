@@ -2,15 +2,10 @@
 
 namespace kaustik {
 
-std::vector<ShadowVisibility::Counts>& ShadowVisibility::workspace() {
-  static thread_local std::vector<Counts> counts;
-  return counts;
-}
-
 void ShadowVisibility::look() {
-  static thread_local SidedTree<ShadowPhoton>::Neighbors neighbors;
-  std::vector<Counts>& counts = workspace();
-  counts.clear();
+  const auto borrowed = scratch_.borrow<SidedTree<ShadowPhoton>::Neighbors>();
+  SidedTree<ShadowPhoton>::Neighbors& neighbors = *borrowed;
+  std::vector<Counts>& counts = *counts_.emplace(scratch_.list<Counts>());
   const Vec3f& ng = vertex_.point().ng;
   const bool both_sides = vertex_.transmits();
   const SidedTree<ShadowPhoton>& tree = map_->tree();
@@ -37,9 +32,8 @@ VisibilityEstimate sight_of(int lit, int shadowed, bool accurate) {
 
 VisibilityEstimate ShadowVisibility::of(int light) {
   if (!map_ || map_->empty()) return {};
-  if (!looked_) look();
-  looked_ = true;
-  for (const Counts& c : workspace())
+  if (!counts_) look();
+  for (const Counts& c : **counts_)
     if (c.light == light) return sight_of(c.lit, c.shadowed, level_ < settings_.accurate_levels);
   return {};
 }

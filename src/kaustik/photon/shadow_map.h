@@ -1,6 +1,8 @@
 #pragma once
+#include <optional>
 #include <vector>
 
+#include "kaustik/base/scratch.h"
 #include "kaustik/photon/kd_tree/sided_tree.h"
 #include "kaustik/transport/vertex.h"
 #include "kaustik/transport/visibility_estimator.h"
@@ -54,10 +56,10 @@ VisibilityEstimate sight_of(int lit, int shadowed, bool accurate);
 /// question. Biased as far as visibility varies within the search radius, and only so far.
 class ShadowVisibility final : public VisibilityEstimator {
  public:
-  /// `map` null: nothing is known. All must outlive this; one at a time per thread.
+  /// `map` null: nothing is known. All must outlive this.
   ShadowVisibility(const ShadowMap* map, const ShadowSettings& settings,
-                   const SurfaceVertex& vertex, int level)
-      : map_(map), settings_(settings), vertex_(vertex), level_(level) {}
+                   const SurfaceVertex& vertex, int level, Scratch& scratch)
+      : map_(map), settings_(settings), vertex_(vertex), level_(level), scratch_(scratch) {}
 
   /// Of a light without photons nearby nothing is known.
   VisibilityEstimate of(int light) override;
@@ -67,13 +69,13 @@ class ShadowVisibility final : public VisibilityEstimator {
     int light = -1, lit = 0, shadowed = 0;
   };
   void look();
-  static std::vector<Counts>& workspace();
 
   const ShadowMap* map_;
   const ShadowSettings& settings_;
   const SurfaceVertex& vertex_;
   int level_;
-  bool looked_ = false;
+  Scratch& scratch_;
+  std::optional<Scratch::List<Counts>> counts_;  ///< of lights with photons nearby; none: not asked
 };
 
 }  // namespace kaustik

@@ -7,8 +7,6 @@
 namespace kaustik {
 namespace {
 
-/// Of the sampler's fork for what is visible.
-
 using PhotonTree = KdTree<3, Vec3f, uint32_t>;
 
 /// Distance of the k-th nearest other photon, or of the farthest there is; zero for photons that
@@ -61,9 +59,9 @@ void VolumePhotonMap::order_photons(std::vector<VolumePhoton> photons, int neigh
 
 Spectrum VolumePhotonMap::radiance(const Ray& ray, float length, const Medium& medium,
                                    const Wavelengths& wavelengths, const Sampler& sampler,
-                                   uint64_t& rays) const {
+                                   const Work& work) const {
   Spectrum sum;
-  std::vector<VolumePart>& parts = empty_volume_parts();
+  const auto parts = work.scratch.list<VolumePart>();
   discs_.visit_met(ray, length, [&](size_t i, float along, float distance_sq) {
     const VolumePhoton& photon = photons_[i];
     if (photon.medium != &medium) return;
@@ -75,11 +73,11 @@ Spectrum VolumePhotonMap::radiance(const Ray& ray, float length, const Medium& m
         medium.transmittance({ray.origin, ray.direction, along}, wavelengths, sampler) *
         (kernel * phase);
     sum += light;
-    if (scene_) parts.push_back({i, ray.origin + ray.direction * along, light});
+    if (scene_) parts->push_back({i, ray.origin + ray.direction * along, light});
   });
   if (!scene_ || sum.is_zero()) return sum;
-  return visible_from_segment(*scene_, discs_, parts, sum,
-                              sampler.fork(Fork::volume_sight).next_1d(), rays);
+  return visible_from_segment(*scene_, discs_, *parts, sum,
+                              sampler.fork(Fork::volume_sight).next_1d(), work.rays);
 }
 
 }  // namespace kaustik

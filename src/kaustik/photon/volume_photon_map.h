@@ -39,7 +39,7 @@ class VolumePhotonMap final : public VolumeLight {
   /// flux here, which holds its σ_s/σ_t).
   Spectrum radiance(const Ray& ray, float length, const Medium& medium,
                     const Wavelengths& wavelengths, const Sampler& sampler,
-                    uint64_t& rays) const override;
+                    const Work& work) const override;
 
  private:
   void order_photons(std::vector<VolumePhoton> photons, int neighbors, float shrinkage);

@@ -5,12 +5,6 @@
 
 namespace kaustik {
 
-std::vector<VolumePart>& empty_volume_parts() {
-  static thread_local std::vector<VolumePart> parts;
-  parts.clear();
-  return parts;
-}
-
 Spectrum visible_from_segment(const Scene& scene, const DiscHierarchy& discs,
                               const std::vector<VolumePart>& parts, const Spectrum& sum, float u,
                               uint64_t& rays) {

@@ -13,9 +13,6 @@ struct VolumePart {
   Spectrum light;
 };
 
-/// For the parts of one segment; one list for each thread, empty.
-std::vector<VolumePart>& empty_volume_parts();
-
 /// Leaves of `sum`, the light of these parts, what nothing hides from the segment: by `u` in [0, 1)
 /// one disc's centre is drawn, which tells for all (LaneDraw). Counts rays.
 Spectrum visible_from_segment(const Scene& scene, const DiscHierarchy& discs,

@@ -72,33 +72,33 @@ EstimateSettings PhotonLight::at_level(const EstimateSettings& settings, float r
 DensityEstimate PhotonLight::estimate(const PhotonMap& map, const SurfaceVertex& vertex,
                                       Lobes lobes, const EstimateSettings& settings,
                                       const Sampler& numbers, const ClearDisk& clear,
-                                      uint64_t& rays) const {
+                                      const Work& work) const {
   if (map.empty()) return {};
-  if (!settings_.visibility) return map.radiance(vertex, lobes, settings);
-  const SurfaceSight sight(scene_, vertex.position(), vertex.point().shape, rays, clear);
-  return map.radiance(vertex, lobes, settings, {&sight, Sampler(numbers).next_1d()});
+  if (!settings_.visibility) return map.radiance(vertex, lobes, settings, work.scratch);
+  const SurfaceSight sight(scene_, vertex.position(), vertex.point().shape, work.rays, clear);
+  return map.radiance(vertex, lobes, settings, work.scratch, {&sight, Sampler(numbers).next_1d()});
 }
 
 DensityEstimate PhotonLight::caustic_estimate(const SurfaceVertex& vertex, Lobes lobes,
                                               int recursion, const Sampler& sampler,
-                                              const ClearDisk& clear, uint64_t& rays) const {
+                                              const ClearDisk& clear, const Work& work) const {
   return estimate(maps_.caustic, vertex, lobes,
                   at_level(settings_.caustic, radii_.caustic, recursion),
-                  sampler.fork(Fork::caustic_sight), clear, rays);
+                  sampler.fork(Fork::caustic_sight), clear, work);
 }
 
 Spectrum PhotonLight::seen_caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion,
                                    const Sampler& sampler, const SurfaceEdges* edges,
-                                   uint64_t& rays) const {
+                                   const Work& work) const {
   const ClearDisk clear = edges ? edges->clear_disk(vertex.position()) : ClearDisk();
-  const DensityEstimate found = caustic_estimate(vertex, lobes, recursion, sampler, clear, rays);
+  const DensityEstimate found = caustic_estimate(vertex, lobes, recursion, sampler, clear, work);
   if (!settings_.visibility || found.value.is_zero()) return found.value;
   const PhotonSurroundings around{scene_, vertex, keeping()};
   const bool likely_whole =
       edges && edges_tell_what_keeps_ && edges->is_whole(vertex.position(), found.radius);
   return found.value * inverse_covered_share(around, settings_.caustic, found.radius,
                                              likely_whole ? asked_where_whole : 1.0f,
-                                             sampler.fork(Fork::caustic_cover), rays);
+                                             sampler.fork(Fork::caustic_cover), work.rays);
 }
 
 Lobes PhotonLight::keeping() const {
@@ -106,42 +106,43 @@ Lobes PhotonLight::keeping() const {
 }
 
 Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int recursion,
-                             const Sampler& sampler, uint64_t& rays) const {
+                             const Sampler& sampler, const Work& work) const {
   return estimate(maps_.global, vertex, lobes, at_level(settings_.global, radii_.global, recursion),
-                  sampler.fork(Fork::global_sight), {}, rays)
+                  sampler.fork(Fork::global_sight), {}, work)
       .value;
 }
 
 Spectrum PhotonLight::gathered_global(const SurfaceVertex& vertex, Lobes lobes, int recursion,
-                                      const Sampler& sampler, uint64_t& rays) const {
+                                      const Sampler& sampler, const Work& work) const {
   const Vec3f& ng = vertex.point().ng;
-  const SurfaceSight sight(scene_, vertex.position(), vertex.point().shape, rays);
+  const SurfaceSight sight(scene_, vertex.position(), vertex.point().shape, work.rays);
   Spectrum irradiance;
   // Relief is left out: from a gather ray's distance its bent normals even out.
   if ((vertex.lobes() & lobes) != Lobes::diffuse || vertex.transmits() ||
       !precomputed_.lookup(vertex.position(), vertex.on_front() ? ng : -ng, irradiance,
-                           settings_.visibility ? &sight : nullptr))
-    return global(vertex, lobes, recursion, sampler, rays);
+                           work.scratch, settings_.visibility ? &sight : nullptr))
+    return global(vertex, lobes, recursion, sampler, work);
   return vertex.diffuse_value() * irradiance;
 }
 
 Spectrum PhotonLight::gathered_indirect(const SurfaceVertex& vertex, const Medium* medium,
                                         Lobes lobes, Sampler& sampler, const EyeLevel& at,
-                                        uint64_t& rays) const {
+                                        const Work& work) const {
   if (settings_.approximates(at) || !any(lobes & vertex.lobes() & Lobes::diffuse))
-    return gathered_global(vertex, lobes, at.recursion, sampler, rays);
+    return gathered_global(vertex, lobes, at.recursion, sampler, work);
   Spectrum light = diffuse_radiance(vertex, [&](const Vec3f& normal) {
-    return gather_irradiance(vertex, normal, vertex.medium_toward(normal, medium), sampler, at);
+    return gather_irradiance(vertex, normal, vertex.medium_toward(normal, medium), sampler, at,
+                             work.scratch);
   });
   if (any(lobes & vertex.lobes() & Lobes::glossy))
-    light += global(vertex, Lobes::glossy, at.recursion, sampler, rays);
+    light += global(vertex, Lobes::glossy, at.recursion, sampler, work);
   return light;
 }
 
 Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, const Medium* medium,
                                              Lobes lobes, int recursion, Sampler& sampler,
-                                             uint64_t& rays) const {
-  ShadowVisibility sight(shadows_, shadow_settings_, vertex, recursion);
+                                             const Work& work) const {
+  ShadowVisibility sight(shadows_, shadow_settings_, vertex, recursion, work.scratch);
   const auto reflect = [&](const DirectLight& light, ShadowAnswer& answer) {
     const Spectrum reflected = vertex.eval_cosine(light.wi, lobes) * light.radiance;
     if (reflected.is_zero()) return reflected;
@@ -149,7 +150,7 @@ Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, const 
     Spectrum visible(seen.known);
     if (seen.by_ray > 0)
       visible += trace_shadow_ray(scene_, light, vertex.medium_toward(light.wi, medium),
-                                  {vertex.wavelengths(), sampler}, rays, answer) *
+                                  {vertex.wavelengths(), sampler}, work.rays, answer) *
                  seen.by_ray;
     return reflected * visible;
   };
@@ -158,19 +159,19 @@ Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, const 
 }
 
 Spectrum PhotonLight::sent_by(const SurfaceVertex& vertex, const Medium* medium, Sampler& sampler,
-                              const EyeLevel& level, uint64_t& rays) const {
+                              const EyeLevel& level, const Work& work) const {
   const Lobes local = vertex.lobes() & settings_.local();
   if (!any(local)) return {};
   // One after the other: which numbers they draw must not be left to the compiler.
-  Spectrum sent = reflected_direct_light(vertex, medium, local, level.recursion, sampler, rays);
-  sent += caustic(vertex, local, level.recursion, sampler, rays);
-  sent += gathered_indirect(vertex, medium, local, sampler, level, rays);
+  Spectrum sent = reflected_direct_light(vertex, medium, local, level.recursion, sampler, work);
+  sent += caustic(vertex, local, level.recursion, sampler, work);
+  sent += gathered_indirect(vertex, medium, local, sampler, level, work);
   return sent;
 }
 
 RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const SurfacePoint& from,
                                                const Vec3f& direction, Sampler& sampler,
-                                               const EyeLevel& at) const {
+                                               const EyeLevel& at, Scratch& scratch) const {
   Incoming result;
   PathState state;
   state.wavelengths = wavelengths_;
@@ -180,11 +181,12 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
   SurfaceVertex vertex;
   float distance = 0;
   uint64_t rays = 0;
+  const Work work{rays, scratch};
   const auto go_on = [&](const Hit& hit, bool found) {
     if (state.medium) {
       result.radiance +=
           state.throughput *
-          coarse_volume_.radiance(ray, hit.t, *state.medium, state.wavelengths, sampler, rays);
+          coarse_volume_.radiance(ray, hit.t, *state.medium, state.wavelengths, sampler, work);
       state.throughput *= state.medium->transmittance({ray.origin, ray.direction, hit.t},
                                                       state.wavelengths, sampler);
     }
@@ -195,7 +197,7 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
     if (state.depth == 0) result.distance = distance;
     sampler.start_vertex(uint32_t(state.depth));
     const EyeLevel level{at.recursion + 1 + state.depth, at.gathers + 1};
-    result.radiance += state.throughput * sent_by(vertex, state.medium, sampler, level, rays);
+    result.radiance += state.throughput * sent_by(vertex, state.medium, sampler, level, work);
     const Lobes traced = vertex.lobes() & settings_.traced();
     if (!any(traced) || !settings_.traces_specular(level)) break;
     const Vec2f u = sampler.next_2d(), u_choice = sampler.next_2d();
@@ -216,7 +218,7 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
 }
 
 bool PhotonLight::importance(const SurfacePoint& at, const Frame& frame, const HemisphereGrid& grid,
-                             std::vector<float>& cell_importance) const {
+                             Scratch& scratch, std::vector<float>& cell_importance) const {
   if (maps_.global.empty() || settings_.global.neighbors <= 0) return false;
   cell_importance.assign(size_t(grid.count()), 0);
   std::vector<int>* counts = nullptr;
@@ -226,7 +228,7 @@ bool PhotonLight::importance(const SurfacePoint& at, const Frame& frame, const H
     counts = &count_storage;
   }
   const Vec3f side = dot(frame.z, at.ng) < 0 ? -at.ng : at.ng;
-  maps_.global.visit_nearest(at.position, side, settings_.importance_photons, infinity,
+  maps_.global.visit_nearest(at.position, side, settings_.importance_photons, infinity, scratch,
                              [&](const Photon& photon, const Vec3f& position) {
                                const Vec3f local =
                                    frame.to_local(photon.incident_direction(position, at.position));
@@ -242,8 +244,8 @@ bool PhotonLight::importance(const SurfacePoint& at, const Frame& frame, const H
 }
 
 Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, const Vec3f& n,
-                                        const Medium* medium, Sampler& sampler,
-                                        const EyeLevel& at) const {
+                                        const Medium* medium, Sampler& sampler, const EyeLevel& at,
+                                        Scratch& scratch) const {
   // A gather ray that gathers again sends one: more of them would multiply from level to level.
   const int samples =
       at.gathers > 0 ? 1 : settings_.count_at(settings_.diffuse_samples, at.recursion);
@@ -255,11 +257,11 @@ Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, const Vec3f
     grid.phi_cells = std::max(1, grid.phi_cells / 2);
   }
   const Frame frame(n);
-  // Kept for the next call on this thread; gather rays that gather again find none and make one.
-  static thread_local std::vector<float> spare_cells;
-  std::vector<float> cells = std::move(spare_cells);
+  // Gather rays that gather again have another one.
+  const auto list = scratch.list<float>();
+  std::vector<float>& cells = *list;
   double total = 0;
-  if (importance(vertex.point(), frame, grid, cells))
+  if (importance(vertex.point(), frame, grid, scratch, cells))
     for (const float cell : cells) total += cell;
   const float floor = total > 0 ? settings_.importance_floor : 1;
   Spectrum sum;
@@ -281,10 +283,9 @@ Spectrum PhotonLight::gather_irradiance(const SurfaceVertex& vertex, const Vec3f
     if (!(p > 0)) continue;
     const Vec3f direction = frame.to_world(grid.direction(cell, u));
     if (dot(direction, vertex.point().ng) * dot(n, vertex.point().ng) <= 0) continue;
-    sum += gathered(medium, vertex.point(), direction, branch, at).radiance *
+    sum += gathered(medium, vertex.point(), direction, branch, at, scratch).radiance *
            (pi / (p * float(samples)));
   }
-  spare_cells = std::move(cells);
   return sum;
 }
 

@@ -25,18 +25,18 @@ class PhotonLight final : public RadianceSource {
               const ShadowSettings& shadow_settings, const Pass& pass);
 
   /// Radiance by caustic photons [L G⁺ → x] that `lobes` send back at a recursion level.
-  /// `sampler` tells where it is drawn what is visible; its numbers are not used up. Counts rays.
+  /// `sampler` tells where it is drawn what is visible; its numbers are not used up.
   Spectrum caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion, const Sampler& sampler,
-                   uint64_t& rays) const {
-    return caustic_estimate(vertex, lobes, recursion, sampler, {}, rays).value;
+                   const Work& work) const {
+    return caustic_estimate(vertex, lobes, recursion, sampler, {}, work).value;
   }
   /// The same where the camera looks: as if the disk were whole where the surface ends within it.
   /// `edges`: of the surface there; null: nothing is known.
   Spectrum seen_caustic(const SurfaceVertex& vertex, Lobes lobes, int recursion,
-                        const Sampler& sampler, const SurfaceEdges* edges, uint64_t& rays) const;
+                        const Sampler& sampler, const SurfaceEdges* edges, const Work& work) const;
   /// The same by global photons: the approximate solution for diffuse indirect light.
   Spectrum global(const SurfaceVertex& vertex, Lobes lobes, int recursion, const Sampler& sampler,
-                  uint64_t& rays) const;
+                  const Work& work) const;
 
   /// Diffuse indirect light along a gather ray from a surface at level `at`: what the surface there
   /// sends back of direct, caustic and global light by lobes that are not traced; specular events
@@ -44,26 +44,27 @@ class PhotonLight final : public RadianceSource {
   /// in which the surface lies, and others on the way take their share, and what they scatter into
   /// the ray counts too.
   Incoming gathered(const Medium* medium, const SurfacePoint& from, const Vec3f& direction,
-                    Sampler& sampler, const EyeLevel& at) const;
+                    Sampler& sampler, const EyeLevel& at, Scratch& scratch) const;
   /// The same from what the camera itself sees.
   Incoming incoming(const SurfacePoint& from, const Vec3f& direction,
                     Sampler& sampler) const override {
-    return gathered(nullptr, from, direction, sampler, {});
+    Scratch scratch;
+    return gathered(nullptr, from, direction, sampler, {}, scratch);
   }
   Incoming incoming_through(const Medium* medium, const SurfacePoint& from, const Vec3f& direction,
-                            Sampler& sampler) const override {
-    return gathered(medium, from, direction, sampler, {});
+                            Sampler& sampler, Scratch& scratch) const override {
+    return gathered(medium, from, direction, sampler, {}, scratch);
   }
   /// Flux of the global photons near the point, by cell.
   bool importance(const SurfacePoint& at, const Frame& frame, const HemisphereGrid& grid,
-                  std::vector<float>& cell_importance) const override;
+                  Scratch& scratch, std::vector<float>& cell_importance) const override;
 
   /// Diffuse indirect irradiance at `vertex` by gather rays drawn in proportion to the photons'
   /// flux over a grid of the hemisphere (Jensen 1995, Schregle 1998 corrected: density p relative
   /// to the uniform grid, E ≈ mean of π L/p). `normal`: the shading normal on the side that is
   /// meant; `medium`: on that side.
   Spectrum gather_irradiance(const SurfaceVertex& vertex, const Vec3f& normal, const Medium* medium,
-                             Sampler& sampler, const EyeLevel& at) const;
+                             Sampler& sampler, const EyeLevel& at, Scratch& scratch) const;
 
   /// Light that media scatter, for the camera's rays.
   const VolumeLight& volume() const { return volume_; }
@@ -73,23 +74,23 @@ class PhotonLight final : public RadianceSource {
  private:
   DensityEstimate caustic_estimate(const SurfaceVertex& vertex, Lobes lobes, int recursion,
                                    const Sampler& sampler, const ClearDisk& clear,
-                                   uint64_t& rays) const;
+                                   const Work& work) const;
   EstimateSettings at_level(const EstimateSettings& settings, float radius, int recursion) const;
   /// What a gather ray finds at its end: all that is sent back by lobes that are not traced.
   Spectrum sent_by(const SurfaceVertex& vertex, const Medium* medium, Sampler& sampler,
-                   const EyeLevel& level, uint64_t& rays) const;
+                   const EyeLevel& level, const Work& work) const;
   /// Diffuse indirect light at the end of a gather ray: gathered once more, or from the map.
   Spectrum gathered_indirect(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
-                             Sampler& sampler, const EyeLevel& at, uint64_t& rays) const;
+                             Sampler& sampler, const EyeLevel& at, const Work& work) const;
   /// From the map: looked up where it was computed beforehand.
   Spectrum gathered_global(const SurfaceVertex& vertex, Lobes lobes, int recursion,
-                           const Sampler& sampler, uint64_t& rays) const;
+                           const Sampler& sampler, const Work& work) const;
   /// Radiance by the photons of a map.
   DensityEstimate estimate(const PhotonMap& map, const SurfaceVertex& vertex, Lobes lobes,
                            const EstimateSettings& settings, const Sampler& numbers,
-                           const ClearDisk& clear, uint64_t& rays) const;
+                           const ClearDisk& clear, const Work& work) const;
   Spectrum reflected_direct_light(const SurfaceVertex& vertex, const Medium* medium, Lobes lobes,
-                                  int recursion, Sampler& sampler, uint64_t& rays) const;
+                                  int recursion, Sampler& sampler, const Work& work) const;
   void make_volume_maps(uint32_t pass);
   /// Surfaces with any of these lobes keep photons.
   Lobes keeping() const;

@@ -288,7 +288,7 @@ bool PhotonMapIntegrator::reflect(const PassState& pass_state, CameraWalk& walk,
   const bool traces_glossy = settings_.specular_sampling == SpecularSampling::importance;
   const int lights = settings_.count_at(settings_.light_samples, walk.events());
   ShadowVisibility visibility(state.shadows.get(), state.shadow_settings, walk.vertex(),
-                              walk.events());
+                              walk.events(), walk.work().scratch);
   LightRules rules;
   rules.visibility = &visibility;
   walk.add_direct_light(0, traces_glossy ? float(rays) : 0.0f, {settings_.light_choice, lights},
@@ -320,7 +320,7 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
         state.seen_edges ? state.seen_edges->edges_at(walk.raster(), vertex) : nullptr;
     walk.add_photon_light(Component::caustic,
                           state.light->seen_caustic(vertex, local, walk.events(), walk.sampler(),
-                                                    edges, walk.rays()));
+                                                    edges, walk.work()));
   }
   if (settings_.global.neighbors <= 0 || !walk.wants_photon_light(Component::indirect)) return;
   const bool gathers = any(local & Lobes::diffuse) && !settings_.approximates(level_of(walk));
@@ -333,7 +333,7 @@ void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk)
   if (any(approximated))
     walk.add_photon_light(
         Component::indirect,
-        state.light->global(vertex, approximated, walk.events(), walk.sampler(), walk.rays()));
+        state.light->global(vertex, approximated, walk.events(), walk.sampler(), walk.work()));
 }
 
 Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk& walk,
@@ -349,7 +349,7 @@ Spectrum PhotonMapIntegrator::diffuse_irradiance(const State& state, CameraWalk&
   }
   const SurfaceVertex& vertex = walk.vertex();
   return state.light->gather_irradiance(vertex, normal, vertex.medium_toward(normal, walk.medium()),
-                                        walk.sampler(), level_of(walk));
+                                        walk.sampler(), level_of(walk), walk.work().scratch);
 }
 
 }  // namespace kaustik

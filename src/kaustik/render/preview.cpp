@@ -128,12 +128,13 @@ Image small_picture(const Scene& scene, const Squares& squares, uint64_t seed,
   PassTiles tiles(squares.count());
   parallel_blocks(tiles.tiles().count(), 1, [&](size_t tile, size_t, size_t) {
     const auto pixels = std::make_unique<PassTiles::Pixels>();
+    Scratch scratch;
     tiles.tiles().for_pixels_of(tile, [&](int x, int y, size_t place) {
       if (stop.stop_requested()) return;
       const uint64_t square = uint64_t(y) * uint64_t(squares.count().x) + uint64_t(x);
       Sampler sampler = Sampler::at(seed, 0, Stream::preview, square, 0);
       sampler.next_2d();  // for the place in the pixel
-      SampleSink sink(path->traits().components, pass.wavelengths);
+      SampleSink sink(path->traits().components, pass.wavelengths, &scratch);
       path->sample(*state, squares.middle(x, y), sampler, sink);
       add_sample(sink, (*pixels)[place]);
     });

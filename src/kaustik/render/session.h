@@ -145,7 +145,8 @@ class Session {
   /// The tile's samples of the round, until it is halted.
   void render_tile(CameraPass& camera, size_t tile, const Round& round);
   /// The same of a pixel, added to `sum`; returns rays.
-  uint64_t render_pixel(CameraPass& camera, int x, int y, uint32_t end, PassPixel& sum) const;
+  uint64_t render_pixel(CameraPass& camera, int x, int y, uint32_t end, Scratch& scratch,
+                        PassPixel& sum) const;
   /// Means over the samples from their sums, and the splats.
   PassPixel finished(const PassPixel& pixel, int x, int y) const;
   /// The same of all pixels of a tile, whose splats are forgotten then.

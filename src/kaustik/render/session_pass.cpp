@@ -219,6 +219,7 @@ bool Session::render_camera(const Pass& pass, const PassState& state, const std:
 void Session::render_tile(CameraPass& camera, size_t tile, const Round& round) {
   if (is_finished_[tile]) return;
   const auto pixels = std::make_unique<PassTiles::Pixels>();
+  Scratch scratch;
   uint64_t rays = 0, samples = 0;
   // A snapshot may want to see them.
   std::unique_lock lock(tile_mutexes_[tile]);
@@ -227,7 +228,7 @@ void Session::render_tile(CameraPass& camera, size_t tile, const Round& round) {
     if (camera.halted || x % round.stride != 0 || y % round.stride != 0) return;
     PassPixel& pixel = (*pixels)[place];
     const uint32_t before = pixel.samples;
-    rays += render_pixel(camera, x, y, round.end, pixel);
+    rays += render_pixel(camera, x, y, round.end, scratch, pixel);
     samples += pixel.samples - before;
   });
   // Of a first pass snapshots show the sums.
@@ -237,7 +238,7 @@ void Session::render_tile(CameraPass& camera, size_t tile, const Round& round) {
   camera.monitor.samples_done(samples, rays);
 }
 
-uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end,
+uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end, Scratch& scratch,
                                PassPixel& sum) const {
   // The address of a pixel is its place in the whole picture, so that a crop window shows the same
   // where nothing is learned from the picture.
@@ -261,7 +262,7 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end,
       Sampler sampler =
           Sampler::at(pass.seed, replicate, Stream::camera, address, samples.first_index + done);
       const Vec2f offset = film.filter.sample(sampler.next_2d());
-      SampleSink sink(integrator_.traits().components, pass.wavelengths);
+      SampleSink sink(integrator_.traits().components, pass.wavelengths, &scratch);
       integrator_.sample(camera.state, {float(x) + 0.5f + offset.x, float(y) + 0.5f + offset.y},
                          sampler, sink);
       rays += sink.rays();

@@ -125,7 +125,7 @@ bool CameraWalk::advance(const VolumeLight* volume, LightWeights* weights) {
            if (volume && state_.medium->scatters())
              sink_.add(in_medium,
                        state_.throughput * volume->radiance(ray_, length, *state_.medium,
-                                                            state_.wavelengths, sampler_, rays_));
+                                                            state_.wavelengths, sampler_, work()));
            state_.throughput *= state_.medium->transmittance({ray_.origin, ray_.direction, length},
                                                              state_.wavelengths, sampler_);
            return false;
@@ -139,7 +139,7 @@ CameraWalk::Arrival CameraWalk::fly(const VolumeLight* volume, LightWeights* wei
     if (volume && state_.medium->scatters())
       sink_.add(in_medium,
                 state_.throughput * volume->radiance(ray_, length, *state_.medium,
-                                                     state_.wavelengths, sampler_, rays_));
+                                                     state_.wavelengths, sampler_, work()));
     const Medium::Flight flight = state_.medium->sample_flight(
         {ray_.origin, ray_.direction, length}, state_.throughput, state_.wavelengths, sampler_);
     state_.throughput *= flight.weight;

@@ -125,6 +125,7 @@ class CameraWalk {
   const FirstHit& first_hit() const { return sink_.first_hit(); }
   void set_first_hit(const FirstHit& seen) { sink_.set_first_hit(seen); }
   uint64_t& rays() { return rays_; }
+  Work work() { return {rays_, sink_.scratch()}; }
 
   /// Whether anything that is wanted may be found further on.
   bool may_find_more() const { return class_.may_find(sink_.wanted()); }

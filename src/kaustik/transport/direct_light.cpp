@@ -33,20 +33,24 @@ bool sample_chosen_light(const Scene& scene, const Receiver& receiver,
   return true;
 }
 
-void share_light_samples(const Scene& scene, const Receiver& receiver, int samples,
-                         std::vector<int>& counts) {
-  static thread_local std::vector<float> irradiances;
-  const LightQuery query = receiver.query();
-  irradiances.clear();
-  double total = 0;
-  for (const auto& light : scene.lights()) {
-    irradiances.push_back(light->expected_irradiance(query));
-    total += double(irradiances.back());
+LightShares::LightShares(const Scene& scene, const Receiver& receiver, int samples)
+    : scene_(scene), query_(receiver.query()), samples_(samples) {
+  for (size_t i = 0; i < scene.lights().size(); ++i) {
+    const float value = scene.lights()[i]->expected_irradiance(query_);
+    if (i < first_irradiances_.size()) first_irradiances_[i] = value;
+    total_ += double(value);
   }
-  counts.assign(irradiances.size(), 0);
-  for (size_t i = 0; i < counts.size(); ++i)
-    if (irradiances[i] > 0)
-      counts[i] = to_integer(std::round(double(irradiances[i]) / total * samples), 1, samples);
+}
+
+float LightShares::irradiance(size_t light) const {
+  return light < first_irradiances_.size() ? first_irradiances_[light]
+                                           : scene_.lights()[light]->expected_irradiance(query_);
+}
+
+int LightShares::samples_of(size_t light) const {
+  const float of_light = irradiance(light);
+  if (!(of_light > 0)) return 0;
+  return to_integer(std::round(double(of_light) / total_ * samples_), 1, samples_);
 }
 
 namespace {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <utility>
-#include <vector>
 
 #include "kaustik/base/sampler.h"
 #include "kaustik/transport/vertex.h"
@@ -66,7 +65,7 @@ enum class LightChoice {
 /// How many samples of direct light a vertex takes.
 struct LightSampling {
   LightChoice choice = LightChoice::one;
-  /// With LightChoice::all shared among the lights, see share_light_samples. At least 1.
+  /// With LightChoice::all shared among the lights, see LightShares. At least 1.
   int samples = 1;
 };
 
@@ -95,8 +94,22 @@ bool sample_direct_light(const Scene& scene, const Receiver& receiver, Sampler& 
                          DirectLight& result);
 /// How many of `samples` each light gets with LightChoice::all: in proportion to the irradiance
 /// that it may bring, at least one, and none where no light can arrive.
-void share_light_samples(const Scene& scene, const Receiver& receiver, int samples,
-                         std::vector<int>& counts);
+class LightShares {
+ public:
+  /// All must outlive this.
+  LightShares(const Scene& scene, const Receiver& receiver, int samples);
+  int samples_of(size_t light) const;
+
+ private:
+  float irradiance(size_t light) const;
+
+  const Scene& scene_;
+  const LightQuery query_;
+  int samples_;
+  /// Of the first lights; the few scenes that have more ask them twice.
+  std::array<float, 32> first_irradiances_;
+  double total_ = 0;
+};
 
 /// What is left of light on the way from a light: shadow_ray_transmittance(), and its answer.
 inline Spectrum trace_shadow_ray(const Scene& scene, const DirectLight& light, const Medium* medium,
@@ -236,13 +249,13 @@ Value sample_direct_lights(const Scene& scene, const Receiver& receiver,
     }
     return sum;
   }
-  static thread_local std::vector<int> counts;
-  share_light_samples(scene, receiver, sampling.samples, counts);
-  for (size_t i = 0; i < counts.size(); ++i) {
+  const LightShares shares(scene, receiver, sampling.samples);
+  for (size_t i = 0; i < scene.lights().size(); ++i) {
+    const int count = shares.samples_of(i);
     const Sampler of_light = sampler.fork(Fork::light, uint32_t(i));
-    for (int k = 0; k < counts[i]; ++k) {
-      Sampler branch = counts[i] == 1 ? of_light : of_light.split(Split::light_sample, uint32_t(k));
-      add({int(i), 1.0f}, branch, counts[i]);
+    for (int k = 0; k < count; ++k) {
+      Sampler branch = count == 1 ? of_light : of_light.split(Split::light_sample, uint32_t(k));
+      add({int(i), 1.0f}, branch, count);
     }
   }
   return sum;

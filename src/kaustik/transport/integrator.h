@@ -6,6 +6,7 @@
 
 #include "kaustik/base/progress.h"
 #include "kaustik/base/sampler.h"
+#include "kaustik/base/scratch.h"
 #include "kaustik/scene/scene.h"
 #include "kaustik/transport/component.h"
 #include "kaustik/transport/splat_buffer.h"
@@ -43,9 +44,11 @@ struct FirstHit {
 /// Where one camera sample's results go.
 class SampleSink {
  public:
-  /// `wavelengths`: of the light that is asked for.
-  explicit SampleSink(ComponentSet wanted, const Wavelengths& wavelengths = {})
-      : wanted_(wanted), wavelengths_(wavelengths) {}
+  /// `wavelengths`: of the light that is asked for. `scratch`, which must outlive this: for all
+  /// that finds it. Who takes many samples has one for all of them; null: one of this sample.
+  explicit SampleSink(ComponentSet wanted, const Wavelengths& wavelengths = {},
+                      Scratch* scratch = nullptr)
+      : wanted_(wanted), wavelengths_(wavelengths), scratch_(scratch) {}
   void add(Component component, const Spectrum& radiance) {
     if (wanted_.has(component)) radiance_[size_t(component)] += radiance;
   }
@@ -63,6 +66,7 @@ class SampleSink {
   uint64_t rays() const { return rays_; }
   bool wants(Component component) const { return wanted_.has(component); }
   ComponentSet wanted() const { return wanted_; }
+  Scratch& scratch() { return scratch_ ? *scratch_ : own_scratch_; }
 
  private:
   ComponentSet wanted_;
@@ -71,6 +75,8 @@ class SampleSink {
   Spectrum bias_;
   FirstHit first_hit_;
   uint64_t rays_ = 0;
+  Scratch* scratch_;
+  Scratch own_scratch_;
 };
 
 /// Counters of a light pass, for progress and for the report.

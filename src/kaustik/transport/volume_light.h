@@ -2,6 +2,7 @@
 #include "kaustik/base/sampler.h"
 #include "kaustik/geometry/ray.h"
 #include "kaustik/medium/medium.h"
+#include "kaustik/transport/work.h"
 
 namespace kaustik {
 
@@ -11,10 +12,10 @@ class VolumeLight {
   virtual ~VolumeLight() = default;
   /// Radiance that `medium` scatters into the segment of `length` (may be infinite) along `ray`
   /// (unit direction) toward its origin, what is lost on the way there taken off, W/(sr·m²).
-  /// Numbers are forked off `sampler`, which stays as it is. Counts rays. Thread-safe.
+  /// Numbers are forked off `sampler`, which stays as it is. Thread-safe.
   virtual Spectrum radiance(const Ray& ray, float length, const Medium& medium,
                             const Wavelengths& wavelengths, const Sampler& sampler,
-                            uint64_t& rays) const = 0;
+                            const Work& work) const = 0;
 };
 
 }  // namespace kaustik

@@ -16,21 +16,6 @@ constexpr size_t least_in_part = 64;
 /// Chance with which the bias is estimated: it takes rays.
 constexpr float bias_chance = 0.25f;
 
-/// Lists that would else be made anew at every vertex; what is in them is of no use afterwards.
-struct Scratch {
-  std::vector<uint32_t> indices;
-  std::vector<MattMerging::Factors> factors;
-};
-Scratch& scratch() {
-  static thread_local Scratch of_thread;
-  return of_thread;
-}
-template <typename T>
-std::vector<T>& empty(std::vector<T>& list) {
-  list.clear();
-  return list;
-}
-
 }  // namespace
 
 void SurfaceMerging::merge() {
@@ -82,12 +67,6 @@ void SurfaceMerging::merge() {
   walk_.add_bias((total - narrow) * (1 / ((1 - narrow_radius) * bias_chance)));
 }
 
-std::vector<SurfaceMerging::MergedPart>& SurfaceMerging::empty_parts() {
-  static thread_local std::vector<MergedPart> parts;
-  parts.clear();
-  return parts;
-}
-
 bool SurfaceMerging::MergedLight::is_zero() const {
   return std::all_of(of.begin(), of.end(), [](const Spectrum& sum) { return sum.is_zero(); });
 }
@@ -126,8 +105,8 @@ void SurfaceMerging::leave_drawn(const Draws& draws, const IsReached& is_reached
 SurfaceMerging::MergedLight SurfaceMerging::reached_matt(const MergeDisk& disk,
                                                          const DiskWeights& weights,
                                                          const DiskCoverage& covered) const {
-  std::vector<MattMerging::Factors>& each = empty(scratch().factors);
-  MergedLight light = merged_matt(disk, weights, &each);
+  const auto each = scratch_.list<MattMerging::Factors>();
+  MergedLight light = merged_matt(disk, weights, &*each);
   if (light.is_zero()) return light;
   const SurfaceVertex& vertex = walk_.vertex();
   const Spectrum reflected = vertex.diffuse_value();
@@ -135,7 +114,7 @@ SurfaceMerging::MergedLight SurfaceMerging::reached_matt(const MergeDisk& disk,
   for (const auto kind : {MattMerging::other, MattMerging::after_specular}) {
     const bool specular = kind == MattMerging::after_specular;
     if (auto& draw = draws[size_t(walk_.component_of(Lobes::diffuse, specular))])
-      in_.matt.offer(each, kind, reflected, *draw);
+      in_.matt.offer(*each, kind, reflected, *draw);
   }
   leave_drawn(
       draws,
@@ -150,7 +129,8 @@ SurfaceMerging::MergedLight SurfaceMerging::reached_matt(const MergeDisk& disk,
 SurfaceMerging::MergedLight SurfaceMerging::reached(const MergeDisk& disk,
                                                     const DiskWeights& weights, Lobes lobes,
                                                     const DiskCoverage& covered) const {
-  std::vector<MergedPart>& each = empty_parts();
+  const auto list = scratch_.list<MergedPart>();
+  std::vector<MergedPart>& each = *list;
   MergedLight light = merged(disk, weights, lobes, &each);
   if (light.is_zero()) return light;
   Draws draws = draws_of(light);
@@ -223,7 +203,8 @@ void SurfaceMerging::visit_merging(const MergeDisk& disk, uint32_t most_parts,
   const Vec3f& ng = vertex.point().ng;
   const Vec3f side = both_sides || vertex.on_front() ? ng : -ng;
   const auto& tree = in_.light.tree.tree();
-  std::vector<uint32_t>& near = empty(scratch().indices);
+  const auto list = scratch_.list<uint32_t>();
+  std::vector<uint32_t>& near = *list;
   in_.light.tree.within(vertex.position(), side, both_sides, sqr(disk.radius()),
                         [&](uint32_t index, float) { near.push_back(index); });
   // Neighbours in the tree are neighbours in the disk: one in so many is spread over it.

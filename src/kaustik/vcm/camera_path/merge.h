@@ -16,7 +16,7 @@ class SurfaceMerging {
  public:
   /// `walk` is at a surface. All must outlive this.
   SurfaceMerging(const CameraPathInputs& inputs, const CameraVertices& vertices, CameraWalk& walk)
-      : in_(inputs), vertices_(vertices), walk_(walk) {}
+      : in_(inputs), vertices_(vertices), walk_(walk), scratch_(walk.work().scratch) {}
 
   /// Adds it, and an estimate of its bias.
   void merge();
@@ -51,7 +51,6 @@ class SurfaceMerging {
     DiskBounds bounds;
     DiskKernel wide, narrow;
   };
-  static std::vector<MergedPart>& empty_parts();
   /// Of a disk around the vertex.
   DiskBounds disk_bounds(float radius) const;
   DiskWeights disk_weights(const MergeDisk& disk, const DiskBounds& bounds) const;
@@ -80,6 +79,7 @@ class SurfaceMerging {
   const CameraPathInputs& in_;
   const CameraVertices& vertices_;
   CameraWalk& walk_;
+  Scratch& scratch_;
 };
 
 }  // namespace kaustik

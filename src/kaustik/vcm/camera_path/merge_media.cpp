@@ -38,20 +38,21 @@ float MediumMerging::merging_length() const {
 
 Spectrum MediumMerging::radiance(const Ray& ray, float length, const Medium& medium,
                                  const Wavelengths& wavelengths, const Sampler& sampler,
-                                 uint64_t& rays) const {
+                                 const Work& work) const {
   Spectrum sum;
   const float merging = std::min(length, merging_length());
   if (in_.light.in_media.empty() || !(merging > 0)) return sum;
   const PhaseFunction& phase_function = medium.phase();
   const Vec3f wo = -ray.direction;
   const auto count = float(in_.light.path_count);
-  std::vector<VolumePart>& parts = empty_volume_parts();
+  const auto parts = work.scratch.list<VolumePart>();
   // All vertices before have been left by an event.
   const auto events = int(vertices_.list().size());
-  std::vector<PathVertex> path = vertices_.list();
-  path.emplace_back();
+  const auto path = work.scratch.list<PathVertex>();
+  path->assign(vertices_.list().begin(), vertices_.list().end());
+  path->emplace_back();
   PathHalves halves = vertices_.halves();
-  halves.camera = path;
+  halves.camera = *path;
   in_.light.in_media.discs.visit_met(ray, merging, [&](size_t i, float along, float distance_sq) {
     const MergeableMediumVertex& light = in_.light.in_media.data[i];
     if (!light.medium->is_like(medium) || events + int(light.before) > in_.maximum_events) return;
@@ -59,19 +60,19 @@ Spectrum MediumMerging::radiance(const Ray& ray, float length, const Medium& med
     const float radius_sq = sqr(in_.light.in_media.discs.radius(i));
     const Vec3f wi = light.direction.unpack();
     const float phase = phase_function.eval(wo, wi);
-    path.back() = vertices_.next_in_medium(position, medium);
+    path->back() = vertices_.next_in_medium(position, medium);
     const float weight = merge_weight(in_, halves, light, phase, phase_function.eval(wi, wo));
     const float kernel = 2 * inv_pi * (1 - distance_sq / radius_sq) / radius_sq;
-    parts.push_back(
+    parts->push_back(
         {i, position,
          light.flux.spectrum() *
              medium.transmittance({ray.origin, ray.direction, along}, wavelengths, sampler) *
              (kernel * phase * weight / count)});
-    sum += parts.back().light;
+    sum += parts->back().light;
   });
   if (!in_.visibility || sum.is_zero()) return sum;
-  return visible_from_segment(in_.scene, in_.light.in_media.discs, parts, sum,
-                              sampler.fork(Fork::medium_merge_sight).next_1d(), rays);
+  return visible_from_segment(in_.scene, in_.light.in_media.discs, *parts, sum,
+                              sampler.fork(Fork::medium_merge_sight).next_1d(), work.rays);
 }
 
 }  // namespace kaustik

@@ -13,7 +13,7 @@ class MediumMerging final : public VolumeLight {
 
   Spectrum radiance(const Ray& ray, float length, const Medium& medium,
                     const Wavelengths& wavelengths, const Sampler& sampler,
-                    uint64_t& rays) const override;
+                    const Work& work) const override;
 
  private:
   /// How far from the last vertex segments merge, m.

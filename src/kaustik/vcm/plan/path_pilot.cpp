@@ -170,14 +170,15 @@ double variance_of(double sum, double squares, double count) {
 }
 
 ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& probe, PixelPlan plan,
-                              size_t index, uint32_t paths, const PilotLimits& limits) {
+                              size_t index, uint32_t paths, const PilotLimits& limits,
+                              Scratch& scratch) {
   ProbeStatistics result;
   plan.survival = plan.evenness = 1;
   const double count = paths;
   double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
   for (uint32_t i = 0; i < paths; ++i) {
     Sampler sampler = Sampler::at(0, 0, Stream::pilot_path, index, i);
-    SampleSink sink(limits.components);
+    SampleSink sink(limits.components, {}, &scratch);
     CameraPath path(in, plan, probe.raster, sampler, sink);
     CameraWalk& walk = path.walk();
     Recorder recorder(path, sink, paths, result);
@@ -236,9 +237,11 @@ std::vector<ProbeStatistics> probe_statistics(const CameraPathInputs& inputs,
   const BlockGrid cells(grid.window(), grid.block_size() * density.stride);
   std::vector<ProbeStatistics> single(cells.size());
   parallel_blocks(single.size(), 16, [&](size_t begin, size_t end, size_t) {
+    Scratch scratch;
     for (size_t cell = begin; cell < end && !stop.stop_requested(); ++cell) {
       const size_t i = grid.index_of(middle_block(grid, cells.block(cell), density.stride));
-      single[cell] = statistics_at(inputs, probes[i], plans.plans()[i], i, density.paths, limits);
+      single[cell] =
+          statistics_at(inputs, probes[i], plans.plans()[i], i, density.paths, limits, scratch);
     }
   });
   double counted = 0;
