@@ -60,7 +60,7 @@ std::unique_ptr<PassState> SurfaceModels::prepare(const Pass& pass, SplatBuffer&
 void SurfaceModels::sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
                            SampleSink& sink) const {
   CameraWalk walk(scene_, raster, sampler, sink, models_[0]->traced());
-  Tracer(*this, static_cast<const State&>(state), 0).follow(walk);
+  Tracer(*this, state_as<State>(state), 0).follow(walk);
 }
 
 }  // namespace kaustik

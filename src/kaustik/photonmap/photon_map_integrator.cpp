@@ -278,12 +278,12 @@ int PhotonMapIntegrator::specular_rays(const CameraWalk& walk) const {
 }
 
 bool PhotonMapIntegrator::advance(const PassState& state, CameraWalk& walk) const {
-  return walk.advance(&static_cast<const State&>(state).light->volume());
+  return walk.advance(&state_as<State>(state).light->volume());
 }
 
 bool PhotonMapIntegrator::reflect(const PassState& pass_state, CameraWalk& walk,
                                   const RadianceTracer& tracer) const {
-  const auto& state = static_cast<const State&>(pass_state);
+  const auto& state = state_as<State>(pass_state);
   const int rays = specular_rays(walk);
   const bool traces_glossy = settings_.specular_sampling == SpecularSampling::importance;
   const int lights = settings_.count_at(settings_.light_samples, walk.events());

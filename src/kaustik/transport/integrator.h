@@ -1,4 +1,5 @@
 #pragma once
+#include <cassert>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -93,6 +94,13 @@ class PassState {
   virtual ~PassState() = default;
   PassReport report;
 };
+
+/// The state of a pass as the integrator has made it that is asked for a sample.
+template <typename State>
+const State& state_as(const PassState& state) {
+  assert(dynamic_cast<const State*>(&state) && "the state is of another integrator");
+  return static_cast<const State&>(state);
+}
 
 /// What is the same for an integrator in every pass.
 struct IntegratorTraits {

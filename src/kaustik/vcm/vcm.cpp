@@ -43,7 +43,7 @@ std::unique_ptr<PassState> VcmIntegrator::prepare(const Pass& pass, SplatBuffer&
 
 PixelSamples VcmIntegrator::pixel_samples(const PassState& state, const Pass& pass,
                                           const Vec2i& pixel) const {
-  const VcmPlans& plans = static_cast<const State&>(state).pass.plans();
+  const VcmPlans& plans = state_as<State>(state).pass.plans();
   const SampleSpread* spread = plans.pixels.spread().get();
   // Fixed plans may be of passes with another number of samples.
   if (!spread || plans.samples_per_pixel != pass.samples_per_pixel)
@@ -56,7 +56,7 @@ PixelSamples VcmIntegrator::pixel_samples(const PassState& state, const Pass& pa
 
 void VcmIntegrator::sample(const PassState& state, const Vec2f& raster, Sampler& sampler,
                            SampleSink& sink) const {
-  static_cast<const State&>(state).pass.sample(raster, sampler, sink);
+  state_as<State>(state).pass.sample(raster, sampler, sink);
 }
 
 }  // namespace kaustik
