@@ -61,6 +61,41 @@ TEST(LightShares, AreThoseOfManyLights) {
   }
 }
 
+/// What is known arrives without a ray; of the rest a ray tells.
+TEST(DirectLight, ArrivesAsFarAsItIsKnownOrSeen) {
+  class Known final : public VisibilityEstimator {
+   public:
+    explicit Known(const VisibilityEstimate& answer) : answer_(answer) {}
+    VisibilityEstimate of(int) override { return answer_; }
+
+   private:
+    VisibilityEstimate answer_;
+  };
+  const auto share = [](bool hidden, VisibilityEstimator* sight, uint64_t& rays) {
+    const std::string wall =
+        R"(<shape type="disk"><transform name="to_world"><translate z="0.5"/></transform></shape>)";
+    const auto scene = scene_of(
+        "<shape type=\"rectangle\"/><emitter type=\"point\"><point name=\"position\" x=\"0\" "
+        "y=\"0\" z=\"1\"/></emitter>" +
+        (hidden ? wall : ""));
+    const Receiver receiver(vertex_at(*scene, {0, 0, 0}));
+    Sampler sampler(1, 0);
+    DirectLight light;
+    EXPECT_TRUE(sample_direct_light(*scene, receiver, sampler, light));
+    ShadowAnswer answer{};
+    return arriving_share(*scene, light, sight, nullptr, {{}, sampler}, rays, answer)[0];
+  };
+  uint64_t rays = 0;
+  Known lit({1, 0}), mixed({0.25f, 0.5f});
+  EXPECT_EQ(share(true, &lit, rays), 1);
+  EXPECT_EQ(rays, 0u);
+  EXPECT_EQ(share(true, &mixed, rays), 0.25f);
+  EXPECT_EQ(share(false, &mixed, rays), 0.75f);
+  EXPECT_EQ(share(true, nullptr, rays), 0);
+  EXPECT_EQ(share(false, nullptr, rays), 1);
+  EXPECT_EQ(rays, 4u);
+}
+
 /// The deeper the level the noisier, and the mean stays.
 TEST(RecursionLevel, MakesLightsCoarserAndKeepsTheirMean) {
   const auto scene = FloorUnderAStrip().scene();

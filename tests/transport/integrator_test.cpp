@@ -5,6 +5,16 @@
 namespace kaustik {
 namespace {
 
+TEST(SampleSink, SumsAllLightThatIsFinite) {
+  SampleSink sink(ComponentSet::all());
+  EXPECT_EQ(sink.all_light(), 0);
+  sink.add(Component::direct, Spectrum(1, 2, 3, 0));
+  sink.add(Component::caustic, Spectrum(0.5f, 0, 0, 0));
+  EXPECT_EQ(sink.all_light(), 6.5);
+  sink.add(Component::indirect, Spectrum(1, infinity, 1, 0));
+  EXPECT_EQ(sink.all_light(), 6.5);
+}
+
 TEST(SampleSink, HasScratchOfItsOwnOrItsCallers) {
   Scratch scratch;
   SampleSink one(ComponentSet::all(), {}, &scratch), other(ComponentSet::all(), {}, &scratch);

@@ -146,13 +146,8 @@ Spectrum PhotonLight::reflected_direct_light(const SurfaceVertex& vertex, const 
   const auto reflect = [&](const DirectLight& light, ShadowAnswer& answer) {
     const Spectrum reflected = vertex.eval_cosine(light.wi, lobes) * light.radiance;
     if (reflected.is_zero()) return reflected;
-    const VisibilityEstimate seen = sight.of(light.light);
-    Spectrum visible(seen.known);
-    if (seen.by_ray > 0)
-      visible += trace_shadow_ray(scene_, light, vertex.medium_toward(light.wi, medium),
-                                  {vertex.wavelengths(), sampler}, work.rays, answer) *
-                 seen.by_ray;
-    return reflected * visible;
+    return reflected * arriving_share(scene_, light, &sight, vertex.medium_toward(light.wi, medium),
+                                      {vertex.wavelengths(), sampler}, work.rays, answer);
   };
   return sample_direct_lights<Spectrum>(scene_, Receiver(vertex, recursion),
                                         {settings_.light_choice, 1}, sampler, reflect);
@@ -206,10 +201,8 @@ RadianceSource::Incoming PhotonLight::gathered(const Medium* medium, const Surfa
     state.throughput *= sample.weight;
     state.roulette_scale *= sqr(sample.eta);
     if (state.depth >= gather_roulette_depth) {
-      const float survival = std::min(1.0f, state.throughput.max_lane() * state.roulette_scale) *
-                             length_survival(state.depth);
-      if (!(u_choice.y < survival)) break;
-      state.throughput *= 1 / survival;
+      const float share = state.throughput.max_lane() * state.roulette_scale;
+      if (!survive_roulette(state, share, u_choice.y)) break;
     }
     leave(vertex, sample, sample.pdf_solid_angle, state, ray);
   }

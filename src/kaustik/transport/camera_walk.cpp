@@ -197,16 +197,11 @@ void CameraWalk::add_direct_light(float diffuse_probability, float glossy_probab
       result.by_glossy =
           reflected(vertex_, light, Lobes::glossy, glossy_probability, rules.weights);
     if (result.by_diffuse.is_zero() && result.by_glossy.is_zero()) return result;
-    VisibilityEstimate seen;
-    if (!rules.shadows)
-      seen = {1, 0};
-    else if (rules.visibility)
-      seen = rules.visibility->of(light.light);
-    Spectrum factor(seen.known);
-    if (seen.by_ray > 0)
-      factor += trace_shadow_ray(scene_, light, vertex_.medium_toward(light.wi, state_.medium),
-                                 {state_.wavelengths, sampler_}, rays_, answer) *
-                seen.by_ray;
+    Spectrum factor(1);
+    if (rules.shadows)
+      factor = arriving_share(scene_, light, rules.visibility,
+                              vertex_.medium_toward(light.wi, state_.medium),
+                              {state_.wavelengths, sampler_}, rays_, answer);
     if (rules.classical_attenuation)
       factor *=
           scene_.lights()[size_t(light.light)]->traits().attenuation.factor(vertex_.position());
@@ -298,12 +293,8 @@ void CameraWalk::go_on(const BsdfSample& sample, float probability) {
 bool CameraWalk::survive(float u) {
   // By the square root of the throughput: longer paths for less variance, by a tenth at equal time
   // in a room of bright walls.
-  const float survival =
-      std::min(1.0f, std::sqrt(state_.throughput.max_lane() * state_.roulette_scale)) *
-      length_survival(state_.depth);
-  if (!(u < survival)) return false;
-  state_.throughput *= 1 / survival;
-  return true;
+  const float share = std::sqrt(state_.throughput.max_lane() * state_.roulette_scale);
+  return survive_roulette(state_, share, u);
 }
 
 }  // namespace kaustik

@@ -6,6 +6,7 @@
 #include "kaustik/base/sampler.h"
 #include "kaustik/transport/vertex.h"
 #include "kaustik/transport/visibility.h"
+#include "kaustik/transport/visibility_estimator.h"
 
 namespace kaustik {
 
@@ -117,6 +118,18 @@ inline Spectrum trace_shadow_ray(const Scene& scene, const DirectLight& light, c
   const Spectrum left = shadow_ray_transmittance(scene, light.shadow_ray, medium, of, rays);
   answer = left.is_zero() ? ShadowAnswer::dark : ShadowAnswer::lit;
   return left;
+}
+
+/// What arrives of light on the way from a light, as far as `sight` knows; of the rest a shadow ray
+/// tells. Null: it tells of all.
+inline Spectrum arriving_share(const Scene& scene, const DirectLight& light,
+                               VisibilityEstimator* sight, const Medium* medium,
+                               const LightOnItsWay& of, uint64_t& rays, ShadowAnswer& answer) {
+  const VisibilityEstimate seen = sight ? sight->of(light.light) : VisibilityEstimate();
+  Spectrum share(seen.known);
+  if (seen.by_ray > 0)
+    share += trace_shadow_ray(scene, light, medium, of, rays, answer) * seen.by_ray;
+  return share;
 }
 
 /// The estimate of what the lights bring: the mean over the samples of what

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kaustik/base/lane_sum.h"
 #include "kaustik/base/progress.h"
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/scratch.h"
@@ -62,6 +63,13 @@ class SampleSink {
 
   const Wavelengths& wavelengths() const { return wavelengths_; }
   const Spectrum& radiance(Component component) const { return radiance_[size_t(component)]; }
+  /// All components that are finite, as lane_sum() adds up their lanes.
+  double all_light() const {
+    double sum = 0;
+    for (const Spectrum& radiance : radiance_)
+      if (radiance.is_finite()) sum += double(lane_sum(radiance, wavelengths_));
+    return sum;
+  }
   const Spectrum& bias() const { return bias_; }
   const FirstHit& first_hit() const { return first_hit_; }
   uint64_t rays() const { return rays_; }

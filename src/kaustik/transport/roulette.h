@@ -1,4 +1,7 @@
 #pragma once
+#include <algorithm>
+
+#include "kaustik/transport/path_state.h"
 
 namespace kaustik {
 
@@ -15,6 +18,15 @@ inline float length_survival(int events) {
   if (events < certain_events) return 1;
   const float share = float(events) / float(events + 1);
   return share * share;
+}
+
+/// Roulette of paths from the camera, `u` in [0, 1): one goes on with the chance `share`, or 1 if
+/// that is more, and length_survival(). False if it ends; else it counts for those that do.
+inline bool survive_roulette(PathState& state, float share, float u) {
+  const float survival = std::min(1.0f, share) * length_survival(state.depth);
+  if (!(u < survival)) return false;
+  state.throughput *= 1 / survival;
+  return true;
 }
 
 }  // namespace kaustik

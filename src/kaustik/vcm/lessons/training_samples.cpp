@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "kaustik/base/lane_sum.h"
 #include "kaustik/base/parallel.h"
 #include "kaustik/transport/block_means.h"
 
@@ -12,13 +11,6 @@ namespace {
 
 /// Noise counts relative to the light around, and this share of the picture's mean light.
 constexpr double even_share_of_mean = 0.1;
-
-double all_light(const SampleSink& sink) {
-  Spectrum sum;
-  for (int c = 0; c < component_count; ++c)
-    if (sink.radiance(Component(c)).is_finite()) sum += sink.radiance(Component(c));
-  return double(lane_sum(sum, sink.wavelengths()));
-}
 
 }  // namespace
 
@@ -40,7 +32,7 @@ TrainingPair training_pair(const TrainingInputs& in, const TrainingPlace& place)
     const Vec2f offset = in.filter.sample(sampler.next_2d());
     SampleSink sink(in.components, in.pass.wavelengths);
     in.take({float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y}, sampler, sink);
-    light[i] = all_light(sink);
+    light[i] = sink.all_light();
     result.rays[i] = sink.rays();
   }
   result.variance = 0.5 * sqr(light[0] - light[1]);

@@ -30,12 +30,6 @@ int bin_of(double ratio) {
                     ProbeStatistics::bin_count - 1);
 }
 
-double light_of_pilot(const SampleSink& sink) {
-  double sum = 0;
-  for (int c = 0; c < component_count; ++c) sum += double(sink.radiance(Component(c)).sum());
-  return sum;
-}
-
 /// Weighs light as path tracing does, and notes of each contribution what its weight would be
 /// beside merging: from both follows how much more merging would find it.
 class Recorder final : public LightWeights {
@@ -59,7 +53,7 @@ class Recorder final : public LightWeights {
   }
   /// What has been found since the last look belongs to the last weight.
   void note() {
-    const double now = light_of_pilot(sink_), light = now - seen_;
+    const double now = sink_.all_light(), light = now - seen_;
     seen_ = now;
     if (light == 0) return;
     if (!goes_on_) {
