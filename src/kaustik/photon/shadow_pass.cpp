@@ -6,6 +6,7 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/sampler.h"
+#include "kaustik/scene/look_through.h"
 
 namespace kaustik {
 namespace {
@@ -42,18 +43,23 @@ void store(const SurfacePoint& point, const Vec3f& direction, bool shadowed, Blo
 }
 
 /// Through all surfaces until the ray leaves the scene.
-void follow(const Scene& scene, Ray ray, const std::stop_token& stop, Block& block) {
-  Hit hit;
-  for (int surfaces = 0; surfaces < most_surfaces; ++surfaces) {
-    if (stop.stop_requested()) return;
-    ++block.rays;
-    if (!scene.intersect(ray, hit)) return;
-    const SurfacePoint point = scene.tracer().surface_point(ray, hit);
-    if (any(scene.surface(point.shape).traits.lobes & (Lobes::diffuse | Lobes::glossy)))
-      store(point, ray.direction, surfaces > 0, block);
-    ray = spawn_ray(point, ray.direction);
-  }
-  ++block.cut;
+void follow(const Scene& scene, const Ray& ray, const std::stop_token& stop, Block& block) {
+  bool is_shadowed = false;
+  const Look look = look_through(
+      scene, ray, most_surfaces,
+      [&](const Ray& next, Hit& hit) {
+        if (stop.stop_requested()) return false;
+        ++block.rays;
+        return scene.intersect(next, hit);
+      },
+      [&](const SurfacePoint& point, const Hit&, const Ray& segment) {
+        if (any(scene.surface(point.shape).traits.lobes & (Lobes::diffuse | Lobes::glossy)))
+          store(point, segment.direction, is_shadowed, block);
+        is_shadowed = true;
+        return false;
+      },
+      straight_on);
+  if (look == Look::too_deep) ++block.cut;
 }
 
 void trace(const Scene& scene, const EmissionSampler& emission, uint64_t seed, uint32_t pass,

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "kaustik/integrator/registry.h"
+#include "kaustik/scene/look_through.h"
 
 namespace kaustik {
 namespace {
@@ -27,37 +28,38 @@ bool is_clear(const Surface& surface) {
 }
 
 /// The first surface along a ray of the camera that scatters light by more than delta lobes.
-std::optional<SurfacePoint> seen_point(const Scene& scene, Ray ray) {
-  Hit hit;
-  for (int i = 0; i < longest_probe && scene.tracer().intersect(ray, hit); ++i) {
-    const SurfacePoint point = scene.tracer().surface_point(ray, hit);
+std::optional<SurfacePoint> seen_point(const Scene& scene, const Ray& ray) {
+  std::optional<SurfacePoint> seen;
+  probe_through(scene, ray, longest_probe, [&](const SurfacePoint& point, const Hit&, const Ray&) {
     const Surface& surface = scene.surface(point.shape);
-    if (any(surface.traits.lobes & (Lobes::diffuse | Lobes::glossy))) return point;
-    if (!surface.traits.transmits) return std::nullopt;
-    ray = spawn_ray(point, ray.direction);
-  }
-  return std::nullopt;
+    if (any(surface.traits.lobes & (Lobes::diffuse | Lobes::glossy))) seen = point;
+    return seen || !surface.traits.transmits;
+  });
+  return seen;
 }
 
 /// The surface, clear, that hides the lamp from the point; null if none does, or something opaque.
 const Surface* clear_surface_before(const Scene& scene, const SurfacePoint& point,
                                     const LightSample& sample) {
   const Surface* clear = nullptr;
-  Hit hit;
-  SurfacePoint from = point;
-  for (int i = 0; i < longest_probe; ++i) {
-    const Ray ray = std::isfinite(sample.distance)
-                        ? spawn_ray_to(from, point.position + sample.direction * sample.distance)
-                        : spawn_ray(from, sample.direction);
-    if (!scene.tracer().intersect(ray, hit)) return clear;
-    from = scene.tracer().surface_point(ray, hit);
-    const Surface& surface = scene.surface(from.shape);
-    if (is_clear(surface))
-      clear = &surface;
-    else if (!surface.traits.is_null)
-      return nullptr;
-  }
-  return nullptr;
+  const auto toward_lamp = [&](const SurfacePoint& from) {
+    return std::isfinite(sample.distance)
+               ? spawn_ray_to(from, point.position + sample.direction * sample.distance)
+               : spawn_ray(from, sample.direction);
+  };
+  const Look look = look_through(
+      scene, toward_lamp(point), longest_probe,
+      [&](const Ray& ray, Hit& hit) { return scene.tracer().intersect(ray, hit); },
+      [&](const SurfacePoint& met, const Hit&, const Ray&) {
+        const Surface& surface = scene.surface(met.shape);
+        if (is_clear(surface)) clear = &surface;
+        return !is_clear(surface) && !surface.traits.is_null;
+      },
+      [&](const SurfacePoint& passed, const Hit&, Ray& ray) {
+        ray = toward_lamp(passed);
+        return true;
+      });
+  return look == Look::free ? clear : nullptr;
 }
 
 /// What hides any of these lamps from the point.

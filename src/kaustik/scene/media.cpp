@@ -5,6 +5,7 @@
 #include <map>
 
 #include "kaustik/base/warp.h"
+#include "kaustik/scene/look_through.h"
 
 namespace kaustik {
 namespace {
@@ -16,15 +17,14 @@ constexpr int longest_probe = 256;
 /// every boundary of media (outside: the ray comes from the side of the normal) until that answers
 /// false.
 template <typename Visit>
-void probe(const Scene& scene, Ray ray, const Visit& visit) {
-  Hit hit;
-  for (int i = 0; i < longest_probe && scene.tracer().intersect(ray, hit); ++i) {
-    const SurfacePoint point = scene.tracer().surface_point(ray, hit);
-    const Surface& surface = scene.surface(point.shape);
-    if (surface.separates_media() && !visit(surface, dot(point.ng, ray.direction) < 0)) return;
-    if (!surface.traits.transmits) return;
-    ray = spawn_ray(point, ray.direction);
-  }
+void probe(const Scene& scene, const Ray& ray, const Visit& visit) {
+  probe_through(
+      scene, ray, longest_probe, [&](const SurfacePoint& point, const Hit&, const Ray& segment) {
+        const Surface& surface = scene.surface(point.shape);
+        const bool goes_on =
+            !surface.separates_media() || visit(surface, dot(point.ng, segment.direction) < 0);
+        return !goes_on || !surface.traits.transmits;
+      });
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "kaustik/scene/look_through.h"
+
 namespace kaustik {
 namespace {
 
@@ -36,29 +38,29 @@ bool is_black_from_behind(const Surface& surface) {
 
 View look_around(const Scene& scene) {
   constexpr int grid = 16;
+  // Where boundaries meet, rounding may never let a ray leave them.
+  constexpr int most_boundaries = 1000;
   View view;
   const Vec2i size = scene.film().crop_size;
   for (int y = 0; y < grid; ++y)
     for (int x = 0; x < grid; ++x) {
       const Vec2f raster((float(x) + 0.5f) / grid * float(size.x),
                          (float(y) + 0.5f) / grid * float(size.y));
-      Ray ray = scene.camera().sample_ray(raster, Camera::middle_of_lens());
-      Hit hit;
       ++view.rays;
-      bool found = scene.intersect(ray, hit);
-      while (found && scene.surface(hit.shape).traits.is_null) {
-        ray = spawn_ray(scene.tracer().surface_point(ray, hit), ray.direction);
-        found = scene.intersect(ray, hit);
-      }
-      if (!found) continue;
-      ++view.hits;
-      const SurfacePoint point = scene.tracer().surface_point(ray, hit);
-      if (dot(point.ng, ray.direction) > 0 && is_black_from_behind(scene.surface(point.shape)))
-        ++view.black_backs;
-      if (hit.t < view.nearest) {
-        view.nearest = hit.t;
-        view.nearest_shape = point.shape;
-      }
+      probe_through(scene, scene.camera().sample_ray(raster, Camera::middle_of_lens()),
+                    most_boundaries,
+                    [&](const SurfacePoint& point, const Hit& hit, const Ray& ray) {
+                      const Surface& surface = scene.surface(point.shape);
+                      if (surface.traits.is_null) return false;
+                      ++view.hits;
+                      if (dot(point.ng, ray.direction) > 0 && is_black_from_behind(surface))
+                        ++view.black_backs;
+                      if (hit.t < view.nearest) {
+                        view.nearest = hit.t;
+                        view.nearest_shape = point.shape;
+                      }
+                      return true;
+                    });
     }
   return view;
 }
