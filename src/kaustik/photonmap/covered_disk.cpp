@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "kaustik/photon/coverage/covered_share.h"
 #include "kaustik/photon/coverage/look_through.h"
 
 namespace kaustik {
@@ -36,8 +37,7 @@ float inverse_covered_share(const PhotonSurroundings& around, const EstimateSett
   const SurfaceVertex& vertex = around.vertex;
   const Frame frame(vertex.on_front() ? vertex.point().ng : -vertex.point().ng);
   const Vec3f over = spawn_ray(vertex.point(), frame.z).origin + frame.z * (height_share * radius);
-  int tries = 1;
-  for (; tries < most_covering_tries; ++tries) {
+  const int tries = tries_until_held(most_covering_tries, most_covering_tries, [&] {
     const Vec2f u = numbers.next_2d();
     const float distance = radius * kernel_distance(kernel, u.x), angle = 2 * pi * u.y;
     const Vec3f aim = vertex.position() + frame.x * (distance * std::cos(angle)) +
@@ -45,8 +45,8 @@ float inverse_covered_share(const PhotonSurroundings& around, const EstimateSett
     const float way = length(aim - over);
     // As deep below the plane as photons may count.
     const Ray ray{over, (aim - over) * (1 / way), way * (1 + 1 / height_share)};
-    if (finds_photons(around, frame.z, ray, rays)) break;
-  }
+    return finds_photons(around, frame.z, ray, rays) ? CoveredPoint::held : CoveredPoint::covered;
+  });
   return 1 + float(tries - 1) / asked;
 }
 

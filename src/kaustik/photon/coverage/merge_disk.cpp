@@ -1,5 +1,6 @@
 #include "kaustik/photon/coverage/merge_disk.h"
 
+#include "kaustik/photon/coverage/covered_share.h"
 #include "kaustik/photon/coverage/look_through.h"
 
 namespace kaustik {
@@ -147,17 +148,15 @@ bool DiskCoverage::reaches(float radius, const Vec3f& offset) const {
 }
 
 float DiskCoverage::inverse_share(float radius, const DiskEdges& edges, Sampler numbers) const {
-  int tries = 1;
-  for (int points = 0; points < most_points && tries < most_tries; ++points) {
+  return float(tries_until_held(most_tries, most_points, [&] {
     // A point of the disk, with the density of the kernel.
     const Vec2f u = numbers.next_2d();
     const float distance = radius * std::sqrt(1 - std::sqrt(1 - u.x)), angle = 2 * pi * u.y;
-    if (!edges.hold(across(angle) * distance)) continue;
+    if (!edges.hold(across(angle) * distance)) return CoveredPoint::outside;
     const float share = held(radius, distance, angle);
-    if (share > 0 && (share == 1 || numbers.next_1d() < share)) return float(tries);
-    ++tries;
-  }
-  return float(tries);
+    const bool counts = share > 0 && (share == 1 || numbers.next_1d() < share);
+    return counts ? CoveredPoint::held : CoveredPoint::covered;
+  }));
 }
 
 }  // namespace kaustik
