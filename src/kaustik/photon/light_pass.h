@@ -93,8 +93,6 @@ class LightPass {
   /// Why a map that was asked for is empty. (A scene without specular objects has no caustics:
   /// that is no warning.)
   std::vector<std::string> warnings(const PhotonMaps& maps) const;
-  const std::vector<uint32_t>& global_shares() const { return global_shares_; }
-  const std::vector<uint32_t>& caustic_shares() const { return caustic_shares_; }
 
  private:
   struct Deposits;

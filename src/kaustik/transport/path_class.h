@@ -78,8 +78,6 @@ class LightPathClass {
   int events() const { return events_; }
   /// Those in media included.
   int diffuse_events() const { return diffuse_events_; }
-  /// Whether the path is L G⁺ so far.
-  bool is_caustic() const { return events_ > 0 && diffuse_events_ == 0; }
   /// The component when the vertex it has come to is seen by the camera through `event`.
   Component component_seen_by(Lobes event) const {
     if (events_ == 0) return Component::direct;

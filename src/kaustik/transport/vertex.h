@@ -62,7 +62,6 @@ class SurfaceVertex {
   /// Of the shading frame.
   const Vec3f& normal() const { return frame_.z; }
   const Frame& frame() const { return frame_; }
-  Vec3f wo_local() const { return wo_local_; }
 
   /// f·|cosθ_i| in the direction of transport: the cosine by the shading normal, and for flux the
   /// factor that keeps shading normals adjoint (Veach 1997, eq. 5.19). Zero where the geometric

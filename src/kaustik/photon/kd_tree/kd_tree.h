@@ -33,6 +33,9 @@ struct KdAcceptAll {
 /// EuclideanMetric). A tree with Key = Vec3f and the Euclidean metric is searched with vector
 /// instructions once it is optimised.
 ///
+/// The renderer fills its trees by assign(), and asks nearest() and within(). All else is there for
+/// programs that use the tree by itself, as the thesis has it.
+///
 /// Searches may run in parallel with each other. All of them return items strictly nearer than
 /// their limit. A predicate rejects items during the search. It is either
 ///   bool accept(uint32_t index), or
