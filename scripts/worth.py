@@ -3,7 +3,8 @@
 
 Pictures of the same samples and seeds are compared: the relative MSE to the stored reference, and CPU time. Their product is
 what counts: time for a given noise. Each is made by one thread, several at a time: threads that wait for one another would
-count, too. So a machine that is not quiet disturbs little, and passes that time cuts off nothing.
+count, too. So passes that time cuts off count nothing. A machine's speed drifts: the pictures are made in an order that is
+shuffled, and those that all others are compared with several times.
 
 devices: settings of DEVICES, with build/release/kaustik.
 constants: each constant of CONSTANTS becomes a variable that the environment sets, in a copy of the sources that is built in
@@ -19,6 +20,7 @@ import json
 import math
 import os
 import pathlib
+import random
 import re
 import subprocess
 import sys
@@ -33,7 +35,9 @@ FOLDER = ROOT / "out/worth"
 SCENES = {"door_ajar": 96, "hall_of_lamps": 32, "pool_among_lamps": 24, "hundredth_of_a_floor": 32, "metal_ring": 8,
           "peer_cornell_glass": 16, "peer_ring": 16, "peer_pool_below": 8}
 AUTO = ("auto", ["hall_of_lamps", "peer_cornell_glass", "peer_ring"])
+GUIDED = ("auto", ["door_ajar", "pool_among_lamps", "metal_ring"])
 CACHE = ("photonmap", ["peer_cornell_glass", "metal_ring"])
+PLACES = [AUTO, GUIDED, CACHE]
 
 # ppm with this setting is auto, whose devices have no parameters of their own.
 WHOLE = ("ppm", "choose_light_paths=true")
@@ -45,6 +49,9 @@ ADDITIONS = ["splats=true connections=true"]
 T_95 = {2: 12.71, 3: 4.30, 4: 3.18, 5: 2.78, 6: 2.57, 7: 2.45, 8: 2.36}
 # A device is to lower the product by so much in some scene, and to raise it by no more than that in any.
 WANTED, TOLERATED = 1.1, 0.95
+
+# What all others are compared with is timed so often.
+OWN_RUNS = 3
 
 # How each picture is made.
 HOW = ["-q", "--float", "--threads", "1"]
@@ -59,10 +66,10 @@ CONSTANTS = [
     ("vcm/plan/efficiency.cpp", "share_of_mean_unknown", (0.1, 10.0), AUTO),
     ("vcm/plan/pixel_plans.h", "most_disk_widths", HALF_DOUBLE, AUTO),
     ("vcm/plan/pixel_plans.cpp", "most_other_radius", HALF_DOUBLE, AUTO),
-    ("vcm/plan/plans.cpp", "worth_a_pilot", (0.8, 1.25), AUTO),
-    ("vcm/plan/plans.cpp", "few_paths", HALF_DOUBLE, AUTO),
-    ("vcm/plan/plans.cpp", "worth_guiding", (0.8, 1.25), AUTO),
-    ("vcm/plan/plans.cpp", "worth_fewer", (0.8, 1.25), AUTO),
+    ("vcm/plan/plans.cpp", "worth_a_pilot", (0.8, 1.25), GUIDED),
+    ("vcm/plan/plans.cpp", "few_paths", HALF_DOUBLE, GUIDED),
+    ("vcm/plan/plans.cpp", "worth_guiding", (0.8, 1.25), GUIDED),
+    ("vcm/plan/plans.cpp", "worth_fewer", (0.8, 1.25), GUIDED),
     ("vcm/plan/plans.cpp", "near_per_distance", HALF_DOUBLE, AUTO),
     ("vcm/plan/path_pilot.cpp", "most_merged", HALF_DOUBLE, AUTO),
     ("vcm/lessons/radius_learning.cpp", "tolerated", (0.7, 1.4), AUTO),
@@ -71,19 +78,19 @@ CONSTANTS = [
     ("vcm/lessons/radius_learning.cpp", "least_left", HALF_DOUBLE, AUTO),
     ("vcm/lessons/radius_learning.cpp", "most_vertices", HALF_DOUBLE, AUTO),
     ("vcm/lessons/radius_learning.cpp", "hopeless", HALF_DOUBLE, AUTO),
-    ("vcm/lessons/sample_learning.cpp", "pairs_of_mean", HALF_DOUBLE, AUTO),
-    ("vcm/lessons/sample_learning.cpp", "outliers", HALF_DOUBLE, AUTO),
-    ("vcm/lessons/sample_learning.cpp", "worth_spreading", (0.96, 1.05), AUTO),
-    ("vcm/lessons/emission_learning.cpp", "plain_share", HALF_DOUBLE, AUTO),
-    ("vcm/lessons/emission_learning.cpp", "least_paths", HALF_DOUBLE, AUTO),
-    ("vcm/lessons/emission_learning.cpp", "worthwhile", (0.8, 1.25), AUTO),
-    ("vcm/lessons/emission_learning.cpp", "worth_its_time", (0.8, 1.25), AUTO),
-    ("vcm/lessons/emission_learning.cpp", "worth_aiming_less", (0.9, 1.05), AUTO),
-    ("vcm/lessons/scatter_learning.cpp", "most_events_in_cell", HALF_DOUBLE, AUTO),
-    ("vcm/lessons/scatter_learning.cpp", "events_of_all", HALF_DOUBLE, AUTO),
-    ("vcm/lessons/scatter_learning.cpp", "least_unguided", (0.7, 1.3), AUTO),
-    ("vcm/lessons/scatter_learning.cpp", "least_gain", HALF_DOUBLE, AUTO),
-    ("vcm/lessons/light_path_use.cpp", "least_light", HALF_DOUBLE, AUTO),
+    ("vcm/lessons/sample_learning.cpp", "pairs_of_mean", HALF_DOUBLE, GUIDED),
+    ("vcm/lessons/sample_learning.cpp", "outliers", HALF_DOUBLE, GUIDED),
+    ("vcm/lessons/sample_learning.cpp", "worth_spreading", (0.96, 1.05), GUIDED),
+    ("vcm/lessons/emission_learning.cpp", "plain_share", HALF_DOUBLE, GUIDED),
+    ("vcm/lessons/emission_learning.cpp", "least_paths", HALF_DOUBLE, GUIDED),
+    ("vcm/lessons/emission_learning.cpp", "worthwhile", (0.8, 1.25), GUIDED),
+    ("vcm/lessons/emission_learning.cpp", "worth_its_time", (0.8, 1.25), GUIDED),
+    ("vcm/lessons/emission_learning.cpp", "worth_aiming_less", (0.9, 1.05), GUIDED),
+    ("vcm/lessons/scatter_learning.cpp", "most_events_in_cell", HALF_DOUBLE, GUIDED),
+    ("vcm/lessons/scatter_learning.cpp", "events_of_all", HALF_DOUBLE, GUIDED),
+    ("vcm/lessons/scatter_learning.cpp", "least_unguided", (0.7, 1.3), GUIDED),
+    ("vcm/lessons/scatter_learning.cpp", "least_gain", HALF_DOUBLE, GUIDED),
+    ("vcm/lessons/light_path_use.cpp", "least_light", HALF_DOUBLE, GUIDED),
     ("transport/path_weights.h", "least_spread", HALF_DOUBLE, AUTO),
     ("photon/coverage/merge_disk.h", "flatness_", HALF_DOUBLE, AUTO),
     ("photon/coverage/merge_disk.h", "least_cosine_", (0.5, 1.5), AUTO),
@@ -196,8 +203,8 @@ def files_of(scene):
     return file, ROOT / "benchmarks/references" / f"{scene}.exr"
 
 
-def render(program, scene, samples, integrator, settings, seed, environment):
-    """Relative MSE to the reference, and CPU seconds."""
+def render(program, scene, samples, integrator, settings, seed, environment, run):
+    """Relative MSE to the reference, but for what its own noise adds, and CPU seconds of this run."""
     file, reference = files_of(scene)
     picture = FOLDER / f"picture_{threading.get_ident()}.exr"
     options = [option for setting in settings for option in ("--set", f"integrator.{setting}")]
@@ -213,53 +220,72 @@ def render(program, scene, samples, integrator, settings, seed, environment):
         compared = subprocess.run([program, "compare", picture, reference], check=True, capture_output=True, text=True).stdout
     finally:
         picture.unlink()
-    error = float(re.search(r"^relative_mse_trimmed\s+(\S+)", compared, re.M).group(1))
-    return error, usage.ru_utime + usage.ru_stime
+    error, noise = (float(re.search(rf"^{name}\s+(\S+)", compared, re.M).group(1))
+                    for name in ("relative_mse_trimmed", "reference_noise"))
+    if error <= noise:
+        raise ValueError(f"the reference of {scene} is noisier than a picture of {samples} samples a pixel: "
+                         f"{noise:.3g}, {error:.3g}; render fewer, or make a better reference (make references)")
+    return Measured(error - noise, noise, usage.ru_utime + usage.ru_stime)
+
+
+# A picture's error but for the reference's noise, this noise, and CPU seconds.
+Measured = collections.namedtuple("Measured", "error noise seconds")
 
 
 class Measurements:
-    """Errors and times of (scene, samples, integrator, settings, seed, environment), kept in a file with a digest of what they
-    were made of."""
+    """Errors and times of (scene, samples, integrator, settings, seed, environment, run), kept in a file with a digest of what
+    they were made of. Runs but for 0 are of the same picture, for its time."""
 
     def __init__(self, file, digest):
         self.file, self.digest, self.known = file, digest, {}
         if file.exists():
             for line in file.read_text().splitlines():
                 row = json.loads(line)
-                if row.get("digest") == digest:
-                    self.known[json.dumps(row["key"])] = (row["error"], row["seconds"])
+                if row.get("digest") == digest and "noise" in row:
+                    self.known[json.dumps(row["key"])] = Measured(row["error"], row["noise"], row["seconds"])
 
     def measure(self, program, keys, jobs):
         missing = [key for key in keys if json.dumps(key) not in self.known]
+        random.Random(1).shuffle(missing)
         begin = time.monotonic()
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             running = {pool.submit(render, program, *key): key for key in missing}
             try:
                 for done, future in enumerate(concurrent.futures.as_completed(running), 1):
                     left = (time.monotonic() - begin) / done * (len(missing) - done)
-                    self.add(running[future], *future.result(), f"{done} of {len(missing)}, {left / 60:.0f} min left")
+                    self.add(running[future], future.result(), f"{done} of {len(missing)}, {left / 60:.0f} min left")
             except BaseException:  # what runs comes to its end, and is not lost
                 pool.shutdown(cancel_futures=True)
                 for future, key in running.items():
                     if future.done() and not future.cancelled() and not future.exception() and json.dumps(key) not in self.known:
-                        self.add(key, *future.result(), "at the end")
+                        self.add(key, future.result(), "at the end")
                 raise
 
-    def add(self, key, error, seconds, progress):
-        self.known[json.dumps(key)] = (error, seconds)
+    def add(self, key, measured, progress):
+        self.known[json.dumps(key)] = measured
         with self.file.open("a") as out:
-            out.write(json.dumps({"key": key, "error": error, "seconds": seconds, "digest": self.digest}) + "\n")
-        scene, _, integrator, settings, seed, environment = key
+            out.write(json.dumps({"key": key, **measured._asdict(), "digest": self.digest}) + "\n")
+        scene, _, integrator, settings, seed, environment, _ = key
         what = " ".join([scene, integrator, *settings, *(f"{name}={value}" for name, value in environment.items())])
-        print(f"# {progress}: {what}, seed {seed}: {error:.4g}, {seconds:.1f} s", file=sys.stderr)
+        print(f"# {progress}: {what}, seed {seed}: {measured.error:.4g}, {measured.seconds:.1f} s", file=sys.stderr)
+
+    def mean_of(self, keys):
+        """What runs of one picture measured, with the mean of their times; none if one is missing."""
+        found = [self.known.get(json.dumps(key)) for key in keys]
+        return None if None in found else found[0]._replace(seconds=sum(run.seconds for run in found) / len(found))
+
+    def noise_share(self, own):
+        """Of the error of a picture that others are compared with: the reference's noise."""
+        measured = self.known[json.dumps(own)]
+        return measured.noise / (measured.error + measured.noise)
 
     def ratio(self, others, owns):
         """Of errors, of times, of their product with the standard error of its logarithm: one key a seed on each side."""
-        pairs = [(self.known.get(json.dumps(other)), self.known.get(json.dumps(own))) for other, own in zip(others, owns)]
+        pairs = [(self.known.get(json.dumps(other)), self.mean_of(runs_of(own))) for other, own in zip(others, owns)]
         if any(not other or not own for other, own in pairs):
             return None
-        errors = [math.log(other[0] / own[0]) for other, own in pairs]
-        products = [error + math.log(other[1] / own[1]) for error, (other, own) in zip(errors, pairs)]
+        errors = [math.log(other.error / own.error) for other, own in pairs]
+        products = [error + math.log(other.seconds / own.seconds) for error, (other, own) in zip(errors, pairs)]
         count = len(pairs)
         mean, mean_error = sum(products) / count, sum(errors) / count
         spread = math.sqrt(sum((x - mean) ** 2 for x in products) / (count - 1) / count) if count > 1 else math.inf
@@ -268,6 +294,11 @@ class Measurements:
 
 # The product and the standard error of its logarithm; the ratios of errors and of times; seeds.
 Ratio = collections.namedtuple("Ratio", "product spread error seconds seeds")
+
+
+def runs_of(own):
+    """Of the picture that others are compared with."""
+    return [own[:-1] + [run] for run in range(OWN_RUNS)]
 
 
 def is_same(ratio):
@@ -292,7 +323,7 @@ def table(head, rows):
 def keys_of_device(scene, device, seeds):
     integrator, whole = WHOLE
     settings = [] if device.startswith("choose_light_paths") else [whole] + device.split()
-    return [[scene, SCENES[scene], integrator, settings, seed, {}] for seed in seeds]
+    return [[scene, SCENES[scene], integrator, settings, seed, {}, 0] for seed in seeds]
 
 
 def verdict(ratios):
@@ -312,8 +343,8 @@ DEVICES_TEXT = """# What each device of `auto` is worth
 `auto` learns, chooses and guides by itself. Here each of these is switched off alone, in pictures of the same samples and
 seeds. A cell has **the time for a given noise without the device over that with it**: the ratio of the errors times the ratio
 of the times. More than 1 speaks for the device. An error is the relative MSE to the stored reference without the worst 0.1 %
-of the pixels; a time is CPU time of one thread; ± is one standard error over the seeds. "Same": the pictures are the same bits. Errors hold
-the references' own noise, which draws ratios a little toward 1.
+of the pixels, less what the reference's own noise adds; a time is CPU time of one thread; ± is one standard error over the
+seeds. "Same": the pictures are the same bits. Of the errors as measured the reference's noise was {noise}.
 
 A device is to be worth {wanted} in a scene that people could have, and no less than {tolerated} in any. It helps, or harms, in
 the scenes whose 95 % bounds (Student's t over the seeds) tell so. Of `pool_among_lamps` and `hundredth_of_a_floor` the reference is `auto` itself, of a long run: bias that both have does not show there.
@@ -326,8 +357,9 @@ def devices(arguments, seeds):
     program = arguments.program
     measured = Measurements(FOLDER / "devices.jsonl", digest_of(program))
     wanted = [device for device in DEVICES + ADDITIONS if not arguments.only or device.split("=")[0] in arguments.only]
-    measured.measure(program, [key for scene in SCENES for seed in seeds for device in ["", *wanted]
-                               for key in keys_of_device(scene, device, [seed])], arguments.jobs)
+    own = [run for scene in SCENES for key in keys_of_device(scene, "", seeds) for run in runs_of(key)]
+    measured.measure(program, own + [key for scene in SCENES for device in wanted for key in keys_of_device(scene, device, seeds)],
+                     arguments.jobs)
     rows, verdicts = {}, []
     for device in DEVICES + ADDITIONS:
         found = {scene: measured.ratio(keys_of_device(scene, device, seeds), keys_of_device(scene, "", seeds)) for scene in SCENES}
@@ -339,11 +371,14 @@ def devices(arguments, seeds):
         mean = math.exp(sum(math.log(ratio.product) for ratio in known.values()) / len(known))
         verdicts.append([device, f"{most}: {known[most].product:.2f}", f"{least}: {known[least].product:.2f}", f"{mean:.2f}",
                          verdict(known.values())])
+    noise = {scene: measured.noise_share(keys_of_device(scene, "", seeds)[0]) for scene in SCENES}
     text = DEVICES_TEXT.format(wanted=WANTED, tolerated=TOLERATED, seeds=", ".join(map(str, seeds)),
+                               noise=", ".join(f"{100 * share:.0f} % in {scene}" for scene, share in noise.items()),
                                samples=", ".join(f"{scene} {samples}" for scene, samples in SCENES.items()))
     text += "\n" + table(["without", "most", "least", "geometric mean", "the device"], verdicts)
     text += "\n## Scene by scene\n\n" + table(["without", *SCENES], [rows[device] for device in DEVICES])
-    return text + ("\n## What `auto` leaves out\n\nHere more than 1 speaks for leaving it out.\n\n"
+    missed = [f"{device} {words}" for device, *_, words in verdicts if "harms" in words or "not" in words]
+    return missed, text + ("\n## What `auto` leaves out\n\nHere more than 1 speaks for leaving it out.\n\n"
                    + table(["with", *SCENES], [rows[device] for device in ADDITIONS]))
 
 
@@ -361,20 +396,22 @@ of the kernel's integral over its square's integral and its area.
 
 
 def keys_of_constant(where, scene, file, name, value, seeds):
-    return [[scene, SCENES[scene], where[0], [], seed, {variable_of(file, name): repr(value)} if name else {}] for seed in seeds]
+    return [[scene, SCENES[scene], where[0], [], seed, {variable_of(file, name): repr(value)} if name else {}, 0] for seed in seeds]
 
 
 def constants(arguments, seeds):
     program, values = build(FOLDER), values_of_code()
     measured = Measurements(FOLDER / "constants.jsonl", digest_of(program))
     rows = [row for row in CONSTANTS if not arguments.only or row[1] in arguments.only]
-    own = [key for where in (AUTO, CACHE) for scene in where[1] for key in keys_of_constant(where, scene, "", "", 0, seeds)]
+    own = [run for where in PLACES for scene in where[1] for key in keys_of_constant(where, scene, "", "", 0, seeds)
+           for run in runs_of(key)]
     measured.measure(program, own + [
         key for file, name, factors, where in rows for factor in factors for scene in where[1]
         for key in keys_of_constant(where, scene, file, name, values[file, name] * factor, seeds)], arguments.jobs)
     text = CONSTANTS_TEXT.format(seeds=", ".join(map(str, seeds)),
-                                 samples=", ".join(f"{scene} {SCENES[scene]}" for scene in dict.fromkeys(AUTO[1] + CACHE[1])))
-    for where in (AUTO, CACHE):
+                                 samples=", ".join(f"{scene} {SCENES[scene]}"
+                                                   for scene in dict.fromkeys(scene for where in PLACES for scene in where[1])))
+    for where, title in zip(PLACES, ["`auto`", "`auto`, where its guides are of use", "`photonmap`"]):
         cells, times = [], []
         for file, name, factors, of in CONSTANTS:
             for value in [values[file, name] * factor for factor in factors if of is where]:
@@ -384,11 +421,11 @@ def constants(arguments, seeds):
                 if any(found):
                     cells.append([f"`{name.rstrip('_')}` ({pathlib.Path(file).name})", f"{values[file, name]:g}", f"{value:g}",
                                   *map(cell_of, found)])
-        text += f"\n## `{where[0]}`\n\n"
+        text += f"\n## {title}\n\n"
         if times:
             text += f"Pictures that are the same took {min(times):.2f} to {max(times):.2f} of the time: so much is the machine's.\n\n"
         text += table(["constant", "value", "instead", *where[1]], cells)
-    return text
+    return [], text
 
 
 def check(program):
@@ -440,11 +477,13 @@ def main():
         if name not in names:
             parser.error(f"there is no '{name}' among {', '.join(names)}")
     FOLDER.mkdir(parents=True, exist_ok=True)
-    text = {"devices": devices, "constants": constants}[arguments.what](arguments, arguments.seeds)
+    missed, text = {"devices": devices, "constants": constants}[arguments.what](arguments, arguments.seeds)
     if arguments.page:
         arguments.page.write_text(text)
     else:
         print(text)
+    if missed:
+        sys.exit("a bar is missed: " + "; ".join(missed))
 
 
 if __name__ == "__main__":

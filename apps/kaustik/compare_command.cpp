@@ -37,6 +37,10 @@ void compare(const CompareOptions& options) {
   fmt::print("relative_mse         {:.6g}\n", c.relative_mse);
   fmt::print("relative_mse_trimmed {:.6g}   (without the worst 0.1 % of the pixels)\n",
              c.relative_mse_trimmed);
+  if (options.layer.empty() && reference.find_channel("error.R") >= 0)
+    fmt::print(
+        "reference_noise      {:.6g}   (what the reference's own noise adds to the trimmed)\n",
+        own_relative_mse(reference));
   fmt::print("mean_ratio           {:.6f} {:.6f} {:.6f}\n", c.mean_ratio.x, c.mean_ratio.y,
              c.mean_ratio.z);
   if (c.non_finite_pixels > 0) fmt::print("non_finite_pixels    {}\n", c.non_finite_pixels);

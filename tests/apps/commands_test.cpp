@@ -78,6 +78,7 @@ TEST_F(Commands, CompareOfDifferentImages) {
   const RunResult result = run_well({"compare", "b.exr", "a.exr"});
   EXPECT_FALSE(contains(result.out, "mse                  0\n")) << result.out;
   EXPECT_TRUE(contains(result.out, "mean_ratio           0.")) << result.out;
+  EXPECT_TRUE(contains(result.out, "reference_noise      0.")) << result.out;
   run_well({"render", "scene.xml", "-q", "--spp", "2", "-o", "c.exr", "-D", "size=8"});
   const RunResult sizes = run({"compare", "c.exr", "a.exr"});
   EXPECT_EQ(sizes.exit_code, 2) << sizes.err;
