@@ -30,10 +30,11 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDER = ROOT / "out/worth"
 
-# Scenes, and samples a pixel, for some seconds each: light through a gap, many lamps, caustics of glass, metal and water,
+# Scenes, and samples a pixel, for about ten seconds of two threads where learning takes most of the time, for some seconds
+# elsewhere: light through a gap, many lamps, caustics of glass, metal and water,
 # a small visible part of a large scene.
-SCENES = {"door_ajar": 96, "hall_of_lamps": 32, "pool_among_lamps": 24, "hundredth_of_a_floor": 32, "metal_ring": 8,
-          "peer_cornell_glass": 16, "peer_ring": 16, "peer_pool_below": 8}
+SCENES = {"door_ajar": 192, "hall_of_lamps": 32, "pool_among_lamps": 24, "hundredth_of_a_floor": 32, "metal_ring": 8,
+          "peer_cornell_glass": 16, "peer_ring": 64, "peer_pool_below": 8}
 AUTO = ("auto", ["hall_of_lamps", "peer_cornell_glass", "peer_ring"])
 GUIDED = ("auto", ["door_ajar", "pool_among_lamps", "metal_ring"])
 CACHE = ("photonmap", ["peer_cornell_glass", "metal_ring"])
@@ -349,7 +350,8 @@ seeds. "Same": the pictures are the same bits. Of the errors as measured the ref
 A device is to be worth {wanted} in a scene that people could have, and no less than {tolerated} in any. It helps, or harms, in
 the scenes whose 95 % bounds (Student's t over the seeds) tell so. Of `pool_among_lamps` and `hundredth_of_a_floor` the reference is `auto` itself, of a long run: bias that both have does not show there.
 
-`make ablation` writes this page: seeds {seeds}; samples a pixel: {samples}.
+`make ablation` writes this page: seeds {seeds}; samples a pixel: {samples}. What learning takes counts more in shorter
+renders: `scripts/worth.py devices --effort 0.25` measures those.
 """
 
 
@@ -449,6 +451,16 @@ def seed_list(text):
     return seeds
 
 
+def positive(text):
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0
+    if not 0 < number < math.inf:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number above 0")
+    return number
+
+
 def job_count(text):
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is no number of pictures: one or more")
@@ -459,6 +471,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=["devices", "constants", "check"])
     parser.add_argument("--seeds", type=seed_list, default="1,2,3", help="[%(default)s]")
+    parser.add_argument("--effort", type=positive, default=1, metavar="FACTOR",
+                        help="times as many samples a pixel: what learning takes counts less in long renders [%(default)s]")
     parser.add_argument("--only", nargs="+", default=[], metavar="NAME", help="measure these devices or constants alone")
     parser.add_argument("--jobs", type=job_count, default=os.cpu_count(), help="pictures that are made at a time [%(default)s]")
     parser.add_argument("--page", type=pathlib.Path, metavar="FILE.md", help="where to write the tables [standard output]")
@@ -477,6 +491,8 @@ def main():
         if name not in names:
             parser.error(f"there is no '{name}' among {', '.join(names)}")
     FOLDER.mkdir(parents=True, exist_ok=True)
+    for scene, samples in SCENES.items():
+        SCENES[scene] = max(1, round(arguments.effort * samples))
     missed, text = {"devices": devices, "constants": constants}[arguments.what](arguments, arguments.seeds)
     if arguments.page:
         arguments.page.write_text(text)
