@@ -31,8 +31,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDER = ROOT / "out/worth"
 
 # Scenes, and samples a pixel, for about ten seconds of two threads where learning takes most of the time, for some seconds
-# elsewhere: light through a gap, many lamps, caustics of glass, metal and water,
-# a small visible part of a large scene.
+# elsewhere: light through a gap, many lamps, caustics of glass, metal and water, a small visible part of a large scene.
 SCENES = {"door_ajar": 192, "hall_of_lamps": 32, "pool_among_lamps": 24, "hundredth_of_a_floor": 32, "metal_ring": 8,
           "peer_cornell_glass": 16, "peer_ring": 64, "peer_pool_below": 8}
 AUTO = ("auto", ["hall_of_lamps", "peer_cornell_glass", "peer_ring"])
