@@ -3,7 +3,7 @@
 
 Pictures of the same samples and seeds are compared: the relative MSE to the stored reference, and CPU time. Their product is
 what counts: time for a given noise. Each is made by one thread, several at a time: threads that wait for one another would
-count, too. So passes that time cuts off count nothing. A machine's speed drifts: the pictures are made in an order that is
+count, too. Renders end by samples, so all passes are whole. A machine's speed drifts: the pictures are made in an order that is
 shuffled, and those that all others are compared with several times.
 
 devices: settings of DEVICES, with build/release/kaustik.

@@ -4,7 +4,6 @@
 
 #include "commands.h"
 #include "console.h"
-#include "exit_codes.h"
 #include "file_roles.h"
 #include "kaustik/scene/scene.h"
 #include "numbers.h"

@@ -48,12 +48,6 @@ T value_in_shape(const std::string& element, const std::string& version = "3.0.0
   return value<T>(*scene->children.at(0).object, name);
 }
 
-/// "file:line:column" of a place.
-inline std::string text_of(const Place& place) {
-  if (!place.file) return "nowhere";
-  return *place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
-}
-
 /// What `load` complains about; fails if it does not.
 template <typename Load>
 std::vector<Problem> problems_of(const Load& load) {

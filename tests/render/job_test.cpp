@@ -103,6 +103,16 @@ TEST(Job, DoesItsTaskAlone) {
   learns.cancel();
   EXPECT_THROW(learns.learn(), Error);
   EXPECT_THROW(learns.learn(), std::logic_error) << "it was begun before";
+  // Of another scene it may be asked once more.
+  learns.edit(room_with("auto", 4));
+  EXPECT_GT(learns.learn().stored.lessons.passes, 0u);
+}
+
+TEST(Job, OnlyARenderGoesOn) {
+  JobSettings settings = settings_to(JobTask::trace_photons);
+  settings.learned.emplace();
+  Job job(room_with("auto", 4), std::move(settings));
+  EXPECT_THROW(job.trace_photons(), std::logic_error);
 }
 
 // The integrator is changed once, so what it has no use for is told once.

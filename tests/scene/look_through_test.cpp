@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "kaustik/scene/scene_report.h"
+#include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
-#include "tests/transport/scene_of.h"
 
 namespace kaustik {
 namespace {
@@ -16,7 +16,8 @@ std::shared_ptr<const Scene> floors(int count, const std::string& bsdf = diffuse
   std::string all;
   for (int i = 0; i < count; ++i)
     all += flat("rectangle", translate(fmt::format("0, 0, {}", i)), bsdf);
-  return scene_of(all + point_light("0, 0, 9", 1));
+  return build_scene(
+      description_of(camera("0, -3, 5", "0, 0, 0", 40, 4) + all + point_light("0, 0, 9", 1)));
 }
 
 const Ray down{{0.1f, 0.2f, 4.5f}, {0, 0, -1}};

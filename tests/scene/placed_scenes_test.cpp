@@ -164,7 +164,7 @@ TEST(PlacedScenes, Mistakes) {
             std::string::npos);
   expect_problem(any_camera + group("g", "\n<shape type=\"instance\"/>" + shape("cube", small)) +
                      instance("g", left),
-                 "3:1", "an instance needs exactly one shape group", "<ref");
+                 "3:1", "an instance needs exactly one shape group", "of type 'shapegroup'");
   // No loader lets a group hold itself.
   Description endless =
       description_of(any_camera + group("g", shape("cube", small)) + instance("g", left));

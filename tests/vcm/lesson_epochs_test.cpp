@@ -199,8 +199,8 @@ TEST_F(LessonEpochs, SumsComeBack) {
                                          .pass = taught->pass(),
                                          .take = take},
                                         places, {});
-      const auto sums = here[i]->sums_of(
-          {.pass = taught->pass(), .light = taught->light(), .places = places, .pairs = pairs});
+      const auto sums =
+          here[i]->sums_of({.light = taught->light(), .places = places, .pairs = pairs});
       ByteWriter writer;
       sums->write(writer);
       ByteReader reader(writer.bytes(), "sums");

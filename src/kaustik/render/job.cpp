@@ -40,6 +40,8 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
   if (auto run = current()) return run;
   if (settings_.begun && settings_.learned)
     throw std::logic_error("Job: passes that go on have their lessons; others can't be given");
+  if (settings_.task != JobTask::render && (settings_.begun || settings_.learned))
+    throw std::logic_error("Job: only a render goes on, or has lessons given");
   apply_changes(description_, settings_.record.recipe, listener_.messages);
   const auto run = std::make_shared<Run>();
   if (settings_.task == JobTask::trace_photons)
@@ -241,7 +243,7 @@ void Job::edit(Description description) {
   settings_.clock_start = std::chrono::steady_clock::now();
   result_ = {};
   failure_ = nullptr;
-  if (std::exchange(is_started_, false)) start();
+  if (std::exchange(is_started_, false) && settings_.task == JobTask::render) start();
 }
 
 const Scene& Job::scene() const { return *current()->prepared.scene; }

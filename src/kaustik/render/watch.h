@@ -10,6 +10,8 @@ namespace kaustik {
 class Watch {
  public:
   explicit Watch(std::function<void()> look);
+  Watch(const Watch&) = delete;  // its thread knows where it is
+  Watch& operator=(const Watch&) = delete;
   /// Calls it no more, and throws what it has thrown. Without end() nobody hears of that.
   void end();
 

@@ -34,8 +34,6 @@ class VcmPass {
   /// A camera sample at a place of the film's raster.
   void sample(const Vec2f& raster, Sampler& sampler, SampleSink& sink) const;
 
-  const Scene& scene() const { return scene_; }
-  const VcmSettings& settings() const { return settings_; }
   const VcmPlans& plans() const { return *plans_; }
   const Pass& pass() const { return pass_; }
   const LightVertices& light() const { return light_; }

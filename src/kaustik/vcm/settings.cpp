@@ -150,8 +150,8 @@ VcmSettings settings_for(const Scene& scene, const Arguments& arguments) {
   };
   if (settings.guides_light_paths())
     settings.decisions.emplace_back(
-        "media scatter light: light paths are not guided, for of what use they are is known on "
-        "surfaces alone");
+        "media scatter light: light paths are not guided, since of what use they are can be told "
+        "on surfaces only");
   for (const char* name : {"guiding", "guided_scattering"})
     if (settings.guides_light_paths() && has_asked(name, true))
       settings.warnings.push_back(

@@ -69,15 +69,13 @@ class GuideLesson final : public Lesson {
 std::string GuideLesson::decision(const VcmPlans& plans, uint32_t) const {
   std::vector<std::string> parts;
   if (const LightPathEmission& emission = *plans.guides.emission; emission.is_guided()) {
-    parts.emplace_back("light paths choose lamps and aims by those of use before");
+    parts.emplace_back("light paths choose lamps and directions by which paths were of use");
     if (const size_t lamps = emission.guided_lights(); lamps > 0)
       parts.push_back(fmt::format("{} of {} lamps have learned directions", lamps,
                                   emission.scene().lights().size()));
   }
   if (first_.guides.scattering && !plans.guides.scattering)
-    parts.emplace_back(
-        "what passes teach of matt surfaces does not pay, light paths leave them as "
-        "without");
+    parts.emplace_back("guiding light paths at matt surfaces no longer pays: it is switched off");
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 

@@ -29,7 +29,6 @@ struct LessonNeeds {
 
 /// A pass whose light paths have been traced, for who learns from it.
 struct TaughtPass {
-  const Pass& pass;
   const LightVertices& light;
   /// Lesson::places(), and the pairs that were traced there.
   std::span<const TrainingPlace> places = {};

@@ -14,7 +14,7 @@ constexpr double even_share_of_mean = 0.1;
 
 }  // namespace
 
-TrainingPair training_pair(const TrainingInputs& in, const TrainingPlace& place) {
+TrainingPair training_pair(const TrainingInputs& in, const TrainingPlace& place, Scratch* scratch) {
   const Vec2i first = in.grid.first_pixel(place.block), picture = in.grid.window().size;
   const Vec2i size(std::min(in.grid.block_size(), picture.x - first.x),
                    std::min(in.grid.block_size(), picture.y - first.y));
@@ -30,7 +30,7 @@ TrainingPair training_pair(const TrainingInputs& in, const TrainingPlace& place)
     // Samples that stratify one another would differ too much, and passes are to be independent.
     Sampler sampler = numbers(1 + 2 * place.number + i, 0);
     const Vec2f offset = in.filter.sample(sampler.next_2d());
-    SampleSink sink(in.components, in.pass.wavelengths);
+    SampleSink sink(in.components, in.pass.wavelengths, scratch);
     in.take({float(pixel.x) + 0.5f + offset.x, float(pixel.y) + 0.5f + offset.y}, sampler, sink);
     light[i] = sink.all_light();
     result.rays[i] = sink.rays();
@@ -45,8 +45,9 @@ std::vector<TrainingPair> training_pairs(const TrainingInputs& in,
                                          const std::stop_token& stop) {
   std::vector<TrainingPair> result(places.size());
   parallel_blocks(places.size(), 16, [&](size_t begin, size_t end, size_t) {
+    Scratch scratch;
     for (size_t i = begin; i < end && !stop.stop_requested(); ++i)
-      result[i] = training_pair(in, places[i]);
+      result[i] = training_pair(in, places[i], &scratch);
   });
   return result;
 }

@@ -38,7 +38,8 @@ struct TrainingInputs {
 };
 
 /// One pair.
-TrainingPair training_pair(const TrainingInputs& in, const TrainingPlace& place);
+TrainingPair training_pair(const TrainingInputs& in, const TrainingPlace& place,
+                           Scratch* scratch = nullptr);
 /// Pairs at those places, in their order. Fewer are worth anything if it was stopped.
 std::vector<TrainingPair> training_pairs(const TrainingInputs& in,
                                          std::span<const TrainingPlace> places,
