@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kaustik/scene/scene_report.h"
-#include "tests/support/measure.h"
+#include "tests/scene/scene_support.h"
 #include "tests/support/scene_text.h"
 
 namespace kaustik {
@@ -16,8 +16,7 @@ std::shared_ptr<const Scene> floors(int count, const std::string& bsdf = diffuse
   std::string all;
   for (int i = 0; i < count; ++i)
     all += flat("rectangle", translate(fmt::format("0, 0, {}", i)), bsdf);
-  return build_scene(
-      description_of(camera("0, -3, 5", "0, 0, 0", 40, 4) + all + point_light("0, 0, 9", 1)));
+  return scene_of(any_camera + all + point_light("0, 0, 9", 1));
 }
 
 const Ray down{{0.1f, 0.2f, 4.5f}, {0, 0, -1}};
@@ -75,7 +74,7 @@ TEST(SceneReport, LooksThroughBoundaries) {
       all += flat("rectangle", scale("9, 9, 1") + translate(fmt::format("0, 0, {}", 0.001 * i)),
                   R"(<bsdf type="null"/>)");
     const auto scene = build_scene(parse_mitsuba_xml(
-        "<scene version=\"3.0.0\">" + camera("0, 0, 9", "0, 0, 0", 5, 8, "0, 1, 0") + all +
+        "<scene version=\"3.0.0\">" + test::camera("0, 0, 9", "0, 0, 0", 5, 8, "0, 1, 0") + all +
             point_light("0, 0, 9", 1) + "</scene>",
         "test.xml", ""));
     for (const std::string& warning : describe_scene(*scene).warnings)

@@ -9,7 +9,7 @@ namespace {
 
 /// Vertices of a path that its arrivals may be at, and of all paths that are remembered, on
 /// average: far more than there are.
-constexpr uint32_t most_before = 0xffff, most_vertices_of_path = 1024;
+constexpr uint32_t most_vertices_before = 0xffff, most_vertices_of_path = 1024;
 
 using Floats = float[3];
 struct StoredBeginning {
@@ -101,7 +101,7 @@ LightPathUse::Seen LightPathUse::read_seen(ByteReader& reader) const {
   const uint64_t end = seen.beginnings.empty() ? 0 : uint64_t(seen.beginnings.back().path) + 1;
   is_sound = is_sound && end <= uint64_t(most_vertices_of_path) * seen.paths;
   for (const StoredScattering& stored : reader.get_array<StoredScattering>()) {
-    is_sound = is_sound && stored.path < end && stored.at <= most_before &&
+    is_sound = is_sound && stored.path < end && stored.at <= most_vertices_before &&
                is_density(stored.pdf) && is_density(stored.pdf_unguided);
     LightScattering event;
     event.path = stored.path;
@@ -117,8 +117,8 @@ LightPathUse::Seen LightPathUse::read_seen(ByteReader& reader) const {
   seen.arrivals = reader.get_array<Arrival>();
   for (const Arrival& arrival : seen.arrivals)
     is_sound = is_sound && arrival.probe < probes_.size() && arrival.path < end &&
-               arrival.vertex >= arrival.path && arrival.vertex - arrival.path <= most_before &&
-               is_density(arrival.light);
+               arrival.vertex >= arrival.path &&
+               arrival.vertex - arrival.path <= most_vertices_before && is_density(arrival.light);
   if (!is_sound) reader.damaged("a light path in it is none of the scene's");
   return seen;
 }
