@@ -19,26 +19,6 @@ constexpr float most_half = 65504, least_half = 6.104e-5f;
 /// Standard deviation of what rounding to 11 binary digits does, as a share.
 constexpr double rounding = 1.0 / 2048 / 1.7320508;
 
-/// The mean over the pixels around each, of those that are lit.
-std::vector<double> around(const std::vector<double>& relative, const std::vector<bool>& is_lit,
-                           int columns) {
-  std::vector<double> means(relative.size());
-  for (int y = 0; y < columns; ++y)
-    for (int x = 0; x < columns; ++x) {
-      double sum = 0;
-      int count = 0;
-      for (int v = std::max(0, y - reach); v <= std::min(columns - 1, y + reach); ++v)
-        for (int u = std::max(0, x - reach); u <= std::min(columns - 1, x + reach); ++u) {
-          const auto i = size_t(v) * size_t(columns) + size_t(u);
-          if (!is_lit[i]) continue;
-          sum += relative[i];
-          ++count;
-        }
-      if (count > 0) means[size_t(y) * size_t(columns) + size_t(x)] = sum / count;
-    }
-  return means;
-}
-
 /// Whether a pixel has light enough to count.
 std::vector<bool> lit_pixels(const std::vector<float>& light) {
   double sum = 0;
@@ -118,8 +98,8 @@ PixelVerdict compare_pixels(const Replicates& tested, const PixelMoments& refere
     const double share = double(reference.standard_error[i]) / light;
     reference_variance[i] = share * share;
   }
-  const std::vector<double> tested_around = around(tested_variance, is_lit, columns),
-                            reference_around = around(reference_variance, is_lit, columns);
+  const std::vector<double> tested_around = means_of_lit(tested_variance, is_lit, columns),
+                            reference_around = means_of_lit(reference_variance, is_lit, columns);
   PixelVerdict verdict;
   std::vector<double> errors;
   for (size_t i = 0; i < pixels; ++i) {

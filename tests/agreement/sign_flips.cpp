@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "kaustik/base/statistics.h"
+#include "kaustik/transport/block_means.h"
 
 namespace kaustik::agreement {
 namespace {
 
 constexpr size_t R = replicate_total;
+constexpr int reach = 3;                    ///< cells to every side that tell of a cell's noise
 using Differences = std::array<double, R>;  ///< of one block
 
 Differences differences(const Replicates& tested, const Replicates& reference, size_t block,
@@ -78,32 +80,24 @@ std::vector<BlockDifferences> all_differences(const Replicates& tested, const Re
   return all;
 }
 
-/// The mean of relative variances (or mean squares) over the blocks around each, in its own light.
+/// Means of relative variances (or mean squares) over the blocks around each, in its own light.
 /// `all` may hold more than the picture's blocks: to those it is the mean over the picture.
-std::vector<double> means_around(double BlockDifferences::*noise,
+std::vector<double> noise_around(double BlockDifferences::*noise,
                                  const std::vector<BlockDifferences>& all,
                                  const std::vector<double>& light, size_t picture_blocks) {
-  const int columns = int(std::lround(std::sqrt(double(picture_blocks))));
-  std::vector<double> around(all.size());
-  for (int y = 0; y < columns; ++y)
-    for (int x = 0; x < columns; ++x) {
-      double sum = 0;
-      int count = 0;
-      for (int v = std::max(0, y - reach); v <= std::min(columns - 1, y + reach); ++v)
-        for (int u = std::max(0, x - reach); u <= std::min(columns - 1, x + reach); ++u) {
-          const auto b = size_t(v) * size_t(columns) + size_t(u);
-          if (!(light[b] > 0)) continue;
-          sum += all[b].*noise / (light[b] * light[b]);
-          ++count;
-        }
-      const auto b = size_t(y) * size_t(columns) + size_t(x);
-      if (count > 0) around[b] = sum / count * light[b] * light[b];
-    }
+  std::vector<double> relative(picture_blocks);
+  std::vector<bool> is_lit(picture_blocks);
   RunningStatistics whole;
-  for (size_t b = 0; b < picture_blocks; ++b)
-    if (light[b] > 0) whole.add(all[b].*noise / (light[b] * light[b]));
-  for (size_t b = picture_blocks; b < all.size(); ++b)
-    around[b] = whole.mean() * light[b] * light[b];
+  for (size_t b = 0; b < picture_blocks; ++b) {
+    is_lit[b] = light[b] > 0;
+    if (!is_lit[b]) continue;
+    relative[b] = all[b].*noise / (light[b] * light[b]);
+    whole.add(relative[b]);
+  }
+  std::vector<double> around = means_of_lit(std::move(relative), is_lit,
+                                            int(std::lround(std::sqrt(double(picture_blocks)))));
+  around.resize(all.size(), whole.mean());
+  for (size_t b = 0; b < all.size(); ++b) around[b] *= light[b] * light[b];
   return around;
 }
 
@@ -141,6 +135,17 @@ std::pair<Replicates, Replicates> with_dark_ones_pooled(const Replicates& tested
 
 }  // namespace
 
+std::vector<double> means_of_lit(std::vector<double> values, const std::vector<bool>& is_lit,
+                                 int columns) {
+  std::vector<double> lit(is_lit.begin(), is_lit.end());
+  for (size_t i = 0; i < values.size(); ++i) values[i] *= lit[i];
+  const Vec2i size(columns, columns);
+  std::vector<double> means = means_around(values, size, reach);
+  const std::vector<double> shares = means_around(lit, size, reach);
+  for (size_t i = 0; i < means.size(); ++i) means[i] = shares[i] > 0 ? means[i] / shares[i] : 0;
+  return means;
+}
+
 bool Verdict::rejects(double level) const {
   return std::min({p_mean, p_blocks, p_worst}) < sidak_level(level, 3);
 }
@@ -152,10 +157,10 @@ Verdict compare(const Replicates& all_tested, const Replicates& all_reference, d
   const std::vector<BlockDifferences> all = all_differences(tested, reference, planted);
   const size_t picture_blocks = all_reference.at(0).size();
   const std::vector<double> variances =
-      means_around(&BlockDifferences::variance, all, light, picture_blocks);
+      noise_around(&BlockDifferences::variance, all, light, picture_blocks);
   // The same for all signs, as variances about the mean would not be.
   const std::vector<double> mean_squares =
-      means_around(&BlockDifferences::mean_square, all, light, picture_blocks);
+      noise_around(&BlockDifferences::mean_square, all, light, picture_blocks);
   std::array<Differences, R> k{};
   Differences whole{};
   size_t counted = 0;

@@ -21,8 +21,10 @@ namespace kaustik::agreement {
 /// taken to be as noisy as a block is on the mean.
 inline constexpr double dark_share = 0.05;
 
-/// Blocks to every side that tell of a block's noise.
-inline constexpr int reach = 3;
+/// Means over each cell of a square of `columns`² and those that tell of its noise, 3 to every
+/// side, of what is lit; 0 where nothing is. Values of what is not lit do not count.
+std::vector<double> means_of_lit(std::vector<double> values, const std::vector<bool>& is_lit,
+                                 int columns);
 
 /// Chances of such differences, or larger ones, where there is none in truth.
 struct Verdict {
