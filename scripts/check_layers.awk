@@ -161,9 +161,11 @@ FNR == 1 {
   area = FILENAME
   sub(/\/.*/, "", area)
   room = room_of(FILENAME)
-  if (area == "src" && !(room in known)) complain("room '" room "' is not in the table of rooms")
+  if (area == "src" && !(room in known))
+    complain("no table knows the room '" room "': give it a line allow(...) in scripts/check_layers.awk")
   folder = area == "src" ? folder_of(FILENAME) : ""
-  if (folder != "" && !(folder in known_folder)) complain("folder '" folder "' is not in the table of folders")
+  if (folder != "" && !(folder in known_folder))
+    complain("no table knows the folder '" folder "': give it a line allow_folder(...) in scripts/check_layers.awk")
   ++files
 }
 

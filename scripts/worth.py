@@ -42,7 +42,9 @@ PLACES = [AUTO, GUIDED, CACHE]
 # ppm with this setting is auto, whose devices have no parameters of their own.
 WHOLE = ("ppm", "choose_light_paths=true")
 DEVICES = ["aim=none"] + [f"{name}=false" for name in (
-    "choose_light_paths", "adaptive", "guiding", "guided_scattering", "choose_survival", "learn_radii", "edges", "visibility")]
+    "choose_light_paths", "adaptive", "guiding", "guided_scattering", "choose_survival", "learn_radii", "edges")]
+# What is there for the picture to be right, and may cost time.
+SAFEGUARDS = ["visibility=false"]
 # What auto leaves out.
 ADDITIONS = ["splats=true connections=true"]
 # Student's t for bounds of 95 % on both sides, by seeds.
@@ -353,20 +355,27 @@ the scenes whose 95 % bounds (Student's t over the seeds) tell so. Of `pool_amon
 renders: `scripts/worth.py devices --effort 0.25` measures those.
 """
 
+SAFEGUARDS_TEXT = """## What keeps light where it belongs
+
+`visibility` is no device for speed. It keeps light from passing walls and furniture, where these scenes show little of it;
+`wall_tool` prints what passes without it (`unguarded`). So no bar holds here: the table tells what it costs.
+
+"""
+
 
 def devices(arguments, seeds):
     program = arguments.program
     measured = Measurements(FOLDER / "devices.jsonl", digest_of(program))
-    wanted = [device for device in DEVICES + ADDITIONS if not arguments.only or device.split("=")[0] in arguments.only]
+    wanted = [device for device in DEVICES + SAFEGUARDS + ADDITIONS if not arguments.only or device.split("=")[0] in arguments.only]
     own = [run for scene in SCENES for key in keys_of_device(scene, "", seeds) for run in runs_of(key)]
     measured.measure(program, own + [key for scene in SCENES for device in wanted for key in keys_of_device(scene, device, seeds)],
                      arguments.jobs)
     rows, verdicts = {}, []
-    for device in DEVICES + ADDITIONS:
+    for device in DEVICES + SAFEGUARDS + ADDITIONS:
         found = {scene: measured.ratio(keys_of_device(scene, device, seeds), keys_of_device(scene, "", seeds)) for scene in SCENES}
         known = {scene: ratio for scene, ratio in found.items() if ratio}
         rows[device] = [device] + [cell_of(found[scene]) for scene in SCENES]
-        if not known or device in ADDITIONS:
+        if not known or device not in DEVICES:
             continue
         most, least = (choose(known, key=lambda scene: known[scene].product) for choose in (max, min))
         mean = math.exp(sum(math.log(ratio.product) for ratio in known.values()) / len(known))
@@ -379,6 +388,7 @@ def devices(arguments, seeds):
     text += "\n" + table(["without", "most", "least", "geometric mean", "the device"], verdicts)
     text += "\n## Scene by scene\n\n" + table(["without", *SCENES], [rows[device] for device in DEVICES])
     missed = [f"{device} {words}" for device, *_, words in verdicts if "harms" in words or "not" in words]
+    text += "\n" + SAFEGUARDS_TEXT + table(["without", *SCENES], [rows[device] for device in SAFEGUARDS])
     return missed, text + ("\n## What `auto` leaves out\n\nHere more than 1 speaks for leaving it out.\n\n"
                    + table(["with", *SCENES], [rows[device] for device in ADDITIONS]))
 
@@ -433,7 +443,7 @@ def check(program):
     """Ends the program if a table names what there is not."""
     values_of_code()
     known = subprocess.run([program, "help", WHOLE[0]], check=True, capture_output=True, text=True).stdout
-    for setting in " ".join(DEVICES + ADDITIONS + [WHOLE[1]]).split():
+    for setting in " ".join(DEVICES + SAFEGUARDS + ADDITIONS + [WHOLE[1]]).split():
         name = setting.split("=")[0]
         if not re.search(rf"^\s*{name} \(", known, re.M):
             sys.exit(f"integrator '{WHOLE[0]}' has no parameter '{name}'; mend the table in {__file__}")
@@ -484,7 +494,7 @@ def main():
         parser.error(f"{arguments.page} can't be written there; --page takes a file in a folder that there is")
     if arguments.what == "check":
         return check(arguments.program)
-    names = [device.split("=")[0] for device in DEVICES + ADDITIONS] if arguments.what == "devices" else [
+    names = [device.split("=")[0] for device in DEVICES + SAFEGUARDS + ADDITIONS] if arguments.what == "devices" else [
         row[1] for row in CONSTANTS]
     for name in arguments.only:
         if name not in names:

@@ -1,4 +1,8 @@
 #pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
 #include "kaustik/loader/scene_format.h"
 #include "kaustik/render/job.h"
 

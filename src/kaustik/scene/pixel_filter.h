@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "kaustik/base/parameters.h"

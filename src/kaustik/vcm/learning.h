@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "kaustik/transport/integrator.h"
 #include "kaustik/vcm/lessons/lessons.h"
