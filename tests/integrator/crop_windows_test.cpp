@@ -142,7 +142,7 @@ TEST(CropWindows, AreAsBrightAsTheWholePictureIsThereLong) {
       flat("cube", scale("0.3, 0.3, 0.3") + translate("0.2, 0.3, -0.7"), diffuse("0.3, 0.5, 0.3"));
   const TestScene whole = shown(size, {{0, 0}, {size, size}}, inside);
   RenderOptions options, others;
-  options.samples = 16;
+  options.samples = 32;
   others.samples = 64;
   others.seed = 2;
   for (const char* type : {"photonmap", "auto"}) {

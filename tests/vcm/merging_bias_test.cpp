@@ -47,7 +47,7 @@ TEST(MergingBias, IsEstimatedAsIfItGrewByTheRadiusLong) {
   // and not by chance two or none, which would be most of the noise.
   const Passes found =
       render(scene, "ppm",
-             set("radius", radius) + set("light_paths", 500.0) + set("adaptive", false), {32, 4});
+             set("radius", radius) + set("light_paths", 500.0) + set("adaptive", false), {96, 4});
   const std::vector<double> light = found.values({"caustic"}), bias = found.values({"bias"});
   const double lamp = albedo / std::numbers::pi * irradiance(0);
   RunningStatistics true_bias, estimate;  // less what they should be
