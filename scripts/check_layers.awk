@@ -134,7 +134,7 @@ BEGIN {
   own("Embree", "^embree[34]/", "geometry", not_in_word "(RTC[A-Z][A-Za-z]+|rtc[A-Z][A-Za-z]+)")
   own("Highway", "^hwy/", "light photon vcm", not_in_word "hwy::")
   own("pugixml", "^pugi", "loader", not_in_word "pugi::")
-  own("zlib", "^zlib", "loader", not_in_word "z_stream")
+  own("zlib", "^zlib", "base", not_in_word "z_stream")
   own("CLI11", "^CLI/", "apps", not_in_word "CLI::")
   own("spdlog", "^spdlog/", "apps", not_in_word "spdlog::")
   own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")

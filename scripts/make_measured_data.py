@@ -2,9 +2,13 @@
 """Turns data/*.csv into the generated sources of the CIE tables and of the metals."""
 import csv
 import pathlib
+import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 NOTE = "// clang-format off\n// Made by scripts/make_measured_data.py from data/{}; not to be edited.\n"
+# Tables from Palik's handbook that scenes also ask for by NAME_palik.
+PALIK = """AlAs AlSb Be CsI Cu Cu2O CuO d-C HgTe Ir K Li MgO Mo Na Nb Rh Se SiC SnTe Ta Te ThF4 TiC TiN
+TiO2 V VC VN""".split()
 
 
 def rows_of(name):
@@ -27,18 +31,31 @@ def color_data():
     )
 
 
+def check_metal(metal, samples):
+    """The renderer looks up 360-830 nm and takes the wavelengths to ascend."""
+    wavelengths = [float(r["lambda_nm"]) for r in samples]
+    if any(a >= b for a, b in zip(wavelengths, wavelengths[1:])):
+        sys.exit(f"metals_nk.csv: {metal}: the wavelengths do not ascend")
+    if wavelengths[0] > 360 or wavelengths[-1] < 830:
+        covered = f"{wavelengths[0]}-{wavelengths[-1]} nm"
+        sys.exit(f"metals_nk.csv: {metal}: {covered} is less than 360-830 nm")
+
+
 def metal_data():
-    rows = rows_of("metals_nk.csv")
-    metals = sorted({r["metal"] for r in rows})
+    tables = {}
+    for row in rows_of("metals_nk.csv"):
+        tables.setdefault(row["metal"], []).append(row)
     text = NOTE.format("metals_nk.csv")
     text += '#include "kaustik/material/metal_data.h"\n\nnamespace kaustik {\nnamespace {\n\n'
-    for metal in metals:
-        samples = "\n".join(
-            f"    {{{r['lambda_nm']}, {r['n']}, {r['k']}}}," for r in rows if r["metal"] == metal)
-        text += f"const MetalSample {metal.lower()}[] = {{\n{samples}\n}};\n\n"
+    arrays = {metal: metal.lower().replace("-", "_") for metal in sorted(tables)}
+    for metal, array in arrays.items():
+        check_metal(metal, tables[metal])
+        samples = "\n".join(f"    {{{r['lambda_nm']}, {r['n']}, {r['k']}}}," for r in tables[metal])
+        text += f"const MetalSample {array}[] = {{\n{samples}\n}};\n\n"
     text += "}  // namespace\n\nstd::span<const MeasuredMetal> measured_metals() {\n"
     text += "  static const MeasuredMetal metals[] = {\n"
-    text += "".join(f'    {{"{metal}", {metal.lower()}}},\n' for metal in metals)
+    names = {**arrays, **{f"{metal}_palik": arrays[metal] for metal in PALIK}}
+    text += "".join(f'    {{"{name}", {names[name]}}},\n' for name in sorted(names))
     return text + "  };\n  return metals;\n}\n\n}  // namespace kaustik\n"
 
 

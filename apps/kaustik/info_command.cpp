@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "kaustik/render/scene_warnings.h"
+#include "kaustik/scene/overrides.h"
 #include "kaustik/scene/scene_report.h"
 #include "render_job.h"
 #include "scene_options.h"
@@ -10,11 +11,12 @@
 namespace kaustik::app {
 namespace {
 
-void info(const std::string& path, const std::vector<std::string>& definitions,
-          const BuildOptions& build) {
-  LoadOptions load;
-  load.definitions = parse_definitions(definitions);
-  const Description description = read_scene(path, load);
+void info(const std::string& path, const std::vector<std::string>& definitions, bool is_strict,
+          const std::string& camera, const BuildOptions& build) {
+  const LoadOptions load{.definitions = parse_definitions(definitions), .is_strict = is_strict};
+  Description description = read_scene(path, load);
+  if (const std::string others = choose_camera(description, camera); !others.empty())
+    terminal_messages().tell(others);
   tell_of_memory(description, terminal_messages());
   const auto scene = build_scene(description, build);
   SceneReport report = describe_scene(*scene);
@@ -33,9 +35,15 @@ void add_info(CLI::App& program) {
   auto definitions = std::make_shared<std::vector<std::string>>();
   add_scene(*command, *path);
   add_definitions(*command, *definitions);
+  auto is_strict = std::make_shared<bool>(false);
+  add_strict(*command, *is_strict);
+  auto camera = std::make_shared<std::string>();
+  add_camera(*command, *camera);
   auto build = std::make_shared<BuildOptions>();
   add_texture_memory(*command, *build);
-  command->callback([path, definitions, build] { info(*path, *definitions, *build); });
+  command->callback([path, definitions, is_strict, camera, build] {
+    info(*path, *definitions, *is_strict, *camera, *build);
+  });
 }
 
 }  // namespace kaustik::app

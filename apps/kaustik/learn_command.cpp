@@ -87,6 +87,8 @@ void add_learn(CLI::App& program) {
   add_scene(*command, o->recipe.scene);
   command->add_option("-o,--output", o->output, "File of lessons to write, .kln")->required();
   add_definitions(*command, o->definitions);
+  add_strict(*command, o->recipe.is_strict);
+  add_camera(*command, o->recipe.camera);
   add_settings(*command, o->settings, "integrator.max_depth=8, film.width=400, ID.radius=2");
   command->add_option("--integrator", o->recipe.integrator,
                       "Use this method instead of the file's: auto, vcm, ppm, bdpt learn");

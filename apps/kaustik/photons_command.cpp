@@ -122,6 +122,8 @@ void add_photons(CLI::App& program) {
   add_scene(*command, o->recipe.scene);
   command->add_option("-o,--output", o->output, "Photon map to write, .kpm")->required();
   add_definitions(*command, o->definitions);
+  add_strict(*command, o->recipe.is_strict);
+  add_camera(*command, o->recipe.camera);
   add_settings(*command, o->settings, "integrator.caustic_photons=1000000, ID.radius=2");
   add_light_level(*command, o->levels);
   command

@@ -185,6 +185,8 @@ void add_render(CLI::App& program) {
       ->take_all()
       ->allow_extra_args(false);
   add_definitions(*command, options->definitions);
+  add_strict(*command, options->recipe.is_strict);
+  add_camera(*command, options->recipe.camera);
   add_settings(*command, options->settings,
                "integrator.caustic_neighbors=200, film.width=400, ID.radius=2");
   command->add_option("--integrator", options->recipe.integrator,

@@ -59,6 +59,7 @@ Messages terminal_messages() { return {note, warn}; }
 Description load_description(const RenderRecipe& recipe) {
   LoadOptions load;
   load.definitions = recipe.definitions;
+  load.is_strict = recipe.is_strict;
   return read_scene(recipe.scene, load);
 }
 

@@ -12,6 +12,17 @@ void add_definitions(CLI::App& command, std::vector<std::string>& definitions) {
       ->allow_extra_args(false);
 }
 
+void add_camera(CLI::App& command, std::string& camera) {
+  command.add_option("--camera", camera, "Which of the scene's cameras, by its id [the first]")
+      ->type_name("ID");
+}
+
+void add_strict(CLI::App& command, bool& is_strict) {
+  command.add_flag("--strict", is_strict,
+                   "Refuse parameters and elements that Kaustik does not know, where otherwise it "
+                   "leaves them out and tells");
+}
+
 void add_settings(CLI::App& command, std::vector<std::string>& settings,
                   const std::string& examples) {
   command.add_option("--set", settings, "Change a parameter: " + examples)

@@ -11,6 +11,10 @@ namespace kaustik::app {
 void add_scene(CLI::App& command, std::string& scene);
 /// -D: "name=value" for parse_definitions().
 void add_definitions(CLI::App& command, std::vector<std::string>& definitions);
+/// --camera.
+void add_camera(CLI::App& command, std::string& camera);
+/// --strict.
+void add_strict(CLI::App& command, bool& is_strict);
 /// --set: "object.parameter=value"; `examples` are for people.
 void add_settings(CLI::App& command, std::vector<std::string>& settings,
                   const std::string& examples);

@@ -80,12 +80,29 @@ TEST_F(BadInput, UnknownTypesGetTheNearestName) {
       "scene.xml:2:22", "unknown texture type 'bitmp'", "did you mean 'bitmap'?");
 }
 
+// Left out and told, or with --strict refused.
 TEST_F(BadInput, UnknownPropertiesGetTheNearestName) {
-  expect_refused_inside("<shape type=\"sphere\"><float name=\"radus\" value=\"1\"/></shape>",
-                        "scene.xml:2:22", "no parameter 'radus'", "did you mean 'radius'?");
-  expect_refused_inside(
-      "<integrator type=\"photonmap\"><integer name=\"caustic_photon\" value=\"1\"/></integrator>",
-      "scene.xml:2:30", "no parameter 'caustic_photon'", "did you mean 'caustic_photons'?");
+  const std::string shape = R"(<shape type="sphere"><float name="radus" value="1"/></shape>)",
+                    integrator = R"(<integrator type="path"><integer name="rr_deph" value="1"/>)"
+                                 "</integrator>";
+  write("scene.xml", scene_with({shape + "\n" + integrator}));
+  const RunResult told = run({"render", "scene.xml", "--spp", "1", "-o", "a.exr"});
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_TRUE(contains(told.err,
+                       "scene.xml:2:22: shape 'sphere' has no parameter 'radus': it is "
+                       "left out; did you mean 'radius'?"))
+      << told.err;
+  EXPECT_TRUE(contains(told.err,
+                       "scene.xml:3:25: integrator 'path' has no parameter 'rr_deph': it "
+                       "is left out; did you mean 'rr_depth'?"))
+      << told.err;
+  const RunResult refused = run({"render", "scene.xml", "--strict", "-o", "b.exr"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_TRUE(contains(refused.err, "did you mean 'radius'?")) << refused.err;
+  const RunResult typed =
+      run({"render", "scene.xml", "--set", "integrator.rr_deph=2", "-o", "b.exr"});
+  EXPECT_EQ(typed.exit_code, 2);
+  EXPECT_TRUE(contains(typed.err, "has no parameter 'rr_deph'")) << typed.err;
 }
 
 TEST_F(BadInput, WrongTypesAndRanges) {
@@ -176,8 +193,11 @@ TEST_F(BadInput, EmptyScenesAndMissingCameras) {
   expect_refused("scene.xml:1:1", "the scene has no camera", "add a sensor");
   write("scene.xml", scene_with({"", false, true, true}));
   expect_refused("scene.xml:1:1", "the scene has no camera", "add a sensor");
-  write("scene.xml", scene_with({"<sensor type=\"perspective\"/>", true, true, true}));
-  expect_refused("scene.xml:3:1", "second camera", "keep one; the first is here: scene.xml:2:1");
+  write("scene.xml", scene_with({R"(<sensor type="perspective" id="side"/>)", true, true, true}));
+  const RunResult result = run({"render", "scene.xml", "--camera", "sied", "-o", "a.exr"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_TRUE(contains(result.err, "the scene has no camera 'sied'")) << result.err;
+  EXPECT_TRUE(contains(result.err, "did you mean 'side'?")) << result.err;
 }
 
 /// A scene whose film has this size.
@@ -205,7 +225,7 @@ TEST_F(BadInput, SeveralProblemsAreToldAtOnce) {
         scene_with({"<shape type=\"spere\"/>\n<bsdf type=\"difuse\"/>\n"
                     "<shape type=\"sphere\"><float name=\"radus\" value=\"1\"/></shape>"}));
   expect_refused("scene.xml:2:1", "unknown shape type", "sphere");
-  const RunResult result = run({"info", "scene.xml"});
+  const RunResult result = run({"info", "scene.xml", "--strict"});
   EXPECT_EQ(result.exit_code, 2);
   for (const char* place : {"scene.xml:2:1: ", "scene.xml:3:1: ", "scene.xml:4:22: "})
     EXPECT_TRUE(contains(result.err, place)) << result.err;

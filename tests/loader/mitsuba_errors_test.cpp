@@ -37,6 +37,27 @@ TEST(MitsubaErrors, Elements) {
       {"<shape type='s'><path value='.'/></shape>", "2:17", "<path> in an object", "move"});
 }
 
+// Other renderers write elements of their own: these are left out, with all that is in them.
+TEST(MitsubaErrors, ForeignElementsAreLeftOut) {
+  const std::string text = in_scene(
+      "<shape type='sphere'>\n<qmc depth='3'><float name='x' value='no number'/></qmc></shape>\n"
+      "<qmc/>\n<hide/>");
+  const Description description = parse(text);
+  ASSERT_EQ(description.scene->children.size(), 1u);
+  EXPECT_TRUE(description.scene->children[0].object->children.empty());
+  EXPECT_EQ(
+      description.warnings,
+      (std::vector<std::string>{"test.xml:5:1: <hide> is no element of Mitsuba's: it is left out",
+                                "test.xml:3:1: <qmc> is no element of Mitsuba's: it is left out, "
+                                "here and 1 times more"}));
+  LoadOptions strict;
+  strict.is_strict = true;
+  EXPECT_TRUE(parse(in_scene(""), strict).is_strict);
+  const auto problems = problems_in(text, strict);
+  ASSERT_EQ(problems.size(), 3u);
+  EXPECT_EQ(problems[0].message, "unknown element <qmc>");
+}
+
 TEST(MitsubaErrors, Attributes) {
   expect_wrong({"<shape/>", "2:1", "<shape> lacks the attribute 'type'", "type="});
   expect_wrong({"<shape typ='sphere'/>", "2:8", "no attribute 'typ'", "did you mean 'type'"});
@@ -276,7 +297,7 @@ TEST(MitsubaErrors, SeveralAreToldAtOnce) {
   EXPECT_EQ(text_of(problems[1].place), "test.xml:3:24");
   EXPECT_EQ(text_of(problems[2].place), "test.xml:4:1");
   std::string many;
-  for (int i = 0; i < 100; ++i) many += "<x/>\n";
+  for (int i = 0; i < 100; ++i) many += "<bsdff/>\n";
   EXPECT_EQ(problems_in(in_scene(many)).size(), Problems::maximum);
 }
 

@@ -71,6 +71,24 @@ std::shared_ptr<const Bsdf> anisotropic(const std::string& distribution) {
                     property("alpha_v", 0.4), property("specular_reflectance", 0.9)});
 }
 
+std::shared_ptr<const Bsdf> ground_glass(const std::string& distribution, double alpha,
+                                         std::vector<Property> others = {}) {
+  others.push_back(property("distribution", distribution));
+  others.push_back(property("alpha", alpha));
+  return make_bsdf("roughdielectric", others);
+}
+
+std::shared_ptr<const Bsdf> plastic(const Rgb& base, bool nonlinear) {
+  return make_bsdf("plastic", {property("diffuse_reflectance", base),
+                               property("nonlinear", nonlinear), property("int_ior", 1.9)});
+}
+
+std::shared_ptr<const Bsdf> rough_plastic(const std::string& distribution, double alpha) {
+  return make_bsdf("roughplastic", {property("diffuse_reflectance", Rgb{0.8, 0.4, 0.1}),
+                                    property("nonlinear", true), property("alpha", alpha),
+                                    property("distribution", distribution)});
+}
+
 std::shared_ptr<const Bsdf> phong(const Rgb& diffuse, const Rgb& specular, double exponent) {
   return make_bsdf("phong",
                    {property("diffuse_reflectance", diffuse),
@@ -96,6 +114,10 @@ std::vector<BsdfInstance> make_instances() {
   return {
       {"diffuse", make_bsdf("diffuse")},
       {"diffuse_coloured", make_bsdf("diffuse", {property("reflectance", Rgb{0.9, 0.0, 0.3})})},
+      {"roughdiffuse", make_bsdf("roughdiffuse", {property("reflectance", Rgb{1, 0.3, 0.6}),
+                                                  property("roughness", 0.4)})},
+      {"roughdiffuse_as_rough_as_can_be", make_bsdf("roughdiffuse", {property("reflectance", 1.0)},
+                                                    {}, {{"roughness", checks(1, 0)}})},
       {"phong_coloured_30", coloured_phong},
       {"phong_3", phong({0.2, 0.2, 0.2}, {0.6, 0.6, 0.6}, 3)},
       {"phong_specular_1000", phong({0, 0, 0}, {1, 1, 1}, 1000)},
@@ -136,6 +158,55 @@ std::vector<BsdfInstance> make_instances() {
        make_bsdf("dielectric", {property("int_ior", "air"), property("ext_ior", "water"),
                                 property("specular_reflectance", Rgb{1, 0.5, 0.9}),
                                 property("specular_transmittance", Rgb{0.2, 0.9, 1})})},
+      {"ground_glass_beckmann_0.05", ground_glass("beckmann", 0.05)},
+      {"ground_glass_beckmann_0.3", ground_glass("beckmann", 0.3)},
+      {"ground_glass_ggx_0.3", ground_glass("ggx", 0.3)},
+      {"ground_glass_ggx_1", ground_glass("ggx", 1)},
+      {"ground_glass_ggx_0.3_all_normals",
+       ground_glass("ggx", 0.3, {property("sample_visible", false)})},
+      {"ground_air_bubble_tinted",
+       ground_glass("ggx", 0.2,
+                    {property("int_ior", "air"), property("ext_ior", 1.6),
+                     property("specular_reflectance", Rgb{0.3, 1, 0.9}),
+                     property("specular_transmittance", Rgb{0.2, 0.9, 1})})},
+      {"brushed_glass",
+       make_bsdf("roughdielectric", {property("distribution", "ggx"), property("alpha_u", 0.1),
+                                     property("alpha_v", 0.5), property("int_ior", "diamond")})},
+      {"textured_ground_glass",
+       make_bsdf("roughdielectric", {property("int_ior", "water")}, {},
+                 {{"alpha", checks(0.2, 0.02)}, {"specular_transmittance", checks(0.7, 0.1)}})},
+      {"pane", make_bsdf("thindielectric", {property("specular_transmittance", Rgb{0.4, 0.9, 1})})},
+      {"plastic", plastic({0.5, 0.5, 0.5}, false)},
+      {"plastic_nonlinear", plastic({0.9, 0.2, 0.6}, true)},
+      {"rough_plastic_beckmann_0.05", rough_plastic("beckmann", 0.05)},
+      {"rough_plastic_ggx_0.3", rough_plastic("ggx", 0.3)},
+      {"rough_plastic_ggx_1", rough_plastic("ggx", 1)},
+      {"principled_leather",
+       make_bsdf("principled", {property("base_color", Rgb{0.5, 0.2, 0.1}),
+                                property("roughness", 0.6), property("specular", 0.7)})},
+      {"principled_velvet",
+       make_bsdf("principled",
+                 {property("base_color", Rgb{0.1, 0.3, 0.2}), property("roughness", 0.9),
+                  property("sheen", 0.8), property("sheen_tint", 0.7), property("flatness", 0.5)})},
+      {"principled_brushed_gold",
+       make_bsdf("principled", {property("base_color", Rgb{0.9, 0.7, 0.3}),
+                                property("metallic", 0.9), property("roughness", 0.5),
+                                property("anisotropic", 0.8), property("spec_tint", 0.5)})},
+      {"principled_glass",
+       make_bsdf("principled", {property("base_color", Rgb{0.9, 0.8, 0.6}), property("eta", 1.5),
+                                property("spec_trans", 0.8), property("roughness", 0.4)})},
+      {"principled_varnish",
+       make_bsdf("principled",
+                 {property("base_color", Rgb{0.2, 0.1, 0.6}), property("roughness", 0.7),
+                  property("clearcoat", 1.0), property("clearcoat_gloss", 0.2)})},
+      {"principled_white_all_at_once",
+       make_bsdf("principled", {property("base_color", 1.0), property("roughness", 1.0),
+                                property("sheen", 1.0), property("clearcoat", 1.0)})},
+      {"principled_textured", make_bsdf("principled", {property("sheen", 1.0)}, {},
+                                        {{"base_color", checks(1, 0.1)},
+                                         {"roughness", checks(0.5, 0.1)},
+                                         {"metallic", checks(0.2, 1)},
+                                         {"spec_trans", checks(0.3, 0)}})},
   };
 }
 

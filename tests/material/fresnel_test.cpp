@@ -131,7 +131,8 @@ TEST(metals, are_all_known_by_name_in_any_case) {
       const Spectrum r = fresnel_conductor(c, ior);
       ASSERT_TRUE(r.is_finite()) << name;
       ASSERT_LE(r.max_lane(), 1.000001f) << name;
-      ASSERT_GE(r[0], 0.2f) << name;
+      // Mitsuba's names hold some that are no metals: tin telluride, magnesia, thorium fluoride.
+      ASSERT_GE(r[0], 0.03f) << name;
     }
   }
   EXPECT_EQ(conductor_ior("AU").eta.rgb(), conductor_ior("au").eta.rgb());

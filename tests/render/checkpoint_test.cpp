@@ -74,6 +74,7 @@ RenderRecord little_record() {
   record.recipe.scene = "scene.xml";
   record.recipe.folder = "/somewhere";
   record.recipe.definitions = {{"size", "24"}, {"name", ""}};
+  record.recipe.camera = "side";
   record.recipe.integrator = "path";
   record.recipe.settings = {{"film", "width", "8", "command line: --set film.width=8"}};
   record.recipe.seed = 0xfedcba9876543210u;
@@ -151,6 +152,7 @@ TEST_F(CheckpointFile, HoldsEverything) {
   EXPECT_EQ(read.record.program, record.program);
   EXPECT_EQ(read.record.recipe.scene, record.recipe.scene);
   EXPECT_EQ(read.record.recipe.folder, record.recipe.folder);
+  EXPECT_EQ(read.record.recipe.camera, record.recipe.camera);
   EXPECT_EQ(read.record.recipe.definitions, record.recipe.definitions);
   EXPECT_EQ(read.record.recipe.integrator, record.recipe.integrator);
   ASSERT_EQ(read.record.recipe.settings.size(), 1u);

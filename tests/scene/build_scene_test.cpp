@@ -134,8 +134,6 @@ TEST(BuildScene, WhatIsMissing) {
 }
 
 TEST(BuildScene, WhatIsThereTwice) {
-  expect_problem(camera + "\n" + camera + sphere, "3:1", "second camera",
-                 "keep one; the first is here: test.xml:2:1");
   expect_problem(
       "<sensor type=\"perspective\"><film type=\"hdrfilm\"/>\n<film "
       "type=\"hdrfilm\"/></sensor>" +
@@ -192,11 +190,17 @@ TEST(BuildScene, DescriptionsWithoutPlaces) {
   const auto ball = std::make_shared<Object>(Object{"shape", "sphere", "", {}, {}, {}});
   const Description two{std::make_shared<Object>(
       Object{"scene", "", "", {}, {{"", sensor()}, {"", sensor()}, {"", ball}}, {}})};
+  EXPECT_EQ(build_scene(two)->warnings(),
+            std::vector<std::string>{
+                "the scene has more than one camera: the first is used, not sensor 'perspective'"});
+  const Description none{std::make_shared<Object>(Object{"scene", "", "", {}, {{"", ball}}, {}})};
   try {
-    build_scene(two);
+    build_scene(none);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "the scene has a second camera\n  remedy: keep one");
+    EXPECT_STREQ(error.what(),
+                 "the scene has no camera\n  remedy: add a sensor of type 'perspective', with a "
+                 "'to_world'");
   }
   const Description one{
       std::make_shared<Object>(Object{"scene", "", "", {}, {{"", sensor()}, {"", ball}}, {}})};
@@ -220,6 +224,36 @@ TEST(BuildScene, WhatStandsInTheWrongPlace) {
                      "\n<bsdf type=\"diffuse\"><texture type=\"checkerboard\" "
                      "name=\"reflectanc\"/></bsdf>",
                  "3:22", "takes no texture 'reflectanc'", "did you mean 'reflectance'?");
+}
+
+// Mitsuba's scenes may hold a lamp for shapes to refer to.
+TEST(BuildScene, LampsThatShapesReferTo) {
+  const std::string lamp = R"(<emitter type="area" id="lamp"/>)",
+                    shining = R"(<shape type="sphere"><ref id="lamp"/></shape>)";
+  const auto scene = build_scene(parse_mitsuba_xml(
+      "<scene version=\"3.0.0\">" + camera + lamp + shining + shining + "</scene>", "t.xml", ""));
+  EXPECT_EQ(scene->lights().size(), 2u);
+  EXPECT_TRUE(scene->warnings().empty());
+  const auto dark = build_scene(parse_mitsuba_xml(
+      "<scene version=\"3.0.0\">" + camera + lamp + sphere + "</scene>", "t.xml", ""));
+  EXPECT_TRUE(dark->lights().empty());
+  EXPECT_EQ(dark->warnings(),
+            std::vector<std::string>{"emitter 'lamp' belongs to no shape: it is left out"});
+}
+
+// Foreign programs write parameters of their own.
+TEST(BuildScene, ForeignParametersAreLeftOut) {
+  const std::string text = "<scene version=\"3.0.0\">" + camera + sphere +
+                           "\n<shape type=\"sphere\"><float name=\"radius\" value=\"2\"/>"
+                           "<integer name=\"tiles\" value=\"2\"/></shape>"
+                           "<shape type=\"sphere\"><integer name=\"tiles\" value=\"2\"/></shape>"
+                           "</scene>";
+  Description description = parse_mitsuba_xml(text, "t.xml", "");
+  EXPECT_EQ(build_scene(description)->warnings(),
+            std::vector<std::string>{"t.xml:2:54: shape 'sphere' has no parameter 'tiles': it is "
+                                     "left out, here and 1 times more"});
+  description.is_strict = true;
+  EXPECT_THROW(build_scene(description), Error);
 }
 
 TEST(BuildScene, LightsThatCannotShine) {

@@ -1,6 +1,7 @@
 // The pinhole: where rays go, where points appear, and that both agree in measure.
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/base/statistics.h"
 #include "tests/scene/scene_support.h"
 #include "tests/support/type_rows.h"
 
@@ -78,7 +79,10 @@ TEST(Camera, EveryTypeSeesPointsWhereItsRaysGo) {
   for (const CameraType& type : camera_types()) {
     SCOPED_TRACE(type.info.name);
     Problems problems;
-    const Arguments arguments(type.info, {}, {}, problems);
+    std::vector<Property> needed;
+    for (const Parameter& row : type.info.parameters)
+      if (row.required) needed.push_back({row.name, Value(0.1), {}});
+    const Arguments arguments(type.info, needed, {}, problems);
     problems.throw_if_any();
     const std::unique_ptr<Camera> camera = type.create(arguments, film);
     for (uint32_t i = 0; i < 100; ++i) {
@@ -96,6 +100,83 @@ TEST(Camera, EveryTypeSeesPointsWhereItsRaysGo) {
       EXPECT_LT(length(seen.direction + ray.direction), 1e-5f);
     }
   }
+}
+
+std::unique_ptr<Camera> camera_of(const std::string& name, std::vector<Property> properties) {
+  FilmSettings film;
+  film.size = film.crop_size = {32, 24};
+  for (const CameraType& type : camera_types()) {
+    if (type.info.name != name) continue;
+    Problems problems;
+    const Arguments arguments(type.info, properties, {}, problems);
+    problems.throw_if_any();
+    return type.create(arguments, film);
+  }
+  return nullptr;
+}
+
+// All rays of a point of the picture meet at the distance that is sharp, and nowhere else.
+TEST(Camera, ThinLensIsSharpInOneDistance) {
+  for (const int blades : {0, 3, 6}) {
+    const auto camera = camera_of("thinlens", {{"aperture_radius", Value(0.2), {}},
+                                               {"focus_distance", Value(3.0), {}},
+                                               {"blades", Value(int64_t(blades)), {}},
+                                               {"fov", Value(60.0), {}}});
+    EXPECT_TRUE(camera->traits().has_lens);
+    const Vec2f raster(5, 19);
+    const auto at = [&](const Vec2f& u, float z) {
+      const Ray ray = camera->sample_ray(raster, u);
+      return ray.origin + ray.direction * (z / ray.direction.z);
+    };
+    RunningStatistics x, y;
+    double farthest = 0;
+    for (uint32_t i = 0; i < 4096; ++i) {
+      Sampler sampler(5, i);
+      const Vec2f u = sampler.next_2d();
+      EXPECT_LT(length(at(u, 3) - at({0.5f, 0.5f}, 3)), 2e-6f);
+      const Vec3f origin = camera->sample_ray(raster, u).origin;
+      EXPECT_EQ(origin.z, 0);
+      x.add(double(origin.x));
+      y.add(double(origin.y));
+      farthest = std::max(farthest, double(length(origin)));
+    }
+    // The mean square of a coordinate: R²/4 of a disk, less of a regular polygon in it:
+    // R²/12 (2 + cos(2π/n)).
+    const double expected =
+        blades == 0 ? 0.01 : 0.04 / 12 * (2 + std::cos(2 * std::numbers::pi / blades));
+    EXPECT_NEAR(x.mean(), 0, 1e-3);
+    EXPECT_NEAR(y.mean(), 0, 1e-3);
+    EXPECT_NEAR(x.variance(), expected, 0.02 * expected) << blades;
+    EXPECT_NEAR(y.variance(), expected, 0.02 * expected) << blades;
+    EXPECT_LE(farthest, 0.2 + 1e-6);
+    EXPECT_GT(farthest, 0.19);
+  }
+}
+
+TEST(Camera, ThinLensNeedsAnApertureOfSomeArea) {
+  EXPECT_THROW(camera_of("thinlens", {}), Error);
+  EXPECT_THROW(camera_of("thinlens",
+                         {{"aperture_radius", Value(0.1), {}}, {"blades", Value(int64_t(2)), {}}}),
+               Error);
+}
+
+// The scale of to_world is half of the width; the height follows from the picture's shape.
+TEST(Camera, OrthographicSeesAlongParallelLines) {
+  const Transform placed = Transform::translate({1, 2, 3}) * Transform::scale({4, 4, 1});
+  const auto camera = camera_of("orthographic", {{"to_world", Value(placed), {}}});
+  const Ray corner = camera->sample_ray({0, 0}, {}), other = camera->sample_ray({32, 24}, {});
+  EXPECT_LT(length(corner.origin - Vec3f(5, 5, 3)), 1e-5f);
+  EXPECT_LT(length(other.origin - Vec3f(-3, -1, 3)), 1e-5f);
+  EXPECT_EQ(corner.direction, Vec3f(0, 0, 1));
+  EXPECT_EQ(other.direction, Vec3f(0, 0, 1));
+  // A pixel is 0.25 m wide, at every distance.
+  for (const float distance : {0.5f, 7.0f}) {
+    const CameraConnection seen = camera->connect(corner.origin + Vec3f(0, 0, distance), {});
+    EXPECT_NEAR(seen.importance / (distance * distance), 16, 1e-4);
+  }
+  EXPECT_EQ(camera->connect(corner.origin - Vec3f(0, 0, 1), {}).importance, 0);
+  EXPECT_NEAR(camera->traits().pixel_width, 0.125, 1e-6);
+  EXPECT_EQ(camera->traits().pixel_spread, 0);
 }
 
 TEST(Camera, FocalLength) {

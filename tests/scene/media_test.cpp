@@ -146,7 +146,6 @@ TEST(MediaErrors, OfCoefficients) {
   problem(color("sigma_s", "1, -1, 1"), "sigma_s");
   problem("<float name=\"scale\" value=\"-1\"/>", "scale");
   problem(color("sigma_t", "1e30, 1, 1") + "<float name=\"scale\" value=\"1e20\"/>", "too large");
-  problem("<float name=\"sigmat\" value=\"1\"/>", "sigmat");
   for (const std::string g : {"1", "-1"})
     problem("<phase type=\"hg\"><float name=\"g\" value=\"" + g + "\"/></phase>",
             "scatters nowhere");

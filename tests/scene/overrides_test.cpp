@@ -113,5 +113,31 @@ TEST(Overrides, IntegratorsOfShapesStay) {
   EXPECT_EQ(of_shape()->properties.size(), 2u);
 }
 
+// The first, or the one that is asked for; and "sensor" is a name for it then.
+TEST(Overrides, OneOfSeveralCameras) {
+  const std::string text = "<scene version=\"3.0.0\">" + std::string(any_shape) +
+                           R"(<sensor type="perspective" id="front"/>
+                           <sensor type="orthographic" id="plan"/><sensor type="perspective"/>)"
+                           "</scene>";
+  const auto types_with = [&](const std::string& name, const std::string& told) {
+    Description description = parse_mitsuba_xml(text, "t.xml", "");
+    EXPECT_EQ(choose_camera(description, name), told);
+    std::string types;
+    for (const Child& child : description.scene->children)
+      if (child.object->family == "sensor") types += child.object->type + " ";
+    return types;
+  };
+  EXPECT_EQ(types_with("",
+                       "the scene has 3 cameras: 'front' is used, the others are left out: "
+                       "plan, one without a name"),
+            "perspective ");
+  EXPECT_EQ(types_with("plan", ""), "orthographic ");
+  Description description = parse_mitsuba_xml(text, "t.xml", "");
+  EXPECT_THROW(choose_camera(description, "planet"), Error);
+  choose_camera(description, "front");
+  override_property(description, "sensor.fov=20");
+  EXPECT_NEAR(build_scene(description)->camera().traits().horizontal_fov, 20, 1e-3);
+}
+
 }  // namespace
 }  // namespace kaustik

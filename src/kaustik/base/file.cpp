@@ -233,6 +233,10 @@ std::vector<uint8_t> read_file(const std::string& path) {
 }
 
 std::vector<uint8_t> read_file_start(const std::string& path, size_t most) {
+  return read_file_part(path, 0, most).bytes;
+}
+
+FilePart read_file_part(const std::string& path, uint64_t begin, size_t most) {
   // Without O_NONBLOCK a named pipe would be waited for.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status;
@@ -242,8 +246,13 @@ std::vector<uint8_t> read_file_start(const std::string& path, size_t most) {
   if (!S_ISREG(status.st_mode))
     throw_input(fmt::format("cannot read '{}': it is not a regular file", path),
                 "give the name of a file");
+  const auto size = uint64_t(status.st_size);
+  if (begin >= size) return {{}, size};
+  if (::lseek(file.get(), off_t(begin), SEEK_SET) < 0)
+    throw Error(ErrorKind::system, fmt::format("cannot read '{}': {}", path, text_of(errno)),
+                "check the disk");
   try {
-    return read_bytes(path, file.get(), std::min(most, size_t(status.st_size)));
+    return {read_bytes(path, file.get(), size_t(std::min<uint64_t>(most, size - begin))), size};
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::system, fmt::format("cannot read '{}': not enough memory", path),
                 "the file is larger than this machine can hold");

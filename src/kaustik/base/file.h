@@ -11,6 +11,14 @@ std::vector<uint8_t> read_file(const std::string& path);
 /// The same of its first bytes, at most so many.
 std::vector<uint8_t> read_file_start(const std::string& path, size_t most);
 
+/// Some bytes of a file, and how many it has in all.
+struct FilePart {
+  std::vector<uint8_t> bytes;
+  uint64_t file_size = 0;
+};
+/// The same of at most so many bytes from `begin` on; none where the file ends before.
+FilePart read_file_part(const std::string& path, uint64_t begin, size_t most);
+
 /// Puts `bytes` at `path` as a whole or not at all: written to a temporary file in the same folder,
 /// flushed to the disk, renamed over the target. Whatever goes wrong, a file that was there before
 /// stays as it was and the temporary one is removed; if the program is killed, by the next one that

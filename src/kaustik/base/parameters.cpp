@@ -310,6 +310,35 @@ std::vector<std::string> TypeInfo::parameter_names() const {
   return names;
 }
 
+std::vector<Property> UnknownParameters::without_unknown(const TypeInfo& info,
+                                                         const std::vector<Property>& properties) {
+  std::vector<Property> known;
+  for (const Property& property : properties) {
+    const bool is_of_file = property.place.file && property.place.line > 0;
+    if (info.find(property.name) || !is_of_file) {
+      known.push_back(property);
+      continue;
+    }
+    const std::string text =
+        fmt::format("{} '{}' has no parameter '{}'", info.family, info.name, property.name);
+    Found& found = found_[text];
+    if (found.count++ > 0) continue;
+    found.first = property.place;
+    found.nearest = nearest_name(property.name, info.parameter_names());
+  }
+  return known;
+}
+
+std::vector<std::string> UnknownParameters::warnings() const {
+  std::vector<std::string> sentences;
+  for (const auto& [text, found] : found_)
+    sentences.push_back(fmt::format(
+        "{}: {}: it is left out{}{}", text_of(found.first), text,
+        found.count > 1 ? fmt::format(", here and {} times more", found.count - 1) : "",
+        found.nearest.empty() ? "" : fmt::format("; did you mean '{}'?", found.nearest)));
+  return sentences;
+}
+
 Arguments::Arguments(const TypeInfo& info, const std::vector<Property>& given, const Place& place,
                      Problems& problems)
     : info_(&info), place_(place) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -128,6 +129,26 @@ struct TypeInfo {
 
   const Parameter* find(std::string_view parameter_name) const;
   std::vector<std::string> parameter_names() const;
+};
+
+/// Parameters that files give and no table knows: foreign programs write some of their own. They
+/// are left out, and told once for each type, with how many there were.
+class UnknownParameters {
+ public:
+  /// The properties that the table knows, and those that no file gave: who types a name or writes
+  /// a program is told of a mistake as of an error.
+  std::vector<Property> without_unknown(const TypeInfo& info,
+                                        const std::vector<Property>& properties);
+  /// A sentence for each.
+  std::vector<std::string> warnings() const;
+
+ private:
+  struct Found {
+    Place first;
+    std::string nearest;
+    int count = 0;
+  };
+  std::map<std::string, Found> found_;
 };
 
 /// Given properties checked against a table. Everything wrong (unknown name with the nearest valid

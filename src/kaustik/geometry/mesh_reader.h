@@ -9,7 +9,8 @@ namespace kaustik {
 struct MeshFile {
   TriangleMesh mesh;
   /// What was left out, for the user: a sentence each, with the file's name.
-  std::vector<std::string> remarks;
+  std::vector<std::string> remarks = {};
+  bool has_face_normals = false;  ///< whether it is to have flat faces
 };
 
 /// Reads a mesh file in its own space. Polygons are cut by PolygonCutter; normals are as in the
@@ -22,6 +23,10 @@ MeshFile read_ply(const std::string& path);
 /// points and lines are skipped, what it does not know is remarked. Vertices are split where
 /// texture coordinates or normals differ.
 MeshFile read_obj(const std::string& path);
+
+/// Mitsuba's packed meshes, versions 3 and 4: the one with this index of those that a file holds.
+/// Colours are skipped.
+MeshFile read_serialized(const std::string& path, uint64_t shape_index);
 
 /// How many bytes of `bytes` are a mark that it is UTF-8 text. Throws Error(input) naming `file`
 /// where the mark of another encoding stands.

@@ -38,11 +38,12 @@ std::vector<Parameter> file_mesh_parameters(bool flip_tex_coords) {
   return with_options({file_parameter("filename", "Mesh file.")}, flip_tex_coords);
 }
 
-std::unique_ptr<Shape> create_from_file(const Arguments& arguments,
-                                        MeshFile (*read)(const std::string&)) {
+template <typename Read>
+std::unique_ptr<Shape> create_from_file(const Arguments& arguments, const Read& read) {
   const std::string& path = arguments.text("filename");
-  const MeshOptions options = mesh_options(arguments);
+  MeshOptions options = mesh_options(arguments);
   MeshFile file = read(path);
+  options.face_normals = options.face_normals || file.has_face_normals;
   return std::make_unique<MeshShape>(prepare_mesh(std::move(file.mesh), options, place_in(path)),
                                      std::move(file.remarks));
 }
@@ -90,6 +91,24 @@ const TypeInfo& ply_info() {
 }
 std::unique_ptr<Shape> create_ply(const Arguments& arguments) {
   return create_from_file(arguments, read_ply);
+}
+
+const TypeInfo& serialized_info() {
+  static const TypeInfo info = [] {
+    TypeInfo made{"shape", "serialized", "Triangle mesh from one of Mitsuba's packed files.",
+                  file_mesh_parameters(false)};
+    made.parameters.insert(
+        made.parameters.begin() + 1,
+        integer_parameter("shape_index", 0, "Which of the file's meshes, counted from 0.")
+            .range(0, 0x7fffffff));
+    return made;
+  }();
+  return info;
+}
+std::unique_ptr<Shape> create_serialized(const Arguments& arguments) {
+  return create_from_file(arguments, [&](const std::string& path) {
+    return read_serialized(path, uint64_t(arguments.integer("shape_index")));
+  });
 }
 
 const TypeInfo& mesh_info() {

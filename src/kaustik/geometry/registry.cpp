@@ -4,10 +4,15 @@ namespace kaustik {
 
 const std::vector<ShapeType>& shape_types() {
   static const std::vector<ShapeType> types = {
-      {obj_info(), create_obj},       {ply_info(), create_ply},
-      {mesh_info(), create_mesh},     {rectangle_info(), create_rectangle},
-      {cube_info(), create_cube},     {disk_info(), create_disk},
-      {sphere_info(), create_sphere}, {cylinder_info(), create_cylinder},
+      {obj_info(), create_obj},
+      {ply_info(), create_ply},
+      {serialized_info(), create_serialized},
+      {mesh_info(), create_mesh},
+      {rectangle_info(), create_rectangle},
+      {cube_info(), create_cube},
+      {disk_info(), create_disk},
+      {sphere_info(), create_sphere},
+      {cylinder_info(), create_cylinder},
       {sdf_info(), create_sdf},
   };
   return types;

@@ -9,6 +9,8 @@ const TypeInfo& obj_info();
 std::unique_ptr<Shape> create_obj(const Arguments& arguments);
 const TypeInfo& ply_info();
 std::unique_ptr<Shape> create_ply(const Arguments& arguments);
+const TypeInfo& serialized_info();
+std::unique_ptr<Shape> create_serialized(const Arguments& arguments);
 const TypeInfo& mesh_info();
 std::unique_ptr<Shape> create_mesh(const Arguments& arguments);
 const TypeInfo& rectangle_info();

@@ -59,16 +59,20 @@ Object unwrapped(const Object& object, const ForeignIntegrator& foreign,
 }
 
 /// Checks what is given against their table, and gives it our names.
-Object translated(const Object& object, const ForeignIntegrator& foreign,
+Object translated(const Object& object, const ForeignIntegrator& foreign, bool is_strict,
                   std::vector<std::string>& notes) {
   const TypeInfo table = whole_table(foreign, object.type);
   Problems problems;
-  const Arguments arguments(table, object.properties, object.place, problems);
+  UnknownParameters unknown;
+  const std::vector<Property> given =
+      is_strict ? object.properties : unknown.without_unknown(table, object.properties);
+  const Arguments arguments(table, given, object.place, problems);
   problems.throw_if_any();
+  for (std::string& warning : unknown.warnings()) notes.push_back(std::move(warning));
   Object result = object;
   result.type = foreign.native;
   result.properties.clear();
-  for (const Property& property : object.properties) {
+  for (const Property& property : given) {
     bool is_renamed = false;
     for (const auto& [theirs, ours] : foreign.renamed)
       if (property.name == theirs) {
@@ -128,15 +132,16 @@ std::string native_type(const Object& object) {
   return held ? native_type(*held) : default_integrator;
 }
 
-Object native_integrator(const Object& object, std::vector<std::string>& notes) {
+Object native_integrator(const Object& object, std::vector<std::string>& notes, bool is_strict) {
   const ForeignIntegrator* foreign = find_foreign_integrator(object.type);
   if (!foreign) return object;
   if (!foreign->refusal.empty())
     throw Error(ErrorKind::input,
                 fmt::format("integrator '{}' does not render a picture of light", object.type),
                 foreign->refusal, object.place);
-  if (foreign->holds_another()) return native_integrator(unwrapped(object, *foreign, notes), notes);
-  Object native = translated(object, *foreign, notes);
+  if (foreign->holds_another())
+    return native_integrator(unwrapped(object, *foreign, notes), notes, is_strict);
+  Object native = translated(object, *foreign, is_strict, notes);
   if (object.type != native.type) notes.push_back(choice_note(object, native, *foreign));
   return native;
 }

@@ -32,9 +32,10 @@ const ForeignIntegrator* find_foreign_integrator(const std::string& type);
 /// The integrator as one of Kaustik's own types: where it has another renderer's name, what is
 /// meant or what is nearest, with those of its parameters that have a meaning here; of one that
 /// holds others (`aov`) the first of them. Objects of types that nobody knows stay as they are.
-/// What was chosen and left out goes to `notes`. Throws Error for wrong parameters, and for what
-/// nothing here is near.
-Object native_integrator(const Object& object, std::vector<std::string>& notes);
+/// What was chosen and left out goes to `notes`. Throws Error for wrong parameters, if it
+/// `is_strict` for unknown ones, and for what nothing here is near.
+Object native_integrator(const Object& object, std::vector<std::string>& notes,
+                         bool is_strict = true);
 
 /// The type of native_integrator(); checks no parameters, throws nothing.
 std::string native_type(const Object& object);

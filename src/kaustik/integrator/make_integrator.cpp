@@ -44,18 +44,23 @@ void tell_once(const std::string& warning, std::vector<std::string>& warnings) {
 }
 
 std::unique_ptr<Integrator> create(const Object& given, const Scene& scene, bool of_surface,
-                                   std::vector<std::string>& warnings) {
+                                   bool is_strict, std::vector<std::string>& warnings) {
   std::vector<std::string> notes;
-  const Object object = native_integrator(given, notes);
+  const Object object = native_integrator(given, notes, is_strict);
   for (const std::string& note : notes) tell_once(note, warnings);
   const IntegratorType& type = type_of(object);
   Problems problems;
-  const Arguments arguments(type.info, object.properties, object.place, problems);
+  UnknownParameters unknown;
+  const Arguments arguments(
+      type.info,
+      is_strict ? object.properties : unknown.without_unknown(type.info, object.properties),
+      object.place, problems);
   for (const Child& child : object.children)
     problems.add(fmt::format("integrator '{}' cannot hold a {}", object.type, child.object->family),
                  "remove it", child.object->place);
   if (of_surface) refuse_what_is_the_scenes(arguments, problems);
   problems.throw_if_any();
+  for (const std::string& warning : unknown.warnings()) tell_once(warning, warnings);
   for (const std::string& ignored : arguments.ignored())
     tell_once(fmt::format("'{}' of integrator '{}' has no effect here", ignored, object.type),
               warnings);
@@ -77,29 +82,31 @@ std::vector<std::pair<const Object*, std::vector<uint32_t>>> own_models(const Sc
 }
 
 std::unique_ptr<IlluminationModel> create_model(const Object& object, const Scene& scene,
+                                                bool is_strict,
                                                 std::vector<std::string>& warnings) {
   if (!type_of(object, true).is_model)
     throw Error(ErrorKind::input,
                 fmt::format("integrator '{}' cannot belong to a single shape", object.type),
                 fmt::format("one of these can: {}", fmt::join(type_names(true), ", ")),
                 object.place);
-  auto integrator = create(object, scene, true, warnings);
+  auto integrator = create(object, scene, true, is_strict, warnings);
   return std::unique_ptr<IlluminationModel>(static_cast<IlluminationModel*>(integrator.release()));
 }
 
 }  // namespace
 
 std::unique_ptr<Integrator> make_integrator_alone(const Object& object, const Scene& scene,
-                                                  std::vector<std::string>& warnings) {
-  return create(object, scene, false, warnings);
+                                                  std::vector<std::string>& warnings,
+                                                  bool is_strict) {
+  return create(object, scene, false, is_strict, warnings);
 }
 
 std::unique_ptr<Integrator> make_integrator(const Object& object, const Scene& scene,
-                                            std::vector<std::string>& warnings) {
-  auto of_scene = make_integrator_alone(object, scene, warnings);
+                                            std::vector<std::string>& warnings, bool is_strict) {
+  auto of_scene = make_integrator_alone(object, scene, warnings, is_strict);
   std::vector<SurfaceModels::Model> of_surfaces;
   for (auto& [own, surfaces] : own_models(scene))
-    of_surfaces.push_back({create_model(*own, scene, warnings), std::move(surfaces)});
+    of_surfaces.push_back({create_model(*own, scene, is_strict, warnings), std::move(surfaces)});
   if (of_surfaces.empty()) return of_scene;
   if (!type_of(object).is_model) {
     warnings.push_back(fmt::format(

@@ -55,7 +55,13 @@ Description Reader::finish(const std::shared_ptr<Object>& scene) {
     definitions_.report_unused(problems_);
   }
   problems_.throw_if_any();
-  return {scene, {sources_.begin(), sources_.end()}};
+  Description description{.scene = scene, .sources = {sources_.begin(), sources_.end()}};
+  description.is_strict = is_strict_;
+  for (const auto& [tag, foreign] : foreign_)
+    description.warnings.push_back(fmt::format(
+        "{}: <{}> is no element of Mitsuba's: it is left out{}", kaustik::text_of(foreign.first),
+        tag, foreign.count > 1 ? fmt::format(", here and {} times more", foreign.count - 1) : ""));
+  return description;
 }
 
 std::optional<Element> Reader::ready(const pugi::xml_node& node, const Source& source) {
@@ -127,6 +133,14 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
 }
 
 void Reader::report_unknown(const Element& element) {
+  // Other renderers have elements of their own. What looks like one of ours was meant to be one.
+  const bool is_ours = is_in(transform_tags(), element.tag) ||
+                       upgraded_tag(element.tag, {0, 0, 0}) != element.tag ||
+                       suggestion(element.tag, part_tags()).starts_with("did you mean");
+  if (!is_strict_ && !is_ours) {
+    ++foreign_.try_emplace(element.tag, Foreign{element.place, 0}).first->second.count;
+    return;
+  }
   incomplete_ = true;  // its ids and definitions are unknown
   if (is_in(transform_tags(), element.tag)) {
     problems_.add(

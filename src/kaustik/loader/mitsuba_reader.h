@@ -19,7 +19,8 @@ namespace kaustik::mitsuba {
 /// Reads one scene and what it includes; used once.
 class Reader {
  public:
-  explicit Reader(const LoadOptions& options) : definitions_(options, problems_) {}
+  explicit Reader(const LoadOptions& options)
+      : is_strict_(options.is_strict), definitions_(options, problems_) {}
 
   Description read_file(const std::string& path);
   Description read_text(std::string text, const std::string& name,
@@ -76,12 +77,20 @@ class Reader {
   bool take_name(Unfinished& parent, const std::string& name, const Place& place);
   std::filesystem::path found(const std::string& file, const Source& source) const;
 
+  /// An element that is none of Mitsuba's.
+  struct Foreign {
+    Place first;
+    int count = 0;
+  };
+
+  bool is_strict_;
   Problems problems_;
   Definitions definitions_;
   References references_;
   LoadBudget budget_;
   std::map<std::filesystem::path, std::unique_ptr<XmlDocument>> documents_;  ///< by identity
   std::map<std::string, SpectralCurve> curves_;                              ///< by path
+  std::map<std::string, Foreign> foreign_;                                   ///< by tag
   std::set<std::string> sources_;                                            ///< see Description
   std::vector<std::filesystem::path> open_files_;  ///< the outermost first
   size_t included_files_ = 0;

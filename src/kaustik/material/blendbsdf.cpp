@@ -10,6 +10,7 @@ class BlendBsdf final : public Bsdf {
             std::shared_ptr<const Texture> weight)
       : Bsdf({.lobes = first->traits().lobes | second->traits().lobes,
               .transmits = first->traits().transmits || second->traits().transmits,
+              .is_lambertian = first->traits().is_lambertian && second->traits().is_lambertian,
               .needs =
                   first->traits().needs | second->traits().needs | texture_needs({weight.get()}),
               .size = first->traits().size + second->traits().size + 1}),

@@ -49,6 +49,8 @@ struct BsdfTraits {
   /// Whether it is the boundary that light does not notice: paths and shadow rays go straight on,
   /// without an event. Such a bsdf has no lobes.
   bool is_null = false;
+  /// Whether the diffuse lobe has one value for all pairs of directions on each side (Lambert).
+  bool is_lambertian = true;
   SurfaceNeeds needs = SurfaceNeeds::none;  ///< of the surface, beside directions
   /// How many bsdfs an answer of eval() asks at most, itself included; one that is nested in
   /// several places counts for each of them.
@@ -75,20 +77,25 @@ class BsdfContext {
   }
   /// What the texture gives there as a colour …
   Spectrum value_of(const Texture& texture) const {
-    return remembered(texture, 0, [&] { return texture.eval(texture_, wavelengths_); });
+    return remembered(&texture, 0, [&] { return texture.eval(texture_, wavelengths_); });
   }
   /// … and as one number.
   float scalar_of(const Texture& texture) const {
-    return remembered(texture, 1, [&] { return Spectrum(texture.scalar(texture_)); })[0];
+    return remembered(&texture, 1, [&] { return Spectrum(texture.scalar(texture_)); })[0];
+  }
+  /// A number that a bsdf finds for the point, with much work, whatever the directions.
+  template <typename Ask>
+  float number_of(const void* bsdf, const Ask& ask) const {
+    return remembered(bsdf, 2, [&] { return Spectrum(ask()); })[0];
   }
 
   TransportMode mode = TransportMode::radiance;
 
  private:
-  /// `question` tells apart what one texture is asked.
+  /// `question` tells apart what one object is asked.
   template <typename Ask>
-  Spectrum remembered(const Texture& texture, uintptr_t question, const Ask& ask) const {
-    const uintptr_t key = reinterpret_cast<uintptr_t>(&texture) | question;
+  Spectrum remembered(const void* object, uintptr_t question, const Ask& ask) const {
+    const uintptr_t key = reinterpret_cast<uintptr_t>(object) | question;
     for (size_t i = 0; i < known_; ++i)
       if (keys_[i] == key) return values_[i];
     const Spectrum value = ask();
@@ -205,7 +212,8 @@ struct BsdfType {
 std::shared_ptr<const Texture> constant_texture_of(const Arguments& arguments,
                                                    std::string_view name);
 
-/// "diffuse", "phong", "thinphong", "difftrans", "dielectric", "conductor", "roughconductor",
+/// "diffuse", "roughdiffuse", "phong", "thinphong", "difftrans", "dielectric", "roughdielectric",
+/// "thindielectric", "conductor", "roughconductor", "plastic", "roughplastic", "principled",
 /// "twosided", "mask", "blendbsdf", "bumpmap", "normalmap", "null".
 const std::vector<BsdfType>& bsdf_types();
 

@@ -6,10 +6,16 @@
 namespace kaustik {
 
 BsdfType diffuse_type();
+BsdfType roughdiffuse_type();
 BsdfType phong_type();
 BsdfType dielectric_type();
+BsdfType roughdielectric_type();
+BsdfType thindielectric_type();
+BsdfType plastic_type();
+BsdfType roughplastic_type();
 BsdfType conductor_type();
 BsdfType roughconductor_type();
+BsdfType principled_type();
 BsdfType twosided_type();
 BsdfType null_type();
 BsdfType thinphong_type();

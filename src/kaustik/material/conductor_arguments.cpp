@@ -1,6 +1,9 @@
 #include "kaustik/material/conductor_arguments.h"
 
 #include <optional>
+
+#include "kaustik/material/dielectric_arguments.h"
+
 namespace kaustik {
 namespace {
 
@@ -26,9 +29,7 @@ std::vector<Parameter> conductor_parameters() {
               .range(0, 1000),
           optional(color_parameter("k", 1, "Imaginary part of the index of refraction."))
               .range(0, 1000),
-          color_parameter("specular_reflectance", 1, "Factor on what is reflected; 1 is physical.")
-              .range(0, 1)
-              .textured()};
+          specular_reflectance_parameter()};
 }
 
 SpectralIor conductor_ior(const Arguments& arguments) {

@@ -1,4 +1,5 @@
 #include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/dielectric_arguments.h"
 #include "kaustik/material/fresnel.h"
 
 namespace kaustik {
@@ -121,35 +122,22 @@ class Dielectric final : public Bsdf {
   std::shared_ptr<const Texture> reflectance_, transmittance_;
 };
 
-const TypeInfo& dielectric_info() {
-  static const TypeInfo info{
-      "bsdf",
-      "dielectric",
-      "Smooth transparent surface such as glass or water.",
-      {number_or_name_parameter("int_ior", Value(std::string("bk7")), dielectric_names(),
-                                "Index of refraction inside, as a number or a material.")
-           .range(0.01, 100),
-       number_or_name_parameter("ext_ior", Value(std::string("air")), dielectric_names(),
-                                "Index of refraction outside, as a number or a material.")
-           .range(0.01, 100),
-       color_parameter("specular_reflectance", 1, "Factor on what is reflected; 1 is physical.")
-           .range(0, 1)
-           .textured(),
-       color_parameter("specular_transmittance", 1, "Factor on what is transmitted; 1 is physical.")
-           .range(0, 1)
-           .textured()}};
+TypeInfo make_info() {
+  TypeInfo info{"bsdf", "dielectric", "Smooth transparent surface such as glass or water.",
+                dielectric_ior_parameters()};
+  info.parameters.push_back(specular_reflectance_parameter());
+  info.parameters.push_back(specular_transmittance_parameter());
   return info;
 }
 
-SpectralValue ior(const Arguments& arguments, std::string_view name) {
-  const auto value = arguments.number_or_name(name);
-  if (const auto* material = std::get_if<std::string>(&value))
-    return SpectralValue(dielectric_ior(*material));
-  return SpectralValue(float(std::get<double>(value)));
+const TypeInfo& dielectric_info() {
+  static const TypeInfo info = make_info();
+  return info;
 }
 
 std::shared_ptr<const Bsdf> create_dielectric(const BsdfInputs& inputs) {
-  return make_dielectric(ior(inputs.arguments, "int_ior"), ior(inputs.arguments, "ext_ior"),
+  return make_dielectric(dielectric_ior_of(inputs.arguments, "int_ior"),
+                         dielectric_ior_of(inputs.arguments, "ext_ior"),
                          inputs.texture("specular_reflectance"),
                          inputs.texture("specular_transmittance"));
 }

@@ -23,6 +23,17 @@ DielectricFresnel fresnel_dielectric(float cos_incident, float interior_over_ext
   return result;
 }
 
+float reflectance_of_even_light(float interior_over_exterior) {
+  // By the midpoint rule, for the bend where total reflection begins.
+  constexpr int steps = 4096;
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double cosine = (i + 0.5) / steps;
+    sum += cosine * double(fresnel_dielectric(float(cosine), interior_over_exterior).reflectance);
+  }
+  return float(2 * sum / steps);
+}
+
 Spectrum fresnel_conductor(float cos_incident, const ComplexIor& ior) {
   const Spectrum &eta = ior.eta, &k = ior.k;
   const float cos_sq = cos_incident * cos_incident, sin_sq = 1 - cos_sq;

@@ -18,6 +18,10 @@ struct DielectricFresnel {
 /// the indices. Fresnel's equations as in Born and Wolf, Principles of Optics, 1.5.2.
 DielectricFresnel fresnel_dielectric(float cos_incident, float interior_over_exterior);
 
+/// Share of even light that such a boundary reflects to the outer side: 2 ∫ R(μ) μ dμ over cosines
+/// from 0 to 1. With the inverse ratio, to the inner side.
+float reflectance_of_even_light(float interior_over_exterior);
+
 /// Complex index of refraction of a conductor over that of its surroundings, n − ik, per lane.
 struct ComplexIor {
   Spectrum eta, k;

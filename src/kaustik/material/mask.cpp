@@ -11,6 +11,7 @@ class Mask final : public Bsdf {
       : Bsdf({.lobes = nested->traits().lobes | Lobes::delta,
               .transmits = nested->traits().transmits || !opacity->is_constant() ||
                            opacity->mean().max_lane() < 1,
+              .is_lambertian = nested->traits().is_lambertian,
               .needs = nested->traits().needs | texture_needs({opacity.get()}),
               .size = nested->traits().size + 1}),
         nested_(std::move(nested)),

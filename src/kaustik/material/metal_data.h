@@ -12,7 +12,7 @@ struct MeasuredMetal {
   const char* name;
   std::span<const MetalSample> samples;
 };
-/// All that data/metals_nk.csv holds; data/README.md names the sources.
+/// All that data/metals_nk.csv holds, some of it by two names; data/README.md names the sources.
 std::span<const MeasuredMetal> measured_metals();
 
 }  // namespace kaustik

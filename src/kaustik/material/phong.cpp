@@ -5,6 +5,7 @@
 #include "kaustik/base/warp.h"
 #include "kaustik/material/albedo_table.h"
 #include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/lobe_event.h"
 
 namespace kaustik {
 namespace {
@@ -94,9 +95,8 @@ class Phong final : public Bsdf {
 
   BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
                     Lobes lobes) const override {
-    BsdfSample sample;
     const Factors k = factors(context, lobes);
-    if (wo.z == 0 || (!is_sheet_ && wo.z < 0)) return sample;
+    if (wo.z == 0 || (!is_sheet_ && wo.z < 0)) return {};
     int proposal = -1;
     for (int i = 0; i < 4; ++i) {
       if (!(k.chance[size_t(i)] > 0)) continue;
@@ -104,26 +104,16 @@ class Phong final : public Bsdf {
       if (u_lobe < k.chance[size_t(i)]) break;
       u_lobe -= k.chance[size_t(i)];
     }
-    if (proposal < 0) return sample;
+    if (proposal < 0) return {};
     const Vec3f wi = propose(proposal, wo, k.exponent, u);
     const bool transmission = wi.z * wo.z < 0;
-    if (wi.z == 0 || transmission != (proposal >= 2)) return sample;
+    if (wi.z == 0 || transmission != (proposal >= 2)) return {};
     const float power = power_of(k, wo, wi);
     const float pdf = pdf_of(k, transmission, wi.z, power);
-    if (!(pdf > 0)) return sample;
-    // What is left of u_lobe is uniform again and tells the event by the shares in f.
+    // What is left of u_lobe is uniform again and tells the event.
     const float rest = std::min(u_lobe / k.chance[size_t(proposal)], one_minus_epsilon);
     const Parts f = parts_of(k, transmission, power);
-    const float diffuse_share = f.diffuse.sum() / (f.diffuse.sum() + f.glossy.sum());
-    const bool is_diffuse = rest < diffuse_share;
-    sample.wi = wi;
-    sample.pdf_solid_angle = pdf;
-    sample.event = is_diffuse ? Lobes::diffuse : Lobes::glossy;
-    sample.transmission = transmission;
-    const float cosine = std::fabs(wi.z);
-    sample.weight = is_diffuse ? f.diffuse * (cosine / (pdf * diffuse_share))
-                               : f.glossy * (cosine / (pdf * (1 - diffuse_share)));
-    return sample;
+    return sample_with_event(wi, f.diffuse, f.glossy, pdf, transmission, rest);
   }
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {

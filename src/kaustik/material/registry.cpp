@@ -3,11 +3,25 @@
 namespace kaustik {
 
 const std::vector<BsdfType>& bsdf_types() {
-  static const std::vector<BsdfType> types = {
-      diffuse_type(),    phong_type(),     thinphong_type(),      difftrans_type(),
-      dielectric_type(), conductor_type(), roughconductor_type(), twosided_type(),
-      mask_type(),       blendbsdf_type(), bumpmap_type(),        normalmap_type(),
-      null_type()};
+  static const std::vector<BsdfType> types = {diffuse_type(),
+                                              roughdiffuse_type(),
+                                              phong_type(),
+                                              thinphong_type(),
+                                              difftrans_type(),
+                                              dielectric_type(),
+                                              roughdielectric_type(),
+                                              thindielectric_type(),
+                                              conductor_type(),
+                                              roughconductor_type(),
+                                              plastic_type(),
+                                              roughplastic_type(),
+                                              principled_type(),
+                                              twosided_type(),
+                                              mask_type(),
+                                              blendbsdf_type(),
+                                              bumpmap_type(),
+                                              normalmap_type(),
+                                              null_type()};
   return types;
 }
 

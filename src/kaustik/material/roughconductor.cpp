@@ -1,61 +1,10 @@
 #include "kaustik/material/albedo_table.h"
 #include "kaustik/material/bsdf_kinds.h"
 #include "kaustik/material/conductor_arguments.h"
-#include "kaustik/material/microfacet.h"
+#include "kaustik/material/rough_facets.h"
 
 namespace kaustik {
 namespace {
-
-constexpr double least_alpha = 1e-3, largest_alpha = 10;
-
-/// Facets whose roughness varies over the surface. What a texture says beyond the range of the
-/// parameter is taken to its ends: black paint then means as smooth as can be.
-class RoughFacets {
- public:
-  using Kind = MicrofacetDistribution::Kind;
-  using TexturePointer = std::shared_ptr<const Texture>;
-
-  RoughFacets(Kind kind, TexturePointer alpha_u, TexturePointer alpha_v, bool sample_visible)
-      : kind_(kind),
-        alpha_u_(std::move(alpha_u)),
-        alpha_v_(std::move(alpha_v)),
-        sample_visible_(sample_visible) {}
-
-  bool is_isotropic() const { return alpha_u_ == alpha_v_; }
-  SurfaceNeeds needs() const {
-    const SurfaceNeeds textures = texture_needs({alpha_u_.get(), alpha_v_.get()});
-    return is_isotropic() ? textures : textures | SurfaceNeeds::tangent;
-  }
-  MicrofacetDistribution at(const BsdfContext& context) const {
-    return {kind_, in_range(context.scalar_of(*alpha_u_)), in_range(context.scalar_of(*alpha_v_)),
-            sample_visible_};
-  }
-  /// Of the roughness along u, which the albedo is tabulated by.
-  float log_alpha(const BsdfContext& context) const {
-    return std::log2(in_range(context.scalar_of(*alpha_u_)));
-  }
-  float least_log_alpha() const {
-    return alpha_u_->is_constant() ? log_alpha({}) : std::log2(float(least_alpha));
-  }
-  float largest_log_alpha() const {
-    return alpha_u_->is_constant() ? log_alpha({}) : std::log2(in_range(alpha_u_->maximum()));
-  }
-  /// With a given roughness along u and, where it differs, the mean one along v.
-  MicrofacetDistribution of_log_alpha(float log_alpha) const {
-    const float alpha = std::exp2(log_alpha);
-    const float across = is_isotropic() ? alpha : in_range(luminance_of(alpha_v_->mean()));
-    return {kind_, alpha, across, sample_visible_};
-  }
-
- private:
-  static float in_range(float alpha) {
-    return std::clamp(alpha, float(least_alpha), float(largest_alpha));
-  }
-
-  Kind kind_;
-  TexturePointer alpha_u_, alpha_v_;
-  bool sample_visible_;
-};
 
 /// Rough metal after Torrance and Sparrow with Walter et al.'s distributions; black from behind.
 class RoughConductor final : public Bsdf {
@@ -168,23 +117,9 @@ class RoughConductor final : public Bsdf {
   AlbedoTables ideal_albedo_;  ///< of facets that reflect everything
 };
 
-/// The row of a roughness; `name` is alpha, alpha_u or alpha_v.
-Parameter alpha_parameter(const std::string& name, const std::string& sentence) {
-  return number_parameter(name, 0.1, sentence).range(least_alpha, largest_alpha).textured();
-}
-
 TypeInfo make_info() {
-  TypeInfo info{
-      "bsdf",
-      "roughconductor",
-      "Rough metal; black seen from behind, see 'twosided'.",
-      {choice_parameter("distribution", "beckmann", {"beckmann", "ggx"},
-                        "Distribution of the normals of the microscopic facets."),
-       alpha_parameter("alpha", "Roughness; about the root mean square slope of the facets."),
-       optional(alpha_parameter("alpha_u", "Roughness along the tangent, instead of alpha.")),
-       optional(alpha_parameter("alpha_v", "Roughness across the tangent, instead of alpha.")),
-       boolean_parameter("sample_visible", true,
-                         "Sample only facets that can be seen: less noise, same result.")}};
+  TypeInfo info{"bsdf", "roughconductor", "Rough metal; black seen from behind, see 'twosided'.",
+                rough_facets_parameters()};
   for (Parameter& parameter : conductor_parameters())
     info.parameters.push_back(std::move(parameter));
   return info;
@@ -195,30 +130,8 @@ const TypeInfo& roughconductor_info() {
   return info;
 }
 
-RoughFacets facets_of(const BsdfInputs& inputs) {
-  const Arguments& arguments = inputs.arguments;
-  const auto kind = arguments.text("distribution") == "ggx" ? RoughFacets::Kind::ggx
-                                                            : RoughFacets::Kind::beckmann;
-  const bool visible = arguments.boolean("sample_visible");
-  auto u = inputs.texture("alpha_u"), v = inputs.texture("alpha_v");
-  if (!u && !v) {
-    auto alpha = inputs.texture("alpha");
-    return {kind, alpha, alpha, visible};
-  }
-  if (arguments.given("alpha"))
-    throw Error(ErrorKind::input, "'alpha' is given together with 'alpha_u' or 'alpha_v'",
-                "keep alpha or both of the others", arguments.place_of("alpha"));
-  if (!u || !v)
-    throw Error(ErrorKind::input,
-                u ? "'alpha_u' is given without 'alpha_v'" : "'alpha_v' is given without 'alpha_u'",
-                "give both, or alpha alone", arguments.place_of(u ? "alpha_u" : "alpha_v"));
-  // Isotropic facets are told by one texture for both.
-  if (u->is_constant() && v->is_constant() && u->mean() == v->mean()) v = u;
-  return {kind, std::move(u), std::move(v), visible};
-}
-
 std::shared_ptr<const Bsdf> create_roughconductor(const BsdfInputs& inputs) {
-  return std::make_shared<RoughConductor>(facets_of(inputs), conductor_ior(inputs.arguments),
+  return std::make_shared<RoughConductor>(rough_facets_of(inputs), conductor_ior(inputs.arguments),
                                           inputs.texture("specular_reflectance"));
 }
 

@@ -24,6 +24,7 @@ class Twosided final : public Bsdf {
  public:
   Twosided(std::shared_ptr<const Bsdf> front, std::shared_ptr<const Bsdf> back)
       : Bsdf({.lobes = front->traits().lobes | back->traits().lobes,
+              .is_lambertian = front->traits().is_lambertian && back->traits().is_lambertian,
               .needs = front->traits().needs | back->traits().needs,
               .size = std::max(front->traits().size, back->traits().size) + 1}),
         front_(std::move(front)),

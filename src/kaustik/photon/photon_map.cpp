@@ -160,7 +160,8 @@ DensityEstimate PhotonMap::radiance(const SurfaceVertex& vertex, Lobes lobes,
   const Lobes asked = lobes & vertex.lobes();
   const Vec3f side = vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
   if (!any(asked)) return {};
-  const bool is_opaque_matt = asked == Lobes::diffuse && !vertex.transmits();
+  const bool is_opaque_matt =
+      asked == Lobes::diffuse && vertex.is_lambertian() && !vertex.transmits();
   if (is_opaque_matt && !vertex.has_relief()) {
     DensityEstimate estimate = irradiance(vertex.position(), side, settings, scratch, visibility);
     estimate.value *= vertex.diffuse_value();

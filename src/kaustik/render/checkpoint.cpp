@@ -15,7 +15,7 @@ namespace {
 
 constexpr BinaryFileKind checkpoint_kind = {
     {0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
-    8,
+    9,
     "checkpoint",
     "give a .kpt file that was written by: kaustik render SCENE --checkpoint FILE.kpt",
     "render again with this program: kaustik render SCENE --checkpoint FILE.kpt"};
@@ -45,6 +45,7 @@ void put_recipe(BinaryWriter& writer, const RenderRecipe& recipe) {
     writer.put_text(name);
     writer.put_text(value);
   }
+  writer.put_text(recipe.camera);
   writer.put_text(recipe.integrator);
   writer.put(uint64_t(recipe.settings.size()));
   for (const Setting& setting : recipe.settings) {
@@ -67,6 +68,7 @@ RenderRecipe get_recipe(BinaryReader& reader) {
     name = reader.get_text();
     value = reader.get_text();
   }
+  recipe.camera = reader.get_text();
   recipe.integrator = reader.get_text();
   recipe.settings.resize(reader.get_count(2 * sizeof(uint64_t)));
   for (Setting& setting : recipe.settings) {

@@ -22,8 +22,10 @@ void set_metadata(Image& image, const Film& film, const RenderRecord& record,
   image.set_metadata("samples_per_pixel",
                      int64_t(film.samples_per_pixel()) +
                          std::llround(facts.part * record.recipe.samples_per_pass));
-  image.set_metadata("horizontal_fov", record.view.horizontal_fov);
-  image.set_metadata("vertical_fov", record.view.vertical_fov);
+  if (record.view.horizontal_fov > 0) {
+    image.set_metadata("horizontal_fov", record.view.horizontal_fov);
+    image.set_metadata("vertical_fov", record.view.vertical_fov);
+  }
   image.set_metadata(
       "quantity",
       std::string(record.view.quantity == Quantity::irradiance ? "irradiance" : "radiance"));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr BinaryFileKind lessons_kind = {
     {0x89, 'K', 'L', 'N', '\r', '\n', 0x1a, '\n'},
-    4,
+    5,
     "file of lessons",
     "give a .kln file that was written by: kaustik learn SCENE -o FILE.kln",
     "learn again with this program: kaustik learn SCENE -o FILE.kln"};

@@ -30,6 +30,8 @@ ViewFacts facts_of(const Scene& scene, const std::string& integrator) {
 }  // namespace
 
 void apply_changes(Description& description, const RenderRecipe& recipe, const Messages& messages) {
+  if (const std::string others = choose_camera(description, recipe.camera); !others.empty())
+    messages.tell(others);
   if (!recipe.integrator.empty())
     if (const std::string left_out = override_integrator(description, recipe.integrator);
         !left_out.empty())

@@ -166,7 +166,7 @@ std::unique_ptr<Integrator> make_integrator(const Description& description, cons
                                             std::vector<std::string>& warnings) {
   const std::shared_ptr<Object> given = find_integrator(description);
   const Object default_object{"integrator", integrator_type(description, scene), "", {}, {}, {}};
-  return make_integrator(given ? *given : default_object, scene, warnings);
+  return make_integrator(given ? *given : default_object, scene, warnings, description.is_strict);
 }
 
 }  // namespace kaustik

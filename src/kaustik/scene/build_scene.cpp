@@ -49,8 +49,8 @@ std::shared_ptr<const Scene> build_scene(const Description& description,
 std::shared_ptr<const Scene> build_scene(const Description& description,
                                          const std::shared_ptr<const Scene>& previous,
                                          const BuildOptions& options) {
-  SceneBuilder builder(options.texture_memory_bytes, previous.get());
-  std::vector<std::string> warnings;
+  SceneBuilder builder(options.texture_memory_bytes, previous.get(), description.is_strict);
+  std::vector<std::string> warnings = description.warnings;
   const Description flat = flatten_placed_scenes(description, warnings);
   Scene::Parts parts = builder.build(*flat.scene);
   parts.warnings.insert(parts.warnings.begin(), warnings.begin(), warnings.end());

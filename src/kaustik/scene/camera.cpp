@@ -5,7 +5,8 @@
 namespace kaustik {
 
 const std::vector<CameraType>& camera_types() {
-  static const std::vector<CameraType> types = {perspective_camera_type()};
+  static const std::vector<CameraType> types = {perspective_camera_type(), thin_lens_camera_type(),
+                                                orthographic_camera_type()};
   return types;
 }
 

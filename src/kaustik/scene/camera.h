@@ -25,7 +25,9 @@ struct CameraTraits {
   Vec3f position{0, 0, 0};  ///< middle of the lens, m, in the world; a pinhole's lens is all there
   /// Half the angle that one pixel covers, radians: the ray's spread per unit distance.
   float pixel_spread = 0;
-  float horizontal_fov = 0, vertical_fov = 0;  ///< degrees, of the whole (uncropped) picture
+  float pixel_width = 0;  ///< half of what one pixel is wide at the lens, m; 0: a point
+  float horizontal_fov = 0, vertical_fov = 0;  ///< degrees, of the whole (uncropped) picture; 0: it
+                                               ///< sees along parallel lines
   bool has_lens = false;                       ///< whether it matters where on the lens rays begin
 };
 
@@ -64,7 +66,7 @@ struct CameraType {
   /// Throws Error(input) for a transform that is degenerate.
   std::unique_ptr<Camera> (*create)(const Arguments&, const FilmSettings&);
 };
-/// "perspective".
+/// "perspective", "thinlens", "orthographic".
 const std::vector<CameraType>& camera_types();
 
 }  // namespace kaustik

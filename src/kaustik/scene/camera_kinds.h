@@ -6,6 +6,8 @@
 namespace kaustik {
 
 CameraType perspective_camera_type();
+CameraType thin_lens_camera_type();
+CameraType orthographic_camera_type();
 
 FilmType hdr_film_type();
 

@@ -36,6 +36,10 @@ struct Description {
   std::shared_ptr<Object> scene;  ///< never null; its children are the top-level objects
   /// What the loader has read: scene files and spectra.
   std::vector<std::string> sources = {};
+  /// What the loader has left out, for the user.
+  std::vector<std::string> warnings = {};
+  /// Whether what no table knows is an error, where otherwise it is left out and told.
+  bool is_strict = false;
 };
 
 /// The path of the file that a property names where the table of its object's type says that it

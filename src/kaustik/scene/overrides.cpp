@@ -55,6 +55,31 @@ std::shared_ptr<Object> made_integrator(Description& description) {
   return object;
 }
 
+std::string choose_camera(Description& description, const std::string& name) {
+  std::vector<std::shared_ptr<Object>> cameras;
+  for (const Child& child : description.scene->children)
+    if (child.object->family == "sensor") cameras.push_back(child.object);
+  std::vector<std::string> names;
+  std::shared_ptr<Object> chosen;
+  for (const auto& camera : cameras) {
+    if (!chosen && (name.empty() || camera->id == name))
+      chosen = camera;
+    else
+      names.push_back(camera->id.empty() ? "one without a name" : camera->id);
+  }
+  if (!chosen && !name.empty())
+    throw Error(ErrorKind::input, fmt::format("the scene has no camera '{}'", name),
+                names.empty() ? "it has no camera at all" : suggest(name, names));
+  if (names.empty()) return {};
+  std::erase_if(description.scene->children, [&](const Child& child) {
+    return child.object->family == "sensor" && child.object != chosen;
+  });
+  if (!name.empty()) return {};
+  return fmt::format(
+      "the scene has {} cameras: {} is used, the others are left out: {}", cameras.size(),
+      chosen->id.empty() ? "the first" : fmt::format("'{}'", chosen->id), fmt::join(names, ", "));
+}
+
 Setting setting_from(const std::string& assignment, const std::string& origin) {
   const size_t equals = assignment.find('=');
   const size_t dot = assignment.substr(0, equals).rfind('.');

@@ -27,6 +27,11 @@ void override_property(Description& description, const std::string& assignment);
 /// As --set gives it.
 Setting setting_of_command_line(const std::string& assignment);
 
+/// Leaves one camera in the scene: the one with the id `name`, or the first where that is empty.
+/// Returns a sentence that names the others; "": there are none. Throws Error(input) where there is
+/// no such camera.
+std::string choose_camera(Description& description, const std::string& name);
+
 /// own_integrator(); the description gets the default one if it has none.
 std::shared_ptr<Object> made_integrator(Description& description);
 

@@ -92,7 +92,9 @@ void SceneBuilder::collecting(const Place& place, const std::function<void()>& b
 }
 
 Arguments SceneBuilder::arguments_of(const TypeInfo& info, const Object& object) {
-  Arguments arguments(info, object.properties, object.place, problems_);
+  Arguments arguments(
+      info, is_strict_ ? object.properties : unknown_.without_unknown(info, object.properties),
+      object.place, problems_);
   for (const std::string& name : arguments.ignored())
     if (ignored_reported_.insert(info.family + "." + name).second)
       warnings_.push_back(
@@ -124,6 +126,7 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   for (const Property& property : scene.properties)
     problems_.add(fmt::format("the scene has no parameter '{}'", property.name),
                   "put it into the object that it belongs to", property.place);
+  find_emitters_of_shapes(scene);
   for (const Child& child : scene.children) add_top_level(*child.object);
   if (!sensor_)
     problems_.add("the scene has no camera",
@@ -154,6 +157,7 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   parts.camera_medium = std::move(camera_medium_);
   parts.light_media = std::move(light_media_);
   parts.warnings = std::move(warnings_);
+  for (std::string& warning : unknown_.warnings()) parts.warnings.push_back(std::move(warning));
   parts.warnings.insert(parts.warnings.end(), pictures_.warnings().begin(),
                         pictures_.warnings().end());
   return parts;
@@ -167,11 +171,13 @@ void SceneBuilder::add_top_level(const Object& object) {
     else
       add_shape(object);
   } else if (object.family == "emitter") {
-    pending_lights_.push_back({&object, nullptr, -1});
+    if (!is_for_shapes(object)) pending_lights_.push_back({&object, nullptr, -1});
   } else if (object.family == "sensor") {
     if (sensor_)
-      problems_.add("the scene has a second camera", keep_one(sensor_->place), object.place);
-    sensor_ = &object;
+      warnings_.push_back(fmt::format(
+          "the scene has more than one camera: the first is used, not {}", display_name(object)));
+    else
+      sensor_ = &object;
   } else if (object.family == "bsdf" || object.family == "texture" || object.family == "medium") {
     // Checked where it is used, and here so that a mistake in an unused one is told as well.
     const auto alias =
@@ -191,6 +197,21 @@ void SceneBuilder::add_top_level(const Object& object) {
                       : "it may hold: shape, bsdf, texture, medium, emitter, sensor, integrator",
                   object.place);
   }
+}
+
+void SceneBuilder::find_emitters_of_shapes(const Object& scene) {
+  for (const Child& child : scene.children)
+    for (const Child& part : child.object->children)
+      if (part.object->family == "emitter") emitters_of_shapes_.insert(part.object->id);
+}
+
+bool SceneBuilder::is_for_shapes(const Object& emitter) {
+  const LightType* type = find_row(light_types(), emitter.type);
+  if (!type || !type->needs_shape || emitter.id.empty()) return false;
+  if (!emitters_of_shapes_.contains(emitter.id))
+    warnings_.push_back(
+        fmt::format("emitter '{}' belongs to no shape: it is left out", emitter.id));
+  return true;
 }
 
 std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& object) {

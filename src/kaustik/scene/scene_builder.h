@@ -15,8 +15,9 @@ namespace kaustik {
 /// from there.
 class SceneBuilder {
  public:
-  explicit SceneBuilder(int64_t texture_memory_bytes, const Scene* previous = nullptr)
-      : previous_(previous), pictures_(texture_memory_bytes) {}
+  explicit SceneBuilder(int64_t texture_memory_bytes, const Scene* previous = nullptr,
+                        bool is_strict = false)
+      : previous_(previous), pictures_(texture_memory_bytes), is_strict_(is_strict) {}
   Scene::Parts build(const Object& scene);
 
  private:
@@ -33,6 +34,9 @@ class SceneBuilder {
   };
 
   void add_top_level(const Object& object);
+  void find_emitters_of_shapes(const Object& scene);
+  /// Whether it stands at the top of the scene for shapes to refer to it.
+  bool is_for_shapes(const Object& emitter);
   void add_shape(const Object& object);
   void add_instance(const Object& object);
   uint32_t group_index(const std::shared_ptr<Object>& group);
@@ -86,7 +90,10 @@ class SceneBuilder {
   Problems problems_;
   PictureReader pictures_;
   std::vector<std::string> warnings_;
+  bool is_strict_;  ///< Description::is_strict
+  UnknownParameters unknown_;
   std::set<std::string> ignored_reported_, remarks_reported_;
+  std::set<std::string> emitters_of_shapes_;  ///< their ids
   std::vector<BuiltShape> shapes_;
   std::vector<std::vector<BuiltShape>> groups_;
   std::map<const Object*, uint32_t> group_of_;

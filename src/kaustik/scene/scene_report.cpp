@@ -69,9 +69,13 @@ void describe_view(const Scene& scene, SceneReport& report) {
   const View view = look_around(scene);
   const Camera& camera = scene.camera();
   const Vec3f p = camera.traits().position;
+  const CameraTraits& traits = camera.traits();
+  const std::string field = traits.horizontal_fov > 0
+                                ? fmt::format("field of view {:.4g}° × {:.4g}°",
+                                              traits.horizontal_fov, traits.vertical_fov)
+                                : "sees along parallel lines";
   report.lines.push_back(
-      fmt::format("camera     at {:.4g}, {:.4g}, {:.4g}; field of view {:.4g}° × {:.4g}°", p.x, p.y,
-                  p.z, camera.traits().horizontal_fov, camera.traits().vertical_fov));
+      fmt::format("camera     at {:.4g}, {:.4g}, {:.4g}; {}", p.x, p.y, p.z, field));
   report.lines.push_back(
       fmt::format("picture    {} × {} pixels{}", scene.film().crop_size.x, scene.film().crop_size.y,
                   scene.film().quantity == Quantity::irradiance ? " of irradiance" : ""));

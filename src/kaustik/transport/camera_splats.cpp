@@ -15,7 +15,8 @@ SurfaceVertex CameraSplats::seen(SurfaceVertex vertex, const CameraConnection& c
     vertex.paint_white();
   else
     vertex.look_up_from(scene_, connection.direction,
-                        scene_.camera().traits().pixel_spread * connection.distance);
+                        scene_.camera().traits().pixel_width +
+                            scene_.camera().traits().pixel_spread * connection.distance);
   return vertex;
 }
 

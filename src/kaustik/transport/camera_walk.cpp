@@ -49,7 +49,8 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
       raster_(raster),
       u_lens_(scene.camera().lens_numbers(sampler)),
       ray_(scene.camera().sample_ray(raster, u_lens_)) {
-  state_.footprint = Footprint::of_camera(scene.camera().traits().pixel_spread);
+  state_.footprint = Footprint::of_camera(scene.camera().traits().pixel_width,
+                                          scene.camera().traits().pixel_spread);
   state_.medium = scene.camera_medium();
   state_.wavelengths = sink.wavelengths();
   if (seeks_irradiance()) {

@@ -17,9 +17,10 @@ struct Footprint {
   bool scattered = false;  ///< a diffuse or glossy event lies behind: normals are no longer
                            ///< filtered, since flat water would focus light elsewhere
 
-  /// Of a beam that leaves the camera with this spread.
-  static Footprint of_camera(float spread) {
+  /// Of a beam that leaves the camera with this width and spread.
+  static Footprint of_camera(float width, float spread) {
     Footprint footprint;
+    footprint.width = footprint.sharp_width = width;
     footprint.spread = footprint.sharp_spread = spread;
     return footprint;
   }

@@ -49,6 +49,7 @@ class SurfaceVertex {
   Lobes lobes() const { return traits_.lobes; }
   /// Of the bsdf.
   bool transmits() const { return traits_.transmits; }
+  bool is_lambertian() const { return traits_.is_lambertian; }
   /// Whether paths go straight on, without an event (Bsdf::is_null).
   bool is_null() const { return surface_->traits.is_null; }
   /// What a path goes on through along `direction`, having arrived through `arrived`.
@@ -69,8 +70,12 @@ class SurfaceVertex {
   Spectrum eval_cosine(const Vec3f& wi, Lobes lobes) const;
   /// f alone.
   Spectrum eval(const Vec3f& wi, Lobes lobes) const;
-  /// f of the diffuse lobe, which is the same for all directions on wo's side …
-  Spectrum diffuse_value() const { return eval(facing_normal(), Lobes::diffuse); }
+  /// f of the diffuse lobe for all directions on wo's side; where it is not the same for all, what
+  /// it is on the mean over even light …
+  Spectrum diffuse_value() const {
+    return traits_.is_lambertian || traits_.transmits ? eval(facing_normal(), Lobes::diffuse)
+                                                      : albedo(Lobes::diffuse) * inv_pi;
+  }
   /// … and for all on the other side.
   Spectrum diffuse_value_through() const { return eval(-facing_normal(), Lobes::diffuse); }
   /// Whether a bump or normal map bends the normal (paint or not): photons on such surfaces hold
@@ -79,8 +84,8 @@ class SurfaceVertex {
   /// Whether f is diffuse_value() for all light that merges here: beside the diffuse lobe there may
   /// be a delta one, which merges with nothing.
   bool is_matt() const {
-    return (lobes() & (Lobes::diffuse | Lobes::glossy)) == Lobes::diffuse && !transmits() &&
-           !has_relief();
+    return (lobes() & (Lobes::diffuse | Lobes::glossy)) == Lobes::diffuse &&
+           traits_.is_lambertian && !transmits() && !has_relief();
   }
   /// What turns irradiance from wi, measured by the geometric normal as photons do, into that by
   /// the shading normal; zero where the two disagree on the side of wi. At most

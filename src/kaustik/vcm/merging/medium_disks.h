@@ -28,7 +28,8 @@ class MediumDisks {
 
  private:
   Vec3f camera_{0, 0, 0};
-  float per_distance_ = 0;
+  float at_lens_ = 0;       ///< of the radius, m …
+  float per_distance_ = 0;  ///< … and its growth
   float given_ = 0;
   float mean_free_paths_ = 0.05f;  ///< at most
   float mean_length_ = 1;

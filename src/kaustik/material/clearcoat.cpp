@@ -1,0 +1,60 @@
+#include "kaustik/material/clearcoat.h"
+
+#include "kaustik/material/burley_diffuse.h"
+#include "kaustik/material/facet_scattering.h"
+
+namespace kaustik {
+namespace {
+
+constexpr float roughest = 0.1f, smoothest = 0.001f;
+/// By which roughness facets hide one another, whatever the gloss.
+constexpr float masking_alpha = 0.25f;
+constexpr float normal_reflectance = 0.04f, weight = 0.25f;
+
+float masking(const Vec3f& w) {
+  return MicrofacetDistribution(MicrofacetDistribution::Kind::ggx, masking_alpha, masking_alpha,
+                                false)
+      .masking(w);
+}
+
+}  // namespace
+
+Clearcoat::Clearcoat(float gloss, float eta)
+    : alpha_sq_(sqr(std::lerp(roughest, smoothest, std::clamp(gloss, 0.0f, 1.0f)))), eta_(eta) {}
+
+float Clearcoat::density(const Vec3f& m) const {
+  return (alpha_sq_ - 1) / (pi * std::log(alpha_sq_) * (1 + (alpha_sq_ - 1) * m.z * m.z));
+}
+
+float Clearcoat::eval(const Vec3f& wo, const Vec3f& wi) const {
+  const Vec3f m = normalize(wo + wi);
+  const float cosine = dot(wo, m);
+  const float angle = eta_ >= 1 ? cosine : fresnel_dielectric(cosine, eta_).cos_transmitted;
+  const float fresnel = std::lerp(normal_reflectance, 1.0f, schlick_weight(angle));
+  return weight * fresnel * density(m) * masking(wo) * masking(wi);
+}
+
+float Clearcoat::pdf(const Vec3f& wo, const Vec3f& wi) const {
+  const Vec3f m = normalize(wo + wi);
+  const float cosine = dot(wo, m);
+  return cosine > 0 ? density(m) * m.z / (4 * cosine) : 0.0f;
+}
+
+Vec3f Clearcoat::sample(const Vec3f& wo, const Vec2f& u) const {
+  const float cos_sq = (1 - std::pow(alpha_sq_, 1 - u.y)) / (1 - alpha_sq_);
+  const float sine = safe_sqrt(1 - cos_sq), phi = 2 * pi * u.x;
+  return reflected_by({sine * std::cos(phi), sine * std::sin(phi), safe_sqrt(cos_sq)}, wo);
+}
+
+float Clearcoat::albedo(float gloss, const Vec3f& wo) {
+  static const AlbedoTables tables(
+      0, 1, true, [](float gloss_of_table, const Vec3f& from, const Vec2f& u) {
+        const Clearcoat coat(gloss_of_table, 1.5f);
+        const Vec3f wi = coat.sample(from, u);
+        const float pdf = wi.z > 0 ? coat.pdf(from, wi) : 0.0f;
+        return Spectrum(pdf > 0 ? coat.eval(from, wi) * wi.z / pdf : 0.0f);
+      });
+  return tables(std::clamp(gloss, 0.0f, 1.0f), wo)[0];
+}
+
+}  // namespace kaustik

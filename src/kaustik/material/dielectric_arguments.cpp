@@ -1,0 +1,41 @@
+#include "kaustik/material/dielectric_arguments.h"
+
+#include "kaustik/material/fresnel.h"
+
+namespace kaustik {
+namespace {
+
+Parameter ior_parameter(const std::string& name, std::string_view usual, const std::string& where) {
+  return number_or_name_parameter(name, Value(std::string(usual)), dielectric_names(),
+                                  "Index of refraction " + where + ", as a number or a material.")
+      .range(0.01, 100);
+}
+
+}  // namespace
+
+std::vector<Parameter> dielectric_ior_parameters(std::string_view usual_interior) {
+  return {ior_parameter("int_ior", usual_interior, "inside"),
+          ior_parameter("ext_ior", "air", "outside")};
+}
+
+SpectralValue dielectric_ior_of(const Arguments& arguments, std::string_view name) {
+  const auto value = arguments.number_or_name(name);
+  if (const auto* material = std::get_if<std::string>(&value))
+    return SpectralValue(dielectric_ior(*material));
+  return SpectralValue(float(std::get<double>(value)));
+}
+
+Parameter specular_reflectance_parameter() {
+  return color_parameter("specular_reflectance", 1, "Factor on what is reflected; 1 is physical.")
+      .range(0, 1)
+      .textured();
+}
+
+Parameter specular_transmittance_parameter() {
+  return color_parameter("specular_transmittance", 1,
+                         "Factor on what is transmitted; 1 is physical.")
+      .range(0, 1)
+      .textured();
+}
+
+}  // namespace kaustik

@@ -1,0 +1,509 @@
+#include <array>
+#include <map>
+#include <mutex>
+
+#include "kaustik/base/warp.h"
+#include "kaustik/material/albedo_table.h"
+#include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/burley_diffuse.h"
+#include "kaustik/material/clearcoat.h"
+#include "kaustik/material/facet_scattering.h"
+#include "kaustik/material/lobe_event.h"
+
+namespace kaustik {
+namespace {
+
+using TexturePointer = std::shared_ptr<const Texture>;
+
+/// A parameter that is one number from 0 to 1; a texture is asked only if it varies.
+class Share {
+ public:
+  explicit Share(TexturePointer texture)
+      : texture_(std::move(texture)), value_(in_range(texture_->scalar({}))) {}
+  bool is_constant() const { return texture_->is_constant(); }
+  bool is_zero() const { return is_constant() && value_ == 0; }
+  const Texture* texture() const { return texture_.get(); }
+  float at(const BsdfContext& context) const {
+    return is_constant() ? value_ : in_range(context.scalar_of(*texture_));
+  }
+  /// What to look at who wants to know the most that can be.
+  std::vector<float> extremes(int steps) const {
+    if (is_constant()) return {value_};
+    std::vector<float> values;
+    for (int i = 0; i <= steps; ++i) values.push_back(float(i) / float(steps));
+    return values;
+  }
+  float mean() const { return in_range(luminance_of(texture_->mean())); }
+
+ private:
+  static float in_range(float value) { return std::clamp(value, 0.0f, 1.0f); }
+
+  TexturePointer texture_;
+  float value_;
+};
+
+struct PrincipledShares {
+  Share roughness, anisotropic, metallic, spec_trans, spec_tint, sheen, sheen_tint, flatness,
+      clearcoat, clearcoat_gloss;
+
+  std::array<const Share*, 10> all() const {
+    return {&roughness, &anisotropic, &metallic, &spec_trans, &spec_tint,
+            &sheen,     &sheen_tint,  &flatness, &clearcoat,  &clearcoat_gloss};
+  }
+};
+
+/// All that the parameters say of one point.
+struct Look {
+  Spectrum base, tint;  ///< the colour, and the same at a luminance of 1
+  float roughness = 0, anisotropic = 0, metallic = 0, spec_trans = 0, spec_tint = 0, sheen = 0,
+        sheen_tint = 0, flatness = 0, clearcoat = 0, clearcoat_gloss = 0;
+
+  /// Of what scatters beneath the surface, and of what goes through.
+  float matt() const { return (1 - metallic) * (1 - spec_trans); }
+  float clear() const { return (1 - metallic) * spec_trans; }
+  Spectrum sheen_color() const {
+    return (Spectrum(1 - sheen_tint) + tint * sheen_tint) * (sheen * (1 - metallic));
+  }
+};
+
+MicrofacetDistribution facets_of(float roughness, float anisotropic) {
+  const float aspect = std::sqrt(1 - 0.9f * anisotropic), alpha = roughness * roughness;
+  return {MicrofacetDistribution::Kind::ggx, std::max(1e-3f, alpha / aspect),
+          std::max(1e-3f, alpha * aspect), true};
+}
+
+/// Directional albedos of the facets, by roughness: what those reflect that are white (lane 0), the
+/// part of that which Schlick's approximation adds at grazing angles (lane 1), and what those of
+/// glass reflect and transmit (lanes 2 and 3).
+struct FacetAlbedos {
+  AlbedoTables from_outside, from_inside;
+};
+
+AlbedoTables facet_albedos(float eta, float anisotropic, bool outside) {
+  const auto weight = [=](float roughness, const Vec3f& up, const Vec2f& u) {
+    const MicrofacetDistribution facets = facets_of(roughness, anisotropic);
+    const Vec3f m = facets.sample(up, u), wo = outside ? up : -up;
+    const float cos_facet = dot(wo, m);
+    Spectrum shares;
+    if (!(cos_facet * wo.z > 0)) return shares;
+    const DielectricFresnel fresnel = fresnel_dielectric(cos_facet, eta);
+    const Vec3f back = reflected_by(m, wo), on = refracted_by(m, wo, fresnel);
+    if (back.z * wo.z > 0) {
+      const float lit = facets.masking(back);
+      shares.set(0, lit);
+      shares.set(1, lit * schlick_weight(eta >= 1 ? cos_facet : fresnel.cos_transmitted));
+      shares.set(2, lit * fresnel.reflectance);
+    }
+    if (on.z * wo.z < 0) shares.set(3, (1 - fresnel.reflectance) * facets.masking(on));
+    return shares;
+  };
+  return {0, 1, anisotropic == 0, weight};
+}
+
+/// One for all materials that are alike in this.
+std::shared_ptr<const FacetAlbedos> facet_albedos_of(float eta, float anisotropic) {
+  static std::mutex mutex;
+  static std::map<std::pair<float, float>, std::weak_ptr<const FacetAlbedos>> all;
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<const FacetAlbedos>& known = all[{eta, anisotropic}];
+  if (auto albedos = known.lock()) return albedos;
+  const auto made = std::make_shared<const FacetAlbedos>(
+      FacetAlbedos{.from_outside = facet_albedos(eta, anisotropic, true),
+                   .from_inside = facet_albedos(eta, anisotropic, false)});
+  known = made;
+  return made;
+}
+
+/// Burley's model with all its lobes, as in Mitsuba: a matt base with sheen, a facetted surface
+/// that is glass, metal or between, and a clear coat. From behind only what is of glass is seen.
+/// Where the lobes together would reflect more light than arrives, all of them are scaled down.
+class Principled final : public Bsdf {
+ public:
+  Principled(TexturePointer base_color, PrincipledShares shares, float eta)
+      : Bsdf({.lobes = Lobes::diffuse | Lobes::glossy,
+              .transmits = !shares.spec_trans.is_zero(),
+              .is_lambertian = false,
+              .needs = needs_of(*base_color, shares)}),
+        base_color_(std::move(base_color)),
+        shares_(std::move(shares)),
+        eta_(eta),
+        normal_reflectance_(sqr((eta - 1) / (eta + 1))),
+        facet_albedos_(facet_albedos_of(eta, shares_.anisotropic.mean())) {
+    find_scale();
+  }
+
+  Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
+                Lobes lobes) const override {
+    const BsdfValues values = answer(context, look_at(context), wo, wi, lobes);
+    return values.diffuse + values.glossy;
+  }
+  float pdf(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
+            Lobes lobes) const override {
+    return answer(context, look_at(context), wo, wi, lobes).pdf;
+  }
+  BsdfValues values(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi) const override {
+    return answer(context, look_at(context), wo, wi, Lobes::all);
+  }
+
+  BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f& u,
+                    Lobes lobes) const override {
+    if (wo.z == 0) return {};
+    const Look look = look_at(context);
+    const Chances chances = chances_of(look, wo, lobes);
+    Vec3f wi;
+    float eta = 1;
+    float rest = u_lobe;
+    if (rest < chances.matt) {
+      rest /= chances.matt;
+      wi = square_to_cosine_hemisphere(u);
+    } else if ((rest -= chances.matt) < chances.coat) {
+      rest /= chances.coat;
+      wi = Clearcoat(look.clearcoat_gloss, eta_).sample(wo, u);
+    } else {
+      if (!(chances.facets > 0)) return {};
+      rest = std::min((rest - chances.coat) / chances.facets, one_minus_epsilon);
+      const Vec3f m = sample_facet(facets_of(look.roughness, look.anisotropic), wo, u);
+      const float cos_facet = dot(wo, m);
+      if (!(cos_facet * wo.z > 0)) return {};
+      const DielectricFresnel fresnel = fresnel_dielectric(cos_facet, eta_);
+      const float back = 1 - chance_through(look, wo, cos_facet, fresnel, 1 - fresnel.reflectance);
+      if (rest < back) {
+        rest /= back;
+        wi = reflected_by(m, wo);
+        if (!(wi.z * wo.z > 0)) return {};
+      } else {
+        rest = (rest - back) / (1 - back);
+        wi = refracted_by(m, wo, fresnel);
+        eta = fresnel.eta;
+        if (!(wi.z * wo.z < 0)) return {};
+      }
+    }
+    if (wi.z == 0 || (eta == 1 && !(wi.z * wo.z > 0))) return {};
+    const BsdfValues values = answer(context, look, wo, wi, lobes);
+    BsdfSample sample = sample_with_event(wi, values.diffuse, values.glossy, values.pdf,
+                                          wi.z * wo.z < 0, std::min(rest, one_minus_epsilon));
+    sample.eta = eta;
+    return sample;
+  }
+
+  Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
+    if (wo.z == 0) return Spectrum();
+    const Look look = look_at(context);
+    const Albedos albedos = albedos_of(look, wo);
+    Spectrum sum;
+    if (any(lobes & Lobes::diffuse)) sum += albedos.matt;
+    if (any(lobes & Lobes::glossy)) sum += albedos.reflected + albedos.transmitted + albedos.coat;
+    return sum * scale_of(context, look);
+  }
+
+ private:
+  /// Directional albedos of the lobes.
+  struct Albedos {
+    Spectrum matt, reflected, transmitted, coat;
+  };
+  /// With which sample() takes each.
+  struct Chances {
+    float matt = 0, coat = 0, facets = 0;
+  };
+
+  static SurfaceNeeds needs_of(const Texture& base_color, const PrincipledShares& shares) {
+    SurfaceNeeds all = texture_needs({&base_color});
+    for (const Share* share : shares.all()) all = all | texture_needs({share->texture()});
+    return shares.anisotropic.is_zero() ? all : all | SurfaceNeeds::tangent;
+  }
+
+  Look look_at(const BsdfContext& context) const {
+    Look look = shares_at(context);
+    look.base = context.value_of(*base_color_);
+    const float luminance = tint_luminance(context, look.base);
+    look.tint = luminance > 0 ? look.base / luminance : white(context);
+    return look;
+  }
+  Look shares_at(const BsdfContext& context) const {
+    Look look;
+    look.roughness = shares_.roughness.at(context);
+    look.anisotropic = shares_.anisotropic.at(context);
+    look.metallic = shares_.metallic.at(context);
+    look.spec_trans = shares_.spec_trans.at(context);
+    look.spec_tint = shares_.spec_tint.at(context);
+    look.sheen = shares_.sheen.at(context);
+    look.sheen_tint = shares_.sheen_tint.at(context);
+    look.flatness = shares_.flatness.at(context);
+    look.clearcoat = shares_.clearcoat.at(context);
+    look.clearcoat_gloss = shares_.clearcoat_gloss.at(context);
+    return look;
+  }
+
+  /// Full reflection in every lane that carries light.
+  static Spectrum white(const BsdfContext& context) {
+    return lanes_from_reflectance(spectrum_from_rgb(1, 1, 1), context.wavelengths());
+  }
+  float tint_luminance(const BsdfContext& context, const Spectrum& base) const {
+    if (shares_.spec_tint.is_zero() && shares_.sheen_tint.is_zero()) return 0;
+    return context.wavelengths().is_rgb() ? luminance_of(base) : context.scalar_of(*base_color_);
+  }
+
+  /// What a facet reflects; from outside that of glass, of metal and of glass with a tint mixed.
+  Spectrum fresnel_of(const BsdfContext& context, const Look& look, const Vec3f& wo,
+                      float cos_facet, const DielectricFresnel& fresnel) const {
+    const Spectrum all = white(context);
+    if (wo.z < 0) return all * (look.clear() * fresnel.reflectance);
+    const float weight = schlick_weight(eta_ >= 1 ? cos_facet : fresnel.cos_transmitted);
+    const auto schlick = [&](const Spectrum& normal) { return normal + (all - normal) * weight; };
+    Spectrum sum = all * ((1 - look.metallic) * (1 - look.spec_tint) * fresnel.reflectance);
+    if (look.metallic > 0) sum += schlick(look.base) * look.metallic;
+    if (look.spec_tint > 0)
+      sum += schlick(look.tint * normal_reflectance_) * ((1 - look.metallic) * look.spec_tint);
+    return sum;
+  }
+  /// What a facet lets through, for flux.
+  static Spectrum through(const Look& look, float transmittance) {
+    return sqrt(look.base) * (look.clear() * transmittance);
+  }
+  /// Chance with which a facet that was chosen transmits.
+  float chance_through(const Look& look, const Vec3f& wo, float cos_facet,
+                       const DielectricFresnel& fresnel, float transmittance) const {
+    const float back = fresnel_of({}, look, wo, cos_facet, fresnel).max_lane();
+    const float on = through(look, transmittance).max_lane();
+    return back + on > 0 ? on / (back + on) : 0.0f;
+  }
+
+  BsdfValues answer(const BsdfContext& context, const Look& look, const Vec3f& wo, const Vec3f& wi,
+                    Lobes lobes) const {
+    BsdfValues result;
+    if (wo.z * wi.z == 0 || !any(lobes & traits().lobes)) return result;
+    const bool is_front = wo.z > 0, is_through = wo.z * wi.z < 0;
+    if ((!is_front || is_through) && !(look.clear() > 0)) return result;
+    const bool has_gloss = any(lobes & Lobes::glossy);
+    const Chances chances = chances_of(look, wo, lobes), reverse = chances_of(look, wi, lobes);
+    const MicrofacetDistribution facets = facets_of(look.roughness, look.anisotropic);
+    if (is_through) {
+      if (!has_gloss) return result;
+      const double ratio = eta_, eta = is_front ? ratio : 1 / ratio;
+      const FacetRefraction facet = facet_refraction(facets, wo, wi, eta);
+      if (facet.cos_facet == 0) return result;
+      result.glossy = through(look, facet.transmittance) * facet.value;
+      if (context.mode == TransportMode::flux) result.glossy *= float(sqr(eta));
+      const auto density = [&](const Vec3f& from, float cos_facet, float cos_other, double ratio_on,
+                               float facets_share, float pdf) {
+        const DielectricFresnel fresnel{.reflectance = 1 - facet.transmittance,
+                                        .cos_transmitted = std::fabs(cos_other),
+                                        .eta = float(ratio_on)};
+        return facets_share * pdf *
+               chance_through(look, from, cos_facet, fresnel, facet.transmittance);
+      };
+      result.pdf = density(wo, facet.cos_facet, facet.cos_other, eta, chances.facets, facet.pdf);
+      result.pdf_reverse =
+          density(wi, facet.cos_other, facet.cos_facet, 1 / eta, reverse.facets, facet.pdf_reverse);
+    } else {
+      const FacetReflection facet = facet_reflection(facets, wo, wi);
+      if (facet.cos_facet != 0) {
+        const DielectricFresnel fresnel = fresnel_dielectric(facet.cos_facet, eta_);
+        const float back =
+            1 - chance_through(look, wo, facet.cos_facet, fresnel, 1 - fresnel.reflectance);
+        if (has_gloss)
+          result.glossy = fresnel_of(context, look, wo, facet.cos_facet, fresnel) * facet.value;
+        result.pdf = chances.facets * back * facet.pdf;
+        result.pdf_reverse = reverse.facets * back * facet.pdf_reverse;
+      }
+      if (is_front) add_front_lobes(context, look, wo, wi, lobes, chances, reverse, result);
+    }
+    const float scale = scale_of(context, look);
+    result.diffuse *= scale;
+    result.glossy *= scale;
+    return result;
+  }
+
+  /// Base, sheen and coat.
+  void add_front_lobes(const BsdfContext& context, const Look& look, const Vec3f& wo,
+                       const Vec3f& wi, Lobes lobes, const Chances& chances, const Chances& reverse,
+                       BsdfValues& result) const {
+    if (any(lobes & Lobes::diffuse)) {
+      if (look.matt() > 0)
+        result.diffuse +=
+            look.base * (look.matt() * inv_pi * burley_base(wo, wi, look.roughness, look.flatness));
+      if (look.sheen > 0) result.diffuse += sheen_color(context, look) * burley_sheen(wo, wi);
+    }
+    result.pdf += chances.matt * cosine_hemisphere_pdf(wi.z);
+    result.pdf_reverse += reverse.matt * cosine_hemisphere_pdf(wo.z);
+    if (!(look.clearcoat > 0) || !any(lobes & Lobes::glossy)) return;
+    const Clearcoat coat(look.clearcoat_gloss, eta_);
+    result.glossy += white(context) * (look.clearcoat * coat.eval(wo, wi));
+    const float density = coat.pdf(wo, wi);  // the same both ways
+    result.pdf += chances.coat * density;
+    result.pdf_reverse += reverse.coat * density;
+  }
+  static Spectrum sheen_color(const BsdfContext& context, const Look& look) {
+    return white(context) * look.sheen_color();
+  }
+
+  Albedos albedos_of(const Look& look, const Vec3f& wo) const {
+    const BsdfContext rgb;
+    Albedos albedos;
+    const bool is_front = wo.z > 0;
+    if (!is_front && !(look.clear() > 0)) return albedos;
+    const Vec3f up = is_front ? wo : -wo;
+    const Spectrum facets =
+        (is_front ? facet_albedos_->from_outside : facet_albedos_->from_inside)(look.roughness, up);
+    const float whole = facets[0], grazing = facets[1], glass = facets[2], through = facets[3];
+    albedos.transmitted = sqrt(look.base) * (look.clear() * through);
+    if (!is_front) {
+      albedos.reflected = white(rgb) * (look.clear() * glass);
+      return albedos;
+    }
+    const auto schlick = [&](const Spectrum& normal) {
+      return normal * (whole - grazing) + white(rgb) * grazing;
+    };
+    albedos.reflected =
+        white(rgb) * ((1 - look.metallic) * (1 - look.spec_tint) * glass) +
+        schlick(look.base) * look.metallic +
+        schlick(look.tint * normal_reflectance_) * ((1 - look.metallic) * look.spec_tint);
+    if (look.matt() > 0)
+      albedos.matt +=
+          look.base * (look.matt() * burley_base_albedo(wo.z, look.roughness, look.flatness));
+    if (look.sheen > 0) albedos.matt += sheen_color(rgb, look) * burley_sheen_albedo(wo.z);
+    if (look.clearcoat > 0)
+      albedos.coat = white(rgb) * (look.clearcoat * Clearcoat::albedo(look.clearcoat_gloss, wo));
+    return albedos;
+  }
+
+  Chances chances_of(const Look& look, const Vec3f& wo, Lobes lobes) const {
+    const Albedos albedos = albedos_of(look, wo);
+    Chances chances;
+    if (any(lobes & Lobes::diffuse)) chances.matt = albedos.matt.max_lane();
+    if (any(lobes & Lobes::glossy)) {
+      chances.coat = albedos.coat.max_lane();
+      chances.facets = (albedos.reflected + albedos.transmitted).max_lane();
+    }
+    const float total = chances.matt + chances.coat + chances.facets;
+    if (!(total > 0)) return {};
+    return {chances.matt / total, chances.coat / total, chances.facets / total};
+  }
+
+  /// The largest sum of the directional albedos of all lobes.
+  float most_reflected(const Look& look) const {
+    float most = 0;
+    for (const float cosine : {1.0f, 0.6f, 0.3f, 0.15f, 0.08f, 0.04f, 0.02f, 0.01f}) {
+      const Albedos albedos = albedos_of(look, {safe_sqrt(1 - cosine * cosine), 0, cosine});
+      most = std::max(
+          most, (albedos.matt + albedos.reflected + albedos.transmitted + albedos.coat).max_lane());
+    }
+    return most;
+  }
+  /// Of all lobes, so that no more is reflected than arrives.
+  float scale_of(const BsdfContext& context, const Look& look) const {
+    if (constant_scale_ > 0) return constant_scale_;
+    return context.number_of(this, [&] { return 1 / std::max(1.0f, most_reflected(look)); });
+  }
+  /// Sets constant_scale_ where it is the same everywhere: all parameters are constant, or the most
+  /// that textures may say is no more than arrives. Albedos are linear in metallic, spec_trans,
+  /// spec_tint, sheen_tint and flatness, and rise with the colour.
+  void find_scale() {
+    const bool has_tint = !shares_.spec_tint.is_zero() || !shares_.sheen_tint.is_zero();
+    bool is_constant = base_color_->is_constant();
+    for (const Share* share : shares_.all()) is_constant = is_constant && share->is_constant();
+    Look look = look_at({});
+    if (is_constant) {
+      constant_scale_ = 1 / std::max(1.0f, most_reflected(look));
+      return;
+    }
+    if (!base_color_->is_constant()) {
+      if (has_tint) return;  // tints may be of any colour
+      look.base = white({}) * std::min(1.0f, base_color_->maximum());
+    }
+    look.sheen = shares_.sheen.extremes(1).back();
+    look.clearcoat = shares_.clearcoat.extremes(1).back();
+    for (const float roughness : shares_.roughness.extremes(4))
+      for (const float metallic : shares_.metallic.extremes(1))
+        for (const float spec_trans : shares_.spec_trans.extremes(1))
+          for (const float spec_tint : shares_.spec_tint.extremes(1))
+            for (const float sheen_tint : shares_.sheen_tint.extremes(1))
+              for (const float flatness : shares_.flatness.extremes(1))
+                for (const float gloss : shares_.clearcoat_gloss.extremes(1)) {
+                  look.roughness = roughness;
+                  look.metallic = metallic;
+                  look.spec_trans = spec_trans;
+                  look.spec_tint = spec_tint;
+                  look.sheen_tint = sheen_tint;
+                  look.flatness = flatness;
+                  look.clearcoat_gloss = gloss;
+                  if (most_reflected(look) > 1) return;
+                }
+    constant_scale_ = 1;
+  }
+
+  TexturePointer base_color_;
+  PrincipledShares shares_;
+  float eta_;                 ///< n_interior/n_exterior
+  float normal_reflectance_;  ///< of glass
+  std::shared_ptr<const FacetAlbedos> facet_albedos_;
+  float constant_scale_ = 0;  ///< 0: it has to be found at each point
+};
+
+Parameter share_parameter(const std::string& name, double usual, const std::string& sentence) {
+  return number_parameter(name, usual, sentence).range(0, 1).textured();
+}
+
+const TypeInfo& principled_info() {
+  static const TypeInfo info{
+      "bsdf",
+      "principled",
+      "Burley's (Disney's) model of most surfaces: matt, cloth, plastic, metal, glass, varnish.",
+      {color_parameter("base_color", 0.5, "Colour of the base, of metal and of clear glass.")
+           .range(0, 1)
+           .textured(),
+       share_parameter("roughness", 0.5, "Of the facets; their slope is about its square."),
+       share_parameter("anisotropic", 0, "How much longer highlights are across the tangent."),
+       share_parameter("metallic", 0, "Share of metal; the rest is matt or glass."),
+       share_parameter("spec_trans", 0, "Share of glass in what is no metal."),
+       optional(number_parameter("eta", 1.5, "Index of refraction inside over that outside."))
+           .range(0.01, 100),
+       optional(number_parameter("specular", 0.5,
+                                 "Reflection of glass at normal incidence, 0.08 times this, "
+                                 "instead of eta."))
+           .range(0, 1)
+           .instead_of("eta"),
+       share_parameter("spec_tint", 0, "How much the reflection of glass has the base's colour."),
+       share_parameter("sheen", 0, "Shine of cloth at grazing angles."),
+       share_parameter("sheen_tint", 0, "How much the sheen has the base's colour."),
+       share_parameter("flatness", 0, "How much the base looks like skin or wax."),
+       share_parameter("clearcoat", 0, "Weight of the coat of varnish."),
+       share_parameter("clearcoat_gloss", 0, "Gloss of the coat."),
+       ignored_parameter("main_specular_sampling_rate", ParameterKind::number),
+       ignored_parameter("clearcoat_sampling_rate", ParameterKind::number),
+       ignored_parameter("diffuse_reflectance_sampling_rate", ParameterKind::number)}};
+  return info;
+}
+
+/// As in Mitsuba an index of 1 is one near to it where there is glass.
+float eta_of(const Arguments& arguments, bool has_glass) {
+  if (arguments.given("eta")) {
+    const auto eta = float(arguments.number("eta"));
+    return has_glass && eta == 1 ? 1.001f : eta;
+  }
+  double specular = arguments.given("specular") ? arguments.number("specular") : 0.5;
+  if (has_glass && specular == 0) specular = 1e-3;
+  return float(2 / (1 - std::sqrt(0.08 * specular)) - 1);
+}
+
+std::shared_ptr<const Bsdf> create_principled(const BsdfInputs& inputs) {
+  const auto share = [&](std::string_view name) { return Share(inputs.texture(name)); };
+  PrincipledShares shares{.roughness = share("roughness"),
+                          .anisotropic = share("anisotropic"),
+                          .metallic = share("metallic"),
+                          .spec_trans = share("spec_trans"),
+                          .spec_tint = share("spec_tint"),
+                          .sheen = share("sheen"),
+                          .sheen_tint = share("sheen_tint"),
+                          .flatness = share("flatness"),
+                          .clearcoat = share("clearcoat"),
+                          .clearcoat_gloss = share("clearcoat_gloss")};
+  const float eta = eta_of(inputs.arguments, !shares.spec_trans.is_zero());
+  return std::make_shared<Principled>(inputs.texture("base_color"), std::move(shares), eta);
+}
+
+}  // namespace
+
+BsdfType principled_type() { return {principled_info(), 0, 0, create_principled}; }
+
+}  // namespace kaustik

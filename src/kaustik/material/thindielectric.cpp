@@ -1,0 +1,98 @@
+#include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/dielectric_arguments.h"
+#include "kaustik/material/fresnel.h"
+
+namespace kaustik {
+namespace {
+
+/// A pane so thin that light leaves it where it enters, having been reflected between its two sides
+/// any number of times: of the share R that one side reflects, R + (1 − R)² R / (1 − R²) =
+/// 2R / (1 + R) comes back in all. The rest goes straight on. Both sides are alike.
+class ThinDielectric final : public Bsdf {
+ public:
+  ThinDielectric(const SpectralValue& interior, const SpectralValue& exterior,
+                 std::shared_ptr<const Texture> reflectance,
+                 std::shared_ptr<const Texture> transmittance)
+      : Bsdf({.lobes = Lobes::delta,
+              .transmits = true,
+              .needs = texture_needs({reflectance.get(), transmittance.get()})}),
+        interior_(interior),
+        exterior_(exterior),
+        reflectance_(std::move(reflectance)),
+        transmittance_(std::move(transmittance)) {}
+
+  Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override {
+    return Spectrum();
+  }
+  float pdf(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override { return 0; }
+
+  BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe, const Vec2f&,
+                    Lobes lobes) const override {
+    if (!any(lobes & Lobes::delta) || wo.z == 0) return {};
+    const Parts parts = parts_at(context, wo);
+    const float back = parts.reflected.max_lane(), through = parts.transmitted.max_lane();
+    if (!(back + through > 0)) return {};
+    const float chance = back / (back + through);
+    if (u_lobe < chance)
+      return {.wi = {-wo.x, -wo.y, wo.z},
+              .weight = parts.reflected / chance,
+              .pdf_solid_angle = chance,
+              .event = Lobes::delta};
+    return {.wi = -wo,
+            .weight = parts.transmitted / (1 - chance),
+            .pdf_solid_angle = 1 - chance,
+            .event = Lobes::delta,
+            .transmission = true};
+  }
+
+  Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
+    if (!any(lobes & Lobes::delta) || wo.z == 0) return Spectrum();
+    const Parts parts = parts_at(context, wo);
+    return parts.reflected + parts.transmitted;
+  }
+
+ private:
+  struct Parts {
+    Spectrum reflected, transmitted;
+  };
+  Parts parts_at(const BsdfContext& context, const Vec3f& wo) const {
+    const Wavelengths& wavelengths = context.wavelengths();
+    const Spectrum ratios = interior_.at(wavelengths) / exterior_.at(wavelengths);
+    Spectrum share;
+    for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
+      const float one_side = fresnel_dielectric(std::fabs(wo.z), ratios[lane]).reflectance;
+      share.set(lane, 2 * one_side / (1 + one_side));
+    }
+    return {context.value_of(*reflectance_) * share,
+            context.value_of(*transmittance_) * (Spectrum(1) - share)};
+  }
+
+  SpectralValue interior_, exterior_;
+  std::shared_ptr<const Texture> reflectance_, transmittance_;
+};
+
+TypeInfo make_info() {
+  TypeInfo info{"bsdf", "thindielectric", "Thin pane of glass; light goes straight through.",
+                dielectric_ior_parameters()};
+  info.parameters.push_back(specular_reflectance_parameter());
+  info.parameters.push_back(specular_transmittance_parameter());
+  return info;
+}
+
+const TypeInfo& thindielectric_info() {
+  static const TypeInfo info = make_info();
+  return info;
+}
+
+std::shared_ptr<const Bsdf> create_thindielectric(const BsdfInputs& inputs) {
+  return std::make_shared<ThinDielectric>(dielectric_ior_of(inputs.arguments, "int_ior"),
+                                          dielectric_ior_of(inputs.arguments, "ext_ior"),
+                                          inputs.texture("specular_reflectance"),
+                                          inputs.texture("specular_transmittance"));
+}
+
+}  // namespace
+
+BsdfType thindielectric_type() { return {thindielectric_info(), 0, 0, create_thindielectric}; }
+
+}  // namespace kaustik
