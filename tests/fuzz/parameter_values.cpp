@@ -101,7 +101,9 @@ std::string ParameterValues::file(const TypeInfo& info) {
       info.name == "obj"
           ? draw_.one_of({"quad.obj", "tent.obj", "flat.obj", is_wild() ? "far.obj" : "quad.obj"})
       : info.name == "ply" ? draw_.one_of({"pyramid.ply", "needle.ply"})
-                           : draw_.one_of({"colors.pfm", "one.pfm", "bright.pfm", "black.pfm"});
+      : info.name == "serialized"
+          ? "pair.serialized"
+          : draw_.one_of({"colors.pfm", "one.pfm", "bright.pfm", "black.pfm"});
   return files_folder_ + "/" + name;
 }
 

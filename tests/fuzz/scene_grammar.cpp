@@ -9,6 +9,7 @@
 #include "kaustik/integrator/registry.h"
 #include "kaustik/scene/camera.h"
 #include "tests/fuzz/parameter_values.h"
+#include "tests/support/serialized_file.h"
 
 namespace kaustik::fuzz {
 namespace {
@@ -39,6 +40,8 @@ const std::vector<std::pair<Names, Names>>& alternatives() {
       {{"position"}, {"to_world"}},
       {{"direction"}, {"to_world"}},
       {{"intensity"}, {"power"}},
+      {{"eta"}, {"specular"}},
+      {{"roughness"}, {"alpha"}},
       {{"sun_direction"},
        {"latitude", "longitude", "timezone", "year", "month", "day", "hour", "minute", "second"}}};
   return list;
@@ -47,7 +50,9 @@ const std::vector<std::pair<Names, Names>>& alternatives() {
 /// What cannot stand in a bsdf of this type.
 const Names& misfits_in(const std::string& type) {
   static const Names none, relief = {"bumpmap", "normalmap"},
-                           see_through = {"dielectric", "difftrans", "thinphong", "mask", "null"};
+                           see_through = {"dielectric", "roughdielectric", "thindielectric",
+                                          "difftrans",  "thinphong",       "mask",
+                                          "null"};
   if (type == "twosided") return see_through;
   return type == "bumpmap" || type == "normalmap" || type == "blendbsdf" ? relief : none;
 }
@@ -81,6 +86,7 @@ class Grammar {
   std::string properties(const TypeInfo& info, Names skips = {}) {
     if (draw_.chance(0.98))
       for (const auto& [first, second] : alternatives()) {
+        if (!info.find(first[0]) || !info.find(second[0])) continue;
         const Names& other = draw_.chance(0.5) ? first : second;
         skips.insert(skips.end(), other.begin(), other.end());
       }
@@ -150,7 +156,9 @@ class Grammar {
 
   std::string shape_in(const TypeInfo& info, bool shines, const std::string& placed) {
     std::string result = open(info);
-    result += properties(info, {"to_world"}) + placed;
+    // Few files hold many meshes.
+    const std::string index = draw_.chance(0.9) ? "shape_index" : "";
+    result += properties(info, {"to_world", index}) + placed;
     if (draw_.chance(0.9)) result += bsdf(shines ? Names{"null"} : Names{});
     if (shines) result += emitter(true);
     for (const char* side : {"interior", "exterior"})
@@ -293,6 +301,15 @@ void write_files(const std::string& folder) {
       "float y\nproperty float z\nelement face 2\nproperty list uchar int "
       "vertex_indices\nend_header\n";
   write("pyramid.ply", ply + "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 3 1\n");
+  write("pair.serialized",
+        test::serialized_file(
+            {{.flags = 0x1000, .arrays = {{0, 0, 0, 1, 0, 0, 0, 1, 0}}, .corners = {0, 1, 2}},
+             {.flags = 3 | 0x2000,
+              .arrays = {{-1, -1, 0, 1, -1, 0, 0, 1, 1},
+                         {0, 0, 1, 0, 0, 1, 0, 0, 1},
+                         {0, 0, 1, 0, 0, 1}},
+              .corners = {0, 1, 2}}},
+            4));
   write("needle.ply", ply + "0 0 0\n1 0 0\n1 1e-20 0\n1e6 1e6 1e6\n3 0 1 2\n3 0 1 3\n");
   write_pfm(folder + "/colors.pfm", 8, 4, {0.1f, 0.5f, 0.9f, 0.3f, 0.7f});
   write_pfm(folder + "/one.pfm", 1, 1, {0.5f, 0.6f, 0.7f});

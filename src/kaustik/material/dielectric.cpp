@@ -122,7 +122,7 @@ class Dielectric final : public Bsdf {
   std::shared_ptr<const Texture> reflectance_, transmittance_;
 };
 
-TypeInfo make_info() {
+TypeInfo make_dielectric_info() {
   TypeInfo info{"bsdf", "dielectric", "Smooth transparent surface such as glass or water.",
                 dielectric_ior_parameters()};
   info.parameters.push_back(specular_reflectance_parameter());
@@ -131,7 +131,7 @@ TypeInfo make_info() {
 }
 
 const TypeInfo& dielectric_info() {
-  static const TypeInfo info = make_info();
+  static const TypeInfo info = make_dielectric_info();
   return info;
 }
 

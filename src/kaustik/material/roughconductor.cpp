@@ -117,7 +117,7 @@ class RoughConductor final : public Bsdf {
   AlbedoTables ideal_albedo_;  ///< of facets that reflect everything
 };
 
-TypeInfo make_info() {
+TypeInfo make_roughconductor_info() {
   TypeInfo info{"bsdf", "roughconductor", "Rough metal; black seen from behind, see 'twosided'.",
                 rough_facets_parameters()};
   for (Parameter& parameter : conductor_parameters())
@@ -126,7 +126,7 @@ TypeInfo make_info() {
 }
 
 const TypeInfo& roughconductor_info() {
-  static const TypeInfo info = make_info();
+  static const TypeInfo info = make_roughconductor_info();
   return info;
 }
 

@@ -50,7 +50,7 @@ class RoughDielectric final : public Bsdf {
   std::shared_ptr<const Texture> reflectance_, transmittance_;
 };
 
-TypeInfo make_info() {
+TypeInfo make_roughdielectric_info() {
   TypeInfo info{"bsdf", "roughdielectric", "Rough transparent surface such as ground glass.",
                 dielectric_ior_parameters()};
   for (Parameter& parameter : rough_facets_parameters())
@@ -61,7 +61,7 @@ TypeInfo make_info() {
 }
 
 const TypeInfo& roughdielectric_info() {
-  static const TypeInfo info = make_info();
+  static const TypeInfo info = make_roughdielectric_info();
   return info;
 }
 

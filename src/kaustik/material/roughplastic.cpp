@@ -129,7 +129,7 @@ class RoughPlastic final : public Bsdf {
   TexturePointer specular_;
 };
 
-TypeInfo make_info() {
+TypeInfo make_roughplastic_info() {
   TypeInfo info{
       "bsdf",
       "roughplastic",
@@ -144,7 +144,7 @@ TypeInfo make_info() {
 }
 
 const TypeInfo& roughplastic_info() {
-  static const TypeInfo info = make_info();
+  static const TypeInfo info = make_roughplastic_info();
   return info;
 }
 

@@ -71,7 +71,7 @@ class ThinDielectric final : public Bsdf {
   std::shared_ptr<const Texture> reflectance_, transmittance_;
 };
 
-TypeInfo make_info() {
+TypeInfo make_thindielectric_info() {
   TypeInfo info{"bsdf", "thindielectric", "Thin pane of glass; light goes straight through.",
                 dielectric_ior_parameters()};
   info.parameters.push_back(specular_reflectance_parameter());
@@ -80,7 +80,7 @@ TypeInfo make_info() {
 }
 
 const TypeInfo& thindielectric_info() {
-  static const TypeInfo info = make_info();
+  static const TypeInfo info = make_thindielectric_info();
   return info;
 }
 

@@ -43,7 +43,7 @@ class Orthographic final : public Camera {
   float pixel_area_;  ///< m²
 };
 
-TypeInfo make_info() {
+TypeInfo make_orthographic_info() {
   TypeInfo info{"sensor",
                 "orthographic",
                 "Camera that sees along parallel lines; the scale of to_world is half of the "
@@ -56,7 +56,7 @@ TypeInfo make_info() {
 }
 
 const TypeInfo& orthographic_info() {
-  static const TypeInfo info = make_info();
+  static const TypeInfo info = make_orthographic_info();
   return info;
 }
 

@@ -53,7 +53,7 @@ CameraConnection Perspective::connect(const Vec3f& point, const Vec2f&) const {
   return c;
 }
 
-TypeInfo make_info() {
+TypeInfo make_perspective_info() {
   TypeInfo info{
       "sensor",
       "perspective",
@@ -68,7 +68,7 @@ TypeInfo make_info() {
 }
 
 const TypeInfo& perspective_info() {
-  static const TypeInfo info = make_info();
+  static const TypeInfo info = make_perspective_info();
   return info;
 }
 

@@ -89,7 +89,7 @@ CameraConnection ThinLens::connect(const Vec3f& point, const Vec2f& u_lens) cons
   return c;
 }
 
-TypeInfo make_info() {
+TypeInfo make_thin_lens_info() {
   TypeInfo info{
       "sensor",
       "thinlens",
@@ -112,7 +112,7 @@ TypeInfo make_info() {
 }
 
 const TypeInfo& thin_lens_info() {
-  static const TypeInfo info = make_info();
+  static const TypeInfo info = make_thin_lens_info();
   return info;
 }
 
