@@ -88,19 +88,25 @@ TEST(Serialized, OfAnyBytesIsAMeshOrAnError) {
     }
 }
 
+TEST(Serialized, NamesEnd) {
+  PackedMesh mesh = triangle(0);
+  mesh.name = std::string(100000, 'x');
+  EXPECT_EQ(error_of(serialized_file({mesh}, 4), 0), "the name of mesh 0 has no end");
+}
+
 /// A few bytes that promise billions of vertices take no memory.
 TEST(Serialized, PromisesAreChecked) {
   std::string raw;
-  put(raw, uint32_t(0x1000));
-  put(raw, uint64_t(4000000000));
-  put(raw, uint64_t(1));
+  put_bytes(raw, uint32_t(0x1000));
+  put_bytes(raw, uint64_t(4000000000));
+  put_bytes(raw, uint64_t(1));
   std::string bytes;
-  put(bytes, uint16_t(0x041c));
-  put(bytes, uint16_t(3));
+  put_bytes(bytes, uint16_t(0x041c));
+  put_bytes(bytes, uint16_t(3));
   bytes += packed(raw);
-  put(bytes, uint32_t(0));
-  put(bytes, uint32_t(1));
-  EXPECT_NE(error_of(bytes, 0).find("more than zlib packs"), std::string::npos);
+  put_bytes(bytes, uint32_t(0));
+  put_bytes(bytes, uint32_t(1));
+  EXPECT_NE(error_of(bytes, 0).find("would grow from"), std::string::npos);
 }
 
 }  // namespace

@@ -37,6 +37,13 @@ TEST(MitsubaErrors, Elements) {
       {"<shape type='s'><path value='.'/></shape>", "2:17", "<path> in an object", "move"});
 }
 
+TEST(MitsubaErrors, ElementsOfMitsubaThatAreMissingAreErrors) {
+  expect_wrong({"<shape type='sphere'><animation name='toWorld'/></shape>", "2:22",
+                "unknown element <animation>", ""});
+  expect_wrong({"<emitter type='point'><blackbody name='intensity' temperature='5000K'/></emitter>",
+                "2:23", "unknown element <blackbody>", ""});
+}
+
 // Other renderers write elements of their own: these are left out, with all that is in them.
 TEST(MitsubaErrors, ForeignElementsAreLeftOut) {
   const std::string text = in_scene(
@@ -45,11 +52,10 @@ TEST(MitsubaErrors, ForeignElementsAreLeftOut) {
   const Description description = parse(text);
   ASSERT_EQ(description.scene->children.size(), 1u);
   EXPECT_TRUE(description.scene->children[0].object->children.empty());
-  EXPECT_EQ(
-      description.warnings,
-      (std::vector<std::string>{"test.xml:5:1: <hide> is no element of Mitsuba's: it is left out",
-                                "test.xml:3:1: <qmc> is no element of Mitsuba's: it is left out, "
-                                "here and 1 times more"}));
+  EXPECT_EQ(description.warnings,
+            (std::vector<std::string>{"test.xml:5:1: Kaustik does not know <hide>: it is left out",
+                                      "test.xml:3:1: Kaustik does not know <qmc>: it is left out, "
+                                      "and 1 more like it"}));
   LoadOptions strict;
   strict.is_strict = true;
   EXPECT_TRUE(parse(in_scene(""), strict).is_strict);

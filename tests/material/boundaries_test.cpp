@@ -13,10 +13,6 @@ namespace {
 
 using namespace test;
 
-/// New ones for each question: they remember what textures gave.
-BsdfContext radiance() { return {{}, TransportMode::radiance, {}}; }
-BsdfContext flux() { return {{}, TransportMode::flux, {}}; }
-
 Vec3f at_angle(double degrees, float side = 1) {
   const double theta = degrees * std::numbers::pi / 180;
   return {float(std::sin(theta)), 0, side * float(std::cos(theta))};

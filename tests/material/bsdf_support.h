@@ -22,6 +22,10 @@ std::shared_ptr<const Texture> make_texture(const std::string& type,
                                             std::vector<Property> properties = {});
 Property property(const std::string& name, Value value);
 
+/// Of a point; a new one for each question, since it remembers what textures gave.
+inline BsdfContext radiance() { return {{}, TransportMode::radiance, {}}; }
+inline BsdfContext flux() { return {{}, TransportMode::flux, {}}; }
+
 struct BsdfInstance {
   std::string name;
   std::shared_ptr<const Bsdf> bsdf;

@@ -61,9 +61,6 @@ BsdfSample draw(const Bsdf& bsdf, const BsdfContext& context, const Case& c, Sam
   return bsdf.sample(context, c.wo, u_lobe, sampler.next_2d(), c.lobes);
 }
 
-/// Of flux: refraction squeezes it into other angles, and changes nothing else.
-BsdfContext of_flux() { return {{}, TransportMode::flux, {}}; }
-
 class EveryBsdf : public testing::TestWithParam<BsdfInstance> {
  protected:
   const Bsdf& bsdf() const { return *GetParam().bsdf; }
@@ -103,7 +100,7 @@ Drawn draw_many(const Bsdf& bsdf, const Case& c) {
   Drawn result;
   result.cells.resize(grid.size() + 1);
   for (int i = 0; i < samples_for(bsdf); ++i) {
-    const BsdfSample s = draw(bsdf, of_flux(), c, sampler_of(1, i));
+    const BsdfSample s = draw(bsdf, flux(), c, sampler_of(1, i));
     const bool has_density = s.event == Lobes::diffuse || s.event == Lobes::glossy;
     result.cells[has_density ? grid.cell_of(s.wi) : grid.size()] += 1;
     for (size_t lane = 0; lane < 3; ++lane) {
@@ -207,7 +204,7 @@ Vec3d integral_of_value(const Bsdf& bsdf, const Vec3f& wo, Lobes lobes) {
   Vec3d sum(0, 0, 0);
   for (size_t cell = 0; cell < grid.size(); ++cell)
     sum += grid.integrate(cell, [&](const Vec3f& wi) {
-      const Spectrum f = bsdf.eval(of_flux(), wo, wi, lobes) * std::fabs(wi.z);
+      const Spectrum f = bsdf.eval(flux(), wo, wi, lobes) * std::fabs(wi.z);
       return Vec3d(f[0], f[1], f[2]);
     });
   return sum;
@@ -267,7 +264,7 @@ TEST_P(EveryBsdf, is_reciprocal) {
     };
     const Vec3f a = on_sphere(u), b = on_sphere(v);
     for (const Lobes lobes : lobe_sets(bsdf())) {
-      const Spectrum ab = bsdf().eval({}, a, b, lobes), ba = bsdf().eval(of_flux(), b, a, lobes);
+      const Spectrum ab = bsdf().eval({}, a, b, lobes), ba = bsdf().eval(flux(), b, a, lobes);
       for (int lane = 0; lane < 3; ++lane) {
         ASSERT_GE(ab[lane], 0);
         ASSERT_NEAR(ab[lane], ba[lane], 1e-4f * ab[lane] + 1e-7f);

@@ -251,7 +251,7 @@ TEST(BuildScene, ForeignParametersAreLeftOut) {
   Description description = parse_mitsuba_xml(text, "t.xml", "");
   EXPECT_EQ(build_scene(description)->warnings(),
             std::vector<std::string>{"t.xml:2:54: shape 'sphere' has no parameter 'tiles': it is "
-                                     "left out, here and 1 times more"});
+                                     "left out, and 1 more like it"});
   description.is_strict = true;
   EXPECT_THROW(build_scene(description), Error);
 }

@@ -11,7 +11,7 @@
 namespace kaustik::test {
 
 template <typename T>
-void put(std::string& out, T value) {
+void put_bytes(std::string& out, T value) {
   char raw[sizeof(T)];
   std::memcpy(raw, &value, sizeof(T));
   out.append(raw, sizeof(T));
@@ -36,25 +36,25 @@ struct PackedMesh {
 
 inline std::string packed_mesh(const PackedMesh& mesh, uint16_t version) {
   std::string raw;
-  put(raw, mesh.flags);
+  put_bytes(raw, mesh.flags);
   if (version == 4) raw.append(mesh.name).push_back('\0');
-  put(raw, uint64_t(mesh.arrays[0].size() / 3));
-  put(raw, uint64_t(mesh.corners.size() / 3));
+  put_bytes(raw, uint64_t(mesh.arrays[0].size() / 3));
+  put_bytes(raw, uint64_t(mesh.corners.size() / 3));
   for (const auto& array : mesh.arrays)
     for (const double value : array)
       if (mesh.flags & 0x2000)
-        put(raw, value);
+        put_bytes(raw, value);
       else
-        put(raw, float(value));
-  for (const uint32_t corner : mesh.corners) put(raw, corner);
+        put_bytes(raw, float(value));
+  for (const uint32_t corner : mesh.corners) put_bytes(raw, corner);
   uLongf size = compressBound(uLong(raw.size()));
   std::string out(size, '\0');
   compress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(raw.data()),
            uLong(raw.size()));
   out.resize(size);
   std::string whole;
-  put(whole, uint16_t(0x041c));
-  put(whole, version);
+  put_bytes(whole, uint16_t(0x041c));
+  put_bytes(whole, version);
   return whole + packed(raw);
 }
 
@@ -68,10 +68,10 @@ inline std::string serialized_file(const std::vector<PackedMesh>& meshes, uint16
   }
   for (const uint64_t place : places)
     if (version == 4)
-      put(out, place);
+      put_bytes(out, place);
     else
-      put(out, uint32_t(place));
-  put(out, uint32_t(meshes.size()));
+      put_bytes(out, uint32_t(place));
+  put_bytes(out, uint32_t(meshes.size()));
   return out;
 }
 

@@ -334,7 +334,7 @@ std::vector<std::string> UnknownParameters::warnings() const {
   for (const auto& [text, found] : found_)
     sentences.push_back(fmt::format(
         "{}: {}: it is left out{}{}", text_of(found.first), text,
-        found.count > 1 ? fmt::format(", here and {} times more", found.count - 1) : "",
+        found.count > 1 ? fmt::format(", and {} more like it", found.count - 1) : "",
         found.nearest.empty() ? "" : fmt::format("; did you mean '{}'?", found.nearest)));
   return sentences;
 }

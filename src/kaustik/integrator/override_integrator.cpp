@@ -14,7 +14,7 @@ namespace {
 Object in_our_words(const Object& object) {
   std::vector<std::string> ignored;
   try {
-    return native_integrator(object, ignored);
+    return native_integrator(object, ignored, false);
   } catch (const Error&) {
     // It is replaced, whatever is wrong with it.
     return object;

@@ -52,15 +52,16 @@ std::shared_ptr<Object> Reader::read_scene(Source& source) {
 Description Reader::finish(const std::shared_ptr<Object>& scene) {
   if (scene && !incomplete_) {
     references_.resolve(scene, problems_);
-    definitions_.report_unused(problems_);
+    // What is left out may have used them.
+    if (foreign_.empty()) definitions_.report_unused(problems_);
   }
   problems_.throw_if_any();
   Description description{.scene = scene, .sources = {sources_.begin(), sources_.end()}};
   description.is_strict = is_strict_;
   for (const auto& [tag, foreign] : foreign_)
     description.warnings.push_back(fmt::format(
-        "{}: <{}> is no element of Mitsuba's: it is left out{}", kaustik::text_of(foreign.first),
-        tag, foreign.count > 1 ? fmt::format(", here and {} times more", foreign.count - 1) : ""));
+        "{}: Kaustik does not know <{}>: it is left out{}", kaustik::text_of(foreign.first), tag,
+        foreign.count > 1 ? fmt::format(", and {} more like it", foreign.count - 1) : ""));
   return description;
 }
 
@@ -134,7 +135,8 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
 
 void Reader::report_unknown(const Element& element) {
   // Other renderers have elements of their own. What looks like one of ours was meant to be one.
-  const bool is_ours = is_in(transform_tags(), element.tag) ||
+  static const std::vector<std::string> of_mitsuba = {"animation", "blackbody", "subsurface"};
+  const bool is_ours = is_in(transform_tags(), element.tag) || is_in(of_mitsuba, element.tag) ||
                        upgraded_tag(element.tag, {0, 0, 0}) != element.tag ||
                        suggestion(element.tag, part_tags()).starts_with("did you mean");
   if (!is_strict_ && !is_ours) {

@@ -109,8 +109,8 @@ class BsdfContext {
   TextureCoordinates texture_;
   Wavelengths wavelengths_;
   mutable size_t known_ = 0;
-  mutable std::array<uintptr_t, 6> keys_{};
-  mutable std::array<Spectrum, 6> values_{};
+  mutable std::array<uintptr_t, 8> keys_{};
+  mutable std::array<Spectrum, 8> values_{};
 };
 
 /// A direction that a bsdf has chosen. The event is drawn by the shares of the lobes in f at wi,

@@ -9,9 +9,9 @@ namespace {
 constexpr float roughest = 0.1f, smoothest = 0.001f;
 /// By which roughness facets hide one another, whatever the gloss.
 constexpr float masking_alpha = 0.25f;
-constexpr float normal_reflectance = 0.04f, weight = 0.25f;
+constexpr float coat_reflectance = 0.04f, coat_weight = 0.25f;
 
-float masking(const Vec3f& w) {
+float coat_masking(const Vec3f& w) {
   return MicrofacetDistribution(MicrofacetDistribution::Kind::ggx, masking_alpha, masking_alpha,
                                 false)
       .masking(w);
@@ -23,15 +23,16 @@ Clearcoat::Clearcoat(float gloss, float eta)
     : alpha_sq_(sqr(std::lerp(roughest, smoothest, std::clamp(gloss, 0.0f, 1.0f)))), eta_(eta) {}
 
 float Clearcoat::density(const Vec3f& m) const {
-  return (alpha_sq_ - 1) / (pi * std::log(alpha_sq_) * (1 + (alpha_sq_ - 1) * m.z * m.z));
+  return (alpha_sq_ - 1) /
+         (pi * std::log(alpha_sq_) * (alpha_sq_ * m.z * m.z + m.x * m.x + m.y * m.y));
 }
 
 float Clearcoat::eval(const Vec3f& wo, const Vec3f& wi) const {
   const Vec3f m = normalize(wo + wi);
   const float cosine = dot(wo, m);
   const float angle = eta_ >= 1 ? cosine : fresnel_dielectric(cosine, eta_).cos_transmitted;
-  const float fresnel = std::lerp(normal_reflectance, 1.0f, schlick_weight(angle));
-  return weight * fresnel * density(m) * masking(wo) * masking(wi);
+  const float fresnel = std::lerp(coat_reflectance, 1.0f, schlick_weight(angle));
+  return coat_weight * fresnel * density(m) * coat_masking(wo) * coat_masking(wi);
 }
 
 float Clearcoat::pdf(const Vec3f& wo, const Vec3f& wi) const {

@@ -189,7 +189,7 @@ class Principled final : public Bsdf {
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (wo.z == 0) return Spectrum();
     const Look look = look_at(context);
-    const Albedos albedos = albedos_of(look, wo);
+    const Albedos albedos = albedos_of(context, look, wo);
     Spectrum sum;
     if (any(lobes & Lobes::diffuse)) sum += albedos.matt;
     if (any(lobes & Lobes::glossy)) sum += albedos.reflected + albedos.transmitted + albedos.coat;
@@ -337,8 +337,7 @@ class Principled final : public Bsdf {
     return white(context) * look.sheen_color();
   }
 
-  Albedos albedos_of(const Look& look, const Vec3f& wo) const {
-    const BsdfContext rgb;
+  Albedos albedos_of(const BsdfContext& context, const Look& look, const Vec3f& wo) const {
     Albedos albedos;
     const bool is_front = wo.z > 0;
     if (!is_front && !(look.clear() > 0)) return albedos;
@@ -348,27 +347,28 @@ class Principled final : public Bsdf {
     const float whole = facets[0], grazing = facets[1], glass = facets[2], through = facets[3];
     albedos.transmitted = sqrt(look.base) * (look.clear() * through);
     if (!is_front) {
-      albedos.reflected = white(rgb) * (look.clear() * glass);
+      albedos.reflected = white(context) * (look.clear() * glass);
       return albedos;
     }
     const auto schlick = [&](const Spectrum& normal) {
-      return normal * (whole - grazing) + white(rgb) * grazing;
+      return normal * (whole - grazing) + white(context) * grazing;
     };
     albedos.reflected =
-        white(rgb) * ((1 - look.metallic) * (1 - look.spec_tint) * glass) +
+        white(context) * ((1 - look.metallic) * (1 - look.spec_tint) * glass) +
         schlick(look.base) * look.metallic +
         schlick(look.tint * normal_reflectance_) * ((1 - look.metallic) * look.spec_tint);
     if (look.matt() > 0)
       albedos.matt +=
           look.base * (look.matt() * burley_base_albedo(wo.z, look.roughness, look.flatness));
-    if (look.sheen > 0) albedos.matt += sheen_color(rgb, look) * burley_sheen_albedo(wo.z);
+    if (look.sheen > 0) albedos.matt += sheen_color(context, look) * burley_sheen_albedo(wo.z);
     if (look.clearcoat > 0)
-      albedos.coat = white(rgb) * (look.clearcoat * Clearcoat::albedo(look.clearcoat_gloss, wo));
+      albedos.coat =
+          white(context) * (look.clearcoat * Clearcoat::albedo(look.clearcoat_gloss, wo));
     return albedos;
   }
 
   Chances chances_of(const Look& look, const Vec3f& wo, Lobes lobes) const {
-    const Albedos albedos = albedos_of(look, wo);
+    const Albedos albedos = albedos_of({}, look, wo);
     Chances chances;
     if (any(lobes & Lobes::diffuse)) chances.matt = albedos.matt.max_lane();
     if (any(lobes & Lobes::glossy)) {
@@ -384,7 +384,7 @@ class Principled final : public Bsdf {
   float most_reflected(const Look& look) const {
     float most = 0;
     for (const float cosine : {1.0f, 0.6f, 0.3f, 0.15f, 0.08f, 0.04f, 0.02f, 0.01f}) {
-      const Albedos albedos = albedos_of(look, {safe_sqrt(1 - cosine * cosine), 0, cosine});
+      const Albedos albedos = albedos_of({}, look, {safe_sqrt(1 - cosine * cosine), 0, cosine});
       most = std::max(
           most, (albedos.matt + albedos.reflected + albedos.transmitted + albedos.coat).max_lane());
     }

@@ -20,7 +20,7 @@ std::shared_ptr<Object> photonmap_of(const Description& description,
   object->family = "integrator";
   object->type = type;
   if (!given || native_type(*given) != type) return object;
-  *object = native_integrator(*given, notes);
+  *object = native_integrator(*given, notes, description.is_strict);
   // The map that it asks for may be the one that is about to be written.
   std::erase_if(object->properties, [](const Property& p) { return p.name == "photon_map"; });
   return object;
@@ -48,9 +48,12 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
   TracedPhotons traced;
   const auto object = photonmap_of(description, traced.warnings);
   // Checks the object as a render would, but not the surfaces' own, which photons don't know.
-  make_integrator_alone(*object, scene, traced.warnings);
+  make_integrator_alone(*object, scene, traced.warnings, description.is_strict);
   Problems problems;
-  const Arguments arguments(PhotonMapSettings::info(), object->properties, object->place, problems);
+  UnknownParameters told;
+  const Arguments arguments(PhotonMapSettings::info(),
+                            told.without_unknown(PhotonMapSettings::info(), object->properties),
+                            object->place, problems);
   problems.throw_if_any();
 
   StoredPhotons& photons = traced.photons;

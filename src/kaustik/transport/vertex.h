@@ -73,8 +73,9 @@ class SurfaceVertex {
   /// f of the diffuse lobe for all directions on wo's side; where it is not the same for all, what
   /// it is on the mean over even light …
   Spectrum diffuse_value() const {
-    return traits_.is_lambertian || traits_.transmits ? eval(facing_normal(), Lobes::diffuse)
-                                                      : albedo(Lobes::diffuse) * inv_pi;
+    const bool is_one_value =
+        traits_.is_lambertian || (traits_.transmits && !diffuse_value_through().is_zero());
+    return is_one_value ? eval(facing_normal(), Lobes::diffuse) : albedo(Lobes::diffuse) * inv_pi;
   }
   /// … and for all on the other side.
   Spectrum diffuse_value_through() const { return eval(-facing_normal(), Lobes::diffuse); }
