@@ -89,7 +89,7 @@ int samples_for(const Bsdf& bsdf) {
   };
   for (const BsdfInstance& instance : bsdf_instances()) {
     if (instance.bsdf.get() != &bsdf) continue;
-    if (instance.name.ends_with("all_normals")) return 4 * sample_count;
+    if (instance.name.ends_with("all_normals")) return 8 * sample_count;
     if (is_mixed(instance.name)) return 3 * sample_count;
   }
   return sample_count;

@@ -83,9 +83,12 @@ TEST(PhotonTracing, EmptyMapsAreExplained) {
 }
 
 TEST(PhotonTracing, WrongParametersAreRefused) {
-  const Description wrong = described(
+  Description wrong = described(
       "<integrator type=\"photonmap\"><integer name=\"caustic_photon\" value=\"1\"/></integrator>");
-  EXPECT_THROW(trace_photon_maps(wrong, *build_scene(wrong), 7, 0), Error);
+  EXPECT_NO_THROW(trace_photon_maps(wrong, *build_scene(wrong), 7, 0));
+  const auto scene = build_scene(wrong);
+  wrong.is_strict = true;
+  EXPECT_THROW(trace_photon_maps(wrong, *scene, 7, 0), Error);
 }
 
 /// Photons don't know the surfaces' own models: maps that these want may be the ones to be made.

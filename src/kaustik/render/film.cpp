@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/photometry.h"
@@ -131,6 +132,9 @@ class Film::Addition {
     const auto* values = pass_.read(tile, line, uniform_);
     if (!values) return packer.keep();
     rounded_ = *values;
+    // Light near the end of the range of floats may have no luminance there: it tells of no error.
+    for (float& value : rounded_)
+      if (!std::isfinite(value)) value = 0;
     round_line(rounded_, bits);
     packer.add(rounded_);
   }
