@@ -122,16 +122,10 @@ class Dielectric final : public Bsdf {
   std::shared_ptr<const Texture> reflectance_, transmittance_;
 };
 
-TypeInfo make_dielectric_info() {
-  TypeInfo info{"bsdf", "dielectric", "Smooth transparent surface such as glass or water.",
-                dielectric_ior_parameters()};
-  info.parameters.push_back(specular_reflectance_parameter());
-  info.parameters.push_back(specular_transmittance_parameter());
-  return info;
-}
-
 const TypeInfo& dielectric_info() {
-  static const TypeInfo info = make_dielectric_info();
+  static const TypeInfo info{"bsdf", "dielectric",
+                             "Smooth transparent surface such as glass or water.",
+                             dielectric_parameters()};
   return info;
 }
 

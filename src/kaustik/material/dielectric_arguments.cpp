@@ -25,6 +25,13 @@ SpectralValue dielectric_ior_of(const Arguments& arguments, std::string_view nam
   return SpectralValue(float(std::get<double>(value)));
 }
 
+std::vector<Parameter> dielectric_parameters() {
+  std::vector<Parameter> parameters = dielectric_ior_parameters();
+  parameters.push_back(specular_reflectance_parameter());
+  parameters.push_back(specular_transmittance_parameter());
+  return parameters;
+}
+
 Parameter specular_reflectance_parameter() {
   return color_parameter("specular_reflectance", 1, "Factor on what is reflected; 1 is physical.")
       .range(0, 1)

@@ -8,6 +8,9 @@ std::vector<Parameter> dielectric_ior_parameters(std::string_view usual_interior
 /// … and what one of them says.
 SpectralValue dielectric_ior_of(const Arguments& arguments, std::string_view name);
 
+/// The rows of glass: both indices, and the factors below.
+std::vector<Parameter> dielectric_parameters();
+
 /// The rows of the factors on what such a boundary reflects and transmits, specular_reflectance and
 /// specular_transmittance.
 Parameter specular_reflectance_parameter();

@@ -71,16 +71,10 @@ class ThinDielectric final : public Bsdf {
   std::shared_ptr<const Texture> reflectance_, transmittance_;
 };
 
-TypeInfo make_thindielectric_info() {
-  TypeInfo info{"bsdf", "thindielectric", "Thin pane of glass; light goes straight through.",
-                dielectric_ior_parameters()};
-  info.parameters.push_back(specular_reflectance_parameter());
-  info.parameters.push_back(specular_transmittance_parameter());
-  return info;
-}
-
 const TypeInfo& thindielectric_info() {
-  static const TypeInfo info = make_thindielectric_info();
+  static const TypeInfo info{"bsdf", "thindielectric",
+                             "Thin pane of glass; light goes straight through.",
+                             dielectric_parameters()};
   return info;
 }
 

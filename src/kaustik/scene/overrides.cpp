@@ -59,17 +59,19 @@ std::string choose_camera(Description& description, const std::string& name) {
   std::vector<std::shared_ptr<Object>> cameras;
   for (const Child& child : description.scene->children)
     if (child.object->family == "sensor") cameras.push_back(child.object);
-  std::vector<std::string> names;
+  std::vector<std::string> names, ids;
   std::shared_ptr<Object> chosen;
   for (const auto& camera : cameras) {
+    if (!camera->id.empty()) ids.push_back(camera->id);
     if (!chosen && (name.empty() || camera->id == name))
       chosen = camera;
     else
       names.push_back(camera->id.empty() ? "one without a name" : camera->id);
   }
   if (!chosen && !name.empty())
-    throw Error(ErrorKind::input, fmt::format("the scene has no camera '{}'", name),
-                names.empty() ? "it has no camera at all" : suggest(name, names));
+    throw Error(
+        ErrorKind::input, fmt::format("the scene has no camera '{}'", name),
+        ids.empty() ? "none has an id: give one to the camera that you mean" : suggest(name, ids));
   if (names.empty()) return {};
   std::erase_if(description.scene->children, [&](const Child& child) {
     return child.object->family == "sensor" && child.object != chosen;
