@@ -58,11 +58,9 @@ std::shared_ptr<const Texture> make_texture(const std::string& type,
 
 namespace {
 
-std::shared_ptr<const Bsdf> rough(const std::string& distribution, double alpha,
-                                  bool visible = true) {
-  return make_bsdf("roughconductor",
-                   {property("distribution", distribution), property("alpha", alpha),
-                    property("material", "cu"), property("sample_visible", visible)});
+std::shared_ptr<const Bsdf> rough(const std::string& distribution, double alpha) {
+  return make_bsdf("roughconductor", {property("distribution", distribution),
+                                      property("alpha", alpha), property("material", "cu")});
 }
 
 std::shared_ptr<const Bsdf> anisotropic(const std::string& distribution) {
@@ -125,12 +123,10 @@ std::vector<BsdfInstance> make_instances() {
       {"beckmann_0.05", rough("beckmann", 0.05)},
       {"beckmann_0.3", rough("beckmann", 0.3)},
       {"beckmann_0.8", rough("beckmann", 0.8)},
-      {"beckmann_0.3_all_normals", rough("beckmann", 0.3, false)},
       {"beckmann_anisotropic", anisotropic("beckmann")},
       {"ggx_0.05", rough("ggx", 0.05)},
       {"ggx_0.3", rough("ggx", 0.3)},
       {"ggx_0.8", rough("ggx", 0.8)},
-      {"ggx_0.3_all_normals", rough("ggx", 0.3, false)},
       {"ggx_anisotropic", anisotropic("ggx")},
       {"twosided_diffuse", make_bsdf("twosided", {}, {make_bsdf("diffuse")})},
       {"twosided_two", make_bsdf("twosided", {}, {coloured_phong, rough("ggx", 0.3)})},
@@ -162,8 +158,6 @@ std::vector<BsdfInstance> make_instances() {
       {"ground_glass_beckmann_0.3", ground_glass("beckmann", 0.3)},
       {"ground_glass_ggx_0.3", ground_glass("ggx", 0.3)},
       {"ground_glass_ggx_1", ground_glass("ggx", 1)},
-      {"ground_glass_ggx_0.3_all_normals",
-       ground_glass("ggx", 0.3, {property("sample_visible", false)})},
       {"ground_air_bubble_tinted",
        ground_glass("ggx", 0.2,
                     {property("int_ior", "air"), property("ext_ior", 1.6),

@@ -81,7 +81,7 @@ struct Drawn {
 
 constexpr std::array<Lobes, 3> single_lobes = {Lobes::diffuse, Lobes::glossy, Lobes::delta};
 
-/// Sampling all normals is noisy at grazing angles; and of many lobes each gets its share only.
+/// Of many lobes each gets its share of the samples only.
 int samples_for(const Bsdf& bsdf) {
   const auto is_mixed = [](const std::string& name) {
     return name == "sheet_all_lobes" || name == "textured_phong" || name == "mask_half" ||
@@ -89,7 +89,6 @@ int samples_for(const Bsdf& bsdf) {
   };
   for (const BsdfInstance& instance : bsdf_instances()) {
     if (instance.bsdf.get() != &bsdf) continue;
-    if (instance.name.ends_with("all_normals")) return 8 * sample_count;
     if (is_mixed(instance.name)) return 3 * sample_count;
   }
   return sample_count;

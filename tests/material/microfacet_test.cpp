@@ -22,7 +22,7 @@ std::vector<MicrofacetDistribution> distributions() {
   std::vector<MicrofacetDistribution> all;
   for (const Kind kind : {Kind::beckmann, Kind::ggx})
     for (const auto& [x, y] : {std::pair{0.1f, 0.1f}, {0.5f, 0.5f}, {0.2f, 0.6f}, {1.0f, 1.0f}})
-      all.emplace_back(kind, x, y, true);
+      all.emplace_back(kind, x, y);
   return all;
 }
 
@@ -52,7 +52,7 @@ TEST(microfacets, density_of_visible_normals_integrates_to_one) {
 }
 
 TEST(microfacets, turn_with_the_axes) {
-  const MicrofacetDistribution a(Kind::ggx, 0.1f, 0.4f, true), b(Kind::ggx, 0.4f, 0.1f, true);
+  const MicrofacetDistribution a(Kind::ggx, 0.1f, 0.4f), b(Kind::ggx, 0.4f, 0.1f);
   const Vec3f m = normalize(Vec3f(0.2f, 0.05f, 1)), turned(m.y, m.x, m.z);
   EXPECT_FLOAT_EQ(a.density(m), b.density(turned));
   EXPECT_FLOAT_EQ(a.masking(m), b.masking(turned));

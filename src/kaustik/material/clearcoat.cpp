@@ -12,8 +12,7 @@ constexpr float masking_alpha = 0.25f;
 constexpr float coat_reflectance = 0.04f, coat_weight = 0.25f;
 
 float coat_masking(const Vec3f& w) {
-  return MicrofacetDistribution(MicrofacetDistribution::Kind::ggx, masking_alpha, masking_alpha,
-                                false)
+  return MicrofacetDistribution(MicrofacetDistribution::Kind::ggx, masking_alpha, masking_alpha)
       .masking(w);
 }
 

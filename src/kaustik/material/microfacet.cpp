@@ -70,17 +70,10 @@ float MicrofacetDistribution::masking(const Vec3f& w) const {
 }
 
 Vec3f MicrofacetDistribution::sample(const Vec3f& w, const Vec2f& u) const {
-  if (!sample_visible_) return sample_all(u);
-  return kind_ == Kind::ggx ? sample_visible_ggx(w, u) : sample_visible_beckmann(w, u);
+  return kind_ == Kind::ggx ? sample_ggx(w, u) : sample_beckmann(w, u);
 }
 
-Vec3f MicrofacetDistribution::sample_all(const Vec2f& u) const {
-  const float phi = 2 * pi * u.y, rest = 1 - u.x;
-  const float slope = std::sqrt(kind_ == Kind::ggx ? u.x / rest : -std::log(rest));
-  return normalize(Vec3f(alpha_x_ * slope * std::cos(phi), alpha_y_ * slope * std::sin(phi), 1.0f));
-}
-
-Vec3f MicrofacetDistribution::sample_visible_ggx(const Vec3f& w, const Vec2f& u) const {
+Vec3f MicrofacetDistribution::sample_ggx(const Vec3f& w, const Vec2f& u) const {
   const Vec3f v = normalize(Vec3f(alpha_x_ * w.x, alpha_y_ * w.y, w.z));
   const float phi = 2 * pi * u.x;
   const float z = (1 - u.y) * (1 + v.z) - v.z;
@@ -89,7 +82,7 @@ Vec3f MicrofacetDistribution::sample_visible_ggx(const Vec3f& w, const Vec2f& u)
   return normalize(Vec3f(alpha_x_ * h.x, alpha_y_ * h.y, std::max(h.z, 1e-7f)));
 }
 
-Vec3f MicrofacetDistribution::sample_visible_beckmann(const Vec3f& w, const Vec2f& u) const {
+Vec3f MicrofacetDistribution::sample_beckmann(const Vec3f& w, const Vec2f& u) const {
   const Vec3f v = normalize(Vec3f(alpha_x_ * w.x, alpha_y_ * w.y, w.z));
   const float sin_theta = std::sqrt(v.x * v.x + v.y * v.y);
   const float cos_phi = sin_theta > 0 ? v.x / sin_theta : 1;

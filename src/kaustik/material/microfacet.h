@@ -9,9 +9,9 @@ class MicrofacetDistribution {
  public:
   enum class Kind { beckmann, ggx };
 
-  /// Roughness along x and y, > 0. `sample_visible`: only normals that w can see are sampled.
-  MicrofacetDistribution(Kind kind, float alpha_x, float alpha_y, bool sample_visible)
-      : kind_(kind), alpha_x_(alpha_x), alpha_y_(alpha_y), sample_visible_(sample_visible) {}
+  /// Roughness along x and y, > 0.
+  MicrofacetDistribution(Kind kind, float alpha_x, float alpha_y)
+      : kind_(kind), alpha_x_(alpha_x), alpha_y_(alpha_y) {}
 
   bool is_isotropic() const { return alpha_x_ == alpha_y_; }
 
@@ -19,27 +19,24 @@ class MicrofacetDistribution {
   float density(const Vec3f& m) const;
   /// G1: share of the facets facing w that no others hide; w.z > 0. Exact for both kinds.
   float masking(const Vec3f& w) const;
-  /// A normal with m.z > 0; w.z > 0. Visible ones: Dupuy and Benyoub, "Sampling Visible GGX Normals
-  /// with Spherical Caps" (2023); for Beckmann Jakob, "An Improved Visible Normal Sampling Routine"
-  /// (2014).
+  /// One of the normals that w sees, with m.z > 0; w.z > 0. Dupuy and Benyoub, "Sampling Visible
+  /// GGX Normals with Spherical Caps" (2023); for Beckmann Jakob, "An Improved Visible Normal
+  /// Sampling Routine" (2014). Weights of samples are at most 1; drawn from all normals they had no
+  /// variance.
   Vec3f sample(const Vec3f& w, const Vec2f& u) const;
   /// Density per solid angle of the normals with which sample() finds m; dot(w, m) > 0.
-  float pdf(const Vec3f& w, const Vec3f& m) const {
-    return pdf(w, m, density(m), sample_visible_ ? masking(w) : 1.0f);
-  }
+  float pdf(const Vec3f& w, const Vec3f& m) const { return pdf(w, m, density(m), masking(w)); }
   /// The same where density(m) and masking(w) are known.
   float pdf(const Vec3f& w, const Vec3f& m, float density, float masking) const {
-    return sample_visible_ ? density * masking * dot(w, m) / w.z : density * m.z;
+    return density * masking * dot(w, m) / w.z;
   }
 
  private:
-  Vec3f sample_all(const Vec2f& u) const;
-  Vec3f sample_visible_ggx(const Vec3f& w, const Vec2f& u) const;
-  Vec3f sample_visible_beckmann(const Vec3f& w, const Vec2f& u) const;
+  Vec3f sample_ggx(const Vec3f& w, const Vec2f& u) const;
+  Vec3f sample_beckmann(const Vec3f& w, const Vec2f& u) const;
 
   Kind kind_;
   float alpha_x_, alpha_y_;
-  bool sample_visible_;
 };
 
 }  // namespace kaustik

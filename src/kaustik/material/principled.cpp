@@ -69,7 +69,7 @@ struct Look {
 MicrofacetDistribution facets_of(float roughness, float anisotropic) {
   const float aspect = std::sqrt(1 - 0.9f * anisotropic), alpha = roughness * roughness;
   return {MicrofacetDistribution::Kind::ggx, std::max(1e-3f, alpha / aspect),
-          std::max(1e-3f, alpha * aspect), true};
+          std::max(1e-3f, alpha * aspect)};
 }
 
 /// Directional albedos of the facets, by roughness: what those reflect that are white (lane 0), the

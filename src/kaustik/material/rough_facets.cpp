@@ -17,6 +17,11 @@ Parameter distribution_parameter() {
                           "Distribution of the normals of the microscopic facets.");
 }
 
+Parameter sample_visible_parameter() {
+  return boolean_parameter("sample_visible", true,
+                           "No effect: facets that can be seen are always the ones sampled.");
+}
+
 RoughFacets::Kind facet_kind_of(const Arguments& arguments) {
   return arguments.text("distribution") == "ggx" ? RoughFacets::Kind::ggx
                                                  : RoughFacets::Kind::beckmann;
@@ -27,18 +32,16 @@ std::vector<Parameter> rough_facets_parameters() {
           alpha_parameter("alpha", "Roughness; about the root mean square slope of the facets."),
           optional(alpha_parameter("alpha_u", "Roughness along the tangent, instead of alpha.")),
           optional(alpha_parameter("alpha_v", "Roughness across the tangent, instead of alpha.")),
-          boolean_parameter("sample_visible", true,
-                            "Sample only facets that can be seen: less noise, same result.")};
+          sample_visible_parameter()};
 }
 
 RoughFacets rough_facets_of(const BsdfInputs& inputs) {
   const Arguments& arguments = inputs.arguments;
   const auto kind = facet_kind_of(arguments);
-  const bool visible = arguments.boolean("sample_visible");
   auto u = inputs.texture("alpha_u"), v = inputs.texture("alpha_v");
   if (!u && !v) {
     auto alpha = inputs.texture("alpha");
-    return {kind, alpha, alpha, visible};
+    return {kind, alpha, alpha};
   }
   if (arguments.given("alpha"))
     throw Error(ErrorKind::input, "'alpha' is given together with 'alpha_u' or 'alpha_v'",
@@ -49,7 +52,7 @@ RoughFacets rough_facets_of(const BsdfInputs& inputs) {
                 "give both, or alpha alone", arguments.place_of(u ? "alpha_u" : "alpha_v"));
   // Isotropic facets are told by one texture for both.
   if (u->is_constant() && v->is_constant() && u->mean() == v->mean()) v = u;
-  return {kind, std::move(u), std::move(v), visible};
+  return {kind, std::move(u), std::move(v)};
 }
 
 }  // namespace kaustik

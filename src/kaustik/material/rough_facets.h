@@ -18,11 +18,8 @@ class RoughFacets {
 
   static constexpr double least_alpha = 1e-3, largest_alpha = 10;
 
-  RoughFacets(Kind kind, TexturePointer alpha_u, TexturePointer alpha_v, bool sample_visible)
-      : kind_(kind),
-        alpha_u_(std::move(alpha_u)),
-        alpha_v_(std::move(alpha_v)),
-        sample_visible_(sample_visible) {}
+  RoughFacets(Kind kind, TexturePointer alpha_u, TexturePointer alpha_v)
+      : kind_(kind), alpha_u_(std::move(alpha_u)), alpha_v_(std::move(alpha_v)) {}
 
   bool is_isotropic() const { return alpha_u_ == alpha_v_; }
   SurfaceNeeds needs() const {
@@ -30,8 +27,7 @@ class RoughFacets {
     return is_isotropic() ? textures : textures | SurfaceNeeds::tangent;
   }
   MicrofacetDistribution at(const BsdfContext& context) const {
-    return {kind_, in_range(context.scalar_of(*alpha_u_)), in_range(context.scalar_of(*alpha_v_)),
-            sample_visible_};
+    return {kind_, in_range(context.scalar_of(*alpha_u_)), in_range(context.scalar_of(*alpha_v_))};
   }
   /// Of the roughness along u, which albedos are tabulated by.
   float log_alpha(const BsdfContext& context) const {
@@ -47,7 +43,7 @@ class RoughFacets {
   MicrofacetDistribution of_log_alpha(float log_alpha) const {
     const float alpha = std::exp2(log_alpha);
     const float across = is_isotropic() ? alpha : in_range(luminance_of(alpha_v_->mean()));
-    return {kind_, alpha, across, sample_visible_};
+    return {kind_, alpha, across};
   }
 
  private:
@@ -57,7 +53,6 @@ class RoughFacets {
 
   Kind kind_;
   TexturePointer alpha_u_, alpha_v_;
-  bool sample_visible_;
 };
 
 /// The rows that rough surfaces share: distribution, alpha, alpha_u, alpha_v, sample_visible.
@@ -66,8 +61,9 @@ std::vector<Parameter> rough_facets_parameters();
 /// one of these.
 RoughFacets rough_facets_of(const BsdfInputs& inputs);
 
-/// The row of the distribution, and what it says.
+/// The rows of the distribution and of Mitsuba's choice of sampling, and what the first says.
 Parameter distribution_parameter();
+Parameter sample_visible_parameter();
 RoughFacets::Kind facet_kind_of(const Arguments& arguments);
 
 }  // namespace kaustik

@@ -137,8 +137,7 @@ TypeInfo make_roughplastic_info() {
       {distribution_parameter(),
        number_parameter("alpha", 0.1, "Roughness of the coat; about the root mean square slope.")
            .range(RoughFacets::least_alpha, RoughFacets::largest_alpha),
-       boolean_parameter("sample_visible", true,
-                         "Sample only facets that can be seen: less noise.")}};
+       sample_visible_parameter()}};
   for (Parameter& parameter : plastic_parameters()) info.parameters.push_back(std::move(parameter));
   return info;
 }
@@ -152,10 +151,9 @@ std::shared_ptr<const Bsdf> create_roughplastic(const BsdfInputs& inputs) {
   const Arguments& arguments = inputs.arguments;
   const auto alpha = make_constant_texture(SpectralValue(float(arguments.number("alpha"))));
   return std::make_shared<RoughPlastic>(
-      RoughFacets(facet_kind_of(arguments), alpha, alpha, arguments.boolean("sample_visible")),
-      dielectric_ior_of(arguments, "int_ior"), dielectric_ior_of(arguments, "ext_ior"),
-      inputs.texture("diffuse_reflectance"), arguments.boolean("nonlinear"),
-      inputs.texture("specular_reflectance"));
+      RoughFacets(facet_kind_of(arguments), alpha, alpha), dielectric_ior_of(arguments, "int_ior"),
+      dielectric_ior_of(arguments, "ext_ior"), inputs.texture("diffuse_reflectance"),
+      arguments.boolean("nonlinear"), inputs.texture("specular_reflectance"));
 }
 
 }  // namespace
