@@ -42,6 +42,20 @@ TEST(SimpleTone, scales) {
   EXPECT_NEAR(shown_by(image, "linear", {"exposure=-3"}).at(1, 0, 1), 0.5f, 1e-6);
 }
 
+// Operators that take an exposure add the film's; those that adapt as an eye does don't ask.
+TEST(SimpleTone, adds_the_exposure_of_the_film) {
+  const Image plain = grey_image(2, 1, [](int x, int) { return x ? 0.125f : 0.0625f; });
+  Image exposed = plain;
+  exposed.set_metadata(film_exposure_key, 2.0);
+  EXPECT_NEAR(shown_by(exposed, "srgb").at(1, 0, 0), 0.5f, 1e-6);
+  EXPECT_NEAR(shown_by(exposed, "linear", {"exposure=-1"}).at(1, 0, 1), 0.25f, 1e-6);
+  EXPECT_EQ(shown_by(exposed, "aces").at(1, 0, 0),
+            shown_by(plain, "aces", {"exposure=2"}).at(1, 0, 0));
+  EXPECT_EQ(shown_by(exposed, "histogram").at(1, 0, 0), shown_by(plain, "histogram").at(1, 0, 0));
+  exposed.set_metadata(film_exposure_key, std::string("no number"));
+  EXPECT_NEAR(shown_by(exposed, "srgb").at(1, 0, 0), 0.125f, 1e-6);
+}
+
 TEST(Operators, names_and_parameters) {
   expect_input_error([] { make_tone_operator("histgram"); }, "did you mean 'histogram'");
   expect_input_error([] { make_tone_operator("linear", {"exposur=1"}); },

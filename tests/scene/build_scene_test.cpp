@@ -51,6 +51,36 @@ TEST(BuildScene, FilmFilterAndSampler) {
   EXPECT_EQ(scene->film().place.line, 2);
 }
 
+// Films of other programs hold the same picture; what is nobody's is told and stood for.
+TEST(BuildScene, ForeignFilmsFiltersAndSamplers) {
+  const std::string inside =
+      "<integer name=\"width\" value=\"40\"/><float name=\"exposure\" value=\"1\"/>"
+      "<float name=\"iso\" value=\"200\"/>";
+  for (const std::string name : {"ldrfilm", "mfilm", "tiledhdrfilm", "exrfilm", "pngfilm",
+                                 "specfilm"}) {
+    const auto scene = seen_by("<film type=\"" + name + "\">" + inside +
+                               "</film><sampler type=\"sobol\"/>");
+    EXPECT_EQ(scene->film().size.x, 40) << name;
+    EXPECT_FLOAT_EQ(scene->film().exposure, 2) << name;
+    EXPECT_TRUE(scene->warnings().empty()) << name;
+  }
+  const std::string unknown = "<film type=\"papyrus\">" + inside +
+                              "<rfilter type=\"gausian\"/></film><sampler type=\"dice\"><integer "
+                              "name=\"sample_count\" value=\"9\"/></sampler>";
+  const auto scene = seen_by(unknown);
+  EXPECT_EQ(scene->film().size.x, 40);
+  EXPECT_EQ(scene->film().filter.radius(), 2);
+  EXPECT_EQ(scene->film().sample_count, 9);
+  ASSERT_EQ(scene->warnings().size(), 3u);
+  EXPECT_NE(scene->warnings()[0].find("unknown film type 'papyrus': 'hdrfilm' is used"),
+            std::string::npos);
+  EXPECT_NE(scene->warnings()[1].find("did you mean 'gaussian'"), std::string::npos);
+  Description strict =
+      description_of("<sensor type=\"perspective\">" + unknown + "</sensor>" + sphere);
+  strict.is_strict = true;
+  EXPECT_THROW(build_scene(strict), Error);
+}
+
 TEST(BuildScene, SurfacesAreNamedForMessages) {
   const auto scene = scene_of(camera + "<shape type=\"cube\" id=\"box\"/>\n" + sphere);
   EXPECT_EQ(scene->surface(0).name, "box");

@@ -26,7 +26,7 @@ class Aces : public ToneOperator {
  public:
   explicit Aces(float scale) : scale_(scale) {}
   std::vector<Vec3f> displayed(Picture picture) const override {
-    for (Vec3f& colour : picture.pixels) colour = filmic(colour * scale_);
+    for (Vec3f& colour : picture.pixels) colour = filmic(colour * (scale_ * picture.exposure));
     return std::move(picture.pixels);
   }
 

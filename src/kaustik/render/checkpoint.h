@@ -52,6 +52,7 @@ struct ViewFacts {
   std::string integrator;                       ///< that was used
   double horizontal_fov = 0, vertical_fov = 0;  ///< degrees
   Quantity quantity = Quantity::radiance;
+  double exposure = 0;  ///< of the film, stops
   PictureFrame frame;  ///< of a crop window; no size: the image is all of the picture
 };
 

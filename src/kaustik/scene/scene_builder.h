@@ -76,6 +76,10 @@ class SceneBuilder {
   Arguments arguments_of(const TypeInfo& info, const Object& object);
   void refuse_children(const Object& object, const std::vector<std::string>& allowed_families);
   void unknown_type(const Object& object, const std::vector<std::string>& valid);
+  /// The same for what changes the light of no picture: unless the scene is read strictly, a
+  /// warning that another type stands for it.
+  void use_instead(const Object& object, const std::vector<std::string>& valid,
+                   const std::string& instead);
   /// Runs `body` and turns what it throws into problems; those without a place get `place`, those
   /// in another file tell that it was named there.
   void collecting(const Place& place, const std::function<void()>& body);
