@@ -204,5 +204,70 @@ TEST(MitsubaTree, EachFileHasItsOwnVersion) {
   EXPECT_EQ(scene->children.at(1).object->properties.at(0).name, "aB");
 }
 
+TEST(MitsubaTree, OldTypesAndNamesAreUpgraded) {
+  const auto old = [](const std::string& inside, const std::string& version) {
+    return parse(in_scene(inside, version)).scene->children.at(0).object;
+  };
+  EXPECT_EQ(old("<bsdf type='bump'/>", "0.4.4")->type, "bumpmap");
+  EXPECT_EQ(old("<bsdf type='bump'/>", "0.5.0")->type, "bump");
+  const auto glass =
+      old("<bsdf type='roughglass'><float name='alphaX' value='1'/></bsdf>", "0.2.1");
+  EXPECT_EQ(glass->type, "roughdielectric");
+  EXPECT_EQ(glass->properties.at(0).name, "alpha_u");
+  const std::string lamp =
+      "<luminaire type='directional'><float name='intensity' value='1'/>"
+      "</luminaire>";
+  EXPECT_EQ(old(lamp, "0.3.0")->properties.at(0).name, "irradiance");
+  EXPECT_EQ(old(lamp, "0.4.0")->properties.at(0).name, "intensity");
+  const std::string pipe =
+      "<shape type='cylinder'><point name='p1' value='1,2,3'/>"
+      "<point name='p2' value='4,5,6'/></shape>";
+  EXPECT_EQ(value<Vec3d>(*old(pipe, "0.2.0"), "p1"), Vec3d(4, 5, 6));
+  EXPECT_EQ(value<Vec3d>(*old(pipe, "0.2.0"), "p0"), Vec3d(1, 2, 3));
+  EXPECT_EQ(value<Vec3d>(*old(pipe, "0.6.0"), "p1"), Vec3d(1, 2, 3));
+}
+
+TEST(MitsubaTree, OldCamerasTellOfTheSmallerSide) {
+  const auto axis = [](const std::string& inside, const std::string& version) {
+    const auto scene =
+        parse(in_scene("<camera type='perspective'>" + inside + "</camera>", version)).scene;
+    const Object& camera = *scene->children.at(0).object;
+    return camera.properties.empty() ? "" : value<std::string>(camera, "fov_axis");
+  };
+  EXPECT_EQ(axis("", "0.3.0"), "smaller");
+  EXPECT_EQ(axis("<boolean name='mapSmallerSide' value='false'/>", "0.3.0"), "larger");
+  EXPECT_EQ(axis("<string name='fovAxis' value='y'/>", "0.3.0"), "y");
+  EXPECT_EQ(axis("", "0.4.0"), "");
+}
+
+TEST(MitsubaTree, OfMotionTheStartHolds) {
+  const std::string shape =
+      "<shape type='sphere'><animation name='to_world'>"
+      "<transform time='0'><translate x='1'/></transform>"
+      "<transform time='1'><translate x='2'/></transform></animation></shape>";
+  const Description description = parse_inside(shape + shape);
+  EXPECT_EQ(value<Transform>(*description.scene->children.at(1).object, "to_world"),
+            Transform::translate({1, 0, 0}));
+  ASSERT_EQ(description.warnings.size(), 1u);
+  EXPECT_NE(description.warnings[0].find("test.xml:2:23: motion comes later"), std::string::npos)
+      << description.warnings[0];
+  EXPECT_NE(description.warnings[0].find("1 more like it"), std::string::npos);
+  expect_problem(problems_in(in_scene("<shape type='s'><animation name='to_world'/></shape>")),
+                 "test.xml:2:17", "without a transform", "transform time");
+  expect_problem(problems_in(in_scene("<shape type='s'><animation name='to_world'><rotate x='1' "
+                                      "angle='1'/></animation></shape>")),
+                 "test.xml:2:43", "<rotate> cannot stand in <animation>", "transform time");
+}
+
+TEST(MitsubaTree, SubsurfaceScatteringIsLeftOut) {
+  const std::string shape = "<shape type='sphere'><subsurface type='dipole'/></shape>";
+  const Description description = parse_inside(shape);
+  ASSERT_EQ(description.warnings.size(), 1u);
+  EXPECT_NE(description.warnings[0].find("subsurface scattering comes later"), std::string::npos);
+  LoadOptions strict;
+  strict.is_strict = true;
+  EXPECT_EQ(problems_in(in_scene(shape), strict).at(0).message, "unknown element <subsurface>");
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -44,6 +44,10 @@ TEST(MitsubaValues, Colors) {
   EXPECT_DOUBLE_EQ(orange.r, 1.0);
   EXPECT_NEAR(orange.g, 0.21586050011389926, 1e-12);  // 128/255 by IEC 61966-2-1
   EXPECT_EQ(orange.b, 0.0);
+  // Mitsuba 0.6 means sRGB by <srgb> only.
+  EXPECT_EQ(value_in_shape<Rgb>("<rgb name='x' value='#FF8000' intent='reflectance'/>", "0.6.0"),
+            (Rgb{1, 128 / 255.0, 0}));
+  EXPECT_EQ(value_in_shape<Rgb>("<srgb name='x' value='#FF8000'/>", "0.6.0"), orange);
   // The linear part of the curve.
   EXPECT_NEAR(value_in_shape<Rgb>("<rgb name='x' value='#010101'/>").r, 1 / 255.0 / 12.92, 1e-15);
 }

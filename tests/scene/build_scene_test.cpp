@@ -56,10 +56,10 @@ TEST(BuildScene, ForeignFilmsFiltersAndSamplers) {
   const std::string inside =
       "<integer name=\"width\" value=\"40\"/><float name=\"exposure\" value=\"1\"/>"
       "<float name=\"iso\" value=\"200\"/>";
-  for (const std::string name : {"ldrfilm", "mfilm", "tiledhdrfilm", "exrfilm", "pngfilm",
-                                 "specfilm"}) {
-    const auto scene = seen_by("<film type=\"" + name + "\">" + inside +
-                               "</film><sampler type=\"sobol\"/>");
+  for (const std::string name :
+       {"ldrfilm", "mfilm", "tiledhdrfilm", "exrfilm", "pngfilm", "specfilm"}) {
+    const auto scene =
+        seen_by("<film type=\"" + name + "\">" + inside + "</film><sampler type=\"sobol\"/>");
     EXPECT_EQ(scene->film().size.x, 40) << name;
     EXPECT_FLOAT_EQ(scene->film().exposure, 2) << name;
     EXPECT_TRUE(scene->warnings().empty()) << name;

@@ -79,7 +79,8 @@ Picture::Picture(const Image& image, const std::string& layer, const FieldOfView
   check(view);
   if (const MetadataValue* quantity = image.find_metadata("quantity"))
     is_irradiance = *quantity == MetadataValue("irradiance");
-  exposure = std::exp2(std::clamp(number_of(image, film_exposure_key).value_or(0.0f), -100.0f, 100.0f));
+  exposure =
+      std::exp2(std::clamp(number_of(image, film_exposure_key).value_or(0.0f), -100.0f, 100.0f));
   const RgbView rgb = rgb_view(image, layer);
   half_width = half_tangent(view.horizontal);
   half_height =

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "kaustik/loader/mitsuba_reader.h"
 #include "kaustik/loader/mitsuba_tags.h"
@@ -16,6 +17,13 @@ AttributeRule property_rule(const std::string& tag) {
   if (tag == "point" || tag == "vector") return {{"name"}, {"value", "x", "y", "z"}};
   if (tag == "spectrum") return {{"name"}, {"value", "filename"}};
   return {{"name", "value"}, {}};
+}
+
+/// Mitsuba 0.6 tells of colours whether they are a reflectance or light.
+AttributeRule with_intent(AttributeRule rule, const std::string& tag, Version version) {
+  if (version < first_with_snake_case && is_in({"rgb", "srgb", "spectrum"}, tag))
+    rule.optional.emplace_back("intent");
+  return rule;
 }
 
 Vec3d parse_point(const Element& element) {
@@ -34,9 +42,9 @@ size_t bytes_of(const SpectralCurve& curve) {
 
 void Reader::read_property(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, property_rule(element.tag), problems_)) return;
-  const std::string name =
-      upgraded_name(element.value("name"), parent.object->type, source.version);
+  const AttributeRule rule = with_intent(property_rule(element.tag), element.tag, source.version);
+  if (!check_attributes(element, rule, problems_)) return;
+  const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   try {
     if (name.empty()) throw BadValue("a property without a name", "give its name");
     if (!take_name(parent, name, element.place)) return;
@@ -53,7 +61,9 @@ Value Reader::value_of(const Element& element, const std::string& name, const So
   if (element.tag == "float") return parse_attribute(value, parse_float);
   if (element.tag == "integer") return parse_attribute(value, parse_integer);
   if (element.tag == "boolean") return parse_attribute(value, parse_boolean);
-  if (element.tag == "rgb") return parse_attribute(value, parse_rgb);
+  if (element.tag == "rgb")
+    return parse_attribute(
+        value, source.version < first_with_snake_case ? parse_rgb_of_old_scenes : parse_rgb);
   if (element.tag == "srgb") return parse_attribute(value, parse_srgb);
   if (!is_in(file_property_names(), name)) return value.value;
   if (value.value.empty()) throw BadValue("the file name is empty", "name a file", value.place);
@@ -90,6 +100,10 @@ const SpectralCurve& Reader::curve_of(const std::string& path, const Place& plac
 
 void Reader::read_transform(const Element& element, Unfinished& parent, Source& source) {
   if (!check_attributes(element, {{"name"}, {}}, problems_)) return;
+  add_transform(element, transform_of(element, source), parent, source);
+}
+
+Transform Reader::transform_of(const Element& element, const Source& source) {
   Transform transform;
   for (const pugi::xml_node& node : element.node.children()) {
     if (!is_element(node, source)) continue;
@@ -108,10 +122,40 @@ void Reader::read_transform(const Element& element, Unfinished& parent, Source& 
       add(problems_, bad, operation->place);
     }
   }
-  const std::string name =
-      upgraded_name(element.value("name"), parent.object->type, source.version);
+  return transform;
+}
+
+void Reader::add_transform(const Element& element, const Transform& transform, Unfinished& parent,
+                           const Source& source) {
+  const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   if (take_name(parent, name, element.place))
     parent.object->properties.push_back({name, transform, element.place});
+}
+
+void Reader::read_animation(const Element& element, Unfinished& parent, Source& source) {
+  if (!check_attributes(element, {{"name"}, {}}, problems_)) return;
+  std::optional<Transform> first;
+  for (const pugi::xml_node& node : element.node.children()) {
+    if (!is_element(node, source)) continue;
+    const auto moment = ready(node, source);
+    if (!moment) continue;
+    if (moment->tag != "transform") {
+      problems_.add(fmt::format("<{}> cannot stand in <animation>", moment->tag),
+                    "it holds transforms: <transform time=\"0\">…</transform>", moment->place);
+      continue;
+    }
+    if (!check_attributes(*moment, {{"time"}, {}}, problems_)) continue;
+    const Transform transform = transform_of(*moment, source);
+    if (!first) first = transform;
+  }
+  if (!first) {
+    problems_.add("an <animation> without a transform",
+                  "write <animation name=\"to_world\"><transform time=\"0\">…", element.place);
+    return;
+  }
+  leave_out("motion", "motion comes later: the first transform of an <animation> holds",
+            element.place);
+  add_transform(element, *first, parent, source);
 }
 
 }  // namespace kaustik::mitsuba

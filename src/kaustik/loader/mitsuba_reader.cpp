@@ -53,15 +53,15 @@ Description Reader::finish(const std::shared_ptr<Object>& scene) {
   if (scene && !incomplete_) {
     references_.resolve(scene, problems_);
     // What is left out may have used them.
-    if (foreign_.empty()) definitions_.report_unused(problems_);
+    if (left_out_.empty()) definitions_.report_unused(problems_);
   }
   problems_.throw_if_any();
   Description description{.scene = scene, .sources = {sources_.begin(), sources_.end()}};
   description.is_strict = is_strict_;
-  for (const auto& [tag, foreign] : foreign_)
+  for (const auto& [what, left_out] : left_out_)
     description.warnings.push_back(fmt::format(
-        "{}: Kaustik does not know <{}>: it is left out{}", kaustik::text_of(foreign.first), tag,
-        foreign.count > 1 ? fmt::format(", and {} more like it", foreign.count - 1) : ""));
+        "{}: {}{}", kaustik::text_of(left_out.first), left_out.sentence,
+        left_out.count > 1 ? fmt::format(", and {} more like it", left_out.count - 1) : ""));
   return description;
 }
 
@@ -120,7 +120,8 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
   static const std::map<std::string_view, Read> others = {
       {"transform", &Reader::read_transform}, {"ref", &Reader::read_reference},
       {"alias", &Reader::read_alias},         {"default", &Reader::read_default},
-      {"path", &Reader::read_search_folder},  {"include", &Reader::read_include}};
+      {"path", &Reader::read_search_folder},  {"include", &Reader::read_include},
+      {"animation", &Reader::read_animation}};
   const bool is_srgb = element.tag == "srgb" && source.version < Version{2, 0, 0};
   const bool typed_spectrum = element.tag == "spectrum" && element.find("type");
   if (const auto other = others.find(element.tag); other != others.end())
@@ -135,12 +136,20 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
 
 void Reader::report_unknown(const Element& element) {
   // Other renderers have elements of their own. What looks like one of ours was meant to be one.
-  static const std::vector<std::string> of_mitsuba = {"animation", "blackbody", "subsurface"};
+  static const std::vector<std::string> of_mitsuba = {"blackbody"};
+  if (element.tag == "subsurface" && !is_strict_) {
+    leave_out("subsurface",
+              "subsurface scattering comes later: <subsurface> is left out, the surface is what "
+              "its bsdf says",
+              element.place);
+    return;
+  }
   const bool is_ours = is_in(transform_tags(), element.tag) || is_in(of_mitsuba, element.tag) ||
                        upgraded_tag(element.tag, {0, 0, 0}) != element.tag ||
                        suggestion(element.tag, part_tags()).starts_with("did you mean");
   if (!is_strict_ && !is_ours) {
-    ++foreign_.try_emplace(element.tag, Foreign{element.place, 0}).first->second.count;
+    leave_out(element.tag, fmt::format("Kaustik does not know <{}>: it is left out", element.tag),
+              element.place);
     return;
   }
   incomplete_ = true;  // its ids and definitions are unknown
@@ -153,6 +162,10 @@ void Reader::report_unknown(const Element& element) {
   }
   problems_.add(fmt::format("unknown element <{}>", element.tag),
                 suggestion(element.tag, part_tags()), element.place);
+}
+
+void Reader::leave_out(const std::string& what, const std::string& sentence, const Place& place) {
+  ++left_out_.try_emplace(what, LeftOut{sentence, place, 0}).first->second.count;
 }
 
 bool Reader::take_name(Unfinished& parent, const std::string& name, const Place& place) {
@@ -177,7 +190,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   Unfinished unfinished = {std::make_shared<Object>(), {}};
   Object& object = *unfinished.object;
   object.family = element.tag == "spectrum" ? "texture" : element.tag;
-  object.type = is_scene ? "" : element.value("type");
+  object.type = is_scene ? "" : upgraded_type(object.family, element.value("type"), source.version);
   object.id = element.value("id");
   object.place = element.place;
   if (!object.id.empty())
@@ -189,7 +202,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   }
   read_parts(element.node, unfinished, source);
   --depth_;
-  upgrade_texture_placement(object, source.version, problems_);
+  upgrade_object(object, source.version, problems_);
   return unfinished.object;
 }
 
@@ -199,8 +212,7 @@ void Reader::read_nested_object(const Element& element, Unfinished& parent, Sour
                   element.place);
     return;
   }
-  const std::string name =
-      upgraded_name(element.value("name"), parent.object->type, source.version);
+  const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   take_name(parent, name, element.place);
   parent.object->children.push_back({name, read_object(element, source)});
 }
@@ -208,8 +220,7 @@ void Reader::read_nested_object(const Element& element, Unfinished& parent, Sour
 void Reader::read_reference(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
   if (!check_attributes(element, {{"id"}, {"name"}}, problems_)) return;
-  const std::string name =
-      upgraded_name(element.value("name"), parent.object->type, source.version);
+  const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   take_name(parent, name, element.place);
   references_.refer(parent.object, name, element.value("id"), element.place);
 }

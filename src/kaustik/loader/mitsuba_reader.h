@@ -56,6 +56,11 @@ class Reader {
   void read_nested_object(const Element& element, Unfinished& parent, Source& source);
   void read_property(const Element& element, Unfinished& parent, Source& source);
   void read_transform(const Element& element, Unfinished& parent, Source& source);
+  void read_animation(const Element& element, Unfinished& parent, Source& source);
+  /// Of the operations in the element.
+  Transform transform_of(const Element& element, const Source& source);
+  void add_transform(const Element& element, const Transform& transform, Unfinished& parent,
+                     const Source& source);
   void read_reference(const Element& element, Unfinished& parent, Source& source);
   void read_alias(const Element& element, Unfinished& parent, Source& source);
   void read_default(const Element& element, Unfinished& parent, Source& source);
@@ -70,6 +75,8 @@ class Reader {
   /// Of a file that a <spectrum> names at that place; each is read once.
   const SpectralCurve& curve_of(const std::string& path, const Place& place);
   void report_unknown(const Element& element);
+  /// `what` is told once, with how many there were.
+  void leave_out(const std::string& what, const std::string& sentence, const Place& place);
 
   Value value_of(const Element& element, const std::string& name, const Source& source);
   Value spectrum_of(const Element& element, const Source& source);
@@ -77,8 +84,8 @@ class Reader {
   bool take_name(Unfinished& parent, const std::string& name, const Place& place);
   std::filesystem::path found(const std::string& file, const Source& source) const;
 
-  /// An element that is none of Mitsuba's.
-  struct Foreign {
+  struct LeftOut {
+    std::string sentence;
     Place first;
     int count = 0;
   };
@@ -90,7 +97,7 @@ class Reader {
   LoadBudget budget_;
   std::map<std::filesystem::path, std::unique_ptr<XmlDocument>> documents_;  ///< by identity
   std::map<std::string, SpectralCurve> curves_;                              ///< by path
-  std::map<std::string, Foreign> foreign_;                                   ///< by tag
+  std::map<std::string, LeftOut> left_out_;                                  ///< by what it is
   std::set<std::string> sources_;                                            ///< see Description
   std::vector<std::filesystem::path> open_files_;  ///< the outermost first
   size_t included_files_ = 0;

@@ -35,8 +35,7 @@ Rgb parse_hexadecimal(std::string_view text) {
   if (text.size() != 7 || error != std::errc{} || end != text.data() + text.size())
     throw BadValue(fmt::format("{} is not a colour", in_quotes(text)),
                    "write six hexadecimal digits after the '#', as in #ff8000");
-  return linear_from_srgb(
-      Rgb{double(code >> 16) / 255, double((code >> 8) & 255) / 255, double(code & 255) / 255});
+  return {double(code >> 16) / 255, double((code >> 8) & 255) / 255, double(code & 255) / 255};
 }
 
 Rgb parse_three_or_one(std::string_view text) {
@@ -134,13 +133,19 @@ Vec3d parse_vector(std::string_view text) {
 
 Rgb parse_rgb(std::string_view text) {
   const std::string_view word = trimmed(text);
+  return word.starts_with('#') ? linear_from_srgb(parse_hexadecimal(word))
+                               : parse_three_or_one(word);
+}
+
+Rgb parse_rgb_of_old_scenes(std::string_view text) {
+  const std::string_view word = trimmed(text);
   return word.starts_with('#') ? parse_hexadecimal(word) : parse_three_or_one(word);
 }
 
 Rgb parse_srgb(std::string_view text) {
   const std::string_view word = trimmed(text);
-  return word.starts_with('#') ? parse_hexadecimal(word)
-                               : linear_from_srgb(parse_three_or_one(word));
+  return linear_from_srgb(word.starts_with('#') ? parse_hexadecimal(word)
+                                                : parse_three_or_one(word));
 }
 
 Value parse_spectrum(std::string_view text) {

@@ -38,6 +38,8 @@ bool parse_boolean(std::string_view text);
 Vec3d parse_vector(std::string_view text);
 /// One number for all channels or three, linear; or "#rrggbb" in sRGB, which is decoded.
 Rgb parse_rgb(std::string_view text);
+/// As parse_rgb(), but "#rrggbb" is linear, too (Mitsuba 0.6).
+Rgb parse_rgb_of_old_scenes(std::string_view text);
 /// As parse_rgb(), but the numbers are sRGB too (Mitsuba 0.6).
 Rgb parse_srgb(std::string_view text);
 /// One number (a double: the same in every lane) or "wavelength:value" pairs (a SpectralCurve).

@@ -10,9 +10,9 @@ namespace {
 struct WindowedGauss {
   WindowedGauss(float deviation, float cut) : stddev(deviation), radius(cut) {
     offset = std::exp(-0.5f * sqr(radius / stddev));
-    const float mass = stddev * std::sqrt(2.0f * pi) *
-                           std::erf(radius / (stddev * std::numbers::sqrt2_v<float>)) -
-                       2.0f * radius * offset;
+    const float mass =
+        stddev * std::sqrt(2.0f * pi) * std::erf(radius / (stddev * std::numbers::sqrt2_v<float>)) -
+        2.0f * radius * offset;
     norm = 1.0f / mass;
   }
   float density(float distance) const {

@@ -31,8 +31,7 @@ Rows film_rows() {
                        "hold light itself are not changed.")
           .range(-100, 100)
           .in("stops"),
-      number_parameter("iso", 100,
-                       "Sensitivity: twice as much is one stop more of exposure.")
+      number_parameter("iso", 100, "Sensitivity: twice as much is one stop more of exposure.")
           .range(1e-3, 1e9),
       choice_parameter("quantity", "radiance", {"radiance", "irradiance"},
                        "Radiance in W/(sr m²), or irradiance in W/m² on the side that is seen of "
@@ -63,8 +62,8 @@ std::vector<TypeInfo> make_film_infos() {
   using enum ParameterKind;
   const Rows display = {ignored_parameter("tonemap_method", text), ignored_parameter("key", number),
                         ignored_parameter("burn", number)};
-  return {{"film", "hdrfilm", "The picture: its size, crop window and pixel filter, and what it holds.",
-           film_rows()},
+  return {{"film", "hdrfilm",
+           "The picture: its size, crop window and pixel filter, and what it holds.", film_rows()},
           foreign_film("ldrfilm", "Mitsuba 0.6's film of pictures for displays.", display),
           foreign_film("mfilm", "Mitsuba 0.6's film of tables.",
                        {ignored_parameter("digits", integer), ignored_parameter("variable", text)}),

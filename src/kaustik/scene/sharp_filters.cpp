@@ -33,9 +33,9 @@ double first_zero(const Lobe& lobe, double radius) {
 class MiddleLobe final : public FilterProfile {
  public:
   MiddleLobe(Lobe lobe, double radius)
-      : lobe_(std::move(lobe)), sums_(sums_of(lobe_, radius)), offsets_(float(radius), [&](float x) {
-          return share_below(double(x) / radius);
-        }) {
+      : lobe_(std::move(lobe)),
+        sums_(sums_of(lobe_, radius)),
+        offsets_(float(radius), [&](float x) { return share_below(double(x) / radius); }) {
     norm_ = 1 / (2 * sums_.back() * radius);
   }
   float density(float distance) const override {
@@ -74,7 +74,8 @@ PixelFilter middle_lobe(const Lobe& lobe, double radius) {
   return {float(zero), std::make_shared<const MiddleLobe>(lobe, zero)};
 }
 
-/// Mitchell and Netravali, "Reconstruction Filters in Computer Graphics", SIGGRAPH 1988, equation 8.
+/// Mitchell and Netravali, "Reconstruction Filters in Computer Graphics", SIGGRAPH 1988,
+/// equation 8.
 Lobe cubic(double b, double c) {
   return [b, c](double x) {
     const double sq = x * x, cube = sq * x;
@@ -87,12 +88,15 @@ Lobe cubic(double b, double c) {
 
 Lobe windowed_sinc(double lobes) {
   return [lobes](double x) {
-    const auto sinc = [](double t) { return t < 1e-6 ? 1 : std::sin(double(pi) * t) / (double(pi) * t); };
+    const auto sinc = [](double t) {
+      return t < 1e-6 ? 1 : std::sin(double(pi) * t) / (double(pi) * t);
+    };
     return x >= lobes ? 0.0 : sinc(x) * sinc(x / lobes);
   };
 }
 
-constexpr const char* kept = " Only its lobe in the middle is kept: the negative ones would be noise.";
+constexpr const char* kept =
+    " Only its lobe in the middle is kept: the negative ones would be noise.";
 
 TypeInfo row(const std::string& name, const std::string& sentence, std::vector<Parameter> rows) {
   return {"rfilter", name, sentence + kept, std::move(rows)};
