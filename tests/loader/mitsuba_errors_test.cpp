@@ -38,8 +38,6 @@ TEST(MitsubaErrors, Elements) {
 }
 
 TEST(MitsubaErrors, ElementsOfMitsubaThatAreMissingAreErrors) {
-  expect_wrong({"<shape type='sphere'><animation name='toWorld'/></shape>", "2:22",
-                "unknown element <animation>", ""});
   expect_wrong({"<emitter type='point'><blackbody name='intensity' temperature='5000K'/></emitter>",
                 "2:23", "unknown element <blackbody>", ""});
 }
