@@ -43,6 +43,9 @@ struct Picture {
   bool is_irradiance = false;
   /// By what the light is multiplied where it is shown; what the eye adapts to does not ask.
   float exposure = 1;
+  /// Colours of parts of pixels, which are shown as pixels are; what an eye or a curve adapts to
+  /// are the pixels alone. Finite.
+  std::vector<Vec3f> parts;
   std::vector<Vec3f> pixels;  ///< linear Rec. 709, radiance in W/(sr·m²), finite; row by row
   /// Half the picture's extent on a plane at distance 1 before the eye.
   float half_width, half_height;

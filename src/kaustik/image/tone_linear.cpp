@@ -9,8 +9,9 @@ class Linear : public ToneOperator {
  public:
   explicit Linear(float scale) : scale_(scale) {}
   std::vector<Vec3f> displayed(Picture picture) const override {
-    for (Vec3f& colour : picture.pixels) colour *= scale_ * picture.exposure;
-    return std::move(picture.pixels);
+    std::vector<Vec3f> colours = with_parts(picture);
+    for (Vec3f& colour : colours) colour *= scale_ * picture.exposure;
+    return colours;
   }
 
  private:
@@ -26,7 +27,10 @@ Parameter exposure_parameter() {
 }
 
 ToneOperatorType srgb_tone() {
-  return {{"tonemap", "srgb", "Radiance 1 W/(sr·m²) becomes white, with the film's exposure; nothing else is changed.", {}},
+  return {{"tonemap",
+           "srgb",
+           "Radiance 1 W/(sr·m²) becomes white, with the film's exposure; nothing else is changed.",
+           {}},
           [](const Arguments&) -> std::unique_ptr<ToneOperator> {
             return std::make_unique<Linear>(1.0f);
           }};

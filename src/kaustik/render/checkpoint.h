@@ -53,7 +53,7 @@ struct ViewFacts {
   double horizontal_fov = 0, vertical_fov = 0;  ///< degrees
   Quantity quantity = Quantity::radiance;
   double exposure = 0;  ///< of the film, stops
-  PictureFrame frame;  ///< of a crop window; no size: the image is all of the picture
+  PictureFrame frame;   ///< of a crop window; no size: the image is all of the picture
 };
 
 /// All that is known of a render beside its sums.

@@ -37,7 +37,8 @@ Rows film_rows() {
                        "Radiance in W/(sr m²), or irradiance in W/m² on the side that is seen of "
                        "the first surface behind each pixel, whatever that is made of."),
       choice_parameter("layers", "all", {"all", "none"},
-                       "What EXR images hold beside the picture: its components, albedo, normal, "
+                       "What EXR images hold beside the picture and the light of lamps in it: "
+                       "components, albedo, normal, "
                        "depth, error and noise of each pixel, or nothing, which takes less "
                        "memory. Other images have no layers and need none."),
       ignored_parameter("file_format", ParameterKind::text),
