@@ -49,7 +49,7 @@ class Scene {
  public:
   struct Parts {
     std::unique_ptr<const RayTracer> tracer;
-    std::vector<Surface> surfaces;                     ///< parallel to the tracer's shapes
+    std::vector<Surface> surfaces;  ///< parallel to the tracer's shapes and parts of bodies
     std::vector<std::shared_ptr<const Light>> lights;  ///< never null
     FilmSettings film;
     std::unique_ptr<Camera> camera;
@@ -81,7 +81,13 @@ class Scene {
     return parts_.tracer->occluded(ray);
   }
   const RayTracer& tracer() const { return *parts_.tracer; }
+  /// Of a SurfacePoint's `shape`.
   const Surface& surface(uint32_t shape) const { return parts_.surfaces[shape]; }
+  /// Whether what a ray has hit, Hit::shape, may be no more than a boundary of media, or nothing at
+  /// all: a body's surface may be hidden there. Its point tells.
+  bool may_be_null(uint32_t shape) const {
+    return may_be_null_.empty() ? surface(shape).traits.is_null : may_be_null_[shape] != 0;
+  }
   size_t surface_count() const { return parts_.surfaces.size(); }
   const std::vector<std::shared_ptr<const Light>>& lights() const { return parts_.lights; }
   const LightSelector& light_selector() const { return *light_selector_; }
@@ -108,6 +114,7 @@ class Scene {
   const BuildCounts& build_counts() const { return parts_.counts; }
 
  private:
+  void find_hidden_surfaces();
   void find_media();
   void make_light_selector(const Scene* previous);
   bool probes_lights_like(const Scene& other) const;
@@ -117,6 +124,7 @@ class Scene {
   std::vector<int> environment_lights_;
   bool has_media_ = false, has_scattering_ = false, has_lights_to_meet_ = false;
   std::vector<const Medium*> light_media_;  ///< parallel to the lights
+  std::vector<uint8_t> may_be_null_;        ///< by shape; empty: as its surface says
 };
 
 struct BuildOptions {

@@ -144,6 +144,8 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   for (BuiltShape& built : shapes_) parts.surfaces.push_back(std::move(built.surface));
   for (auto& group : groups_)
     for (BuiltShape& built : group) parts.surfaces.push_back(std::move(built.surface));
+  add_body_parts(parts.tracer->body_parts(), parts.surfaces);
+  problems_.throw_if_any();
   parts.lights = std::move(lights_);
   const StructuresBuilt structures = parts.tracer->structures_built();
   counts_.group_structures = structures.groups;
@@ -401,6 +403,7 @@ Geometry SceneBuilder::make_geometry() {
     for (const BuiltShape& built : group) geometry.groups.back().push_back(built.shape);
   }
   geometry.instances = instances_;
+  geometry.bodies = find_bodies();
   return geometry;
 }
 

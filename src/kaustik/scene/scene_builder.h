@@ -3,6 +3,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
+#include <vector>
 
 #include "kaustik/image/picture_reader.h"
 #include "kaustik/scene/part_keys.h"
@@ -71,6 +73,12 @@ class SceneBuilder {
   std::shared_ptr<const EmissionPattern> emission_pattern_of(const Object& emitter,
                                                              const Arguments& arguments);
   Geometry make_geometry();
+  /// World shapes that are solid bodies, those of the highest priority first.
+  std::vector<uint32_t> find_bodies();
+  /// Appends what covers the parts of bodies.
+  void add_body_parts(std::span<const BodyPart> parts, std::vector<Surface>& surfaces);
+  /// Of the part of a body's surface that lies in another body.
+  std::shared_ptr<const Bsdf> bsdf_within(const Object& shape, const Object& around);
 
   /// Arguments of an object, with warnings for what is accepted without effect.
   Arguments arguments_of(const TypeInfo& info, const Object& object);
@@ -106,6 +114,7 @@ class SceneBuilder {
   std::map<const Object*, std::shared_ptr<const Bsdf>> bsdfs_;
   std::map<const Object*, std::shared_ptr<const Texture>> textures_;
   std::map<const Object*, std::shared_ptr<const Medium>> media_;
+  std::vector<std::shared_ptr<const Object>> bordering_;  ///< bsdfs of parts of bodies
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const Medium>> light_media_;
   std::shared_ptr<const Medium> camera_medium_;

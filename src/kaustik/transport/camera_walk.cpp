@@ -20,7 +20,9 @@ Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes 
 }
 
 /// Or a boundary, behind which there may be one.
-bool may_be_lamp(const Surface& surface) { return surface.light >= 0 || surface.traits.is_null; }
+bool may_be_lamp(const Scene& scene, uint32_t shape) {
+  return scene.surface(shape).light >= 0 || scene.may_be_null(shape);
+}
 
 /// What the classes of lobes of a vertex send back of direct light.
 struct ReflectedLight {
@@ -107,7 +109,7 @@ CameraWalk::Arrival CameraWalk::arrive(LightWeights* weights, const PassMedium& 
       return false;
     }
     distance_ += hit.t;
-    return !meets_lamps_only_ || may_be_lamp(scene_.surface(hit.shape));
+    return !meets_lamps_only_ || may_be_lamp(scene_, hit.shape);
   };
   if (!travel(scene_, state_, ray_, vertex_, rays_, go_on))
     return is_in_medium_ && !meets_lamps_only_ ? Arrival::medium : Arrival::nothing;

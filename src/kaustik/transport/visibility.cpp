@@ -22,13 +22,14 @@ bool follow_shadow_ray(const Scene& scene, Ray ray, const Medium* medium, uint64
     Hit hit;
     ++rays;
     const bool found = scene.intersect(ray, hit);
-    if (found && !scene.surface(hit.shape).traits.is_null) return false;
+    if (found && !scene.may_be_null(hit.shape)) return false;
     // The direction of a shadow ray counts in its own length.
     const float parameter = found ? hit.t : ray.t_max;
     if (medium && !pass(*medium, ray, parameter)) return false;
     if (!found) return true;
     const SurfacePoint point = scene.tracer().surface_point(ray, hit);
     const Surface& surface = scene.surface(point.shape);
+    if (!surface.traits.is_null) return false;
     medium = surface.medium_toward(dot(ray.direction, point.ng) > 0, medium);
     const Vec3f origin = offset_origin(point, ray.direction);
     if (std::isfinite(ray.t_max)) {
