@@ -200,7 +200,7 @@ ROWS = {
         "rectangle": SLAB, "disk": SLAB, "cube": transform(scale("0.6"), rotate("0, 1, 0", 30), translate("0, 0.6, 0")),
         "sphere": transform(scale("0.75"), translate("0, 0.75, 0")),
         "cylinder": '<point name="p0" value="0, 0, 0"/><point name="p1" value="0, 1.4, 0"/>' + numbers(radius=0.5),
-        "obj": text("filename", str(ROOT / "scenes/metal_ring/meshes/ring.obj")) + SLAB,
+        "ply": text("filename", str(ROOT / "scenes/metal_ring/meshes/ring.ply")),
     },
     "medium": {"homogeneous": numbers(sigma_t=1.5) + rgb("albedo", "0.9, 0.95, 0.98"),
                "heterogeneous": element("volume", "constvolume", numbers(value=1.5), "sigma_t")},
@@ -210,7 +210,7 @@ ROWS = {
 }
 
 # Of these a picture takes a file or buffers of its own.
-WITHOUT_PICTURE = {"shape": {"ply", "serialized", "mesh", "sdf", "sdfgrid", "heightfield"}, "volume": {"gridvolume"},
+WITHOUT_PICTURE = {"shape": {"obj", "serialized", "mesh", "sdf", "sdfgrid", "heightfield"}, "volume": {"gridvolume"},
                    "texture": {"mesh_attribute", "vertexcolors", "volume"}}
 
 
