@@ -93,6 +93,11 @@ fs::path Reader::found(const std::string& file, const Source& source) const {
   if (fs::path(file).is_absolute()) return file;
   for (const fs::path& folder : source.folders)
     if (is_there(folder / file)) return folder / file;
+  if (file.find('\\') != std::string::npos) {
+    std::string with_slashes = file;
+    std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
+    return found(with_slashes, source);
+  }
   return source.own_folder / file;
 }
 

@@ -47,6 +47,15 @@ void Reader::read_property(const Element& element, Unfinished& parent, Source& s
   const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   try {
     if (name.empty()) throw BadValue("a property without a name", "give its name");
+    if (source.version < first_with_snake_case && parent.names.contains(name)) {
+      const size_t before = std::erase_if(parent.object->properties,
+                                          [&](const Property& p) { return p.name == name; });
+      if (before > 0) {
+        leave_out("twice " + name, fmt::format("'{}' is given twice: the last one holds", name),
+                  element.place);
+        parent.names.erase(name);
+      }
+    }
     if (!take_name(parent, name, element.place)) return;
     parent.object->properties.push_back({name, value_of(element, name, source), element.place});
   } catch (const BadValue& bad) {

@@ -18,6 +18,14 @@ constexpr size_t bytes_per_element = 500, bytes_per_attribute = 50;
 bool Reader::read_version(Source& source) {
   const pugi::xml_node root = source.document.root();
   const pugi::xml_attribute version = root.attribute("version");
+  if (!version && !is_strict_ && is_in(object_tags(), upgraded_tag(root.name(), {0, 0, 0}))) {
+    // As Mitsuba 0.6 took it.
+    source.version = {0, 2, 0};
+    leave_out("version",
+              fmt::format("<{}> lacks its version: it is read as one of Mitsuba 0.2", root.name()),
+              source.document.place(root));
+    return true;
+  }
   if (!version) {
     // A file that is no scene may have such a root, too: nothing of it is quoted.
     Place place = source.document.place(root);
@@ -52,6 +60,7 @@ std::shared_ptr<Object> Reader::read_scene(Source& source) {
 Description Reader::finish(const std::shared_ptr<Object>& scene) {
   if (scene && !incomplete_) {
     references_.resolve(scene, problems_);
+    if (problems_.empty()) open_old_shapes();
     // What is left out may have used them.
     if (left_out_.empty()) definitions_.report_unused(problems_);
   }
@@ -91,7 +100,9 @@ std::optional<Element> Reader::ready(const pugi::xml_node& node, const Source& s
 }
 
 bool Reader::is_element(const pugi::xml_node& node, const Source& source) {
-  if (node.type() == pugi::node_pcdata)
+  if (node.type() == pugi::node_pcdata && !is_strict_)
+    leave_out("text", "text between the elements is left out", source.document.place(node));
+  else if (node.type() == pugi::node_pcdata)
     problems_.add(fmt::format("text between the elements: {}", in_quotes(trimmed(node.value()))),
                   "values stand in attributes, as in <float name=\"radius\" value=\"1\"/>",
                   source.document.place(node));
@@ -168,6 +179,41 @@ void Reader::leave_out(const std::string& what, const std::string& sentence, con
   ++left_out_.try_emplace(what, LeftOut{sentence, place, 0}).first->second.count;
 }
 
+void Reader::scale_reflectances(Object& object) {
+  // As Mitsuba 0.6 does it, so that no surface makes light.
+  constexpr double largest = 0.99;
+  for (Property& property : object.properties) {
+    if (!property.name.ends_with("reflectance") && !property.name.ends_with("transmittance"))
+      continue;
+    auto* colour = std::get_if<Rgb>(&property.value);
+    auto* number = std::get_if<double>(&property.value);
+    const double most = colour ? std::max({colour->r, colour->g, colour->b}) : number ? *number : 0;
+    if (!(most > 1)) continue;
+    const double factor = largest / most;
+    if (colour) *colour = {colour->r * factor, colour->g * factor, colour->b * factor};
+    if (number) *number = largest;
+    leave_out("reflectance",
+              fmt::format("'{}' is above 1, which makes light: it is scaled to {}", property.name,
+                          largest),
+              property.place);
+  }
+}
+
+void Reader::open_old_shapes() {
+  const auto holds = [](const Object& shape, const char* family) {
+    return std::any_of(shape.children.begin(), shape.children.end(),
+                       [&](const Child& child) { return child.object->family == family; });
+  };
+  for (const std::shared_ptr<Object>& shape : old_shapes_) {
+    if (!holds(*shape, "medium") || holds(*shape, "bsdf") || holds(*shape, "emitter")) continue;
+    const auto boundary = std::make_shared<Object>();
+    boundary->family = "bsdf";
+    boundary->type = "null";
+    boundary->place = shape->place;
+    shape->children.push_back({"", boundary});
+  }
+}
+
 bool Reader::take_name(Unfinished& parent, const std::string& name, const Place& place) {
   if (name.empty()) return true;
   const auto [first, is_new] = parent.names.try_emplace(name, place);
@@ -182,9 +228,9 @@ bool Reader::take_name(Unfinished& parent, const std::string& name, const Place&
 std::shared_ptr<Object> Reader::read_object(const Element& element, Source& source) {
   const bool is_root = element.node == source.document.root();
   const bool is_scene = element.tag == "scene";
-  AttributeRule rule = {{"type"}, {"id", "name"}};
-  if (is_scene) rule = {{}, {"type", "id", "name"}};
-  if (is_root) rule.required.emplace_back("version");
+  AttributeRule rule = {{"type"}, {"id", "name", "version"}};
+  if (is_scene) rule = {{}, {"type", "id", "name", "version"}};
+  if (is_root && is_strict_) rule.required.emplace_back("version");
   check_attributes(element, rule, problems_);
 
   Unfinished unfinished = {std::make_shared<Object>(), {}};
@@ -202,7 +248,10 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   }
   read_parts(element.node, unfinished, source);
   --depth_;
-  upgrade_object(object, source.version, problems_);
+  upgrade_object(object, element.value("type"), source.version, problems_);
+  if (!is_strict_) scale_reflectances(object);
+  if (source.version < first_with_snake_case && object.family == "shape")
+    old_shapes_.push_back(unfinished.object);
   return unfinished.object;
 }
 

@@ -75,6 +75,10 @@ class Reader {
   /// Of a file that a <spectrum> names at that place; each is read once.
   const SpectralCurve& curve_of(const std::string& path, const Place& place);
   void report_unknown(const Element& element);
+  /// Reflectances and transmittances above 1.
+  void scale_reflectances(Object& object);
+  /// Before Mitsuba 2 a shape with a medium and no bsdf was a boundary of media alone.
+  void open_old_shapes();
   /// `what` is told once, with how many there were.
   void leave_out(const std::string& what, const std::string& sentence, const Place& place);
 
@@ -102,6 +106,7 @@ class Reader {
   std::vector<std::filesystem::path> open_files_;  ///< the outermost first
   size_t included_files_ = 0;
   size_t read_bytes_ = 0;
+  std::vector<std::shared_ptr<Object>> old_shapes_;  ///< of files before Mitsuba 2
   int depth_ = 0;
   bool incomplete_ = false;  ///< a part of the scene could not be read at all
 };

@@ -15,20 +15,30 @@ namespace {
 constexpr Version first_of_mitsuba_0_3 = {0, 3, 0}, first_of_mitsuba_0_4 = {0, 4, 0},
                   first_of_mitsuba_0_5 = {0, 5, 0};
 
-/// In files of versions before `until` a type or a name was called `old_name`.
+/// In files of versions before `until` a type or a name was called `old_name`. A type may imply a
+/// distribution of facets.
 struct TypeName {
   Version until;
-  std::string_view family, old_name, name;
+  std::string_view family, old_name, name, distribution = {};
 };
-constexpr TypeName type_names[] = {{first_of_mitsuba_0_5, "bsdf", "bump", "bumpmap"},
-                                   {first_of_mitsuba_0_3, "bsdf", "lambertian", "diffuse"},
-                                   {first_of_mitsuba_0_3, "bsdf", "mirror", "conductor"},
-                                   {first_of_mitsuba_0_3, "bsdf", "roughmetal", "roughconductor"},
-                                   {first_of_mitsuba_0_3, "bsdf", "roughglass", "roughdielectric"},
-                                   {first_of_mitsuba_0_3, "bsdf", "microfacet", "roughplastic"},
-                                   {first_of_mitsuba_0_3, "bsdf", "composite", "mixturebsdf"},
-                                   {first_of_mitsuba_0_3, "texture", "exrtexture", "bitmap"},
-                                   {first_of_mitsuba_0_3, "texture", "ldrtexture", "bitmap"}};
+/// Of dialects of any version.
+constexpr Version any_version = {1'000'000, 0, 0};
+constexpr TypeName type_names[] = {
+    {first_of_mitsuba_0_5, "bsdf", "bump", "bumpmap"},
+    {first_of_mitsuba_0_3, "bsdf", "lambertian", "diffuse"},
+    {first_of_mitsuba_0_3, "bsdf", "mirror", "conductor"},
+    {first_of_mitsuba_0_3, "bsdf", "roughmetal", "roughconductor"},
+    {first_of_mitsuba_0_3, "bsdf", "roughglass", "roughdielectric"},
+    {first_of_mitsuba_0_3, "bsdf", "microfacet", "roughplastic"},
+    {first_of_mitsuba_0_3, "bsdf", "composite", "mixturebsdf"},
+    {first_of_mitsuba_0_3, "texture", "exrtexture", "bitmap"},
+    {first_of_mitsuba_0_3, "texture", "ldrtexture", "bitmap"},
+    {any_version, "bsdf", "roughconductorggx", "roughconductor", "ggx"},
+    {any_version, "bsdf", "roughdielectricggx", "roughdielectric", "ggx"},
+    {any_version, "bsdf", "roughplasticggx", "roughplastic", "ggx"},
+    {any_version, "bsdf", "disneybsdf", "principled"},
+    {any_version, "bsdf", "mixture", "mixturebsdf"},
+    {any_version, "phase", "rayleigh_polarized", "rayleigh"}};
 
 /// Of an object of this family and, unless it is empty, of this type; in snake case.
 struct PropertyName {
@@ -70,6 +80,18 @@ std::string snake_case_from_camel_case(const std::string& name) {
     while (i + 1 < name.size() && is_upper(name[i + 1])) result += lower(name[++i]);
   }
   return result;
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = lower(c);
+  return text;
+}
+
+const TypeName* row_of(const std::string& family, const std::string& type, Version version) {
+  const std::string wanted = lower_case(type);
+  for (const TypeName& row : type_names)
+    if (version < row.until && family == row.family && wanted == row.old_name) return &row;
+  return nullptr;
 }
 
 /// Removes a property with a value of type T.
@@ -129,12 +151,13 @@ Version parse_version(std::string_view text) {
   const char* at = text.data();
   const char* const end = text.data() + text.size();
   for (int i = 0; i < 3; ++i) {
-    if (i > 0 && (at == end || *at++ != '.')) at = end;
     const auto [next, error] = std::from_chars(at, end, parts[i]);
-    if (error != std::errc{} || parts[i] < 0 || (i == 2 && next != end))
+    const bool ends = next == end;
+    if (error != std::errc{} || parts[i] < 0 || (!ends && (i == 2 || *next != '.')))
       throw BadValue(fmt::format("{} is not a version", in_quotes(text)),
                      "write three numbers, as in version=\"3.0.0\"");
-    at = next;
+    if (ends) break;
+    at = next + 1;
   }
   return {parts[0], parts[1], parts[2]};
 }
@@ -148,10 +171,9 @@ std::string upgraded_tag(const std::string& tag, Version version) {
 }
 
 std::string upgraded_type(const std::string& family, const std::string& type, Version version) {
-  for (const TypeName& row : type_names)
-    if (version < row.until && family == row.family && type == row.old_name)
-      return std::string(row.name);
-  return type;
+  if (const TypeName* row = row_of(family, type, version)) return std::string(row->name);
+  // Mitsuba 0.6 does not tell upper from lower case.
+  return version < first_with_snake_case ? lower_case(type) : type;
 }
 
 std::string upgraded_name(const std::string& name, const Object& parent, Version version) {
@@ -164,7 +186,11 @@ std::string upgraded_name(const std::string& name, const Object& parent, Version
   return snake;
 }
 
-void upgrade_object(Object& object, Version version, Problems& problems) {
+void upgrade_object(Object& object, const std::string& written_type, Version version,
+                    Problems& problems) {
+  const TypeName* row = row_of(object.family, written_type, version);
+  if (row && !row->distribution.empty() && !has(object, "distribution"))
+    object.properties.push_back({"distribution", std::string(row->distribution), object.place});
   if (version < first_with_snake_case) upgrade_texture_placement(object, problems);
   if (version < first_of_mitsuba_0_4) upgrade_field_of_view(object);
 }

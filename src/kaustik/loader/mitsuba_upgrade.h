@@ -19,7 +19,7 @@ struct Version {
 /// Names are camelCase before it.
 inline constexpr Version first_with_snake_case = {2, 0, 0};
 
-/// Throws BadValue unless `text` is three numbers with dots between.
+/// Throws BadValue unless `text` is three numbers with dots between, or fewer: the others are 0.
 Version parse_version(std::string_view text);
 
 /// The present name of a tag.
@@ -31,8 +31,10 @@ std::string upgraded_type(const std::string& family, const std::string& type, Ve
 /// The present name of a property or nested object of `parent`, whose type is a present one.
 std::string upgraded_name(const std::string& name, const Object& parent, Version version);
 
-/// Upgrades what more than one property says: the placement of a texture (uoffset, voffset, uscale,
-/// vscale), and which side of the picture a camera's field of view is.
-void upgrade_object(Object& object, Version version, Problems& problems);
+/// Upgrades what more than one property says, or the type as it was written: the placement of a
+/// texture (uoffset, voffset, uscale, vscale), and which side of the picture a camera's field of
+/// view is.
+void upgrade_object(Object& object, const std::string& written_type, Version version,
+                    Problems& problems);
 
 }  // namespace kaustik::mitsuba

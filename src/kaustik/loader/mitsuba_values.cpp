@@ -87,7 +87,12 @@ std::vector<std::string_view> split_list(std::string_view text) {
 }
 
 double parse_float(std::string_view text) {
-  const std::string_view digits = without_plus(trimmed(text));
+  std::string_view digits = without_plus(trimmed(text));
+  // As programs write floats.
+  if (digits.size() > 1 && digits.ends_with('f') &&
+      (std::isdigit(static_cast<unsigned char>(digits[digits.size() - 2])) != 0 ||
+       digits[digits.size() - 2] == '.'))
+    digits.remove_suffix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range)

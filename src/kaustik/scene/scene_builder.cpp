@@ -107,6 +107,23 @@ void SceneBuilder::unknown_type(const Object& object, const std::vector<std::str
                 suggest(object.type, valid), object.place);
 }
 
+bool SceneBuilder::is_foreign(const Object& object, const std::vector<std::string>& valid) const {
+  return !is_strict_ && nearest_name(object.type, valid).empty();
+}
+
+void SceneBuilder::leave_out(const Object& object, const std::string& consequence) {
+  warnings_.push_back(fmt::format("{}: Kaustik does not know {} '{}': {}", text_of(object.place),
+                                  object.family, object.type, consequence));
+}
+
+void SceneBuilder::told_unless_strict(const std::string& message, const std::string& remedy,
+                                      const Place& place) {
+  if (is_strict_)
+    problems_.add(message, remedy, place);
+  else
+    warnings_.push_back(fmt::format("{}: {}; {}", text_of(place), message, remedy));
+}
+
 void SceneBuilder::refuse_children(const Object& object,
                                    const std::vector<std::string>& allowed_families) {
   for (const Child& child : object.children) {
@@ -124,21 +141,21 @@ void SceneBuilder::refuse_children(const Object& object,
 
 Scene::Parts SceneBuilder::build(const Object& scene) {
   for (const Property& property : scene.properties)
-    problems_.add(fmt::format("the scene has no parameter '{}'", property.name),
-                  "put it into the object that it belongs to", property.place);
+    told_unless_strict(fmt::format("the scene has no parameter '{}'", property.name),
+                       "put it into the object that it belongs to", property.place);
   find_emitters_of_shapes(scene);
   for (const Child& child : scene.children) add_top_level(*child.object);
-  if (!sensor_)
-    problems_.add("the scene has no camera",
-                  "add a sensor of type 'perspective', with a 'to_world'", scene.place);
-  else
-    collecting(sensor_->place, [&] { make_sensor(*sensor_); });
+  if (sensor_) collecting(sensor_->place, [&] { make_sensor(*sensor_); });
   problems_.throw_if_any();
 
   Scene::Parts parts;
   parts.tracer = std::make_unique<const RayTracer>(make_geometry(),
                                                    previous_ ? &previous_->tracer() : nullptr);
   bounds_ = parts.tracer->bounds();
+  if (!sensor_) {
+    place_camera(scene.place);
+    make_sensor(*sensor_);
+  }
   make_lights();
   problems_.throw_if_any();
   for (BuiltShape& built : shapes_) parts.surfaces.push_back(std::move(built.surface));
@@ -190,14 +207,16 @@ void SceneBuilder::add_top_level(const Object& object) {
       make_medium(alias);
     else
       make_texture(alias);
-  } else if (object.family != "integrator") {
+  } else if (object.family != "integrator" && object.id.empty()) {
+    // One with an id may be referred to.
     const bool is_of_sensor = object.family == "film" || object.family == "sampler";
-    problems_.add(fmt::format("a {} cannot stand at the top of a scene", object.family),
-                  is_of_sensor ? "put it into the sensor"
-                  : object.family == "rfilter"
-                      ? "put it into the film"
-                      : "it may hold: shape, bsdf, texture, medium, emitter, sensor, integrator",
-                  object.place);
+    told_unless_strict(
+        fmt::format("a {} stands at the top of the scene, where it has no effect", object.family),
+        is_of_sensor                 ? "put it into the sensor"
+        : object.family == "rfilter" ? "put it into the film"
+        : object.family == "phase"   ? "put it into a medium"
+                                     : "put it into what it belongs to",
+        object.place);
   }
 }
 
@@ -221,7 +240,10 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   if (!type) {
     std::vector<std::string> valid = names_of(shape_types());
     valid.insert(valid.end(), {shapegroup_info().name, instance_info().name});
-    unknown_type(object, valid);
+    if (is_foreign(object, valid))
+      leave_out(object, "it is left out");
+    else
+      unknown_type(object, valid);
     return std::nullopt;
   }
   refuse_children(object, {"bsdf", "emitter", "integrator", "medium"});
@@ -241,9 +263,15 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
       built.surface.illumination = child.object;
     }
   }
-  if (!built.surface.bsdf) {
-    static const Object default_bsdf{"bsdf", "diffuse", "", {}, {}, {}};
-    built.surface.bsdf = create_bsdf(default_bsdf);
+  const bool shines = std::any_of(object.children.begin(), object.children.end(),
+                                  [](const Child& c) { return c.object->family == "emitter"; });
+  // As in Mitsuba a lamp without a bsdf reflects nothing, and other shapes half of the light.
+  if (!built.surface.bsdf) built.surface.bsdf = shines ? black_bsdf() : usual_bsdf();
+  if (shines && built.surface.bsdf->traits().is_null) {
+    told_unless_strict("a shape with bsdf 'null' is not there, so it cannot be a light",
+                       "give it another bsdf, such as diffuse; it is taken to be black",
+                       object.place);
+    built.surface.bsdf = black_bsdf();
   }
   if (built.surface.bsdf) built.surface.traits = built.surface.bsdf->traits();
   read_media(object, built.surface);
@@ -267,9 +295,6 @@ void SceneBuilder::add_shape(const Object& object) {
     if (child.object->family != "emitter") continue;
     if (built->surface.light >= 0)
       problems_.add("the shape has a second emitter", "keep one", child.object->place);
-    if (built->surface.traits.is_null)
-      problems_.add("a shape with bsdf 'null' is not there, so it cannot be a light",
-                    "give it another bsdf, such as diffuse", child.object->place);
     built->surface.light = int(pending_lights_.size());
     pending_lights_.push_back({child.object.get(), built->shape, index});
   }
@@ -357,6 +382,7 @@ std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object
 std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
   const BsdfType* type = find_row(bsdf_types(), object.type);
   if (!type) {
+    if (is_foreign(object, names_of(bsdf_types()))) return bsdf_instead_of(object);
     unknown_type(object, names_of(bsdf_types()));
     return nullptr;
   }
@@ -424,7 +450,11 @@ void SceneBuilder::make_lights() {
   for (const PendingLight& pending : pending_lights_) {
     const LightType* type = find_row(light_types(), pending.object->type);
     if (!type) {
-      unknown_type(*pending.object, names_of(light_types()));
+      // Without its only light a scene is black.
+      if (pending_lights_.size() > 1 && is_foreign(*pending.object, names_of(light_types())))
+        leave_out(*pending.object, "it is left out");
+      else
+        unknown_type(*pending.object, names_of(light_types()));
       continue;
     }
     std::vector<std::string> families = {"medium"};

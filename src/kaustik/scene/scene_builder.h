@@ -84,6 +84,22 @@ class SceneBuilder {
   Arguments arguments_of(const TypeInfo& info, const Object& object);
   void refuse_children(const Object& object, const std::vector<std::string>& allowed_families);
   void unknown_type(const Object& object, const std::vector<std::string>& valid);
+  /// Whether a type that no table has is another program's, rather than a slip of the pen; none is
+  /// where the scene is read strictly.
+  bool is_foreign(const Object& object, const std::vector<std::string>& valid) const;
+  /// Warns that nobody knows its type, and what follows.
+  void leave_out(const Object& object, const std::string& consequence);
+  /// A problem where the scene is read strictly, else a warning.
+  void told_unless_strict(const std::string& message, const std::string& remedy,
+                          const Place& place);
+  /// Matt, of a reflectance of one half …
+  std::shared_ptr<const Bsdf> usual_bsdf();
+  /// … and of none.
+  std::shared_ptr<const Bsdf> black_bsdf();
+  /// The bsdf in one that nobody knows, or a matt one of its colour; warns.
+  std::shared_ptr<const Bsdf> bsdf_instead_of(const Object& object);
+  /// Makes Mitsuba's camera of scenes that have none the sensor; warns.
+  void place_camera(const Place& place);
   /// The same for what changes the light of no picture: unless the scene is read strictly, a
   /// warning that another type stands for it.
   void use_instead(const Object& object, const std::vector<std::string>& valid,
@@ -115,6 +131,7 @@ class SceneBuilder {
   std::map<const Object*, std::shared_ptr<const Texture>> textures_;
   std::map<const Object*, std::shared_ptr<const Medium>> media_;
   std::vector<std::shared_ptr<const Object>> bordering_;  ///< bsdfs of parts of bodies
+  std::vector<std::shared_ptr<const Object>> stand_ins_;  ///< for what the scene lacks
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const Medium>> light_media_;
   std::shared_ptr<const Medium> camera_medium_;
