@@ -79,15 +79,16 @@ TEST(NestedDielectrics, LikeMaterialsMelt) {
                      seen(layer(0, 2, dielectric("bk7", "air"))));
 }
 
-/// A trough of water, filled over its rim, on a floor under a lamp: a caustic through three borders.
+/// A trough of water, filled over its rim, on a floor under a lamp: a caustic through three
+/// borders.
 TestScene glass_of_water() {
-  return TestScene(
-      camera("0, -3, 2.5", "0, 0, 0.3", 45, 12) +
-      flat("rectangle", scale("0.4, 0.4, 1") + rotate("1, 0, 0", 180) + translate("0.5, 0, 3"),
-           area_light("30")) +
-      flat("rectangle", scale("5, 5, 1"), diffuse("0.7")) +
-      flat("cube", scale("0.6, 0.6, 0.45") + translate("0, 0, 0.5"), body("bk7", 1)) +
-      flat("cube", scale("0.5, 0.5, 0.4") + translate("0, 0, 0.6"), body("water", 2)));
+  return TestScene(camera("0, -3, 2.5", "0, 0, 0.3", 45, 12) +
+                   flat("rectangle",
+                        scale("0.4, 0.4, 1") + rotate("1, 0, 0", 180) + translate("0.5, 0, 3"),
+                        area_light("30")) +
+                   flat("rectangle", scale("5, 5, 1"), diffuse("0.7")) +
+                   flat("cube", scale("0.6, 0.6, 0.45") + translate("0, 0, 0.5"), body("bk7", 1)) +
+                   flat("cube", scale("0.5, 0.5, 0.4") + translate("0, 0, 0.6"), body("water", 2)));
 }
 
 // The answer belongs to the point, so that camera paths, light paths and photons agree.

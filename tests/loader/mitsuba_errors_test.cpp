@@ -27,8 +27,6 @@ TEST(MitsubaErrors, Elements) {
   expect_wrong({"<srgb name='x' value='1'/>", "2:1", "<srgb>", "did you mean 'rgb'"});
   expect_wrong({"<translate x='1'/>", "2:1", "outside of a <transform>", "<translate"});
   expect_wrong({"<scene type='scene'/>", "2:1", "<scene> in an object", "<include>"});
-  expect_wrong(
-      {"<shape type='s'>\n  3\n</shape>", "3:3", "text between the elements: '3'", "value"});
   expect_wrong({"<shape type='s'><float name='x' value='1'><bsdf type='d'/></float></shape>",
                 "2:43", "<bsdf> cannot stand in <float>", "'/>'"});
   expect_wrong({"<shape type='s'><transform name='t'>\n<rotat angle='1'/></transform></shape>",
@@ -251,8 +249,12 @@ TEST(MitsubaErrors, Encoding) {
 }
 
 TEST(MitsubaErrors, Versions) {
-  expect_problem(problems_in("\n<scene/>"), "test.xml:2:1", "<scene> lacks its version", "3.0.0");
-  for (const std::string version : {"3.0", "", "3", "x", "3.0.0.0", "3.-1.0", "3..0", "3.0.0x"}) {
+  LoadOptions strict;
+  strict.is_strict = true;
+  expect_problem(problems_in("\n<scene/>", strict), "test.xml:2:1", "<scene> lacks its version",
+                 "3.0.0");
+  expect_problem(problems_in("\n<config/>"), "test.xml:2:1", "<config> lacks its version", "3.0.0");
+  for (const std::string version : {"", "x", "3.0.0.0", "3.-1.0", "3..0", "3.0.", "3.0.0x"}) {
     SCOPED_TRACE(version);
     expect_problem(problems_in(in_scene("", version)), "test.xml:1:17", "is not a version",
                    "three numbers");

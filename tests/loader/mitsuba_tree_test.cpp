@@ -269,5 +269,95 @@ TEST(MitsubaTree, SubsurfaceScatteringIsLeftOut) {
   EXPECT_EQ(problems_in(in_scene(shape), strict).at(0).message, "unknown element <subsurface>");
 }
 
+/// The only warning of a scene, which is an error where it is read strictly.
+std::string lenient_warning(const std::string& text) {
+  LoadOptions strict;
+  strict.is_strict = true;
+  EXPECT_FALSE(problems_in(text, strict).empty());
+  const Description description = parse(text);
+  EXPECT_EQ(description.warnings.size(), 1u);
+  return description.warnings.empty() ? "" : description.warnings[0];
+}
+
+TEST(MitsubaTree, VersionsMayBeShortOrMissing) {
+  const auto name = [](const std::string& version) {
+    const auto scene = parse("<scene" + version +
+                             "><shape type='s'><float name='aB' value='1'/></shape></scene>");
+    return scene.scene->children.at(0).object->properties.at(0).name;
+  };
+  EXPECT_EQ(name(" version='3'"), "aB");
+  EXPECT_EQ(name(" version='0.6'"), "a_b");
+  EXPECT_EQ(name(""), "a_b");
+  EXPECT_NE(lenient_warning("<scene/>").find("lacks its version: it is read as one of Mitsuba 0.2"),
+            std::string::npos);
+}
+
+TEST(MitsubaTree, TextBetweenElementsIsLeftOut) {
+  EXPECT_NE(lenient_warning(in_scene("<shape type='s'>\n  3\n</shape>")).find("test.xml:3:3: text"),
+            std::string::npos);
+}
+
+TEST(MitsubaTree, ReflectancesMakeNoLight) {
+  const auto scene = parse(in_scene(
+      "<bsdf type='diffuse' id='a'><rgb name='reflectance' value='255, 127.5, 0'/></bsdf>"
+      "<bsdf type='diffuse' id='b'><float name='reflectance' value='1'/></bsdf>"
+      "<emitter type='point'><rgb name='intensity' value='255'/></emitter>",
+      "0.6.0"));
+  const Rgb scaled = value<Rgb>(*scene.scene->children.at(0).object, "reflectance");
+  EXPECT_DOUBLE_EQ(scaled.r, 0.99);
+  EXPECT_DOUBLE_EQ(scaled.g, 0.495);
+  EXPECT_EQ(value<double>(*scene.scene->children.at(1).object, "reflectance"), 1);
+  EXPECT_EQ(value<Rgb>(*scene.scene->children.at(2).object, "intensity").r, 255);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("'reflectance' is above 1"), std::string::npos);
+}
+
+TEST(MitsubaTree, OldShapesWithAMediumAreBoundaries) {
+  const auto bsdf_of = [](const std::string& inside, const std::string& version) {
+    const auto scene = parse(in_scene("<medium type='homogeneous' id='fog'/><shape type='sphere'>" +
+                                          inside + "</shape>",
+                                      version))
+                           .scene;
+    for (const Child& child : scene->children.at(1).object->children)
+      if (child.object->family == "bsdf") return child.object->type;
+    return std::string("none");
+  };
+  const std::string fog = "<ref name='interior' id='fog'/>";
+  EXPECT_EQ(bsdf_of(fog, "0.6.0"), "null");
+  EXPECT_EQ(bsdf_of(fog, "2.0.0"), "none");
+  EXPECT_EQ(bsdf_of("", "0.6.0"), "none");
+  EXPECT_EQ(bsdf_of(fog + "<bsdf type='dielectric'/>", "0.6.0"), "dielectric");
+  EXPECT_EQ(bsdf_of(fog + "<emitter type='area'/>", "0.6.0"), "none");
+}
+
+TEST(MitsubaTree, NamesOfDialects) {
+  const auto bsdf = parse_inside("<bsdf type='roughconductorGGX'/>").scene->children.at(0).object;
+  EXPECT_EQ(bsdf->type, "roughconductor");
+  EXPECT_EQ(value<std::string>(*bsdf, "distribution"), "ggx");
+  EXPECT_EQ(parse(in_scene("<shape type='Rectangle'/>", "0.6.0")).scene->children.at(0).object->type,
+            "rectangle");
+  EXPECT_EQ(parse_inside("<shape type='Rectangle'/>").scene->children.at(0).object->type,
+            "Rectangle");
+}
+
+TEST(MitsubaTree, OfTwoValuesInOldFilesTheLastHolds) {
+  const std::string twice = "<shape type='s'><float name='x' value='1'/><float name='x' value='2'/>"
+                            "</shape>";
+  const Description old = parse(in_scene(twice, "0.6.0"));
+  EXPECT_EQ(value<double>(*old.scene->children.at(0).object, "x"), 2);
+  EXPECT_EQ(old.warnings.size(), 1u);
+  expect_problem(problems_in(in_scene(twice)), "test.xml:2:41", "'x' is given twice", "keep one");
+}
+
+TEST(MitsubaTree, FileNamesMayHaveBackslashes) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("meshes/a.obj", "");
+  const std::string path = folder.write(
+      "scene.xml", in_scene("<shape type='obj'><string name='filename' value='meshes\\a.obj'/>"
+                            "</shape>"));
+  EXPECT_EQ(value<std::string>(*load_mitsuba_xml(path).scene->children.at(0).object, "filename"),
+            mesh);
+}
+
 }  // namespace
 }  // namespace kaustik

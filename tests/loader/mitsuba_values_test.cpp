@@ -20,6 +20,7 @@ TEST(MitsubaValues, Numbers) {
   EXPECT_EQ(value_in_shape<double>("<float name='x' value=' -1.5e-3 '/>"), -1.5e-3);
   EXPECT_EQ(value_in_shape<double>("<float name='x' value='+2'/>"), 2.0);
   EXPECT_EQ(value_in_shape<double>("<float name='x' value='.5'/>"), 0.5);
+  EXPECT_EQ(value_in_shape<double>("<float name='x' value='0.1f'/>"), 0.1);
   EXPECT_EQ(value_in_shape<int64_t>("<integer name='x' value=' 42 '/>"), 42);
   EXPECT_EQ(value_in_shape<int64_t>("<integer name='x' value='-9223372036854775808'/>"), INT64_MIN);
 }

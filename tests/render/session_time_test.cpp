@@ -303,9 +303,8 @@ TEST(PartPicture, WeighsByShares) {
   PartPicture(image, 3, 0.5).put(0, 0, pixel);
   const auto mean = [](double part) { return float((3 * 3 + 0.5 * part) / 3.5); };
   const float fallen = 3 * std::sqrt(3 / 3.5f);
-  const float expected[] = {mean(11), mean(22), mean(33), mean(2),  mean(0.3),
-                            mean(5),  mean(7),  fallen,   mean(10), fallen,
-                            mean(0.25)};
+  const float expected[] = {mean(11), mean(22), mean(33), mean(2), mean(0.3), mean(5),
+                            mean(7),  fallen,   mean(10), fallen,  mean(0.25)};
   for (int c = 0; c < image.channel_count(); ++c)
     EXPECT_NEAR(image.at(0, 0, c), expected[c], 1e-5f) << image.channel_names()[size_t(c)];
 }

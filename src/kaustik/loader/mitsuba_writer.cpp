@@ -77,9 +77,8 @@ class Writer {
     pugi::xml_node node = parent.append_child(is_whole ? object.family.c_str() : "ref");
     if (is_whole) node.append_attribute("type") = object.type.c_str();
     if (const std::string id = id_of(object); !id.empty())
-      node.append_attribute("id") = checked(id, object.place).c_str();
-    if (!child.name.empty())
-      node.append_attribute("name") = checked(child.name, object.place).c_str();
+      node.append_attribute("id") = escaped(id).c_str();
+    if (!child.name.empty()) node.append_attribute("name") = escaped(child.name).c_str();
     if (!is_whole) return;
     const TypeInfo* info = types_.find(object.family, object.type);
     for (const Property& property : object.properties) write(property, info, node);
@@ -89,8 +88,8 @@ class Writer {
   void write(const Property& property, const TypeInfo* info, pugi::xml_node& parent) {
     const auto append = [&](const char* tag, const std::string& value) {
       pugi::xml_node node = parent.append_child(tag);
-      node.append_attribute("name") = checked(property.name, property.place).c_str();
-      node.append_attribute("value") = checked(value, property.place).c_str();
+      node.append_attribute("name") = escaped(property.name).c_str();
+      node.append_attribute("value") = escaped(value).c_str();
     };
     struct Visitor {
       const decltype(append)& add;
@@ -114,7 +113,7 @@ class Writer {
       void operator()(const SpectralCurve& curve) const { add("spectrum", text_of(curve)); }
       void operator()(const Transform& transform) const {
         pugi::xml_node node = parent.append_child("transform");
-        node.append_attribute("name") = checked(property.name, property.place).c_str();
+        node.append_attribute("name") = escaped(property.name).c_str();
         node.append_child("matrix").append_attribute("value") = text_of(transform).c_str();
       }
       void operator()(const std::shared_ptr<const Array>&) const {
@@ -127,12 +126,13 @@ class Writer {
   }
 
   /// A '$' would be taken for a definition when it is read again.
-  static const std::string& checked(const std::string& text, const Place& place) {
-    if (text.find('$') != std::string::npos)
-      throw Error(ErrorKind::input,
-                  fmt::format("'{}' has a '$', which XML of Mitsuba cannot hold", text),
-                  "rename it", place);
-    return text;
+  static std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+      if (c == '$') result += '\\';
+      result += c;
+    }
+    return result;
   }
 
   /// Of a file below the folder, and of one that was not named by its whole path.

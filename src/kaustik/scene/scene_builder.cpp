@@ -152,10 +152,8 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   parts.tracer = std::make_unique<const RayTracer>(make_geometry(),
                                                    previous_ ? &previous_->tracer() : nullptr);
   bounds_ = parts.tracer->bounds();
-  if (!sensor_) {
-    place_camera(scene.place);
-    make_sensor(*sensor_);
-  }
+  if (!sensor_ && place_camera(scene.place)) make_sensor(*sensor_);
+  problems_.throw_if_any();
   make_lights();
   problems_.throw_if_any();
   for (BuiltShape& built : shapes_) parts.surfaces.push_back(std::move(built.surface));

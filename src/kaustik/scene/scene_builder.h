@@ -98,8 +98,9 @@ class SceneBuilder {
   std::shared_ptr<const Bsdf> black_bsdf();
   /// The bsdf in one that nobody knows, or a matt one of its colour; warns.
   std::shared_ptr<const Bsdf> bsdf_instead_of(const Object& object);
-  /// Makes Mitsuba's camera of scenes that have none the sensor; warns.
-  void place_camera(const Place& place);
+  /// Makes Mitsuba's camera of scenes that have none the sensor; warns. False, with the problem told,
+  /// where there is nothing to see.
+  bool place_camera(const Place& place);
   /// The same for what changes the light of no picture: unless the scene is read strictly, a
   /// warning that another type stands for it.
   void use_instead(const Object& object, const std::vector<std::string>& valid,

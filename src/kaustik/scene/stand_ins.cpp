@@ -50,7 +50,12 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_instead_of(const Object& object) 
   return create_bsdf(*matt);
 }
 
-void SceneBuilder::place_camera(const Place& place) {
+bool SceneBuilder::place_camera(const Place& place) {
+  if (shapes_.empty() && instances_.empty()) {
+    problems_.add("the scene has no camera",
+                  "add a sensor of type 'perspective', with a 'to_world'", place);
+    return false;
+  }
   // Mitsuba's: along z, before the scene, as far back as its larger side fills 45 degrees.
   constexpr double field = 45;
   const Vec3f size = bounds_.max - bounds_.min, centre = (bounds_.max + bounds_.min) * 0.5f;
@@ -68,6 +73,7 @@ void SceneBuilder::place_camera(const Place& place) {
       "add a sensor of type 'perspective', with a 'to_world'; one that looks along z "
       "at the whole scene stands for it",
       place);
+  return true;
 }
 
 }  // namespace kaustik
