@@ -113,6 +113,10 @@ TEST(MitsubaErrors, Colors) {
                 "increasing"});
   expect_wrong({"<spectrum name='x' value='-4:1'/>", "2:27", "wavelength -4 is not", "nanometres"});
   expect_wrong({"<spectrum name='x' value='400:a'/>", "2:27", "'a' is not a number", "0.5"});
+  expect_wrong({"<spectrum name='x' value='400:1'/>", "2:27", "of one wavelength", "360:0.5"});
+  expect_wrong({"<blackbody name='x'/>", "2:1", "<blackbody> lacks the attribute 'temperature'",
+                "temperature="});
+  expect_wrong({"<blackbody name='x' temperature='hot'/>", "2:34", "'hot' is not a number", "0.5"});
 }
 
 TEST(MitsubaErrors, Transforms) {

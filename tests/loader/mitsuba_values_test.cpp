@@ -55,6 +55,28 @@ TEST(MitsubaValues, Spectra) {
   EXPECT_EQ(curve, (SpectralCurve{{{400, 0.1}, {500.5, 0.2}, {700, 3}}}));
 }
 
+/// A number stands for light of equal energy in files of version 2 and later, for white light before.
+TEST(MitsubaValues, SpectraOfLamps) {
+  const std::string lamp = "<emitter type='point'><spectrum name='intensity' value='2'/></emitter>";
+  EXPECT_EQ(value<SpectralCurve>(*parse_inside(lamp).scene->children[0].object, "intensity"),
+            (SpectralCurve{{{360, 2}, {830, 2}}}));
+  const auto old = [](const std::string& inside) {
+    return parse("<scene version='0.6.0'><emitter type='point'>" + inside + "</emitter></scene>")
+        .scene->children.at(0)
+        .object;
+  };
+  EXPECT_EQ(value<double>(*old("<spectrum name='intensity' value='2'/>"), "intensity"), 2.0);
+  EXPECT_EQ(value<Rgb>(*old("<spectrum name='intensity' value='1, 2, 3'/>"), "intensity"),
+            (Rgb{1, 2, 3}));
+  const auto hot = old("<blackbody name='intensity' temperature='4500K' scale='0.1'/>");
+  const Child& child = hot->children.at(0);
+  EXPECT_EQ(child.name, "intensity");
+  EXPECT_EQ(child.object->family, "texture");
+  EXPECT_EQ(child.object->type, "blackbody");
+  EXPECT_EQ(value<double>(*child.object, "temperature"), 4500.0);
+  EXPECT_EQ(value<double>(*child.object, "scale"), 0.1);
+}
+
 TEST(MitsubaValues, SpectrumFromFile) {
   const TemporaryFolder folder;
   folder.write("spectra/lamp.spd", "# nm  value\n400 0.25\r\n\n500\t0.5 # green\n600, 1");

@@ -120,7 +120,8 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
   static const std::map<std::string_view, Read> others = {
       {"transform", &Reader::read_transform}, {"ref", &Reader::read_reference},
       {"alias", &Reader::read_alias},         {"default", &Reader::read_default},
-      {"path", &Reader::read_search_folder},  {"include", &Reader::read_include}};
+      {"path", &Reader::read_search_folder},  {"include", &Reader::read_include},
+      {"blackbody", &Reader::read_blackbody}};
   const bool is_srgb = element.tag == "srgb" && source.version < Version{2, 0, 0};
   const bool typed_spectrum = element.tag == "spectrum" && element.find("type");
   if (const auto other = others.find(element.tag); other != others.end())
@@ -135,7 +136,7 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
 
 void Reader::report_unknown(const Element& element) {
   // Other renderers have elements of their own. What looks like one of ours was meant to be one.
-  static const std::vector<std::string> of_mitsuba = {"animation", "blackbody", "subsurface"};
+  static const std::vector<std::string> of_mitsuba = {"animation", "subsurface"};
   const bool is_ours = is_in(transform_tags(), element.tag) || is_in(of_mitsuba, element.tag) ||
                        upgraded_tag(element.tag, {0, 0, 0}) != element.tag ||
                        suggestion(element.tag, part_tags()).starts_with("did you mean");

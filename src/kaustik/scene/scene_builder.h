@@ -72,6 +72,10 @@ class SceneBuilder {
                                                              const Arguments& arguments);
   Geometry make_geometry();
 
+  /// The value of a spectrum; nothing if it is wrong, which has been told.
+  const std::optional<Value>& value_of_spectrum(const Object& spectrum);
+  /// The properties of an object, and the spectra that it holds.
+  std::vector<Property> properties_of(const TypeInfo& info, const Object& object);
   /// Arguments of an object, with warnings for what is accepted without effect.
   Arguments arguments_of(const TypeInfo& info, const Object& object);
   void refuse_children(const Object& object, const std::vector<std::string>& allowed_families);
@@ -102,6 +106,7 @@ class SceneBuilder {
   std::map<const Object*, std::shared_ptr<const Bsdf>> bsdfs_;
   std::map<const Object*, std::shared_ptr<const Texture>> textures_;
   std::map<const Object*, std::shared_ptr<const Medium>> media_;
+  std::map<const Object*, std::optional<Value>> spectra_;
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const Medium>> light_media_;
   std::shared_ptr<const Medium> camera_medium_;
