@@ -447,7 +447,7 @@ Geometry SceneBuilder::make_geometry() {
 }
 
 std::shared_ptr<const EmissionPattern> SceneBuilder::emission_pattern_of(
-    const Object& emitter, const Arguments& arguments) {
+    const LightType& type, const Object& emitter, const Arguments& arguments) {
   if (texture_parameters(arguments.info()).empty()) return nullptr;  // refused already
   const std::optional<Textures> textures = textures_of(emitter, arguments.info());
   if (!textures || textures->empty()) return nullptr;
@@ -456,7 +456,7 @@ std::shared_ptr<const EmissionPattern> SceneBuilder::emission_pattern_of(
     problems_.add(
         fmt::format("emitter '{}' has '{}' both as a value and as a texture", emitter.type, name),
         "keep one", arguments.place_of(name));
-  return std::make_shared<TextureEmission>(texture);
+  return std::make_shared<TextureEmission>(texture, type.pattern_is_factor);
 }
 
 void SceneBuilder::make_lights() {

@@ -68,7 +68,8 @@ class SceneBuilder {
   std::shared_ptr<const Bsdf> bsdf_of(const Object& object, const BsdfType& type,
                                       const BsdfInputs& inputs);
   /// Of the texture in an emitter, of which no type takes more than one; null: it has none.
-  std::shared_ptr<const EmissionPattern> emission_pattern_of(const Object& emitter,
+  std::shared_ptr<const EmissionPattern> emission_pattern_of(const LightType& type,
+                                                             const Object& emitter,
                                                              const Arguments& arguments);
   Geometry make_geometry();
 
