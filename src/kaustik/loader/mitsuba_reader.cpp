@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kaustik/loader/mitsuba_sky.h"
 #include "kaustik/loader/mitsuba_tags.h"
 
 namespace kaustik::mitsuba {
@@ -191,6 +192,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   read_parts(element.node, unfinished, source);
   --depth_;
   upgrade_texture_placement(object, source.version, problems_);
+  upgrade_sky(object, source.version);
   return unfinished.object;
 }
 
