@@ -50,10 +50,11 @@ SquareDistribution::SquareDistribution(int width, int height, const std::vector<
   append_ends(rows, row_ends_);
 }
 
-Vec2f SquareDistribution::sample(const Vec2f& u) const {
+Vec2f SquareDistribution::sample(const Vec2f& u, float& density) const {
   const auto [row, v] = part_of(row_ends_.data(), size_t(height_), double(u.y));
   const auto [column, w] =
       part_of(cell_ends_.data() + row * size_t(width_), size_t(width_), double(u.x));
+  density = density_[row * size_t(width_) + column];
   return {std::min((float(column) + w) / float(width_), one_minus_epsilon),
           std::min((float(row) + v) / float(height_), one_minus_epsilon)};
 }

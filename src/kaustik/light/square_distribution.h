@@ -14,7 +14,13 @@ class SquareDistribution {
   SquareDistribution(int width, int height, const std::vector<double>& weights,
                      double uniform_share);
 
-  Vec2f sample(const Vec2f& u) const;
+  Vec2f sample(const Vec2f& u) const {
+    float density;
+    return sample(u, density);
+  }
+  /// With the density that it was drawn with, by which it can be told from its neighbours beyond an
+  /// edge of its cell.
+  Vec2f sample(const Vec2f& u, float& density) const;
   /// 0 outside of the square.
   float pdf(const Vec2f& p) const;
 
