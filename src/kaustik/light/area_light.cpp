@@ -201,7 +201,7 @@ LightType area_light_type() {
            .textured(),
        number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
        boolean_parameter("two_sided", false, "The back shines as the front does."),
-       shadow_samples_parameter(), ignored_sampling_weight()}};
+       shadow_samples_parameter(), visible_parameter(), ignored_sampling_weight()}};
   return {info, true, create_area};
 }
 

@@ -48,6 +48,12 @@ Parameter shadow_samples_parameter() {
       .range(1, 4096);
 }
 
+Parameter visible_parameter() {
+  return boolean_parameter("visible", true,
+                           "The camera sees the light itself. If not, it looks past it, and all "
+                           "that is reflected, refracted or scattered on the way still meets it.");
+}
+
 Parameter ignored_sampling_weight() {
   return ignored_parameter("sampling_weight", ParameterKind::number);
 }

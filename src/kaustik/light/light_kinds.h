@@ -35,6 +35,8 @@ const Transform& emitter_transform(const LightInputs& inputs);
 std::unique_ptr<Light> with_finite_power(std::unique_ptr<Light> light, const LightInputs& inputs);
 /// What Light::shadow_samples is read from.
 Parameter shadow_samples_parameter();
+/// Whether the camera sees the light itself; see Scene::is_hidden().
+Parameter visible_parameter();
 /// What Mitsuba's emitters accept and Kaustik has no use for.
 Parameter ignored_sampling_weight();
 

@@ -325,6 +325,7 @@ std::vector<Parameter> parameters(Parts parts) {
         number_parameter("sky_scale", 1, "Factor on the sky's radiance.").range(0, 1e30));
   table.push_back(
       to_world_parameter("World from the sky, whose +z is the zenith, +x south and +y west."));
+  table.push_back(visible_parameter());
   table.push_back(ignored_parameter("complex_sun", ParameterKind::boolean));
   table.push_back(ignored_sampling_weight());
   return table;

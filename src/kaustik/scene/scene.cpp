@@ -15,6 +15,8 @@ Scene::Scene(Parts parts, const Scene* previous) : parts_(std::move(parts)) {
         return light->is_infinite() ? !light->traits().is_delta && !light->traits().is_only_seen
                                     : light->traits().shape >= 0;
       });
+  const std::vector<bool>& hidden = parts_.hidden_lights;
+  hides_lights_ = std::find(hidden.begin(), hidden.end(), true) != hidden.end();
   find_media();
   make_light_selector(previous);
 }

@@ -194,6 +194,7 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   parts.camera = std::move(camera_);
   parts.camera_medium = std::move(camera_medium_);
   parts.light_media = std::move(light_media_);
+  parts.hidden_lights = std::move(hidden_lights_);
   parts.warnings = std::move(warnings_);
   for (std::string& warning : unknown_.warnings()) parts.warnings.push_back(std::move(warning));
   parts.warnings.insert(parts.warnings.end(), pictures_.warnings().begin(),
@@ -494,6 +495,7 @@ void SceneBuilder::make_lights() {
     collecting(pending.object->place, [&] {
       make_light(*type, pending, arguments);
       light_media_.push_back(medium_of(*pending.object));
+      hidden_lights_.push_back(type->info.find("visible") && !arguments.boolean("visible"));
     });
   }
 }

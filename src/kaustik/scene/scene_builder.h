@@ -110,6 +110,7 @@ class SceneBuilder {
   std::map<const Object*, std::optional<Value>> spectra_;
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const Medium>> light_media_;
+  std::vector<bool> hidden_lights_;
   std::shared_ptr<const Medium> camera_medium_;
   Bounds3f bounds_;
   FilmSettings film_;
