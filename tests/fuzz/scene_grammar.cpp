@@ -176,7 +176,9 @@ class Grammar {
           rows_that(integrator_types(), [](const IntegratorType& type) { return type.is_model; });
       const TypeInfo& model = draw_.one_of(models)->info;
       // These are the whole picture's.
-      result += open(model) + properties(model, {"components", "samples_per_pass"}) + close(model);
+      result += open(model) +
+                properties(model, {"components", "samples_per_pass", "hide_emitters"}) +
+                close(model);
     }
     return result + close(info);
   }

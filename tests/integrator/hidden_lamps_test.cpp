@@ -95,5 +95,23 @@ TEST(HiddenLamps, SurroundingsMayBeBlackForTheCamera) {
   }
 }
 
+/// The integrator may hide them all; that of a shape is not asked.
+TEST(HiddenLamps, MayBeAllByTheIntegrator) {
+  const auto emission = [](const std::string& integrator) {
+    const TestScene scene(lamp_before_wall("") + integrator);
+    return render(scene, "path", set("max_depth", 1), {4, 1}).mean({"emission"}).mean();
+  };
+  EXPECT_NEAR(emission(""), 4, 1e-5);
+  EXPECT_NEAR(emission("<integrator type=\"path\">" + set("hide_emitters", false) +
+                       "</integrator>"),
+              4, 1e-5);
+  EXPECT_EQ(emission("<integrator type=\"volpath\">" + set("hide_emitters", true) +
+                     "</integrator>"),
+            0);
+  EXPECT_EQ(emission("<integrator type=\"aov\"><integrator type=\"path\">" +
+                     set("hide_emitters", true) + "</integrator></integrator>"),
+            0);
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -21,7 +21,7 @@ const TypeInfo& LightTracer::info() {
       "the camera sees by a mirror, through glass or beyond the scene.",
       {components_parameter(), max_depth_parameter(),
        ignored_parameter("rr_depth", ParameterKind::integer), aim_parameter(),
-       ignored_parameter("hide_emitters", ParameterKind::boolean)}};
+       hide_emitters_parameter()}};
   return info;
 }
 

@@ -134,7 +134,8 @@ struct BuildOptions {
 };
 
 /// Checks every object against the table of its type and builds the scene. Throws Error with all
-/// problems found. Ignores the integrator: that is the render room's.
+/// problems found. Ignores the integrator, which is the render room's, but for what Mitsuba has it
+/// say of the lights: `hide_emitters`.
 std::shared_ptr<const Scene> build_scene(const Description& description,
                                          const BuildOptions& options = {});
 

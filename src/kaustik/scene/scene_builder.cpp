@@ -495,7 +495,8 @@ void SceneBuilder::make_lights() {
     collecting(pending.object->place, [&] {
       make_light(*type, pending, arguments);
       light_media_.push_back(medium_of(*pending.object));
-      hidden_lights_.push_back(type->info.find("visible") && !arguments.boolean("visible"));
+      hidden_lights_.push_back(hides_lights_ ||
+                               (type->info.find("visible") && !arguments.boolean("visible")));
     });
   }
 }

@@ -18,6 +18,8 @@ class SceneBuilder {
   explicit SceneBuilder(int64_t texture_memory_bytes, const Scene* previous = nullptr,
                         bool is_strict = false)
       : previous_(previous), pictures_(texture_memory_bytes), is_strict_(is_strict) {}
+  /// Before build(): the camera is to see no light itself, whatever the lights say.
+  void hide_lights() { hides_lights_ = true; }
   Scene::Parts build(const Object& scene);
 
  private:
@@ -111,6 +113,7 @@ class SceneBuilder {
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const Medium>> light_media_;
   std::vector<bool> hidden_lights_;
+  bool hides_lights_ = false;
   std::shared_ptr<const Medium> camera_medium_;
   Bounds3f bounds_;
   FilmSettings film_;
