@@ -43,8 +43,9 @@ TEST(spectral_value, light_and_reflectances_are_zero_beyond_the_ends_of_their_cu
 TEST(spectral_value, constants_of_matter_stay_beyond_the_ends) {
   const SpectralCurve curve{{{450, 1}, {650, 3}}};
   const SpectralValue ramp = SpectralValue::material_constant(curve);
-  EXPECT_EQ(ramp.rgb(), SpectralValue::reflectance(
-                            SpectralCurve{{{360, 1}, {450, 1}, {650, 3}, {830, 3}}}).rgb());
+  EXPECT_EQ(
+      ramp.rgb(),
+      SpectralValue::reflectance(SpectralCurve{{{360, 1}, {450, 1}, {650, 3}, {830, 3}}}).rgb());
   // What is no curve is the same as of something that reflects.
   EXPECT_EQ(SpectralValue::material_constant(Rgb{0.2, 0.5, 0.7}).at(four),
             SpectralValue::reflectance(Rgb{0.2, 0.5, 0.7}).at(four));

@@ -10,8 +10,8 @@ using namespace test;
 
 const std::string hidden = set("visible", false);
 std::string lamp(const std::string& more) {
-  return R"(<emitter type="area"><rgb name="radiance" value="4"/>)" + set("two_sided", true) + more +
-         "</emitter>";
+  return R"(<emitter type="area"><rgb name="radiance" value="4"/>)" + set("two_sided", true) +
+         more + "</emitter>";
 }
 /// Between the camera and a wall, large enough to fill the picture.
 std::string lamp_before_wall(const std::string& more) {
@@ -38,14 +38,14 @@ TEST(HiddenLamps, AreLookedThroughByEveryMethod) {
     expect_equal_means(integrator, passes.mean({""}), by_path);
   }
   for (const char* integrator : {"vcm", "auto"})
-    expect_near_means(integrator, render(scene, integrator, "", {200, 3}).mean({""}), by_path, 0.01);
+    expect_near_means(integrator, render(scene, integrator, "", {200, 3}).mean({""}), by_path,
+                      0.01);
 }
 
 /// The same patch of the wall, seen from before the lamp and through it.
 TEST(HiddenLamps, ChangeNothingOfWhatIsBehindThem) {
-  const TestScene through(
-      camera("0, 0, 1.1", "0, 0, 0", 20 * 0.9 / 1.1, 8, "0, 1, 0") +
-      lamp_before_wall(hidden).substr(lamp_before_wall(hidden).find("<shape")));
+  const TestScene through(camera("0, 0, 1.1", "0, 0, 0", 20 * 0.9 / 1.1, 8, "0, 1, 0") +
+                          lamp_before_wall(hidden).substr(lamp_before_wall(hidden).find("<shape")));
   const TestScene before(wall_before_lamp());
   expect_equal_means("direct light",
                      render(through, "path", set("max_depth", 2), {400, 5}).mean({"direct"}),
@@ -54,7 +54,8 @@ TEST(HiddenLamps, ChangeNothingOfWhatIsBehindThem) {
 
 TEST(HiddenLamps, AreSeenInMirrorsAndThroughGlass) {
   const std::string mirrored =
-      camera("0, 0, 2", "0, 0, 0", 10, 8, "0, 1, 0") + flat("rectangle", scale("4, 4, 1"), mirror()) +
+      camera("0, 0, 2", "0, 0, 0", 10, 8, "0, 1, 0") +
+      flat("rectangle", scale("4, 4, 1"), mirror()) +
       flat("rectangle", scale("9, 9, 1") + translate("0, 0, 3"), lamp(hidden) + diffuse("0"));
   EXPECT_NEAR(render(TestScene(mirrored), "path", "", {4, 1}).mean({""}).mean(), 4, 1e-3);
   const std::string glazed =
@@ -102,12 +103,11 @@ TEST(HiddenLamps, MayBeAllByTheIntegrator) {
     return render(scene, "path", set("max_depth", 1), {4, 1}).mean({"emission"}).mean();
   };
   EXPECT_NEAR(emission(""), 4, 1e-5);
-  EXPECT_NEAR(emission("<integrator type=\"path\">" + set("hide_emitters", false) +
-                       "</integrator>"),
-              4, 1e-5);
-  EXPECT_EQ(emission("<integrator type=\"volpath\">" + set("hide_emitters", true) +
-                     "</integrator>"),
-            0);
+  EXPECT_NEAR(
+      emission("<integrator type=\"path\">" + set("hide_emitters", false) + "</integrator>"), 4,
+      1e-5);
+  EXPECT_EQ(
+      emission("<integrator type=\"volpath\">" + set("hide_emitters", true) + "</integrator>"), 0);
   EXPECT_EQ(emission("<integrator type=\"aov\"><integrator type=\"path\">" +
                      set("hide_emitters", true) + "</integrator></integrator>"),
             0);

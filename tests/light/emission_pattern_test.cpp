@@ -202,8 +202,7 @@ TEST(EmissionPattern, PointsFollowTheirDensity) {
   for (const PatternedShape& test : shapes_with_tables())
     for (const bool two_sided : {false, true}) {
       SCOPED_TRACE(test.name);
-      const auto light =
-          make_patterned(test.shape, 1, two_sided, std::make_shared<BrightCorner>());
+      const auto light = make_patterned(test.shape, 1, two_sided, std::make_shared<BrightCorner>());
       constexpr int side = 16, fine = 32, count = 400'000 / sample_share;
       std::vector<double> observed(side * side), expected(side * side);
       Random random(13);
@@ -223,8 +222,7 @@ TEST(EmissionPattern, PointsFollowTheirDensity) {
         for (int x = 0; x < side * fine; ++x) {
           const Vec2f u((float(x) + 0.5f) / (side * fine), (float(y) + 0.5f) / (side * fine));
           expected[size_t(y / fine * side + x / fine)] +=
-              weight *
-              double(light->emission_pdf_position(test.shape->sample_area(u).point));
+              weight * double(light->emission_pdf_position(test.shape->sample_area(u).point));
         }
       EXPECT_GT(chi_square_p_value(observed, expected), failure_level);
       for (size_t i = 0; i < expected.size(); ++i) expected[i] *= i % side < side / 2 ? 1.03 : 0.97;
@@ -270,9 +268,9 @@ TEST(EmissionPattern, IsSampledWhereItIsBright) {
     RunningStatistics by_pattern, by_geometry;
     for (int i = 0; i < 200'000 / sample_share; ++i) {
       const LightSample s = light->sample_toward(query, random.next_2d());
-      by_pattern.add(s.pdf_solid_angle > 0 ? s.radiance[0] * std::max(0.0f, s.direction.z) /
-                                                 s.pdf_solid_angle
-                                           : 0.0f);
+      by_pattern.add(s.pdf_solid_angle > 0
+                         ? s.radiance[0] * std::max(0.0f, s.direction.z) / s.pdf_solid_angle
+                         : 0.0f);
       float pdf = 0;
       const ShapeSample g = test.shape->sample_toward(query.reference, random.next_2d(), pdf);
       const Vec3f way = normalize(g.point.position - query.reference);

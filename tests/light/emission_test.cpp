@@ -47,8 +47,8 @@ std::vector<LightCase> every_light() {
   cases.push_back({"spot without falloff", spot(60, 20, "none")});
   cases.push_back({"spot with a slide", spot(40, 10, "linear", fields_pattern())});
   cases.push_back({"narrow spot with a slide", spot(1, 1, "linear", fields_pattern())});
-  cases.push_back(
-      {"projector", make_light("projector", {{"irradiance", colored, {}}, {"to_world", aimed, {}}})});
+  cases.push_back({"projector", make_light("projector", {{"irradiance", colored, {}},
+                                                         {"to_world", aimed, {}}})});
   cases.push_back({"projector with a picture",
                    make_light("projector", {{"fov", Value(80.0), {}}, {"to_world", aimed, {}}},
                               nullptr, test_bounds(), fields_pattern())});

@@ -32,7 +32,8 @@ std::unique_ptr<Light> make_thrown(const std::string& type, std::vector<Property
   return make_light(type, properties, nullptr, test_bounds(), std::move(picture));
 }
 
-/// Irradiance on the plane across the axis at the distance `depth`, at x and y of the light's space.
+/// Irradiance on the plane across the axis at the distance `depth`, at x and y of the light's
+/// space.
 double on_plane(const Light& light, const Vec3f& at, int lane = 0) {
   const LightSample s = light.sample_toward(LightQuery(at, {0, 0, -1}), {0.5f, 0.5f});
   return s.pdf_solid_angle > 0 ? double(s.radiance[lane]) * -double(s.direction.z) : 0;
@@ -85,8 +86,8 @@ TEST(Projector, LightsAPlaneEvenly) {
       for (const float depth : {1.0f, 3.0f}) {
         const Vec3f at(float(x * half) * depth, float(y * half) * depth, depth);
         for (int lane = 0; lane < 3; ++lane)
-          EXPECT_NEAR(on_plane(*light, at, lane), 0.5 * (lane + 1) * std::numbers::pi / depth / depth,
-                      1e-5);
+          EXPECT_NEAR(on_plane(*light, at, lane),
+                      0.5 * (lane + 1) * std::numbers::pi / depth / depth, 1e-5);
       }
   EXPECT_EQ(on_plane(*light, {float(1.01 * half), 0, 1}), 0);
   EXPECT_EQ(on_plane(*light, {0, float(-1.01 * half), 1}), 0);
@@ -96,8 +97,8 @@ TEST(Projector, LightsAPlaneEvenly) {
 
 /// By emitted rays: what falls on each part of a plane, W/m², with its error.
 TEST(Projector, EmitsWhatLightsThePlane) {
-  const auto light = make_thrown("projector", {{"fov", Value(70.0), {}}},
-                                 std::make_shared<Quarters>(1.5f));
+  const auto light =
+      make_thrown("projector", {{"fov", Value(70.0), {}}}, std::make_shared<Quarters>(1.5f));
   const double half_x = std::tan(35 * std::numbers::pi / 180), half_y = half_x / 1.5;
   constexpr int side = 4;
   std::vector<RunningStatistics> parts(side * side);
@@ -120,7 +121,8 @@ TEST(Projector, EmitsWhatLightsThePlane) {
       const RunningStatistics& found = parts[size_t(row * side + column)];
       EXPECT_GT(z_test_p_value(found, std::numbers::pi * value * area), failure_level)
           << row << ", " << column << ": " << found.mean() << " ± " << found.standard_error();
-      if (value > 1) expect_twin_fails(z_test_p_value(found, 1.05 * std::numbers::pi * value * area));
+      if (value > 1)
+        expect_twin_fails(z_test_p_value(found, 1.05 * std::numbers::pi * value * area));
     }
   const double power = std::numbers::pi * Quarters::mean * 4 * half_x * half_y;
   EXPECT_NEAR(light->traits().power[0], power, 1e-3 * power);
@@ -129,8 +131,8 @@ TEST(Projector, EmitsWhatLightsThePlane) {
 /// The upper right quarter of the picture as a camera at the same place would see it.
 TEST(Projector, ThrowsThePictureUpright) {
   const Transform to_world = Transform::look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0});
-  const auto light = make_thrown("projector", {{"to_world", Value(to_world), {}}},
-                                 std::make_shared<Quarters>());
+  const auto light =
+      make_thrown("projector", {{"to_world", Value(to_world), {}}}, std::make_shared<Quarters>());
   const auto at = [&](float x, float y) {
     return light->sample_toward(Vec3f(x, y, 0), {0, 0}).radiance[0];
   };
@@ -189,8 +191,7 @@ TEST(SpotLight, ThrowsATextureAlongItsCone) {
     for (const double v : {0.2, 0.45, 0.55, 0.8}) {
       const Vec3f direction =
           normalize(Vec3f(float((2 * u - 1) * t), float((2 * v - 1) * t), 1.0f));
-      EXPECT_FLOAT_EQ(light->emitted({}, direction, {})[0],
-                      2 * Quarters::of({float(u), float(v)}));
+      EXPECT_FLOAT_EQ(light->emitted({}, direction, {})[0], 2 * Quarters::of({float(u), float(v)}));
     }
   EXPECT_TRUE(light->emitted({}, normalize(Vec3f(float(1.01 * t), 0, 1)), {}).is_zero());
   // The mean over the quarters of the cone: each is a quarter of it.
@@ -200,8 +201,8 @@ TEST(SpotLight, ThrowsATextureAlongItsCone) {
 }
 
 TEST(SpotLight, MayBeTinted) {
-  const auto light = make_light("spot", {{"intensity", Value(2.0), {}},
-                                         {"texture", Value(Rgb{0.1, 0.5, 1}), {}}});
+  const auto light =
+      make_light("spot", {{"intensity", Value(2.0), {}}, {"texture", Value(Rgb{0.1, 0.5, 1}), {}}});
   const Spectrum seen = light->emitted({}, {0, 0, 1}, {});
   EXPECT_FLOAT_EQ(seen[0], 0.2f);
   EXPECT_FLOAT_EQ(seen[1], 1);

@@ -55,7 +55,8 @@ TEST(MitsubaValues, Spectra) {
   EXPECT_EQ(curve, (SpectralCurve{{{400, 0.1}, {500.5, 0.2}, {700, 3}}}));
 }
 
-/// A number stands for light of equal energy in files of version 2 and later, for white light before.
+/// A number stands for light of equal energy in files of version 2 and later, for white light
+/// before.
 TEST(MitsubaValues, SpectraOfLamps) {
   const std::string lamp = "<emitter type='point'><spectrum name='intensity' value='2'/></emitter>";
   EXPECT_EQ(value<SpectralCurve>(*parse_inside(lamp).scene->children[0].object, "intensity"),
@@ -98,8 +99,9 @@ TEST(MitsubaValues, OldSkies) {
   const Transform turned = value<Transform>(*sky("sunsky", upright), "to_world");
   EXPECT_NEAR(turned.vector({0, 0, 1}).z, 1, 1e-6);
   EXPECT_NEAR(turned.vector({1, 0, 0}).y, -1, 1e-6);
-  const auto scaled = sky("sunsky", "<float name='scale' value='2'/><float name='sunScale' "
-                                    "value='3'/><float name='sunRadiusScale' value='10'/>");
+  const auto scaled = sky("sunsky",
+                          "<float name='scale' value='2'/><float name='sunScale' "
+                          "value='3'/><float name='sunRadiusScale' value='10'/>");
   EXPECT_EQ(value<double>(*scaled, "sun_scale"), 6.0);
   EXPECT_EQ(value<double>(*scaled, "sky_scale"), 2.0);
   EXPECT_NEAR(value<double>(*scaled, "sun_aperture"), 5.358, 1e-9);

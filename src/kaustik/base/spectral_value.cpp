@@ -83,14 +83,16 @@ SpectralFunctionPointer blackbody(double kelvin) { return std::make_shared<Black
 
 SpectralValue SpectralValue::reflectance(const std::variant<Rgb, SpectralCurve>& color) {
   const Spectrum rgb = reflectance_spectrum(color);
-  if (const auto* curve = std::get_if<SpectralCurve>(&color)) return {rgb, tabulated_within(*curve)};
+  if (const auto* curve = std::get_if<SpectralCurve>(&color))
+    return {rgb, tabulated_within(*curve)};
   if (is_grey(std::get<Rgb>(color))) return SpectralValue(rgb[0]).with_rgb(rgb);
   return {rgb, by_lanes(rgb, lanes_from_reflectance)};
 }
 
 SpectralValue SpectralValue::emission(const std::variant<Rgb, SpectralCurve>& color) {
   const Spectrum rgb = emission_spectrum(color);
-  if (const auto* curve = std::get_if<SpectralCurve>(&color)) return {rgb, tabulated_within(*curve)};
+  if (const auto* curve = std::get_if<SpectralCurve>(&color))
+    return {rgb, tabulated_within(*curve)};
   return rgb.is_zero() ? SpectralValue() : SpectralValue(rgb, by_lanes(rgb, lanes_from_emission));
 }
 

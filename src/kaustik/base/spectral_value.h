@@ -41,8 +41,8 @@ class SpectralValue {
   static SpectralValue reflectance(const std::variant<Rgb, SpectralCurve>& color);
   /// The same for something that emits: a curve as it is, a colour by lanes_from_emission.
   static SpectralValue emission(const std::variant<Rgb, SpectralCurve>& color);
-  /// The same for an index of refraction, an extinction and the like: as of something that reflects,
-  /// but a curve stays as it is beyond its ends.
+  /// The same for an index of refraction, an extinction and the like: as of something that
+  /// reflects, but a curve stays as it is beyond its ends.
   static SpectralValue material_constant(const std::variant<Rgb, SpectralCurve>& color);
   /// A function of emission; its RGB lanes are those of rgb_from_emission.
   static SpectralValue emission(const SpectralFunctionPointer& function);

@@ -53,7 +53,9 @@ class Disk : public Shape {
 
   std::optional<Vec2f> area_coordinates(const SurfacePoint& point) const override {
     const Vec3d from_center = Vec3d(point.position) - center_;
-    return disk_to_square({float(from_center.dot(dual_s_)), float(from_center.dot(dual_t_))});
+    const Vec2f u =
+        disk_to_square({float(from_center.dot(dual_s_)), float(from_center.dot(dual_t_))});
+    return Vec2f(std::clamp(u.x, 0.0f, 1.0f), std::clamp(u.y, 0.0f, 1.0f));
   }
 
   /// From nearby a direction to the square about the disk, whose corners are no light.

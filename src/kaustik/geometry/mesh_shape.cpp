@@ -96,8 +96,8 @@ std::optional<Vec2f> MeshShape::area_coordinates(const SurfacePoint& point) cons
   std::call_once(distribution_once_, [this] { build_distribution(); });
   const auto& corner = mesh_.triangles[point.primitive];
   const Vec3d p0(mesh_.positions[corner[0]]);
-  const Vec3d a = Vec3d(mesh_.positions[corner[1]]) - p0, b = Vec3d(mesh_.positions[corner[2]]) - p0,
-              p = Vec3d(point.position) - p0;
+  const Vec3d a = Vec3d(mesh_.positions[corner[1]]) - p0,
+              b = Vec3d(mesh_.positions[corner[2]]) - p0, p = Vec3d(point.position) - p0;
   const Vec3d normal = a.cross(b);
   const double normal_sq = normal.length2();
   if (!(normal_sq > 0)) return std::nullopt;

@@ -72,8 +72,8 @@ class AreaLight final : public PlacedLight {
     if (!traits_.is_two_sided && !(dot(point.ng, point.position - query.reference) < 0)) return 0;
     const float by_geometry = pdf_by_geometry(query, point);
     if (!points_) return by_geometry;
-    return 0.5f * (by_geometry +
-                   solid_angle_density(query.reference, point, points_->pdf_area(point)));
+    return 0.5f *
+           (by_geometry + solid_angle_density(query.reference, point, points_->pdf_area(point)));
   }
 
   Spectrum emitted(const SurfacePoint& point, const Vec3f& direction,

@@ -97,8 +97,8 @@ std::unique_ptr<Light> create_projector(const LightInputs& inputs) {
   const Vec3f position = to_world.point({0, 0, 0});
   const Vec2f half = tan_half_fov(arguments, inputs.pattern ? double(inputs.pattern->aspect()) : 1);
   const auto scale = float(arguments.number("scale"));
-  const SpectralValue irradiance = inputs.pattern ? SpectralValue(scale)
-                                                  : emission_argument(inputs, "irradiance") * scale;
+  const SpectralValue irradiance =
+      inputs.pattern ? SpectralValue(scale) : emission_argument(inputs, "irradiance") * scale;
   // As in the picture of a camera +x is to the left and +y up; uv begin in the upper left corner.
   auto slide = std::make_unique<Slide>(inputs.pattern, Vec2f(-half.x, -half.y),
                                        Slide::Outline::rectangle, Projector::factor);

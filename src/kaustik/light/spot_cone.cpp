@@ -49,8 +49,7 @@ SpotCone::SpotCone(double cutoff, double beam, SpotFalloff falloff)
 EmissionBall SpotCone::emission_ball(const Bounds3f& position, const Vec3f& axis,
                                      double intensity) const {
   const double width = inv_transition_ > 0 ? 1.0 / double(inv_transition_) : 0.0;
-  const bool ramp =
-      kind_ == SpotFalloff::linear && width >= least_ramp && width <= most_ramp;
+  const bool ramp = kind_ == SpotFalloff::linear && width >= least_ramp && width <= most_ramp;
   EmissionCone cone{axis, double(cutoff_), 0};
   if (ramp) cone = {axis, double(cutoff_) - width, width};
   EmissionBall ball(position, cone, intensity);

@@ -64,8 +64,8 @@ class SpotLight final : public PlacedLight {
       // Beside an edge of the table rounding may lead to another cell, for whoever asks later, too.
       result.pdf_direction = slide_->pdf(frame_.to_local(result.direction));
       if (result.pdf_direction > 0)
-        result.flux = emitted(result.point, result.direction, wavelengths) *
-                      (1.0f / result.pdf_direction);
+        result.flux =
+            emitted(result.point, result.direction, wavelengths) * (1.0f / result.pdf_direction);
       return result;
     }
     const Vec3f local = cone_.sample(u_direction);
@@ -130,8 +130,7 @@ std::unique_ptr<Light> create_spot(const LightInputs& inputs) {
   const Vec3f position = to_world.point({0, 0, 0});
   const SpotCone cone = spot_cone_argument(inputs.arguments);
   std::unique_ptr<const Slide> slide = slide_of(inputs, cone);
-  const Frame frame =
-      slide ? axes_of(to_world) : Frame(normalize(to_world.vector({0, 0, 1})));
+  const Frame frame = slide ? axes_of(to_world) : Frame(normalize(to_world.vector({0, 0, 1})));
   return with_finite_power(
       std::make_unique<SpotLight>(intensity_of(inputs), position, frame, cone, std::move(slide),
                                   ClassicalAttenuation(inputs.arguments, position)),

@@ -55,8 +55,8 @@ Value Reader::light_of(const Value& spectrum, const Source& source) {
   // Since 2.0 the same at every wavelength, which is no white but pink; before, daylight.
   const auto* number = std::get_if<double>(&spectrum);
   if (!number || !(*number > 0) || source.version < Version{2, 0, 0}) return spectrum;
-  return SpectralCurve{{{double(Wavelengths::first_nm), *number},
-                        {double(Wavelengths::last_nm), *number}}};
+  return SpectralCurve{
+      {{double(Wavelengths::first_nm), *number}, {double(Wavelengths::last_nm), *number}}};
 }
 
 /// Mitsuba 0.6 has an element for what is now a spectrum of this type.

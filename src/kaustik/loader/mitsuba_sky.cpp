@@ -35,8 +35,8 @@ void multiply(Object& object, const std::string& name, const Property& factor) {
 }
 
 /// The space of a sky of 0.6 from that of one of today, whose +z is the zenith, +x south and +y
-/// west. It mirrors: seen from above, today's south, west and north follow one another the wrong way
-/// round, as in Mitsuba 3.
+/// west. It mirrors: seen from above, today's south, west and north follow one another the wrong
+/// way round, as in Mitsuba 3.
 Transform old_from_new() {
   const double rows[4][4] = {{0, -1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {0, 0, 0, 1}};
   return Transform(rows);

@@ -42,11 +42,11 @@ bool says_to_hide_emitters(const Object& integrator, std::set<const Object*>& vi
     const auto* typed = std::get_if<Untyped>(&property.value);
     if ((given && *given) || (typed && typed->text == "true")) return true;
   }
-  return std::any_of(
-      integrator.children.begin(), integrator.children.end(), [&](const Child& child) {
-        return child.object->family == "integrator" &&
-               says_to_hide_emitters(*child.object, visited);
-      });
+  return std::any_of(integrator.children.begin(), integrator.children.end(),
+                     [&](const Child& child) {
+                       return child.object->family == "integrator" &&
+                              says_to_hide_emitters(*child.object, visited);
+                     });
 }
 
 /// Whether the scene's integrator says so; integrators of shapes do not count.

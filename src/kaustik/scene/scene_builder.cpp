@@ -40,8 +40,8 @@ const Parameter* texture_parameter(const TypeInfo& info, const std::string& name
     only = &row;
     ++count;
   }
-  const bool is_free = count == 1 && std::holds_alternative<std::monostate>(only->default_value) &&
-                       !info.find(name);
+  const bool is_free =
+      count == 1 && std::holds_alternative<std::monostate>(only->default_value) && !info.find(name);
   return is_free ? only : nullptr;
 }
 
@@ -110,8 +110,7 @@ const std::optional<Value>& SceneBuilder::value_of_spectrum(const Object& spectr
   const SpectrumType& type = *spectrum_type_of(spectrum);
   refuse_children(spectrum, {});
   const Arguments arguments = arguments_of(type.info, spectrum);
-  if (arguments.is_complete())
-    collecting(spectrum.place, [&] { value = type.value(arguments); });
+  if (arguments.is_complete()) collecting(spectrum.place, [&] { value = type.value(arguments); });
   return value;
 }
 
@@ -129,8 +128,7 @@ std::vector<Property> SceneBuilder::properties_of(const TypeInfo& info, const Ob
 
 Arguments SceneBuilder::arguments_of(const TypeInfo& info, const Object& object) {
   const std::vector<Property> properties = properties_of(info, object);
-  Arguments arguments(info,
-                      is_strict_ ? properties : unknown_.without_unknown(info, properties),
+  Arguments arguments(info, is_strict_ ? properties : unknown_.without_unknown(info, properties),
                       object.place, problems_);
   for (const std::string& name : arguments.ignored())
     if (ignored_reported_.insert(info.family + "." + name).second)

@@ -185,12 +185,11 @@ Value value_of_color(const Arguments& arguments, const char* name) {
 Value value_of_srgb(const Arguments& arguments) { return value_of_color(arguments, "color"); }
 
 const TypeInfo& srgb_info() {
-  static const TypeInfo info{
-      "texture",
-      "srgb",
-      "A linear Rec. 709 colour.",
-      {required(color_parameter("color", 1, "The colour.")),
-       ignored_parameter("unbounded", ParameterKind::boolean)}};
+  static const TypeInfo info{"texture",
+                             "srgb",
+                             "A linear Rec. 709 colour.",
+                             {required(color_parameter("color", 1, "The colour.")),
+                              ignored_parameter("unbounded", ParameterKind::boolean)}};
   return info;
 }
 
@@ -199,11 +198,10 @@ Value value_of_rawconstant(const Arguments& arguments) {
 }
 
 const TypeInfo& rawconstant_info() {
-  static const TypeInfo info{
-      "texture",
-      "rawconstant",
-      "One number or three, taken as they are.",
-      {required(color_parameter("value", 1, "The number, or a vector."))}};
+  static const TypeInfo info{"texture",
+                             "rawconstant",
+                             "One number or three, taken as they are.",
+                             {required(color_parameter("value", 1, "The number, or a vector."))}};
   return info;
 }
 
@@ -219,9 +217,9 @@ const std::shared_ptr<Object>* find_texture(const Object& object) {
 
 const std::vector<SpectrumType>& spectrum_types() {
   static const std::vector<SpectrumType> types = {
-      {blackbody_info(), value_of_blackbody},     {d65_info(), value_of_d65},
-      {irregular_info(), value_of_irregular},     {rawconstant_info(), value_of_rawconstant},
-      {regular_info(), value_of_regular},         {srgb_info(), value_of_srgb},
+      {blackbody_info(), value_of_blackbody}, {d65_info(), value_of_d65},
+      {irregular_info(), value_of_irregular}, {rawconstant_info(), value_of_rawconstant},
+      {regular_info(), value_of_regular},     {srgb_info(), value_of_srgb},
       {uniform_info(), value_of_uniform}};
   return types;
 }

@@ -17,11 +17,12 @@ struct SpectrumType {
 /// "blackbody", "d65", "irregular", "rawconstant", "regular", "srgb", "uniform".
 const std::vector<SpectrumType>& spectrum_types();
 
-/// The row of a spectrum; null for other objects, and for a `d65` that stands for the texture in it.
+/// The row of a spectrum; null for other objects, and for a `d65` that stands for the texture in
+/// it.
 const SpectrumType* spectrum_type_of(const Object& object);
 
-/// The texture in a `d65`, or the object itself: light of the colours of a texture is what a texture
-/// means on a lamp anyway.
+/// The texture in a `d65`, or the object itself: light of the colours of a texture is what a
+/// texture means on a lamp anyway.
 const std::shared_ptr<Object>& texture_within(const std::shared_ptr<Object>& object);
 
 /// The properties as the table of a spectrum takes them: a vector may stand for a colour.

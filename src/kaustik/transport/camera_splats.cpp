@@ -24,11 +24,11 @@ void CameraSplats::add(Component component, const Spectrum& value, Sight& sight)
   if (value.is_zero()) return;
   if (!sight.visible) {
     const Ray ray = spawn_ray_to(sight.from, sight.connection.lens);
-    sight.visible = wants_irradiance()
-                        ? Spectrum(is_unobstructed(scene_, ray, rays_, ShadowRayTo::camera) ? pi
-                                                                                            : 0.0f)
-                        : shadow_ray_transmittance(scene_, ray, sight.medium, sight.of, rays_,
-                                                   ShadowRayTo::camera);
+    sight.visible =
+        wants_irradiance()
+            ? Spectrum(is_unobstructed(scene_, ray, rays_, ShadowRayTo::camera) ? pi : 0.0f)
+            : shadow_ray_transmittance(scene_, ray, sight.medium, sight.of, rays_,
+                                       ShadowRayTo::camera);
     if (!sight.visible->is_zero()) ++shown_;
   }
   if (!sight.visible->is_zero())
