@@ -221,6 +221,12 @@ TEST(Spectra, WhatIsWrong) {
                  "cannot hold a texture");
 }
 
+TEST(Lights, ThatComeLaterTellWhatWillDoInstead) {
+  expect_problem(any_camera + std::string("<shape type=\"disk\">\n"
+                                          "<emitter type=\"directionalarea\"/></shape>"),
+                 "3:1", "'directionalarea' comes later", "'spot'");
+}
+
 /// Each holds the one before twice: looked at once each.
 TEST(Spectra, NestedManyTimesAreLookedAtOnce) {
   auto inner = std::make_shared<Object>(Object{"texture", "d65", "", {}, {}, {}});

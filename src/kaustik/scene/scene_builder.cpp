@@ -55,6 +55,17 @@ const Parameter* spectrum_parameter(const TypeInfo& info, const std::string& nam
   return texture_parameter(info, name);
 }
 
+/// What will do in place of a light of Mitsuba that is not here yet; empty for all others.
+const std::string& instead_of_light(const std::string& type) {
+  static const std::string nothing;
+  static const std::map<std::string, std::string> remedies = {
+      {"directionalarea", "use a 'spot' with a small 'cutoff_angle', or a 'directional' light"},
+      {"collimated", "use a 'spot' with a small 'cutoff_angle'"},
+      {"timed_sunsky", "use 'sunsky' with the hour that matters most"}};
+  const auto found = remedies.find(type);
+  return found == remedies.end() ? nothing : found->second;
+}
+
 /// Refuses what floats cannot carry through ray tracing; `what` is the subject of the message.
 void check_extent(const Bounds3f& bounds, const std::string& what, const Place& place) {
   if (bounds.isEmpty()) return;
@@ -462,7 +473,12 @@ void SceneBuilder::make_lights() {
   for (const PendingLight& pending : pending_lights_) {
     const LightType* type = find_row(light_types(), pending.object->type);
     if (!type) {
-      unknown_type(*pending.object, names_of(light_types()));
+      const std::string& instead = instead_of_light(pending.object->type);
+      if (instead.empty())
+        unknown_type(*pending.object, names_of(light_types()));
+      else
+        problems_.add(fmt::format("emitter '{}' comes later", pending.object->type), instead,
+                      pending.object->place);
       continue;
     }
     std::vector<std::string> families = {"medium"};
