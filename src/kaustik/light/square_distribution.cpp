@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kaustik/base/warp.h"
-
 namespace kaustik {
 namespace {
 

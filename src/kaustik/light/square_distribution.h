@@ -18,8 +18,7 @@ class SquareDistribution {
     float density;
     return sample(u, density);
   }
-  /// With the density that it was drawn with, by which it can be told from its neighbours beyond an
-  /// edge of its cell.
+  /// With the density that it was drawn with: at an edge of its cell pdf() may be a neighbour's.
   Vec2f sample(const Vec2f& u, float& density) const;
   /// 0 outside of the square.
   float pdf(const Vec2f& p) const;
