@@ -8,6 +8,7 @@
 #include "kaustik/base/vec.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/scene/camera.h"
+#include "kaustik/scene/spectrum_types.h"
 #include "tests/fuzz/parameter_values.h"
 #include "tests/support/serialized_file.h"
 
@@ -104,6 +105,8 @@ class Grammar {
       if (!p.required && !only_texture && !costly && !needed && !draw_.chance(0.3)) continue;
       if (p.accepts_texture && (only_texture || draw_.chance(0.3)))
         result += texture(p.name);
+      else if (p.kind == ParameterKind::color && draw_.chance(0.1))
+        result += spectrum(p.name);
       else
         result += values_.property(info, p);
     }
@@ -112,6 +115,11 @@ class Grammar {
 
   std::string texture(const std::string& name) {
     const TypeInfo& info = draw_.one_of(texture_types()).info;
+    return open(info, name) + properties(info) + close(info);
+  }
+
+  std::string spectrum(const std::string& name) {
+    const TypeInfo& info = draw_.one_of(spectrum_types()).info;
     return open(info, name) + properties(info) + close(info);
   }
 
@@ -168,7 +176,9 @@ class Grammar {
           rows_that(integrator_types(), [](const IntegratorType& type) { return type.is_model; });
       const TypeInfo& model = draw_.one_of(models)->info;
       // These are the whole picture's.
-      result += open(model) + properties(model, {"components", "samples_per_pass"}) + close(model);
+      result += open(model) +
+                properties(model, {"components", "samples_per_pass", "hide_emitters"}) +
+                close(model);
     }
     return result + close(info);
   }

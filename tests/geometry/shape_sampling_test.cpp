@@ -74,6 +74,32 @@ double uniformity(const Shape& shape, float tilt) {
   return chi_square_p_value(observed, expected);
 }
 
+/// The numbers that a point was drawn by; those that the shape tells draw it again.
+TEST(ShapeSampling, TellsTheNumbersOfItsPoints) {
+  for (const SamplingCase& c : sampling_cases()) {
+    SCOPED_TRACE(c.name);
+    Random random(5);
+    for (int i = 0; i < 2000; ++i) {
+      const Vec2f u = random.square();
+      const SurfacePoint point = c.shape->sample_area(u).point;
+      const auto found = c.shape->area_coordinates(point);
+      if (std::string(c.name) == "cylinder") {
+        EXPECT_FALSE(found);
+        break;
+      }
+      ASSERT_TRUE(found);
+      ASSERT_TRUE(found->x >= 0 && found->x <= 1 && found->y >= 0 && found->y <= 1);
+      const Vec2f inside(std::min(found->x, one_minus_epsilon),
+                         std::min(found->y, one_minus_epsilon));
+      const float size = length(c.shape->bounds().max - c.shape->bounds().min);
+      ASSERT_LT(length(c.shape->sample_area(inside).point.position - point.position), 2e-3f * size);
+      // A mesh of many triangles has them all within a small part of its square.
+      if (c.shape->mesh() && c.shape->mesh()->triangles.size() > 12) continue;
+      ASSERT_NEAR(found->x, u.x, 2e-4);
+    }
+  }
+}
+
 TEST(ShapeSampling, UniformByArea) {
   for (const SamplingCase& c : sampling_cases()) EXPECT_GT(uniformity(*c.shape, 0), 1e-4) << c.name;
 }

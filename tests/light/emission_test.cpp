@@ -17,12 +17,16 @@ struct LightCase {
 
 std::vector<LightCase> every_light() {
   const Value white(2.0), colored(Rgb{1, 2, 0.5});
-  const auto spot = [&](double cutoff, double beam) {
-    return make_light(
-        "spot", {{"intensity", white, {}},
-                 {"cutoff_angle", Value(cutoff), {}},
-                 {"beam_width", Value(beam), {}},
-                 {"to_world", Value(Transform::look_at({1, 1, 1}, {3, 2, 0}, {0, 0, 1})), {}}});
+  const Value aimed(Transform::look_at({1, 1, 1}, {3, 2, 0}, {0, 0, 1}));
+  const auto spot = [&](double cutoff, double beam, const std::string& falloff = "linear",
+                        std::shared_ptr<const EmissionPattern> slide = nullptr) {
+    return make_light("spot",
+                      {{"intensity", white, {}},
+                       {"cutoff_angle", Value(cutoff), {}},
+                       {"beam_width", Value(beam), {}},
+                       {"falloff", Value(falloff), {}},
+                       {"to_world", aimed, {}}},
+                      nullptr, test_bounds(), std::move(slide));
   };
   const Vec3f tilted = normalize(Vec3f(1, -2, 0.5f));
   std::vector<LightCase> cases;
@@ -38,6 +42,16 @@ std::vector<LightCase> every_light() {
   cases.push_back({"soft spot", spot(60, 0)});
   cases.push_back({"wide spot", spot(150, 30)});
   cases.push_back({"narrow spot", spot(0.5, 0.2)});
+  cases.push_back({"smooth spot", spot(60, 20, "smooth")});
+  cases.push_back({"square spot", spot(60, 20, "square")});
+  cases.push_back({"spot without falloff", spot(60, 20, "none")});
+  cases.push_back({"spot with a slide", spot(40, 10, "linear", fields_pattern())});
+  cases.push_back({"narrow spot with a slide", spot(1, 1, "linear", fields_pattern())});
+  cases.push_back({"projector", make_light("projector", {{"irradiance", colored, {}},
+                                                         {"to_world", aimed, {}}})});
+  cases.push_back({"projector with a picture",
+                   make_light("projector", {{"fov", Value(80.0), {}}, {"to_world", aimed, {}}},
+                              nullptr, test_bounds(), fields_pattern())});
   cases.push_back(
       {"directional", make_light("directional", {{"irradiance", white, {}},
                                                  {"direction", Value(Vec3d(1, 2, -0.5)), {}}})});

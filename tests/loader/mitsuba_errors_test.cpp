@@ -35,11 +35,6 @@ TEST(MitsubaErrors, Elements) {
       {"<shape type='s'><path value='.'/></shape>", "2:17", "<path> in an object", "move"});
 }
 
-TEST(MitsubaErrors, ElementsOfMitsubaThatAreMissingAreErrors) {
-  expect_wrong({"<emitter type='point'><blackbody name='intensity' temperature='5000K'/></emitter>",
-                "2:23", "unknown element <blackbody>", ""});
-}
-
 // Other renderers write elements of their own: these are left out, with all that is in them.
 TEST(MitsubaErrors, ForeignElementsAreLeftOut) {
   const std::string text = in_scene(
@@ -109,6 +104,10 @@ TEST(MitsubaErrors, Colors) {
                 "increasing"});
   expect_wrong({"<spectrum name='x' value='-4:1'/>", "2:27", "wavelength -4 is not", "nanometres"});
   expect_wrong({"<spectrum name='x' value='400:a'/>", "2:27", "'a' is not a number", "0.5"});
+  expect_wrong({"<spectrum name='x' value='400:1'/>", "2:27", "of one wavelength", "360:0.5"});
+  expect_wrong({"<blackbody name='x'/>", "2:1", "<blackbody> lacks the attribute 'temperature'",
+                "temperature="});
+  expect_wrong({"<blackbody name='x' temperature='hot'/>", "2:34", "'hot' is not a number", "0.5"});
 }
 
 TEST(MitsubaErrors, Transforms) {

@@ -60,6 +60,61 @@ TEST(MitsubaValues, Spectra) {
   EXPECT_EQ(curve, (SpectralCurve{{{400, 0.1}, {500.5, 0.2}, {700, 3}}}));
 }
 
+/// A number stands for light of equal energy in files of version 2 and later, for white light
+/// before.
+TEST(MitsubaValues, SpectraOfLamps) {
+  const std::string lamp = "<emitter type='point'><spectrum name='intensity' value='2'/></emitter>";
+  EXPECT_EQ(value<SpectralCurve>(*parse_inside(lamp).scene->children[0].object, "intensity"),
+            (SpectralCurve{{{360, 2}, {830, 2}}}));
+  const auto old = [](const std::string& inside) {
+    return parse("<scene version='0.6.0'><emitter type='point'>" + inside + "</emitter></scene>")
+        .scene->children.at(0)
+        .object;
+  };
+  EXPECT_EQ(value<double>(*old("<spectrum name='intensity' value='2'/>"), "intensity"), 2.0);
+  EXPECT_EQ(value<Rgb>(*old("<spectrum name='intensity' value='1, 2, 3'/>"), "intensity"),
+            (Rgb{1, 2, 3}));
+  const auto hot = old("<blackbody name='intensity' temperature='4500K' scale='0.1'/>");
+  const Child& child = hot->children.at(0);
+  EXPECT_EQ(child.name, "intensity");
+  EXPECT_EQ(child.object->family, "texture");
+  EXPECT_EQ(child.object->type, "blackbody");
+  EXPECT_EQ(value<double>(*child.object, "temperature"), 4500.0);
+  EXPECT_EQ(value<double>(*child.object, "scale"), 0.1);
+}
+
+/// In 0.6 the zenith is +y, north −z, east +x.
+TEST(MitsubaValues, OldSkies) {
+  const auto sky = [](const std::string& type, const std::string& inside,
+                      const std::string& version = "0.6.0") {
+    return parse("<scene version='" + version + "'><emitter type='" + type + "'>" + inside +
+                 "</emitter></scene>")
+        .scene->children.at(0)
+        .object;
+  };
+  const auto expect_axes = [](const Transform& t, const Vec3f& south, const Vec3f& west,
+                              const Vec3f& zenith) {
+    EXPECT_EQ(t.vector({1, 0, 0}), south);
+    EXPECT_EQ(t.vector({0, 1, 0}), west);
+    EXPECT_EQ(t.vector({0, 0, 1}), zenith);
+  };
+  expect_axes(value<Transform>(*sky("sky", ""), "to_world"), {0, 0, 1}, {-1, 0, 0}, {0, 1, 0});
+  // A scene that has its zenith at +z turned the sky upright: y became z.
+  const std::string upright = "<transform name='toWorld'><rotate x='1' angle='90'/></transform>";
+  const Transform turned = value<Transform>(*sky("sunsky", upright), "to_world");
+  EXPECT_NEAR(turned.vector({0, 0, 1}).z, 1, 1e-6);
+  EXPECT_NEAR(turned.vector({1, 0, 0}).y, -1, 1e-6);
+  const auto scaled = sky("sunsky",
+                          "<float name='scale' value='2'/><float name='sunScale' "
+                          "value='3'/><float name='sunRadiusScale' value='10'/>");
+  EXPECT_EQ(value<double>(*scaled, "sun_scale"), 6.0);
+  EXPECT_EQ(value<double>(*scaled, "sky_scale"), 2.0);
+  EXPECT_NEAR(value<double>(*scaled, "sun_aperture"), 5.358, 1e-9);
+  EXPECT_EQ(value<double>(*sky("sky", "<float name='scale' value='2'/>"), "sky_scale"), 2.0);
+  EXPECT_TRUE(sky("sky", "", "2.0.0")->properties.empty());
+  EXPECT_TRUE(sky("constant", "")->properties.empty());
+}
+
 TEST(MitsubaValues, SpectrumFromFile) {
   const TemporaryFolder folder;
   folder.write("spectra/lamp.spd", "# nm  value\n400 0.25\r\n\n500\t0.5 # green\n600, 1");

@@ -91,6 +91,26 @@ ShapeSample MeshShape::sample_area(const Vec2f& u) const {
   return sample;
 }
 
+std::optional<Vec2f> MeshShape::area_coordinates(const SurfacePoint& point) const {
+  if (!(area_ > 0) || point.primitive >= mesh_.triangles.size()) return std::nullopt;
+  std::call_once(distribution_once_, [this] { build_distribution(); });
+  const auto& corner = mesh_.triangles[point.primitive];
+  const Vec3d p0(mesh_.positions[corner[0]]);
+  const Vec3d a = Vec3d(mesh_.positions[corner[1]]) - p0,
+              b = Vec3d(mesh_.positions[corner[2]]) - p0, p = Vec3d(point.position) - p0;
+  const Vec3d normal = a.cross(b);
+  const double normal_sq = normal.length2();
+  if (!(normal_sq > 0)) return std::nullopt;
+  // Barycentric coordinates of the second and the third corner.
+  const double b1 = std::max(0.0, p.cross(b).dot(normal) / normal_sq);
+  const double b2 = std::max(0.0, a.cross(p).dot(normal) / normal_sq);
+  const double sum = std::min(b1 + b2, 1.0);
+  const double before = point.primitive > 0 ? cumulative_area_[point.primitive - 1] : 0.0;
+  const double of_triangle = cumulative_area_[point.primitive] - before;
+  return Vec2f(float((before + sum * sum * of_triangle) / cumulative_area_.back()),
+               sum > 0 ? float(std::min(b2 / (b1 + b2), 1.0)) : 0.0f);
+}
+
 ShapeSample MeshShape::sample_toward(const Vec3f& reference, const Vec2f& u,
                                      float& pdf_solid_angle) const {
   // Of thousands of small lamps none is in a cache: fetched together instead of one by one.

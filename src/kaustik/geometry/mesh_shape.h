@@ -22,6 +22,7 @@ class MeshShape : public Shape {
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
   UvDerivatives uv_derivatives(const SurfacePoint& at) const override;
   ShapeSample sample_area(const Vec2f& u) const override;
+  std::optional<Vec2f> area_coordinates(const SurfacePoint& point) const override;
   /// A rectangle by its solid angle, where that is better.
   ShapeSample sample_toward(const Vec3f& reference, const Vec2f& u,
                             float& pdf_solid_angle) const override;

@@ -6,10 +6,6 @@
 
 namespace kaustik {
 
-/// Density per solid angle at `reference` of a density per area at `point`; zero where the surface
-/// is seen edge-on.
-float solid_angle_density(const Vec3f& reference, const SurfacePoint& point, float pdf_area);
-
 /// A sample by solid angle, with the density per area that it stands for.
 ShapeSample sample_of(const SurfacePoint& point, const Vec3f& reference, float pdf_solid_angle);
 

@@ -31,6 +31,7 @@ class Sphere : public Shape {
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
   UvDerivatives uv_derivatives(const SurfacePoint& at) const override;
   ShapeSample sample_area(const Vec2f& u) const override;
+  std::optional<Vec2f> area_coordinates(const SurfacePoint& point) const override;
   ShapeSample sample_toward(const Vec3f& reference, const Vec2f& u,
                             float& pdf_solid_angle) const override;
   float pdf_toward(const Vec3f& reference, const SurfacePoint& point) const override;
@@ -106,6 +107,12 @@ UvDerivatives Sphere::uv_derivatives(const SurfacePoint& at) const {
 
 ShapeSample Sphere::sample_area(const Vec2f& u) const {
   return {point_at(Vec3d(square_to_sphere(u)).normalized()), 1.0f / area()};
+}
+
+std::optional<Vec2f> Sphere::area_coordinates(const SurfacePoint& point) const {
+  const Vec3d unit = (Vec3d(point.position) - center_).normalized();
+  const double turn = std::atan2(unit.y, unit.x) / (2 * std::numbers::pi);
+  return Vec2f(float(0.5 * (1 - unit.z)), float(turn < 0 ? turn + 1 : turn));
 }
 
 double Sphere::one_minus_cos(double distance_sq) const {

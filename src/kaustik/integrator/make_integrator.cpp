@@ -28,7 +28,7 @@ const IntegratorType& type_of(const Object& object, const std::string& native, b
 
 /// What belongs to the picture cannot be said of one surface.
 void refuse_what_is_the_scenes(const Arguments& arguments, Problems& problems) {
-  for (const char* name : {"components", "samples_per_pass"})
+  for (const char* name : {"components", "samples_per_pass", "hide_emitters"})
     if (arguments.info().find(name) && arguments.given(name))
       problems.add(fmt::format("'{}' in the integrator of a single shape", name),
                    "give it to the scene's integrator: it holds for the whole picture",

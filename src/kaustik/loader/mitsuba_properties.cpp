@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
+#include "kaustik/base/wavelengths.h"
 #include "kaustik/loader/mitsuba_reader.h"
 #include "kaustik/loader/mitsuba_tags.h"
 #include "kaustik/loader/mitsuba_transform.h"
@@ -57,7 +59,40 @@ void Reader::read_property(const Element& element, Unfinished& parent, Source& s
       }
     }
     if (!take_name(parent, name, element.place)) return;
-    parent.object->properties.push_back({name, value_of(element, name, source), element.place});
+    Value value = value_of(element, name, source);
+    if (element.tag == "spectrum" && parent.object->family == "emitter")
+      value = light_of(value, source);
+    parent.object->properties.push_back({name, std::move(value), element.place});
+  } catch (const BadValue& bad) {
+    add(problems_, bad, element.place);
+  }
+}
+
+Value Reader::light_of(const Value& spectrum, const Source& source) {
+  // Since 2.0 the same at every wavelength, which is no white but pink; before, daylight.
+  const auto* number = std::get_if<double>(&spectrum);
+  if (!number || !(*number > 0) || source.version < Version{2, 0, 0}) return spectrum;
+  return SpectralCurve{
+      {{double(Wavelengths::first_nm), *number}, {double(Wavelengths::last_nm), *number}}};
+}
+
+/// Mitsuba 0.6 has an element for what is now a spectrum of this type.
+void Reader::read_blackbody(const Element& element, Unfinished& parent, Source& source) {
+  refuse_children(element, source);
+  if (!check_attributes(element, {{"name", "temperature"}, {"scale"}}, problems_)) return;
+  const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
+  if (!take_name(parent, name, element.place)) return;
+  const auto object = std::make_shared<Object>();
+  object->family = "texture";
+  object->type = element.tag;
+  object->place = element.place;
+  try {
+    const Attribute& temperature = *element.find("temperature");
+    object->properties.push_back(
+        {"temperature", parse_attribute(temperature, parse_kelvin), temperature.place});
+    if (const Attribute* scale = element.find("scale"))
+      object->properties.push_back({"scale", parse_attribute(*scale, parse_float), scale->place});
+    parent.object->children.push_back({name, object});
   } catch (const BadValue& bad) {
     add(problems_, bad, element.place);
   }
@@ -84,7 +119,8 @@ Value Reader::spectrum_of(const Element& element, const Source& source) {
   const Attribute* file = element.find("filename");
   if (!value == !file)
     throw BadValue("<spectrum> takes either 'value' or 'filename'", "give one of the two");
-  const Value result = value ? parse_attribute(*value, parse_spectrum)
+  const bool is_old = source.version < Version{2, 0, 0};
+  const Value result = value ? parse_attribute(*value, is_old ? parse_old_spectrum : parse_spectrum)
                              : Value(curve_of(found(file->value, source).string(), file->place));
   if (const auto* curve = std::get_if<SpectralCurve>(&result))
     budget_.spend(bytes_of(*curve), element.place);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kaustik/loader/mitsuba_sky.h"
 #include "kaustik/loader/mitsuba_tags.h"
 
 namespace kaustik::mitsuba {
@@ -132,7 +133,7 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
       {"transform", &Reader::read_transform}, {"ref", &Reader::read_reference},
       {"alias", &Reader::read_alias},         {"default", &Reader::read_default},
       {"path", &Reader::read_search_folder},  {"include", &Reader::read_include},
-      {"animation", &Reader::read_animation}};
+      {"animation", &Reader::read_animation}, {"blackbody", &Reader::read_blackbody}};
   const bool is_srgb = element.tag == "srgb" && source.version < Version{2, 0, 0};
   const bool typed_spectrum = element.tag == "spectrum" && element.find("type");
   if (const auto other = others.find(element.tag); other != others.end())
@@ -147,7 +148,6 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
 
 void Reader::report_unknown(const Element& element) {
   // Other renderers have elements of their own. What looks like one of ours was meant to be one.
-  static const std::vector<std::string> of_mitsuba = {"blackbody"};
   if (element.tag == "subsurface" && !is_strict_) {
     leave_out("subsurface",
               "subsurface scattering comes later: <subsurface> is left out, the surface is what "
@@ -155,7 +155,7 @@ void Reader::report_unknown(const Element& element) {
               element.place);
     return;
   }
-  const bool is_ours = is_in(transform_tags(), element.tag) || is_in(of_mitsuba, element.tag) ||
+  const bool is_ours = is_in(transform_tags(), element.tag) ||
                        upgraded_tag(element.tag, {0, 0, 0}) != element.tag ||
                        suggestion(element.tag, part_tags()).starts_with("did you mean");
   if (!is_strict_ && !is_ours) {
@@ -252,6 +252,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   if (!is_strict_) scale_reflectances(object);
   if (source.version < first_with_snake_case && object.family == "shape")
     old_shapes_.push_back(unfinished.object);
+  upgrade_sky(object, source.version);
   return unfinished.object;
 }
 

@@ -55,6 +55,7 @@ class Reader {
   std::shared_ptr<Object> read_object(const Element& element, Source& source);
   void read_nested_object(const Element& element, Unfinished& parent, Source& source);
   void read_property(const Element& element, Unfinished& parent, Source& source);
+  void read_blackbody(const Element& element, Unfinished& parent, Source& source);
   void read_transform(const Element& element, Unfinished& parent, Source& source);
   void read_animation(const Element& element, Unfinished& parent, Source& source);
   /// Of the operations in the element.
@@ -84,6 +85,8 @@ class Reader {
 
   Value value_of(const Element& element, const std::string& name, const Source& source);
   Value spectrum_of(const Element& element, const Source& source);
+  /// What a <spectrum> of one number means in a lamp.
+  static Value light_of(const Value& spectrum, const Source& source);
   /// False, with the reason told, if the parent has such a part already.
   bool take_name(Unfinished& parent, const std::string& name, const Place& place);
   std::filesystem::path found(const std::string& file, const Source& source) const;

@@ -174,7 +174,21 @@ Value parse_spectrum(std::string_view text) {
                      std::string(remedy));
     append_sample(curve, parse_float(part.substr(0, colon)), parse_float(part.substr(colon + 1)));
   }
+  if (curve.samples.size() < 2)
+    throw BadValue("a curve of one wavelength is zero everywhere else",
+                   "give the ends of a range, such as \"360:0.5, 830:0.5\"");
   return curve;
+}
+
+Value parse_old_spectrum(std::string_view text) {
+  const bool is_rgb = split_list(text).size() == 3 && text.find(':') == std::string_view::npos;
+  return is_rgb ? Value(parse_three_or_one(text)) : parse_spectrum(text);
+}
+
+double parse_kelvin(std::string_view text) {
+  std::string_view number = trimmed(text);
+  if (!number.empty() && (number.back() == 'K' || number.back() == 'k')) number.remove_suffix(1);
+  return parse_float(number);
 }
 
 void append_sample(SpectralCurve& curve, double wavelength_nm, double value) {

@@ -16,6 +16,8 @@ Scene::Scene(Parts parts, const Scene* previous) : parts_(std::move(parts)) {
                                     : light->traits().shape >= 0;
       });
   find_hidden_surfaces();
+  const std::vector<bool>& hidden = parts_.hidden_lights;
+  hides_lights_ = std::find(hidden.begin(), hidden.end(), true) != hidden.end();
   find_media();
   make_light_selector(previous);
 }

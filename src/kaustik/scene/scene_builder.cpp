@@ -9,6 +9,7 @@
 #include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/find_row.h"
+#include "kaustik/scene/spectrum_types.h"
 #include "kaustik/scene/texture_emission.h"
 #include "kaustik/scene/type_tables.h"
 
@@ -29,7 +30,7 @@ std::vector<std::string> texture_parameters(const TypeInfo& info) {
 }
 
 /// The parameter that a texture `name` stands for; null if there is none. Where a texture is all
-/// that can be given, it may have any name, as in Mitsuba's bump maps.
+/// that can be given, it may have any name that no other parameter has, as in Mitsuba's bump maps.
 const Parameter* texture_parameter(const TypeInfo& info, const std::string& name) {
   const Parameter* only = nullptr;
   int count = 0;
@@ -39,8 +40,30 @@ const Parameter* texture_parameter(const TypeInfo& info, const std::string& name
     only = &row;
     ++count;
   }
-  const bool is_free = count == 1 && std::holds_alternative<std::monostate>(only->default_value);
+  const bool is_free =
+      count == 1 && std::holds_alternative<std::monostate>(only->default_value) && !info.find(name);
   return is_free ? only : nullptr;
+}
+
+/// The parameter that a spectrum `name` is the value of; null if there is none. One without a name
+/// is the colour of what holds it.
+const Parameter* spectrum_parameter(const TypeInfo& info, const std::string& name) {
+  if (const Parameter* row = info.find(name)) return row;
+  if (name.empty())
+    for (const Parameter& row : info.parameters)
+      if (row.kind == ParameterKind::color) return &row;
+  return texture_parameter(info, name);
+}
+
+/// What will do in place of a light of Mitsuba that is not here yet; empty for all others.
+const std::string& instead_of_light(const std::string& type) {
+  static const std::string nothing;
+  static const std::map<std::string, std::string> remedies = {
+      {"directionalarea", "use a 'spot' with a small 'cutoff_angle', or a 'directional' light"},
+      {"collimated", "use a 'spot' with a small 'cutoff_angle'"},
+      {"timed_sunsky", "use 'sunsky' with the hour that matters most"}};
+  const auto found = remedies.find(type);
+  return found == remedies.end() ? nothing : found->second;
 }
 
 /// Refuses what floats cannot carry through ray tracing; `what` is the subject of the message.
@@ -91,10 +114,33 @@ void SceneBuilder::collecting(const Place& place, const std::function<void()>& b
   }
 }
 
+const std::optional<Value>& SceneBuilder::value_of_spectrum(const Object& spectrum) {
+  const auto [known, is_new] = spectra_.try_emplace(&spectrum);
+  std::optional<Value>& value = known->second;
+  if (!is_new) return value;
+  const SpectrumType& type = *spectrum_type_of(spectrum);
+  refuse_children(spectrum, {});
+  const Arguments arguments = arguments_of(type.info, spectrum);
+  if (arguments.is_complete()) collecting(spectrum.place, [&] { value = type.value(arguments); });
+  return value;
+}
+
+std::vector<Property> SceneBuilder::properties_of(const TypeInfo& info, const Object& object) {
+  std::vector<Property> properties =
+      spectrum_type_of(object) ? spectrum_properties(info, object) : object.properties;
+  for (const Child& child : object.children) {
+    if (!spectrum_type_of(*child.object)) continue;
+    const Parameter* row = spectrum_parameter(info, child.name);
+    if (const std::optional<Value>& value = value_of_spectrum(*child.object))
+      properties.push_back({row ? row->name : child.name, *value, child.object->place});
+  }
+  return properties;
+}
+
 Arguments SceneBuilder::arguments_of(const TypeInfo& info, const Object& object) {
-  Arguments arguments(
-      info, is_strict_ ? object.properties : unknown_.without_unknown(info, object.properties),
-      object.place, problems_);
+  const std::vector<Property> properties = properties_of(info, object);
+  Arguments arguments(info, is_strict_ ? properties : unknown_.without_unknown(info, properties),
+                      object.place, problems_);
   for (const std::string& name : arguments.ignored())
     if (ignored_reported_.insert(info.family + "." + name).second)
       warnings_.push_back(
@@ -128,6 +174,7 @@ void SceneBuilder::refuse_children(const Object& object,
                                    const std::vector<std::string>& allowed_families) {
   for (const Child& child : object.children) {
     const std::string& family = child.object->family;
+    if (spectrum_type_of(*child.object)) continue;  // a value
     if (std::find(allowed_families.begin(), allowed_families.end(), family) !=
         allowed_families.end())
       continue;
@@ -173,6 +220,7 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   parts.camera = std::move(camera_);
   parts.camera_medium = std::move(camera_medium_);
   parts.light_media = std::move(light_media_);
+  parts.hidden_lights = std::move(hidden_lights_);
   parts.warnings = std::move(warnings_);
   for (std::string& warning : unknown_.warnings()) parts.warnings.push_back(std::move(warning));
   parts.warnings.insert(parts.warnings.end(), pictures_.warnings().begin(),
@@ -203,8 +251,10 @@ void SceneBuilder::add_top_level(const Object& object) {
       make_bsdf(alias);
     else if (object.family == "medium")
       make_medium(alias);
+    else if (spectrum_type_of(object))
+      value_of_spectrum(object);
     else
-      make_texture(alias);
+      make_texture(texture_within(alias));
   } else if (object.family != "integrator" && object.id.empty()) {
     // One with an id may be referred to.
     const bool is_of_sensor = object.family == "film" || object.family == "sampler";
@@ -343,7 +393,9 @@ std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<
     if (arguments.is_complete())
       collecting(source_place(arguments), [&] { texture = texture_of(*object, *type, arguments); });
   } else {
-    unknown_type(*object, names_of(texture_types()));
+    std::vector<std::string> valid = names_of(texture_types());
+    for (const SpectrumType& spectrum : spectrum_types()) valid.push_back(spectrum.info.name);
+    unknown_type(*object, valid);
   }
   return textures_[object.get()] = texture;
 }
@@ -352,7 +404,7 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
                                                                 const TypeInfo& info) {
   Textures textures;
   for (const Child& child : object.children) {
-    if (child.object->family != "texture") continue;
+    if (child.object->family != "texture" || spectrum_type_of(*child.object)) continue;
     const Parameter* parameter = texture_parameter(info, child.name);
     if (!parameter) {
       problems_.add(
@@ -365,7 +417,7 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
       problems_.add(
           fmt::format("{} '{}' has a second texture '{}'", object.family, object.type, child.name),
           "keep one", child.object->place);
-    texture = make_texture(child.object);
+    texture = make_texture(texture_within(child.object));
     if (!texture) return std::nullopt;
   }
   return textures;
@@ -432,7 +484,7 @@ Geometry SceneBuilder::make_geometry() {
 }
 
 std::shared_ptr<const EmissionPattern> SceneBuilder::emission_pattern_of(
-    const Object& emitter, const Arguments& arguments) {
+    const LightType& type, const Object& emitter, const Arguments& arguments) {
   if (texture_parameters(arguments.info()).empty()) return nullptr;  // refused already
   const std::optional<Textures> textures = textures_of(emitter, arguments.info());
   if (!textures || textures->empty()) return nullptr;
@@ -441,18 +493,22 @@ std::shared_ptr<const EmissionPattern> SceneBuilder::emission_pattern_of(
     problems_.add(
         fmt::format("emitter '{}' has '{}' both as a value and as a texture", emitter.type, name),
         "keep one", arguments.place_of(name));
-  return std::make_shared<TextureEmission>(texture);
+  return std::make_shared<TextureEmission>(texture, type.pattern_is_factor);
 }
 
 void SceneBuilder::make_lights() {
   for (const PendingLight& pending : pending_lights_) {
     const LightType* type = find_row(light_types(), pending.object->type);
     if (!type) {
+      const std::string& later = instead_of_light(pending.object->type);
       // Without its only light a scene is black.
       if (pending_lights_.size() > 1 && is_foreign(*pending.object, names_of(light_types())))
-        leave_out(*pending.object, "it is left out");
-      else
+        leave_out(*pending.object, later.empty() ? "it is left out" : "it is left out; " + later);
+      else if (later.empty())
         unknown_type(*pending.object, names_of(light_types()));
+      else
+        problems_.add(fmt::format("emitter '{}' comes later", pending.object->type), later,
+                      pending.object->place);
       continue;
     }
     std::vector<std::string> families = {"medium"};
@@ -483,6 +539,8 @@ void SceneBuilder::make_lights() {
     collecting(pending.object->place, [&] {
       make_light(*type, pending, arguments);
       light_media_.push_back(medium_of(*pending.object));
+      hidden_lights_.push_back(hides_lights_ ||
+                               (type->info.find("visible") && !arguments.boolean("visible")));
     });
   }
 }

@@ -20,6 +20,8 @@ class SceneBuilder {
   explicit SceneBuilder(int64_t texture_memory_bytes, const Scene* previous = nullptr,
                         bool is_strict = false)
       : previous_(previous), pictures_(texture_memory_bytes), is_strict_(is_strict) {}
+  /// Before build(): the camera is to see no light itself, whatever the lights say.
+  void hide_lights() { hides_lights_ = true; }
   Scene::Parts build(const Object& scene);
 
  private:
@@ -70,7 +72,8 @@ class SceneBuilder {
   std::shared_ptr<const Bsdf> bsdf_of(const Object& object, const BsdfType& type,
                                       const BsdfInputs& inputs);
   /// Of the texture in an emitter, of which no type takes more than one; null: it has none.
-  std::shared_ptr<const EmissionPattern> emission_pattern_of(const Object& emitter,
+  std::shared_ptr<const EmissionPattern> emission_pattern_of(const LightType& type,
+                                                             const Object& emitter,
                                                              const Arguments& arguments);
   Geometry make_geometry();
   /// World shapes that are solid bodies, those of the highest priority first.
@@ -80,6 +83,10 @@ class SceneBuilder {
   /// Of the part of a body's surface that lies in another body.
   std::shared_ptr<const Bsdf> bsdf_within(const Object& shape, const Object& around);
 
+  /// The value of a spectrum; nothing if it is wrong, which has been told.
+  const std::optional<Value>& value_of_spectrum(const Object& spectrum);
+  /// The properties of an object, and the spectra that it holds.
+  std::vector<Property> properties_of(const TypeInfo& info, const Object& object);
   /// Arguments of an object, with warnings for what is accepted without effect.
   Arguments arguments_of(const TypeInfo& info, const Object& object);
   void refuse_children(const Object& object, const std::vector<std::string>& allowed_families);
@@ -98,8 +105,8 @@ class SceneBuilder {
   std::shared_ptr<const Bsdf> black_bsdf();
   /// The bsdf in one that nobody knows, or a matt one of its colour; warns.
   std::shared_ptr<const Bsdf> bsdf_instead_of(const Object& object);
-  /// Makes Mitsuba's camera of scenes that have none the sensor; warns. False, with the problem told,
-  /// where there is nothing to see.
+  /// Makes Mitsuba's camera of scenes that have none the sensor; warns. False, with the problem
+  /// told, where there is nothing to see.
   bool place_camera(const Place& place);
   /// The same for what changes the light of no picture: unless the scene is read strictly, a
   /// warning that another type stands for it.
@@ -133,8 +140,11 @@ class SceneBuilder {
   std::map<const Object*, std::shared_ptr<const Medium>> media_;
   std::vector<std::shared_ptr<const Object>> bordering_;  ///< bsdfs of parts of bodies
   std::vector<std::shared_ptr<const Object>> stand_ins_;  ///< for what the scene lacks
+  std::map<const Object*, std::optional<Value>> spectra_;
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const Medium>> light_media_;
+  std::vector<bool> hidden_lights_;
+  bool hides_lights_ = false;
   std::shared_ptr<const Medium> camera_medium_;
   Bounds3f bounds_;
   FilmSettings film_;

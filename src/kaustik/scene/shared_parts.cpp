@@ -57,7 +57,7 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_of(const Object& object, const Bs
 void SceneBuilder::make_light(const LightType& type, const PendingLight& pending,
                               const Arguments& arguments) {
   const std::shared_ptr<const EmissionPattern> pattern =
-      emission_pattern_of(*pending.object, arguments);
+      emission_pattern_of(type, *pending.object, arguments);
   const uint64_t key = keys_.light(*pending.object, pending.shape_index);
   BuiltParts::MadeLight made{.light = nullptr,
                              .shape = pending.shape,

@@ -6,6 +6,7 @@
 #include "kaustik/material/texture.h"
 #include "kaustik/medium/medium.h"
 #include "kaustik/scene/camera.h"
+#include "kaustik/scene/spectrum_types.h"
 
 namespace kaustik {
 namespace {
@@ -17,6 +18,7 @@ TypeTables all_of_scenes() {
   types.add(instance_info());
   types.add_rows(bsdf_types());
   types.add_rows(texture_types());
+  types.add_rows(spectrum_types());
   types.add_rows(light_types());
   types.add_rows(medium_types());
   types.add_rows(phase_function_types());
