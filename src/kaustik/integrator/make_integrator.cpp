@@ -111,7 +111,7 @@ std::unique_ptr<Integrator> make_integrator(const Object& object, const Scene& s
   for (auto& [own, surfaces] : own_models(scene))
     of_surfaces.push_back({create_model(*own, scene, is_strict, warnings), std::move(surfaces)});
   if (of_surfaces.empty()) return of_scene;
-  if (!type_of(object).is_model) {
+  if (!type_of(object, native_type(object), false).is_model) {
     warnings.push_back(fmt::format(
         "the integrators of single shapes have no effect with integrator '{}'", object.type));
     return of_scene;
