@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "commands.h"
-#include "console.h"
 #include "file_roles.h"
 #include "kaustik/base/file.h"
 #include "kaustik/integrator/description_types.h"
@@ -11,6 +10,7 @@
 #include "kaustik/loader/scene_format.h"
 #include "render_job.h"
 #include "scene_options.h"
+#include "standard_streams.h"
 
 namespace kaustik::app {
 namespace {

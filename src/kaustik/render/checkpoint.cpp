@@ -14,8 +14,8 @@ namespace kaustik {
 namespace {
 
 constexpr BinaryFileKind checkpoint_kind = {
-    {0x810, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
-    9,
+    {0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
+    10,
     "checkpoint",
     "give a .kpt file that was written by: kaustik render SCENE --checkpoint FILE.kpt",
     "render again with this program: kaustik render SCENE --checkpoint FILE.kpt"};
