@@ -6,6 +6,7 @@
 
 #include "kaustik/loader/mitsuba_sky.h"
 #include "kaustik/loader/mitsuba_tags.h"
+#include "kaustik/loader/obj_materials.h"
 
 namespace kaustik::mitsuba {
 namespace {
@@ -72,6 +73,7 @@ Description Reader::finish(const std::shared_ptr<Object>& scene) {
     description.warnings.push_back(fmt::format(
         "{}: {}{}", kaustik::text_of(left_out.first), left_out.sentence,
         left_out.count > 1 ? fmt::format(", and {} more like it", left_out.count - 1) : ""));
+  use_obj_materials(description, old_obj_shapes_);
   return description;
 }
 
@@ -253,6 +255,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   if (source.version < first_with_snake_case && object.family == "shape")
     old_shapes_.push_back(unfinished.object);
   upgrade_sky(object, source.version);
+  if (loads_materials(object, source.version)) old_obj_shapes_.insert(&object);
   return unfinished.object;
 }
 

@@ -106,6 +106,7 @@ class Reader {
   std::map<std::string, SpectralCurve> curves_;                              ///< by path
   std::map<std::string, LeftOut> left_out_;                                  ///< by what it is
   std::set<std::string> sources_;                                            ///< see Description
+  std::set<const Object*> old_obj_shapes_;         ///< that take materials from their files
   std::vector<std::filesystem::path> open_files_;  ///< the outermost first
   size_t included_files_ = 0;
   size_t read_bytes_ = 0;

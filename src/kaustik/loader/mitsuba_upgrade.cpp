@@ -195,4 +195,8 @@ void upgrade_object(Object& object, const std::string& written_type, Version ver
   if (version < first_of_mitsuba_0_4) upgrade_field_of_view(object);
 }
 
+bool loads_materials(const Object& object, Version version) {
+  return version < first_with_snake_case && object.family == "shape" && object.type == "obj";
+}
+
 }  // namespace kaustik::mitsuba

@@ -37,4 +37,7 @@ std::string upgraded_name(const std::string& name, const Object& parent, Version
 void upgrade_object(Object& object, const std::string& written_type, Version version,
                     Problems& problems);
 
+/// Whether a shape takes materials from its mesh file: see use_obj_materials().
+bool loads_materials(const Object& object, Version version);
+
 }  // namespace kaustik::mitsuba

@@ -9,6 +9,7 @@
 #include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/find_row.h"
+#include "kaustik/scene/foreign_shapes.h"
 #include "kaustik/scene/spectrum_types.h"
 #include "kaustik/scene/texture_emission.h"
 #include "kaustik/scene/type_tables.h"
@@ -191,6 +192,7 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
     told_unless_strict(fmt::format("the scene has no parameter '{}'", property.name),
                        "put it into the object that it belongs to", property.place);
   find_emitters_of_shapes(scene);
+  read_meshes(scene);
   for (const Child& child : scene.children) add_top_level(*child.object);
   if (sensor_) collecting(sensor_->place, [&] { make_sensor(*sensor_); });
   problems_.throw_if_any();
@@ -287,9 +289,13 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   const ShapeType* type = find_row(shape_types(), object.type);
   if (!type) {
     std::vector<std::string> valid = names_of(shape_types());
-    valid.insert(valid.end(), {shapegroup_info().name, instance_info().name});
-    if (is_foreign(object, valid))
-      leave_out(object, "it is left out");
+    valid.insert(valid.end(), {shapegroup_info().name, instance_info().name, merge_info().name});
+    const std::string remedy = remedy_for_foreign_shape(object.type);
+    if (is_foreign(object, valid) || (!is_strict_ && !remedy.empty()))
+      leave_out(object, remedy.empty() ? "it is left out" : "it is left out; " + remedy);
+    else if (!remedy.empty())
+      problems_.add(fmt::format("there is no shape '{}' here yet", object.type), remedy,
+                    object.place);
     else
       unknown_type(object, valid);
     return std::nullopt;
