@@ -40,7 +40,7 @@ TEST(Gallery, ShowsEveryType) {
 }
 
 /// Chance that any of so many scenes fails where all is right.
-double level() { return sidak_level(0.01, double(gallery_scenes().size())); }
+double level() { return sidak_level(0.01, int(gallery_scenes().size())); }
 
 /// A bias of the whole picture that is not found in a scene tells that the scene tells nothing.
 constexpr double bias_to_find = 0.25;

@@ -13,7 +13,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 }  // namespace
 
-size_t byte_order_mark(std::span<const uint8_t> bytes, const std::string& file) {
+size_t length_of_byte_order_mark(std::span<const uint8_t> bytes, const std::string& file) {
   const auto begins_with = [&](std::initializer_list<uint8_t> mark) {
     return bytes.size() >= mark.size() && std::equal(mark.begin(), mark.end(), bytes.begin());
   };
@@ -42,7 +42,7 @@ std::string_view next_word(std::string_view& line) {
 TextLines::TextLines(const std::string& path) : file_(path), end_(file_.size()) {
   refill();
   const auto* bytes = reinterpret_cast<const uint8_t*>(buffer_.data());
-  begin_ = byte_order_mark({bytes, buffer_.size()}, path);
+  begin_ = length_of_byte_order_mark({bytes, buffer_.size()}, path);
 }
 
 /// False: the file has no more.

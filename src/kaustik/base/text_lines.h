@@ -10,7 +10,7 @@ namespace kaustik {
 
 /// How many bytes of `bytes`, the first of a file, are a mark that it is UTF-8 text. Throws
 /// Error(input) naming `file` where the mark of another encoding stands.
-size_t byte_order_mark(std::span<const uint8_t> bytes, const std::string& file);
+size_t length_of_byte_order_mark(std::span<const uint8_t> bytes, const std::string& file);
 
 /// Without blanks at its ends.
 std::string_view trimmed(std::string_view text);

@@ -206,7 +206,7 @@ std::vector<std::string_view> PlyReader::header_line() {
 }
 
 void PlyReader::read_header() {
-  window_.advance(byte_order_mark(window_.ahead(3), path_));
+  window_.advance(length_of_byte_order_mark(window_.ahead(3), path_));
   const std::span<const uint8_t> ahead = window_.ahead(5);
   const std::string start(ahead.begin(),
                           ahead.begin() + std::ptrdiff_t(std::min<size_t>(ahead.size(), 5)));
