@@ -37,7 +37,7 @@ const T* value_in(const Object& object, const char* name) {
 
 /// What the reader has made of a name, as it does with those of parameters.
 std::string name_in_scene(const std::string& material) {
-  return mitsuba::upgraded_name(material, "obj", {0, 6, 0});
+  return mitsuba::upgraded_name(material, {"shape", "obj", "", {}, {}, {}}, {0, 6, 0});
 }
 
 bool has_bsdf(const Object& shape, bool with_name) {
