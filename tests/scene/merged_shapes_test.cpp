@@ -18,11 +18,11 @@ using namespace test;
 std::string merge(const std::string& inside) {
   return "<shape type=\"merge\">" + inside + "</shape>";
 }
-const std::string lamp = "<shape type=\"disk\"><emitter type=\"area\"/></shape>";
+const std::string shining_disk = "<shape type=\"disk\"><emitter type=\"area\"/></shape>";
 
 TEST(MergedShapes, StandThereThemselves) {
-  const auto scene =
-      scene_of(any_camera + merge("<shape type=\"cube\"/>" + merge(lamp) + any_shape) + any_shape);
+  const auto scene = scene_of(
+      any_camera + merge("<shape type=\"cube\"/>" + merge(shining_disk) + any_shape) + any_shape);
   EXPECT_EQ(scene->surface_count(), 4u);
   ASSERT_EQ(scene->lights().size(), 1u);
   EXPECT_EQ(scene->lights()[0]->traits().shape, 1);
@@ -115,7 +115,7 @@ TEST_F(MeshFiles, AreReadSideBySideAndToldInOrder) {
   EXPECT_EQ(*problems[2].place.file, folder_.path("3.obj"));
 }
 
-/// A lamp that an instance distorts is a lamp of that form.
+/// A shining_disk that an instance distorts is a shining_disk of that form.
 TEST(PlacedLamps, MayBeDistorted) {
   const std::string group =
       "<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\"><emitter type=\"area\"><float "
