@@ -75,9 +75,9 @@ class DistortedFurnace : public testing::Test {
                     R"(<point name="p0" value="0, 0, -1"/><point name="p1" value="0, 0, 1"/>)")) {}
   static std::string view() { return camera("0.2, 0.1, -0.2", "1, 0.3, 0.2", 80); }
 
-  void check(const std::string& type, int passes) {
+  void check(const std::string& type, double samples) {
     for (const TestScene* scene : {&ellipsoid_, &tube_}) {
-      const Passes rendered = render(*scene, type, "", {passes});
+      const Passes rendered = render(*scene, type, "", {.samples = samples});
       const std::string name = type + (scene == &tube_ ? " tube" : " ellipsoid");
       expect_mean(name, rendered.mean({""}), 1 / 0.3);
       expect_mean(name + " direct", rendered.mean({"direct"}), 0.7);

@@ -9,7 +9,7 @@ namespace {
 using namespace test;
 
 const std::string hidden = set("visible", false);
-std::string lamp(const std::string& more) {
+std::string square_lamp(const std::string& more) {
   return R"(<emitter type="area"><rgb name="radiance" value="4"/>)" + set("two_sided", true) +
          more + "</emitter>";
 }
@@ -18,13 +18,14 @@ std::string lamp_before_wall(const std::string& more) {
   return camera("0, 0, 4", "0, 0, 0", 40, 8, "0, 1, 0") +
          flat("rectangle", scale("4, 4, 1"), diffuse("0.5")) +
          flat("rectangle", scale("1.2, 1.2, 1") + translate("0, 0, 1"),
-              diffuse("0.3") + lamp(more));
+              diffuse("0.3") + square_lamp(more));
 }
 /// The wall alone, with the light that the lamp gives it: where the camera stands before the lamp.
 std::string wall_before_lamp() {
   return camera("0, 0, 0.9", "0, 0, 0", 20, 8, "0, 1, 0") +
          flat("rectangle", scale("4, 4, 1"), diffuse("0.5")) +
-         flat("rectangle", scale("1.2, 1.2, 1") + translate("0, 0, 1"), diffuse("0.3") + lamp(""));
+         flat("rectangle", scale("1.2, 1.2, 1") + translate("0, 0, 1"),
+              diffuse("0.3") + square_lamp(""));
 }
 
 TEST(HiddenLamps, AreLookedThroughByEveryMethod) {
@@ -55,15 +56,15 @@ TEST(HiddenLamps, ChangeNothingOfWhatIsBehindThem) {
 }
 
 TEST(HiddenLamps, AreSeenInMirrorsAndThroughGlass) {
-  const std::string mirrored =
-      camera("0, 0, 2", "0, 0, 0", 10, 8, "0, 1, 0") +
-      flat("rectangle", scale("4, 4, 1"), mirror()) +
-      flat("rectangle", scale("9, 9, 1") + translate("0, 0, 3"), lamp(hidden) + diffuse("0"));
+  const std::string mirrored = camera("0, 0, 2", "0, 0, 0", 10, 8, "0, 1, 0") +
+                               flat("rectangle", scale("4, 4, 1"), mirror()) +
+                               flat("rectangle", scale("9, 9, 1") + translate("0, 0, 3"),
+                                    square_lamp(hidden) + diffuse("0"));
   EXPECT_NEAR(render(TestScene(mirrored), "path", "", {4, 1}).mean({""}).mean(), 4, 1e-3);
   const std::string glazed =
       camera("0, 0, 4", "0, 0, 0", 10, 8, "0, 1, 0") +
       flat("rectangle", scale("9, 9, 1") + translate("0, 0, 2"), glass(1.0)) +
-      flat("rectangle", scale("9, 9, 1"), lamp(hidden) + diffuse("0"));
+      flat("rectangle", scale("9, 9, 1"), square_lamp(hidden) + diffuse("0"));
   EXPECT_NEAR(render(TestScene(glazed), "path", "", {4, 1}).mean({""}).mean(), 4, 1e-3);
 }
 

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-const std::string checkered = R"(type="checkerboard"><rgb name="color0" value="0, 0, 0"/>
+const std::string black_and_white = R"(type="checkerboard"><rgb name="color0" value="0, 0, 0"/>
     <rgb name="color1" value="1, 0.8, 0.3"/><transform name="to_uv"><scale value="3"/></transform>
     </texture>)";
 std::string down_from(const std::string& place) {
@@ -21,9 +21,9 @@ std::string room() {
   return camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 8) +
          flat("rectangle", scale("2, 2, 1"), phong(0.4, 0.3, 6)) +
          flat("rectangle", rotate("1, 0, 0", 90) + translate("0, 1.5, 0"), diffuse("0.6")) +
-         "<emitter type=\"projector\"><texture name=\"irradiance\" " + checkered +
+         "<emitter type=\"projector\"><texture name=\"irradiance\" " + black_and_white +
          set("scale", 3.0) + set("fov", 50.0) + down_from("-0.3, 0, 1.4") + "</emitter>" +
-         "<emitter type=\"spot\"><texture name=\"texture\" " + checkered +
+         "<emitter type=\"spot\"><texture name=\"texture\" " + black_and_white +
          set("cutoff_angle", 40.0) + set("falloff", "smooth") + down_from("0.5, 0, 1.2") +
          R"(<rgb name="intensity" value="4"/></emitter>)";
 }
@@ -42,8 +42,8 @@ TEST(Slides, EveryMethodFindsTheirLight) {
 TEST(Slides, PhotonsCarryTheirLight) {
   const TestScene scene(
       camera("0, -0.8, 0", "0, 1, -0.2", 75, 8) + sphere("0, 0, 0", 1, diffuse("0.5"), true) +
-      "<emitter type=\"projector\"><texture name=\"irradiance\" " + checkered + set("scale", 5.0) +
-      set("fov", 90.0) + down_from("0, 0, 0.3") + "</emitter>");
+      "<emitter type=\"projector\"><texture name=\"irradiance\" " + black_and_white +
+      set("scale", 5.0) + set("fov", 90.0) + down_from("0, 0, 0.3") + "</emitter>");
   const auto indirect = [&](const char* integrator, const std::string& more, double samples) {
     return render(scene, integrator, set("components", "indirect") + more, {samples, 5})
         .mean({"indirect"});
@@ -62,8 +62,8 @@ TEST(Slides, LightCaustics) {
   const TestScene scene(
       camera("0, -2.2, 1.3", "0, 0, 0", 40, 8) +
       flat("rectangle", scale("2, 2, 1"), diffuse("0.7")) + sphere("0, 0, 0.5", 0.3, glass()) +
-      "<emitter type=\"projector\"><texture name=\"irradiance\" " + checkered + set("scale", 3.0) +
-      set("fov", 70.0) + down_from("0, 0, 1.6") + "</emitter>");
+      "<emitter type=\"projector\"><texture name=\"irradiance\" " + black_and_white +
+      set("scale", 3.0) + set("fov", 70.0) + down_from("0, 0, 1.6") + "</emitter>");
   const auto caustic = [&](const char* integrator, double samples) {
     return render(scene, integrator, set("components", "caustic"), {samples, 7}).mean({"caustic"});
   };
