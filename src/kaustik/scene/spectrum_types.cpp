@@ -178,8 +178,12 @@ const TypeInfo& uniform_info() {
   return info;
 }
 
+/// A grey as one number, which parameters that are no colours take, too.
 Value value_of_color(const Arguments& arguments, const char* name) {
-  return std::visit([](const auto& color) { return Value(color); }, arguments.color(name));
+  const std::variant<Rgb, SpectralCurve> color = arguments.color(name);
+  if (const auto* curve = std::get_if<SpectralCurve>(&color)) return *curve;
+  const Rgb& rgb = std::get<Rgb>(color);
+  return rgb.r == rgb.g && rgb.g == rgb.b ? Value(rgb.r) : Value(rgb);
 }
 
 Value value_of_srgb(const Arguments& arguments) { return value_of_color(arguments, "color"); }
