@@ -98,10 +98,10 @@ TEST(SampleToward, NearLightsGiveTheirClosedForm) {
         Case{
             "spheroid",
             make_shape("sphere", {{"to_world",
-                                   Value(Transform::translate(Vec3d(reference) + Vec3d(0, 0, 0.6)) *
+                                   Value(Transform::translate(Vec3d(reference) + Vec3d(0, 0, 1.5)) *
                                          Transform::scale({1.5, 1.5, 0.5})),
                                    {}}}),
-            2 * std::numbers::pi * 2.25 / (0.36 - 0.25 + 2.25)}}) {
+            2 * std::numbers::pi * 2.25 / (2.25 - 0.25 + 2.25)}}) {
     SCOPED_TRACE(test.name);
     const auto light = area_light(test.shape);
     Random random(19);
