@@ -9,6 +9,7 @@
 #include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/find_row.h"
+#include "kaustik/scene/foreign_shapes.h"
 #include "kaustik/scene/texture_emission.h"
 #include "kaustik/scene/type_tables.h"
 
@@ -127,6 +128,7 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
     problems_.add(fmt::format("the scene has no parameter '{}'", property.name),
                   "put it into the object that it belongs to", property.place);
   find_emitters_of_shapes(scene);
+  read_meshes(scene);
   for (const Child& child : scene.children) add_top_level(*child.object);
   if (!sensor_)
     problems_.add("the scene has no camera",
@@ -218,8 +220,12 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   const ShapeType* type = find_row(shape_types(), object.type);
   if (!type) {
     std::vector<std::string> valid = names_of(shape_types());
-    valid.insert(valid.end(), {shapegroup_info().name, instance_info().name});
-    unknown_type(object, valid);
+    valid.insert(valid.end(), {shapegroup_info().name, instance_info().name, merge_info().name});
+    if (const std::string remedy = remedy_for_foreign_shape(object.type); !remedy.empty())
+      problems_.add(fmt::format("there is no shape '{}' here yet", object.type), remedy,
+                    object.place);
+    else
+      unknown_type(object, valid);
     return std::nullopt;
   }
   refuse_children(object, {"bsdf", "emitter", "integrator", "medium"});

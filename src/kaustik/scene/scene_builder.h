@@ -1,4 +1,5 @@
 #pragma once
+#include <exception>
 #include <functional>
 #include <map>
 #include <optional>
@@ -59,6 +60,9 @@ class SceneBuilder {
   void read_sampler(const Object& object);
   void make_lights();
   void make_light(const LightType& type, const PendingLight& pending, const Arguments& arguments);
+  /// Reads the files of all shapes side by side, for shape_of(); what is wrong with them is told
+  /// there.
+  void read_meshes(const Object& scene);
   /// Makes what the description of a shape, a texture or a bsdf says, or finds it in the scene
   /// before. Throws Error.
   std::shared_ptr<const Shape> shape_of(const Object& object, const ShapeType& type,
@@ -97,6 +101,11 @@ class SceneBuilder {
   std::vector<BuiltShape> shapes_;
   std::vector<std::vector<BuiltShape>> groups_;
   std::map<const Object*, uint32_t> group_of_;
+  struct ReadMesh {
+    std::shared_ptr<const Shape> shape;
+    std::exception_ptr error;
+  };
+  std::map<const Object*, ReadMesh> read_meshes_;  ///< that were not asked for yet
   std::vector<Instance> instances_;
   std::vector<PendingLight> pending_lights_;
   std::map<const Object*, std::shared_ptr<const Bsdf>> bsdfs_;
