@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kaustik/loader/mitsuba_tags.h"
+#include "kaustik/loader/obj_materials.h"
 
 namespace kaustik::mitsuba {
 namespace {
@@ -62,6 +63,7 @@ Description Reader::finish(const std::shared_ptr<Object>& scene) {
     description.warnings.push_back(fmt::format(
         "{}: Kaustik does not know <{}>: it is left out{}", kaustik::text_of(foreign.first), tag,
         foreign.count > 1 ? fmt::format(", and {} more like it", foreign.count - 1) : ""));
+  use_obj_materials(description, old_obj_shapes_);
   return description;
 }
 
@@ -190,6 +192,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   read_parts(element.node, unfinished, source);
   --depth_;
   upgrade_texture_placement(object, source.version, problems_);
+  if (loads_materials(object, source.version)) old_obj_shapes_.insert(&object);
   return unfinished.object;
 }
 

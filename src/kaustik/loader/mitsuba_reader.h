@@ -92,6 +92,7 @@ class Reader {
   std::map<std::string, SpectralCurve> curves_;                              ///< by path
   std::map<std::string, Foreign> foreign_;                                   ///< by tag
   std::set<std::string> sources_;                                            ///< see Description
+  std::set<const Object*> old_obj_shapes_;         ///< that take materials from their files
   std::vector<std::filesystem::path> open_files_;  ///< the outermost first
   size_t included_files_ = 0;
   size_t read_bytes_ = 0;

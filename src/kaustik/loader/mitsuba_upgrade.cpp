@@ -78,6 +78,10 @@ std::string upgraded_tag(const std::string& tag, Version version) {
   return tag;
 }
 
+bool loads_materials(const Object& object, Version version) {
+  return version < first_with_snake_case && object.family == "shape" && object.type == "obj";
+}
+
 void upgrade_texture_placement(Object& object, Version version, Problems& problems) {
   if (version >= first_with_snake_case) return;
   Vec3d offset(0, 0, 0), scale(1, 1, 1);

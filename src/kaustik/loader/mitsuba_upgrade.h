@@ -25,6 +25,9 @@ std::string upgraded_name(const std::string& name, const std::string& object_typ
 /// The present name of a tag.
 std::string upgraded_tag(const std::string& tag, Version version);
 
+/// Whether a shape takes materials from its mesh file: see use_obj_materials().
+bool loads_materials(const Object& object, Version version);
+
 /// Turns uoffset, voffset, uscale and vscale of a texture into `to_uv`.
 void upgrade_texture_placement(Object& object, Version version, Problems& problems);
 
