@@ -89,7 +89,9 @@ TEST(ShapeSampling, TellsTheNumbersOfItsPoints) {
       const Vec2f u = random.square();
       const SurfacePoint point = c.shape->sample_area(u).point;
       const auto found = c.shape->area_coordinates(point);
-      if (std::string(c.name) == "cylinder") {
+      // Drawn by further numbers, or not known.
+      if (std::string(c.name).find("cylinder") != std::string::npos ||
+          std::string(c.name).find("ellipsoid") != std::string::npos) {
         EXPECT_FALSE(found);
         break;
       }

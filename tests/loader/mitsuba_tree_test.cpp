@@ -249,7 +249,7 @@ TEST(MitsubaTree, OfMotionTheStartHolds) {
   EXPECT_EQ(value<Transform>(*description.scene->children.at(1).object, "to_world"),
             Transform::translate({1, 0, 0}));
   ASSERT_EQ(description.warnings.size(), 1u);
-  EXPECT_NE(description.warnings[0].find("test.xml:2:23: motion comes later"), std::string::npos)
+  EXPECT_NE(description.warnings[0].find("test.xml:2:22: motion comes later"), std::string::npos)
       << description.warnings[0];
   EXPECT_NE(description.warnings[0].find("1 more like it"), std::string::npos);
   expect_problem(problems_in(in_scene("<shape type='s'><animation name='to_world'/></shape>")),
@@ -346,7 +346,7 @@ TEST(MitsubaTree, OfTwoValuesInOldFilesTheLastHolds) {
   const Description old = parse(in_scene(twice, "0.6.0"));
   EXPECT_EQ(value<double>(*old.scene->children.at(0).object, "x"), 2);
   EXPECT_EQ(old.warnings.size(), 1u);
-  expect_problem(problems_in(in_scene(twice)), "test.xml:2:41", "'x' is given twice", "keep one");
+  expect_problem(problems_in(in_scene(twice)), "test.xml:2:44", "'x' is given twice", "keep one");
 }
 
 TEST(MitsubaTree, FileNamesMayHaveBackslashes) {

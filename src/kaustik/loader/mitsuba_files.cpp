@@ -182,7 +182,7 @@ void Reader::read_included(const fs::path& path, const Element& element, Unfinis
   if (!root) {
     incomplete_ = true;
   } else if (root->tag == "scene") {
-    check_attributes(*root, {{"version"}, {"type", "id", "name"}}, problems_);
+    check_attributes(*root, {{}, {"version", "type", "id", "name"}}, problems_);
     read_parts(root->node, parent, source);
   } else {
     read_included_object(*root, element.value("name"), parent, source);

@@ -180,6 +180,7 @@ void Reader::add_transform(const Element& element, const Transform& transform, U
 void Reader::read_animation(const Element& element, Unfinished& parent, Source& source) {
   if (!check_attributes(element, {{"name"}, {}}, problems_)) return;
   std::optional<Transform> first;
+  bool is_sound = true;
   for (const pugi::xml_node& node : element.node.children()) {
     if (!is_element(node, source)) continue;
     const auto moment = ready(node, source);
@@ -187,12 +188,14 @@ void Reader::read_animation(const Element& element, Unfinished& parent, Source& 
     if (moment->tag != "transform") {
       problems_.add(fmt::format("<{}> cannot stand in <animation>", moment->tag),
                     "it holds transforms: <transform time=\"0\">…</transform>", moment->place);
+      is_sound = false;
       continue;
     }
     if (!check_attributes(*moment, {{"time"}, {}}, problems_)) continue;
     const Transform transform = transform_of(*moment, source);
     if (!first) first = transform;
   }
+  if (!first && !is_sound) return;
   if (!first) {
     problems_.add("an <animation> without a transform",
                   "write <animation name=\"to_world\"><transform time=\"0\">…", element.place);

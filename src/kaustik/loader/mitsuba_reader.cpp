@@ -20,7 +20,7 @@ constexpr size_t bytes_per_element = 500, bytes_per_attribute = 50;
 bool Reader::read_version(Source& source) {
   const pugi::xml_node root = source.document.root();
   const pugi::xml_attribute version = root.attribute("version");
-  if (!version && !is_strict_ && is_in(object_tags(), upgraded_tag(root.name(), {0, 0, 0}))) {
+  if (!version && !is_strict_ && std::string_view(root.name()) == "scene") {
     // As Mitsuba 0.6 took it.
     source.version = {0, 2, 0};
     leave_out("version",
