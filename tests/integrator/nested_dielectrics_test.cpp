@@ -101,8 +101,6 @@ TEST(NestedDielectrics, MethodsAgree) {
   };
   const RunningStatistics reference = values("bdpt", "", 200);
   expect_near_means("path", Comparison(values("path", "", 1200), reference), 0.01, 0.006);
-  expect_near_means("vcm", Comparison(values("vcm", set("light_paths", 2.0), 60), reference), 0.01,
-                    0.006);
   expect_near_means(
       "photonmap",
       Comparison(
