@@ -107,7 +107,7 @@ TEST_F(Messages, MeshesThatDoNotFitAreAnErrorAfterAWarning) {
   little_memory.memory_limit = rlim_t(8) << 30;
   write("scene.xml", large_mesh_scene);
   // A file as long as it says.
-  constexpr uint64_t vertices = 166'666'666'666;
+  constexpr uint64_t vertices = 4'000'000'000;
   const std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                              std::to_string(vertices) +
                              "\nproperty float x\nproperty float y\nproperty float z\n"
@@ -118,7 +118,7 @@ TEST_F(Messages, MeshesThatDoNotFitAreAnErrorAfterAWarning) {
     const RunResult result = run(command, little_memory);
     EXPECT_EQ(result.exit_code, 1) << result.err;
     EXPECT_TRUE(matches(result.err,
-                        "info: .* up to 14000.0 GB of memory\n"
+                        "info: .* up to 336.0 GB of memory\n"
                         "warning: this machine has [0-9.]+ GB: .*\n"
                         ".*not enough memory\n *remedy: "))
         << result.err;
