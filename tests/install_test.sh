@@ -107,7 +107,7 @@ check_mean "$("$work/consumer/build/mean_radiance")" 0.5
 
 cat >"$work/sky.xml" <<'EOF'
 <scene version="3.0.0">
-  <emitter type="constant"><spectrum name="radiance" value="2"/></emitter>
+  <emitter type="constant"><rgb name="radiance" value="2"/></emitter>
   <sensor type="perspective"><film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/></film></sensor>
 </scene>
 EOF
