@@ -49,7 +49,7 @@ void add_convert(CLI::App& program) {
       "convert", "Write a scene of any format as XML of Mitsuba 3, with old spellings upgraded.");
   command->footer(
       "Meshes and pictures stay where they are: the new file names them from its own folder.\n"
-      "  kaustik convert old_scene.xml -o new_scene.xml");
+      "  kaustik convert scene.xml -o mitsuba3.xml");
   auto o = std::make_shared<ConvertOptions>();
   add_scene(*command, o->scene);
   command->add_option("-o,--output", o->output, "Scene file to write, .xml")->required();
