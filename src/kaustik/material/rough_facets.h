@@ -9,8 +9,9 @@
 
 namespace kaustik {
 
-/// Microscopic facets whose roughness varies over the surface. What a number or a texture says beyond
-/// least_alpha and largest_alpha is taken to these ends: black paint means as smooth as can be.
+/// Microscopic facets whose roughness varies over the surface. What a number or a texture says
+/// beyond least_alpha and largest_alpha is taken to these ends: black paint means as smooth as can
+/// be.
 class RoughFacets {
  public:
   using Kind = MicrofacetDistribution::Kind;
