@@ -115,6 +115,22 @@ TEST(NestedDielectrics, MethodsAgree) {
       0.02, 0.006);
 }
 
+// An index is the same by its name, by default and as a number, also where roughness makes a border
+// between like materials an error.
+TEST(NestedDielectrics, LikeIndicesByAnyName) {
+  const auto rough = [](const std::string& index, int priority) {
+    return "<bsdf type=\"roughdielectric\">" + index + set("priority", priority) + "</bsdf>";
+  };
+  for (const std::string& index : {std::string(), set("int_ior", "bk7"), set("int_ior", 1.5046)}) {
+    const auto scene = build_scene(description_of(camera("0, -3, 2.5", "0, 0, 0.3", 45) +
+                                                  sphere("0, 0, 0", 1, rough("", 1)) +
+                                                  sphere("0.5, 0, 0", 1, rough(index, 2))));
+    ASSERT_EQ(scene->tracer().body_parts().size(), 2u);
+    for (size_t i = 0; i < 2; ++i)
+      EXPECT_TRUE(scene->surface(uint32_t(scene->tracer().shape_count() + i)).traits.is_null);
+  }
+}
+
 TEST(NestedDielectrics, PriorityInAGroupIsTold) {
   const auto scene = build_scene(description_of(
       camera("0, -3, 2.5", "0, 0, 0.3", 45) + "<shape type=\"shapegroup\" id=\"group\">" +

@@ -254,6 +254,9 @@ TEST(MitsubaTree, OfMotionTheStartHolds) {
   EXPECT_NE(description.warnings[0].find("1 more like it"), std::string::npos);
   expect_problem(problems_in(in_scene("<shape type='s'><animation name='to_world'/></shape>")),
                  "test.xml:2:17", "without a transform", "transform time");
+  expect_problem(problems_in(in_scene("<shape type='s'><animation name='to_world'><transform/>"
+                                      "</animation></shape>")),
+                 "test.xml:2:44", "<transform> lacks the attribute 'time'", "time");
   expect_problem(problems_in(in_scene("<shape type='s'><animation name='to_world'><rotate x='1' "
                                       "angle='1'/></animation></shape>")),
                  "test.xml:2:44", "<rotate> cannot stand in <animation>", "transform time");

@@ -191,7 +191,10 @@ void Reader::read_animation(const Element& element, Unfinished& parent, Source& 
       is_sound = false;
       continue;
     }
-    if (!check_attributes(*moment, {{"time"}, {}}, problems_)) continue;
+    if (!check_attributes(*moment, {{"time"}, {}}, problems_)) {
+      is_sound = false;
+      continue;
+    }
     const Transform transform = transform_of(*moment, source);
     if (!first) first = transform;
   }

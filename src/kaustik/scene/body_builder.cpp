@@ -7,6 +7,7 @@
 #include <set>
 
 #include "kaustik/material/dielectric_arguments.h"
+#include "kaustik/material/fresnel.h"
 #include "kaustik/scene/scene_builder.h"
 
 namespace kaustik {
@@ -66,10 +67,16 @@ const Object* bsdf_of_shape(const Object& shape) {
   return nullptr;
 }
 
-/// The index inside a body: as it is given, or the usual one.
+/// The index inside a body as a number, whether it was given as one, by a name, or not at all. What
+/// is neither number nor known name was told when the bsdf was made, and stays as it is.
 Value interior_of(const Object& shape) {
   const Property* given = find_property(*bsdf_with_priority(shape), "int_ior");
-  return given ? given->value : Value(std::string("bk7"));
+  const Value value = given ? given->value : Value(std::string("bk7"));
+  if (const auto* integer = std::get_if<int64_t>(&value)) return double(*integer);
+  const auto* name = std::get_if<std::string>(&value);
+  const std::vector<std::string> known = dielectric_names();
+  if (!name || std::find(known.begin(), known.end(), *name) == known.end()) return value;
+  return double(dielectric_ior(*name));
 }
 
 }  // namespace
@@ -114,8 +121,10 @@ void SceneBuilder::add_body_parts(std::span<const BodyPart> parts, std::vector<S
 std::shared_ptr<const Bsdf> SceneBuilder::bsdf_within(const Object& shape, const Object& around) {
   static const Object nothing{"bsdf", "null", "", {}, {}, {}};
   const Value exterior = interior_of(around);
-  // Between two bodies of the same index there is nothing to see.
-  if (exterior == interior_of(shape)) return create_bsdf(nothing);
+  // Between two bodies of the same index, as single floats tell, there is nothing to see.
+  const Value interior = interior_of(shape);
+  const auto *outside = std::get_if<double>(&exterior), *inside = std::get_if<double>(&interior);
+  if (outside && inside && float(*outside) == float(*inside)) return create_bsdf(nothing);
   Copies copies;
   bordering_.push_back(bordering_on(*bsdf_of_shape(shape), exterior, copies));
   return create_bsdf(*bordering_.back());
