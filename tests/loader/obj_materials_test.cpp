@@ -99,6 +99,11 @@ TEST_F(ObjMaterials, ThatAreMissingAreTold) {
   EXPECT_EQ(description.scene->children.size(), 1u);
   ASSERT_EQ(description.warnings.size(), 1u);
   EXPECT_NE(description.warnings[0].find("is not there"), std::string::npos);
+  folder_.write("scene.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+  folder_.write("a.mtl", "newmtl b\nKd 1 0 0\n");
+  const Description lacking = load("");
+  ASSERT_EQ(lacking.warnings.size(), 1u);
+  EXPECT_NE(lacking.warnings[0].find("its file of materials lacks 'a'"), std::string::npos);
   std::filesystem::remove(folder_ / "scene.obj");
   EXPECT_EQ(load("").scene->children.size(), 1u);  // the reader of the mesh tells
 }

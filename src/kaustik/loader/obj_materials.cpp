@@ -10,6 +10,7 @@
 
 #include "kaustik/base/text_lines.h"
 #include "kaustik/loader/mitsuba_upgrade.h"
+#include "kaustik/loader/mitsuba_values.h"
 #include "kaustik/loader/mtl_file.h"
 
 namespace kaustik {
@@ -88,6 +89,7 @@ class MaterialUser {
  private:
   using Bsdfs = std::map<std::string, std::shared_ptr<Object>>;
 
+  void tell_of_missing(const std::string& path, const ObjMaterials& materials, const Bsdfs& bsdfs);
   std::vector<std::shared_ptr<Object>> parts_of(const std::shared_ptr<Object>& shape);
   Bsdfs bsdfs_for(const Object& shape, const ObjMaterials& materials, bool loads_materials);
   Bsdfs library_bsdfs(const std::string& obj_path, const std::set<std::string>& names);
@@ -99,6 +101,7 @@ class MaterialUser {
   std::set<const Object*> seen_;
   std::map<std::string, std::optional<ObjMaterials>> materials_;  ///< by path; none: unreadable
   std::map<std::string, MtlFile> libraries_;                      ///< by path
+  std::set<std::string> told_;  ///< files with materials that are missing
 };
 
 /// Each file is read once, however many shapes name it.
@@ -174,7 +177,24 @@ MaterialUser::Bsdfs MaterialUser::bsdfs_for(const Object& shape, const ObjMateri
        library_bsdfs(*value_in<std::string>(shape, "filename"), materials.libraries))
     if (std::binary_search(materials.used.begin(), materials.used.end(), name))
       bsdfs.try_emplace(name, bsdf);
+  tell_of_missing(*value_in<std::string>(shape, "filename"), materials, bsdfs);
   return bsdfs;
+}
+
+/// Once for each file.
+void MaterialUser::tell_of_missing(const std::string& path, const ObjMaterials& materials,
+                                   const Bsdfs& bsdfs) {
+  std::string first;
+  size_t count = 0;
+  for (const std::string& material : materials.used) {
+    if (material.empty() || bsdfs.contains(material)) continue;
+    if (count++ == 0) first = material;
+  }
+  // Where no file of materials was read, that has been told.
+  if (count == 0 || libraries_.empty() || !told_.insert(path).second) return;
+  description_.warnings.push_back(fmt::format(
+      "{}: its file of materials lacks {}{}: what has it is matt and grey", path,
+      mitsuba::in_quotes(first), count > 1 ? fmt::format(" and {} more", count - 1) : ""));
 }
 
 std::vector<std::shared_ptr<Object>> MaterialUser::parts_of(const std::shared_ptr<Object>& shape) {
