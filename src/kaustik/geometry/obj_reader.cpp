@@ -11,6 +11,8 @@
 
 #include "kaustik/base/file.h"
 #include "kaustik/base/sampler.h"
+#include "kaustik/base/srgb.h"
+#include "kaustik/geometry/mesh_attribute.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/polygon_cutter.h"
@@ -62,11 +64,16 @@ class ObjReader {
   std::string_view next_part();
   void read_line(std::string_view line);
   void remark_unknown(const std::string& keyword);
-  void read_numbers(std::string_view line, std::string_view what, float* values, int count) const;
+  static size_t count_words(std::string_view line);
+  void set_colour(size_t position, const Vec3f& encoded);
+  /// Returns what follows them.
+  std::string_view read_numbers(std::string_view line, std::string_view what, float* values,
+                                int count) const;
   void read_face(std::string_view line);
   CornerKey read_corner(std::string_view word) const;
   uint32_t read_index(std::string_view text, size_t count, std::string_view what) const;
   uint32_t vertex_of(const CornerKey& key);
+  void add_colours();
   void finish();
 
   static std::string_view next_word(std::string_view& line) {
@@ -86,6 +93,7 @@ class ObjReader {
   std::string joined_;  ///< the line, where it goes on
   size_t faces_ = 0;
   std::vector<Vec3f> positions_, normals_;
+  std::vector<Vec3f> colours_;  ///< of the positions, as far as there are any
   std::vector<Vec2f> uvs_;
   std::unordered_map<CornerKey, uint32_t, CornerHash> vertices_;
   TriangleMesh mesh_;
@@ -145,9 +153,15 @@ void ObjReader::read_line(std::string_view line) {
   std::string keyword(next_word(line));
   for (char& c : keyword)
     if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  float values[3] = {0, 0, 0};
+  float values[6] = {0, 0, 0, 0, 0, 0};
   if (keyword == "v") {
-    read_numbers(line, fmt::format("vertex {}", positions_.size() + 1), values, 3);
+    const std::string name = fmt::format("vertex {}", positions_.size() + 1);
+    // After the position may stand a weight, or a colour.
+    const std::string_view rest = read_numbers(line, name, values, 3);
+    if (count_words(rest) >= 3) {
+      read_numbers(rest, name, values + 3, 3);
+      set_colour(positions_.size(), {values[3], values[4], values[5]});
+    }
     positions_.emplace_back(values[0], values[1], values[2]);
   } else if (keyword == "vn") {
     read_numbers(line, fmt::format("normal {}", normals_.size() + 1), values, 3);
@@ -167,8 +181,24 @@ void ObjReader::read_line(std::string_view line) {
   }
 }
 
-void ObjReader::read_numbers(std::string_view line, std::string_view what, float* values,
-                             int count) const {
+size_t ObjReader::count_words(std::string_view line) {
+  size_t count = 0;
+  for (std::string_view word = next_word(line); !word.empty() && word[0] != '#';
+       word = next_word(line))
+    ++count;
+  return count;
+}
+
+/// Those that have none before are white. Colours are sRGB encoded, as MeshLab and Blender write
+/// them.
+void ObjReader::set_colour(size_t position, const Vec3f& encoded) {
+  colours_.resize(position, Vec3f(1));
+  colours_.emplace_back(linear_from_srgb(encoded.x), linear_from_srgb(encoded.y),
+                        linear_from_srgb(encoded.z));
+}
+
+std::string_view ObjReader::read_numbers(std::string_view line, std::string_view what,
+                                         float* values, int count) const {
   for (int i = 0; i < count; ++i) {
     std::string_view word = next_word(line);
     const std::string_view given = quotable(word);
@@ -182,6 +212,7 @@ void ObjReader::read_numbers(std::string_view line, std::string_view what, float
       fail(fmt::format("{} is not finite ('{}')", what, given),
            "repair the mesh: all coordinates must be numbers");
   }
+  return line;
 }
 
 void ObjReader::read_face(std::string_view line) {
@@ -239,9 +270,23 @@ uint32_t ObjReader::vertex_of(const CornerKey& key) {
   return it->second;
 }
 
+void ObjReader::add_colours() {
+  if (colours_.empty()) return;
+  MeshAttribute attribute{"vertex_color", 3};
+  attribute.values.resize(3 * mesh_.positions.size());
+  for (const auto& [key, vertex] : vertices_) {
+    const Vec3f colour = key.position < colours_.size() ? colours_[key.position] : Vec3f(1);
+    for (int c = 0; c < 3; ++c) attribute.values[3 * size_t(vertex) + size_t(c)] = colour[c];
+  }
+  if (const size_t count = make_finite(attribute); count > 0)
+    remarks_.push_back(remark_on_attribute(attribute.name, count, path_));
+  mesh_.attributes.push_back(std::move(attribute));
+}
+
 void ObjReader::finish() {
   if (!any_uv_) mesh_.uvs.clear();
   if (!any_normal_) mesh_.normals.clear();
+  add_colours();
   if (small_faces_ > 0) remarks_.push_back(remark_on_small_faces(small_faces_, path_));
 }
 

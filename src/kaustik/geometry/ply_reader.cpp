@@ -9,6 +9,8 @@
 #include <string_view>
 
 #include "kaustik/base/file.h"
+#include "kaustik/geometry/attribute_groups.h"
+#include "kaustik/geometry/mesh_attribute.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/polygon_cutter.h"
@@ -37,6 +39,12 @@ std::optional<Type> type_named(std::string_view name) {
   return std::nullopt;
 }
 
+/// The number that an integer of this type stands for 1 with; 0: it is none.
+double largest_of(Type type) {
+  constexpr double largest[] = {0x7f, 0xff, 0x7fff, 0xffff, 0x7fffffff, 0xffffffff, 0, 0};
+  return largest[size_t(type)];
+}
+
 struct PlyProperty {
   std::string name;
   bool is_list = false;
@@ -55,6 +63,53 @@ struct PlyElement {
         if (properties[i].name == wanted) return int(i);
     return -1;
   }
+};
+
+/// Attributes that are read from the properties of an element.
+class AttributeReader {
+ public:
+  /// `whose`: "vertex_" or "face_".
+  AttributeReader(const PlyElement& element, const std::string& whose) {
+    std::vector<std::string> names;
+    for (const PlyProperty& property : element.properties)
+      names.push_back(property.is_list ? std::string() : property.name);
+    for (const AttributeGroup& group : attribute_groups(names)) {
+      attributes_.push_back({whose + group.name, int(group.members.size())});
+      for (const size_t i : group.members)
+        members_.push_back({i, largest_of(element.properties[i].type)});
+    }
+  }
+
+  bool empty() const { return attributes_.empty(); }
+  /// For so many elements.
+  void reserve(size_t elements) {
+    for (MeshAttribute& attribute : attributes_)
+      attribute.values.reserve(elements * size_t(attribute.components));
+  }
+  /// Adds those of one element: `values` of all its properties.
+  void add(const std::vector<double>& values) {
+    auto member = members_.begin();
+    for (MeshAttribute& attribute : attributes_)
+      for (int i = 0; i < attribute.components; ++i, ++member)
+        attribute.values.push_back(attribute_value(values[member->property], member->largest));
+  }
+  /// Moves them into the mesh; tells what is not finite.
+  void finish(MeshFile& file, const std::string& path) {
+    for (MeshAttribute& attribute : attributes_) {
+      if (const size_t count = make_finite(attribute); count > 0)
+        file.remarks.push_back(remark_on_attribute(attribute.name, count, path));
+      file.mesh.attributes.push_back(std::move(attribute));
+    }
+    attributes_.clear();
+  }
+
+ private:
+  struct Member {
+    size_t property;
+    double largest;  ///< see attribute_value()
+  };
+  std::vector<MeshAttribute> attributes_;
+  std::vector<Member> members_;  ///< of all attributes in turn
 };
 
 class PlyReader {
@@ -76,6 +131,7 @@ class PlyReader {
     if (mesh_.triangles.empty()) check(fault_of_no_faces());
     MeshFile file{std::move(mesh_), {}};
     if (small_faces_ > 0) file.remarks.push_back(remark_on_small_faces(small_faces_, path_));
+    for (AttributeReader& attributes : attributes_) attributes.finish(file, path_);
     return file;
   }
 
@@ -122,6 +178,7 @@ class PlyReader {
   std::set<std::string> element_names_;
   char line_end_ = '\n';  ///< '\r' where no '\n' follows
   TriangleMesh mesh_;
+  std::vector<AttributeReader> attributes_;  ///< of the elements so far
   uint64_t vertex_count_ = 0;
   PolygonCutter cutter_;
   std::vector<uint32_t> corners_;  ///< of the face that is read
@@ -316,16 +373,18 @@ void PlyReader::read_vertices(const PlyElement& element) {
   mesh_.positions.reserve(size_t(element.count) + 1);
   if (has_normals) mesh_.normals.reserve(size_t(element.count));
   if (has_uvs) mesh_.uvs.reserve(size_t(element.count));
-  std::vector<float> values(element.properties.size());
+  AttributeReader attributes(element, "vertex_");
+  attributes.reserve(size_t(element.count));
+  std::vector<double> values(element.properties.size());
   for (uint64_t vertex = 0; vertex < element.count; ++vertex) {
     for (size_t i = 0; i < values.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       if (property.is_list)
         skip(property);
       else
-        values[i] = float(value(property.type));
+        values[i] = value(property.type);
     }
-    const auto at = [&](int i) { return values[size_t(i)]; };
+    const auto at = [&](int i) { return float(values[size_t(i)]); };
     const Vec3f p(at(position[0]), at(position[1]), at(position[2]));
     check(fault_of_position(vertex, p));
     mesh_.positions.push_back(p);
@@ -339,7 +398,9 @@ void PlyReader::read_vertices(const PlyElement& element) {
       check(fault_of_uv(vertex, t));
       mesh_.uvs.push_back(t);
     }
+    attributes.add(values);
   }
+  attributes_.push_back(std::move(attributes));
 }
 
 void PlyReader::read_faces(const PlyElement& element) {
@@ -351,12 +412,24 @@ void PlyReader::read_faces(const PlyElement& element) {
     if (&other == &element) fail("the faces come before the vertices", "export the file again");
   }
   mesh_.triangles.reserve(size_t(element.count));
-  for (uint64_t face = 0; face < element.count; ++face)
-    for (size_t i = 0; i < element.properties.size(); ++i)
+  AttributeReader attributes(element, "face_");
+  attributes.reserve(size_t(element.count));
+  std::vector<double> values(element.properties.size());
+  for (uint64_t face = 0; face < element.count; ++face) {
+    const size_t triangles = mesh_.triangles.size();
+    for (size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
       if (int(i) == indices)
-        read_polygon(element.properties[i], face);
+        read_polygon(property, face);
+      else if (property.is_list || attributes.empty())
+        skip(property);
       else
-        skip(element.properties[i]);
+        values[i] = value(property.type);
+    }
+    // Each triangle has what its face has.
+    for (size_t i = triangles; i < mesh_.triangles.size(); ++i) attributes.add(values);
+  }
+  attributes_.push_back(std::move(attributes));
 }
 
 void PlyReader::read_polygon(const PlyProperty& property, uint64_t face) {

@@ -8,6 +8,7 @@
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
 #include "kaustik/base/inflate.h"
+#include "kaustik/geometry/mesh_attribute.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 
@@ -75,6 +76,7 @@ class SerializedReader {
     return {x, y, next_value()};
   }
   void read_vertices();
+  void read_colors();
   void read_triangles();
 
   const std::string& path_;
@@ -169,7 +171,16 @@ void SerializedReader::read_vertices() {
       check(fault_of_uv(i, mesh.uvs.back()));
     }
   }
-  if (flags_ & has_colors) at_ += size_t(vertices_) * 3 * (flags_ & in_doubles ? 8 : 4);
+  if (flags_ & has_colors) read_colors();
+}
+
+void SerializedReader::read_colors() {
+  MeshAttribute attribute{"vertex_color", 3};
+  attribute.values.reserve(3 * size_t(vertices_));
+  for (uint64_t i = 0; i < 3 * vertices_; ++i) attribute.values.push_back(next_value());
+  if (const size_t count = make_finite(attribute); count > 0)
+    result_.remarks.push_back(remark_on_attribute(attribute.name, count, path_));
+  result_.mesh.attributes.push_back(std::move(attribute));
 }
 
 void SerializedReader::read_triangles() {
