@@ -189,7 +189,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   }
   read_parts(element.node, unfinished, source);
   --depth_;
-  upgrade_texture_placement(object, source.version, problems_);
+  upgrade_texture(object, source.version, problems_);
   return unfinished.object;
 }
 

@@ -45,6 +45,45 @@ std::optional<Property> take_number(Object& object, std::string_view name) {
   return taken;
 }
 
+/// uoffset, voffset, uscale, vscale and uvscale become `to_uv`.
+void upgrade_placement(Object& object, Problems& problems) {
+  Vec3d offset(0, 0, 0), scale(1, 1, 1);
+  Place place;
+  const auto take = [&](std::string_view name, double& target) {
+    if (const auto property = take_number(object, name)) {
+      target = std::get<double>(property->value);
+      if (!place.file) place = property->place;
+    }
+  };
+  take("uvscale", scale.x);
+  scale.y = scale.x;
+  take("uoffset", offset.x);
+  take("voffset", offset.y);
+  take("uscale", scale.x);
+  take("vscale", scale.y);
+  if (!place.file) return;
+  try {
+    const Transform to_uv = Transform::scale(scale) * Transform::translate(offset);
+    object.properties.push_back({"to_uv", to_uv, place});
+  } catch (const std::invalid_argument&) {
+    problems.add("the texture's uscale or vscale is too near to 0", "give another scale", place);
+  }
+}
+
+/// The present name of what a texture's property says.
+std::string upgraded_choice(const std::string& name, const std::string& value) {
+  struct Renamed {
+    std::string_view property, before, now;
+  };
+  static constexpr Renamed table[] = {{"filter_type", "ewa", "bilinear"},
+                                      {"filter_type", "trilinear", "bilinear"},
+                                      {"wrap_mode", "black", "zero"},
+                                      {"wrap_mode", "white", "one"}};
+  for (const Renamed& row : table)
+    if (name.starts_with(row.property) && value == row.before) return std::string(row.now);
+  return value;
+}
+
 }  // namespace
 
 Version parse_version(std::string_view text) {
@@ -78,26 +117,16 @@ std::string upgraded_tag(const std::string& tag, Version version) {
   return tag;
 }
 
-void upgrade_texture_placement(Object& object, Version version, Problems& problems) {
+void upgrade_texture(Object& object, Version version, Problems& problems) {
   if (version >= first_with_snake_case) return;
-  Vec3d offset(0, 0, 0), scale(1, 1, 1);
-  Place place;
-  const auto take = [&](std::string_view name, double& target) {
-    if (const auto property = take_number(object, name)) {
-      target = std::get<double>(property->value);
-      if (!place.file) place = property->place;
-    }
-  };
-  take("uoffset", offset.x);
-  take("voffset", offset.y);
-  take("uscale", scale.x);
-  take("vscale", scale.y);
-  if (!place.file) return;
-  try {
-    const Transform to_uv = Transform::scale(scale) * Transform::translate(offset);
-    object.properties.push_back({"to_uv", to_uv, place});
-  } catch (const std::invalid_argument&) {
-    problems.add("the texture's uscale or vscale is too near to 0", "give another scale", place);
+  upgrade_placement(object, problems);
+  if (object.family != "texture") return;
+  for (Property& property : object.properties)
+    if (auto* text = std::get_if<std::string>(&property.value))
+      *text = upgraded_choice(property.name, *text);
+  if (object.type == "vertexcolors") {
+    object.type = "mesh_attribute";
+    object.properties.push_back({"name", std::string("vertex_color"), object.place});
   }
 }
 

@@ -25,7 +25,8 @@ std::string upgraded_name(const std::string& name, const std::string& object_typ
 /// The present name of a tag.
 std::string upgraded_tag(const std::string& tag, Version version);
 
-/// Turns uoffset, voffset, uscale and vscale of a texture into `to_uv`.
-void upgrade_texture_placement(Object& object, Version version, Problems& problems);
+/// Turns uoffset, voffset, uscale, vscale and uvscale of a texture into `to_uv`, and brings its
+/// type and the names of its filter and of what lies outside of a picture up to date.
+void upgrade_texture(Object& object, Version version, Problems& problems);
 
 }  // namespace kaustik::mitsuba
