@@ -319,14 +319,18 @@ std::vector<Property> UnknownParameters::without_unknown(const TypeInfo& info,
       known.push_back(property);
       continue;
     }
-    const std::string text =
-        fmt::format("{} '{}' has no parameter '{}'", info.family, info.name, property.name);
-    Found& found = found_[text];
-    if (found.count++ > 0) continue;
-    found.first = property.place;
-    found.nearest = nearest_name(property.name, info.parameter_names());
+    add(fmt::format("{} '{}' has no parameter '{}'", info.family, info.name, property.name),
+        property.place, nearest_name(property.name, info.parameter_names()));
   }
   return known;
+}
+
+void UnknownParameters::add(const std::string& text, const Place& place,
+                            const std::string& nearest) {
+  Found& found = found_[text];
+  if (found.count++ > 0) return;
+  found.first = place;
+  found.nearest = nearest;
 }
 
 std::vector<std::string> UnknownParameters::warnings() const {

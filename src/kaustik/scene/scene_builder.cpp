@@ -9,6 +9,7 @@
 #include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/find_row.h"
+#include "kaustik/scene/shape_attribute.h"
 #include "kaustik/scene/texture_emission.h"
 #include "kaustik/scene/type_tables.h"
 
@@ -41,6 +42,16 @@ const Parameter* texture_parameter(const TypeInfo& info, const std::string& name
   }
   const bool is_free = count == 1 && std::holds_alternative<std::monostate>(only->default_value);
   return is_free ? only : nullptr;
+}
+
+/// See TextureOfParameter; valid as long as the two are.
+TextureOfParameter textures_for(
+    const Arguments& arguments,
+    const std::map<std::string, std::shared_ptr<const Texture>, std::less<>>& nested) {
+  return [&](std::string_view name) -> std::shared_ptr<const Texture> {
+    const auto found = nested.find(name);
+    return found != nested.end() ? found->second : constant_texture_of(arguments, name);
+  };
 }
 
 /// Refuses what floats cannot carry through ray tracing; `what` is the subject of the message.
@@ -183,11 +194,13 @@ void SceneBuilder::add_top_level(const Object& object) {
     const auto alias =
         std::shared_ptr<Object>(std::shared_ptr<Object>(), const_cast<Object*>(&object));
     if (object.family == "bsdf")
-      make_bsdf(alias);
+      make_bsdf(alias, nullptr);
     else if (object.family == "medium")
       make_medium(alias);
+    else if (is_foreign_texture(object))
+      leave_out(object);
     else
-      make_texture(alias);
+      make_texture(alias, nullptr);
   } else if (object.family != "integrator") {
     const bool is_of_sensor = object.family == "film" || object.family == "sampler";
     problems_.add(fmt::format("a {} cannot stand at the top of a scene", object.family),
@@ -227,10 +240,15 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   built.object = &object;
   built.surface.name = display_name(object);
   const Arguments arguments = arguments_of(type->info, object);
+  if (arguments.is_complete())
+    collecting(source_place(arguments), [&] {
+      built.shape = shape_of(object, *type, arguments);
+      check_size(*built.shape, source_place(arguments));
+    });
   int bsdf_count = 0;
   for (const Child& child : object.children) {
     if (child.object->family == "bsdf") {
-      built.surface.bsdf = make_bsdf(child.object);
+      built.surface.bsdf = make_bsdf(child.object, &built);
       if (++bsdf_count == 2)
         problems_.add("the shape has a second bsdf", "keep one", child.object->place);
     } else if (child.object->family == "integrator") {
@@ -241,15 +259,10 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   }
   if (!built.surface.bsdf) {
     static const Object default_bsdf{"bsdf", "diffuse", "", {}, {}, {}};
-    built.surface.bsdf = create_bsdf(default_bsdf);
+    built.surface.bsdf = create_bsdf(default_bsdf, &built);
   }
   if (built.surface.bsdf) built.surface.traits = built.surface.bsdf->traits();
   read_media(object, built.surface);
-  if (!arguments.is_complete()) return std::nullopt;
-  collecting(source_place(arguments), [&] {
-    built.shape = shape_of(object, *type, arguments);
-    check_size(*built.shape, source_place(arguments));
-  });
   if (const auto* mesh = dynamic_cast<const MeshShape*>(built.shape.get()))
     for (const std::string& remark : mesh->remarks())
       if (remarks_reported_.insert(remark).second) warnings_.push_back(remark);
@@ -308,23 +321,86 @@ void SceneBuilder::add_instance(const Object& object) {
   });
 }
 
-std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<Object>& object) {
-  const auto known = textures_.find(object.get());
+bool SceneBuilder::is_foreign_texture(const Object& object) const {
+  const bool is_of_file = object.place.file && object.place.line > 0;
+  const std::vector<std::string> known = names_of(texture_types());
+  return !is_strict_ && is_of_file && !find_row(texture_types(), object.type) &&
+         nearest_name(object.type, known).empty();
+}
+
+void SceneBuilder::leave_out(const Object& texture) {
+  if (left_out_.insert(&texture).second)
+    unknown_.add(fmt::format("no texture type '{}' is known", texture.type), texture.place);
+}
+
+bool SceneBuilder::asks_surface(const Object& object) {
+  const auto known = asks_surface_.find(&object);
+  if (known != asks_surface_.end()) return known->second;
+  const TextureType* type =
+      object.family == "texture" ? find_row(texture_types(), object.type) : nullptr;
+  bool asks = type && type->asks_surface;
+  for (const Child& child : object.children) asks = asks || asks_surface(*child.object);
+  return asks_surface_[&object] = asks;
+}
+
+SceneBuilder::MadeOn SceneBuilder::made_on(const Object& object, const BuiltShape* on) {
+  return {&object, on && asks_surface(object) ? on->shape.get() : nullptr};
+}
+
+std::shared_ptr<const SurfaceAttribute> SceneBuilder::attribute_of(const BuiltShape* on,
+                                                                   const std::string& name,
+                                                                   const Place& place) {
+  if (!on || !on->shape) return nullptr;
+  return std::make_shared<ShapeAttribute>(
+      on->shape, attribute_named(*on->shape, on->surface.name, name, place));
+}
+
+std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<Object>& object,
+                                                          const BuiltShape* on) {
+  const MadeOn key = made_on(*object, on);
+  const auto known = textures_.find(key);
   if (known != textures_.end()) return known->second;
-  std::shared_ptr<const Texture> texture;
-  if (const TextureType* type = find_row(texture_types(), object->type)) {
-    refuse_children(*object, {});
-    const Arguments arguments = arguments_of(type->info, *object);
-    if (arguments.is_complete())
-      collecting(source_place(arguments), [&] { texture = texture_of(*object, *type, arguments); });
-  } else {
-    unknown_type(*object, names_of(texture_types()));
+  return textures_[key] = create_texture(*object, on);
+}
+
+std::shared_ptr<const Texture> SceneBuilder::create_texture(const Object& object,
+                                                            const BuiltShape* on) {
+  const TextureType* type = find_row(texture_types(), object.type);
+  if (!type) {
+    unknown_type(object, names_of(texture_types()));
+    return nullptr;
   }
-  return textures_[object.get()] = texture;
+  std::optional<Textures> nested = Textures();
+  if (texture_parameters(type->info).empty())
+    refuse_children(object, {});
+  else {
+    refuse_children(object, {"texture"});
+    nested = textures_of(object, type->info, on);
+  }
+  const Arguments arguments = arguments_of(type->info, object);
+  if (!nested || !arguments.is_complete()) return nullptr;
+  std::shared_ptr<const Texture> texture;
+  const auto attribute = [&](const std::string& name) {
+    return attribute_of(on, name, arguments.place_of("name"));
+  };
+  collecting(source_place(arguments), [&] {
+    texture = texture_of(object, *type,
+                         {arguments, pictures_, textures_for(arguments, *nested), attribute}, on);
+  });
+  if (texture && texture->size() > maximum_texture_size) {
+    problems_.add(fmt::format("texture '{}' nests {} textures, each counted for every place it is "
+                              "used in: rendering it would take too long",
+                              object.type, texture->size() - 1),
+                  fmt::format("nest fewer: at most {} in all", maximum_texture_size - 1),
+                  object.place);
+    return nullptr;
+  }
+  return texture;
 }
 
 std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& object,
-                                                                const TypeInfo& info) {
+                                                                const TypeInfo& info,
+                                                                const BuiltShape* on) {
   Textures textures;
   for (const Child& child : object.children) {
     if (child.object->family != "texture") continue;
@@ -335,24 +411,31 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
           suggest(child.name, texture_parameters(info)), child.object->place);
       continue;
     }
+    const bool has_default = std::holds_alternative<Value>(parameter->default_value);
+    if (has_default && is_foreign_texture(*child.object)) {
+      leave_out(*child.object);
+      continue;
+    }
     auto& texture = textures[parameter->name];
     if (texture)
       problems_.add(
           fmt::format("{} '{}' has a second texture '{}'", object.family, object.type, child.name),
           "keep one", child.object->place);
-    texture = make_texture(child.object);
+    texture = make_texture(child.object, on);
     if (!texture) return std::nullopt;
   }
   return textures;
 }
 
-std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object>& object) {
-  const auto known = bsdfs_.find(object.get());
+std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object>& object,
+                                                    const BuiltShape* on) {
+  const MadeOn key = made_on(*object, on);
+  const auto known = bsdfs_.find(key);
   if (known != bsdfs_.end()) return known->second;
-  return bsdfs_[object.get()] = create_bsdf(*object);
+  return bsdfs_[key] = create_bsdf(*object, on);
 }
 
-std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
+std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, const BuiltShape* on) {
   const BsdfType* type = find_row(bsdf_types(), object.type);
   if (!type) {
     unknown_type(object, names_of(bsdf_types()));
@@ -362,10 +445,10 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
   std::vector<std::shared_ptr<const Bsdf>> nested;
   for (const Child& child : object.children) {
     if (child.object->family != "bsdf") continue;
-    nested.push_back(make_bsdf(child.object));
+    nested.push_back(make_bsdf(child.object, on));
     if (!nested.back()) return nullptr;
   }
-  const std::optional<Textures> textures = textures_of(object, type->info);
+  const std::optional<Textures> textures = textures_of(object, type->info, on);
   if (!textures) return nullptr;
   if (int(nested.size()) < type->minimum_nested || int(nested.size()) > type->maximum_nested) {
     problems_.add(fmt::format("bsdf '{}' holds {} bsdfs", object.type, nested.size()),
@@ -374,13 +457,10 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
     return nullptr;
   }
   const Arguments arguments = arguments_of(type->info, object);
-  const auto texture = [&](std::string_view name) -> std::shared_ptr<const Texture> {
-    const auto found = textures->find(name);
-    if (found != textures->end()) return found->second;
-    return constant_texture_of(arguments, name);
-  };
   std::shared_ptr<const Bsdf> bsdf;
-  collecting(object.place, [&] { bsdf = bsdf_of(object, *type, {arguments, nested, texture}); });
+  collecting(object.place, [&] {
+    bsdf = bsdf_of(object, *type, {arguments, nested, textures_for(arguments, *textures)}, on);
+  });
   if (bsdf && bsdf->traits().size > maximum_bsdf_size) {
     problems_.add(fmt::format("bsdf '{}' nests {} bsdfs, each counted for every place it is used "
                               "in: rendering it would take too long",
@@ -405,9 +485,17 @@ Geometry SceneBuilder::make_geometry() {
 }
 
 std::shared_ptr<const EmissionPattern> SceneBuilder::emission_pattern_of(
-    const Object& emitter, const Arguments& arguments) {
+    const PendingLight& pending, const Arguments& arguments) {
   if (texture_parameters(arguments.info()).empty()) return nullptr;  // refused already
-  const std::optional<Textures> textures = textures_of(emitter, arguments.info());
+  const Object& emitter = *pending.object;
+  const BuiltShape* on = pending.shape_index < 0 ? nullptr : &shapes_[size_t(pending.shape_index)];
+  if (!on && asks_surface(emitter)) {
+    problems_.add(fmt::format("emitter '{}' lies on no mesh whose colours its texture could show",
+                              emitter.type),
+                  "give it another texture", emitter.place);
+    return nullptr;
+  }
+  const std::optional<Textures> textures = textures_of(emitter, arguments.info(), on);
   if (!textures || textures->empty()) return nullptr;
   const auto& [name, texture] = *textures->begin();
   if (arguments.given(name))

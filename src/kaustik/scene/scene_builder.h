@@ -41,12 +41,32 @@ class SceneBuilder {
   void add_instance(const Object& object);
   uint32_t group_index(const std::shared_ptr<Object>& group);
   std::optional<BuiltShape> make_shape(const Object& object);
-  std::shared_ptr<const Bsdf> make_bsdf(const std::shared_ptr<Object>& object);
-  std::shared_ptr<const Bsdf> create_bsdf(const Object& object);
-  std::shared_ptr<const Texture> make_texture(const std::shared_ptr<Object>& object);
+  // `on`: the shape that a bsdf or a texture lies on, for textures that ask it; null: none, it is
+  // only checked.
+  std::shared_ptr<const Bsdf> make_bsdf(const std::shared_ptr<Object>& object,
+                                        const BuiltShape* on);
+  std::shared_ptr<const Bsdf> create_bsdf(const Object& object, const BuiltShape* on);
+  std::shared_ptr<const Texture> make_texture(const std::shared_ptr<Object>& object,
+                                              const BuiltShape* on);
+  std::shared_ptr<const Texture> create_texture(const Object& object, const BuiltShape* on);
+  /// Whether a texture in it, or it itself, asks the shape.
+  bool asks_surface(const Object& object);
+  /// What is made of an object: one for all shapes, or for each its own.
+  using MadeOn = std::pair<const Object*, const Shape*>;
+  MadeOn made_on(const Object& object, const BuiltShape* on);
+  uint64_t key_on(const Object& object, const BuiltShape* on);
+  /// Null where there is no shape. Throws Error(input) at `place` where it has no such attribute.
+  static std::shared_ptr<const SurfaceAttribute> attribute_of(const BuiltShape* on,
+                                                              const std::string& name,
+                                                              const Place& place);
+  /// Whether a file names a type of texture that another program may have. Such a texture is left
+  /// out, with a warning; a type that looks like one of ours was meant to be one.
+  bool is_foreign_texture(const Object& object) const;
+  void leave_out(const Object& texture);
   using Textures = std::map<std::string, std::shared_ptr<const Texture>, std::less<>>;
   /// The textures in an object, by the parameters that they stand for; none if one is wrong.
-  std::optional<Textures> textures_of(const Object& object, const TypeInfo& info);
+  std::optional<Textures> textures_of(const Object& object, const TypeInfo& info,
+                                      const BuiltShape* on);
   std::shared_ptr<const Medium> make_medium(const std::shared_ptr<Object>& object);
   std::shared_ptr<const PhaseFunction> make_phase_function(const Object& object);
   /// The one medium among the children of a sensor or an emitter; null if there is none.
@@ -64,11 +84,11 @@ class SceneBuilder {
   std::shared_ptr<const Shape> shape_of(const Object& object, const ShapeType& type,
                                         const Arguments& arguments);
   std::shared_ptr<const Texture> texture_of(const Object& object, const TextureType& type,
-                                            const Arguments& arguments);
+                                            const TextureInputs& inputs, const BuiltShape* on);
   std::shared_ptr<const Bsdf> bsdf_of(const Object& object, const BsdfType& type,
-                                      const BsdfInputs& inputs);
+                                      const BsdfInputs& inputs, const BuiltShape* on);
   /// Of the texture in an emitter, of which no type takes more than one; null: it has none.
-  std::shared_ptr<const EmissionPattern> emission_pattern_of(const Object& emitter,
+  std::shared_ptr<const EmissionPattern> emission_pattern_of(const PendingLight& pending,
                                                              const Arguments& arguments);
   Geometry make_geometry();
 
@@ -99,8 +119,10 @@ class SceneBuilder {
   std::map<const Object*, uint32_t> group_of_;
   std::vector<Instance> instances_;
   std::vector<PendingLight> pending_lights_;
-  std::map<const Object*, std::shared_ptr<const Bsdf>> bsdfs_;
-  std::map<const Object*, std::shared_ptr<const Texture>> textures_;
+  std::map<const Object*, bool> asks_surface_;
+  std::map<MadeOn, std::shared_ptr<const Bsdf>> bsdfs_;
+  std::map<MadeOn, std::shared_ptr<const Texture>> textures_;
+  std::set<const Object*> left_out_;  ///< foreign textures
   std::map<const Object*, std::shared_ptr<const Medium>> media_;
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const Medium>> light_media_;

@@ -15,6 +15,7 @@ class TextureEmission final : public EmissionPattern {
     where.uv = at.uv;
     where.position = at.position;
     where.normal = at.ng;
+    where.primitive = at.primitive;
     // White has nothing in the lane that nothing emits into; textures of reflectances may.
     return texture_->eval(where, wavelengths) * white_light(wavelengths);
   }
