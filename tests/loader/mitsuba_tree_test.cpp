@@ -184,6 +184,31 @@ TEST(MitsubaTree, OldTexturePlacementBecomesATransform) {
   EXPECT_EQ(parse(in_scene(texture, "2.0.0")).scene->children.at(0).object->properties.size(), 3u);
 }
 
+TEST(MitsubaTree, OldTexturesAreBroughtUpToDate) {
+  const std::string texture =
+      "<texture type='bitmap'><float name='uvscale' value='3'/><float name='voffset' value='1'/>"
+      "<string name='filterType' value='trilinear'/><string name='wrapModeU' value='black'/>"
+      "<string name='wrapModeV' value='mirror'/><float name='gamma' value='1'/></texture>"
+      "<texture type='vertexcolors'/>"
+      "<bsdf type='x'><string name='wrapMode' value='white'/></bsdf>";
+  const auto old = parse(in_scene(texture, "0.6.0")).scene;
+  const Object& bitmap = *old->children.at(0).object;
+  const Transform& to_uv = value<Transform>(bitmap, "to_uv");
+  EXPECT_EQ(to_uv.at(0, 0), 3);
+  EXPECT_EQ(to_uv.at(1, 1), 3);
+  EXPECT_EQ(to_uv.at(1, 3), 3);
+  EXPECT_EQ(value<std::string>(bitmap, "filter_type"), "bilinear");
+  EXPECT_EQ(value<std::string>(bitmap, "wrap_mode_u"), "zero");
+  EXPECT_EQ(value<std::string>(bitmap, "wrap_mode_v"), "mirror");
+  EXPECT_EQ(value<double>(bitmap, "gamma"), 1);
+  EXPECT_EQ(old->children.at(1).object->type, "mesh_attribute");
+  EXPECT_EQ(value<std::string>(*old->children.at(1).object, "name"), "vertex_color");
+  EXPECT_EQ(value<std::string>(*old->children.at(2).object, "wrap_mode"), "white");
+  const auto present = parse(in_scene(texture, "3.0.0")).scene;
+  EXPECT_EQ(value<std::string>(*present->children.at(0).object, "wrapModeU"), "black");
+  EXPECT_EQ(present->children.at(1).object->type, "vertexcolors");
+}
+
 TEST(MitsubaTree, NewVersionsAreNotUpgraded) {
   for (const std::string version : {"2.0.0", "2.2.1", "3.0.0", "3.7.1"}) {
     const auto scene =
@@ -281,8 +306,8 @@ std::string lenient_warning(const std::string& text) {
 
 TEST(MitsubaTree, VersionsMayBeShortOrMissing) {
   const auto name = [](const std::string& version) {
-    const auto scene = parse("<scene" + version +
-                             "><shape type='s'><float name='aB' value='1'/></shape></scene>");
+    const auto scene =
+        parse("<scene" + version + "><shape type='s'><float name='aB' value='1'/></shape></scene>");
     return scene.scene->children.at(0).object->properties.at(0).name;
   };
   EXPECT_EQ(name(" version='3'"), "aB");
@@ -298,11 +323,11 @@ TEST(MitsubaTree, TextBetweenElementsIsLeftOut) {
 }
 
 TEST(MitsubaTree, ReflectancesMakeNoLight) {
-  const auto scene = parse(in_scene(
-      "<bsdf type='diffuse' id='a'><rgb name='reflectance' value='255, 127.5, 0'/></bsdf>"
-      "<bsdf type='diffuse' id='b'><float name='reflectance' value='1'/></bsdf>"
-      "<emitter type='point'><rgb name='intensity' value='255'/></emitter>",
-      "0.6.0"));
+  const auto scene = parse(
+      in_scene("<bsdf type='diffuse' id='a'><rgb name='reflectance' value='255, 127.5, 0'/></bsdf>"
+               "<bsdf type='diffuse' id='b'><float name='reflectance' value='1'/></bsdf>"
+               "<emitter type='point'><rgb name='intensity' value='255'/></emitter>",
+               "0.6.0"));
   const Rgb scaled = value<Rgb>(*scene.scene->children.at(0).object, "reflectance");
   EXPECT_DOUBLE_EQ(scaled.r, 0.99);
   EXPECT_DOUBLE_EQ(scaled.g, 0.495);
@@ -334,15 +359,17 @@ TEST(MitsubaTree, NamesOfDialects) {
   const auto bsdf = parse_inside("<bsdf type='roughconductorGGX'/>").scene->children.at(0).object;
   EXPECT_EQ(bsdf->type, "roughconductor");
   EXPECT_EQ(value<std::string>(*bsdf, "distribution"), "ggx");
-  EXPECT_EQ(parse(in_scene("<shape type='Rectangle'/>", "0.6.0")).scene->children.at(0).object->type,
-            "rectangle");
+  EXPECT_EQ(
+      parse(in_scene("<shape type='Rectangle'/>", "0.6.0")).scene->children.at(0).object->type,
+      "rectangle");
   EXPECT_EQ(parse_inside("<shape type='Rectangle'/>").scene->children.at(0).object->type,
             "Rectangle");
 }
 
 TEST(MitsubaTree, OfTwoValuesInOldFilesTheLastHolds) {
-  const std::string twice = "<shape type='s'><float name='x' value='1'/><float name='x' value='2'/>"
-                            "</shape>";
+  const std::string twice =
+      "<shape type='s'><float name='x' value='1'/><float name='x' value='2'/>"
+      "</shape>";
   const Description old = parse(in_scene(twice, "0.6.0"));
   EXPECT_EQ(value<double>(*old.scene->children.at(0).object, "x"), 2);
   EXPECT_EQ(old.warnings.size(), 1u);
