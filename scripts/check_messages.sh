@@ -9,7 +9,7 @@ cd "${1:-$here/..}"
 find src apps \( -name '*.h' -o -name '*.cpp' \) -not -path 'src/kaustik/loader/*' -print | LC_ALL=C sort |
   xargs awk '
     # Meshes and pictures have formats of their own, which know elements and tags.
-    function words_of_xml() { return FILENAME ~ /^apps\/|\/(base|image|geometry)\// ? "" : "(^|[^a-z])(elements?|attributes?|tags?|XML)([^a-z]|$)" }
+    function words_of_xml() { return FILENAME ~ /^apps\/|\/(base|image|geometry)\// ? "" : "(^|[^a-z_])(elements?|attributes?|tags?|XML)([^a-z_]|$)" }
     /^[ \t]*#[ \t]*include/ { next }
     {
       ++lines

@@ -43,6 +43,7 @@ plant apps/kaustik/main.cpp 'const char* a = "give <emitter> more power";'
 spare src/kaustik/scene/scene_builder.cpp '// add <sensor type="perspective"> with a to_world'
 spare src/kaustik/scene/scene_builder.cpp 'const bool a = "a"[0] <b["b"];'
 spare src/kaustik/loader/mitsuba_xml.cpp 'const char* a = "add <sensor>";'
+spare src/kaustik/material/mask.cpp 'const char* a = "mesh_attribute";'
 spare src/kaustik/geometry/ply_reader.cpp 'const char* a = "unknown element";'
 spare apps/kaustik/scene_options.cpp 'const char* a = "Scene file (Mitsuba XML)";'
 

@@ -100,7 +100,7 @@ std::string ParameterValues::file(const TypeInfo& info) {
   const std::string name =
       info.name == "obj"
           ? draw_.one_of({"quad.obj", "tent.obj", "flat.obj", is_wild() ? "far.obj" : "quad.obj"})
-      : info.name == "ply" ? draw_.one_of({"pyramid.ply", "needle.ply"})
+      : info.name == "ply" ? draw_.one_of({"pyramid.ply", "needle.ply", "painted.ply"})
       : info.name == "serialized"
           ? "pair.serialized"
           : draw_.one_of({"colors.pfm", "one.pfm", "bright.pfm", "black.pfm"});
@@ -115,6 +115,8 @@ std::string ParameterValues::text(const TypeInfo& info, const Parameter& paramet
                      : draw_.one_of({"0.1, 0.5", "300, 500"});
   if (parameter.name == "focal_length")
     return is_wild() ? draw_.one_of({"0mm", "1e-30mm", "1e30mm", "mm"}) : "35mm";
+  if (parameter.name == "name") return draw_.one_of({"vertex_color", "vertex_color", "face_heat"});
+  if (parameter.name == "channel") return draw_.one_of({"", "", "r", "b", "a"});
   if (parameter.kind == ParameterKind::file) return file(info);
   return draw_.chance(0.9) ? default_text(parameter) : "?";
 }

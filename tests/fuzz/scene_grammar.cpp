@@ -84,7 +84,7 @@ class Grammar {
 
   /// Some of the type's parameters; textures stand for some that take them. Those that `skips`
   /// names are left out.
-  std::string properties(const TypeInfo& info, Names skips = {}) {
+  std::string properties(const TypeInfo& info, Names skips = {}, int depth = 0) {
     if (draw_.chance(0.98))
       for (const auto& [first, second] : alternatives()) {
         if (!info.find(first[0]) || !info.find(second[0])) continue;
@@ -103,8 +103,8 @@ class Grammar {
                           p.name == "cache_samples" || p.name == "samples_per_pass";
       const bool needed = both && (p.name == "eta" || p.name == "k");
       if (!p.required && !only_texture && !costly && !needed && !draw_.chance(0.3)) continue;
-      if (p.accepts_texture && (only_texture || draw_.chance(0.3)))
-        result += texture(p.name);
+      if (p.accepts_texture && depth < deepest_nesting && (only_texture || draw_.chance(0.3)))
+        result += texture(p.name, depth + 1);
       else if (p.kind == ParameterKind::color && draw_.chance(0.1))
         result += spectrum(p.name);
       else
@@ -113,9 +113,11 @@ class Grammar {
     return result;
   }
 
-  std::string texture(const std::string& name) {
-    const TypeInfo& info = draw_.one_of(texture_types()).info;
-    return open(info, name) + properties(info) + close(info);
+  std::string texture(const std::string& name, int depth) {
+    // Few shapes have what a texture may ask them for.
+    const TextureType* type = &draw_.one_of(texture_types());
+    if (type->asks_surface && draw_.chance(0.8)) type = &draw_.one_of(texture_types());
+    return open(type->info, name) + properties(type->info, {}, depth) + close(type->info);
   }
 
   std::string spectrum(const std::string& name) {
@@ -306,7 +308,7 @@ void write_files(const std::string& folder) {
         "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
         "f 1/1 2/2 3/3 4/4\n");
   write("tent.obj",
-        "v -1 0 0\nv 1 0 0\nv 0 1 -1\nv 0 1 1\nvn 0 1 0\nvn 0 -1 0\n"
+        "v -1 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 -1\nv 0 1 1 1 1 1\nvn 0 1 0\nvn 0 -1 0\n"
         "f 1//1 2//1 3//2\nf 1//2 2//1 4//1\n");
   write("flat.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 0 1 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\n");
   write("far.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nv 1e-30 1e-30 0\nf 1 2 3\nf 1 3 4\n");
@@ -315,6 +317,11 @@ void write_files(const std::string& folder) {
       "float y\nproperty float z\nelement face 2\nproperty list uchar int "
       "vertex_indices\nend_header\n";
   write("pyramid.ply", ply + "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 3 1\n");
+  write("painted.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+        "float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face "
+        "2\nproperty list uchar int vertex_indices\nproperty float heat_x\nend_header\n"
+        "0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n0 0 1 9 9 9\n3 0 1 2 -1\n3 0 3 1 1e30\n");
   write("pair.serialized",
         test::serialized_file(
             {{.flags = 0x1000, .arrays = {{0, 0, 0, 1, 0, 0, 0, 1, 0}}, .corners = {0, 1, 2}},

@@ -144,6 +144,11 @@ void expect_sound(const TriangleMesh& mesh) {
   for (const Vec3f& p : mesh.positions) ASSERT_TRUE(is_finite(p));
   EXPECT_TRUE(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
   EXPECT_TRUE(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());
+  for (const MeshAttribute& attribute : mesh.attributes) {
+    const size_t count = attribute.is_of_faces() ? mesh.triangles.size() : mesh.positions.size();
+    EXPECT_EQ(attribute.values.size(), count * size_t(attribute.components));
+    for (const float value : attribute.values) ASSERT_TRUE(std::isfinite(value));
+  }
 }
 
 /// Reads damaged copies of `bytes`: cut at every offset and with bytes changed. Each gives a sound
@@ -181,6 +186,13 @@ TEST(PlyReader, SurvivesDamage) {
   survive_damage(text_ply, ply, 500);
   survive_damage(binary_ply(false), ply, 500);
   survive_damage(binary_ply(true), ply, 500);
+  // With colours of vertices and numbers of faces.
+  std::string painted = with("element face 1\n", "element face 1\nproperty short heat_x\n");
+  painted.replace(painted.find("4 0 1 2 3"), 0, "7 ");
+  for (const auto& [normal, colour] : {std::pair("nx", "r"), {"ny", "g"}, {"nz", "b"}})
+    painted.replace(painted.find(normal), 2, colour);
+  EXPECT_EQ(ply(painted).attributes.size(), 2u);
+  survive_damage(painted, ply, 500);
 }
 
 const std::string text_obj =
@@ -453,7 +465,10 @@ TEST(MeshFiles, TakeTimeInProportionToTheirSize) {
   EXPECT_LT(taken, 1.5 * samples_divisor);
 }
 
-TEST(ObjReader, SurvivesDamage) { survive_damage(text_obj, obj, 200); }
+TEST(ObjReader, SurvivesDamage) {
+  survive_damage(text_obj, obj, 200);
+  survive_damage("v 0 0 0 1 0 1\nv 1 0 0 0 0.5 1\nv 0 1 0\nv 1 1 1 1 1 1\nf 1 2 3 4\n", obj, 50);
+}
 
 // What `obj` and `ply` do with the file -----------------------------------------------------------
 

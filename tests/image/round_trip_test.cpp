@@ -1,13 +1,23 @@
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfRgbaFile.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
+#include <OpenEXR/ImfTiledOutputPart.h>
 #include <OpenEXR/ImfTiledRgbaFile.h>
 #include <png.h>
 #include <tiffio.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "kaustik/image/image_io.h"
 #include "kaustik/image/photometry.h"
+#include "tests/image/samples.h"
 #include "tests/image/support.h"
 
 namespace kaustik {
@@ -394,6 +404,113 @@ TEST_F(RoundTrip, tiled_exr_with_an_offset) {
   }
 }
 
+/// Planes of a picture as OpenEXR takes them; `values` outlives the buffer.
+template <typename T>
+void insert_plane(Imf::FrameBuffer& buffer, const char* name, Imf::PixelType type,
+                  std::vector<T>& values, size_t width) {
+  buffer.insert(
+      name, Imf::Slice(type, reinterpret_cast<char*>(values.data()), sizeof(T), sizeof(T) * width));
+}
+
+TEST_F(RoundTrip, exr_of_every_pixel_type) {
+  constexpr int width = 5, height = 3;
+  std::vector<::half> halves(width * height, ::half(0.5f));
+  std::vector<float> floats(width * height, 1e-9f);
+  std::vector<unsigned> integers(width * height, 3000000000u);
+  for (const bool is_tiled : {false, true}) {
+    Imf::Header header(width, height);
+    header.channels().insert("R", Imf::Channel(Imf::HALF));
+    header.channels().insert("G", Imf::Channel(Imf::FLOAT));
+    header.channels().insert("B", Imf::Channel(Imf::UINT));
+    Imf::FrameBuffer buffer;
+    insert_plane(buffer, "R", Imf::HALF, halves, width);
+    insert_plane(buffer, "G", Imf::FLOAT, floats, width);
+    insert_plane(buffer, "B", Imf::UINT, integers, width);
+    if (is_tiled) {
+      header.setTileDescription(Imf::TileDescription(2, 2, Imf::ONE_LEVEL));
+      Imf::TiledOutputFile file(path("a.exr").c_str(), header);
+      file.setFrameBuffer(buffer);
+      file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+    } else {
+      Imf::OutputFile file(path("a.exr").c_str(), header);
+      file.setFrameBuffer(buffer);
+      file.writePixels(height);
+    }
+    const Image image = read_image(path("a.exr"));
+    const RgbView rgb = rgb_view(image);
+    for (size_t i = 0; i < width * height; ++i) EXPECT_EQ(rgb[i], Vec3f(0.5f, 1e-9f, 3e9f));
+    EXPECT_FALSE(image.keeps_floats(image.find_channel("R")));
+    EXPECT_TRUE(image.keeps_floats(image.find_channel("B")));
+  }
+}
+
+/// Channels of all parts, under the names of their parts where they would be the same.
+TEST_F(RoundTrip, exr_of_several_parts) {
+  constexpr int width = 6, height = 4;
+  struct Part {
+    const char* name;
+    std::vector<const char*> channels;
+    bool is_tiled;
+    int width;
+  };
+  const std::vector<Part> parts = {{"depth", {"Z"}, false, width},
+                                   {"rgba", {"R", "G", "B"}, true, width},
+                                   {"small", {"small.R"}, false, width - 1},
+                                   {"normal", {"R", "G", "B"}, false, width}};
+  std::vector<Imf::Header> headers;
+  for (const Part& part : parts) {
+    headers.emplace_back(width, height);
+    headers.back().dataWindow().max.x = part.width - 1;
+    headers.back().setName(part.name);
+    headers.back().setType(part.is_tiled ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
+    if (part.is_tiled)
+      headers.back().setTileDescription(Imf::TileDescription(4, 4, Imf::ONE_LEVEL));
+    for (const char* channel : part.channels)
+      headers.back().channels().insert(channel, Imf::Channel(Imf::FLOAT));
+  }
+  {
+    Imf::MultiPartOutputFile file(path("a.exr").c_str(), headers.data(), int(headers.size()));
+    for (size_t i = 0; i < parts.size(); ++i) {
+      std::vector<std::vector<float>> planes;
+      for (size_t c = 0; c < parts[i].channels.size(); ++c) {
+        planes.emplace_back(width * height);
+        for (size_t k = 0; k < planes[c].size(); ++k)
+          planes[c][k] = float(100 * i + 10 * c) + float(k);
+      }
+      Imf::FrameBuffer buffer;
+      for (size_t c = 0; c < planes.size(); ++c)
+        insert_plane(buffer, parts[i].channels[c], Imf::FLOAT, planes[c], size_t(parts[i].width));
+      if (parts[i].is_tiled) {
+        Imf::TiledOutputPart part(file, int(i));
+        part.setFrameBuffer(buffer);
+        part.writeTiles(0, part.numXTiles() - 1, 0, part.numYTiles() - 1);
+      } else {
+        Imf::OutputPart part(file, int(i));
+        part.setFrameBuffer(buffer);
+        part.writePixels(height);
+      }
+    }
+  }
+  const Image image = read_image(path("a.exr"));
+  std::vector<std::string> names = image.channel_names();
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"B", "G", "R", "Z", "normal.B", "normal.G", "normal.R"}));
+  const RgbView rgb = rgb_view(image), normal = rgb_view(image, "normal");
+  for (size_t i = 0; i < width * height; ++i) {
+    const float k = float(i);
+    EXPECT_EQ(rgb[i], Vec3f(100 + k, 110 + k, 120 + k));
+    EXPECT_EQ(normal[i], Vec3f(300 + k, 310 + k, 320 + k));
+    EXPECT_EQ(image.channel(image.find_channel("Z"))[i], k);
+  }
+  // Cut anywhere it is an error or a picture.
+  const std::string whole = contents(path("a.exr"));
+  for (size_t length = 0; length < whole.size(); length += 7) {
+    put(path("cut.exr"), whole.substr(0, length));
+    testing::caught([&] { read_image(path("cut.exr")); });
+  }
+}
+
 TEST_F(RoundTrip, constant_pictures_of_extreme_compression) {
   // Nearly nothing per pixel, yet no corrupt header.
   const Image image(1000, 1000, {"R", "G", "B"});
@@ -428,6 +545,48 @@ TEST_F(RoundTrip, linear_sixteen_bit_png_stays_linear) {
   raw.srgb_to_linear = false;
   EXPECT_FALSE(read_image(path("a.png"), raw).is_srgb_encoded());
   EXPECT_NEAR(read_image(path("a.png")).at(0, 0, 2), 32768.0 / 65535, 1e-6);
+}
+
+/// Seven passes over a picture whose sizes none of them divides.
+TEST_F(RoundTrip, interlaced_png_of_sixteen_bits) {
+  for (const auto& [width, height] : {std::pair(13, 11), {1, 1}, {3, 1}, {1, 9}}) {
+    const auto value = [](int x, int y, int c) { return 4000 * x + 300 * y + c; };
+    std::vector<std::string> rows;
+    for (int y = 0; y < height; ++y) {
+      rows.emplace_back();
+      for (int x = 0; x < width; ++x)
+        for (int c = 0; c < 3; ++c)
+          rows.back() += {char(value(x, y, c) >> 8), char(value(x, y, c) & 255)};
+    }
+    ReadOptions raw;
+    raw.srgb_to_linear = false;
+    for (const bool is_interlaced : {false, true}) {
+      put(path("a.png"),
+          testing::png_of(width, height, 16, PNG_COLOR_TYPE_RGB, is_interlaced, rows));
+      const Image image = read_image(path("a.png"), raw);
+      ASSERT_EQ(image.width(), width);
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+          for (int c = 0; c < 3; ++c)
+            ASSERT_FLOAT_EQ(image.at(x, y, c), float(value(x, y, c)) / 65535) << is_interlaced;
+    }
+  }
+}
+
+TEST_F(RoundTrip, png_of_few_bits) {
+  ReadOptions raw;
+  raw.srgb_to_linear = false;
+  for (const bool is_interlaced : {false, true}) {
+    // 0 1 2 3 and 3 0 1 2 of two bits.
+    put(path("a.png"), testing::png_of(4, 2, 2, PNG_COLOR_TYPE_GRAY, is_interlaced,
+                                       {std::string(1, '\x1b'), std::string(1, '\xc6')}));
+    const Image image = read_image(path("a.png"), raw);
+    ASSERT_EQ(image.channel_count(), 1);
+    for (int x = 0; x < 4; ++x) {
+      EXPECT_FLOAT_EQ(image.at(x, 0, 0), float(x) / 3);
+      EXPECT_FLOAT_EQ(image.at(x, 1, 0), float((x + 3) % 4) / 3);
+    }
+  }
 }
 
 TEST_F(RoundTrip, png_palettes_and_opacity) {

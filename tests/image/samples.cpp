@@ -1,6 +1,7 @@
 #include "tests/image/samples.h"
 
 #include <OpenEXR/ImfRgbaFile.h>
+#include <png.h>
 #include <webp/encode.h>
 
 #include <cstdio>
@@ -117,6 +118,31 @@ std::string luminance_chroma_exr(const std::string& path, int width, int height)
   }
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string png_of(int width, int height, int bits, int colour_type, bool is_interlaced,
+                   const std::vector<std::string>& rows) {
+  std::string file;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_set_write_fn(
+      png, &file,
+      [](png_structp writer, png_bytep bytes, size_t size) {
+        static_cast<std::string*>(png_get_io_ptr(writer))
+            ->append(reinterpret_cast<const char*>(bytes), size);
+      },
+      nullptr);
+  png_set_IHDR(png, info, uint32_t(width), uint32_t(height), bits, colour_type,
+               is_interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  std::vector<png_bytep> lines;
+  for (const std::string& row : rows)
+    lines.push_back(reinterpret_cast<png_bytep>(const_cast<char*>(row.data())));
+  png_write_image(png, lines.data());
+  png_write_end(png, nullptr);
+  png_destroy_write_struct(&png, &info);
+  return file;
 }
 
 std::string png_chunk(const std::string& type, const std::string& data) {

@@ -33,6 +33,9 @@ std::string cmyk_jpeg(int width, int height, bool by_adobe);
 /// A grey ramp from 0 to 1 with chroma of half resolution; `path` is for the file on its way.
 std::string luminance_chroma_exr(const std::string& path, int width, int height);
 
+/// `rows`: the bytes of each line, as PNG stores them; `colour_type` is libpng's.
+std::string png_of(int width, int height, int bits, int colour_type, bool is_interlaced,
+                   const std::vector<std::string>& rows);
 /// A PNG chunk with its checksum.
 std::string png_chunk(const std::string& type, const std::string& data);
 

@@ -184,6 +184,31 @@ TEST(MitsubaTree, OldTexturePlacementBecomesATransform) {
   EXPECT_EQ(parse(in_scene(texture, "2.0.0")).scene->children.at(0).object->properties.size(), 3u);
 }
 
+TEST(MitsubaTree, OldTexturesAreBroughtUpToDate) {
+  const std::string texture =
+      "<texture type='bitmap'><float name='uvscale' value='3'/><float name='voffset' value='1'/>"
+      "<string name='filterType' value='trilinear'/><string name='wrapModeU' value='black'/>"
+      "<string name='wrapModeV' value='mirror'/><float name='gamma' value='1'/></texture>"
+      "<texture type='vertexcolors'/>"
+      "<bsdf type='x'><string name='wrapMode' value='white'/></bsdf>";
+  const auto old = parse(in_scene(texture, "0.6.0")).scene;
+  const Object& bitmap = *old->children.at(0).object;
+  const Transform& to_uv = value<Transform>(bitmap, "to_uv");
+  EXPECT_EQ(to_uv.at(0, 0), 3);
+  EXPECT_EQ(to_uv.at(1, 1), 3);
+  EXPECT_EQ(to_uv.at(1, 3), 3);
+  EXPECT_EQ(value<std::string>(bitmap, "filter_type"), "bilinear");
+  EXPECT_EQ(value<std::string>(bitmap, "wrap_mode_u"), "zero");
+  EXPECT_EQ(value<std::string>(bitmap, "wrap_mode_v"), "mirror");
+  EXPECT_EQ(value<double>(bitmap, "gamma"), 1);
+  EXPECT_EQ(old->children.at(1).object->type, "mesh_attribute");
+  EXPECT_EQ(value<std::string>(*old->children.at(1).object, "name"), "vertex_color");
+  EXPECT_EQ(value<std::string>(*old->children.at(2).object, "wrap_mode"), "white");
+  const auto present = parse(in_scene(texture, "3.0.0")).scene;
+  EXPECT_EQ(value<std::string>(*present->children.at(0).object, "wrapModeU"), "black");
+  EXPECT_EQ(present->children.at(1).object->type, "vertexcolors");
+}
+
 TEST(MitsubaTree, NewVersionsAreNotUpgraded) {
   for (const std::string version : {"2.0.0", "2.2.1", "3.0.0", "3.7.1"}) {
     const auto scene =

@@ -42,8 +42,9 @@ std::shared_ptr<const Bsdf> make_usual_bsdf(const BsdfType& type) {
   }
 }
 
-std::shared_ptr<const Texture> make_texture(const std::string& type,
-                                            std::vector<Property> properties) {
+std::shared_ptr<const Texture> make_texture(
+    const std::string& type, std::vector<Property> properties,
+    std::map<std::string, std::shared_ptr<const Texture>> textures) {
   for (const TextureType& t : texture_types()) {
     if (t.info.name != type) continue;
     for (Property& p : properties) p.place = place_in("scene.xml", 9, 4);
@@ -51,9 +52,26 @@ std::shared_ptr<const Texture> make_texture(const std::string& type,
     const Arguments arguments(t.info, properties, place_in("scene.xml", 8, 2), problems);
     problems.throw_if_any();
     PictureReader pictures;
-    return t.create(arguments, pictures);
+    const auto texture = [&](std::string_view name) {
+      const auto found = textures.find(std::string(name));
+      return found != textures.end() ? found->second : constant_texture_of(arguments, name);
+    };
+    const auto attribute = [&](const std::string& name) -> std::shared_ptr<const SurfaceAttribute> {
+      if (name != "vertex_color") throw Error(ErrorKind::input, "no attribute " + name, "", {});
+      return std::make_shared<SlantedAttribute>();
+    };
+    return t.create({arguments, pictures, texture, attribute});
   }
   throw std::invalid_argument("no texture type " + type);
+}
+
+std::shared_ptr<const Texture> make_usual_texture(const TextureType& type,
+                                                  const std::string& picture,
+                                                  std::vector<Property> properties) {
+  if (type.info.find("filename")) properties.push_back(property("filename", picture));
+  if (type.info.find("name")) properties.push_back(property("name", std::string("vertex_color")));
+  if (type.info.find("value")) properties.push_back(property("value", 0.5));
+  return make_texture(type.info.name, std::move(properties));
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 // Builds bsdfs as a scene file would, and the table of instances that every property is tested on.
 
+#include <cmath>
 #include <functional>
 #include <map>
 #include <string>
@@ -17,9 +18,29 @@ std::shared_ptr<const Bsdf> make_bsdf(
     std::map<std::string, std::shared_ptr<const Texture>> textures = {});
 /// With the values that a scene need not give, around matt bsdfs if it is made of others.
 std::shared_ptr<const Bsdf> make_usual_bsdf(const BsdfType& type);
-/// Throws Error as build_scene() would, with places in scene.xml.
-std::shared_ptr<const Texture> make_texture(const std::string& type,
-                                            std::vector<Property> properties = {});
+/// Throws Error as build_scene() would, with places in scene.xml. The surface that it lies on has
+/// the attribute "vertex_color", a SlantedAttribute.
+std::shared_ptr<const Texture> make_texture(
+    const std::string& type, std::vector<Property> properties = {},
+    std::map<std::string, std::shared_ptr<const Texture>> textures = {});
+/// With the values that a scene need not give; what it must have is given: `picture` is a file.
+std::shared_ptr<const Texture> make_usual_texture(const TextureType& type,
+                                                  const std::string& picture,
+                                                  std::vector<Property> properties = {});
+
+/// Grey that changes with x, the same for all primitives: 0.5 in the mean over places that lie
+/// evenly about the origin.
+class SlantedAttribute final : public SurfaceAttribute {
+ public:
+  Vec3f at(uint32_t, const Vec3f& position) const override {
+    return Vec3f(0.5f + 0.4f * std::sin(position.x));
+  }
+  Vec3f gradient(uint32_t, const Vec3f& weights) const override {
+    return {weights.x + weights.y + weights.z, 0, 0};
+  }
+  Vec3f mean() const override { return Vec3f(0.5f); }
+  float maximum() const override { return 0.9f; }
+};
 Property property(const std::string& name, Value value);
 
 /// Of a point; a new one for each question, since it remembers what textures gave.

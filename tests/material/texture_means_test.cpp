@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "kaustik/base/statistics.h"
@@ -40,24 +41,20 @@ std::string picture_in(const TemporaryFolder& folder) {
 /// Every type as it is by itself, and those whose parameters make other patterns.
 std::vector<SeededTexture> textures(const TemporaryFolder& folder, int64_t seeds) {
   std::vector<SeededTexture> all;
+  const std::string picture = picture_in(folder);
   const auto add = [&](const std::string& name, const std::string& type,
                        std::vector<Property> properties) {
     all.push_back({name, {}});
+    const auto row =
+        std::find_if(texture_types().begin(), texture_types().end(),
+                     [&](const TextureType& known) { return known.info.name == type; });
     for (int64_t seed = 0; seed < seeds; ++seed) {
       std::vector<Property> seeded = properties;
-      for (const TextureType& known : texture_types())
-        for (const Parameter& parameter : known.info.parameters)
-          if (known.info.name == type && parameter.name == "seed")
-            seeded.push_back(property("seed", seed));
-      all.back().seeds.push_back(make_texture(type, seeded));
+      if (row->info.find("seed")) seeded.push_back(property("seed", seed));
+      all.back().seeds.push_back(make_usual_texture(*row, picture, seeded));
     }
   };
-  for (const TextureType& type : texture_types()) {
-    const std::string name(type.info.name);
-    std::vector<Property> properties;
-    if (name == "bitmap") properties = {property("filename", picture_in(folder))};
-    add(name, name, properties);
-  }
+  for (const TextureType& type : texture_types()) add(type.info.name, type.info.name, {});
   add("planks", "wood",
       {property("plank_width", 0.08), property("plank_length", 0.7), property("grain", 1.0)});
   add("narrow_planks", "wood", {property("plank_width", 0.003), property("plank_length", 0.01)});

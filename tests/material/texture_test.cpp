@@ -83,6 +83,98 @@ TEST(checkerboard, is_transformed) {
   EXPECT_FLOAT_EQ(value(texture, 0.05f, 0.3f), 0.2f);
 }
 
+/// Textures in the squares.
+TEST(checkerboard, holds_textures) {
+  const auto fine = make_texture("checkerboard", {property("color0", 1.0), property("color1", 0.0),
+                                                  property("to_uv", Transform::scale({8, 8, 1}))});
+  const auto board = make_texture("checkerboard", {property("color1", 0.25)}, {{"color0", fine}});
+  EXPECT_EQ(value(board, 0.03f, 0.03f), 1);
+  EXPECT_EQ(value(board, 0.09f, 0.03f), 0);
+  EXPECT_EQ(value(board, 0.53f, 0.03f), 0.25f);
+  EXPECT_EQ(board->mean()[1], 0.375f);
+  EXPECT_EQ(board->maximum(), 1);
+  EXPECT_EQ(board->size(), 3 + 2);
+  EXPECT_EQ(board->scalar(point(0.03f, 0.03f)), luminance_of(spectrum_from_rgb(1, 1, 1)));
+  // Both are filtered: half of the footprint is the fine one's mean.
+  TextureCoordinates at = point(0.5f, 0.25f);
+  at.uv_width = {0.25f, 0.25f};
+  EXPECT_NEAR(board->eval(at, {})[0], 0.5f * 0.5f + 0.5f * 0.25f, 1e-5f);
+}
+
+/// The relief of what is in the squares, and a step between them.
+TEST(checkerboard, has_the_relief_of_its_textures) {
+  const Picture slope({{0, 1}});
+  const auto ramp = bitmap(slope, {property("wrap_mode", std::string("clamp"))});
+  const auto board = make_texture("checkerboard", {property("color1", 0.5)}, {{"color0", ramp}});
+  TextureCoordinates at = point(0.4f, 0.2f);
+  at.uv_width = {0.001f, 0.001f};
+  EXPECT_FLOAT_EQ(board->height_gradient(at).uv.x, ramp->height_gradient(at).uv.x);
+  EXPECT_EQ(board->height_gradient(point(0.7f, 0.2f)).uv, Vec2f(0, 0));
+  // Down at the border: from 0.5 to 0.4 within five thousandths.
+  const auto plain =
+      make_texture("checkerboard", {property("color0", 0.5), property("color1", 0.4)});
+  EXPECT_NEAR(plain->height_gradient(point(0.5f, 0.2f)).uv.x, -0.1f / 0.005f, 0.1f);
+  EXPECT_NEAR(plain->height_gradient(point(0.5f, 0.2f)).uv.y, 0, 1e-6f);
+}
+
+TEST(gridtexture, draws_lines_about_the_borders) {
+  const auto grid = make_texture("gridtexture", {property("line_width", 0.1)});
+  for (const float line : {0.0f, 0.09f, 0.91f, 1.0f, -0.09f, 7.05f})
+    for (const float other : {0.05f, 0.5f}) {
+      EXPECT_FLOAT_EQ(value(grid, line, other), 0.4f) << line;
+      EXPECT_FLOAT_EQ(value(grid, other, line), 0.4f) << line;
+    }
+  for (const float between : {0.11f, 0.5f, 0.89f, -0.11f, 3.2f})
+    EXPECT_FLOAT_EQ(value(grid, between, 0.5f), 0.2f) << between;
+  EXPECT_FLOAT_EQ(grid->mean()[0], 0.2f + 0.2f * (1 - 0.64f));
+  // Filtered exactly: a tenth of the width is line.
+  TextureCoordinates at = point(0.15f, 0.5f);
+  at.uv_width = {0.2f, 0.1f};
+  EXPECT_NEAR(grid->eval(at, {})[0], 0.2f * 0.75f + 0.4f * 0.25f, 1e-5f);
+  EXPECT_FLOAT_EQ(value(make_texture("gridtexture", {property("line_width", 0.5)}), 0.3f, 0.3f),
+                  0.4f);
+  EXPECT_FLOAT_EQ(value(make_texture("gridtexture", {property("line_width", 0.0)}), 0, 0), 0.2f);
+}
+
+TEST(scale, multiplies_what_it_holds) {
+  const Picture picture({{1, 2, 3, 4}});
+  const auto texture = bitmap(picture, {property("filter_type", std::string("nearest"))});
+  const auto scaled =
+      make_texture("scale", {property("scale", Rgb{2, 0.5, 0})}, {{"value", texture}});
+  EXPECT_EQ(scaled->eval(point(0.3f, 0.5f), {}), spectrum_from_rgb(4, 1, 0));
+  EXPECT_EQ(scaled->maximum(), 8);
+  EXPECT_EQ(scaled->mean(), spectrum_from_rgb(5, 1.25f, 0));
+  EXPECT_FALSE(scaled->is_constant());
+  EXPECT_EQ(scaled->size(), 2);
+  const float luminance = luminance_of(spectrum_from_rgb(2, 0.5f, 0));
+  EXPECT_FLOAT_EQ(scaled->scalar(point(0.3f, 0.5f)), 2 * luminance);
+  EXPECT_FLOAT_EQ(scaled->height_gradient(point(0.5f, 0.5f)).uv.x,
+                  luminance * texture->height_gradient(point(0.5f, 0.5f)).uv.x);
+  const auto constant = make_texture("scale", {property("value", 0.5), property("scale", 0.5)});
+  EXPECT_TRUE(constant->is_constant());
+  EXPECT_FLOAT_EQ(value(constant, 0, 0), 0.25f);
+  EXPECT_THROW(make_texture("scale"), Error);
+}
+
+TEST(mesh_attribute, asks_the_surface) {
+  const auto texture = make_texture(
+      "mesh_attribute", {property("name", std::string("vertex_color")), property("scale", 2.0)});
+  TextureCoordinates at;
+  at.position = {1, 5, 6};
+  EXPECT_FLOAT_EQ(texture->eval(at, {})[1], 1 + 0.8f * std::sin(1.0f));
+  EXPECT_FLOAT_EQ(texture->scalar(at), 1 + 0.8f * std::sin(1.0f));
+  EXPECT_EQ(texture->eval(at, {})[3], 0);
+  EXPECT_FLOAT_EQ(texture->maximum(), 1.8f);
+  EXPECT_FLOAT_EQ(texture->mean()[2], 1);
+  EXPECT_FALSE(texture->is_constant());
+  // The luminance of grey is grey.
+  EXPECT_NEAR(texture->height_gradient(at).position.x, 2, 1e-5f);
+  EXPECT_THROW(make_texture("mesh_attribute", {property("name", std::string("vertex_heat"))}),
+               Error);
+  EXPECT_THROW(make_texture("mesh_attribute", {property("name", std::string("color"))}), Error);
+  EXPECT_THROW(make_texture("mesh_attribute"), Error);
+}
+
 TEST(bitmap, nearest_texels_from_the_upper_left) {
   const Picture picture({{1, 2, 3}, {4, 5, 6}});
   const auto texture = bitmap(picture, {property("filter_type", std::string("nearest"))});
@@ -154,14 +246,129 @@ TEST(bitmap, channels_of_the_file) {
   std::remove(path.c_str());
 }
 
+/// Each axis by itself, black and white beyond.
+TEST(bitmap, wraps_each_axis) {
+  const Picture picture({{0.1f, 0.2f}, {0.3f, 0.4f}});
+  const auto with = [&](const std::string& u, const std::string& v) {
+    return bitmap(picture, {property("filter_type", std::string("nearest")),
+                            property("wrap_mode", std::string("mirror")),
+                            property("wrap_mode_u", u), property("wrap_mode_v", v)});
+  };
+  const auto black = with("zero", "repeat"), white = with("clamp", "one");
+  EXPECT_EQ(value(black, 1.1f, 0.1f), 0);
+  EXPECT_EQ(value(black, -0.1f, 0.9f), 0);
+  EXPECT_EQ(value(black, 0.9f, 1.1f), 0.2f);
+  EXPECT_EQ(value(black, 1e9f, 0.1f), 0);
+  EXPECT_EQ(value(white, 1.1f, 0.1f), 0.2f);
+  EXPECT_EQ(value(white, 0.1f, 1.1f), 1);
+  EXPECT_EQ(value(white, 0.1f, -1e9f), 1);
+  EXPECT_EQ(black->maximum(), 0.4f);
+  EXPECT_EQ(white->maximum(), 1);
+  // What is not said of one axis is what is said of both.
+  const auto mirrored = bitmap(picture, {property("filter_type", std::string("nearest")),
+                                         property("wrap_mode", std::string("mirror")),
+                                         property("wrap_mode_u", std::string("repeat"))});
+  EXPECT_EQ(value(mirrored, 1.1f, 0.1f), 0.1f);
+  EXPECT_EQ(value(mirrored, 0.1f, 1.1f), 0.3f);
+  // Between the edge and what is beyond.
+  const auto blurred = bitmap(picture, {property("wrap_mode", std::string("zero"))});
+  EXPECT_FLOAT_EQ(value(blurred, 0, 0.25f), 0.05f);
+  EXPECT_FLOAT_EQ(value(blurred, 1, 0.75f), 0.2f);
+}
+
+/// An EXR with a picture, its opacity and a layer; each may be asked for alone.
+TEST(bitmap, shows_the_channel_that_is_chosen) {
+  const std::string path = testing::TempDir() + "kaustik_texture_test.exr";
+  const auto written = [&](const std::vector<std::string>& channels) {
+    Image image(2, 2, channels);
+    for (int c = 0; c < image.channel_count(); ++c)
+      for (float& value : image.channel(c)) value = 0.125f * float(c + 1);
+    write_image(image, path);
+  };
+  const auto seen = [&](const std::string& channel) {
+    return make_texture("bitmap", {property("filename", path), property("channel", channel)})
+        ->eval(point(0.5f, 0.5f), {});
+  };
+  const auto grey = [](float value) { return spectrum_from_rgb(value, value, value); };
+  written({"R", "G", "B", "A", "paint.R", "paint.G", "paint.B", "depth.Z"});
+  EXPECT_EQ(seen(""), spectrum_from_rgb(0.125f, 0.25f, 0.375f));
+  EXPECT_EQ(seen("g"), grey(0.25f));
+  EXPECT_EQ(seen("B"), grey(0.375f));
+  EXPECT_EQ(seen("a"), grey(0.5f));
+  EXPECT_EQ(seen("paint"), spectrum_from_rgb(0.625f, 0.75f, 0.875f));
+  EXPECT_EQ(seen("paint.G"), grey(0.75f));
+  EXPECT_EQ(seen("depth.Z"), grey(1));
+  try {
+    seen("shine");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("no channel or layer 'shine'"), std::string::npos) << text;
+    EXPECT_NE(text.find("paint.R"), std::string::npos) << text;
+    EXPECT_EQ(text.rfind("scene.xml:9:4: ", 0), 0u) << text;
+  }
+  // Grey is red, green and blue.
+  written({"Y", "A"});
+  EXPECT_EQ(seen("r"), grey(0.125f));
+  EXPECT_EQ(seen("a"), grey(0.25f));
+  EXPECT_THROW(seen("x"), Error);
+  // Of layers alone the first is taken.
+  written({"b.R", "b.G", "b.B", "a.R", "a.G", "a.B"});
+  EXPECT_EQ(seen(""), spectrum_from_rgb(0.5f, 0.625f, 0.75f));
+  EXPECT_EQ(seen("b"), spectrum_from_rgb(0.125f, 0.25f, 0.375f));
+  std::remove(path.c_str());
+}
+
+/// Opacity of a file whose colours are sRGB encoded is linear.
+TEST(bitmap, opacity_is_linear) {
+  const std::string path = testing::TempDir() + "kaustik_texture_test.tga";
+  // 1 × 1, 32 bits: blue 10, green 20, red 188, opacity 64.
+  std::ofstream(path, std::ios::binary)
+      << std::string{0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 32, 8} << char(10) << char(20)
+      << char(188) << char(64);
+  for (const double gamma : {0.0, 2.2})
+    EXPECT_FLOAT_EQ(
+        make_texture("bitmap", {property("filename", path), property("channel", std::string("a")),
+                                property("gamma", gamma)})
+            ->scalar(point(0.5f, 0.5f)),
+        64.0f / 255);
+  EXPECT_NEAR(
+      make_texture("bitmap", {property("filename", path), property("channel", std::string("r"))})
+          ->scalar(point(0.5f, 0.5f)),
+      std::pow((188 / 255.0 + 0.055) / 1.055, 2.4), 1e-5);
+  std::remove(path.c_str());
+}
+
+TEST(bitmap, has_the_gamma_that_is_given) {
+  const std::string path = testing::TempDir() + "kaustik_texture_test.ppm";
+  std::ofstream(path, std::ios::binary) << "P6\n1 1\n255\n" << std::string(3, char(188));
+  const auto seen = [&](std::vector<Property> more) {
+    more.push_back(property("filename", path));
+    return value(make_texture("bitmap", std::move(more)), 0.5f, 0.5f);
+  };
+  const double stored = 188 / 255.0, srgb = std::pow((stored + 0.055) / 1.055, 2.4);
+  EXPECT_NEAR(seen({property("gamma", 1.0)}), stored, 1e-6);
+  EXPECT_NEAR(seen({property("gamma", 2.2)}), std::pow(stored, 2.2), 1e-6);
+  EXPECT_NEAR(seen({property("gamma", -1.0)}), srgb, 1e-5);
+  EXPECT_NEAR(seen({property("gamma", 0.0)}), srgb, 1e-5);
+  EXPECT_THROW(seen({property("gamma", -0.5)}), Error);
+  EXPECT_THROW(seen({property("gamma", 2.2), property("raw", true)}), Error);
+  EXPECT_NEAR(seen({property("gamma", 1.0), property("raw", true)}), stored, 1e-6);
+  // Floats are linear unless something else is said.
+  const Picture picture({{0.5f, 0.5f}});
+  EXPECT_FLOAT_EQ(value(bitmap(picture), 0.5f, 0.5f), 0.5f);
+  EXPECT_FLOAT_EQ(value(bitmap(picture, {property("gamma", 2.0)}), 0.5f, 0.5f), 0.25f);
+  std::remove(path.c_str());
+}
+
 TEST(bitmap, survives_any_coordinate) {
   const Picture picture({{1, 2}, {3, 4}});
-  for (const std::string mode : {"repeat", "mirror", "clamp"})
+  for (const std::string mode : {"repeat", "mirror", "clamp", "zero", "one"})
     for (const std::string filter : {"nearest", "bilinear"}) {
       const auto texture =
           bitmap(picture, {property("filter_type", filter), property("wrap_mode", mode)});
       for (const float u : {-1e30f, 1e30f, 1e9f, -1e-20f, 0.0f, 1.0f, 2.0f, -1.0f}) {
-        EXPECT_GE(value(texture, u, 0.3f), 1) << u;
+        EXPECT_GE(value(texture, u, 0.3f), mode == "zero" ? 0 : 1) << u;
         EXPECT_LE(value(texture, 0.3f, u), 4) << u;
       }
     }
@@ -206,14 +413,12 @@ TEST(bitmap, repairs_negative_and_broken_values) {
 
 TEST(texture_types, are_rows) { expect_rows_of("texture", texture_types()); }
 
-/// With the values that a scene need not give; a bitmap needs a picture.
+/// With the values that a scene need not give.
 TEST(texture_types, keep_within_their_bounds) {
   const Picture picture({{0.25f, 1}, {0.5f, 0}});
   for (const TextureType& type : texture_types()) {
     SCOPED_TRACE(type.info.name);
-    const Parameter* file = type.info.find("filename");
-    const auto texture = file ? make_texture(type.info.name, {property("filename", picture.path())})
-                              : make_texture(type.info.name);
+    const auto texture = make_usual_texture(type, picture.path());
     EXPECT_LE(texture->mean().max_lane(), texture->maximum());
     for (const float far : {0.0f, 1.0f, 1e4f, 1e30f})
       for (int i = 0; i < 200; ++i) {

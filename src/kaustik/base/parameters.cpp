@@ -319,21 +319,26 @@ std::vector<Property> UnknownParameters::without_unknown(const TypeInfo& info,
       known.push_back(property);
       continue;
     }
-    const std::string text =
-        fmt::format("{} '{}' has no parameter '{}'", info.family, info.name, property.name);
-    Found& found = found_[text];
-    if (found.count++ > 0) continue;
-    found.first = property.place;
-    found.nearest = nearest_name(property.name, info.parameter_names());
+    add(fmt::format("{} '{}' has no parameter '{}': it is left out", info.family, info.name,
+                    property.name),
+        property.place, nearest_name(property.name, info.parameter_names()));
   }
   return known;
+}
+
+void UnknownParameters::add(const std::string& text, const Place& place,
+                            const std::string& nearest) {
+  Found& found = found_[text];
+  if (found.count++ > 0) return;
+  found.first = place;
+  found.nearest = nearest;
 }
 
 std::vector<std::string> UnknownParameters::warnings() const {
   std::vector<std::string> sentences;
   for (const auto& [text, found] : found_)
     sentences.push_back(fmt::format(
-        "{}: {}: it is left out{}{}", text_of(found.first), text,
+        "{}: {}{}{}", text_of(found.first), text,
         found.count > 1 ? fmt::format(", and {} more like it", found.count - 1) : "",
         found.nearest.empty() ? "" : fmt::format("; did you mean '{}'?", found.nearest)));
   return sentences;

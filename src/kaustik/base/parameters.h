@@ -132,14 +132,17 @@ struct TypeInfo {
   std::vector<std::string> parameter_names() const;
 };
 
-/// Parameters that files give and no table knows: foreign programs write some of their own. They
-/// are left out, and told once for each type, with how many there were.
+/// What files give and no table knows: foreign programs write parameters and types of their own.
+/// They are left out, and told once for each kind, with how many there were.
 class UnknownParameters {
  public:
   /// The properties that the table knows, and those that no file gave: who types a name or writes
   /// a program is told of a mistake as of an error.
   std::vector<Property> without_unknown(const TypeInfo& info,
                                         const std::vector<Property>& properties);
+  /// Counts what is left out elsewhere; `text` says what it is and what follows, `nearest` ("":
+  /// none) what it may be meant for.
+  void add(const std::string& text, const Place& place, const std::string& nearest = {});
   /// A sentence for each.
   std::vector<std::string> warnings() const;
 

@@ -2,6 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+#include "kaustik/geometry/mesh_attribute.h"
 #include "kaustik/geometry/mesh_checks.h"
 
 namespace kaustik {
@@ -40,6 +46,26 @@ class BufferReader {
     return faces;
   }
 
+  /// None: it was not given.
+  std::optional<MeshAttribute> attribute(const MeshAttribute& row, size_t wanted) {
+    if (!start(row.name.c_str())) return std::nullopt;
+    if (row.is_of_faces())
+      expect_rows(wanted, "faces", "give one row for each triangle");
+    else
+      expect_one_per_vertex(wanted);
+    MeshAttribute made = row;
+    made.values.reserve(array_->count());
+    array_->visit([&]<typename T>(std::span<const T> values) {
+      const double largest = std::is_integral_v<T> ? double(std::numeric_limits<T>::max()) : 0.0;
+      for (const T value : values) made.values.push_back(attribute_value(double(value), largest));
+    });
+    for (size_t i = 0; i < made.values.size(); ++i)
+      if (!std::isfinite(made.values[i]))
+        fail({fmt::format("row {} is not finite", i / size_t(row.components)),
+              "give numbers alone"});
+    return made;
+  }
+
  private:
   /// False: it was not given.
   bool start(const char* name) {
@@ -59,9 +85,11 @@ class BufferReader {
     if (fault) fail(*fault);
   }
   void expect_one_per_vertex(size_t vertices) const {
-    if (rows() == vertices) return;
-    fail({fmt::format("it has {} rows, and 'positions' has {}", rows(), vertices),
-          "give one row for each vertex"});
+    expect_rows(vertices, "positions", "give one row for each vertex");
+  }
+  void expect_rows(size_t wanted, const char* of, const char* remedy) const {
+    if (rows() != wanted)
+      fail({fmt::format("it has {} rows, and '{}' has {}", rows(), of, wanted), remedy});
   }
 
   template <typename Tuple>
@@ -85,6 +113,13 @@ class BufferReader {
   const Array* array_ = nullptr;
 };
 
+/// Those that buffers may have, without values.
+const std::vector<MeshAttribute>& attribute_rows() {
+  static const std::vector<MeshAttribute> rows = {
+      {"vertex_color", 3}, {"face_color", 3}, {"vertex_value", 1}, {"face_value", 1}};
+  return rows;
+}
+
 }  // namespace
 
 TriangleMesh mesh_of_buffers(const Arguments& arguments) {
@@ -94,6 +129,11 @@ TriangleMesh mesh_of_buffers(const Arguments& arguments) {
   mesh.triangles = reader.faces(mesh.positions.size());
   mesh.normals = reader.normals(mesh.positions.size());
   mesh.uvs = reader.uvs(mesh.positions.size());
+  for (const MeshAttribute& row : attribute_rows()) {
+    const size_t wanted = row.is_of_faces() ? mesh.triangles.size() : mesh.positions.size();
+    if (auto attribute = reader.attribute(row, wanted))
+      mesh.attributes.push_back(std::move(*attribute));
+  }
   return mesh;
 }
 
@@ -103,7 +143,13 @@ std::vector<Parameter> mesh_buffer_parameters() {
                                    "The three vertices of each triangle, counted from 0.")
                        .integers()),
           array_parameter("normals", {0, 3}, "Of each vertex, of any length."),
-          array_parameter("uv", {0, 2}, "Texture coordinates of each vertex.")};
+          array_parameter("uv", {0, 2}, "Texture coordinates of each vertex."),
+          array_parameter("vertex_color", {0, 3},
+                          "A colour of each vertex, for textures of type mesh_attribute: linear "
+                          "floats, or integers as in 8-bit pictures."),
+          array_parameter("face_color", {0, 3}, "A colour of each triangle."),
+          array_parameter("vertex_value", {0}, "A number of each vertex, for the same."),
+          array_parameter("face_value", {0}, "A number of each triangle.")};
 }
 
 }  // namespace kaustik

@@ -3,10 +3,10 @@
 
 namespace kaustik {
 
-/// The mesh of the arguments `positions`, `faces`, `normals` and `uv`, in its own space; what is
-/// not given is empty. Throws Error(input), at the place of the buffer that is wrong, for numbers
-/// that are not finite, indices that are out of range, buffers that do not go together, and a mesh
-/// without faces.
+/// The mesh of the arguments `positions`, `faces`, `normals`, `uv` and of the attributes, in its
+/// own space; what is not given is empty. Throws Error(input), at the place of the buffer that is
+/// wrong, for numbers that are not finite, indices that are out of range, buffers that do not go
+/// together, and a mesh without faces.
 TriangleMesh mesh_of_buffers(const Arguments& arguments);
 
 /// Their rows.

@@ -104,6 +104,17 @@ CornerSets smooth_corners(const TriangleMesh& mesh, double degrees) {
   return sets;
 }
 
+/// An attribute of vertices, each of which is a copy of one before.
+MeshAttribute values_at(const MeshAttribute& attribute, const std::vector<size_t>& origins) {
+  const auto components = size_t(attribute.components);
+  MeshAttribute copied{attribute.name, attribute.components};
+  copied.values.reserve(origins.size() * components);
+  for (const size_t vertex : origins)
+    for (size_t i = 0; i < components; ++i)
+      copied.values.push_back(attribute.values[vertex * components + i]);
+  return copied;
+}
+
 }  // namespace
 
 TriangleMesh split_at_creases(TriangleMesh mesh, double degrees) {
@@ -123,9 +134,11 @@ TriangleMesh split_at_creases(TriangleMesh mesh, double degrees) {
   std::sort(uses.begin(), uses.end());
   TriangleMesh split;
   split.triangles = std::move(mesh.triangles);
+  std::vector<size_t> origins;  // of the new vertices
   for (size_t i = 0; i < uses.size(); ++i) {
     const auto [vertex, root, corner] = uses[i];
     if (i == 0 || uses[i - 1][0] != vertex || uses[i - 1][1] != root) {
+      origins.push_back(vertex);
       split.positions.push_back(mesh.positions[vertex]);
       if (!mesh.uvs.empty()) split.uvs.push_back(mesh.uvs[vertex]);
       const float sum = length(sums[root]);
@@ -133,6 +146,9 @@ TriangleMesh split_at_creases(TriangleMesh mesh, double degrees) {
     }
     split.triangles[corner / 3][corner % 3] = uint32_t(split.positions.size() - 1);
   }
+  for (MeshAttribute& attribute : mesh.attributes)
+    split.attributes.push_back(attribute.is_of_faces() ? std::move(attribute)
+                                                       : values_at(attribute, origins));
   return split;
 }
 

@@ -15,9 +15,10 @@ struct MeshFile {
 
 /// Reads a mesh file in its own space. Polygons are cut by PolygonCutter; normals are as in the
 /// file (any length, zero where the file gives none). Faces with fewer than three corners are left
-/// out. Whatever the bytes are, the result is a mesh with consistent sizes, indices in range and
-/// finite coordinates, or Error(input) is thrown that names the file, the place and what to do; it
-/// takes time in proportion to their number.
+/// out. Properties that go together are attributes (attribute_groups()). Whatever the bytes are,
+/// the result is a mesh with consistent sizes, indices in range and finite coordinates, or
+/// Error(input) is thrown that names the file, the place and what to do; it takes time in
+/// proportion to their number.
 MeshFile read_ply(const std::string& path);
 
 /// Which faces of an OBJ file are read.
@@ -27,13 +28,14 @@ struct ObjSelection {
   /// Those of one material; "": those before any `usemtl`.
   std::optional<std::string> material = {};
 };
-/// Wavefront OBJ: v, vt, vn and f, in small or capital letters; smoothing, points and lines are
-/// skipped, what it does not know is remarked. Vertices are split where texture coordinates or
-/// normals differ.
+/// Wavefront OBJ: v (with colours), vt, vn and f, in small or capital letters; smoothing, points
+/// and lines are skipped, what it does not know is remarked. Vertices are split where texture
+/// coordinates or normals differ.
 MeshFile read_obj(const std::string& path, const ObjSelection& selection = {});
 
 /// Mitsuba's packed meshes, versions 3 to 5: the one with this index of those that a file holds.
-/// Colours and other attributes are skipped.
+/// Colours of versions 3 and 4 are the attribute "vertex_color"; attributes of version 5 are
+/// skipped.
 MeshFile read_serialized(const std::string& path, uint64_t shape_index);
 
 /// The remark on faces with fewer than three corners.

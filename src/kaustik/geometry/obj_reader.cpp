@@ -10,7 +10,9 @@
 #include <unordered_map>
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/base/srgb.h"
 #include "kaustik/base/text_lines.h"
+#include "kaustik/geometry/mesh_attribute.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/polygon_cutter.h"
@@ -92,8 +94,11 @@ class ObjReader {
 
   void read_line(std::string_view line);
   void remark_unknown(const std::string& keyword);
-  void read_numbers(std::string_view line, const char* what, size_t before, float* values,
-                    int count) const;
+  static size_t count_words(std::string_view line);
+  void set_colour(size_t position, const Vec3f& encoded);
+  /// Of what there are `before` so far; returns what follows them.
+  std::string_view read_numbers(std::string_view line, const char* what, size_t before,
+                                float* values, int count) const;
   void read_face(std::string_view line);
   CornerKey read_corner(std::string_view word) const;
   uint32_t read_index(std::string_view text, size_t count, std::string_view what) const;
@@ -101,6 +106,8 @@ class ObjReader {
   void begin_part();
   bool is_selected() const;
   void check_selection() const;
+  void add_colour(size_t position);
+  void finish_colours();
   void finish();
 
   std::string path_;
@@ -112,8 +119,10 @@ class ObjReader {
   bool has_faces_ = false;  ///< the part
   std::string material_;
   std::vector<Vec3f> positions_, normals_;
+  std::vector<Vec3f> colours_;  ///< of the positions, as far as there are any
   std::vector<Vec2f> uvs_;
   VertexTable vertices_;
+  MeshAttribute vertex_colours_{"vertex_color", 3};
   TriangleMesh mesh_;
   PolygonCutter cutter_;
   std::vector<uint32_t> corners_;  ///< of the face that is read
@@ -145,9 +154,14 @@ void ObjReader::read_line(std::string_view line) {
   std::string keyword(next_word(line));
   for (char& c : keyword)
     if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  float values[3] = {0, 0, 0};
+  float values[6] = {0, 0, 0, 0, 0, 0};
   if (keyword == "v") {
-    read_numbers(line, "vertex", positions_.size(), values, 3);
+    // After the position may stand a weight, or a colour.
+    const std::string_view rest = read_numbers(line, "vertex", positions_.size(), values, 3);
+    if (count_words(rest) >= 3) {
+      read_numbers(rest, "vertex", positions_.size(), values + 3, 3);
+      set_colour(positions_.size(), {values[3], values[4], values[5]});
+    }
     positions_.emplace_back(values[0], values[1], values[2]);
   } else if (keyword == "vn") {
     read_numbers(line, "normal", normals_.size(), values, 3);
@@ -171,9 +185,24 @@ void ObjReader::read_line(std::string_view line) {
   }
 }
 
-/// Of what there are `before` so far.
-void ObjReader::read_numbers(std::string_view line, const char* what, size_t before, float* values,
-                             int count) const {
+size_t ObjReader::count_words(std::string_view line) {
+  size_t count = 0;
+  for (std::string_view word = next_word(line); !word.empty() && word[0] != '#';
+       word = next_word(line))
+    ++count;
+  return count;
+}
+
+/// Those that have none before are white. Colours are sRGB encoded, as MeshLab and Blender write
+/// them.
+void ObjReader::set_colour(size_t position, const Vec3f& encoded) {
+  colours_.resize(position, Vec3f(1));
+  colours_.emplace_back(linear_from_srgb(encoded.x), linear_from_srgb(encoded.y),
+                        linear_from_srgb(encoded.z));
+}
+
+std::string_view ObjReader::read_numbers(std::string_view line, const char* what, size_t before,
+                                         float* values, int count) const {
   for (int i = 0; i < count; ++i) {
     std::string_view word = next_word(line);
     const std::string_view given = quotable(word);
@@ -188,6 +217,7 @@ void ObjReader::read_numbers(std::string_view line, const char* what, size_t bef
       fail(fmt::format("{} {} is not finite ('{}')", what, before + 1, given),
            "repair the mesh: all coordinates must be numbers");
   }
+  return line;
 }
 
 /// Mitsuba 0.6 makes a shape of the faces up to the next group or material.
@@ -266,9 +296,28 @@ uint32_t ObjReader::vertex_of(const CornerKey& key) {
   mesh_.positions.push_back(positions_[key.position]);
   mesh_.uvs.push_back(key.uv != none ? uvs_[key.uv] : Vec2f(0, 0));
   mesh_.normals.push_back(key.normal != none ? normals_[key.normal] : Vec3f(0, 0, 0));
+  if (!colours_.empty()) add_colour(key.position);
   any_uv_ |= key.uv != none;
   any_normal_ |= key.normal != none;
   return vertex;
+}
+
+/// Of the vertex that was made last. Those before there were colours are white.
+void ObjReader::add_colour(size_t position) {
+  std::vector<float>& values = vertex_colours_.values;
+  values.resize(3 * (mesh_.positions.size() - 1), 1);
+  const Vec3f colour = position < colours_.size() ? colours_[position] : Vec3f(1);
+  values.insert(values.end(), {colour.x, colour.y, colour.z});
+}
+
+void ObjReader::finish_colours() {
+  if (colours_.empty()) return;
+  colours_ = std::vector<Vec3f>();
+  vertex_colours_.values.resize(3 * mesh_.positions.size(), 1);
+  vertex_colours_.values.shrink_to_fit();
+  if (const size_t count = make_finite(vertex_colours_); count > 0)
+    remarks_.push_back(remark_on_attribute(vertex_colours_.name, count, path_));
+  mesh_.attributes.push_back(std::move(vertex_colours_));
 }
 
 void ObjReader::finish() {
@@ -279,6 +328,7 @@ void ObjReader::finish() {
   vertices_ = VertexTable();
   if (!any_uv_) mesh_.uvs.clear();
   if (!any_normal_) mesh_.normals.clear();
+  finish_colours();
   mesh_.uvs.shrink_to_fit();
   mesh_.normals.shrink_to_fit();
   mesh_.triangles.shrink_to_fit();

@@ -15,7 +15,9 @@
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/text_lines.h"
+#include "kaustik/geometry/attribute_groups.h"
 #include "kaustik/geometry/file_window.h"
+#include "kaustik/geometry/mesh_attribute.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/polygon_cutter.h"
@@ -42,6 +44,12 @@ std::optional<Type> type_named(std::string_view name) {
   for (const auto& [text, type] : names)
     if (text == name) return type;
   return std::nullopt;
+}
+
+/// The number that an integer of this type stands for 1 with; 0: it is none.
+double largest_of(Type type) {
+  constexpr double largest[] = {0x7f, 0xff, 0x7fff, 0xffff, 0x7fffffff, 0xffffffff, 0, 0};
+  return largest[size_t(type)];
 }
 
 /// The number of a type that begins at `bytes`.
@@ -91,6 +99,70 @@ struct PlyElement {
   }
 };
 
+/// Attributes that are read from the properties of an element.
+class AttributeReader {
+ public:
+  /// `whose`: "vertex_" or "face_".
+  AttributeReader(const PlyElement& element, const std::string& whose) {
+    std::vector<std::string> names;
+    for (const PlyProperty& property : element.properties)
+      names.push_back(property.is_list ? std::string() : property.name);
+    for (const AttributeGroup& group : attribute_groups(names)) {
+      attributes_.push_back({whose + group.name, int(group.members.size())});
+      for (const size_t i : group.members)
+        members_.push_back({i, largest_of(element.properties[i].type)});
+    }
+  }
+
+  bool empty() const { return attributes_.empty(); }
+  /// For so many elements.
+  void reserve(size_t elements) {
+    for (MeshAttribute& attribute : attributes_)
+      attribute.values.reserve(elements * size_t(attribute.components));
+  }
+  /// Makes them those of so many elements, to be set in any order.
+  void resize(size_t elements) {
+    for (MeshAttribute& attribute : attributes_)
+      attribute.values.resize(elements * size_t(attribute.components));
+    elements_ = elements;
+  }
+  /// Sets those of one element: `number(property)` is the number of each property.
+  template <typename Number>
+  void set(size_t element, const Number& number) {
+    auto member = members_.begin();
+    for (MeshAttribute& attribute : attributes_) {
+      const auto components = size_t(attribute.components);
+      for (size_t i = 0; i < components; ++i, ++member)
+        attribute.values[element * components + i] =
+            attribute_value(number(member->property), member->largest);
+    }
+  }
+  /// Sets those of one element more.
+  template <typename Number>
+  void add(const Number& number) {
+    resize(elements_ + 1);
+    set(elements_ - 1, number);
+  }
+  /// Moves them into the mesh; tells what is not finite.
+  void finish(MeshFile& file, const std::string& path) {
+    for (MeshAttribute& attribute : attributes_) {
+      if (const size_t count = make_finite(attribute); count > 0)
+        file.remarks.push_back(remark_on_attribute(attribute.name, count, path));
+      file.mesh.attributes.push_back(std::move(attribute));
+    }
+    attributes_.clear();
+  }
+
+ private:
+  struct Member {
+    size_t property;
+    double largest;  ///< see attribute_value()
+  };
+  std::vector<MeshAttribute> attributes_;
+  std::vector<Member> members_;  ///< of all attributes in turn
+  size_t elements_ = 0;
+};
+
 class PlyReader {
  public:
   explicit PlyReader(const std::string& path)
@@ -110,6 +182,7 @@ class PlyReader {
     if (mesh_.triangles.empty()) check(fault_of_no_faces());
     MeshFile file{std::move(mesh_), {}};
     if (small_faces_ > 0) file.remarks.push_back(remark_on_small_faces(small_faces_, path_));
+    for (AttributeReader& attributes : attributes_) attributes.finish(file, path_);
     return file;
   }
 
@@ -151,13 +224,15 @@ class PlyReader {
   static VertexLayout layout_of(const PlyElement& element);
   void read_vertices(const PlyElement& element);
   void read_vertex(const PlyElement& element, const VertexLayout& layout, uint64_t vertex,
-                   std::vector<float>& values);
-  bool read_vertex_block(const PlyElement& element, const VertexLayout& layout);
+                   std::vector<double>& values);
+  bool read_vertex_block(const PlyElement& element, const VertexLayout& layout,
+                         AttributeReader& attributes);
   void check_vertex(uint64_t vertex) const;
 
   // Faces --------------------------------------------------------------------------------------
   void read_faces(const PlyElement& element);
-  bool read_triangle_block(const PlyElement& element, size_t indices);
+  bool read_triangle_block(const PlyElement& element, size_t indices, AttributeReader& attributes);
+  void read_polygons(const PlyElement& element, size_t indices, AttributeReader& attributes);
   void read_polygon(const PlyProperty& property, uint64_t face);
 
   /// Calls body(first, bytes) for all records of an element with so many bytes each, in parallel
@@ -178,6 +253,7 @@ class PlyReader {
   char line_end_ = '\n';  ///< '\r' where no '\n' follows
   std::string header_line_;
   TriangleMesh mesh_;
+  std::vector<AttributeReader> attributes_;  ///< of the elements so far
   uint64_t vertex_count_ = 0;
   PolygonCutter cutter_;
   std::vector<uint32_t> corners_;  ///< of the face that is read
@@ -407,22 +483,28 @@ void PlyReader::read_vertices(const PlyElement& element) {
   mesh_.positions.reserve(size_t(element.count) + 1);  // see MeshShape
   if (layout.has_normals) mesh_.normals.reserve(size_t(element.count));
   if (layout.has_uvs) mesh_.uvs.reserve(size_t(element.count));
-  if (read_vertex_block(element, layout)) return;
-  std::vector<float> values(element.properties.size());
-  for (uint64_t vertex = 0; vertex < element.count; ++vertex)
-    read_vertex(element, layout, vertex, values);
+  AttributeReader attributes(element, "vertex_");
+  if (!read_vertex_block(element, layout, attributes)) {
+    attributes.reserve(size_t(element.count));
+    std::vector<double> values(element.properties.size());
+    for (uint64_t vertex = 0; vertex < element.count; ++vertex) {
+      read_vertex(element, layout, vertex, values);
+      attributes.add([&](size_t property) { return values[property]; });
+    }
+  }
+  attributes_.push_back(std::move(attributes));
 }
 
 void PlyReader::read_vertex(const PlyElement& element, const VertexLayout& layout, uint64_t vertex,
-                            std::vector<float>& values) {
+                            std::vector<double>& values) {
   for (size_t i = 0; i < values.size(); ++i) {
     const PlyProperty& property = element.properties[i];
     if (property.is_list)
       skip(property);
     else
-      values[i] = float(value(property.type));
+      values[i] = value(property.type);
   }
-  const auto at = [&](int i) { return values[size_t(i)]; };
+  const auto at = [&](int i) { return float(values[size_t(i)]); };
   const auto& [x, y, z] = layout.position;
   mesh_.positions.emplace_back(at(x), at(y), at(z));
   if (layout.has_normals) {
@@ -434,7 +516,8 @@ void PlyReader::read_vertex(const PlyElement& element, const VertexLayout& layou
 }
 
 /// All at once and in parallel, if their records have the same size; false: they do not.
-bool PlyReader::read_vertex_block(const PlyElement& element, const VertexLayout& layout) {
+bool PlyReader::read_vertex_block(const PlyElement& element, const VertexLayout& layout,
+                                  AttributeReader& attributes) {
   if (format_ == Format::text || element.count == 0) return false;
   std::vector<size_t> offsets;
   size_t record_bytes = 0;
@@ -447,6 +530,7 @@ bool PlyReader::read_vertex_block(const PlyElement& element, const VertexLayout&
   mesh_.positions.resize(count);
   if (layout.has_normals) mesh_.normals.resize(count);
   if (layout.has_uvs) mesh_.uvs.resize(count);
+  attributes.resize(count);
   const bool big_endian = format_ == Format::big_endian;
   const auto number = [&](const uint8_t* record, int index) {
     const Type type = element.properties[size_t(index)].type;
@@ -471,6 +555,9 @@ bool PlyReader::read_vertex_block(const PlyElement& element, const VertexLayout&
       fill(mesh_.positions[i], layout.position);
       if (layout.has_normals) fill(mesh_.normals[i], layout.normal);
       if (layout.has_uvs) fill(mesh_.uvs[i], layout.uv);
+      attributes.set(i, [&](size_t property) {
+        return value_at(record + offsets[property], element.properties[property].type, big_endian);
+      });
       if (is_sound(i)) [[likely]]
         continue;
       size_t known = first_fault;
@@ -491,27 +578,47 @@ void PlyReader::read_faces(const PlyElement& element) {
     if (other.name == "vertex") break;
     if (&other == &element) fail("the faces come before the vertices", "export the file again");
   }
-  if (read_triangle_block(element, size_t(indices))) return;
+  AttributeReader attributes(element, "face_");
+  if (!read_triangle_block(element, size_t(indices), attributes))
+    read_polygons(element, size_t(indices), attributes);
+  attributes_.push_back(std::move(attributes));
+}
+
+void PlyReader::read_polygons(const PlyElement& element, size_t indices,
+                              AttributeReader& attributes) {
   mesh_.triangles.reserve(size_t(element.count));
-  for (uint64_t face = 0; face < element.count; ++face)
-    for (size_t i = 0; i < element.properties.size(); ++i)
-      if (int(i) == indices)
-        read_polygon(element.properties[i], face);
+  attributes.reserve(size_t(element.count));
+  std::vector<double> values(element.properties.size());
+  for (uint64_t face = 0; face < element.count; ++face) {
+    const size_t triangles = mesh_.triangles.size();
+    for (size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (i == indices)
+        read_polygon(property, face);
+      else if (property.is_list || attributes.empty())
+        skip(property);
       else
-        skip(element.properties[i]);
+        values[i] = value(property.type);
+    }
+    // Each triangle has what its face has.
+    for (size_t i = triangles; i < mesh_.triangles.size(); ++i)
+      attributes.add([&](size_t property) { return values[property]; });
+  }
 }
 
 /// All at once and in parallel, if they are triangles and have no other lists; false, and nothing
 /// read: they are or have.
-bool PlyReader::read_triangle_block(const PlyElement& element, size_t indices) {
+bool PlyReader::read_triangle_block(const PlyElement& element, size_t indices,
+                                    AttributeReader& attributes) {
   if (format_ == Format::text || element.count == 0) return false;
   const bool big_endian = format_ == Format::big_endian;
   const PlyProperty& list = element.properties[indices];
   const size_t count_bytes = size_of(list.count_type), index_bytes = size_of(list.type);
-  size_t before = 0, record_bytes = 0;
+  std::vector<size_t> offsets;
+  size_t record_bytes = 0;
   for (size_t i = 0; i < element.properties.size(); ++i) {
+    offsets.push_back(record_bytes);
     if (i == indices) {
-      before = record_bytes;
       record_bytes += count_bytes + 3 * index_bytes;
     } else if (element.properties[i].is_list) {
       return false;
@@ -522,20 +629,26 @@ bool PlyReader::read_triangle_block(const PlyElement& element, size_t indices) {
   const uint64_t begin = window_.position();
   const std::span<const uint8_t> first_face = window_.ahead(record_bytes);
   if (element.count > left() / record_bytes || first_face.size() < record_bytes ||
-      value_at(first_face.data() + before, list.count_type, big_endian) != 3)
+      value_at(first_face.data() + offsets[indices], list.count_type, big_endian) != 3)
     return false;
   const bool is_plain = !big_endian && (list.type == Type::int32 || list.type == Type::uint32);
   mesh_.triangles.resize(size_t(element.count));
+  attributes.resize(size_t(element.count));
   // What is wrong is told by reading face by face.
   std::atomic<bool> is_sound{true};
   const auto read_piece = [&](size_t first, std::span<const uint8_t> bytes) {
-    const uint8_t* record = bytes.data() + before;
+    const uint8_t* record = bytes.data();
     bool sound = true;
     for (size_t i = first; i < first + bytes.size() / record_bytes; ++i, record += record_bytes) {
       std::array<uint32_t, 3>& corners = mesh_.triangles[i];
-      const uint8_t* from = record + count_bytes;
-      sound = sound && (count_bytes == 1 ? *record == 3
-                                         : value_at(record, list.count_type, big_endian) == 3);
+      const uint8_t* corner_count = record + offsets[indices];
+      const uint8_t* from = corner_count + count_bytes;
+      sound =
+          sound && (count_bytes == 1 ? *corner_count == 3
+                                     : value_at(corner_count, list.count_type, big_endian) == 3);
+      attributes.set(i, [&](size_t property) {
+        return value_at(record + offsets[property], element.properties[property].type, big_endian);
+      });
       if (is_plain) {
         std::memcpy(corners.data(), from, sizeof(corners));
         sound = sound && std::max({corners[0], corners[1], corners[2]}) < vertex_count_;
@@ -554,6 +667,7 @@ bool PlyReader::read_triangle_block(const PlyElement& element, size_t indices) {
   };
   if (each_piece(element.count, record_bytes, read_piece) && is_sound) return true;
   mesh_.triangles.clear();
+  attributes.resize(0);
   window_.move_to(begin);
   return false;
 }

@@ -8,6 +8,7 @@
 #include "kaustik/base/error.h"
 #include "kaustik/base/file.h"
 #include "kaustik/base/inflate.h"
+#include "kaustik/geometry/mesh_attribute.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 
@@ -102,6 +103,7 @@ class SerializedReader {
   void read_flags_and_name();
   void read_counts();
   void read_arrays();
+  void read_colors();
   void read_records();
   void take_corners(uint64_t face, const std::array<uint32_t, 3>& corners);
 
@@ -239,12 +241,24 @@ void SerializedReader::read_arrays() {
   read_vectors(mesh.positions, 1, fault_of_position);  // one to spare: see MeshShape
   if (flags_ & has_normals) read_vectors(mesh.normals, 0, fault_of_normal);
   if (flags_ & has_uvs) read_vectors(mesh.uvs, 0, fault_of_uv);
-  if (flags_ & has_colors)
-    each<std::array<float, 3>>(vertices_ * (flags_ & in_doubles ? 2 : 1),
-                               [](uint64_t, const auto&) {});
+  if (flags_ & has_colors) read_colors();
   mesh.triangles.reserve(size_t(triangles_));
   each<std::array<uint32_t, 3>>(
       triangles_, [&](uint64_t face, const auto& corners) { take_corners(face, corners); });
+}
+
+void SerializedReader::read_colors() {
+  MeshAttribute attribute{"vertex_color", 3};
+  std::vector<float>& values = attribute.values;
+  values.resize(3 * size_t(vertices_));
+  if (flags_ & in_doubles)
+    each<double>(values.size(),
+                 [&](uint64_t i, double value) { values[size_t(i)] = float(value); });
+  else
+    fill(std::span(values));
+  if (const size_t count = make_finite(attribute); count > 0)
+    result_.remarks.push_back(remark_on_attribute(attribute.name, count, path_));
+  result_.mesh.attributes.push_back(std::move(attribute));
 }
 
 /// Version 5: records of vertices, then of faces. Which vertices once were one, and attributes, are

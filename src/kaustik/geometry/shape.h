@@ -2,6 +2,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "kaustik/base/parameters.h"
@@ -19,12 +20,23 @@ struct ShapeSample {
 /// is seen edge-on.
 float solid_angle_density(const Vec3f& reference, const SurfacePoint& point, float pdf_area);
 
+/// Colours or numbers that go with a mesh: one for each vertex, linear between them, or one for
+/// each triangle.
+struct MeshAttribute {
+  std::string name;                ///< "vertex_…" or "face_…", after what has it
+  int components = 3;              ///< 1: numbers; 3: linear Rec. 709
+  std::vector<float> values = {};  ///< of one vertex or triangle after the other; finite
+
+  bool is_of_faces() const { return name.starts_with("face_"); }
+};
+
 /// Triangles with shared vertices, in world space (in group space for shapes of a shape group).
 struct TriangleMesh {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;  ///< per vertex, unit; empty: flat faces
   std::vector<Vec2f> uvs;      ///< per vertex; empty: barycentric
   std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<MeshAttribute> attributes = {};  ///< of different names
 };
 
 /// A hit of an analytic or procedural shape.

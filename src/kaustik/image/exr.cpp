@@ -6,7 +6,10 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputFile.h>
+#include <ImfInputPart.h>
 #include <ImfIntAttribute.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfPartType.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
@@ -17,6 +20,7 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <set>
 
 #include "kaustik/image/formats.h"
 #include "kaustik/image/primaries.h"
@@ -112,7 +116,8 @@ void check_header(const Imf::Header& header, size_t file_size, const ReadOptions
                   options);
 }
 
-void check_headers(ByteView file, const ReadOptions& options) {
+/// Whether the file has parts.
+bool check_headers(ByteView file, const ReadOptions& options) {
   MemoryInput input(file);
   char start[8];
   input.read(start, sizeof(start));
@@ -124,6 +129,7 @@ void check_headers(ByteView file, const ReadOptions& options) {
     header.readFrom(input, header_version);
     check_header(header, file.size(), options);
   } while (has_parts && !input.at_empty_header());
+  return has_parts;
 }
 
 /// The image that lines of the data window go into: of its size, or of the display window's.
@@ -199,44 +205,120 @@ Image read_luminance_chroma(MemoryInput& input, const ReadOptions& options) {
   return std::move(target.image);
 }
 
-/// The channels to be read.
-std::vector<std::string> wanted_channels(const Imf::ChannelList& channels,
+/// A channel of a file, which may have several parts.
+struct FileChannel {
+  std::string name;          ///< of the image
+  std::string name_in_part;  ///< the same, but where another part has that already
+  int part = 0;
+  bool is_half = false, is_whole = true;  ///< not whole: subsampled
+};
+
+/// Adds those of a part. A name that is taken gets that of the part before it, as a layer's.
+void add_channels(const Imf::Header& header, int part, std::vector<FileChannel>& channels) {
+  std::set<std::string> taken;
+  for (const FileChannel& channel : channels) taken.insert(channel.name);
+  for (auto entry = header.channels().begin(); entry != header.channels().end(); ++entry) {
+    std::string name = entry.name();
+    if (taken.contains(name) && header.hasName()) name = header.name() + '.' + name;
+    if (!taken.insert(name).second) continue;
+    const Imf::Channel& channel = entry.channel();
+    channels.push_back({std::move(name), entry.name(), part, channel.type == Imf::HALF,
+                        channel.xSampling == 1 && channel.ySampling == 1});
+  }
+}
+
+/// Those that are to be read.
+std::vector<FileChannel> wanted_channels(const std::vector<FileChannel>& all,
                                          const ReadOptions& options) {
-  std::vector<std::string> all, wanted;
-  for (auto entry = channels.begin(); entry != channels.end(); ++entry)
-    all.emplace_back(entry.name());
-  const auto colours = options.only_colours ? colour_channels(all) : std::nullopt;
+  std::vector<std::string> names;
+  for (const FileChannel& channel : all) names.push_back(channel.name);
+  // Of several layers whoever asks for the picture chooses one, and tells it.
+  const auto colours = !options.only_colours      ? std::nullopt
+                       : options.channels.empty() ? colour_channels(names)
+                                                  : picture_channels(names, options.channels);
+  std::vector<FileChannel> wanted;
   for (size_t i = 0; i < all.size(); ++i)
     if (!colours || std::find(colours->begin(), colours->end(), int(i)) != colours->end())
       wanted.push_back(all[i]);
-  for (const std::string& name : wanted) {
-    const Imf::Channel& channel = channels[name];
-    if (channel.xSampling != 1 || channel.ySampling != 1)
-      throw BadImage(fmt::format("channel '{}' is subsampled, which is not supported", name));
-  }
+  for (const FileChannel& channel : wanted)
+    if (!channel.is_whole)
+      throw BadImage(
+          fmt::format("channel '{}' is subsampled, which is not supported", channel.name));
   return wanted;
+}
+
+/// Of the wanted channels those that this part has.
+template <typename Part>
+void read_part_lines(Part& file, int part, const std::vector<FileChannel>& wanted, Target& target) {
+  const Imath::Box2i window = file.header().dataWindow();
+  const size_t width = size_t(extent(window.min.x, window.max.x));
+  const auto count = size_t(std::count_if(wanted.begin(), wanted.end(),
+                                          [&](const FileChannel& c) { return c.part == part; }));
+  std::vector<float, ZeroedAllocator<float>> line(width * count);
+  Imf::FrameBuffer buffer;
+  std::vector<int> targets;
+  for (size_t c = 0; c < wanted.size(); ++c) {
+    if (wanted[c].part != part) continue;
+    Imf::Slice slice = Imf::Slice::Make(Imf::FLOAT, line.data() + targets.size() * width,
+                                        Imath::V2i(window.min.x, 0), int64_t(width), 1);
+    slice.yStride = 0;  // every line comes to the same place
+    buffer.insert(wanted[c].name_in_part, slice);
+    targets.push_back(int(c));
+  }
+  if (targets.empty()) return;
+  file.setFrameBuffer(buffer);
+  for (int y = window.min.y; y <= window.max.y; ++y) {
+    file.readPixels(y);
+    for (size_t i = 0; i < targets.size(); ++i) target.put(y, targets[i], &line[i * width], 1);
+  }
+}
+
+Target target_for(const Imf::Header& header, const std::vector<FileChannel>& wanted,
+                  size_t file_size, const ReadOptions& options) {
+  std::vector<std::string> names;
+  for (const FileChannel& channel : wanted) names.push_back(channel.name);
+  Target target(header, names, file_size, options);
+  for (size_t c = 0; c < wanted.size(); ++c)
+    if (!wanted[c].is_half) target.image.set_keeps_floats(int(c));
+  return target;
 }
 
 Image read_channels(MemoryInput& input, const ReadOptions& options) {
   Imf::InputFile file(input, 0);
-  const Imath::Box2i window = file.header().dataWindow();
-  const std::vector<std::string> names = wanted_channels(file.header().channels(), options);
-  Target target(file.header(), names, input.file_size(), options);
-  for (size_t c = 0; c < names.size(); ++c)
-    if (file.header().channels()[names[c]].type != Imf::HALF) target.image.set_keeps_floats(int(c));
-  const size_t width = size_t(extent(window.min.x, window.max.x));
-  std::vector<float, ZeroedAllocator<float>> line(width * names.size());
-  Imf::FrameBuffer buffer;
-  for (size_t c = 0; c < names.size(); ++c) {
-    Imf::Slice slice = Imf::Slice::Make(Imf::FLOAT, line.data() + c * width,
-                                        Imath::V2i(window.min.x, 0), int64_t(width), 1);
-    slice.yStride = 0;  // every line comes to the same place
-    buffer.insert(names[c], slice);
+  std::vector<FileChannel> all;
+  add_channels(file.header(), 0, all);
+  const std::vector<FileChannel> wanted = wanted_channels(all, options);
+  Target target = target_for(file.header(), wanted, input.file_size(), options);
+  read_part_lines(file, 0, wanted, target);
+  return std::move(target.image);
+}
+
+/// The parts of a file that are pictures of the same window as the first of them. Deep ones, which
+/// have many values for a pixel, are none.
+std::vector<int> parts_alike(const Imf::MultiPartInputFile& file) {
+  std::vector<int> parts;
+  for (int part = 0; part < file.parts(); ++part) {
+    const Imf::Header& header = file.header(part);
+    const bool is_flat = !header.hasType() || header.type() == Imf::SCANLINEIMAGE ||
+                         header.type() == Imf::TILEDIMAGE;
+    if (is_flat &&
+        (parts.empty() || header.dataWindow() == file.header(parts.front()).dataWindow()))
+      parts.push_back(part);
   }
-  file.setFrameBuffer(buffer);
-  for (int y = window.min.y; y <= window.max.y; ++y) {
-    file.readPixels(y);
-    for (size_t c = 0; c < names.size(); ++c) target.put(y, int(c), line.data() + c * width, 1);
+  if (parts.empty()) throw BadImage("none of its parts is a flat picture");
+  return parts;
+}
+
+Image read_parts(MemoryInput& input, const ReadOptions& options) {
+  Imf::MultiPartInputFile file(input, 0);
+  const std::vector<int> parts = parts_alike(file);
+  std::vector<FileChannel> all;
+  for (const int part : parts) add_channels(file.header(part), part, all);
+  const std::vector<FileChannel> wanted = wanted_channels(all, options);
+  Target target = target_for(file.header(parts.front()), wanted, input.file_size(), options);
+  for (const int index : parts) {
+    Imf::InputPart part(file, index);
+    read_part_lines(part, index, wanted, target);
   }
   return std::move(target.image);
 }
@@ -267,7 +349,7 @@ Primaries primaries_of(const Imf::Header& header) {
 }  // namespace
 
 Image decode_exr(ByteView bytes, const ReadOptions& options) try {
-  check_headers(bytes, options);
+  const bool has_parts = check_headers(bytes, options);
   Imf::Header header;
   {
     MemoryInput input(bytes);
@@ -275,6 +357,7 @@ Image decode_exr(ByteView bytes, const ReadOptions& options) try {
   }
   MemoryInput input(bytes);
   Image image = is_luminance_chroma(header.channels()) ? read_luminance_chroma(input, options)
+                : has_parts                            ? read_parts(input, options)
                                                        : read_channels(input, options);
   if (Imf::hasChromaticities(header))
     if (const auto matrix = rec709_from(primaries_of(header))) convert_colours(image, *matrix);

@@ -148,6 +148,13 @@ struct RgbView {
 std::optional<std::array<int, 3>> colour_channels(const std::vector<std::string>& names,
                                                   const std::string& layer = {});
 
+/// Those of a picture that a scene names, of which `wanted` chooses: "" the picture itself (where
+/// it has no channels of its own, the first layer with colours by its name), else a layer, a
+/// channel, or one of the letters r, g, b, a, x, y, z, whatever their case; r, g and b of a grey
+/// picture are its grey. None: there is nothing of that.
+std::optional<std::array<int, 3>> picture_channels(const std::vector<std::string>& names,
+                                                   const std::string& wanted);
+
 /// The colour_channels() of an image. Throws Error(input) if it has none. Valid as long as the
 /// image is and keeps its channels.
 RgbView rgb_view(const Image& image, const std::string& layer = {});

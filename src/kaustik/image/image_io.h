@@ -14,7 +14,8 @@ struct ReadOptions {
   /// All of the picture and nothing else, black where the file has no pixels. If not, the pixels of
   /// the file, with Image::frame() to tell their place.
   bool whole_picture = false;
-  bool only_colours = false;  ///< of an EXR just the channels of rgb_view()
+  bool only_colours = false;  ///< of an EXR just the picture_channels() of `channels`
+  std::string channels = {};
   /// That reading may take, the file itself included.
   int64_t memory_bytes = default_picture_memory();
   int64_t kept_bytes_per_pixel = 0;  ///< that the caller needs beside the image

@@ -1,4 +1,5 @@
 #pragma once
+#include "kaustik/base/srgb.h"
 #include "kaustik/base/vec.h"
 
 namespace kaustik {
@@ -16,10 +17,5 @@ inline float luminance(const Vec3f& rgb) { return white_efficacy * photopic(rgb)
 /// CIE XYZ (2° observer, D65, Y of white is 1) of a linear Rec. 709 colour and back.
 Vec3f xyz_from_rgb(const Vec3f& rgb);
 Vec3f rgb_from_xyz(const Vec3f& xyz);
-
-/// The transfer curve of IEC 61966-2-1 and its inverse. Odd functions, so that negative values
-/// survive; not clamped above 1.
-float srgb_from_linear(float linear);
-float linear_from_srgb(float encoded);
 
 }  // namespace kaustik

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
+#include "kaustik/base/srgb.h"
 #include "kaustik/image/array_image.h"
 
 namespace kaustik {
@@ -23,20 +26,46 @@ Image read_at(const Arguments& arguments, const ReadOptions& options) {
   }
 }
 
-/// Its colours or its grey. Alpha is no colour, and which of other channels is meant nobody knows.
-std::array<int, 3> colours_of(const Image& image, const Arguments& arguments) {
-  if (const auto channels = colour_channels(image.channel_names())) return *channels;
+/// Alpha is no colour, and which of other channels is meant nobody knows.
+[[noreturn]] void fail_without(const Image& image, const Arguments& arguments,
+                               const std::string& wanted) {
+  std::string names;
   // The message of rgb_view() names the channels.
   try {
-    rgb_view(image);
+    rgb_view(image, wanted);
   } catch (const Error& error) {
+    names = error.problems().front().remedy;
+  }
+  if (wanted.empty())
     throw Error(ErrorKind::input,
-                fmt::format("{} has no colours: {}", picture_name(arguments),
-                            error.problems().front().remedy),
+                fmt::format("{} has no colours: {}", picture_name(arguments), names),
                 "save it with the channels R, G and B, or with one that is called Y",
                 picture_place(arguments));
-  }
-  return {};
+  throw Error(ErrorKind::input,
+              fmt::format("{} has no channel or layer '{}'", picture_name(arguments), wanted),
+              names, arguments.place_of("channel"));
+}
+
+/// These channels of the image alone, under the names of a picture.
+Image under_usual_names(const Image& image, const std::array<int, 3>& channels) {
+  const bool is_grey = channels[0] == channels[1] && channels[0] == channels[2];
+  Image result(image.width(), image.height(),
+               is_grey ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"});
+  for (int c = 0; c < result.channel_count(); ++c)
+    if (const int from = channels[size_t(c)]; from >= 0)
+      std::ranges::copy(image.channel(from), result.channel(c).begin());
+  return result;
+}
+
+std::set<int> distinct(const std::array<int, 3>& channels) {
+  std::set<int> result(channels.begin(), channels.end());
+  result.erase(-1);
+  return result;
+}
+
+/// See PictureWish::gamma.
+float decoded(float value, double gamma) {
+  return gamma < 0 ? linear_from_srgb(value) : float(std::pow(double(value), gamma));
 }
 
 bool is_radiance(float value) { return std::isfinite(value) && value >= 0; }
@@ -114,21 +143,42 @@ bool PictureReader::account(const Use& use) {
   return true;
 }
 
+Image PictureReader::chosen(Image image, const Arguments& arguments, const PictureWish& wish) {
+  const std::vector<std::string>& names = image.channel_names();
+  const auto channels = picture_channels(names, wish.channels);
+  if (!channels) fail_without(image, arguments, wish.channels);
+  const bool is_opacity = names[size_t(std::max((*channels)[0], 0))] == "A";
+  const bool is_linear = wish.gamma == 0 || wish.gamma == 1 || is_opacity;
+  if (colour_channels(names) != channels) {
+    if (wish.channels.empty())
+      warnings_.push_back(fmt::format(
+          "{} has several layers, and none of them is the picture itself: channel '{}' is taken, "
+          "and what goes with it",
+          picture_name(arguments), names[size_t((*channels)[0])]));
+    image = under_usual_names(image, *channels);
+  }
+  if (!is_linear)
+    for (const int c : distinct(*colour_channels(image.channel_names())))
+      for (float& value : image.channel(c)) value = decoded(value, wish.gamma);
+  return image;
+}
+
 Image PictureReader::read(const Arguments& arguments, int64_t kept_bytes_per_pixel,
-                          bool srgb_to_linear) {
+                          const PictureWish& wish) {
   ReadOptions options;
-  options.srgb_to_linear = srgb_to_linear;
+  options.srgb_to_linear = wish.gamma == 0;
   options.whole_picture = true;
   options.only_colours = true;
+  options.channels = wish.channels;
   options.memory_bytes = left_bytes_;
   options.kept_bytes_per_pixel = kept_bytes_per_pixel;
   options.memory_remedy = fmt::format(
       "allow pictures more memory than {:.3g} MB in all (--texture-memory), or give smaller ones",
       double(budget_bytes_) / 1e6);
-  Image image = read_at(arguments, options);
+  Image image = chosen(read_at(arguments, options), arguments, wish);
   ++read_count_;
   left_bytes_ -= int64_t(image.pixel_count()) * kept_bytes_per_pixel;
-  const BadColours bad = repair(image, colours_of(image, arguments));
+  const BadColours bad = repair(image, *colour_channels(image.channel_names()));
   if (bad.count > 0)
     warnings_.push_back(fmt::format(
         "{}: {} of its {} pixels {} negative or not finite, the first at ({}, {}): "

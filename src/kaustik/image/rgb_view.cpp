@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <string_view>
 #include <unordered_map>
 
 #include "kaustik/base/error.h"
@@ -38,6 +39,23 @@ class ChannelFinder {
     if (index < 0) return std::nullopt;
     return Channels{index, index, index};
   }
+  /// By one letter, whatever its case.
+  std::optional<Channels> lettered(char letter) const {
+    const auto code = static_cast<unsigned char>(letter);
+    for (const int c : {std::toupper(code), std::tolower(code)})
+      if (const auto found = named(std::string(1, char(c)))) return found;
+    const auto all = picture();
+    const bool is_grey = all && (*all)[0] == (*all)[1] && (*all)[0] == (*all)[2];
+    return is_grey && std::string_view("rgbRGB").find(letter) != std::string_view::npos
+               ? all
+               : std::nullopt;
+  }
+  /// By its name.
+  std::optional<Channels> first_layer() const {
+    const std::set<std::string> layers = colour_layers();
+    if (layers.empty()) return std::nullopt;
+    return of_layer(*layers.begin());
+  }
 
  private:
   int index_of(const std::string& name) const {
@@ -60,12 +78,17 @@ class ChannelFinder {
     }
     return result;
   }
-  /// Of all layers with three colours the only one, or the one whose name says so.
-  std::optional<Channels> of_main_layer() const {
+  /// What the names of layers with three colours begin with.
+  std::set<std::string> colour_layers() const {
     std::set<std::string> layers;
     for (const std::string& name : names_)
       if (name.ends_with(".R") && count(find(name.substr(0, name.size() - 1), "RGB")) == 3)
         layers.insert(name.substr(0, name.size() - 1));
+    return layers;
+  }
+  /// Of all layers with three colours the only one, or the one whose name says so.
+  std::optional<Channels> of_main_layer() const {
+    const std::set<std::string> layers = colour_layers();
     if (layers.size() == 1) return of_layer(*layers.begin());
     for (const char* usual : {"beauty", "combined", "rgba", "rgb", "color"}) {
       std::vector<std::string> called;
@@ -104,6 +127,14 @@ std::optional<std::array<int, 3>> colour_channels(const std::vector<std::string>
   if (layer.empty()) return finder.picture();
   const auto found = finder.of_layer(layer + ".");
   return found ? found : finder.named(layer);
+}
+
+std::optional<std::array<int, 3>> picture_channels(const std::vector<std::string>& names,
+                                                   const std::string& wanted) {
+  if (const auto found = colour_channels(names, wanted)) return found;
+  const ChannelFinder finder(names);
+  if (wanted.empty()) return finder.first_layer();
+  return wanted.size() == 1 ? finder.lettered(wanted[0]) : std::nullopt;
 }
 
 RgbView rgb_view(const Image& image, const std::string& layer) {

@@ -33,6 +33,7 @@ constexpr TypeName type_names[] = {
     {first_of_mitsuba_0_3, "bsdf", "composite", "mixturebsdf"},
     {first_of_mitsuba_0_3, "texture", "exrtexture", "bitmap"},
     {first_of_mitsuba_0_3, "texture", "ldrtexture", "bitmap"},
+    {first_with_snake_case, "texture", "vertexcolors", "mesh_attribute"},
     {any_version, "bsdf", "roughconductorggx", "roughconductor", "ggx"},
     {any_version, "bsdf", "roughdielectricggx", "roughdielectric", "ggx"},
     {any_version, "bsdf", "roughplasticggx", "roughplastic", "ggx"},
@@ -111,8 +112,8 @@ bool has(const Object& object, std::string_view name) {
                      [&](const Property& p) { return p.name == name; });
 }
 
-/// Turns uoffset, voffset, uscale and vscale of a texture into `to_uv`.
-void upgrade_texture_placement(Object& object, Problems& problems) {
+/// uoffset, voffset, uscale, vscale and uvscale become `to_uv`.
+void upgrade_placement(Object& object, Problems& problems) {
   Vec3d offset(0, 0, 0), scale(1, 1, 1);
   Place place;
   const auto take_into = [&](std::string_view name, double& target) {
@@ -121,6 +122,8 @@ void upgrade_texture_placement(Object& object, Problems& problems) {
       if (!place.file) place = property->place;
     }
   };
+  take_into("uvscale", scale.x);
+  scale.y = scale.x;
   take_into("uoffset", offset.x);
   take_into("voffset", offset.y);
   take_into("uscale", scale.x);
@@ -132,6 +135,31 @@ void upgrade_texture_placement(Object& object, Problems& problems) {
   } catch (const std::invalid_argument&) {
     problems.add("the texture's uscale or vscale is too near to 0", "give another scale", place);
   }
+}
+
+/// The present name of what a texture's property says.
+std::string upgraded_choice(const std::string& name, const std::string& value) {
+  struct Renamed {
+    std::string_view property, before, now;
+  };
+  static constexpr Renamed table[] = {{"filter_type", "ewa", "bilinear"},
+                                      {"filter_type", "trilinear", "bilinear"},
+                                      {"wrap_mode", "black", "zero"},
+                                      {"wrap_mode", "white", "one"}};
+  for (const Renamed& row : table)
+    if (name.starts_with(row.property) && value == row.before) return std::string(row.now);
+  return value;
+}
+
+void upgrade_texture(Object& object, Problems& problems) {
+  upgrade_placement(object, problems);
+  if (object.family != "texture") return;
+  for (Property& property : object.properties)
+    if (auto* text = std::get_if<std::string>(&property.value))
+      *text = upgraded_choice(property.name, *text);
+  // It was called vertexcolors.
+  if (object.type == "mesh_attribute" && !has(object, "name"))
+    object.properties.push_back({"name", std::string("vertex_color"), object.place});
 }
 
 /// Cameras of Mitsuba 0.3 gave the field of view of the picture's smaller side, or of the larger
@@ -191,7 +219,7 @@ void upgrade_object(Object& object, const std::string& written_type, Version ver
   const TypeName* row = row_of(object.family, written_type, version);
   if (row && !row->distribution.empty() && !has(object, "distribution"))
     object.properties.push_back({"distribution", std::string(row->distribution), object.place});
-  if (version < first_with_snake_case) upgrade_texture_placement(object, problems);
+  if (version < first_with_snake_case) upgrade_texture(object, problems);
   if (version < first_of_mitsuba_0_4) upgrade_field_of_view(object);
 }
 

@@ -31,9 +31,9 @@ std::string upgraded_type(const std::string& family, const std::string& type, Ve
 /// The present name of a property or nested object of `parent`, whose type is a present one.
 std::string upgraded_name(const std::string& name, const Object& parent, Version version);
 
-/// Upgrades what more than one property says, or the type as it was written: the placement of a
-/// texture (uoffset, voffset, uscale, vscale), and which side of the picture a camera's field of
-/// view is.
+/// Upgrades what more than one property says, or the type as it was written, or values: the
+/// placement of a texture (uoffset, voffset, uscale, vscale, uvscale), the names of its filter and
+/// of what lies outside of a picture, and which side of the picture a camera's field of view is.
 void upgrade_object(Object& object, const std::string& written_type, Version version,
                     Problems& problems);
 

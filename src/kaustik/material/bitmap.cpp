@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -56,18 +59,42 @@ class Bitmap final : public Texture {
   UvTransform to_uv_;
 };
 
+std::vector<std::string> wrap_names() { return {"repeat", "mirror", "clamp", "zero", "one"}; }
+
+Wrap wrap_named(const std::string& name) {
+  const std::vector<std::string> names = wrap_names();
+  return Wrap(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
 const TypeInfo& bitmap_info() {
   static const TypeInfo info{
       "texture", "bitmap", "A picture, filtered by the footprint of the ray.",
       picture_parameters(
-          ".", {choice_parameter("filter_type", "bilinear", {"bilinear", "nearest"},
-                                 "How values between pixels come about."),
-                choice_parameter("wrap_mode", "repeat", {"repeat", "mirror", "clamp"},
-                                 "What is outside of the picture."),
-                boolean_parameter("raw", false, "Take 8-bit values as linear ones, not as sRGB."),
-                transform_parameter("to_uv", "Applied to the coordinates before the lookup."),
-                ignored_parameter("format", ParameterKind::text),
-                ignored_parameter("accel", ParameterKind::boolean)})};
+          ".",
+          {choice_parameter("filter_type", "bilinear", {"bilinear", "nearest"},
+                            "How values between pixels come about."),
+           choice_parameter("wrap_mode", "repeat", wrap_names(),
+                            "What is outside of the picture: itself again, its mirror image, its "
+                            "edge, black (zero) or white (one)."),
+           optional(choice_parameter("wrap_mode_u", "repeat", wrap_names(),
+                                     "The same along u alone, beside the picture.")),
+           optional(choice_parameter("wrap_mode_v", "repeat", wrap_names(),
+                                     "The same along v alone, above and below the picture.")),
+           text_parameter("channel", "",
+                          "What of the picture: r, g, b or a (its opacity) alone; or a layer or a "
+                          "channel of an EXR by its name. All its colours where nothing is said."),
+           boolean_parameter("raw", false,
+                             "Take values as they are stored, as linear ones: for normals, "
+                             "roughness and the like."),
+           number_parameter("gamma", 0,
+                            "How stored values become linear: by this power; 1: as with raw; -1: "
+                            "they are sRGB encoded; 0: as is usual for the kind of file.")
+               .range(-1, 10),
+           transform_parameter("to_uv", "Applied to the coordinates before the lookup."),
+           ignored_parameter("format", ParameterKind::text),
+           ignored_parameter("accel", ParameterKind::boolean),
+           ignored_parameter("cache", ParameterKind::boolean),
+           ignored_parameter("max_anisotropy", ParameterKind::number)})};
   return info;
 }
 
@@ -93,15 +120,35 @@ Texels texels_of(const Image& image) {
   return texels;
 }
 
-std::shared_ptr<const Texture> create_bitmap(const Arguments& arguments, PictureReader& pictures) {
-  Texels texels = texels_of(pictures.read(arguments, bytes_per_pixel, !arguments.boolean("raw")));
-  const std::string& wrap = arguments.text("wrap_mode");
-  return std::make_shared<Bitmap>(MipPyramid(texels.width, texels.height, std::move(texels.values),
-                                             wrap == "clamp"    ? Wrap::clamp
-                                             : wrap == "mirror" ? Wrap::mirror
-                                                                : Wrap::repeat),
-                                  texels.maximum, arguments.text("filter_type") == "nearest",
-                                  UvTransform(arguments.transform("to_uv")));
+Wraps wraps_of(const Arguments& arguments) {
+  const auto along = [&](const char* axis) {
+    return wrap_named(arguments.text(arguments.given(axis) ? axis : "wrap_mode"));
+  };
+  return {along("wrap_mode_u"), along("wrap_mode_v")};
+}
+
+/// See PictureWish::gamma.
+double gamma_of(const Arguments& arguments) {
+  const double gamma = arguments.number("gamma");
+  if (gamma < 0 && gamma != -1)
+    throw Error(ErrorKind::input, fmt::format("'gamma' is {}", gamma),
+                "give a power above 0, or -1 for sRGB", arguments.place_of("gamma"));
+  if (!arguments.boolean("raw")) return gamma;
+  if (gamma != 0 && gamma != 1)
+    throw Error(ErrorKind::input, "the bitmap has 'gamma', and 'raw' says that it is linear",
+                "leave out one of them", arguments.place_of("gamma"));
+  return 1;
+}
+
+std::shared_ptr<const Texture> create_bitmap(const TextureInputs& in) {
+  const Arguments& arguments = in.arguments;
+  Texels texels = texels_of(in.pictures.read(arguments, bytes_per_pixel,
+                                             {gamma_of(arguments), arguments.text("channel")}));
+  const Wraps wraps = wraps_of(arguments);
+  if (wraps.u == Wrap::one || wraps.v == Wrap::one) texels.maximum = std::max(texels.maximum, 1.0f);
+  return std::make_shared<Bitmap>(
+      MipPyramid(texels.width, texels.height, std::move(texels.values), wraps), texels.maximum,
+      arguments.text("filter_type") == "nearest", UvTransform(arguments.transform("to_uv")));
 }
 
 }  // namespace

@@ -197,9 +197,7 @@ struct BsdfInputs {
   const Arguments& arguments;
   /// In the order of the file.
   std::vector<std::shared_ptr<const Bsdf>> nested;
-  /// The texture for a `textured()` color or number parameter: the nested one if there is one,
-  /// else a constant one from the argument; null if there is neither.
-  std::function<std::shared_ptr<const Texture>(std::string_view)> texture;
+  TextureOfParameter texture;
 };
 
 struct BsdfType {

@@ -27,6 +27,9 @@ BsdfType normalmap_type();
 
 TextureType bitmap_type();
 TextureType checkerboard_type();
+TextureType gridtexture_type();
+TextureType scale_type();
+TextureType mesh_attribute_type();
 TextureType noise_type();
 TextureType marble_type();
 TextureType wood_type();

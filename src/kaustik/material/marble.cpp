@@ -125,8 +125,8 @@ const TypeInfo& marble_info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create_marble(const Arguments& arguments, PictureReader&) {
-  return std::make_shared<Marble>(arguments);
+std::shared_ptr<const Texture> create_marble(const TextureInputs& in) {
+  return std::make_shared<Marble>(in.arguments);
 }
 
 }  // namespace

@@ -5,9 +5,17 @@
 namespace kaustik {
 namespace {
 
-/// Texel index inside [0, count) for any integer.
+/// What pictures may end in.
+const Spectrum black_border = spectrum_from_rgb(0, 0, 0), white_border = spectrum_from_rgb(1, 1, 1);
+
+/// Indices of what is no texel.
+constexpr int black_index = -1, white_index = -2;
+
+/// Index inside [0, count), or of what lies beyond, for any integer.
 int wrapped_index(int i, int count, Wrap wrap) {
   if (wrap == Wrap::clamp) return std::clamp(i, 0, count - 1);
+  if (wrap == Wrap::zero || wrap == Wrap::one)
+    return i >= 0 && i < count ? i : wrap == Wrap::zero ? black_index : white_index;
   const int period = wrap == Wrap::mirror ? 2 * count : count;
   int rest = i % period;
   if (rest < 0) rest += period;
@@ -27,8 +35,8 @@ void visit_parts(int i, int to, int from, const Visit& visit) {
 
 }  // namespace
 
-MipPyramid::MipPyramid(int width, int height, std::vector<Spectrum> texels, Wrap wrap)
-    : wrap_(wrap) {
+MipPyramid::MipPyramid(int width, int height, std::vector<Spectrum> texels, const Wraps& wraps)
+    : wraps_(wraps) {
   levels_.push_back({width, height, std::move(texels)});
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     const Level& fine = levels_.back();
@@ -53,15 +61,19 @@ MipPyramid::MipPyramid(int width, int height, std::vector<Spectrum> texels, Wrap
 
 Vec2f MipPyramid::wrapped(const Vec2f& uv) const {
   // Far away the coordinates have lost the fraction anyway; this keeps them in the range of int.
-  const auto in_period = [&](float x) {
-    return wrap_ == Wrap::clamp ? std::clamp(x, -1.0f, 2.0f) : x - 2 * std::floor(0.5f * x);
+  const auto in_period = [](float x, Wrap wrap) {
+    const bool has_period = wrap == Wrap::repeat || wrap == Wrap::mirror;
+    return has_period ? x - 2 * std::floor(0.5f * x) : std::clamp(x, -1.0f, 2.0f);
   };
-  return {in_period(uv.x), in_period(uv.y)};
+  return {in_period(uv.x, wraps_.u), in_period(uv.y, wraps_.v)};
 }
 
 const Spectrum& MipPyramid::texel(const Level& level, int x, int y) const {
-  return level.texels[size_t(wrapped_index(y, level.height, wrap_)) * size_t(level.width) +
-                      size_t(wrapped_index(x, level.width, wrap_))];
+  const int column = wrapped_index(x, level.width, wraps_.u);
+  const int row = wrapped_index(y, level.height, wraps_.v);
+  if ((column | row) < 0) [[unlikely]]
+    return std::min(column, row) == black_index ? black_border : white_border;
+  return level.texels[size_t(row) * size_t(level.width) + size_t(column)];
 }
 
 const Spectrum& MipPyramid::nearest(const Vec2f& uv) const {

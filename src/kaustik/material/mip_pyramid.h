@@ -6,8 +6,15 @@
 
 namespace kaustik {
 
-/// What lies outside of a picture.
-enum class Wrap { repeat, mirror, clamp };
+/// What lies outside of a picture: itself again, its mirror image, its edge, black or white.
+enum class Wrap { repeat, mirror, clamp, zero, one };
+
+/// The same along u and along v.
+struct Wraps {
+  Wraps(Wrap both) : u(both), v(both) {}  // NOLINT: a wrap is both
+  Wraps(Wrap along_u, Wrap along_v) : u(along_u), v(along_v) {}
+  Wrap u, v;
+};
 
 /// A picture with its reductions to about half the size each, down to one texel; every one has the
 /// same mean, whatever the size (Williams, "Pyramidal Parametrics", SIGGRAPH 1983). Coordinates
@@ -15,7 +22,7 @@ enum class Wrap { repeat, mirror, clamp };
 class MipPyramid {
  public:
   /// `texels` row by row from the upper left.
-  MipPyramid(int width, int height, std::vector<Spectrum> texels, Wrap wrap);
+  MipPyramid(int width, int height, std::vector<Spectrum> texels, const Wraps& wraps);
 
   /// The texel at a point of the full picture.
   const Spectrum& nearest(const Vec2f& uv) const;
@@ -38,7 +45,7 @@ class MipPyramid {
   float level_of(const Vec2f& uv_width) const;
 
   std::vector<Level> levels_;
-  Wrap wrap_;
+  Wraps wraps_;
 };
 
 }  // namespace kaustik

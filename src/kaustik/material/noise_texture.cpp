@@ -59,8 +59,8 @@ const TypeInfo& noise_info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create_noise(const Arguments& arguments, PictureReader&) {
-  return std::make_shared<NoiseTexture>(arguments);
+std::shared_ptr<const Texture> create_noise(const TextureInputs& in) {
+  return std::make_shared<NoiseTexture>(in.arguments);
 }
 
 }  // namespace

@@ -26,9 +26,9 @@ const std::vector<BsdfType>& bsdf_types() {
 }
 
 const std::vector<TextureType>& texture_types() {
-  static const std::vector<TextureType> types = {bitmap_type(), checkerboard_type(), noise_type(),
-                                                 marble_type(), wood_type(),         tiles_type(),
-                                                 waves_type()};
+  static const std::vector<TextureType> types = {
+      bitmap_type(), checkerboard_type(), gridtexture_type(), scale_type(), mesh_attribute_type(),
+      noise_type(),  marble_type(),       wood_type(),        tiles_type(), waves_type()};
   return types;
 }
 

@@ -1,5 +1,9 @@
 #pragma once
+#include <cstdint>
+#include <functional>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "kaustik/base/parameters.h"
@@ -18,6 +22,22 @@ struct TextureCoordinates {
                             ///< of its shape group
   Vec3f normal{0, 0, 0};    ///< geometric, in the same space
   float width = 0;          ///< of the footprint, m, in the same space; 0: a point
+  uint32_t primitive = 0;   ///< that the point lies on, see SurfacePoint
+};
+
+/// What a surface tells of its points beside geometry: a colour, or a number. Immutable.
+class SurfaceAttribute {
+ public:
+  virtual ~SurfaceAttribute() = default;
+  /// Linear Rec. 709, finite; a number stands in all three places. `position` as in
+  /// TextureCoordinates.
+  virtual Vec3f at(uint32_t primitive, const Vec3f& position) const = 0;
+  /// How the sum of the three times `weights` changes with the position, per m.
+  virtual Vec3f gradient(uint32_t primitive, const Vec3f& weights) const = 0;
+  /// Over the surface's area.
+  virtual Vec3f mean() const = 0;
+  /// Upper bound of all three.
+  virtual float maximum() const = 0;
 };
 
 /// How a height changes from place to place, m per unit of uv and m per m.
@@ -50,7 +70,14 @@ class Texture {
   /// Gradient of the height, m, of the relief that goes with the texture; for textures that know of
   /// none the height is scalar().
   virtual HeightGradient height_gradient(const TextureCoordinates& at) const = 0;
+
+  /// How many textures an answer asks at most, itself included; one that is nested in several
+  /// places counts for each of them.
+  virtual int size() const { return 1; }
 };
+
+/// The largest size that a scene may use: textures that share nested ones double it at each level.
+inline constexpr int maximum_texture_size = 256;
 
 /// Weighted by the eye's sensitivity, such that white of 1 gives 1. `rgb`: lanes in RGB mode.
 float luminance_of(const Spectrum& rgb);
@@ -58,12 +85,30 @@ float luminance_of(const Spectrum& rgb);
 /// A texture of one value.
 std::shared_ptr<const Texture> make_constant_texture(const SpectralValue& value);
 
+/// What stands for `textured()` parameters: the nested texture if there is one, else a constant one
+/// from the argument; null if there is neither.
+using TextureOfParameter = std::function<std::shared_ptr<const Texture>(std::string_view)>;
+
+/// What create() of a texture gets.
+struct TextureInputs {
+  const Arguments& arguments;
+  PictureReader& pictures;  ///< where pictures come from
+  TextureOfParameter texture;
+  /// What the surface that the texture lies on tells under a name; null where there is no surface
+  /// and the texture is only checked. Throws Error(input) where the surface has nothing of the
+  /// name.
+  std::function<std::shared_ptr<const SurfaceAttribute>(const std::string& name)> attribute;
+};
+
 struct TextureType {
   const TypeInfo& info;
-  /// Pictures come from the reader.
-  std::shared_ptr<const Texture> (*create)(const Arguments&, PictureReader&);
+  /// Throws Error(input) where arguments contradict one another, or pictures cannot be read.
+  std::shared_ptr<const Texture> (*create)(const TextureInputs&);
+  /// Whether each surface that it lies on has one of its own, which knows the surface's attributes.
+  bool asks_surface = false;
 };
-/// "bitmap", "checkerboard", "noise", "marble", "wood", "tiles", "waves".
+/// "bitmap", "checkerboard", "gridtexture", "scale", "mesh_attribute", "noise", "marble", "wood",
+/// "tiles", "waves".
 const std::vector<TextureType>& texture_types();
 
 }  // namespace kaustik

@@ -160,8 +160,8 @@ const TypeInfo& tiles_info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create_tiles(const Arguments& arguments, PictureReader&) {
-  return std::make_shared<Tiles>(arguments);
+std::shared_ptr<const Texture> create_tiles(const TextureInputs& in) {
+  return std::make_shared<Tiles>(in.arguments);
 }
 
 }  // namespace

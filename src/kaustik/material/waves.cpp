@@ -78,8 +78,8 @@ const TypeInfo& waves_info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create_waves(const Arguments& arguments, PictureReader&) {
-  return std::make_shared<Waves>(arguments);
+std::shared_ptr<const Texture> create_waves(const TextureInputs& in) {
+  return std::make_shared<Waves>(in.arguments);
 }
 
 }  // namespace

@@ -140,8 +140,8 @@ const TypeInfo& wood_info() {
   return info;
 }
 
-std::shared_ptr<const Texture> create_wood(const Arguments& arguments, PictureReader&) {
-  return std::make_shared<Wood>(arguments);
+std::shared_ptr<const Texture> create_wood(const TextureInputs& in) {
+  return std::make_shared<Wood>(in.arguments);
 }
 
 }  // namespace

@@ -103,14 +103,14 @@ void SceneBuilder::add_body_parts(std::span<const BodyPart> parts, std::vector<S
     Surface surface = surfaces[part.shape];
     surface.light = -1;
     if (part.is_hidden) {
-      surface.bsdf = create_bsdf(nothing);
+      surface.bsdf = create_bsdf(nothing, nullptr);
       surface.interior = surface.exterior = nullptr;
       surface.names_media = false;
     } else {
       const Surface& around = surfaces[part.around];
       surface.exterior = around.interior;
       surface.names_media |= around.names_media;
-      surface.bsdf = bsdf_within(*shapes_[part.shape].object, *shapes_[part.around].object);
+      surface.bsdf = bsdf_within(shapes_[part.shape], *shapes_[part.around].object);
     }
     if (!surface.bsdf) continue;  // told
     surface.traits = surface.bsdf->traits();
@@ -118,16 +118,17 @@ void SceneBuilder::add_body_parts(std::span<const BodyPart> parts, std::vector<S
   }
 }
 
-std::shared_ptr<const Bsdf> SceneBuilder::bsdf_within(const Object& shape, const Object& around) {
+std::shared_ptr<const Bsdf> SceneBuilder::bsdf_within(const BuiltShape& shape,
+                                                      const Object& around) {
   static const Object nothing{"bsdf", "null", "", {}, {}, {}};
   const Value exterior = interior_of(around);
   // Between two bodies of the same index, as single floats tell, there is nothing to see.
-  const Value interior = interior_of(shape);
+  const Value interior = interior_of(*shape.object);
   const auto *outside = std::get_if<double>(&exterior), *inside = std::get_if<double>(&interior);
-  if (outside && inside && float(*outside) == float(*inside)) return create_bsdf(nothing);
+  if (outside && inside && float(*outside) == float(*inside)) return create_bsdf(nothing, nullptr);
   Copies copies;
-  bordering_.push_back(bordering_on(*bsdf_of_shape(shape), exterior, copies));
-  return create_bsdf(*bordering_.back());
+  bordering_.push_back(bordering_on(*bsdf_of_shape(*shape.object), exterior, copies));
+  return create_bsdf(*bordering_.back(), &shape);
 }
 
 }  // namespace kaustik

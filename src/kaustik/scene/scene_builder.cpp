@@ -10,6 +10,7 @@
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/foreign_shapes.h"
+#include "kaustik/scene/shape_attribute.h"
 #include "kaustik/scene/spectrum_types.h"
 #include "kaustik/scene/texture_emission.h"
 #include "kaustik/scene/type_tables.h"
@@ -27,6 +28,13 @@ std::vector<std::string> texture_parameters(const TypeInfo& info) {
   std::vector<std::string> names;
   for (const Parameter& row : info.parameters)
     if (row.accepts_texture) names.push_back(row.name);
+  return names;
+}
+
+/// Of all that can be written as a texture.
+std::vector<std::string> texture_names() {
+  std::vector<std::string> names = names_of(texture_types());
+  for (const SpectrumType& spectrum : spectrum_types()) names.push_back(spectrum.info.name);
   return names;
 }
 
@@ -65,6 +73,16 @@ const std::string& instead_of_light(const std::string& type) {
       {"timed_sunsky", "use 'sunsky' with the hour that matters most"}};
   const auto found = remedies.find(type);
   return found == remedies.end() ? nothing : found->second;
+}
+
+/// See TextureOfParameter; valid as long as the two are.
+TextureOfParameter textures_for(
+    const Arguments& arguments,
+    const std::map<std::string, std::shared_ptr<const Texture>, std::less<>>& nested) {
+  return [&](std::string_view name) -> std::shared_ptr<const Texture> {
+    const auto found = nested.find(name);
+    return found != nested.end() ? found->second : constant_texture_of(arguments, name);
+  };
 }
 
 /// Refuses what floats cannot carry through ray tracing; `what` is the subject of the message.
@@ -159,8 +177,10 @@ bool SceneBuilder::is_foreign(const Object& object, const std::vector<std::strin
 }
 
 void SceneBuilder::leave_out(const Object& object, const std::string& consequence) {
-  warnings_.push_back(fmt::format("{}: Kaustik does not know {} '{}': {}", text_of(object.place),
-                                  object.family, object.type, consequence));
+  if (!left_out_.insert(&object).second) return;
+  unknown_.add(
+      fmt::format("Kaustik does not know {} '{}': {}", object.family, object.type, consequence),
+      object.place);
 }
 
 void SceneBuilder::told_unless_strict(const std::string& message, const std::string& remedy,
@@ -250,13 +270,15 @@ void SceneBuilder::add_top_level(const Object& object) {
     const auto alias =
         std::shared_ptr<Object>(std::shared_ptr<Object>(), const_cast<Object*>(&object));
     if (object.family == "bsdf")
-      make_bsdf(alias);
+      make_bsdf(alias, nullptr);
     else if (object.family == "medium")
       make_medium(alias);
     else if (spectrum_type_of(object))
       value_of_spectrum(object);
+    else if (const auto& texture = texture_within(alias); is_foreign(*texture, texture_names()))
+      leave_out(*texture, "it is left out");
     else
-      make_texture(texture_within(alias));
+      make_texture(texture, nullptr);
   } else if (object.family != "integrator" && object.id.empty()) {
     // One with an id may be referred to.
     const bool is_of_sensor = object.family == "film" || object.family == "sampler";
@@ -305,10 +327,15 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   built.object = &object;
   built.surface.name = display_name(object);
   const Arguments arguments = arguments_of(type->info, object);
+  if (arguments.is_complete())
+    collecting(source_place(arguments), [&] {
+      built.shape = shape_of(object, *type, arguments);
+      check_size(*built.shape, source_place(arguments));
+    });
   int bsdf_count = 0;
   for (const Child& child : object.children) {
     if (child.object->family == "bsdf") {
-      built.surface.bsdf = make_bsdf(child.object);
+      built.surface.bsdf = make_bsdf(child.object, &built);
       if (++bsdf_count == 2)
         problems_.add("the shape has a second bsdf", "keep one", child.object->place);
     } else if (child.object->family == "integrator") {
@@ -329,11 +356,6 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   }
   if (built.surface.bsdf) built.surface.traits = built.surface.bsdf->traits();
   read_media(object, built.surface);
-  if (!arguments.is_complete()) return std::nullopt;
-  collecting(source_place(arguments), [&] {
-    built.shape = shape_of(object, *type, arguments);
-    check_size(*built.shape, source_place(arguments));
-  });
   if (const auto* mesh = dynamic_cast<const MeshShape*>(built.shape.get()))
     for (const std::string& remark : mesh->remarks())
       if (remarks_reported_.insert(remark).second) warnings_.push_back(remark);
@@ -389,25 +411,74 @@ void SceneBuilder::add_instance(const Object& object) {
   });
 }
 
-std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<Object>& object) {
-  const auto known = textures_.find(object.get());
+bool SceneBuilder::asks_surface(const Object& object) {
+  const auto known = asks_surface_.find(&object);
+  if (known != asks_surface_.end()) return known->second;
+  const TextureType* type =
+      object.family == "texture" ? find_row(texture_types(), object.type) : nullptr;
+  bool asks = type && type->asks_surface;
+  for (const Child& child : object.children) asks = asks || asks_surface(*child.object);
+  return asks_surface_[&object] = asks;
+}
+
+SceneBuilder::MadeOn SceneBuilder::made_on(const Object& object, const BuiltShape* on) {
+  return {&object, on && asks_surface(object) ? on->shape.get() : nullptr};
+}
+
+std::shared_ptr<const SurfaceAttribute> SceneBuilder::attribute_of(const BuiltShape* on,
+                                                                   const std::string& name,
+                                                                   const Place& place) {
+  if (!on || !on->shape) return nullptr;
+  return std::make_shared<ShapeAttribute>(
+      on->shape, attribute_named(*on->shape, on->surface.name, name, place));
+}
+
+std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<Object>& object,
+                                                          const BuiltShape* on) {
+  const MadeOn key = made_on(*object, on);
+  const auto known = textures_.find(key);
   if (known != textures_.end()) return known->second;
-  std::shared_ptr<const Texture> texture;
-  if (const TextureType* type = find_row(texture_types(), object->type)) {
-    refuse_children(*object, {});
-    const Arguments arguments = arguments_of(type->info, *object);
-    if (arguments.is_complete())
-      collecting(source_place(arguments), [&] { texture = texture_of(*object, *type, arguments); });
-  } else {
-    std::vector<std::string> valid = names_of(texture_types());
-    for (const SpectrumType& spectrum : spectrum_types()) valid.push_back(spectrum.info.name);
-    unknown_type(*object, valid);
+  return textures_[key] = create_texture(*object, on);
+}
+
+std::shared_ptr<const Texture> SceneBuilder::create_texture(const Object& object,
+                                                            const BuiltShape* on) {
+  const TextureType* type = find_row(texture_types(), object.type);
+  if (!type) {
+    unknown_type(object, texture_names());
+    return nullptr;
   }
-  return textures_[object.get()] = texture;
+  std::optional<Textures> nested = Textures();
+  if (texture_parameters(type->info).empty())
+    refuse_children(object, {});
+  else {
+    refuse_children(object, {"texture"});
+    nested = textures_of(object, type->info, on);
+  }
+  const Arguments arguments = arguments_of(type->info, object);
+  if (!nested || !arguments.is_complete()) return nullptr;
+  std::shared_ptr<const Texture> texture;
+  const auto attribute = [&](const std::string& name) {
+    return attribute_of(on, name, arguments.place_of("name"));
+  };
+  collecting(source_place(arguments), [&] {
+    texture = texture_of(object, *type,
+                         {arguments, pictures_, textures_for(arguments, *nested), attribute}, on);
+  });
+  if (texture && texture->size() > maximum_texture_size) {
+    problems_.add(fmt::format("texture '{}' nests {} textures, each counted for every place it is "
+                              "used in: rendering it would take too long",
+                              object.type, texture->size() - 1),
+                  fmt::format("nest fewer: at most {} in all", maximum_texture_size - 1),
+                  object.place);
+    return nullptr;
+  }
+  return texture;
 }
 
 std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& object,
-                                                                const TypeInfo& info) {
+                                                                const TypeInfo& info,
+                                                                const BuiltShape* on) {
   Textures textures;
   for (const Child& child : object.children) {
     if (child.object->family != "texture" || spectrum_type_of(*child.object)) continue;
@@ -418,27 +489,35 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
           suggest(child.name, texture_parameters(info)), child.object->place);
       continue;
     }
+    const std::shared_ptr<Object>& given = texture_within(child.object);
+    const bool has_default = std::holds_alternative<Value>(parameter->default_value);
+    if (has_default && is_foreign(*given, texture_names())) {
+      leave_out(*given, "it is left out");
+      continue;
+    }
     auto& texture = textures[parameter->name];
     if (texture)
       problems_.add(
           fmt::format("{} '{}' has a second texture '{}'", object.family, object.type, child.name),
           "keep one", child.object->place);
-    texture = make_texture(texture_within(child.object));
+    texture = make_texture(given, on);
     if (!texture) return std::nullopt;
   }
   return textures;
 }
 
-std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object>& object) {
-  const auto known = bsdfs_.find(object.get());
+std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object>& object,
+                                                    const BuiltShape* on) {
+  const MadeOn key = made_on(*object, on);
+  const auto known = bsdfs_.find(key);
   if (known != bsdfs_.end()) return known->second;
-  return bsdfs_[object.get()] = create_bsdf(*object);
+  return bsdfs_[key] = create_bsdf(*object, on);
 }
 
-std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
+std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, const BuiltShape* on) {
   const BsdfType* type = find_row(bsdf_types(), object.type);
   if (!type) {
-    if (is_foreign(object, names_of(bsdf_types()))) return bsdf_instead_of(object);
+    if (is_foreign(object, names_of(bsdf_types()))) return bsdf_instead_of(object, on);
     unknown_type(object, names_of(bsdf_types()));
     return nullptr;
   }
@@ -446,10 +525,10 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
   std::vector<std::shared_ptr<const Bsdf>> nested;
   for (const Child& child : object.children) {
     if (child.object->family != "bsdf") continue;
-    nested.push_back(make_bsdf(child.object));
+    nested.push_back(make_bsdf(child.object, on));
     if (!nested.back()) return nullptr;
   }
-  const std::optional<Textures> textures = textures_of(object, type->info);
+  const std::optional<Textures> textures = textures_of(object, type->info, on);
   if (!textures) return nullptr;
   if (int(nested.size()) < type->minimum_nested || int(nested.size()) > type->maximum_nested) {
     problems_.add(fmt::format("bsdf '{}' holds {} bsdfs", object.type, nested.size()),
@@ -458,13 +537,10 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
     return nullptr;
   }
   const Arguments arguments = arguments_of(type->info, object);
-  const auto texture = [&](std::string_view name) -> std::shared_ptr<const Texture> {
-    const auto found = textures->find(name);
-    if (found != textures->end()) return found->second;
-    return constant_texture_of(arguments, name);
-  };
   std::shared_ptr<const Bsdf> bsdf;
-  collecting(object.place, [&] { bsdf = bsdf_of(object, *type, {arguments, nested, texture}); });
+  collecting(object.place, [&] {
+    bsdf = bsdf_of(object, *type, {arguments, nested, textures_for(arguments, *textures)}, on);
+  });
   if (bsdf && bsdf->traits().size > maximum_bsdf_size) {
     problems_.add(fmt::format("bsdf '{}' nests {} bsdfs, each counted for every place it is used "
                               "in: rendering it would take too long",
@@ -490,9 +566,17 @@ Geometry SceneBuilder::make_geometry() {
 }
 
 std::shared_ptr<const EmissionPattern> SceneBuilder::emission_pattern_of(
-    const LightType& type, const Object& emitter, const Arguments& arguments) {
+    const LightType& type, const PendingLight& pending, const Arguments& arguments) {
   if (texture_parameters(arguments.info()).empty()) return nullptr;  // refused already
-  const std::optional<Textures> textures = textures_of(emitter, arguments.info());
+  const Object& emitter = *pending.object;
+  const BuiltShape* on = pending.shape_index < 0 ? nullptr : &shapes_[size_t(pending.shape_index)];
+  if (!on && asks_surface(emitter)) {
+    problems_.add(fmt::format("emitter '{}' lies on no mesh whose colours its texture could show",
+                              emitter.type),
+                  "give it another texture", emitter.place);
+    return nullptr;
+  }
+  const std::optional<Textures> textures = textures_of(emitter, arguments.info(), on);
   if (!textures || textures->empty()) return nullptr;
   const auto& [name, texture] = *textures->begin();
   if (arguments.given(name))

@@ -46,12 +46,28 @@ class SceneBuilder {
   void add_instance(const Object& object);
   uint32_t group_index(const std::shared_ptr<Object>& group);
   std::optional<BuiltShape> make_shape(const Object& object);
-  std::shared_ptr<const Bsdf> make_bsdf(const std::shared_ptr<Object>& object);
-  std::shared_ptr<const Bsdf> create_bsdf(const Object& object);
-  std::shared_ptr<const Texture> make_texture(const std::shared_ptr<Object>& object);
+  // `on`: the shape that a bsdf or a texture lies on, for textures that ask it; null: none, it is
+  // only checked.
+  std::shared_ptr<const Bsdf> make_bsdf(const std::shared_ptr<Object>& object,
+                                        const BuiltShape* on);
+  std::shared_ptr<const Bsdf> create_bsdf(const Object& object, const BuiltShape* on);
+  std::shared_ptr<const Texture> make_texture(const std::shared_ptr<Object>& object,
+                                              const BuiltShape* on);
+  std::shared_ptr<const Texture> create_texture(const Object& object, const BuiltShape* on);
+  /// Whether a texture in it, or it itself, asks the shape.
+  bool asks_surface(const Object& object);
+  /// What is made of an object: one for all shapes, or for each its own.
+  using MadeOn = std::pair<const Object*, const Shape*>;
+  MadeOn made_on(const Object& object, const BuiltShape* on);
+  uint64_t key_on(const Object& object, const BuiltShape* on);
+  /// Null where there is no shape. Throws Error(input) at `place` where it has no such attribute.
+  static std::shared_ptr<const SurfaceAttribute> attribute_of(const BuiltShape* on,
+                                                              const std::string& name,
+                                                              const Place& place);
   using Textures = std::map<std::string, std::shared_ptr<const Texture>, std::less<>>;
   /// The textures in an object, by the parameters that they stand for; none if one is wrong.
-  std::optional<Textures> textures_of(const Object& object, const TypeInfo& info);
+  std::optional<Textures> textures_of(const Object& object, const TypeInfo& info,
+                                      const BuiltShape* on);
   std::shared_ptr<const Medium> make_medium(const std::shared_ptr<Object>& object);
   std::shared_ptr<const PhaseFunction> make_phase_function(const Object& object);
   /// The one medium among the children of a sensor or an emitter; null if there is none.
@@ -72,12 +88,12 @@ class SceneBuilder {
   std::shared_ptr<const Shape> shape_of(const Object& object, const ShapeType& type,
                                         const Arguments& arguments);
   std::shared_ptr<const Texture> texture_of(const Object& object, const TextureType& type,
-                                            const Arguments& arguments);
+                                            const TextureInputs& inputs, const BuiltShape* on);
   std::shared_ptr<const Bsdf> bsdf_of(const Object& object, const BsdfType& type,
-                                      const BsdfInputs& inputs);
+                                      const BsdfInputs& inputs, const BuiltShape* on);
   /// Of the texture in an emitter, of which no type takes more than one; null: it has none.
   std::shared_ptr<const EmissionPattern> emission_pattern_of(const LightType& type,
-                                                             const Object& emitter,
+                                                             const PendingLight& pending,
                                                              const Arguments& arguments);
   Geometry make_geometry();
   /// World shapes that are solid bodies, those of the highest priority first.
@@ -85,7 +101,7 @@ class SceneBuilder {
   /// Appends what covers the parts of bodies.
   void add_body_parts(std::span<const BodyPart> parts, std::vector<Surface>& surfaces);
   /// Of the part of a body's surface that lies in another body.
-  std::shared_ptr<const Bsdf> bsdf_within(const Object& shape, const Object& around);
+  std::shared_ptr<const Bsdf> bsdf_within(const BuiltShape& shape, const Object& around);
 
   /// The value of a spectrum; nothing if it is wrong, which has been told.
   const std::optional<Value>& value_of_spectrum(const Object& spectrum);
@@ -98,7 +114,7 @@ class SceneBuilder {
   /// Whether a type that no table has is another program's, rather than a slip of the pen; none is
   /// where the scene is read strictly.
   bool is_foreign(const Object& object, const std::vector<std::string>& valid) const;
-  /// Warns that nobody knows its type, and what follows.
+  /// Warns, once for each object, that nobody knows its type, and what follows.
   void leave_out(const Object& object, const std::string& consequence);
   /// A problem where the scene is read strictly, else a warning.
   void told_unless_strict(const std::string& message, const std::string& remedy,
@@ -108,7 +124,7 @@ class SceneBuilder {
   /// … and of none.
   std::shared_ptr<const Bsdf> black_bsdf();
   /// The bsdf in one that nobody knows, or a matt one of its colour; warns.
-  std::shared_ptr<const Bsdf> bsdf_instead_of(const Object& object);
+  std::shared_ptr<const Bsdf> bsdf_instead_of(const Object& object, const BuiltShape* on);
   /// Makes Mitsuba's camera of scenes that have none the sensor; warns. False, with the problem
   /// told, where there is nothing to see.
   bool place_camera(const Place& place);
@@ -132,6 +148,7 @@ class SceneBuilder {
   std::vector<std::string> warnings_;
   bool is_strict_;  ///< Description::is_strict
   UnknownParameters unknown_;
+  std::set<const Object*> left_out_;  ///< of types that nobody knows
   std::set<std::string> ignored_reported_, remarks_reported_;
   std::set<std::string> emitters_of_shapes_;  ///< their ids
   std::vector<BuiltShape> shapes_;
@@ -144,8 +161,9 @@ class SceneBuilder {
   std::map<const Object*, ReadMesh> read_meshes_;  ///< that were not asked for yet
   std::vector<Instance> instances_;
   std::vector<PendingLight> pending_lights_;
-  std::map<const Object*, std::shared_ptr<const Bsdf>> bsdfs_;
-  std::map<const Object*, std::shared_ptr<const Texture>> textures_;
+  std::map<const Object*, bool> asks_surface_;
+  std::map<MadeOn, std::shared_ptr<const Bsdf>> bsdfs_;
+  std::map<MadeOn, std::shared_ptr<const Texture>> textures_;
   std::map<const Object*, std::shared_ptr<const Medium>> media_;
   std::vector<std::shared_ptr<const Object>> bordering_;  ///< bsdfs of parts of bodies
   std::vector<std::shared_ptr<const Object>> stand_ins_;  ///< for what the scene lacks

@@ -1,11 +1,11 @@
 // The part of SceneBuilder that takes from the scene before what has not changed.
-#include "kaustik/scene/scene_builder.h"
-
 #include <algorithm>
 #include <set>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/sampler.h"
 #include "kaustik/scene/find_row.h"
+#include "kaustik/scene/scene_builder.h"
 
 namespace kaustik {
 namespace {
@@ -79,17 +79,23 @@ std::shared_ptr<const Shape> SceneBuilder::shape_of(const Object& object, const 
   return shape;
 }
 
+uint64_t SceneBuilder::key_on(const Object& object, const BuiltShape* on) {
+  const uint64_t key = keys_.whole(object);
+  return on && asks_surface(object) ? hash_mix(key, keys_.own(*on->object)) : key;
+}
+
 std::shared_ptr<const Texture> SceneBuilder::texture_of(const Object& object,
                                                         const TextureType& type,
-                                                        const Arguments& arguments) {
-  const uint64_t key = keys_.whole(object);
+                                                        const TextureInputs& inputs,
+                                                        const BuiltShape* on) {
+  const uint64_t key = key_on(object, on);
   BuiltParts::MadeTexture made;
   const auto* known = find_part(before().textures, key);
   if (known && pictures_.account(known->pictures)) {
     made = *known;
   } else {
     const PictureReader::Mark mark = pictures_.mark();
-    made.texture = type.create(arguments, pictures_);
+    made.texture = type.create(inputs);
     made.pictures = pictures_.use_since(mark);
     ++counts_.textures;
   }
@@ -98,8 +104,8 @@ std::shared_ptr<const Texture> SceneBuilder::texture_of(const Object& object,
 }
 
 std::shared_ptr<const Bsdf> SceneBuilder::bsdf_of(const Object& object, const BsdfType& type,
-                                                  const BsdfInputs& inputs) {
-  const uint64_t key = keys_.whole(object);
+                                                  const BsdfInputs& inputs, const BuiltShape* on) {
+  const uint64_t key = key_on(object, on);
   std::shared_ptr<const Bsdf> bsdf;
   if (const auto* known = find_part(before().bsdfs, key)) {
     bsdf = *known;
@@ -114,7 +120,7 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_of(const Object& object, const Bs
 void SceneBuilder::make_light(const LightType& type, const PendingLight& pending,
                               const Arguments& arguments) {
   const std::shared_ptr<const EmissionPattern> pattern =
-      emission_pattern_of(type, *pending.object, arguments);
+      emission_pattern_of(type, pending, arguments);
   const uint64_t key = keys_.light(*pending.object, pending.shape_index);
   BuiltParts::MadeLight made{.light = nullptr,
                              .shape = pending.shape,

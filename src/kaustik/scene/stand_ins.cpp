@@ -21,19 +21,20 @@ bool is_colour(const std::string& name) {
 
 std::shared_ptr<const Bsdf> SceneBuilder::usual_bsdf() {
   static const Object half{"bsdf", "diffuse", "", {}, {}, {}};
-  return create_bsdf(half);
+  return create_bsdf(half, nullptr);
 }
 
 std::shared_ptr<const Bsdf> SceneBuilder::black_bsdf() {
   static const Object black{"bsdf", "diffuse", "", {{"reflectance", 0.0, {}}}, {}, {}};
-  return create_bsdf(black);
+  return create_bsdf(black, nullptr);
 }
 
-std::shared_ptr<const Bsdf> SceneBuilder::bsdf_instead_of(const Object& object) {
+std::shared_ptr<const Bsdf> SceneBuilder::bsdf_instead_of(const Object& object,
+                                                          const BuiltShape* on) {
   for (const Child& child : object.children)
     if (child.object->family == "bsdf") {
       leave_out(object, fmt::format("'{}' in it stands for it", child.object->type));
-      return make_bsdf(child.object);
+      return make_bsdf(child.object, on);
     }
   const auto matt = std::make_shared<Object>();
   matt->family = "bsdf";
@@ -47,7 +48,7 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_instead_of(const Object& object) 
       matt->children.push_back({"reflectance", child.object});
   leave_out(object, "a matt surface stands for it");
   stand_ins_.push_back(matt);
-  return create_bsdf(*matt);
+  return create_bsdf(*matt, on);
 }
 
 bool SceneBuilder::place_camera(const Place& place) {

@@ -28,6 +28,7 @@ class TextureEmission final : public EmissionPattern {
     where.uv_width = {uv_width, uv_width};
     where.position = at.position;
     where.normal = at.ng;
+    where.primitive = at.primitive;
     const Spectrum found = texture_->eval(where, wavelengths);
     // White has nothing in the lane that nothing emits into; textures of reflectances may.
     return is_factor_ ? found : found * white_light(wavelengths);

@@ -72,6 +72,7 @@ TextureCoordinates SurfaceVertex::texture_place(const Scene& scene, const Vec3f&
   at.uv = point_.uv;
   at.position = point_.position;
   at.normal = point_.ng;
+  at.primitive = point_.primitive;
   // The ellipse that the beam cuts out of the surface, as a disk of the same area.
   at.width = beam_width / std::sqrt(std::max(abs_dot(toward_beam, point_.ng), 0.01f));
   // At the poles of a sphere u goes all round in no way at all.
