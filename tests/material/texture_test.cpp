@@ -108,7 +108,8 @@ TEST(checkerboard, has_the_relief_of_its_textures) {
   const auto board = make_texture("checkerboard", {property("color1", 0.5)}, {{"color0", ramp}});
   TextureCoordinates at = point(0.4f, 0.2f);
   at.uv_width = {0.001f, 0.001f};
-  EXPECT_FLOAT_EQ(board->height_gradient(at).uv.x, ramp->height_gradient(at).uv.x);
+  // Shares of narrow footprints are rounded to some 1e-5.
+  EXPECT_NEAR(board->height_gradient(at).uv.x, ramp->height_gradient(at).uv.x, 1e-4f);
   EXPECT_EQ(board->height_gradient(point(0.7f, 0.2f)).uv, Vec2f(0, 0));
   // Down at the border: from 0.5 to 0.4 within five thousandths.
   const auto plain =
