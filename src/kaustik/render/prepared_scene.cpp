@@ -23,8 +23,7 @@ PictureFrame frame_of(const FilmSettings& film) {
 
 ViewFacts facts_of(const Scene& scene, const std::string& integrator) {
   return {integrator, double(scene.camera().traits().horizontal_fov),
-          double(scene.camera().traits().vertical_fov), scene.film().quantity,
-          frame_of(scene.film())};
+          double(scene.camera().traits().vertical_fov), scene.quantity(), frame_of(scene.film())};
 }
 
 }  // namespace

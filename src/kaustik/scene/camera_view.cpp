@@ -1,5 +1,9 @@
 #include "kaustik/scene/camera_view.h"
 
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
 namespace kaustik {
 namespace {
 
@@ -10,6 +14,35 @@ double tan_half_x(double fov_degrees, const std::string& axis, double aspect) {
     return t * aspect;
   if (axis == "diagonal") return t * aspect / std::sqrt(aspect * aspect + 1);
   return t;
+}
+
+/// Tangents of half the fields of view along x and y.
+Vec2f tan_half_fov(const Arguments& arguments, double aspect) {
+  double fov = 0;
+  std::string axis = arguments.text("fov_axis");
+  if (arguments.given("fov")) {
+    fov = arguments.number("fov");
+  } else {
+    // Mitsuba: the focal length refers to the diagonal of 36 × 24 mm film.
+    const std::string& text =
+        arguments.given("focal_length") ? arguments.text("focal_length") : "50mm";
+    char* end = nullptr;
+    const double millimetres = std::strtod(text.c_str(), &end);
+    if (!(millimetres > 0) || std::string(end) != "mm")
+      throw Error(ErrorKind::input, "'focal_length' is '" + text + "'",
+                  "give a positive number followed by mm, such as 35mm",
+                  arguments.place_of("focal_length"));
+    fov =
+        2 * std::atan(std::sqrt(36.0 * 36 + 24 * 24) / (2 * millimetres)) * 180 / std::numbers::pi;
+    axis = "diagonal";
+  }
+  const auto x = float(tan_half_x(fov, axis, aspect));
+  return {x, float(x / aspect)};
+}
+
+Vec2f principal_offset_of(const Arguments& arguments) {
+  return {float(arguments.number("principal_point_offset_x")),
+          float(arguments.number("principal_point_offset_y"))};
 }
 
 }  // namespace
@@ -43,36 +76,64 @@ PictureWindow::PictureWindow(const FilmSettings& film, const Vec2f& principal_of
       crop_size_(float(film.crop_size.x), float(film.crop_size.y)),
       principal_offset_(principal_offset) {}
 
-Vec2f tan_half_fov(const Arguments& arguments, double aspect) {
-  double fov = 0;
-  std::string axis = arguments.text("fov_axis");
-  if (arguments.given("fov")) {
-    fov = arguments.number("fov");
-  } else {
-    // Mitsuba: the focal length refers to the diagonal of 36 × 24 mm film.
-    const std::string& text =
-        arguments.given("focal_length") ? arguments.text("focal_length") : "50mm";
-    char* end = nullptr;
-    const double millimetres = std::strtod(text.c_str(), &end);
-    if (!(millimetres > 0) || std::string(end) != "mm")
-      throw Error(ErrorKind::input, "'focal_length' is '" + text + "'",
-                  "give a positive number followed by mm, such as 35mm",
-                  arguments.place_of("focal_length"));
-    fov =
-        2 * std::atan(std::sqrt(36.0 * 36 + 24 * 24) / (2 * millimetres)) * 180 / std::numbers::pi;
-    axis = "diagonal";
-  }
-  const auto x = float(tan_half_x(fov, axis, aspect));
-  return {x, float(x / aspect)};
+ClipRange::ClipRange(const Arguments& arguments) {
+  if (arguments.given("near_clip")) near_ = float(arguments.number("near_clip"));
+  if (arguments.given("far_clip")) far_ = float(arguments.number("far_clip"));
+  if (!(near_ < far_))
+    throw Error(ErrorKind::input, "'near_clip' is not below 'far_clip': nothing is left to see",
+                "give a smaller 'near_clip', or leave both out",
+                arguments.place_of(arguments.given("far_clip") ? "far_clip" : "near_clip"));
 }
 
-Vec2f principal_offset_of(const Arguments& arguments) {
-  return {float(arguments.number("principal_point_offset_x")),
-          float(arguments.number("principal_point_offset_y"))};
+std::vector<Parameter> clip_parameters() {
+  return {optional(number_parameter("near_clip", 0,
+                                    "What is nearer along the direction of view is cut off; "
+                                    "nothing if absent.")
+                       .range(0, 1e12)
+                       .in("m")),
+          optional(number_parameter("far_clip", 1e4,
+                                    "What is farther along the direction of view is cut off; "
+                                    "nothing if absent.")
+                       .range(0, 1e12)
+                       .in("m"))};
 }
 
-std::vector<Parameter> perspective_parameters() {
-  return {
+StraightView::StraightView(const CameraInputs& inputs)
+    : frame(inputs.arguments, true),
+      window(inputs.film, principal_offset_of(inputs.arguments)),
+      clip(inputs.arguments),
+      tan(tan_half_fov(inputs.arguments, window.aspect())),
+      pixel_area(4 * tan.x * tan.y / window.pixels()) {}
+
+CameraTraits StraightView::traits() const {
+  CameraTraits result;
+  result.position = frame.position;
+  result.horizontal_fov = 360 * inv_pi * std::atan(tan.x);
+  result.vertical_fov = 360 * inv_pi * std::atan(tan.y);
+  result.pixel_spread = 0.5f * std::sqrt(pixel_area);
+  return result;
+}
+
+CameraConnection StraightView::connect(const Vec3f& point, const Vec3f& lens,
+                                       const Vec2f& shift) const {
+  CameraConnection c;
+  c.lens = lens;
+  const Vec3f to_camera = c.lens - point;
+  c.distance = length(to_camera);
+  if (!(c.distance > 0)) return c;
+  c.direction = to_camera * (1 / c.distance);
+  const Vec3f local = frame.to_local(-c.direction);
+  if (!(local.z > 0)) return c;
+  const float x = local.x / local.z + shift.x, y = local.y / local.z + shift.y;
+  c.raster = window.raster_of({x / tan.x, y / tan.y});
+  // Through each point of the lens the plane is seen as through a pinhole there.
+  if (window.holds(c.raster)) c.importance = 1 / (pixel_area * local.z * local.z * local.z);
+  clip.clip(c, local.z);
+  return c;
+}
+
+std::vector<Parameter> straight_view_parameters() {
+  std::vector<Parameter> rows = {
       optional(number_parameter("fov", 50, "Field of view along fov_axis.")
                    .range(1e-4, 179.9)
                    .in("degrees")),
@@ -88,13 +149,32 @@ std::vector<Parameter> perspective_parameters() {
                        "Where the picture's centre lies below the optical axis, as a share of its "
                        "height.")
           .range(-100, 100)};
+  for (Parameter& row : clip_parameters()) rows.push_back(std::move(row));
+  return rows;
+}
+
+Vec3f meter_direction(const Arguments& arguments) {
+  const bool is_placed = arguments.given("to_world") || !arguments.given("direction");
+  const Vec3d along = is_placed ? Vec3d(arguments.transform("to_world").vector({0, 0, 1}))
+                                : arguments.point("direction");
+  const double size = along.length();
+  if (!(size > 0 && std::isfinite(size)))
+    throw Error(ErrorKind::input, "the direction of view is zero, or beyond all numbers",
+                "give a 'direction' or a 'to_world' of usual size",
+                arguments.place_of(is_placed ? "to_world" : "direction"));
+  return Vec3f(along.normalized());
 }
 
 std::vector<Parameter> ignored_camera_parameters() {
-  return {ignored_parameter("near_clip", ParameterKind::number),
-          ignored_parameter("far_clip", ParameterKind::number),
-          ignored_parameter("shutter_open", ParameterKind::number),
-          ignored_parameter("shutter_close", ParameterKind::number)};
+  return {ignored_parameter("shutter_open", ParameterKind::number),
+          ignored_parameter("shutter_close", ParameterKind::number),
+          ignored_parameter("srf", ParameterKind::color)};
+}
+
+TypeInfo camera_info(const std::string& name, const std::string& sentence,
+                     std::vector<Parameter> rows) {
+  for (Parameter& row : ignored_camera_parameters()) rows.push_back(std::move(row));
+  return {"sensor", name, sentence, std::move(rows)};
 }
 
 }  // namespace kaustik

@@ -21,6 +21,7 @@ TypeTables all_of_scenes() {
   types.add_rows(medium_types());
   types.add_rows(phase_function_types());
   types.add_rows(camera_types());
+  types.add(batch_info());
   types.add_rows(film_types());
   types.add_rows(filter_types());
   for (const TypeInfo& info : sampler_infos()) types.add(info);
@@ -44,6 +45,18 @@ const TypeInfo& instance_info() {
                              "instance",
                              "Places a shape group once more.",
                              {to_world_parameter("From the group's space to the world.")}};
+  return info;
+}
+
+const TypeInfo& batch_info() {
+  static const TypeInfo info{
+      "sensor",
+      "batch",
+      "Holds several sensors, each of which is a camera of the scene for --camera to choose: with "
+      "the batch's sampler, and its film, of whose width each has its share.",
+      {ignored_parameter("shutter_open", ParameterKind::number),
+       ignored_parameter("shutter_close", ParameterKind::number),
+       ignored_parameter("srf", ParameterKind::color)}};
   return info;
 }
 

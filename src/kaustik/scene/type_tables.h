@@ -9,5 +9,7 @@ const TypeTables& scene_types();
 /// Of the shapes that only a scene knows: groups, and what places them.
 const TypeInfo& shapegroup_info();
 const TypeInfo& instance_info();
+/// Of the sensor that holds others, which a description's cameras are made of.
+const TypeInfo& batch_info();
 
 }  // namespace kaustik

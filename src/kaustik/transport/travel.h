@@ -42,7 +42,9 @@ bool travel(const Scene& scene, PathState& state, Ray& ray, SurfaceVertex& verte
     vertex.meet(scene, ray, hit, state);
     if (!vertex.is_null()) return true;
     if (boundary == most_null_boundaries) return false;
+    const float rest = ray.t_max - hit.t;  // of a camera's ray that ends
     pass_boundary(vertex, state, ray);
+    ray.t_max = rest;
   }
 }
 
