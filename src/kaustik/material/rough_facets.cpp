@@ -6,7 +6,7 @@ namespace {
 /// The row of a roughness; `name` is alpha, alpha_u or alpha_v.
 Parameter alpha_parameter(const std::string& name, const std::string& sentence) {
   return number_parameter(name, 0.1, sentence)
-      .range(RoughFacets::least_alpha, RoughFacets::largest_alpha)
+      .range(0, RoughFacets::largest_alpha)
       .textured();
 }
 

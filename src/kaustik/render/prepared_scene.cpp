@@ -22,8 +22,12 @@ PictureFrame frame_of(const FilmSettings& film) {
 }
 
 ViewFacts facts_of(const Scene& scene, const std::string& integrator) {
-  return {integrator, double(scene.camera().traits().horizontal_fov),
-          double(scene.camera().traits().vertical_fov), scene.quantity(), frame_of(scene.film())};
+  return {integrator,
+          double(scene.camera().traits().horizontal_fov),
+          double(scene.camera().traits().vertical_fov),
+          scene.quantity(),
+          double(scene.film().exposure),
+          frame_of(scene.film())};
 }
 
 }  // namespace

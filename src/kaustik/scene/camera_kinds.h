@@ -15,6 +15,7 @@ CameraType irradiance_meter_type();
 CameraType radiance_meter_type();
 CameraType distant_camera_type();
 
-FilmType hdr_film_type();
+/// "hdrfilm", and films of other programs that it stands for.
+std::vector<FilmType> hdr_film_types();
 
 }  // namespace kaustik

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "kaustik/base/field_of_view.h"
 #include "kaustik/scene/camera.h"
 
 namespace kaustik {
@@ -114,7 +115,7 @@ struct StraightView {
   CameraConnection connect(const Vec3f& point, const Vec3f& lens, const Vec2f& shift) const;
 };
 
-/// The rows of cameras with such a view but to_world: fov, focal_length, fov_axis,
+/// The rows of cameras with such a view but to_world: those of field_of_view_parameters(),
 /// principal_point_offset_x and _y, near_clip and far_clip.
 std::vector<Parameter> straight_view_parameters();
 
