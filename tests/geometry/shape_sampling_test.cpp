@@ -91,7 +91,7 @@ TEST(ShapeSampling, TellsTheNumbersOfItsPoints) {
       const auto found = c.shape->area_coordinates(point);
       // Drawn by further numbers, or not known.
       if (std::string(c.name).find("cylinder") != std::string::npos ||
-          std::string(c.name).find("ellipsoid") != std::string::npos) {
+          std::string(c.name) == "ellipsoid" || std::string(c.name) == "pancake") {
         EXPECT_FALSE(found);
         break;
       }

@@ -87,7 +87,7 @@ class DistortedFurnace : public testing::Test {
 };
 
 TEST_F(DistortedFurnace, Path) { check("path", 20); }
-TEST_F(DistortedFurnace, LightTracer) { check("lighttracer", 150); }
+TEST_F(DistortedFurnace, LightTracer) { check("lighttracer", 220); }
 TEST_F(DistortedFurnace, Bdpt) { check("bdpt", 16); }
 TEST_F(DistortedFurnace, Auto) { check("auto", 40); }
 

@@ -256,7 +256,7 @@ TEST(MitsubaTree, OfMotionTheStartHolds) {
                  "test.xml:2:17", "without a transform", "transform time");
   expect_problem(problems_in(in_scene("<shape type='s'><animation name='to_world'><rotate x='1' "
                                       "angle='1'/></animation></shape>")),
-                 "test.xml:2:43", "<rotate> cannot stand in <animation>", "transform time");
+                 "test.xml:2:44", "<rotate> cannot stand in <animation>", "transform time");
 }
 
 TEST(MitsubaTree, SubsurfaceScatteringIsLeftOut) {
@@ -281,8 +281,8 @@ std::string lenient_warning(const std::string& text) {
 
 TEST(MitsubaTree, VersionsMayBeShortOrMissing) {
   const auto name = [](const std::string& version) {
-    const auto scene = parse("<scene" + version +
-                             "><shape type='s'><float name='aB' value='1'/></shape></scene>");
+    const auto scene =
+        parse("<scene" + version + "><shape type='s'><float name='aB' value='1'/></shape></scene>");
     return scene.scene->children.at(0).object->properties.at(0).name;
   };
   EXPECT_EQ(name(" version='3'"), "aB");
@@ -298,11 +298,11 @@ TEST(MitsubaTree, TextBetweenElementsIsLeftOut) {
 }
 
 TEST(MitsubaTree, ReflectancesMakeNoLight) {
-  const auto scene = parse(in_scene(
-      "<bsdf type='diffuse' id='a'><rgb name='reflectance' value='255, 127.5, 0'/></bsdf>"
-      "<bsdf type='diffuse' id='b'><float name='reflectance' value='1'/></bsdf>"
-      "<emitter type='point'><rgb name='intensity' value='255'/></emitter>",
-      "0.6.0"));
+  const auto scene = parse(
+      in_scene("<bsdf type='diffuse' id='a'><rgb name='reflectance' value='255, 127.5, 0'/></bsdf>"
+               "<bsdf type='diffuse' id='b'><float name='reflectance' value='1'/></bsdf>"
+               "<emitter type='point'><rgb name='intensity' value='255'/></emitter>",
+               "0.6.0"));
   const Rgb scaled = value<Rgb>(*scene.scene->children.at(0).object, "reflectance");
   EXPECT_DOUBLE_EQ(scaled.r, 0.99);
   EXPECT_DOUBLE_EQ(scaled.g, 0.495);
@@ -334,15 +334,17 @@ TEST(MitsubaTree, NamesOfDialects) {
   const auto bsdf = parse_inside("<bsdf type='roughconductorGGX'/>").scene->children.at(0).object;
   EXPECT_EQ(bsdf->type, "roughconductor");
   EXPECT_EQ(value<std::string>(*bsdf, "distribution"), "ggx");
-  EXPECT_EQ(parse(in_scene("<shape type='Rectangle'/>", "0.6.0")).scene->children.at(0).object->type,
-            "rectangle");
+  EXPECT_EQ(
+      parse(in_scene("<shape type='Rectangle'/>", "0.6.0")).scene->children.at(0).object->type,
+      "rectangle");
   EXPECT_EQ(parse_inside("<shape type='Rectangle'/>").scene->children.at(0).object->type,
             "Rectangle");
 }
 
 TEST(MitsubaTree, OfTwoValuesInOldFilesTheLastHolds) {
-  const std::string twice = "<shape type='s'><float name='x' value='1'/><float name='x' value='2'/>"
-                            "</shape>";
+  const std::string twice =
+      "<shape type='s'><float name='x' value='1'/><float name='x' value='2'/>"
+      "</shape>";
   const Description old = parse(in_scene(twice, "0.6.0"));
   EXPECT_EQ(value<double>(*old.scene->children.at(0).object, "x"), 2);
   EXPECT_EQ(old.warnings.size(), 1u);

@@ -321,7 +321,7 @@ TEST_F(CheckpointFile, ForeignFilesAreRefused) {
   // Its lessons tell otherwise what guides have learned.
   other[12] = 7;
   write(other);
-  expect_refused("has version 7, this program reads version 9");
+  expect_refused("has version 7, this program reads version 10");
 }
 
 TEST_F(CheckpointFile, TruncatedAndDamagedFilesAreRefused) {

@@ -320,8 +320,8 @@ TEST(BuildScene, SurfacesOfDialects) {
     return scene_of(text)->surface(0).bsdf->albedo({}, {0, 0, 1}, Lobes::all)[0];
   };
   EXPECT_FLOAT_EQ(reflected("<bsdf type=\"itu-radio-material\"/>"), 0.5f);
-  EXPECT_FLOAT_EQ(
-      reflected("<bsdf type=\"skin9\"><rgb name=\"base_color\" value=\"0.2\"/></bsdf>"), 0.2f);
+  EXPECT_FLOAT_EQ(reflected("<bsdf type=\"skin9\"><rgb name=\"base_color\" value=\"0.2\"/></bsdf>"),
+                  0.2f);
   EXPECT_FLOAT_EQ(reflected("<bsdf type=\"varnish\"><bsdf type=\"diffuse\"><rgb "
                             "name=\"reflectance\" value=\"0.3\"/></bsdf></bsdf>"),
                   0.3f);

@@ -114,10 +114,7 @@ bool is_nobodys(const Object& object) {
 Object stand_in_of(const Object& object, std::vector<std::string>& notes) {
   const Object* held = held_by(object);
   Object result = held ? *held : Object{"integrator", default_integrator, "", {}, {}, object.place};
-  if (!held)
-    for (const Property& property : object.properties)
-      if (property.name == "max_depth" || property.name == "rr_depth")
-        result.properties.push_back(property);
+  if (!held) result.properties = object.properties;
   notes.push_back(fmt::format("nobody knows integrator '{}': {} '{}' renders the picture",
                               object.type, held ? "the one in it," : "the default,", result.type));
   return result;

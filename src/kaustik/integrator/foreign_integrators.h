@@ -35,7 +35,7 @@ std::vector<std::string> integrator_names();
 /// The integrator as one of Kaustik's own types: where it has another renderer's name, what is
 /// meant or what is nearest, with those of its parameters that have a meaning here; of one that
 /// holds others (`aov`) the first of them. For a type that nobody knows the integrator in it
-/// stands, or Kaustik's default, with the depths that it gives; if it `is_strict`, is like a name
+/// stands, or Kaustik's default, with its parameters; if it `is_strict`, is like a name
 /// that there is, or was given by no file, it stays as it is. What was chosen and left out goes to
 /// `notes`. Throws Error for wrong parameters, if it `is_strict` for unknown ones, and for what
 /// nothing here is near.
