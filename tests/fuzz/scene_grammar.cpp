@@ -246,20 +246,38 @@ class Grammar {
   }
 
   std::string sensor() {
-    const TypeInfo& type = draw_.one_of(camera_types()).info;
-    std::string result = open(type);
-    if (draw_.chance(values_.wildness)) {
-      result += values_.transform("to_world");
-    } else {
-      const Vec3d from{draw_.between(-1, 1), draw_.between(-1, 1), draw_.between(-3.5, -2)};
-      result += fmt::format(
-          "<transform name=\"to_world\"><lookat origin=\"{:.3g}, {:.3g}, {:.3g}\" target=\"0, 0, "
-          "0\" up=\"0, 1, 0\"/></transform>",
-          from.x, from.y, from.z);
+    if (!draw_.chance(0.05)) return single_sensor();
+    return joined({"<sensor type=\"batch\">", single_sensor(), single_sensor(), "</sensor>\n"});
+  }
+
+  std::string single_sensor() {
+    const CameraType& type = draw_.one_of(camera_types());
+    Names skips = {"to_world", "focal_length", "origin", "direction"};
+    // Few cameras see nothing but what is near.
+    if (draw_.chance(0.9)) skips.emplace_back("far_clip");
+    std::string result = joined({open(type.info), view(type.info), properties(type.info, skips),
+                                 draw_.chance(0.15) ? medium("") : ""});
+    if (type.takes_shape && draw_.chance(0.3)) result += shape(false);
+    result += film() + close(type.info);
+    if (!type.needs_shape) return result;
+    return joined({"<shape type=\"rectangle\">", values_.transform("to_world"), result,
+                   draw_.chance(0.3) ? bsdf() : "", "</shape>\n"});
+  }
+
+  /// Where a camera stands and looks.
+  std::string view(const TypeInfo& info) {
+    if (!info.find("to_world")) return "";
+    if (info.find("direction") && draw_.chance(0.5)) {
+      std::string result = values_.property(info, *info.find("direction"));
+      if (const Parameter* origin = info.find("origin")) result += values_.property(info, *origin);
+      return result;
     }
-    result += properties(type, {"to_world", "focal_length"});
-    if (draw_.chance(0.15)) result += medium("");
-    return result + film() + close(type);
+    if (draw_.chance(values_.wildness)) return values_.transform("to_world");
+    const Vec3d from{draw_.between(-1, 1), draw_.between(-1, 1), draw_.between(-3.5, -2)};
+    return fmt::format(
+        "<transform name=\"to_world\"><lookat origin=\"{:.3g}, {:.3g}, {:.3g}\" target=\"0, 0, 0\" "
+        "up=\"0, 1, 0\"/></transform>",
+        from.x, from.y, from.z);
   }
 
   std::string film() {

@@ -77,6 +77,47 @@ TEST(Lens, LightPathsReachItAsRaysLeaveIt) {
                      statistics_of(means(scene, "path", 2500)));
 }
 
+/// A half plane that shines, 3 m before the camera, whose edge is blurred by the lens.
+TestScene glowing_edge_seen_by(const std::string& view) {
+  return TestScene(view + flat("rectangle", scale("50, 50, 1") + translate("-50, 0, 0"),
+                               diffuse("0, 0, 0") + area_light("1")));
+}
+/// What the picture's columns from `first` on, `count` of 40, show of it: through a point l of the
+/// lens, across the edge, the ray that meets the sharp plane at f meets the half plane where
+/// l (1 − d/F) + f d/F > 0: for l below f d/(d − F).
+double mean_at_edge(int first, int count, double radius, double focus, double lens_at = 0) {
+  constexpr double distance = 3;
+  const double tan_half_fov = std::tan(20 * std::numbers::pi / 180);
+  constexpr int steps = 2000;
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double plane = 1 - 2 * (first + count * (i + 0.5) / steps) / 40;
+    const double sharp = focus * tan_half_fov * plane;
+    const double t =
+        std::clamp((sharp * distance / (distance - focus) - lens_at) / radius, -1.0, 1.0);
+    sum += 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) * std::numbers::inv_pi;
+  }
+  return sum / steps;
+}
+
+// The closed form of the blur, and its twins: a lens that is off by little would be found.
+TEST(Lens, BlursAnEdgeAsMuchAsItShould) {
+  std::string view = with_lens(camera("0, 0, 3", "0, 0, 0", 40, 40, "0, 1, 0"), 0.6);
+  const std::string film = "<film type=\"hdrfilm\">";
+  view.replace(view.find(film), film.size(),
+               film + set("crop_offset_x", 17) + set("crop_width", 1) + set("crop_height", 16));
+  const RunningStatistics seen = render(glowing_edge_seen_by(view), "path", "", {3000}).mean({""});
+  expect_mean("edge through a lens", seen, mean_at_edge(17, 1, 0.6, 2));
+  if (slow_build) return;
+  const auto is_refused = [&](double radius, double focus, double lens_at) {
+    return Comparison(seen, mean_at_edge(17, 1, radius, focus, lens_at)).p_value_of_equality() <
+           check_level();
+  };
+  EXPECT_TRUE(is_refused(0.6, 2.02, 0)) << "focus off by 1 %";
+  EXPECT_TRUE(is_refused(0.62, 2, 0)) << "radius off by 3 %";
+  EXPECT_TRUE(is_refused(0.6, 2, 0.012)) << "lens off by 2 % of its radius";
+}
+
 /// What weighs light by both ends knows where rays began.
 void expect_methods_to_agree(const TestScene& scene) {
   const std::vector<double> path = means(scene, "path", 64);

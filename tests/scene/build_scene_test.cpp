@@ -389,11 +389,11 @@ TEST(BuildScene, CropWindowsMustLieInThePicture) {
 TEST(BuildScene, ParametersWithoutEffectAreReportedOnce) {
   const std::string odd = "<shape type=\"sphere\"/>";
   const auto scene = scene_of(
-      "<sensor type=\"perspective\"><float name=\"near_clip\" value=\"0.1\"/>"
-      "<float name=\"far_clip\" value=\"9\"/></sensor>" +
+      "<sensor type=\"perspective\"><float name=\"shutter_open\" value=\"0.1\"/>"
+      "<float name=\"shutter_close\" value=\"9\"/></sensor>" +
       odd);
   ASSERT_EQ(scene->warnings().size(), 2u);
-  EXPECT_EQ(scene->warnings()[0], "'near_clip' of sensor 'perspective' has no effect here");
+  EXPECT_EQ(scene->warnings()[0], "'shutter_open' of sensor 'perspective' has no effect here");
 }
 
 /// `levels` bsdfs, a line each, every one made of the one before, twice if `twice`.

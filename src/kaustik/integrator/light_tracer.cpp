@@ -26,6 +26,10 @@ const TypeInfo& LightTracer::info() {
 
 LightTracer::LightTracer(const Arguments& arguments, const Scene& scene)
     : scene_(scene), maximum_events_(read_maximum_events(arguments)), emission_(scene) {
+  if (!scene.camera().traits().can_connect)
+    throw Error(ErrorKind::input,
+                "the lighttracer connects light paths to the camera, and none can be to a meter",
+                "use another integrator, such as auto or path", arguments.place());
   traits_ = {.splats = true, .samples_camera = false, .components = read_components(arguments)};
   for (const auto& light : scene.lights()) powers_.push_back(light->traits().power.sum());
   const Aim aim = read_aim(arguments.text("aim"));

@@ -25,7 +25,7 @@ ViewFacts facts_of(const Scene& scene, const std::string& integrator) {
   return {integrator,
           double(scene.camera().traits().horizontal_fov),
           double(scene.camera().traits().vertical_fov),
-          scene.film().quantity,
+          scene.quantity(),
           double(scene.film().exposure),
           frame_of(scene.film())};
 }

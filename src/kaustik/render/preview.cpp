@@ -147,7 +147,7 @@ Image small_picture(const Scene& scene, const Squares& squares, uint64_t seed,
   Film film(settings, FilmLayers::of(*path));
   film.add_pass(tiles, 0);
   Image image = film.image();
-  if (settings.quantity == Quantity::irradiance)
+  if (scene.quantity() == Quantity::irradiance)
     image.set_metadata("quantity", std::string("irradiance"));
   return image;
 }

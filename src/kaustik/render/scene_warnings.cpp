@@ -92,7 +92,9 @@ std::string hidden_lamps_warning(const Scene& scene, const std::string& integrat
   for (int i = 0; i < probes_per_side * probes_per_side; ++i) {
     const Vec2f raster((float(i % probes_per_side) + 0.5f) / probes_per_side * float(size.x),
                        (float(i / probes_per_side) + 0.5f) / probes_per_side * float(size.y));
-    const Ray ray = scene.camera().sample_ray(raster, Camera::middle_of_lens());
+    const CameraRay ray =
+        scene.camera().sample_ray(raster, scene.camera().numbers_to_look_around(uint32_t(i)));
+    if (ray.is_none()) continue;
     const std::optional<SurfacePoint> point = seen_point(scene, ray);
     if (!point) continue;
     ++points;
@@ -117,8 +119,19 @@ std::string coordinates_warning(const Scene& scene) {
       size, farthest, step);
 }
 
+std::string missed_lamps_warning(const Scene& scene) {
+  const bool has_lamps = std::ranges::any_of(scene.lights(), [](const auto& light) {
+    return light->traits().is_delta && !light->traits().is_only_seen;
+  });
+  if (scene.camera().traits().weight == 1 || !has_lamps) return {};
+  return "the irradiancemeter stands in a shape with bsdf 'null', where it misses what point, spot "
+         "and directional lamps send straight to it: give the shape another bsdf";
+}
+
 std::vector<std::string> scene_warnings(const Scene& scene) {
   std::vector<std::string> warnings = scene.warnings();
+  if (const std::string missed = missed_lamps_warning(scene); !missed.empty())
+    warnings.push_back(missed);
   if (const std::string coarse = coordinates_warning(scene); !coarse.empty())
     warnings.push_back(coarse);
   return warnings;

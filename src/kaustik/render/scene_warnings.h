@@ -9,7 +9,10 @@ namespace kaustik {
 /// What to do where floats are too coarse for the scene's coordinates; "" if they are not.
 std::string coordinates_warning(const Scene& scene);
 
-/// That, and what the builder of the scene found odd.
+/// Where an irradiancemeter can't see lamps that no ray meets; "" elsewhere.
+std::string missed_lamps_warning(const Scene& scene);
+
+/// These, and what the builder of the scene found odd.
 std::vector<std::string> scene_warnings(const Scene& scene);
 
 /// Of points that the camera sees some may be lit only through glass or a mask by a lamp that no

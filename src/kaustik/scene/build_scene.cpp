@@ -6,6 +6,7 @@
 #include "kaustik/scene/placed_scenes.h"
 #include "kaustik/scene/scene.h"
 #include "kaustik/scene/scene_builder.h"
+#include "kaustik/scene/scene_cameras.h"
 
 namespace kaustik {
 namespace {
@@ -81,6 +82,7 @@ std::shared_ptr<const Scene> build_scene(const Description& description,
   SceneBuilder builder(options.texture_memory_bytes, previous.get(), description.is_strict);
   std::vector<std::string> warnings = description.warnings;
   const Description flat = flatten_placed_scenes(description, warnings);
+  unfold_batches(*flat.scene);
   if (hides_emitters(description)) builder.hide_lights();
   Scene::Parts parts = builder.build(*flat.scene);
   parts.warnings.insert(parts.warnings.begin(), warnings.begin(), warnings.end());

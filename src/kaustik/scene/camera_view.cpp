@@ -1,6 +1,18 @@
 #include "kaustik/scene/camera_view.h"
 
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
 namespace kaustik {
+namespace {
+
+Vec2f principal_offset_of(const Arguments& arguments) {
+  return {float(arguments.number("principal_point_offset_x")),
+          float(arguments.number("principal_point_offset_y"))};
+}
+
+}  // namespace
 
 CameraFrame::CameraFrame(const Arguments& arguments, bool is_uniform) {
   const Transform& world_from_camera = arguments.transform("to_world");
@@ -31,12 +43,63 @@ PictureWindow::PictureWindow(const FilmSettings& film, const Vec2f& principal_of
       crop_size_(float(film.crop_size.x), float(film.crop_size.y)),
       principal_offset_(principal_offset) {}
 
-Vec2f principal_offset_of(const Arguments& arguments) {
-  return {float(arguments.number("principal_point_offset_x")),
-          float(arguments.number("principal_point_offset_y"))};
+ClipRange::ClipRange(const Arguments& arguments) {
+  if (arguments.given("near_clip")) near_ = float(arguments.number("near_clip"));
+  if (arguments.given("far_clip")) far_ = float(arguments.number("far_clip"));
+  if (!(near_ < far_))
+    throw Error(ErrorKind::input, "'near_clip' is not below 'far_clip': nothing is left to see",
+                "give a smaller 'near_clip', or leave both out",
+                arguments.place_of(arguments.given("far_clip") ? "far_clip" : "near_clip"));
 }
 
-std::vector<Parameter> perspective_parameters() {
+std::vector<Parameter> clip_parameters() {
+  return {optional(number_parameter("near_clip", 0,
+                                    "What is nearer along the direction of view is cut off; "
+                                    "nothing if absent.")
+                       .range(0, 1e12)
+                       .in("m")),
+          optional(number_parameter("far_clip", 1e4,
+                                    "What is farther along the direction of view is cut off; "
+                                    "nothing if absent.")
+                       .range(0, 1e12)
+                       .in("m"))};
+}
+
+StraightView::StraightView(const CameraInputs& inputs)
+    : frame(inputs.arguments, true),
+      window(inputs.film, principal_offset_of(inputs.arguments)),
+      clip(inputs.arguments),
+      tan(tan_half_fov(inputs.arguments, window.aspect())),
+      pixel_area(4 * tan.x * tan.y / window.pixels()) {}
+
+CameraTraits StraightView::traits() const {
+  CameraTraits result;
+  result.position = frame.position;
+  result.horizontal_fov = 360 * inv_pi * std::atan(tan.x);
+  result.vertical_fov = 360 * inv_pi * std::atan(tan.y);
+  result.pixel_spread = 0.5f * std::sqrt(pixel_area);
+  return result;
+}
+
+CameraConnection StraightView::connect(const Vec3f& point, const Vec3f& lens,
+                                       const Vec2f& shift) const {
+  CameraConnection c;
+  c.lens = lens;
+  const Vec3f to_camera = c.lens - point;
+  c.distance = length(to_camera);
+  if (!(c.distance > 0)) return c;
+  c.direction = to_camera * (1 / c.distance);
+  const Vec3f local = frame.to_local(-c.direction);
+  if (!(local.z > 0)) return c;
+  const float x = local.x / local.z + shift.x, y = local.y / local.z + shift.y;
+  c.raster = window.raster_of({x / tan.x, y / tan.y});
+  // Through each point of the lens the plane is seen as through a pinhole there.
+  if (window.holds(c.raster)) c.importance = 1 / (pixel_area * local.z * local.z * local.z);
+  clip.clip(c, local.z);
+  return c;
+}
+
+std::vector<Parameter> straight_view_parameters() {
   std::vector<Parameter> rows = field_of_view_parameters();
   rows.push_back(number_parameter("principal_point_offset_x", 0,
                                   "Where the picture's centre lies right of the optical axis, as "
@@ -46,14 +109,32 @@ std::vector<Parameter> perspective_parameters() {
                                   "Where the picture's centre lies below the optical axis, as a "
                                   "share of its height.")
                      .range(-100, 100));
+  for (Parameter& row : clip_parameters()) rows.push_back(std::move(row));
   return rows;
 }
 
+Vec3f meter_direction(const Arguments& arguments) {
+  const bool is_placed = arguments.given("to_world") || !arguments.given("direction");
+  const Vec3d along = is_placed ? Vec3d(arguments.transform("to_world").vector({0, 0, 1}))
+                                : arguments.point("direction");
+  const double size = along.length();
+  if (!(size > 0 && std::isfinite(size)))
+    throw Error(ErrorKind::input, "the direction of view is zero, or beyond all numbers",
+                "give a 'direction' or a 'to_world' of usual size",
+                arguments.place_of(is_placed ? "to_world" : "direction"));
+  return Vec3f(along.normalized());
+}
+
 std::vector<Parameter> ignored_camera_parameters() {
-  return {ignored_parameter("near_clip", ParameterKind::number),
-          ignored_parameter("far_clip", ParameterKind::number),
-          ignored_parameter("shutter_open", ParameterKind::number),
-          ignored_parameter("shutter_close", ParameterKind::number)};
+  return {ignored_parameter("shutter_open", ParameterKind::number),
+          ignored_parameter("shutter_close", ParameterKind::number),
+          ignored_parameter("srf", ParameterKind::color)};
+}
+
+TypeInfo camera_info(const std::string& name, const std::string& sentence,
+                     std::vector<Parameter> rows) {
+  for (Parameter& row : ignored_camera_parameters()) rows.push_back(std::move(row));
+  return {"sensor", name, sentence, std::move(rows)};
 }
 
 }  // namespace kaustik

@@ -45,8 +45,11 @@ class LightProbing {
     Sampler sampler = Sampler::at(0, 0, Stream::light_probe, 0, uint32_t(path));
     const Vec2f u = sampler.next_2d();
     const Vec2i& size = scene_.film().crop_size;
-    Ray ray = scene_.camera().sample_ray({u.x * float(size.x), u.y * float(size.y)},
-                                         Camera::middle_of_lens());
+    const CameraRay of_camera =
+        scene_.camera().sample_ray({u.x * float(size.x), u.y * float(size.y)},
+                                   scene_.camera().numbers_to_look_around(uint32_t(path)));
+    if (of_camera.is_none()) return;
+    Ray ray = of_camera;
     for (size_t i = 0; i < probes_per_path; ++i) {
       Hit hit;
       if (!scene_.tracer().intersect(ray, hit)) return;

@@ -60,22 +60,24 @@ std::string contradicting_media(const Scene& scene) {
                          (float(y) + 0.5f) / grid * float(size.y));
       const Medium* medium = scene.camera_medium();
       bool crossed = false, wrong = false;
-      probe(scene, scene.camera().sample_ray(raster, Camera::middle_of_lens()),
-            [&](const Surface& surface, bool outside) {
-              const Medium* expected = outside ? surface.exterior.get() : surface.interior.get();
-              if (expected != medium && !wrong) {
-                wrong = true;
-                if (first.empty())
-                  first = fmt::format(
-                      "{} of '{}', {}", outside ? "the exterior" : "the interior", surface.name,
-                      crossed ? "though the ray did not come that way: is a mesh not closed?"
-                              : "but that is not the sensor's medium: does the sensor lack a "
-                                "medium, or is the mesh around it not closed?");
-              }
-              crossed = true;
-              medium = outside ? surface.interior.get() : surface.exterior.get();
-              return true;
-            });
+      const CameraRay ray = scene.camera().sample_ray(
+          raster, scene.camera().numbers_to_look_around(uint32_t(y * grid + x)));
+      if (ray.is_none()) continue;
+      probe(scene, ray, [&](const Surface& surface, bool outside) {
+        const Medium* expected = outside ? surface.exterior.get() : surface.interior.get();
+        if (expected != medium && !wrong) {
+          wrong = true;
+          if (first.empty())
+            first = fmt::format(
+                "{} of '{}', {}", outside ? "the exterior" : "the interior", surface.name,
+                crossed ? "though the ray did not come that way: is a mesh not closed?"
+                        : "but that is not the sensor's medium: does the sensor lack a "
+                          "medium, or is the mesh around it not closed?");
+        }
+        crossed = true;
+        medium = outside ? surface.interior.get() : surface.exterior.get();
+        return true;
+      });
       if (wrong) ++contradictions;
     }
   if (contradictions == 0) return {};

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "kaustik/scene/scene.h"
+#include "kaustik/scene/scene_cameras.h"
 
 namespace kaustik {
 namespace {
@@ -56,9 +57,8 @@ std::shared_ptr<Object> made_integrator(Description& description) {
 }
 
 std::string choose_camera(Description& description, const std::string& name) {
-  std::vector<std::shared_ptr<Object>> cameras;
-  for (const Child& child : description.scene->children)
-    if (child.object->family == "sensor") cameras.push_back(child.object);
+  unfold_batches(*description.scene);
+  const std::vector<std::shared_ptr<Object>> cameras = cameras_of(*description.scene);
   std::vector<std::string> names, ids;
   std::shared_ptr<Object> chosen;
   for (const auto& camera : cameras) {
@@ -73,9 +73,7 @@ std::string choose_camera(Description& description, const std::string& name) {
         ErrorKind::input, fmt::format("the scene has no camera '{}'", name),
         ids.empty() ? "none has an id: give one to the camera that you mean" : suggest(name, ids));
   if (names.empty()) return {};
-  std::erase_if(description.scene->children, [&](const Child& child) {
-    return child.object->family == "sensor" && child.object != chosen;
-  });
+  leave_camera(*description.scene, *chosen);
   if (!name.empty()) return {};
   return fmt::format(
       "the scene has {} cameras: {} is used, the others are left out: {}", cameras.size(),

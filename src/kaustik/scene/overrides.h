@@ -28,6 +28,7 @@ void override_property(Description& description, const std::string& assignment);
 Setting setting_of_command_line(const std::string& assignment);
 
 /// Leaves one camera in the scene: the one with the id `name`, or the first where that is empty.
+/// Those in shapes and in batches count like those at the top.
 /// Returns a sentence that names the others; "": there are none. Throws Error(input) where there is
 /// no such camera.
 std::string choose_camera(Description& description, const std::string& name);

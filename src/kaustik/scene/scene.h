@@ -105,6 +105,10 @@ class Scene {
   bool has_lights_to_meet() const { return has_lights_to_meet_; }
   const Camera& camera() const { return *parts_.camera; }
   const FilmSettings& film() const { return parts_.film; }
+  /// What the picture holds, by what the film asks for and by what the camera is.
+  Quantity quantity() const {
+    return camera().traits().weight != 1 ? Quantity::irradiance : film().quantity;
+  }
 
   /// Whether there is any medium or null boundary. Without them every segment ends at a surface,
   /// and light on it keeps its strength.

@@ -260,11 +260,7 @@ void SceneBuilder::add_top_level(const Object& object) {
   } else if (object.family == "emitter") {
     if (!is_for_shapes(object)) pending_lights_.push_back({&object, nullptr, -1});
   } else if (object.family == "sensor") {
-    if (sensor_)
-      warnings_.push_back(fmt::format(
-          "the scene has more than one camera: the first is used, not {}", display_name(object)));
-    else
-      sensor_ = &object;
+    add_sensor(object, -1);
   } else if (object.family == "bsdf" || object.family == "texture" || object.family == "medium") {
     // Checked where it is used, and here so that a mistake in an unused one is told as well.
     const auto alias =
@@ -290,6 +286,16 @@ void SceneBuilder::add_top_level(const Object& object) {
                                      : "put it into what it belongs to",
         object.place);
   }
+}
+
+void SceneBuilder::add_sensor(const Object& object, int shape) {
+  if (sensor_) {
+    warnings_.push_back(fmt::format("the scene has more than one camera: the first is used, not {}",
+                                    display_name(object)));
+    return;
+  }
+  sensor_ = &object;
+  sensor_shape_ = shape;
 }
 
 void SceneBuilder::find_emitters_of_shapes(const Object& scene) {
@@ -322,7 +328,7 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
       unknown_type(object, valid);
     return std::nullopt;
   }
-  refuse_children(object, {"bsdf", "emitter", "integrator", "medium"});
+  refuse_children(object, {"bsdf", "emitter", "integrator", "medium", "sensor"});
   BuiltShape built;
   built.object = &object;
   built.surface.name = display_name(object);
@@ -367,6 +373,8 @@ void SceneBuilder::add_shape(const Object& object) {
   std::optional<BuiltShape> built = make_shape(object);
   if (!built) return;
   const int index = int(shapes_.size());
+  for (const Child& child : object.children)
+    if (child.object->family == "sensor") add_sensor(*child.object, index);
   for (const Child& child : object.children) {
     if (child.object->family != "emitter") continue;
     if (built->surface.light >= 0)
@@ -386,6 +394,10 @@ uint32_t SceneBuilder::group_index(const std::shared_ptr<Object>& group) {
   refuse_children(*group, {"shape"});
   for (const Child& child : group->children) {
     if (child.object->family != "shape") continue;
+    for (const Child& part : child.object->children)
+      if (part.object->family == "sensor")
+        problems_.add("a sensor cannot belong to a shape of a shape group",
+                      "put the shape at the top of the scene", part.object->place);
     if (auto built = make_shape(*child.object)) groups_[index].push_back(std::move(*built));
   }
   if (group->children.empty())

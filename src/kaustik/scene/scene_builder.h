@@ -74,7 +74,14 @@ class SceneBuilder {
   std::shared_ptr<const Medium> medium_of(const Object& object);
   /// The surface's interior and exterior.
   void read_media(const Object& shape, Surface& surface);
+  /// The first one is the scene's camera; `shape`: that it belongs to, −1: none.
+  void add_sensor(const Object& object, int shape);
   void make_sensor(const Object& object);
+  /// What the camera belongs to, or looks at; null: nothing, or what is wrong with it was told.
+  std::shared_ptr<const Shape> shape_of_sensor(const Object& object, const CameraType& type);
+  Bounds3f bounds_of_shapes() const;
+  /// Whether its only texture is a spectral response, which means nothing here.
+  bool leaves_out_response(const Object& sensor);
   void read_film(const Object& object);
   void read_filter(const Object& object);
   void read_sampler(const Object& object);
@@ -177,6 +184,7 @@ class SceneBuilder {
   FilmSettings film_;
   std::unique_ptr<Camera> camera_;
   const Object* sensor_ = nullptr;
+  int sensor_shape_ = -1;  ///< that it belongs to; −1: none
 };
 
 }  // namespace kaustik

@@ -46,14 +46,16 @@ View look_around(const Scene& scene) {
     for (int x = 0; x < grid; ++x) {
       const Vec2f raster((float(x) + 0.5f) / grid * float(size.x),
                          (float(y) + 0.5f) / grid * float(size.y));
+      const CameraRay ray = scene.camera().sample_ray(
+          raster, scene.camera().numbers_to_look_around(uint32_t(y * grid + x)));
+      if (ray.is_none()) continue;
       ++view.rays;
-      probe_through(scene, scene.camera().sample_ray(raster, Camera::middle_of_lens()),
-                    most_boundaries,
-                    [&](const SurfacePoint& point, const Hit& hit, const Ray& ray) {
+      probe_through(scene, ray, most_boundaries,
+                    [&](const SurfacePoint& point, const Hit& hit, const Ray& segment) {
                       const Surface& surface = scene.surface(point.shape);
                       if (surface.traits.is_null) return false;
                       ++view.hits;
-                      if (dot(point.ng, ray.direction) > 0 && is_black_from_behind(surface))
+                      if (dot(point.ng, segment.direction) > 0 && is_black_from_behind(surface))
                         ++view.black_backs;
                       if (hit.t < view.nearest) {
                         view.nearest = hit.t;
@@ -73,18 +75,19 @@ void describe_view(const Scene& scene, SceneReport& report) {
   const std::string field = traits.horizontal_fov > 0
                                 ? fmt::format("field of view {:.4g}° × {:.4g}°",
                                               traits.horizontal_fov, traits.vertical_fov)
-                                : "sees along parallel lines";
+                                : traits.view;
   report.lines.push_back(
       fmt::format("camera     at {:.4g}, {:.4g}, {:.4g}; {}", p.x, p.y, p.z, field));
   report.lines.push_back(
       fmt::format("picture    {} × {} pixels{}", scene.film().crop_size.x, scene.film().crop_size.y,
-                  scene.film().quantity == Quantity::irradiance ? " of irradiance" : ""));
+                  scene.quantity() == Quantity::irradiance ? " of irradiance" : ""));
   if (scene.surface_count() == 0)
     report.warnings.push_back("the scene has no shape: only what is behind it can be seen");
   else if (view.hits == 0)
     report.warnings.push_back("the camera sees no shape: check its to_world");
   const float extent = length(scene.tracer().bounds().max - scene.tracer().bounds().min);
-  if (view.hits < view.rays) return;
+  // Meters look from within the scene, from wherever they are told to.
+  if (view.hits < view.rays || view.rays == 0 || !traits.can_connect) return;
   const std::string& name = scene.surface(view.nearest_shape).name;
   if (view.black_backs == view.rays)
     report.warnings.push_back(fmt::format(

@@ -17,8 +17,15 @@ void SceneBuilder::make_sensor(const Object& object) {
     unknown_type(object, names_of(camera_types()));
     return;
   }
-  refuse_children(object, {"film", "sampler", "medium"});
+  std::vector<std::string> families = {"film", "sampler", "medium"};
+  if (leaves_out_response(object)) families.emplace_back("texture");
+  if (type->takes_shape) families.emplace_back("shape");
+  refuse_children(object, families);
+  const std::shared_ptr<const Shape> shape = shape_of_sensor(object, *type);
+  if (type->needs_shape && !shape) return;
   camera_medium_ = medium_of(object);
+  const Surface* own = type->needs_shape ? &shapes_[size_t(sensor_shape_)].surface : nullptr;
+  if (own && !camera_medium_) camera_medium_ = own->exterior;
   const Object* film = nullptr;
   for (const Child& child : object.children) {
     if (child.object->family != "film") continue;
@@ -31,7 +38,67 @@ void SceneBuilder::make_sensor(const Object& object) {
   for (const Child& child : object.children)
     if (child.object->family == "sampler") read_sampler(*child.object);
   const Arguments arguments = arguments_of(type->info, object);
-  camera_ = type->create(arguments, film_);
+  const Bounds3f bounds = type->takes_shape ? bounds_of_shapes() : Bounds3f();
+  camera_ = type->create({arguments, film_, shape, own && own->traits.is_null, bounds});
+  // Of what rays meet, unless they bring irradiance themselves.
+  if (own)
+    film_.quantity = camera_->traits().weight != 1 ? Quantity::radiance : Quantity::irradiance;
+}
+
+std::shared_ptr<const Shape> SceneBuilder::shape_of_sensor(const Object& object,
+                                                           const CameraType& type) {
+  if (type.needs_shape != (sensor_shape_ >= 0)) {
+    problems_.add(type.needs_shape
+                      ? fmt::format("sensor '{}' stands outside of a shape", object.type)
+                      : fmt::format("sensor '{}' cannot belong to a shape", object.type),
+                  type.needs_shape ? "put it into the shape that it measures"
+                                   : "put it at the top of the scene",
+                  object.place);
+    return nullptr;
+  }
+  std::shared_ptr<const Shape> shape;
+  if (type.needs_shape && size_t(sensor_shape_) < shapes_.size())
+    shape = shapes_[size_t(sensor_shape_)].shape;
+  for (const Child& child : object.children) {
+    if (!type.takes_shape || child.object->family != "shape") continue;
+    if (shape) problems_.add("the camera has a second target", "keep one", child.object->place);
+    const std::optional<BuiltShape> built = make_shape(*child.object);
+    if (!built) return nullptr;
+    shape = built->shape;
+  }
+  if (!shape) return nullptr;
+  if (!shape->can_sample()) {
+    problems_.add("the camera's shape cannot be sampled by area",
+                  "let it measure a mesh or an analytic shape instead", object.place);
+    return nullptr;
+  }
+  if (!(shape->area() > 0)) {
+    problems_.add("the camera's shape has no area", "check its vertices and its to_world",
+                  object.place);
+    return nullptr;
+  }
+  return shape;
+}
+
+Bounds3f SceneBuilder::bounds_of_shapes() const {
+  Bounds3f bounds;
+  for (const BuiltShape& built : shapes_) bounds.extendBy(built.shape->bounds());
+  for (const Instance& instance : instances_) {
+    Bounds3f of_group;
+    for (const BuiltShape& built : groups_[instance.group])
+      of_group.extendBy(built.shape->bounds());
+    if (!of_group.isEmpty()) bounds.extendBy(instance.world_from_group.bounds(of_group));
+  }
+  return bounds;
+}
+
+bool SceneBuilder::leaves_out_response(const Object& sensor) {
+  std::vector<const Child*> textures;
+  for (const Child& child : sensor.children)
+    if (child.object->family == "texture") textures.push_back(&child);
+  if (textures.size() != 1 || textures[0]->name != "srf") return false;
+  warnings_.push_back(fmt::format("'srf' of sensor '{}' has no effect here", sensor.type));
+  return true;
 }
 
 void SceneBuilder::use_instead(const Object& object, const std::vector<std::string>& valid,

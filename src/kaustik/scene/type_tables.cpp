@@ -24,6 +24,7 @@ TypeTables all_of_scenes() {
   types.add_rows(medium_types());
   types.add_rows(phase_function_types());
   types.add_rows(camera_types());
+  types.add(batch_info());
   types.add_rows(film_types());
   types.add_rows(filter_types());
   for (const TypeInfo& info : sampler_infos()) types.add(info);
@@ -56,6 +57,18 @@ const TypeInfo& merge_info() {
       "merge",
       "Stands for the shapes in it; Mitsuba merges those that are alike, which is faster there.",
       {}};
+  return info;
+}
+
+const TypeInfo& batch_info() {
+  static const TypeInfo info{
+      "sensor",
+      "batch",
+      "Holds several sensors, each of which is a camera of the scene for --camera to choose: with "
+      "the batch's sampler, and its film, of whose width each has its share.",
+      {ignored_parameter("shutter_open", ParameterKind::number),
+       ignored_parameter("shutter_close", ParameterKind::number),
+       ignored_parameter("srf", ParameterKind::color)}};
   return info;
 }
 

@@ -10,5 +10,7 @@ const TypeTables& scene_types();
 const TypeInfo& shapegroup_info();
 const TypeInfo& instance_info();
 const TypeInfo& merge_info();
+/// Of the sensor that holds others, which a description's cameras are made of.
+const TypeInfo& batch_info();
 
 }  // namespace kaustik

@@ -67,10 +67,12 @@ void CameraSplats::show_lamp(int light, const SurfacePoint& origin, float pdf_ar
   const CameraConnection connection = connect(origin.position, of.sampler);
   const float cosine = dot(connection.direction, origin.ng);
   if (!(connection.importance > 0 && cosine > 0 && pdf_area > 0)) return;
-  Sight sight{origin, scene_.light_medium(light), connection, of};
   const Spectrum radiance =
       scene_.lights()[size_t(light)]->emitted(origin, connection.direction, of.wavelengths);
-  add(Component::emission, radiance * (cosine / pdf_area) * scale(connection, 1), sight);
+  for_all_rasters(connection, [&](const CameraConnection& one) {
+    Sight sight{origin, scene_.light_medium(light), one, of};
+    add(Component::emission, radiance * (cosine / pdf_area) * scale(one, 1), sight);
+  });
 }
 
 }  // namespace kaustik

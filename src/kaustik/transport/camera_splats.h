@@ -29,8 +29,10 @@ class CameraSplats {
     std::optional<SurfaceVertex> as_seen;
     if (wants_irradiance() || at.vertex.has_textures()) as_seen = seen(at.vertex, connection);
     const SurfaceVertex& vertex = as_seen ? *as_seen : at.vertex;
-    const float weight = weigh(connection, vertex);
-    if (weight > 0) add(at, vertex, connection, weight);
+    for_all_rasters(connection, [&](const CameraConnection& one) {
+      const float weight = weigh(one, vertex);
+      if (weight > 0) add(at, vertex, one, weight);
+    });
   }
   /// What the medium scatters to the camera. `weigh(connection)` as above.
   template <typename Weigh>
@@ -38,8 +40,10 @@ class CameraSplats {
     if (!wanted_.has(Component::volume) || wants_irradiance()) return;
     const CameraConnection connection = connect(at.position, at.sampler);
     if (!(connection.importance > 0)) return;
-    const float weight = weigh(connection);
-    if (weight > 0) add(at, connection, weight);
+    for_all_rasters(connection, [&](const CameraConnection& one) {
+      const float weight = weigh(one);
+      if (weight > 0) add(at, one, weight);
+    });
   }
   /// The lamp itself, where a path begins on its surface with that density; `of` is the path's.
   void show_lamp(int light, const SurfacePoint& origin, float pdf_area, const LightOnItsWay& of);
@@ -55,6 +59,13 @@ class CameraSplats {
   CameraConnection connect(const Vec3f& point, const Sampler& sampler) const {
     const Camera& camera = scene_.camera();
     return camera.connect(point, camera.forked_lens_numbers(sampler));
+  }
+  /// Calls `show(connection)`, again for each other raster where the picture repeats it.
+  template <typename Show>
+  void for_all_rasters(const CameraConnection& connection, const Show& show) const {
+    show(connection);
+    const Camera& camera = scene_.camera();
+    if (camera.traits().repeats) camera.visit_repetitions(connection, show);
   }
   /// What a light path has met, as it is in the picture.
   SurfaceVertex seen(SurfaceVertex vertex, const CameraConnection& connection) const;

@@ -49,16 +49,20 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
       sink_(sink),
       class_(traced),
       raster_(raster),
-      u_lens_(scene.camera().lens_numbers(sampler)),
-      ray_(scene.camera().sample_ray(raster, u_lens_)) {
-  state_.footprint = Footprint::of_camera(scene.camera().traits().pixel_width,
-                                          scene.camera().traits().pixel_spread);
+      u_lens_(scene.camera().lens_numbers(sampler)) {
+  const CameraTraits& camera = scene.camera().traits();
+  const CameraRay first = scene.camera().sample_ray(raster, u_lens_);
+  ray_ = first;
+  distance_ = first.start;
+  state_.footprint = Footprint::of_camera(camera.pixel_width + camera.pixel_spread * first.start,
+                                          camera.pixel_spread);
   state_.medium = scene.camera_medium();
   state_.wavelengths = sink.wavelengths();
-  if (seeks_irradiance()) {
-    state_.throughput = Spectrum(pi);
+  const float weight = seeks_irradiance() ? pi : camera.weight;
+  if (weight != 1) {
+    state_.throughput = Spectrum(weight);
     // Roulette is to find paths as likely as those of radiance.
-    state_.roulette_scale = inv_pi;
+    state_.roulette_scale = 1 / weight;
   }
 }
 
@@ -94,9 +98,11 @@ template <typename PassMedium>
 CameraWalk::Arrival CameraWalk::arrive(LightWeights* weights, const PassMedium& pass_medium) {
   const bool only_arrives = seeks_irradiance();
   is_in_medium_ = false;
+  if (ray_.t_max < 0) return Arrival::nothing;  // the camera sees nothing there
   const auto go_on = [&](const Hit& hit, bool found) {
     sampler_.start_vertex(segments_++);
-    if (state_.medium && !only_arrives && pass_medium(hit.t)) {
+    const float length = found ? hit.t : ray_.t_max;
+    if (state_.medium && !only_arrives && pass_medium(length)) {
       if (found && only_delta_ && !meets_lamps_only_) {
         SurfaceVertex seen;
         seen.meet(scene_, ray_, hit, TransportMode::radiance, {}, state_.wavelengths);

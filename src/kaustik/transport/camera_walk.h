@@ -75,7 +75,7 @@ class CameraWalk {
   /// Where it began.
   const Vec2f& raster() const { return raster_; }
   /// Numbers of the point of the lens where it began (see Camera).
-  const Vec2f& u_lens() const { return u_lens_; }
+  const LensNumbers& u_lens() const { return u_lens_; }
   /// Of the light that it asks for.
   const Wavelengths& wavelengths() const { return state_.wavelengths; }
   /// Of what the camera sees, relative to what the vertex sends back.
@@ -190,7 +190,7 @@ class CameraWalk {
   CameraPathClass class_;
   LightChoice light_choice_ = LightChoice::one;  ///< of the last add_direct_light()
   Vec2f raster_;                                 ///< where it began
-  Vec2f u_lens_;                                 ///< and of which point of the lens
+  LensNumbers u_lens_;                           ///< and of which point of the lens
   Ray ray_;
   SurfaceVertex vertex_;
   Receiver in_medium_;             ///< the point where fly() came to in a medium

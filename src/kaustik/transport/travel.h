@@ -8,10 +8,12 @@ namespace kaustik {
 
 // The steps that paths of all kinds take, from whichever end they began.
 
-/// Straight on through a null boundary.
+/// Straight on through a null boundary. A camera's ray may end: it has so much less to go.
 inline void pass_boundary(const SurfaceVertex& boundary, PathState& state, Ray& ray) {
+  const float rest = ray.t_max - length(boundary.position() - ray.origin);
   state.medium = boundary.medium_toward(ray.direction, state.medium);
   ray = spawn_ray(boundary.point(), ray.direction);
+  ray.t_max = rest;
 }
 
 /// On from `vertex` by an event that was sampled with that density. What it leaves of the

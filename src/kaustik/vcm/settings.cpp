@@ -142,34 +142,54 @@ VcmSettings::VcmSettings(const Arguments& arguments)
                 .merging = arguments.boolean("merging")};
 }
 
-VcmSettings settings_for(const Scene& scene, const Arguments& arguments) {
-  VcmSettings settings(arguments);
-  if (!scene.has_scattering()) return settings;
-  const auto has_asked = [&](const char* name, bool value) {
-    return arguments.info().find(name) && arguments.given(name) && arguments.boolean(name) == value;
-  };
+namespace {
+
+/// Whether the parameter was given, with that value.
+bool has_asked(const Arguments& arguments, const char* name, bool value) {
+  return arguments.info().find(name) && arguments.given(name) && arguments.boolean(name) == value;
+}
+
+void adapt_to_media(const Arguments& arguments, VcmSettings& settings) {
   if (settings.guides_light_paths())
     settings.decisions.emplace_back(
         "media scatter light: light paths are not guided, since of what use they are can be told "
         "on surfaces only");
   for (const char* name : {"guiding", "guided_scattering"})
-    if (settings.guides_light_paths() && has_asked(name, true))
+    if (settings.guides_light_paths() && has_asked(arguments, name, true))
       settings.warnings.push_back(
           fmt::format("{} has no effect where media scatter light: leave it out", name));
   settings.guiding = false;
   // The pilot knows of surfaces alone, too, and then can't choose. What few vertices merge in thin
   // media leaves bright dots that connections take off.
-  if (!settings.chooses_light_paths) return settings;
+  if (!settings.chooses_light_paths) return;
   settings.decisions.emplace_back(
       "media scatter light, of which a pilot knows nothing: vertices of light paths are connected "
       "to the camera and to its paths, too");
   for (const char* name : {"splats", "connections"})
-    if (has_asked(name, false))
+    if (has_asked(arguments, name, false))
       settings.warnings.push_back(fmt::format(
           "{} can't be left out where media scatter light and a pilot chooses: leave out "
           "choose_light_paths",
           name));
   settings.techniques.splats = settings.techniques.connections = true;
+}
+
+void adapt_to_camera(const Arguments& arguments, const Camera& camera, VcmSettings& settings) {
+  if (camera.traits().can_connect || !settings.techniques.splats) return;
+  const std::string why = "no light path can be connected to a meter: splats are left out";
+  if (has_asked(arguments, "splats", true))
+    settings.warnings.push_back(why);
+  else
+    settings.decisions.push_back(why);
+  settings.techniques.splats = false;
+}
+
+}  // namespace
+
+VcmSettings settings_for(const Scene& scene, const Arguments& arguments) {
+  VcmSettings settings(arguments);
+  if (scene.has_scattering()) adapt_to_media(arguments, settings);
+  adapt_to_camera(arguments, scene.camera(), settings);
   return settings;
 }
 

@@ -14,8 +14,10 @@ struct PixelProbe {
   Vec2f raster{0, 0};  ///< where it is looked for, in the crop window's raster
   SurfaceVertex vertex;
   float pixel_width = 0;  ///< on the surface, m
-  float distance = 0;     ///< from the camera to what is hit first, m
-  CameraPathClass path;   ///< of the events before the vertex
+  /// From the camera to what is hit first, m; of a camera that sees along parallel lines
+  /// CameraTraits::parallel_distance, however far back it stands.
+  float distance = 0;
+  CameraPathClass path;  ///< of the events before the vertex
 };
 
 /// One for each block.

@@ -5,7 +5,7 @@
 namespace kaustik {
 
 CameraVertices::CameraVertices(const CameraPathInputs& inputs, const PixelPlan& plan,
-                               const Vec2f& u_lens)
+                               const LensNumbers& u_lens)
     : in_(inputs), plan_(plan), u_lens_(u_lens) {
   constexpr size_t usual_length = 12;
   vertices_.reserve(usual_length);

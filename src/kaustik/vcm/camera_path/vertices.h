@@ -13,7 +13,7 @@ namespace kaustik {
 class CameraVertices {
  public:
   /// `plan` is that of the path's pixel; `u_lens` tells where on the lens it begins.
-  CameraVertices(const CameraPathInputs& inputs, const PixelPlan& plan, const Vec2f& u_lens);
+  CameraVertices(const CameraPathInputs& inputs, const PixelPlan& plan, const LensNumbers& u_lens);
   /// The same path so far, for a branch of the walk.
   CameraVertices(const CameraVertices& stem, const CameraWalk& branch);
 
@@ -75,7 +75,7 @@ class CameraVertices {
 
   const CameraPathInputs& in_;
   PixelPlan plan_;
-  Vec2f u_lens_;
+  LensNumbers u_lens_;
   std::vector<PathVertex> vertices_;
   /// Density per solid angle with which light paths go back along the walk.
   struct GuidedBack {
