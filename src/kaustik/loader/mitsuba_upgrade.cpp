@@ -67,6 +67,7 @@ std::string upgraded_name(const std::string& name, const std::string& object_typ
   if (version >= first_with_snake_case) return name;
   const std::string snake = snake_case_from_camel_case(name);
   if (object_type == "diffuse" && snake == "diffuse_reflectance") return "reflectance";
+  if (object_type == "heterogeneous" && snake == "density") return "sigma_t";
   return snake;
 }
 
@@ -99,6 +100,18 @@ void upgrade_texture_placement(Object& object, Version version, Problems& proble
   } catch (const std::invalid_argument&) {
     problems.add("the texture's uscale or vscale is too near to 0", "give another scale", place);
   }
+}
+
+void upgrade_volume(Object& object, Version version) {
+  if (object.family != "volume") return;
+  if (object.type == "grid") object.type = "gridvolume";
+  const auto is_given = [&](std::string_view name) {
+    return std::any_of(object.properties.begin(), object.properties.end(),
+                       [&](const Property& p) { return p.name == name; });
+  };
+  const bool is_older = version < first_with_snake_case;
+  if (is_older && object.type == "gridvolume" && !is_given("use_grid_bbox"))
+    object.properties.push_back({"use_grid_bbox", true, object.place});
 }
 
 }  // namespace kaustik::mitsuba

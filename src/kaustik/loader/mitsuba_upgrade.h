@@ -28,4 +28,7 @@ std::string upgraded_tag(const std::string& tag, Version version);
 /// Turns uoffset, voffset, uscale and vscale of a texture into `to_uv`.
 void upgrade_texture_placement(Object& object, Version version, Problems& problems);
 
+/// Gives a volume its present type; in 0.6 its file always told where it lies.
+void upgrade_volume(Object& object, Version version);
+
 }  // namespace kaustik::mitsuba

@@ -64,16 +64,15 @@ void check_size(const Shape& shape, const Place& place) {
       fmt::format("let its sizes, scaled by to_world, be at least {:g} m", smallest_length), place);
 }
 
-/// Where an object names its file or gives its buffer; without one its own place.
-Place source_place(const Arguments& arguments) {
+}  // namespace
+
+Place SceneBuilder::source_place(const Arguments& arguments) {
   for (const Parameter& row : arguments.info().parameters)
     if ((row.kind == ParameterKind::file || row.kind == ParameterKind::array) &&
         arguments.given(row.name))
       return arguments.place_of(row.name);
   return arguments.place();
 }
-
-}  // namespace
 
 void SceneBuilder::collecting(const Place& place, const std::function<void()>& body) {
   try {
@@ -178,7 +177,8 @@ void SceneBuilder::add_top_level(const Object& object) {
           "the scene has more than one camera: the first is used, not {}", display_name(object)));
     else
       sensor_ = &object;
-  } else if (object.family == "bsdf" || object.family == "texture" || object.family == "medium") {
+  } else if (object.family == "bsdf" || object.family == "texture" || object.family == "medium" ||
+             object.family == "volume") {
     // Checked where it is used, and here so that a mistake in an unused one is told as well.
     const auto alias =
         std::shared_ptr<Object>(std::shared_ptr<Object>(), const_cast<Object*>(&object));
@@ -186,16 +186,19 @@ void SceneBuilder::add_top_level(const Object& object) {
       make_bsdf(alias);
     else if (object.family == "medium")
       make_medium(alias);
+    else if (object.family == "volume")
+      make_volume(alias);
     else
       make_texture(alias);
   } else if (object.family != "integrator") {
     const bool is_of_sensor = object.family == "film" || object.family == "sampler";
-    problems_.add(fmt::format("a {} cannot stand at the top of a scene", object.family),
-                  is_of_sensor ? "put it into the sensor"
-                  : object.family == "rfilter"
-                      ? "put it into the film"
-                      : "it may hold: shape, bsdf, texture, medium, emitter, sensor, integrator",
-                  object.place);
+    problems_.add(
+        fmt::format("a {} cannot stand at the top of a scene", object.family),
+        is_of_sensor ? "put it into the sensor"
+        : object.family == "rfilter"
+            ? "put it into the film"
+            : "it may hold: shape, bsdf, texture, medium, volume, emitter, sensor, integrator",
+        object.place);
   }
 }
 
@@ -302,7 +305,14 @@ void SceneBuilder::add_instance(const Object& object) {
   const uint32_t group = group_index(object.children[0].object);
   instances_.push_back({group, to_world});
   Bounds3f bounds;
-  for (const BuiltShape& built : groups_[group]) bounds.extendBy(built.shape->bounds());
+  for (const BuiltShape& built : groups_[group]) {
+    bounds.extendBy(built.shape->bounds());
+    for (const auto& medium : {built.surface.interior, built.surface.exterior})
+      if (medium && medium->has_place() && remarks_reported_.insert("media of instances").second)
+        warnings_.push_back(
+            fmt::format("the medium of '{}' lies where its volumes do: instances do not move it",
+                        built.surface.name));
+  }
   collecting(arguments.place_of("to_world"), [&] {
     check_extent(to_world.bounds(bounds), "the instance", arguments.place_of("to_world"));
   });
