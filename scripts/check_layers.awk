@@ -90,19 +90,20 @@ BEGIN {
   allow("base", "")
   allow("image", "base")
   allow("geometry", "base")
-  allow("material", "base image")
-  allow("medium", "base image")
+  allow("volume", "base")
+  allow("material", "base image volume")
+  allow("medium", "base image volume")
   allow("light", "base image geometry")
-  allow("scene", "base image geometry material medium light")
-  allow("transport", "base image geometry material medium light scene")
-  allow("photon", "base image geometry material medium light scene transport")
-  allow("irradiance", "base image geometry material medium light scene transport")
+  allow("scene", "base image geometry volume material medium light")
+  allow("transport", "base image geometry volume material medium light scene")
+  allow("photon", "base image geometry volume material medium light scene transport")
+  allow("irradiance", "base image geometry volume material medium light scene transport")
   # Two methods over photons, which know nothing of each other.
-  allow("vcm", "base image geometry material medium light scene transport photon")
-  allow("photonmap", "base image geometry material medium light scene transport photon irradiance")
-  allow("integrator", "base image geometry material medium light scene transport photon irradiance vcm photonmap")
+  allow("vcm", "base image geometry volume material medium light scene transport photon")
+  allow("photonmap", "base image geometry volume material medium light scene transport photon irradiance")
+  allow("integrator", "base image geometry volume material medium light scene transport photon irradiance vcm photonmap")
   allow("render", \
-    "base image geometry material medium light scene transport photon irradiance vcm photonmap " \
+    "base image geometry volume material medium light scene transport photon irradiance vcm photonmap " \
     "integrator")
   allow("loader", "base scene")
   # The front ends get at the lower rooms through render; these are what its interface speaks of.
@@ -124,7 +125,7 @@ BEGIN {
   not_in_word = "[^A-Za-z0-9_]"
   own("Imath", "^Imath/", "base", "")
   own("oneTBB", "^(tbb|oneapi)/", "base", not_in_word "tbb::")
-  own("fmt", "^fmt/", "base image geometry material medium light scene transport photon irradiance " \
+  own("fmt", "^fmt/", "base image geometry volume material medium light scene transport photon irradiance " \
     "vcm photonmap integrator render loader apps", "")
   own("OpenEXR", "^(OpenEXR/)?(Imf|Iex)", "image", not_in_word "(Imf|OPENEXR_IMF_NAMESPACE)::")
   own("libtiff", "^tiff", "image", not_in_word "TIFF[A-Z]?[a-z]*[ (*]")

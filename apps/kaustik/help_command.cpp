@@ -42,6 +42,7 @@ void print_table(const TypeInfo& info) {
     if (const std::string range = range_text(p); !range.empty()) fmt::print(", {}", range);
     if (!p.unit.empty()) fmt::print(", {}", p.unit);
     if (p.accepts_texture) fmt::print(", or a texture");
+    if (p.accepts_volume) fmt::print(", or a volume");
     fmt::print(")\n      {}\n", p.sentence);
     if (!p.choices.empty()) fmt::print("      One of: {}\n", fmt::join(p.choices, ", "));
   }

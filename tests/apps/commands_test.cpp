@@ -31,6 +31,7 @@ std::vector<const TypeInfo*> registered_types() {
   for (const auto& row : light_types()) types.push_back(&row.info);
   for (const auto& row : medium_types()) types.push_back(&row.info);
   for (const auto& row : phase_function_types()) types.push_back(&row.info);
+  for (const auto& row : volume_types()) types.push_back(&row.info);
   for (const auto& row : filter_types()) types.push_back(&row.info);
   for (const TypeInfo& info : sampler_infos()) types.push_back(&info);
   return types;

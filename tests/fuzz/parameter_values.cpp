@@ -100,9 +100,11 @@ std::string ParameterValues::file(const TypeInfo& info) {
   const std::string name =
       info.name == "obj"
           ? draw_.one_of({"quad.obj", "tent.obj", "flat.obj", is_wild() ? "far.obj" : "quad.obj"})
-      : info.name == "ply" ? draw_.one_of({"pyramid.ply", "needle.ply", "painted.ply"})
-      : info.name == "serialized"
-          ? "pair.serialized"
+      : info.name == "ply"        ? draw_.one_of({"pyramid.ply", "needle.ply", "painted.ply"})
+      : info.name == "serialized" ? "pair.serialized"
+      : info.name == "gridvolume"
+          ? draw_.one_of({"cloud.vol", "bytes.vol", is_wild() ? "colors.vol" : "cloud.vol",
+                          is_wild() ? "flow.vol" : "bytes.vol"})
           : draw_.one_of({"colors.pfm", "one.pfm", "bright.pfm", "black.pfm"});
   return files_folder_ + "/" + name;
 }
@@ -118,6 +120,9 @@ std::string ParameterValues::text(const TypeInfo& info, const Parameter& paramet
   if (parameter.name == "name") return draw_.one_of({"vertex_color", "vertex_color", "face_heat"});
   if (parameter.name == "channel") return draw_.one_of({"", "", "r", "b", "a"});
   if (parameter.kind == ParameterKind::file) return file(info);
+  if (info.name == "tabphase")
+    return is_wild() ? draw_.one_of({"1", "0, 0", "-1, 2", "nan, 1", "1e308, 1e308"})
+                     : draw_.one_of({"1, 1", "1, 0.5, 2", "0, 0, 1"});
   return draw_.chance(0.9) ? default_text(parameter) : "?";
 }
 

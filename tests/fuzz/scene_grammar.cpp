@@ -11,6 +11,7 @@
 #include "kaustik/scene/spectrum_types.h"
 #include "tests/fuzz/parameter_values.h"
 #include "tests/support/serialized_file.h"
+#include "tests/support/vol_file.h"
 
 namespace kaustik::fuzz {
 namespace {
@@ -105,6 +106,8 @@ class Grammar {
       if (!p.required && !only_texture && !costly && !needed && !draw_.chance(0.3)) continue;
       if (p.accepts_texture && depth < deepest_nesting && (only_texture || draw_.chance(0.3)))
         result += texture(p.name, depth + 1);
+      else if (p.accepts_volume && draw_.chance(0.4))
+        result += volume(p.name);
       else if (p.kind == ParameterKind::color && draw_.chance(0.1))
         result += spectrum(p.name);
       else
@@ -118,6 +121,21 @@ class Grammar {
     const TextureType* type = &draw_.one_of(texture_types());
     if (type->asks_surface && draw_.chance(0.8)) type = &draw_.one_of(texture_types());
     return open(type->info, name) + properties(type->info, {}, depth) + close(type->info);
+  }
+
+  std::string volume(const std::string& name) {
+    const TypeInfo& info = draw_.one_of(volume_types()).info;
+    return open(info, name) + properties(info) + close(info);
+  }
+
+  std::string phase(int depth = 0) {
+    const auto fitting = rows_that(phase_function_types(), [&](const PhaseFunctionType& type) {
+      return type.nested == 0 || depth < deepest_nesting;
+    });
+    const PhaseFunctionType& type = *draw_.one_of(fitting);
+    std::string result = open(type.info) + properties(type.info);
+    for (size_t i = 0; i < type.nested; ++i) result += phase(depth + 1);
+    return result + close(type.info);
   }
 
   std::string spectrum(const std::string& name) {
@@ -148,10 +166,7 @@ class Grammar {
                          draw_.below(media_));
     const TypeInfo& info = draw_.one_of(medium_types()).info;
     std::string result = open(info, name, id) + properties(info);
-    if (draw_.chance(0.5)) {
-      const TypeInfo& phase = draw_.one_of(phase_function_types()).info;
-      result += open(phase) + properties(phase) + close(phase);
-    }
+    if (draw_.chance(0.5)) result += phase();
     return result + close(info);
   }
 
@@ -349,6 +364,10 @@ void write_files(const std::string& folder) {
                          {0, 0, 1, 0, 0, 1}},
               .corners = {0, 1, 2}}},
             4));
+  write("cloud.vol", test::vol_file({3, 2, 2}, {0, 0.5, 1, 2, 0, 0, 0.1f, 3, 0, 0, 1, 0.2f}));
+  write("bytes.vol", test::vol_file({2, 2, 2}, {0, 0.5, 1, 0, 1, 0, 1, 1}, {.encoding = 3}));
+  write("colors.vol", test::vol_file({2, 1, 1}, {0.1f, 0.5f, 0.9f, 1, 0.5f, 0}, {.channels = 3}));
+  write("flow.vol", test::vol_file({1, 1, 1}, {1, 2, 3, 4, 5, 6}, {.channels = 6}));
   write("packed.serialized", test::serialized_file({test::record_mesh()}));
   write("needle.ply", ply + "0 0 0\n1 0 0\n1 1e-20 0\n1e6 1e6 1e6\n3 0 1 2\n3 0 1 3\n");
   write_pfm(folder + "/colors.pfm", 8, 4, {0.1f, 0.5f, 0.9f, 0.3f, 0.7f});

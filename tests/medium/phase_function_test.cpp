@@ -4,6 +4,7 @@
 
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/statistics.h"
+#include "kaustik/base/warp.h"
 #include "kaustik/medium/medium.h"
 
 namespace kaustik {
@@ -86,15 +87,24 @@ TEST_P(EveryPhaseFunction, SamplesByItsValue) {
   EXPECT_LT(chi_square_p_value(hits, expected), phase_level);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, EveryPhaseFunction,
-                         testing::Values(Kind{"isotropic", isotropic_phase_function()},
-                                         Kind{"forward", henyey_greenstein_phase_function(0.8f)},
-                                         Kind{"backward", henyey_greenstein_phase_function(-0.5f)},
-                                         Kind{"even", henyey_greenstein_phase_function(0)},
-                                         Kind{"nearly_even",
-                                              henyey_greenstein_phase_function(9e-4f)},
-                                         Kind{"sharp", henyey_greenstein_phase_function(0.95f)}),
-                         [](const auto& kind) { return kind.param.name; });
+std::shared_ptr<const PhaseFunction> blend(float weight) {
+  return blended_phase_function(rayleigh_phase_function(), henyey_greenstein_phase_function(0.7f),
+                                weight);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, EveryPhaseFunction,
+    testing::Values(Kind{"isotropic", isotropic_phase_function()},
+                    Kind{"forward", henyey_greenstein_phase_function(0.8f)},
+                    Kind{"backward", henyey_greenstein_phase_function(-0.5f)},
+                    Kind{"even", henyey_greenstein_phase_function(0)},
+                    Kind{"nearly_even", henyey_greenstein_phase_function(9e-4f)},
+                    Kind{"sharp", henyey_greenstein_phase_function(0.95f)},
+                    Kind{"rayleigh", rayleigh_phase_function()}, Kind{"blend", blend(0.3f)},
+                    Kind{"first", blend(0)}, Kind{"second", blend(1)},
+                    Kind{"table", tabulated_phase_function({1, 0, 2, 7, 3})},
+                    Kind{"ramp", tabulated_phase_function({0, 5e300})}),
+    [](const auto& kind) { return kind.param.name; });
 
 /// At θ = 0 and π the closed form is (1 ± g)/(4π (1 ∓ g)²); above zero, light goes on forward.
 TEST(HenyeyGreenstein, HasItsValues) {
@@ -119,6 +129,25 @@ TEST(HenyeyGreenstein, IsFiniteForAnyDirection) {
     for (const Vec3f& wi : {wo, -wo, wo * 1.0000002f, wo * -1.0000002f})
       EXPECT_TRUE(std::isfinite(phase->eval(wo, wi)));
   }
+}
+
+TEST(Rayleigh, HasItsValues) {
+  const auto phase = rayleigh_phase_function();
+  const double per_sr = 3 / (16 * std::numbers::pi);
+  EXPECT_NEAR(phase->eval(wo, wo), 2 * per_sr, 1e-7);
+  EXPECT_NEAR(phase->eval(wo, -wo), 2 * per_sr, 1e-7);
+  EXPECT_NEAR(phase->eval(wo, Frame(wo).x), per_sr, 1e-7);
+}
+
+/// Of a blend the mean cosine is the mean of both; of a ramp from 0 to f it is ∫ μ (1 + μ)/2 dμ.
+TEST(PhaseFunctions, HaveTheMeanCosinesOfTheirClosedForms) {
+  EXPECT_FLOAT_EQ(blend(0.3f)->mean_cosine(), 0.3f * 0.7f);
+  EXPECT_FLOAT_EQ(tabulated_phase_function({0, 2})->mean_cosine(), 1.0f / 3);
+  EXPECT_FLOAT_EQ(tabulated_phase_function({2, 0})->mean_cosine(), -1.0f / 3);
+  EXPECT_FLOAT_EQ(tabulated_phase_function({1, 1, 1})->mean_cosine(), 0);
+  EXPECT_FLOAT_EQ(tabulated_phase_function({4, 4})->eval(wo, wo), sphere_pdf);
+  // The last value is that of light that goes straight on.
+  EXPECT_FLOAT_EQ(tabulated_phase_function({0, 1})->eval(wo, -wo), 4 * sphere_pdf / 2);
 }
 
 }  // namespace

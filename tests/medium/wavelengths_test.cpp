@@ -32,9 +32,27 @@ std::shared_ptr<const Medium> haze() {
       {{"sigma_t", Value(ramp), {}}, {"albedo", Value(0.5), {}}, {"scale", Value(2.0), {}}});
 }
 
+/// With a place of its own for density and for the albedo.
+std::shared_ptr<const Medium> patchy_cloud() {
+  using Filter = GridVolume::Filter;
+  using Wrap = GridVolume::Wrap;
+  const auto volume = [](const VolumeSamples& samples) {
+    return std::make_shared<const Volume>(GridVolume(samples, Filter::trilinear, Wrap::clamp,
+                                                     Transform::translate({-0.4, -0.5, 0.1})));
+  };
+  Problems problems;
+  const Arguments arguments(heterogeneous_type().info, {}, {}, problems);
+  return heterogeneous_type().create(
+      {.arguments = arguments,
+       .phase = isotropic_phase_function(),
+       .volumes = {
+           {"sigma_t", {volume({{2, 1, 3}, 1, {0.1f, 0.2f, 3, 1, 0.5f, 2}, {}}), {}}},
+           {"albedo", {volume({{1, 1, 2}, 3, {0.9f, 0.5f, 0.3f, 0.2f, 1, 0.1f}, {}}), {}}}}});
+}
+
 /// Of each row one with its usual values; and haze.
 std::vector<std::shared_ptr<const Medium>> media_of_all_types() {
-  std::vector<std::shared_ptr<const Medium>> media = {haze()};
+  std::vector<std::shared_ptr<const Medium>> media = {haze(), patchy_cloud()};
   for (const MediumType& type : medium_types()) media.push_back(make_medium(type, {}));
   return media;
 }

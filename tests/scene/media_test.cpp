@@ -1,6 +1,10 @@
 // Media in scenes: who refers to what, what is found out, and every way to get it wrong.
 
+#include <fstream>
+
 #include "tests/scene/scene_support.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/vol_file.h"
 
 namespace kaustik {
 namespace {
@@ -129,6 +133,125 @@ TEST(Media, AHoleInABoundaryIsTold) {
                               "<medium type=\"homogeneous\" id=\"n\"/>");
   ASSERT_EQ(scene->warnings().size(), 1u);
   EXPECT_NE(scene->warnings()[0].find("not closed"), std::string::npos) << scene->warnings()[0];
+}
+
+class GridsInScenes : public testing::Test {
+ protected:
+  std::string file(const std::string& bytes) {
+    const std::string path = folder_.path("grid.vol");
+    std::ofstream(path, std::ios::binary) << bytes;
+    return "<string name=\"filename\" value=\"" + path + "\"/>";
+  }
+  static std::string cloud(const std::string& inside) {
+    return media_camera + "<shape type=\"sphere\">" + away +
+           "<medium name=\"interior\" type=\"heterogeneous\">" + inside + "</medium></shape>";
+  }
+  static std::string grid(const std::string& name, const std::string& inside) {
+    return "<volume name=\"" + name + "\" type=\"gridvolume\">" + inside + "</volume>";
+  }
+  const std::string two_cells_ = vol_file({2, 1, 1}, {1, 3}, {.box = {0, 0, 8, 4, 1, 10}});
+  TemporaryFolder folder_;
+};
+
+TEST_F(GridsInScenes, LieWhereTheyArePlaced) {
+  const auto scene = scene_of(
+      cloud(grid("sigma_t", file(two_cells_) + "<transform name=\"to_world\"><scale value=\"4, 1, "
+                                               "2\"/><translate value=\"0, 0, 8\"/></transform>") +
+            "<float name=\"scale\" value=\"2\"/><float name=\"albedo\" value=\"0.5\"/>"));
+  EXPECT_FLOAT_EQ(interior_of(*scene).extinction({2, 0.5f, 9}, {})[1], 4);
+  EXPECT_FLOAT_EQ(interior_of(*scene).scattering({0.5f, 0.5f, 9}, {})[1], 1);
+  EXPECT_EQ(interior_of(*scene).extinction({2, 0.5f, 7.9f}, {})[1], 0);
+  EXPECT_TRUE(scene->has_scattering());
+  // The same by the file's own box, and with another name of the type.
+  for (const std::string type : {"gridvolume", "grid"}) {
+    const auto by_box =
+        scene_of(cloud("<volume name=\"sigma_t\" type=\"" + type + "\">" + file(two_cells_) +
+                       "<boolean name=\"use_grid_bbox\" value=\"true\"/></volume>"
+                       "<float name=\"scale\" value=\"2\"/>"));
+    EXPECT_FLOAT_EQ(interior_of(*by_box).extinction({2, 0.5f, 9}, {})[1], 4);
+    EXPECT_EQ(interior_of(*by_box).extinction({2, 0.5f, 7.9f}, {})[1], 0);
+  }
+}
+
+TEST_F(GridsInScenes, MayBeReferredTo) {
+  const auto scene =
+      scene_of(cloud("<ref name=\"sigma_t\" id=\"v\"/>"
+                     "<volume name=\"albedo\" type=\"constvolume\"><rgb "
+                     "name=\"value\" value=\"0.5, 1, 0\"/></volume>") +
+               "<volume type=\"gridvolume\" id=\"v\">" + file(two_cells_) + "</volume>");
+  EXPECT_FLOAT_EQ(interior_of(*scene).scattering({0.1f, 0.5f, 0.5f}, {})[0], 0.5f);
+  EXPECT_FLOAT_EQ(interior_of(*scene).scattering({0.1f, 0.5f, 0.5f}, {})[1], 1);
+}
+
+TEST(Media, TakeTheirVolumesFromTheSceneBefore) {
+  const Description description =
+      description_of(with_medium("<volume name=\"albedo\" type=\"constvolume\"><float "
+                                 "name=\"value\" value=\"0.5\"/></volume>"));
+  const auto first = build_scene(description);
+  EXPECT_EQ(first->build_counts().volumes, 1);
+  EXPECT_EQ(build_scene(description, first)->build_counts().volumes, 0);
+}
+
+TEST_F(GridsInScenes, DoNotMoveWithInstances) {
+  const auto scene = scene_of(
+      media_camera + "<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\">" + away +
+      "<medium name=\"interior\" type=\"heterogeneous\">" + grid("sigma_t", file(two_cells_)) +
+      "</medium></shape></shape>"
+      "<shape type=\"instance\"><ref id=\"g\"/></shape>");
+  ASSERT_FALSE(scene->warnings().empty());
+  EXPECT_NE(scene->warnings()[0].find("instances do not move"), std::string::npos)
+      << scene->warnings()[0];
+}
+
+TEST_F(GridsInScenes, SayWhatIsWrong) {
+  const auto problem = [](const std::string& text, const std::string& message) {
+    const std::vector<Problem> problems = problems_of(text);
+    ASSERT_FALSE(problems.empty()) << message;
+    EXPECT_NE(problems[0].message.find(message), std::string::npos) << problems[0].message;
+    EXPECT_FALSE(problems[0].remedy.empty()) << problems[0].message;
+  };
+  problem(cloud(grid("sigma_t", "<string name=\"filename\" value=\"nothing.vol\"/>")),
+          "nothing.vol");
+  problem(cloud(grid("sigma_t", file("VOL\x03"))), "header");
+  problem(cloud(grid("sigma_t", "")), "filename");
+  problem(cloud(grid("emission", file(two_cells_))), "takes no volume 'emission'");
+  problem(cloud(grid("sigma_t", file(vol_file({1, 1, 1}, {-1})))), "density");
+  problem(cloud(grid("sigma_t", file(vol_file({1, 1, 1}, {1}, {.box = {0, 0, 0, 1, 0, 1}})) +
+                                    "<boolean name=\"use_grid_bbox\" value=\"true\"/>")),
+          "box");
+  problem(cloud("<volume name=\"sigma_t\" type=\"cloud\"/>"), "unknown volume type 'cloud'");
+  problem(with_medium(grid("sigma_t", file(two_cells_))), "homogeneous");
+  problem(media_camera + "<volume type=\"sea\"/>" + media_sphere, "unknown volume type 'sea'");
+}
+
+TEST(PhaseFunctionsInScenes, NestAndHaveTables) {
+  const auto scene = scene_of(with_medium(
+      "<phase type=\"blendphase\"><float name=\"weight\" value=\"0.25\"/>"
+      "<phase name=\"b\" type=\"hg\"><float name=\"g\" value=\"0.8\"/></phase>"
+      "<phase name=\"a\" type=\"tabphase\"><string name=\"values\" value=\"0, 2, 4\"/></phase>"
+      "</phase>"));
+  EXPECT_NEAR(interior_of(*scene).phase().mean_cosine(), 0.75f / 3 + 0.25f * 0.8f, 1e-6f);
+  EXPECT_EQ(scene_of(with_medium("<phase type=\"rayleigh\"/>"))
+                ->surface(0)
+                .interior->phase()
+                .mean_cosine(),
+            0);
+}
+
+TEST(PhaseFunctionsInScenes, SayWhatIsWrong) {
+  const auto problem = [](const std::string& phase, const std::string& message) {
+    const std::vector<Problem> problems = problems_of(with_medium(phase));
+    ASSERT_FALSE(problems.empty()) << message;
+    EXPECT_NE(problems[0].message.find(message), std::string::npos) << problems[0].message;
+    EXPECT_FALSE(problems[0].remedy.empty()) << problems[0].message;
+  };
+  problem("<phase type=\"blendphase\"/>", "holds 0 phase functions");
+  problem("<phase type=\"blendphase\"><phase type=\"hg\"/></phase>", "holds 1 phase functions");
+  problem("<phase type=\"hg\"><phase type=\"hg\"/></phase>", "cannot hold a phase");
+  problem("<phase type=\"tabphase\"/>", "values");
+  for (const std::string values : {"1", "0, 0", "1, x", "1, -2", "nan, 1", "1, 2e400", ""})
+    problem("<phase type=\"tabphase\"><string name=\"values\" value=\"" + values + "\"/></phase>",
+            "tabphase");
 }
 
 TEST(MediaErrors, OfCoefficients) {

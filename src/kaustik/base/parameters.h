@@ -81,6 +81,7 @@ struct Parameter {
   std::vector<std::string> choices;
   bool no_effect = false;        ///< accepted because Mitsuba has it; reported once
   bool accepts_texture = false;  ///< a nested texture object may stand instead of the value
+  bool accepts_volume = false;   ///< a nested volume may
   /// The parameter that this one stands instead of: not both can be given, and where that one is
   /// required this one will do. "" for none.
   std::string stands_for;
@@ -91,6 +92,7 @@ struct Parameter {
   Parameter& range(double low, double high) { return minimum = low, maximum = high, *this; }
   Parameter& in(std::string unit_name) { return unit = std::move(unit_name), *this; }
   Parameter& textured() { return accepts_texture = true, *this; }
+  Parameter& or_volume() { return accepts_volume = true, *this; }
   Parameter& instead_of(std::string other) { return stands_for = std::move(other), *this; }
   Parameter& moved(WhenMoved how) { return when_moved = how, *this; }
   Parameter& integers() { return of_integers = true, *this; }

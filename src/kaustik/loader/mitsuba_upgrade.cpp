@@ -39,7 +39,8 @@ constexpr TypeName type_names[] = {
     {any_version, "bsdf", "roughplasticggx", "roughplastic", "ggx"},
     {any_version, "bsdf", "disneybsdf", "principled"},
     {any_version, "bsdf", "mixture", "mixturebsdf"},
-    {any_version, "phase", "rayleigh_polarized", "rayleigh"}};
+    {any_version, "phase", "rayleigh_polarized", "rayleigh"},
+    {any_version, "volume", "grid", "gridvolume"}};
 
 /// Of an object of this family and, unless it is empty, of this type; in snake case.
 struct PropertyName {
@@ -53,6 +54,7 @@ constexpr PropertyName property_names[] = {
     {first_of_mitsuba_0_4, "emitter", "directional", "intensity", "irradiance"},
     {first_of_mitsuba_0_4, "emitter", "envmap", "intensity_scale", "scale"},
     {first_of_mitsuba_0_4, "medium", "", "density_multiplier", "scale"},
+    {first_with_snake_case, "medium", "heterogeneous", "density", "sigma_t"},
     {first_of_mitsuba_0_4, "sensor", "", "focus_depth", "focus_distance"},
     {first_of_mitsuba_0_3, "bsdf", "", "alpha_b", "alpha"},
     {first_of_mitsuba_0_3, "bsdf", "", "alpha_x", "alpha_u"},
@@ -172,6 +174,12 @@ void upgrade_field_of_view(Object& object) {
                                smaller ? smaller->place : object.place});
 }
 
+/// In 0.6 the file of a grid always told where it lies.
+void upgrade_grid(Object& object) {
+  if (object.family == "volume" && object.type == "gridvolume" && !has(object, "use_grid_bbox"))
+    object.properties.push_back({"use_grid_bbox", true, object.place});
+}
+
 }  // namespace
 
 Version parse_version(std::string_view text) {
@@ -219,7 +227,10 @@ void upgrade_object(Object& object, const std::string& written_type, Version ver
   const TypeName* row = row_of(object.family, written_type, version);
   if (row && !row->distribution.empty() && !has(object, "distribution"))
     object.properties.push_back({"distribution", std::string(row->distribution), object.place});
-  if (version < first_with_snake_case) upgrade_texture(object, problems);
+  if (version < first_with_snake_case) {
+    upgrade_texture(object, problems);
+    upgrade_grid(object);
+  }
   if (version < first_of_mitsuba_0_4) upgrade_field_of_view(object);
 }
 

@@ -53,7 +53,8 @@ const TypeInfo& henyey_greenstein_info() {
   return info;
 }
 
-std::shared_ptr<const PhaseFunction> create_henyey_greenstein(const Arguments& arguments) {
+std::shared_ptr<const PhaseFunction> create_henyey_greenstein(const PhaseFunctionInputs& inputs) {
+  const Arguments& arguments = inputs.arguments;
   const auto g = float(arguments.number("g"));
   if (!(std::fabs(g) < 1))
     throw Error(ErrorKind::input, "g of phase 'hg' is -1 or 1, which scatters nowhere but straight",

@@ -1,10 +1,9 @@
 #include "kaustik/medium/homogeneous.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "kaustik/base/limits.h"
+#include "kaustik/medium/coefficients.h"
+#include "kaustik/medium/heterogeneous.h"
 #include "kaustik/medium/medium_kinds.h"
 
 namespace kaustik {
@@ -46,27 +45,14 @@ const TypeInfo& homogeneous_info() {
       "homogeneous",
       "Haze, water, milk: absorbs and scatters light, the same everywhere. Give 'albedo' and "
       "'sigma_t', or 'sigma_a' and 'sigma_s'; a nested phase function says where it scatters to.",
-      {color_parameter("albedo", 0.75, "Share of the light taken out that is scattered.")
-           .range(0, 1),
-       color_parameter("sigma_t", 1, "Extinction: what is taken out of a beam.").in("1/m"),
+      {albedo_parameter(), sigma_t_parameter(),
        optional(
            color_parameter("sigma_a", 0, "Absorption, instead of albedo and sigma_t.").in("1/m")),
        optional(
            color_parameter("sigma_s", 0, "Scattering, instead of albedo and sigma_t.").in("1/m")),
-       number_parameter("scale", 1, "Factor on all coefficients, for other units of length.")
-           .range(0, 1e30),
-       ignored_parameter("sample_emitters", ParameterKind::boolean),
+       medium_scale_parameter(), ignored_parameter("sample_emitters", ParameterKind::boolean),
        ignored_parameter("has_spectral_extinction", ParameterKind::boolean)}};
   return info;
-}
-
-/// The argument as a factor; in RGB mode the lane that carries no light gets the mean of the
-/// others, which makes it harmless where lanes are sampled.
-SpectralValue coefficient(const Arguments& arguments, std::string_view name) {
-  const SpectralValue value = SpectralValue::material_constant(arguments.color(name));
-  Spectrum rgb = value.rgb();
-  rgb.set(3, (rgb[0] + rgb[1] + rgb[2]) / 3);
-  return value.with_rgb(rgb);
 }
 
 Spectrum share(const Spectrum& part, const Spectrum& whole) {
@@ -76,42 +62,31 @@ Spectrum share(const Spectrum& part, const Spectrum& whole) {
   return result;
 }
 
-/// Light has to fly a distance that floats carry.
-void check_extinction(const Spectrum& extinction, const Arguments& arguments) {
-  for (int lane = 0; lane < Spectrum::lane_count; ++lane) {
-    const float value = extinction[lane];
-    const bool is_small = double(value) < 1 / largest_length;
-    if (value == 0 || (!is_small && double(value) <= 1 / smallest_length)) continue;
-    throw Error(ErrorKind::input,
-                fmt::format("the medium's extinction of {:g} per metre is too {} for single floats",
-                            value, is_small ? "small" : "large"),
-                fmt::format("give zero, or from {:g} to {:g}: see 'scale' and the coefficients",
-                            1 / largest_length, 1 / smallest_length),
-                arguments.given("scale") ? arguments.place_of("scale") : arguments.place());
-  }
-}
-
 std::shared_ptr<const Medium> create_homogeneous(const MediumInputs& inputs) {
   const Arguments& arguments = inputs.arguments;
   const bool by_parts = arguments.given("sigma_a") || arguments.given("sigma_s");
   for (const char* name : {"albedo", "sigma_t"})
-    if (by_parts && arguments.given(name))
+    if (by_parts && (arguments.given(name) || inputs.volume(name)))
       throw Error(ErrorKind::input, "the medium is described twice",
                   "give either 'albedo' and 'sigma_t' or 'sigma_a' and 'sigma_s'",
                   arguments.place_of(name));
+  if (given_grid(inputs, "sigma_t"))
+    throw Error(ErrorKind::input, "a homogeneous medium cannot have a grid of 'sigma_t'",
+                "make the medium one of type 'heterogeneous'", inputs.volume("sigma_t")->place);
+  if (given_grid(inputs, "albedo")) return make_heterogeneous(inputs);
   const auto scale = float(arguments.number("scale"));
   SpectralValue extinction, scattering;
   if (by_parts) {
     const auto part = [&](const char* name) {
-      return arguments.given(name) ? coefficient(arguments, name) : SpectralValue();
+      return arguments.given(name) ? coefficient(arguments.color(name)) : SpectralValue();
     };
     const SpectralValue scattered = part("sigma_s"), all = scattered + part("sigma_a");
     extinction = all * scale;
     const Spectrum rgb = extinction.rgb() * share(scattered.rgb(), all.rgb());
     scattering = (scattered * scale).with_rgb(rgb);
   } else {
-    extinction = coefficient(arguments, "sigma_t") * scale;
-    scattering = extinction * coefficient(arguments, "albedo");
+    extinction = coefficient(inputs, "sigma_t") * scale;
+    scattering = extinction * coefficient(inputs, "albedo");
   }
   check_extinction(extinction.rgb(), arguments);
   if (extinction.rgb().is_zero()) return nullptr;
@@ -134,7 +109,7 @@ HomogeneousMedium::HomogeneousMedium(const SpectralValue& extinction,
 bool HomogeneousMedium::is_like(const Medium& other) const {
   if (this == &other) return true;
   const auto* o = dynamic_cast<const HomogeneousMedium*>(&other);
-  return o && looks_ == o->looks_ && phase().mean_cosine() == o->phase().mean_cosine();
+  return o && looks_ == o->looks_ && has_phase_of(*o);
 }
 
 Spectrum HomogeneousMedium::transmittance(float length, const Wavelengths& wavelengths) const {
@@ -158,6 +133,13 @@ Medium::Flight HomogeneousMedium::sample_flight(float length, const Spectrum& sh
   else
     flight.weight = left * (1 / (probabilities * left).sum());
   return flight;
+}
+
+Spectrum HomogeneousMedium::passed(float length, const Spectrum& shares,
+                                   const Wavelengths& wavelengths) const {
+  const Spectrum left = left_after(length, extinction_.at(wavelengths));
+  const float chance = (lane_probabilities(shares) * left).sum();
+  return chance > 0 ? left * (1 / chance) : Spectrum();
 }
 
 Medium::Flight HomogeneousMedium::sample_collision(float length, const Spectrum& shares,

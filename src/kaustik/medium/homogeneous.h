@@ -21,6 +21,7 @@ class HomogeneousMedium final : public Medium {
     return scattering_.at(wavelengths);
   }
   float mean_extinction(const Vec3f&) const override { return mean_extinction_; }
+  float typical_extinction() const override { return mean_extinction_; }
 
   Spectrum transmittance(const MediumSegment& segment, const Wavelengths& wavelengths,
                          const Sampler&) const override {
@@ -42,6 +43,8 @@ class HomogeneousMedium final : public Medium {
   /// heuristic), so the weight is bounded by the albedo times sum over share.
   Flight sample_flight(float length, const Spectrum& shares, const Wavelengths& wavelengths,
                        const Vec2f& u) const;
+  /// The weight of a flight that comes to the end of the segment.
+  Spectrum passed(float length, const Spectrum& shares, const Wavelengths& wavelengths) const;
   Flight sample_collision(float length, const Spectrum& shares, const Wavelengths& wavelengths,
                           const Vec2f& u) const;
 

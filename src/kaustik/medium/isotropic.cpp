@@ -25,7 +25,7 @@ std::shared_ptr<const PhaseFunction> isotropic_phase_function() {
 }
 
 PhaseFunctionType isotropic_type() {
-  return {isotropic_info(), [](const Arguments&) { return isotropic_phase_function(); }};
+  return {isotropic_info(), [](const PhaseFunctionInputs&) { return isotropic_phase_function(); }};
 }
 
 }  // namespace kaustik

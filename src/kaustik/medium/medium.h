@@ -1,9 +1,16 @@
 #pragma once
+#include <array>
+#include <functional>
+#include <map>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/wavelengths.h"
 #include "kaustik/medium/phase_function.h"
+#include "kaustik/volume/volume.h"
 
 namespace kaustik {
 
@@ -27,8 +34,10 @@ class Medium {
   /// Whether there is light that it scatters.
   bool scatters() const { return scatters_; }
   const PhaseFunction& phase() const { return *phase_; }
+  /// Whether it lies at a place in the world, rather than being the same everywhere.
+  virtual bool has_place() const { return false; }
   /// Whether it is the same stuff, in an object of its own perhaps: scenes may describe a medium
-  /// once for every boundary. (Phase functions are told apart by their mean cosine.)
+  /// once for every boundary.
   virtual bool is_like(const Medium& other) const = 0;
 
   /// σ_t, and σ_s, the part of it that is scattered.
@@ -37,11 +46,22 @@ class Medium {
   /// σ_t as an importance, by which densities of points are counted: the mean of the lanes in RGB
   /// mode, whatever is rendered. Above 0 where anything scatters.
   virtual float mean_extinction(const Vec3f& position) const = 0;
+  /// The same of all of it: a mean over places, of which light meets some.
+  virtual float typical_extinction() const = 0;
 
   /// Share of the light of each lane that is left at the end of the segment, or an unbiased
   /// estimate of it.
   virtual Spectrum transmittance(const MediumSegment& segment, const Wavelengths& wavelengths,
                                  const Sampler& sampler) const = 0;
+  // For many points of one segment (SegmentTransmittance), where that takes long:
+  /// What the ways to all of them have in common, in an empty list; media that are quick to cross
+  /// leave it empty.
+  virtual void measure(const MediumSegment&, std::vector<LineKnot>&) const {}
+  /// transmittance() of a segment that is the begin of the one of these knots.
+  virtual Spectrum measured_transmittance(const MediumSegment& segment,
+                                          const std::vector<LineKnot>& knots,
+                                          const Wavelengths& wavelengths,
+                                          const Sampler& sampler) const;
 
   /// How far light went.
   struct Flight {
@@ -61,16 +81,32 @@ class Medium {
 
  protected:
   Medium(std::shared_ptr<const PhaseFunction> phase, bool scatters);
+  /// Whether light goes the same ways from both.
+  bool has_phase_of(const Medium& other) const { return phase_looks_ == other.phase_looks_; }
 
  private:
   std::shared_ptr<const PhaseFunction> phase_;
   bool scatters_;
+  std::array<float, 8> phase_looks_;  ///< its values for some angles, by which it is known again
 };
 
-/// What create() of a medium gets beside its arguments: its phase function, built already.
+/// What create() of a medium gets beside its arguments, built already.
 struct MediumInputs {
+  struct GivenVolume {
+    std::shared_ptr<const Volume> volume;  ///< never null
+    Place place;
+  };
+
   const Arguments& arguments;
   std::shared_ptr<const PhaseFunction> phase;  ///< never null
+  /// By the parameters that they stand for.
+  std::map<std::string, GivenVolume, std::less<>> volumes = {};
+
+  /// Null: none was given.
+  const GivenVolume* volume(std::string_view name) const {
+    const auto found = volumes.find(name);
+    return found == volumes.end() ? nullptr : &found->second;
+  }
 };
 
 struct MediumType {
@@ -79,7 +115,7 @@ struct MediumType {
   /// scatters: vacuum costs less.
   std::shared_ptr<const Medium> (*create)(const MediumInputs&);
 };
-/// "homogeneous".
+/// "homogeneous", "heterogeneous".
 const std::vector<MediumType>& medium_types();
 
 }  // namespace kaustik

@@ -6,8 +6,12 @@
 namespace kaustik {
 
 MediumType homogeneous_type();
+MediumType heterogeneous_type();
 
 PhaseFunctionType isotropic_type();
 PhaseFunctionType henyey_greenstein_type();
+PhaseFunctionType rayleigh_type();
+PhaseFunctionType blendphase_type();
+PhaseFunctionType tabphase_type();
 
 }  // namespace kaustik

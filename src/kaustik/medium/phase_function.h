@@ -26,12 +26,29 @@ std::shared_ptr<const PhaseFunction> isotropic_phase_function();
 /// directions of travel; `g` in (−1, 1) is the mean cosine, above zero light goes on forward.
 std::shared_ptr<const PhaseFunction> henyey_greenstein_phase_function(float g);
 
+/// Rayleigh's of particles far smaller than the wavelength: 3 (1 + cos²θ)/(16π).
+std::shared_ptr<const PhaseFunction> rayleigh_phase_function();
+/// (1 − weight) times the first and weight, in [0, 1], times the second.
+std::shared_ptr<const PhaseFunction> blended_phase_function(
+    std::shared_ptr<const PhaseFunction> first, std::shared_ptr<const PhaseFunction> second,
+    float weight);
+/// Proportional to `values`, at least two, finite, none negative and not all zero, at equally
+/// spaced cosines from −1 (backward) to 1 (forward), and linear between them.
+std::shared_ptr<const PhaseFunction> tabulated_phase_function(const std::vector<double>& values);
+
+/// What create() of a phase function gets beside its arguments, built already.
+struct PhaseFunctionInputs {
+  const Arguments& arguments;
+  std::vector<std::shared_ptr<const PhaseFunction>> nested = {};  ///< as many as the type takes
+};
+
 struct PhaseFunctionType {
   const TypeInfo& info;
   /// Throws Error(input) for arguments that make none.
-  std::shared_ptr<const PhaseFunction> (*create)(const Arguments&);
+  std::shared_ptr<const PhaseFunction> (*create)(const PhaseFunctionInputs&);
+  size_t nested = 0;  ///< phase functions that it holds
 };
-/// "isotropic", "hg".
+/// "isotropic", "hg", "rayleigh", "blendphase", "tabphase".
 const std::vector<PhaseFunctionType>& phase_function_types();
 
 }  // namespace kaustik

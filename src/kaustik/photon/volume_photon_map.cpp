@@ -1,6 +1,7 @@
 #include "kaustik/photon/volume_photon_map.h"
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/medium/segment_transmittance.h"
 #include "kaustik/photon/kd_tree/kd_tree.h"
 #include "kaustik/photon/volume_sight.h"
 
@@ -62,16 +63,15 @@ Spectrum VolumePhotonMap::radiance(const Ray& ray, float length, const Medium& m
                                    const Work& work) const {
   Spectrum sum;
   const auto parts = work.scratch.list<VolumePart>();
+  SegmentTransmittance left(medium, {ray.origin, ray.direction, length}, wavelengths, sampler,
+                            work.scratch);
   discs_.visit_met(ray, length, [&](size_t i, float along, float distance_sq) {
     const VolumePhoton& photon = photons_[i];
     if (photon.medium != &medium) return;
     const float radius_sq = sqr(photon.radius);
     const float kernel = 3 * inv_pi * sqr(1 - distance_sq / radius_sq) / radius_sq;
     const float phase = medium.phase().eval(photon.direction.unpack(), -ray.direction);
-    const Spectrum light =
-        photon.flux *
-        medium.transmittance({ray.origin, ray.direction, along}, wavelengths, sampler) *
-        (kernel * phase);
+    const Spectrum light = photon.flux * left.to(along) * (kernel * phase);
     sum += light;
     if (scene_) parts->push_back({i, ray.origin + ray.direction * along, light});
   });

@@ -8,6 +8,7 @@
 #include "kaustik/light/light.h"
 #include "kaustik/material/bsdf.h"
 #include "kaustik/material/texture.h"
+#include "kaustik/volume/volume.h"
 
 namespace kaustik {
 
@@ -17,6 +18,7 @@ struct BuildCounts {
   int pictures = 0;  ///< read, of textures and lights
   int textures = 0;
   int bsdfs = 0;
+  int volumes = 0;
   int lights = 0;            ///< without their tables
   int light_tables = 0;      ///< of pictures around the scene
   int group_structures = 0;  ///< for rays, of shape groups
@@ -46,6 +48,7 @@ struct BuiltParts {
   ByKey<std::shared_ptr<const Shape>> shapes;
   ByKey<MadeTexture> textures;
   ByKey<std::shared_ptr<const Bsdf>> bsdfs;
+  ByKey<std::shared_ptr<const Volume>> volumes;
   ByKey<MadeLight> lights;
   uint64_t sensor = 0;  ///< the key of the camera with its film
 };

@@ -22,7 +22,8 @@ struct Child {
 
 struct Object {
   std::string family;  ///< "scene", "shape", "bsdf", "emitter", "sensor", "film", "rfilter",
-                       ///< "sampler", "integrator", "texture", "medium", "phase"
+                       ///< "sampler", "integrator", "texture", "medium", "phase",
+                       ///< "volume"
   std::string type;    ///< "obj", "diffuse", …; "" for the scene itself
   std::string id;      ///< "" if it has none
   std::vector<Property> properties;

@@ -28,7 +28,7 @@ bool shines(const Object& object) {
 /// Only there for others to refer to, which have it already.
 bool is_definition(const Object& object) {
   return object.family == "bsdf" || object.family == "texture" || object.family == "medium" ||
-         is_shape(object, "shapegroup");
+         object.family == "volume" || is_shape(object, "shapegroup");
 }
 bool is_of_whole_picture(const Object& object) {
   return object.family == "sensor" || object.family == "integrator";

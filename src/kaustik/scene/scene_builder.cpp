@@ -106,16 +106,15 @@ void check_size(const Shape& shape, const Place& place) {
       fmt::format("let its sizes, scaled by to_world, be at least {:g} m", smallest_length), place);
 }
 
-/// Where an object names its file or gives its buffer; without one its own place.
-Place source_place(const Arguments& arguments) {
+}  // namespace
+
+Place SceneBuilder::source_place(const Arguments& arguments) {
   for (const Parameter& row : arguments.info().parameters)
     if ((row.kind == ParameterKind::file || row.kind == ParameterKind::array) &&
         arguments.given(row.name))
       return arguments.place_of(row.name);
   return arguments.place();
 }
-
-}  // namespace
 
 void SceneBuilder::collecting(const Place& place, const std::function<void()>& body) {
   try {
@@ -261,7 +260,8 @@ void SceneBuilder::add_top_level(const Object& object) {
     if (!is_for_shapes(object)) pending_lights_.push_back({&object, nullptr, -1});
   } else if (object.family == "sensor") {
     add_sensor(object, -1);
-  } else if (object.family == "bsdf" || object.family == "texture" || object.family == "medium") {
+  } else if (object.family == "bsdf" || object.family == "texture" || object.family == "medium" ||
+             object.family == "volume") {
     // Checked where it is used, and here so that a mistake in an unused one is told as well.
     const auto alias =
         std::shared_ptr<Object>(std::shared_ptr<Object>(), const_cast<Object*>(&object));
@@ -269,6 +269,8 @@ void SceneBuilder::add_top_level(const Object& object) {
       make_bsdf(alias, nullptr);
     else if (object.family == "medium")
       make_medium(alias);
+    else if (object.family == "volume")
+      make_volume(alias);
     else if (spectrum_type_of(object))
       value_of_spectrum(object);
     else if (const auto& texture = texture_within(alias); is_foreign(*texture, texture_names()))
@@ -417,7 +419,14 @@ void SceneBuilder::add_instance(const Object& object) {
   const uint32_t group = group_index(object.children[0].object);
   instances_.push_back({group, to_world});
   Bounds3f bounds;
-  for (const BuiltShape& built : groups_[group]) bounds.extendBy(built.shape->bounds());
+  for (const BuiltShape& built : groups_[group]) {
+    bounds.extendBy(built.shape->bounds());
+    for (const auto& medium : {built.surface.interior, built.surface.exterior})
+      if (medium && medium->has_place() && remarks_reported_.insert("media of instances").second)
+        warnings_.push_back(
+            fmt::format("the medium of '{}' lies where its volumes do: instances do not move it",
+                        built.surface.name));
+  }
   collecting(arguments.place_of("to_world"), [&] {
     check_extent(to_world.bounds(bounds), "the instance", arguments.place_of("to_world"));
   });

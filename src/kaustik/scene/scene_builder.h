@@ -69,7 +69,11 @@ class SceneBuilder {
   std::optional<Textures> textures_of(const Object& object, const TypeInfo& info,
                                       const BuiltShape* on);
   std::shared_ptr<const Medium> make_medium(const std::shared_ptr<Object>& object);
-  std::shared_ptr<const PhaseFunction> make_phase_function(const Object& object);
+  std::shared_ptr<const PhaseFunction> make_phase_function(const Object& object, int level = 0);
+  std::shared_ptr<const Volume> make_volume(const std::shared_ptr<Object>& object);
+  using Volumes = std::map<std::string, MediumInputs::GivenVolume, std::less<>>;
+  /// The volumes in an object, by the parameters that they stand for; none if one is wrong.
+  std::optional<Volumes> volumes_of(const Object& object, const TypeInfo& info);
   /// The one medium among the children of a sensor or an emitter; null if there is none.
   std::shared_ptr<const Medium> medium_of(const Object& object);
   /// The surface's interior and exterior.
@@ -90,14 +94,16 @@ class SceneBuilder {
   /// Reads the files of all shapes side by side, for shape_of(); what is wrong with them is told
   /// there.
   void read_meshes(const Object& scene);
-  /// Makes what the description of a shape, a texture or a bsdf says, or finds it in the scene
-  /// before. Throws Error.
+  /// Makes what the description of a shape, a texture, a bsdf or a volume says, or finds it in the
+  /// scene before. Throws Error.
   std::shared_ptr<const Shape> shape_of(const Object& object, const ShapeType& type,
                                         const Arguments& arguments);
   std::shared_ptr<const Texture> texture_of(const Object& object, const TextureType& type,
                                             const TextureInputs& inputs, const BuiltShape* on);
   std::shared_ptr<const Bsdf> bsdf_of(const Object& object, const BsdfType& type,
                                       const BsdfInputs& inputs, const BuiltShape* on);
+  std::shared_ptr<const Volume> volume_of(const Object& object, const VolumeType& type,
+                                          const Arguments& arguments);
   /// Of the texture in an emitter, of which no type takes more than one; null: it has none.
   std::shared_ptr<const EmissionPattern> emission_pattern_of(const LightType& type,
                                                              const PendingLight& pending,
@@ -142,6 +148,8 @@ class SceneBuilder {
   /// Runs `body` and turns what it throws into problems; those without a place get `place`, those
   /// in another file tell that it was named there.
   void collecting(const Place& place, const std::function<void()>& body);
+  /// Where an object names its file or gives its buffer; without one its own place.
+  static Place source_place(const Arguments& arguments);
 
   /// Of the scene before; empty where there is none.
   const BuiltParts& before() const;
@@ -175,6 +183,7 @@ class SceneBuilder {
   std::vector<std::shared_ptr<const Object>> bordering_;  ///< bsdfs of parts of bodies
   std::vector<std::shared_ptr<const Object>> stand_ins_;  ///< for what the scene lacks
   std::map<const Object*, std::optional<Value>> spectra_;
+  std::map<const Object*, std::shared_ptr<const Volume>> volumes_;
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const Medium>> light_media_;
   std::vector<bool> hidden_lights_;

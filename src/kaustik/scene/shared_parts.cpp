@@ -117,6 +117,20 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_of(const Object& object, const Bs
   return bsdf;
 }
 
+std::shared_ptr<const Volume> SceneBuilder::volume_of(const Object& object, const VolumeType& type,
+                                                      const Arguments& arguments) {
+  const uint64_t key = keys_.whole(object);
+  std::shared_ptr<const Volume> volume;
+  if (const auto* known = find_part(before().volumes, key)) {
+    volume = *known;
+  } else {
+    volume = type.create(arguments);
+    ++counts_.volumes;
+  }
+  built_.volumes.emplace(key, volume);
+  return volume;
+}
+
 void SceneBuilder::make_light(const LightType& type, const PendingLight& pending,
                               const Arguments& arguments) {
   const std::shared_ptr<const EmissionPattern> pattern =

@@ -23,6 +23,7 @@ TypeTables all_of_scenes() {
   types.add_rows(light_types());
   types.add_rows(medium_types());
   types.add_rows(phase_function_types());
+  types.add_rows(volume_types());
   types.add_rows(camera_types());
   types.add(batch_info());
   types.add_rows(film_types());

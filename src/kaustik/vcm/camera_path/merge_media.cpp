@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kaustik/medium/segment_transmittance.h"
 #include "kaustik/photon/volume_sight.h"
 
 namespace kaustik {
@@ -53,6 +54,8 @@ Spectrum MediumMerging::radiance(const Ray& ray, float length, const Medium& med
   path->emplace_back();
   PathHalves halves = vertices_.halves();
   halves.camera = *path;
+  SegmentTransmittance left(medium, {ray.origin, ray.direction, merging}, wavelengths, sampler,
+                            work.scratch);
   in_.light.in_media.discs.visit_met(ray, merging, [&](size_t i, float along, float distance_sq) {
     const MergeableMediumVertex& light = in_.light.in_media.data[i];
     if (!light.medium->is_like(medium) || events + int(light.before) > in_.maximum_events) return;
@@ -64,10 +67,7 @@ Spectrum MediumMerging::radiance(const Ray& ray, float length, const Medium& med
     const float weight = merge_weight(in_, halves, light, phase, phase_function.eval(wi, wo));
     const float kernel = 2 * inv_pi * (1 - distance_sq / radius_sq) / radius_sq;
     parts->push_back(
-        {i, position,
-         light.flux.spectrum() *
-             medium.transmittance({ray.origin, ray.direction, along}, wavelengths, sampler) *
-             (kernel * phase * weight / count)});
+        {i, position, light.flux.spectrum() * left.to(along) * (kernel * phase * weight / count)});
     sum += parts->back().light;
   });
   if (!in_.visibility || sum.is_zero()) return sum;

@@ -28,9 +28,8 @@ float MediumDisks::radius(const Vec3f& position, const Medium& medium) const {
 }
 
 float MediumDisks::merge_volume(const Vec3f& position, const Medium& medium) const {
-  const float extinction = medium.mean_extinction(position);
-  const float collision_chance = -std::expm1(-extinction * mean_length_);
-  return pi * sqr(radius(position, medium)) / (extinction * collision_chance);
+  const float collision_chance = -std::expm1(-medium.typical_extinction() * mean_length_);
+  return pi * sqr(radius(position, medium)) / (medium.mean_extinction(position) * collision_chance);
 }
 
 void MediumDisks::write(ByteWriter& writer) const {

@@ -1,0 +1,130 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "kaustik/base/transform.h"
+#include "kaustik/volume/line_knot.h"
+#include "kaustik/volume/volume_samples.h"
+
+namespace kaustik {
+
+/// Samples in the middles of the equal cells of a box, and what is between them. Immutable,
+/// thread-safe.
+///
+/// Samples are kept in bricks of 8³ cells; a brick whose samples are all alike is one number, so
+/// what is empty costs little to keep and to cross. Along a straight line the value within a cell
+/// is a polynomial of degree 3, whose integral has a closed form: integrals along lines have no
+/// error but rounding.
+class GridVolume {
+ public:
+  enum class Filter { nearest, trilinear };
+  /// What lies outside of the box, and beyond the middles of the outermost cells.
+  enum class Wrap { clamp, repeat, mirror };
+
+  /// `world_from_unit`, affine, takes the cube [0, 1]³ to the box.
+  GridVolume(const VolumeSamples& samples, Filter filter, Wrap wrap,
+             const Transform& world_from_unit);
+
+  /// Numbers that a grid of so many samples may have to keep: more than there are, for bricks share
+  /// those on their faces.
+  static double most_kept_values(const VolumeSamples& samples, Filter filter);
+
+  int channels() const { return channels_; }
+  /// Of all samples and channels.
+  float least() const { return least_; }
+  float largest() const { return largest_; }
+  /// Of the samples of a channel.
+  float mean(int channel) const { return means_[size_t(channel)]; }
+  /// The shortest edge of a cell, m.
+  float cell_size() const { return cell_size_; }
+
+  /// Anywhere in the world, as the box is continued there.
+  float value(const Vec3f& position, int channel) const;
+
+  // The first channel of what lies in the box, and zero outside; of grids of one channel.
+  float inside(const Vec3f& position) const;
+  /// Integral over origin + t direction, `from` ≤ t ≤ `to` (may be infinite); where it exceeds
+  /// `enough`, something above that.
+  float integral(const Vec3f& origin, const Vec3f& direction, float from, float to,
+                 float enough = infinity) const;
+  struct Reach {
+    bool is_reached = false;
+    float distance = 0;  ///< t, if it is
+    float integral = 0;  ///< of the whole line, if it is not
+  };
+  /// Where the integral from t = 0 on comes to `target` ≥ 0, for values that are nowhere negative;
+  /// if it exceeds that before t = `to`.
+  Reach reach(const Vec3f& origin, const Vec3f& direction, float to, float target) const;
+  /// The integrals from t = 0 to where the line leaves cells, ascending.
+  void measure(const Vec3f& origin, const Vec3f& direction, float to,
+               std::vector<LineKnot>& knots) const;
+
+  struct Separated;
+  /// Of three channels that are everywhere one number times one colour: these two. Nothing if they
+  /// are not.
+  std::optional<Separated> separated() const;
+
+ private:
+  static constexpr int brick_shift = 3, brick_size = 1 << brick_shift;
+  static constexpr uint32_t uniform = 0xffffffff;
+
+  struct Brick {
+    uint32_t block = uniform;  ///< of samples; or else
+    float value = 0;           ///< of all of them
+  };
+  /// The part of a line in the box, in cells; t counts from `begin` on.
+  struct Line {
+    float at[3], along[3], inverse[3];  ///< where it begins, its direction, and one over that
+    float begin, length;
+  };
+  /// The part of that in one cell or in a uniform brick.
+  struct Piece {
+    float begin, end, integral;
+  };
+
+  void fill_brick(const VolumeSamples& samples, Wrap wrap, const std::array<int, 3>& brick,
+                  std::vector<float>& block) const;
+  /// Of channels that lie together.
+  size_t block_values() const {
+    return size_t(sides_[0]) * size_t(sides_[1]) * size_t(sides_[2]) * size_t(channels_);
+  }
+  size_t brick_index(int x, int y, int z) const {
+    return (size_t(z) * size_t(bricks_along_[1]) + size_t(y)) * size_t(bricks_along_[0]) +
+           size_t(x);
+  }
+  double in_cells(const Vec3f& position, int axis) const {
+    const auto& row = cells_from_world_[size_t(axis)];
+    return row[0] * double(position.x) + row[1] * double(position.y) + row[2] * double(position.z) +
+           row[3];
+  }
+  float wrapped(double at, int axis) const;
+  float value_in_cells(const std::array<float, 3>& at, int channel) const;
+  std::optional<Line> line_in_box(const Vec3f& origin, const Vec3f& direction, float from,
+                                  float to) const;
+  template <bool trilinear, typename Step>
+  void walk(const Line& line, const Step& step) const;
+  template <typename Step>
+  void walk(const Line& line, const Step& step) const;
+
+  Filter filter_;
+  Wrap wrap_;
+  int channels_;
+  std::array<int, 3> sides_{};  ///< samples along the edges of a block
+  std::array<int, 3> size_{};   ///< samples
+  std::array<int, 3> cells_{};  ///< between samples, those beyond the outermost included
+  std::array<int, 3> bricks_along_{};
+  /// Row by row: from the world to where cell i is from i to i + 1.
+  std::array<std::array<double, 4>, 3> cells_from_world_{};
+  float margin_ = 0;  ///< how far within the cells the box begins
+  std::vector<Brick> bricks_;
+  std::vector<float> values_;  ///< block by block, x fastest, channels of a place together
+  float least_ = 0, largest_ = 0, cell_size_ = 0;
+  std::vector<float> means_;
+};
+
+struct GridVolume::Separated {
+  GridVolume density;  ///< of one channel
+  Vec3f color;         ///< of linear Rec. 709, its largest channel 1
+};
+
+}  // namespace kaustik
