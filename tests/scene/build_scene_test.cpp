@@ -264,6 +264,8 @@ TEST(BuildScene, LightsThatCannotShine) {
 TEST(BuildScene, MistakesInUnusedObjectsAreToldToo) {
   expect_problem(camera + sphere + "\n<bsdf type=\"difuse\"/>", "3:1", "unknown bsdf type",
                  "did you mean 'diffuse'?");
+  expect_problem(camera + sphere + "\n<bsdf type=\"hair\"/>", "3:1", "bsdf 'hair' is not here yet",
+                 "use 'principled'");
   expect_problem(camera + sphere + "\n<texture type=\"bitmp\"/>", "3:1", "unknown texture type",
                  "did you mean 'bitmap'?");
 }

@@ -190,6 +190,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   read_parts(element.node, unfinished, source);
   --depth_;
   upgrade_texture_placement(object, source.version, problems_);
+  upgrade_conductor(object, source.version);
   return unfinished.object;
 }
 

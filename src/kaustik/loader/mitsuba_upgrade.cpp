@@ -78,6 +78,19 @@ std::string upgraded_tag(const std::string& tag, Version version) {
   return tag;
 }
 
+void upgrade_conductor(Object& object, Version version) {
+  if (version >= first_with_snake_case || object.family != "bsdf") return;
+  if (object.type != "conductor" && object.type != "roughconductor") return;
+  const auto tells_metal = [](const auto& part) {
+    return part.name == "material" || part.name == "eta" || part.name == "k" ||
+           part.name == "reflectance";
+  };
+  if (std::any_of(object.properties.begin(), object.properties.end(), tells_metal) ||
+      std::any_of(object.children.begin(), object.children.end(), tells_metal))
+    return;
+  object.properties.push_back({"material", std::string("cu"), object.place});
+}
+
 void upgrade_texture_placement(Object& object, Version version, Problems& problems) {
   if (version >= first_with_snake_case) return;
   Vec3d offset(0, 0, 0), scale(1, 1, 1);

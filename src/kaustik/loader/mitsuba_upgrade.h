@@ -25,6 +25,9 @@ std::string upgraded_name(const std::string& name, const std::string& object_typ
 /// The present name of a tag.
 std::string upgraded_tag(const std::string& tag, Version version);
 
+/// Before version 2 a conductor without material, eta and k was of copper.
+void upgrade_conductor(Object& object, Version version);
+
 /// Turns uoffset, voffset, uscale and vscale of a texture into `to_uv`.
 void upgrade_texture_placement(Object& object, Version version, Problems& problems);
 

@@ -355,7 +355,11 @@ std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object
 std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
   const BsdfType* type = find_row(bsdf_types(), object.type);
   if (!type) {
-    unknown_type(object, names_of(bsdf_types()));
+    if (const std::string_view remedy = remedy_for_bsdf_to_come(object.type); !remedy.empty())
+      problems_.add(fmt::format("bsdf '{}' is not here yet", object.type), std::string(remedy),
+                    object.place);
+    else
+      unknown_type(object, names_of(bsdf_types()));
     return nullptr;
   }
   refuse_children(object, {"bsdf", "texture"});
@@ -379,8 +383,13 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
     if (found != textures->end()) return found->second;
     return constant_texture_of(arguments, name);
   };
+  const auto warn = [&](const std::string& message) {
+    if (remarks_reported_.insert(message).second) warnings_.push_back(message);
+  };
   std::shared_ptr<const Bsdf> bsdf;
-  collecting(object.place, [&] { bsdf = bsdf_of(object, *type, {arguments, nested, texture}); });
+  collecting(object.place, [&] {
+    bsdf = bsdf_of(object, *type, {arguments, nested, texture, warn});
+  });
   if (bsdf && bsdf->traits().size > maximum_bsdf_size) {
     problems_.add(fmt::format("bsdf '{}' nests {} bsdfs, each counted for every place it is used "
                               "in: rendering it would take too long",
