@@ -13,7 +13,7 @@ bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--
 comma = ,
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references install package docs format clean
+.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery install package docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -69,6 +69,10 @@ ablation: configure
 # What the constants of the methods are worth, into docs/sensitivity.md: an hour.
 sensitivity: setup
 	scripts/worth.py constants $(if $(SEEDS),--seeds $(SEEDS)) --page docs/sensitivity.md
+
+# A picture of every material, light, camera, texture, volume, shape, into docs/gallery.md: ten minutes.
+gallery: build
+	scripts/make_gallery.py --program $(program)
 
 # Beside Blender Cycles and POV-Ray at equal time; fails unless every bar is kept:
 # make bench-peers TIME=60 SCENES=metal_ring INTEGRATOR=vcm

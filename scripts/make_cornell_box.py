@@ -57,7 +57,8 @@ def write_meshes():
 
 
 def spectrum(name, values, indent):
-    """A <spectrum> with ten samples per line."""
+    """A <spectrum> with ten samples per line. Where nothing was measured the nearest value stands."""
+    values = [("360", values[0][1]), *values, ("830", values[-1][1])]
     pairs = [f"{nm}:{value}" for nm, value in values]
     lines = [", ".join(pairs[i:i + 10]) for i in range(0, len(pairs), 10)]
     separator = ",\n" + " " * (indent + 2)

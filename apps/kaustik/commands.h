@@ -17,6 +17,7 @@ void add_resume(CLI::App& program);
 void add_learn(CLI::App& program);
 void add_merge(CLI::App& program);
 void add_stitch(CLI::App& program);
+void add_convert(CLI::App& program);
 void add_help(CLI::App& program);
 
 // What an option's text says; throw Error(input) with the option as the place.

@@ -69,6 +69,7 @@ int run(int argc, char** argv) {
   kaustik::app::add_learn(program);
   kaustik::app::add_merge(program);
   kaustik::app::add_stitch(program);
+  kaustik::app::add_convert(program);
   kaustik::app::add_help(program);
   if (argc > 1) check_command(argv[1], program);
   try {

@@ -40,6 +40,15 @@ std::vector<float> block_luminances(const Image& image, const std::string& compo
   return means;
 }
 
+std::string layer_of(const std::string& component) {
+  return component == whole_picture ? "" : component;
+}
+
+std::string scene_file(const std::string& scene) {
+  const std::string root = std::string(KAUSTIK_SOURCE_DIR) + "/";
+  return root + (scene.ends_with(".xml") ? scene : "scenes/" + scene + "/" + scene + ".xml");
+}
+
 std::vector<std::string> split(const std::string& list) {
   std::vector<std::string> parts;
   std::istringstream stream(list);
@@ -56,12 +65,12 @@ std::string channel_name(const std::string& component, int replicate) {
 }  // namespace
 
 Rendered render_replicates(const BlockRender& render) {
-  Description description = load_scene(std::string(KAUSTIK_SOURCE_DIR) + "/scenes/" + render.scene +
-                                       "/" + render.scene + ".xml");
+  Description description = load_scene(scene_file(render.scene));
   override_integrator(description, render.integrator);
   override_property(description, "film.width=" + std::to_string(render.size));
   override_property(description, "film.height=" + std::to_string(render.size));
-  override_property(description, "integrator.components=" + render.components);
+  if (render.components != whole_picture)
+    override_property(description, "integrator.components=" + render.components);
   if (!render.setting.empty()) override_property(description, render.setting);
   const auto scene = build_scene(description);
   if (render.radius_share > 0)
@@ -81,8 +90,8 @@ Rendered render_replicates(const BlockRender& render) {
     session.run();
     const Image image = session.image();
     for (const std::string& component : split(render.components)) {
-      found.blocks[component].push_back(block_luminances(image, component));
-      found.pixels[component].push_back(pixel_luminances(image, component));
+      found.blocks[component].push_back(block_luminances(image, layer_of(component)));
+      found.pixels[component].push_back(pixel_luminances(image, layer_of(component)));
     }
     if (integrator->traits().estimates_bias)
       found.blocks[bias_layer].push_back(block_luminances(image, bias_layer));

@@ -22,16 +22,19 @@ using Components = std::map<std::string, Replicates>;
 /// What is rendered `replicate_total` times, each with a seed of its own: a function of these
 /// numbers alone.
 struct BlockRender {
-  std::string scene;  ///< of scenes/
+  std::string scene;  ///< of scenes/, or a file such as "docs/gallery/bsdf_phong.xml"
   int size = 256;     ///< pixels; a multiple of `block_pixels`
   std::string integrator;
-  std::string components;            ///< "direct,caustic"
+  std::string components;            ///< "direct,caustic"; `whole_picture`: all of them as one
   std::string setting;               ///< one property besides, "integrator.aim=none"; or ""
   uint32_t passes = 1, samples = 1;  ///< of each render; samples per pixel and pass
   uint64_t first_seed = 1;
   /// Radius of merging as a share of the scene's bounding sphere; 0: the method's own.
   double radius_share = 0;
 };
+
+/// A component that is the sum of all.
+inline constexpr const char* whole_picture = "picture";
 
 /// The layer of what an integrator tells of its own bias, beside the components.
 inline constexpr const char* bias_layer = "bias";

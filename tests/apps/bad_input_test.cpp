@@ -191,8 +191,6 @@ TEST_F(BadInput, MessagesInMeshesSayWhoNamedThem) {
 TEST_F(BadInput, EmptyScenesAndMissingCameras) {
   write("scene.xml", "<scene version=\"3.0.0\"/>");
   expect_refused("scene.xml:1:1", "the scene has no camera", "add a sensor");
-  write("scene.xml", scene_with({"", false, true, true}));
-  expect_refused("scene.xml:1:1", "the scene has no camera", "add a sensor");
   write("scene.xml", scene_with({R"(<sensor type="perspective" id="side"/>)", true, true, true}));
   const RunResult result = run({"render", "scene.xml", "--camera", "sied", "-o", "a.exr"});
   EXPECT_EQ(result.exit_code, 2);

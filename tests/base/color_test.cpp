@@ -49,7 +49,7 @@ TEST(color, primaries_of_rec_709) {
 
 TEST(color, constant_reflectance_is_grey) {
   for (const double value : {0.0, 0.18, 1.0}) {
-    const Rgb c = rgb_from_reflectance({{{400, value}, {700, value}}});
+    const Rgb c = rgb_from_reflectance({{{360, value}, {830, value}}});
     EXPECT_NEAR(c.r, value, 1e-12);
     EXPECT_NEAR(c.g, value, 1e-12);
     EXPECT_NEAR(c.b, value, 1e-12);
@@ -57,11 +57,11 @@ TEST(color, constant_reflectance_is_grey) {
 }
 
 TEST(color, reflectance_of_one_end_has_its_colour_and_no_negative_lane) {
-  const Rgb red = rgb_from_reflectance({{{600, 0}, {601, 1}}});
+  const Rgb red = rgb_from_reflectance({{{600, 0}, {601, 1}, {830, 1}}});
   EXPECT_GT(red.r, 0.5);
   EXPECT_EQ(red.g, 0);
   EXPECT_GE(red.b, 0);
-  const Rgb blue = rgb_from_reflectance({{{490, 1}, {491, 0}}});
+  const Rgb blue = rgb_from_reflectance({{{360, 1}, {490, 1}, {491, 0}}});
   EXPECT_GT(blue.b, 0.7);
   EXPECT_LT(blue.g, 0.2);
   EXPECT_EQ(blue.r, 0);
@@ -77,12 +77,23 @@ TEST(color, reflectances_add) {
 }
 
 TEST(color, constant_emission_keeps_its_luminance) {
-  const Rgb c = rgb_from_emission({{{500, 7}}});
+  const Rgb c = rgb_from_emission({{{360, 7}, {830, 7}}});
   EXPECT_NEAR(0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b, 7, 1e-5);
   // Equal energy is redder than D65.
   EXPECT_NEAR(c.r / 7, 1.2048, 2e-3);
   EXPECT_NEAR(c.g / 7, 0.9483, 2e-3);
   EXPECT_NEAR(c.b / 7, 0.9089, 2e-3);
+}
+
+TEST(color, curves_are_zero_beyond_their_ends) {
+  // As if their ends fell to zero within a thousandth of a nanometre.
+  const SpectralCurve part{{{450, 2}, {650, 3}}};
+  const SpectralCurve whole{{{360, 0}, {449.999, 0}, {450, 2}, {650, 3}, {650.001, 0}, {830, 0}}};
+  const Rgb seen = rgb_from_reflectance(part), emitted = rgb_from_emission(part);
+  EXPECT_EQ(seen, rgb_from_reflectance(whole));
+  EXPECT_EQ(emitted, rgb_from_emission(whole));
+  const SpectralCurve held{{{360, 2}, {450, 2}, {650, 3}, {830, 3}}};
+  EXPECT_GT(rgb_from_emission(held).r, 1.01 * emitted.r);
 }
 
 TEST(color, becomes_a_spectrum_without_a_fourth_lane) {

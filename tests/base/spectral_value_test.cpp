@@ -28,8 +28,27 @@ TEST(spectral_value, rgb_mode_gives_the_lanes_that_were_computed_once) {
   EXPECT_EQ(SpectralValue::reflectance(c).rgb(), SpectralValue::reflectance(c).at({}));
 }
 
-TEST(spectral_value, a_ramp_is_linear_between_its_samples_and_constant_outside) {
-  const SpectralValue ramp = SpectralValue::reflectance(SpectralCurve{{{450, 1}, {650, 3}}});
+TEST(spectral_value, light_and_reflectances_are_zero_beyond_the_ends_of_their_curves) {
+  const SpectralCurve curve{{{450, 1}, {650, 3}}};
+  for (const SpectralValue& ramp :
+       {SpectralValue::reflectance(curve), SpectralValue::emission(curve)}) {
+    const Spectrum lanes = ramp.at(four);
+    EXPECT_EQ(lanes[0], 0);
+    EXPECT_FLOAT_EQ(lanes[1], 1.505f);
+    EXPECT_FLOAT_EQ(lanes[2], 2.5f);
+    EXPECT_EQ(lanes[3], 0);
+  }
+}
+
+TEST(spectral_value, constants_of_matter_stay_beyond_the_ends) {
+  const SpectralCurve curve{{{450, 1}, {650, 3}}};
+  const SpectralValue ramp = SpectralValue::material_constant(curve);
+  EXPECT_EQ(
+      ramp.rgb(),
+      SpectralValue::reflectance(SpectralCurve{{{360, 1}, {450, 1}, {650, 3}, {830, 3}}}).rgb());
+  // What is no curve is the same as of something that reflects.
+  EXPECT_EQ(SpectralValue::material_constant(Rgb{0.2, 0.5, 0.7}).at(four),
+            SpectralValue::reflectance(Rgb{0.2, 0.5, 0.7}).at(four));
   EXPECT_FALSE(ramp.is_constant());
   const Spectrum lanes = ramp.at(four);
   EXPECT_FLOAT_EQ(lanes[0], 1);

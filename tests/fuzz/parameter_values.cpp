@@ -110,6 +110,9 @@ std::string ParameterValues::file(const TypeInfo& info) {
 std::string ParameterValues::text(const TypeInfo& info, const Parameter& parameter) {
   if (parameter.name == "components")
     return draw_.one_of({"all", "direct", "emission,caustic", "indirect,specular,volume"});
+  if (parameter.name == "wavelengths" || parameter.name == "values")
+    return is_wild() ? draw_.one_of({"1", "400, 400", "", "1e-30 1e30 nan", "-1, 1e300"})
+                     : draw_.one_of({"0.1, 0.5", "300, 500"});
   if (parameter.name == "focal_length")
     return is_wild() ? draw_.one_of({"0mm", "1e-30mm", "1e30mm", "mm"}) : "35mm";
   if (parameter.kind == ParameterKind::file) return file(info);

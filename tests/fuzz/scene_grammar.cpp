@@ -8,6 +8,7 @@
 #include "kaustik/base/vec.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/scene/camera.h"
+#include "kaustik/scene/spectrum_types.h"
 #include "tests/fuzz/parameter_values.h"
 #include "tests/support/serialized_file.h"
 
@@ -107,6 +108,8 @@ class Grammar {
       if (!p.required && !only_texture && !costly && !needed && !draw_.chance(0.3)) continue;
       if (p.accepts_texture && (only_texture || draw_.chance(0.3)))
         result += texture(p.name);
+      else if (p.kind == ParameterKind::color && draw_.chance(0.1))
+        result += spectrum(p.name);
       else
         result += values_.property(info, p);
     }
@@ -115,6 +118,11 @@ class Grammar {
 
   std::string texture(const std::string& name) {
     const TypeInfo& info = draw_.one_of(texture_types()).info;
+    return open(info, name) + properties(info) + close(info);
+  }
+
+  std::string spectrum(const std::string& name) {
+    const TypeInfo& info = draw_.one_of(spectrum_types()).info;
     return open(info, name) + properties(info) + close(info);
   }
 
@@ -169,9 +177,11 @@ class Grammar {
 
   std::string shape_in(const TypeInfo& info, bool shines, const std::string& placed) {
     std::string result = open(info);
-    // Few files hold many meshes.
-    const std::string index = draw_.chance(0.9) ? "shape_index" : "";
-    result += properties(info, {"to_world", index}) + placed;
+    // Few files hold many meshes, or materials of a certain name.
+    Names skips = {"to_world"};
+    for (const char* name : {"shape_index", "material"})
+      if (draw_.chance(0.9)) skips.emplace_back(name);
+    result += properties(info, skips) + placed;
     if (draw_.chance(0.9)) result += bsdf(shines ? Names{"null"} : Names{});
     if (shines) result += emitter(true);
     for (const char* side : {"interior", "exterior"})
@@ -181,7 +191,9 @@ class Grammar {
           rows_that(integrator_types(), [](const IntegratorType& type) { return type.is_model; });
       const TypeInfo& model = draw_.one_of(models)->info;
       // These are the whole picture's.
-      result += open(model) + properties(model, {"components", "samples_per_pass"}) + close(model);
+      result += open(model) +
+                properties(model, {"components", "samples_per_pass", "hide_emitters"}) +
+                close(model);
     }
     return result + close(info);
   }
@@ -232,6 +244,8 @@ class Grammar {
   std::string content() {
     std::string result = draw_.chance(0.4) ? room() : "";
     for (size_t i = 1 + draw_.below(4); i > 0; --i) result += shape(draw_.chance(0.3));
+    if (draw_.chance(0.05))
+      result += joined({"<shape type=\"merge\">", shape(false), shape(true), "</shape>\n"});
     if (groups_ > 0)
       for (size_t i = 1 + draw_.below(3); i > 0; --i) result += instance();
     for (size_t i = draw_.below(4); i > 0; --i) result += emitter(false);
@@ -323,6 +337,7 @@ void write_files(const std::string& folder) {
                          {0, 0, 1, 0, 0, 1}},
               .corners = {0, 1, 2}}},
             4));
+  write("packed.serialized", test::serialized_file({test::record_mesh()}));
   write("needle.ply", ply + "0 0 0\n1 0 0\n1 1e-20 0\n1e6 1e6 1e6\n3 0 1 2\n3 0 1 3\n");
   write_pfm(folder + "/colors.pfm", 8, 4, {0.1f, 0.5f, 0.9f, 0.3f, 0.7f});
   write_pfm(folder + "/one.pfm", 1, 1, {0.5f, 0.6f, 0.7f});

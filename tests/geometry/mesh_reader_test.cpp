@@ -227,6 +227,63 @@ TEST(ObjReader, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(error_of([] { read_obj("/nonexistent/mesh.obj"); }), "");
 }
 
+TEST(ObjReader, ReadsPartsAlone) {
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\ng one\nusemtl a b \nf 1 2 4\nf 1 3 4\n"
+      "g two\ng three\no other\nf 2 3 4\nusemtl c\nusemtl a b\nf 4 3 2\n";
+  const TemporaryFile file(text);
+  const auto triangles = [&](const ObjSelection& selection) {
+    return read_obj(file.path(), selection).mesh.triangles.size();
+  };
+  EXPECT_EQ(triangles({}), 5u);
+  EXPECT_EQ(triangles({.shape_index = 0}), 1u);
+  EXPECT_EQ(triangles({.shape_index = 1}), 2u);
+  EXPECT_EQ(triangles({.shape_index = 3}), 1u);
+  EXPECT_EQ(triangles({.material = ""}), 1u);
+  EXPECT_EQ(triangles({.material = "a b"}), 4u);
+  EXPECT_EQ(read_obj(file.path(), {.shape_index = 3}).mesh.positions[0], Vec3f(0, 0, 1));
+  const auto message = [&](const ObjSelection& selection) {
+    return error_of([&] { read_obj(file.path(), selection); });
+  };
+  EXPECT_NE(message({.shape_index = 4}).find("there is no shape 4"), std::string::npos);
+  EXPECT_NE(message({.material = "c"}).find("no face has the material 'c'"), std::string::npos);
+  const auto index_shape = [&](int64_t index) {
+    return make_shape("obj", {{"filename", file.path(), {}}, {"shape_index", index, {}}})
+        ->mesh()
+        ->triangles.size();
+  };
+  EXPECT_EQ(index_shape(-1), 5u);
+  EXPECT_EQ(index_shape(1), 2u);
+}
+
+/// More corners of one position than are looked through one after another.
+TEST(ObjReader, TellsManyCornersOfOnePositionApart) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const int corners = 100;
+  for (int i = 0; i < corners; ++i) text += "vt " + std::to_string(i) + " 0\n";
+  for (int round = 0; round < 2; ++round)
+    for (int i = 1; i <= corners; ++i) text += "f 1/" + std::to_string(i) + " 2/1 3/1\n";
+  const TriangleMesh mesh = obj(text);
+  ASSERT_EQ(mesh.positions.size(), size_t(corners) + 2);
+  for (int i = 0; i < 2 * corners; ++i)
+    EXPECT_EQ(mesh.uvs[mesh.triangles[size_t(i)][0]].x, float(i % corners));
+}
+
+/// Lines that lie on the borders of the pieces that are read.
+TEST(ObjReader, LongFilesAreReadInPieces) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string text = "v 0 0 0" + end + "v 1 0 0" + end + "v 0 1 0" + end;
+    const std::string face = "f 1 \\" + end + " 2 3" + end;
+    int faces = 0;
+    for (; text.size() < 2'500'000; ++faces) text += face;
+    text += "v 0 x 0";
+    const std::string message = error_of([&] { obj(text); });
+    EXPECT_NE(message.find(":" + std::to_string(4 + 2 * faces) + ": "), std::string::npos)
+        << message;
+    EXPECT_EQ(obj(text.substr(0, text.size() - 7)).triangles.size(), size_t(faces));
+  }
+}
+
 /// Read as it should be, whatever program wrote it.
 TEST(ObjReader, MarksLineEndsCapitalsAndContinuedLines) {
   const auto with_line_ends = [](std::string text, const std::string& end) {
@@ -282,6 +339,75 @@ TEST(PlyReader, MarksAndLineEnds) {
   std::replace(binary.begin(), binary.begin() + std::ptrdiff_t(binary.find("end_header") + 11),
                '\n', '\r');
   expect_quad(ply(binary));
+}
+
+/// A strip of triangles, packed: of many pieces that are read side by side.
+std::string packed_strip(uint32_t vertices, const std::string& index_type) {
+  std::string out = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                    std::to_string(vertices) +
+                    "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\n"
+                    "property float ny\nproperty float nz\nproperty double u\nproperty double v\n"
+                    "element face " +
+                    std::to_string(vertices - 2) + "\nproperty list uchar " + index_type +
+                    " vertex_indices\nproperty uchar flag\nend_header\n";
+  for (uint32_t i = 0; i < vertices; ++i) {
+    for (const float value : {float(i / 2), float(i % 2), 0.5f, 0.f, 0.f, 1.f})
+      put(out, value, false);
+    for (const double value : {double(i), -double(i)}) put(out, value, false);
+  }
+  for (uint32_t i = 0; i + 2 < vertices; ++i) {
+    put(out, uint8_t(3), false);
+    for (uint32_t corner = 0; corner < 3; ++corner)
+      if (index_type == "float")
+        put(out, float(i + corner), false);
+      else
+        put(out, i + corner, false);
+    put(out, uint8_t(7), false);
+  }
+  return out;
+}
+
+TEST(PlyReader, ReadsLargeMeshesPieceByPiece) {
+  const uint32_t count = 100'000;
+  for (const char* type : {"int", "float"}) {
+    const TriangleMesh mesh = ply(packed_strip(count, type));
+    ASSERT_EQ(mesh.positions.size(), count);
+    ASSERT_EQ(mesh.triangles.size(), count - 2);
+    for (uint32_t i = 0; i < count; ++i) {
+      ASSERT_EQ(mesh.positions[i], Vec3f(float(i / 2), float(i % 2), 0.5f));
+      ASSERT_EQ(mesh.normals[i], Vec3f(0, 0, 1));
+      ASSERT_EQ(mesh.uvs[i], Vec2f(float(i), -float(i)));
+    }
+    for (uint32_t i = 0; i + 2 < count; ++i)
+      ASSERT_EQ(mesh.triangles[i], (std::array<uint32_t, 3>{i, i + 1, i + 2}));
+  }
+}
+
+TEST(PlyReader, FindsTheFirstFaultOfALargeMesh) {
+  const uint32_t count = 100'000;
+  const std::string good = packed_strip(count, "int");
+  const size_t vertices = good.find("end_header\n") + 11, faces = vertices + 40 * size_t(count);
+  const auto damaged = [&](size_t at, auto value) {
+    std::string bytes = good;
+    std::memcpy(bytes.data() + at, &value, sizeof(value));
+    return bytes;
+  };
+  const auto message = [](const std::string& bytes) { return error_of([&] { ply(bytes); }); };
+  std::string twice = damaged(vertices + 40 * 70'001 + 4, std::nanf(""));
+  std::memcpy(twice.data() + vertices + 40 * 90'000, "\xff\xff\xff\xff", 4);
+  EXPECT_NE(message(twice).find("vertex 70001 is not finite"), std::string::npos);
+  EXPECT_NE(
+      message(damaged(faces + 14 * 60'000 + 1, int32_t(-5))).find("face 60000 refers to vertex -5"),
+      std::string::npos);
+  EXPECT_NE(
+      message(damaged(faces + 14 * 60'000 + 5, count)).find("face 60000 refers to vertex 100000"),
+      std::string::npos);
+  EXPECT_NE(message(good.substr(0, good.size() - 1)).find("ends too early"), std::string::npos);
+  // A polygon among the triangles: all are read one by one.
+  std::string quad = good;
+  quad.insert(faces + 14 * 50'000 + 13, std::string("\0\0\0\0", 4));
+  quad[faces + 14 * 50'000] = 4;
+  EXPECT_EQ(ply(quad).triangles.size(), count - 1);
 }
 
 TEST(PlyReader, TellsSmallFaces) {
@@ -351,6 +477,67 @@ TEST(MeshShape, NormalsFollowMitsuba) {
     EXPECT_LT(flipped->sample_area(random.square()).point.ng.z, 0);
     EXPECT_LT(flipped->sample_area(random.square()).point.ns.z, 0);
   }
+}
+
+/// A face without normals in a file that has some gets smooth ones, as Mitsuba 3 makes them.
+TEST(MeshShape, MissingNormalsAreMade) {
+  const TemporaryFile file(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nvn 0 0.6 0.8\nf 1//1 2//1 3//1\nf 2 4 3\n", "some.obj");
+  const auto shape = make_shape("obj", {{"filename", file.path(), {}}});
+  const TriangleMesh& mesh = *shape->mesh();
+  ASSERT_EQ(mesh.normals.size(), 6u);
+  for (const uint32_t corner : mesh.triangles[0])
+    EXPECT_LT(length(mesh.normals[corner] - Vec3f(0, 0.6f, 0.8f)), 1e-6f);
+  const Vec3f flat = normalize(Vec3f(-1, -1, 1));
+  for (const uint32_t corner : mesh.triangles[1])
+    EXPECT_LT(length(mesh.normals[corner] - flat), 1e-6f);
+}
+
+/// Mitsuba 0.6's maxSmoothAngle: a roof of two quads at right angles, whose corners stand twice.
+TEST(MeshShape, CreasesSplitNormals) {
+  const TemporaryFile file(
+      "v 0 0 0\nv 0 1 0\nv 1 0 1\nv 1 1 1\nv 2 0 0\nv 2 1 0\nv 1 0 1\nv 1 1 1\n"
+      "vn 1 0 0\nf 1//1 3//1 4//1 2//1\nf 7 5 6 8\n",
+      "roof.obj");
+  const auto normals_at = [&](double degrees, const Vec3f& place, const Transform& to_world) {
+    const auto shape = make_shape("obj", {{"filename", file.path(), {}},
+                                          {"max_smooth_angle", degrees, {}},
+                                          {"to_world", to_world, {}}});
+    std::vector<Vec3f> normals;
+    const TriangleMesh& mesh = *shape->mesh();
+    for (size_t i = 0; i < mesh.positions.size(); ++i)
+      if (mesh.positions[i] == to_world.point(place)) normals.push_back(mesh.normals[i]);
+    return normals;
+  };
+  const Vec3f ridge(1, 0, 1), left = normalize(Vec3f(-1, 0, 1)), right = normalize(Vec3f(1, 0, 1));
+  for (const Vec3f& n : normals_at(91, ridge, {})) EXPECT_LT(length(n - Vec3f(0, 0, 1)), 1e-6f);
+  const std::vector<Vec3f> sharp = normals_at(89, ridge, {});
+  ASSERT_EQ(sharp.size(), 2u);
+  EXPECT_LT(std::min(length(sharp[0] - left), length(sharp[1] - left)), 1e-6f);
+  EXPECT_LT(std::min(length(sharp[0] - right), length(sharp[1] - right)), 1e-6f);
+  // Within a quad there is no crease, even at 0°.
+  EXPECT_EQ(normals_at(0, {0, 0, 0}, {}).size(), 1u);
+  // The angle counts in the world.
+  EXPECT_EQ(normals_at(89, ridge, Transform::scale({1, 1, 0.5})).size(), 2u);
+  for (const Vec3f& n : normals_at(89, ridge, Transform::scale({1, 1, 0.5})))
+    EXPECT_LT(length(n - Vec3f(0, 0, 1)), 1e-6f);
+}
+
+/// A ball of many faces: the same normals as without a limit, however its vertices are shared.
+TEST(MeshShape, WithoutCreasesNormalsAreSmooth) {
+  TriangleMesh shared = make_shape("sphere")->tessellate(3);
+  shared.normals.clear();
+  TriangleMesh apart;
+  for (const auto& corners : shared.triangles) {
+    for (const uint32_t corner : corners) apart.positions.push_back(shared.positions[corner]);
+    const auto n = uint32_t(apart.positions.size());
+    apart.triangles.push_back({n - 3, n - 2, n - 1});
+  }
+  const TriangleMesh split = split_at_creases(apart, 60);
+  for (size_t i = 0; i < split.positions.size(); ++i)
+    EXPECT_GT(dot(split.normals[i], normalize(split.positions[i])), 0.999f);
+  EXPECT_EQ(split_at_creases(shared, 60).positions.size(), shared.positions.size());
+  EXPECT_EQ(split_at_creases(shared, 0).positions.size(), 3 * shared.triangles.size());
 }
 
 TEST(MeshShape, WindingFollowsVertexNormals) {

@@ -198,6 +198,32 @@ TEST(RobustOffset, FlatAnalyticAndProceduralShapes) {
     }
 }
 
+TEST(RobustOffset, UnevenSpheresAndCylinders) {
+  Random random(16);
+  for (const float scale : {1e-4f, 1.0f, 1e5f})
+    for (const double flatness : {0.5, 1e-2, 1e-4})
+      for (const char* type : {"sphere", "cylinder"}) {
+        const Transform place = placement(double(scale)) * Transform::scale({1.0, flatness, 1.5});
+        const auto shape = make_shape(type, {{"to_world", place, {}}});
+        const auto tracer = tracer_of({shape});
+        Tally tally;
+        for (int i = 0; i < trials / 10; ++i) {
+          const SurfacePoint target = shape->sample_area(random.square()).point;
+          const Vec3f from =
+              target.position + random.direction() * (scale * random.uniform(0.1f, 9));
+          SurfacePoint point;
+          if (!find_point(*tracer, from, target.position, point)) continue;
+          // From a cylinder's inside its far side is met.
+          const bool is_inside = dot(point.ng, from - point.position) < 0;
+          if (is_inside) continue;
+          leave(*tracer, point, random, max_abs(point.position), false, tally);
+        }
+        EXPECT_GT(tally.points, trials / 100) << type << ' ' << flatness;
+        EXPECT_EQ(tally.self_hits, 0) << type << ' ' << scale << ' ' << flatness;
+        EXPECT_LT(tally.largest_offset_ulps, 8) << type << ' ' << scale << ' ' << flatness;
+      }
+}
+
 TEST(RobustOffset, ShadowRaysBetweenSurfacesAreFree) {
   Random random(14);
   for (const float scale : {1e-4f, 1.0f, 1e5f})

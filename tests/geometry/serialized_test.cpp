@@ -51,13 +51,68 @@ TEST(Serialized, HoldsMeshesOfBothVersions) {
   }
 }
 
+/// Of Mitsuba's version 5, with and without what tells which vertices once were one.
+TEST(Serialized, HoldsRecords) {
+  for (const bool has_maps : {false, true}) {
+    RecordMesh mesh = record_mesh();
+    mesh.has_maps = has_maps;
+    const TemporaryFile file(
+        serialized_file({{.vertices = {1, 2, 3, 0, 0, 0, 0, 0}, .corners = {0, 0, 0}}, mesh}));
+    const MeshFile found = read_serialized(file.path(), 1);
+    EXPECT_FALSE(found.has_face_normals);
+    EXPECT_EQ(found.mesh.positions, (std::vector<Vec3f>{{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}));
+    EXPECT_EQ(found.mesh.normals, (std::vector<Vec3f>(3, {0, 0, 1})));
+    EXPECT_EQ(found.mesh.uvs, (std::vector<Vec2f>{{0, 0}, {1, 0}, {0, 1}}));
+    EXPECT_EQ(found.mesh.triangles, (std::vector<std::array<uint32_t, 3>>{{0, 1, 2}}));
+    EXPECT_TRUE(read_serialized(file.path(), 0).mesh.normals.empty());
+  }
+}
+
+/// A frame with normal n is packed into the imaginary part of its quaternion over 1 + w: of a turn
+/// by φ about an axis into the axis times tan(φ/4).
+TEST(Serialized, RecordsHoldNormalsOfFrames) {
+  RecordMesh mesh = record_mesh();
+  mesh.flags |= 2 | 0x10;
+  const double quarter = std::tan(std::numbers::pi / 8);  // of a right angle
+  const Vec3f turns[] = {{0, float(quarter), 0}, {float(quarter), 0, 0}, {0, 0, 1}};
+  for (size_t i = 0; i < 3; ++i)
+    for (int axis = 0; axis < 3; ++axis) mesh.vertices[8 * i + 3 + size_t(axis)] = turns[i][axis];
+  const TemporaryFile file(serialized_file({mesh}));
+  const MeshFile found = read_serialized(file.path(), 0);
+  EXPECT_TRUE(found.has_face_normals);
+  const Vec3f normals[] = {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
+  for (size_t i = 0; i < 3; ++i) EXPECT_LT(length(found.mesh.normals[i] - normals[i]), 1e-6f) << i;
+}
+
+TEST(Serialized, RecordsAreChecked) {
+  const auto error_in = [](const RecordMesh& mesh) { return error_of(serialized_file({mesh}), 0); };
+  RecordMesh outside = record_mesh(), not_finite = record_mesh(), doubles = record_mesh();
+  outside.corners[1] = 3;
+  EXPECT_EQ(error_in(outside), "face 0 refers to vertex 3 of 3");
+  not_finite.vertices[9] = std::nanf("");
+  EXPECT_NE(error_in(not_finite).find("not finite"), std::string::npos);
+  doubles.flags = 0x2000;
+  EXPECT_NE(error_in(doubles).find("no single floats"), std::string::npos);
+  const auto with_raw = [](const std::string& raw) {
+    return error_of(serialized_streams({raw}, 5), 0);
+  };
+  std::string promised = raw_records(record_mesh(), "");
+  promised[11] = char(0x7f);
+  EXPECT_NE(with_raw(promised).find("would grow"), std::string::npos) << with_raw(promised);
+  std::string maps = raw_records(record_mesh(), "");
+  maps[24] = 4;
+  EXPECT_EQ(with_raw(maps), "mesh 0 has 3 vertices, and 4 positions");
+  EXPECT_NE(with_raw(raw_records(record_mesh(), std::string(100000, 'x'))).find("letters"),
+            std::string::npos);
+}
+
 TEST(Serialized, TellsWhatIsWrong) {
   const std::string good = serialized_file({triangle(0), square()}, 4);
   EXPECT_EQ(error_of(good, 2), "there is no mesh 2");
   EXPECT_EQ(error_of("v 0 0 0\nf 1 2 3\n", 0), "no mesh of Mitsuba's begins at byte 0");
   std::string newer = good;
-  newer[2] = 5;
-  EXPECT_EQ(error_of(newer, 0), "the mesh has version 5, not 3 or 4");
+  newer[2] = 6;
+  EXPECT_EQ(error_of(newer, 0), "the mesh has version 6, not 3, 4 or 5");
   PackedMesh outside = triangle(0);
   outside.corners[2] = 3;
   EXPECT_EQ(error_of(serialized_file({outside}, 4), 0), "face 0 refers to vertex 3 of 3");
@@ -70,22 +125,24 @@ TEST(Serialized, TellsWhatIsWrong) {
 
 /// A mesh or an error, whatever the bytes are.
 TEST(Serialized, OfAnyBytesIsAMeshOrAnError) {
-  const std::string good = serialized_file({square(), triangle(1)}, 4);
-  for (size_t length = 0; length < good.size(); ++length)
-    EXPECT_FALSE(error_of(good.substr(0, length), 0).empty()) << length;
-  for (size_t at = 0; at < good.size(); ++at)
-    for (const char bits : {char(0x01), char(0x80), char(0xff)}) {
-      std::string flipped = good;
-      flipped[at] ^= bits;
-      const TemporaryFile file(flipped);
-      try {
-        const TriangleMesh mesh = read_serialized(file.path(), 0).mesh;
-        for (const auto& corners : mesh.triangles)
-          for (const uint32_t corner : corners) ASSERT_LT(corner, mesh.positions.size());
-      } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::input);
+  for (const std::string& good : {serialized_file({square(), triangle(1)}, 4),
+                                  serialized_file({record_mesh(), record_mesh()})}) {
+    for (size_t length = 0; length < good.size(); ++length)
+      EXPECT_FALSE(error_of(good.substr(0, length), 0).empty()) << length;
+    for (size_t at = 0; at < good.size(); ++at)
+      for (const char bits : {char(0x01), char(0x80), char(0xff)}) {
+        std::string flipped = good;
+        flipped[at] = char(flipped[at] ^ bits);
+        const TemporaryFile file(flipped);
+        try {
+          const TriangleMesh mesh = read_serialized(file.path(), 0).mesh;
+          for (const auto& corners : mesh.triangles)
+            for (const uint32_t corner : corners) ASSERT_LT(corner, mesh.positions.size());
+        } catch (const Error& error) {
+          EXPECT_EQ(error.kind(), ErrorKind::input);
+        }
       }
-    }
+  }
 }
 
 TEST(Serialized, NamesEnd) {

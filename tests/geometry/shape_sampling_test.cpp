@@ -17,12 +17,18 @@ std::vector<SamplingCase> sampling_cases() {
   const Transform uneven = placement() * Transform::scale({2.0, 0.5, 1.0});
   const auto mesh = make_shape("sphere", {{"to_world", uneven * Transform::scale({0.5, 2, 1}), {}}})
                         ->tessellate(2);
-  return {{"rectangle", make_shape("rectangle", {{"to_world", uneven, {}}})},
-          {"cube", make_shape("cube", {{"to_world", uneven, {}}})},
-          {"disk", make_shape("disk", {{"to_world", uneven, {}}})},
-          {"sphere", make_shape("sphere", {{"to_world", placement(), {}}})},
-          {"cylinder", make_shape("cylinder", {{"to_world", placement(), {}}})},
-          {"mesh", std::make_shared<MeshShape>(mesh)}};
+  return {
+      {"rectangle", make_shape("rectangle", {{"to_world", uneven, {}}})},
+      {"cube", make_shape("cube", {{"to_world", uneven, {}}})},
+      {"disk", make_shape("disk", {{"to_world", uneven, {}}})},
+      {"sphere", make_shape("sphere", {{"to_world", placement(), {}}})},
+      {"ellipsoid", make_shape("sphere", {{"to_world", uneven, {}}})},
+      {"pancake",
+       make_shape("sphere", {{"to_world", placement() * Transform::scale({1, 1.3, 0.05}), {}}})},
+      {"cylinder", make_shape("cylinder", {{"to_world", placement(), {}}})},
+      {"leaning cylinder",
+       make_shape("cylinder", {{"p1", Vec3d(1, 0.5, 1), {}}, {"to_world", uneven, {}}})},
+      {"mesh", std::make_shared<MeshShape>(mesh)}};
 }
 
 /// Chi-square of points in the cells of a grid over the shape's bounds; what to expect comes from
@@ -72,6 +78,34 @@ double uniformity(const Shape& shape, float tilt) {
       if (i != 0) expected[i] = observed[i] = 0;
     }
   return chi_square_p_value(observed, expected);
+}
+
+/// The numbers that a point was drawn by; those that the shape tells draw it again.
+TEST(ShapeSampling, TellsTheNumbersOfItsPoints) {
+  for (const SamplingCase& c : sampling_cases()) {
+    SCOPED_TRACE(c.name);
+    Random random(5);
+    for (int i = 0; i < 2000; ++i) {
+      const Vec2f u = random.square();
+      const SurfacePoint point = c.shape->sample_area(u).point;
+      const auto found = c.shape->area_coordinates(point);
+      // Drawn by further numbers, or not known.
+      if (std::string(c.name).find("cylinder") != std::string::npos ||
+          std::string(c.name) == "ellipsoid" || std::string(c.name) == "pancake") {
+        EXPECT_FALSE(found);
+        break;
+      }
+      ASSERT_TRUE(found);
+      ASSERT_TRUE(found->x >= 0 && found->x <= 1 && found->y >= 0 && found->y <= 1);
+      const Vec2f inside(std::min(found->x, one_minus_epsilon),
+                         std::min(found->y, one_minus_epsilon));
+      const float size = length(c.shape->bounds().max - c.shape->bounds().min);
+      ASSERT_LT(length(c.shape->sample_area(inside).point.position - point.position), 2e-3f * size);
+      // A mesh of many triangles has them all within a small part of its square.
+      if (c.shape->mesh() && c.shape->mesh()->triangles.size() > 12) continue;
+      ASSERT_NEAR(found->x, u.x, 2e-4);
+    }
+  }
 }
 
 TEST(ShapeSampling, UniformByArea) {
@@ -124,14 +158,24 @@ struct View {
 std::vector<View> views() {
   const auto ball = make_shape("sphere", {{"center", Vec3d(1, 2, 3), {}}, {"radius", 0.5, {}}});
   const auto cylinder = make_shape("cylinder", {{"radius", 0.5, {}}});
+  const auto stretched = make_shape(
+      "sphere",
+      {{"to_world", Transform::rotate({1, 1, 0}, 20) * Transform::scale({1.0, 0.5, 0.7}), {}}});
+  const double rows[4][4] = {{1, 0.2, 0.5, 0}, {0, 1.6, 0.1, 0}, {0, 0.1, 1, 0}, {0, 0, 0, 1}};
+  const auto leaning =
+      make_shape("cylinder", {{"radius", 0.5, {}}, {"to_world", Transform(rows), {}}});
   return {{"sphere near", ball, {1, 2, 3.6f}},
           {"sphere far", ball, {1, -3, 3}},
           {"sphere inside", ball, {1.1f, 2, 2.8f}},
+          {"sphere stretched", stretched, {2, 1, 0.5f}},
+          {"sphere stretched, near", stretched, {0.3f, 0.8f, 0.1f}},
+          {"sphere stretched, inside", stretched, {0.5f, 0.1f, 0}},
           {"rectangle", make_shape("rectangle"), {0.5f, 2, 1}},
           {"rectangle near", make_shape("rectangle"), {0.8f, 0.5f, 0.3f}},
           {"disk", make_shape("disk"), {0.5f, 2, 1}},
           {"cube", make_shape("cube"), {0.5f, 2, 1.5f}},
-          {"cylinder", cylinder, {2, 1, 0.5f}}};
+          {"cylinder", cylinder, {2, 1, 0.5f}},
+          {"cylinder, leaning", leaning, {2.5f, 1.5f, 0.5f}}};
 }
 
 /// ∫ pdf dω over the directions in which the shape is seen (all its layers where it is sampled by
@@ -198,7 +242,7 @@ double directions_p_value(const View& view, double squeeze) {
   std::vector<double> expected(n_cos * n_phi), observed(n_cos * n_phi);
   Random random(24);
   // Seen edge-on, the density of a curved surface has an integrable pole.
-  const bool pole = std::string(view.name) == "cylinder";
+  const bool pole = std::string(view.name).starts_with("cylinder");
   const int side = (pole ? 1500 : 500) / (samples_divisor > 1 ? 2 : 1);
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) {

@@ -19,6 +19,9 @@ std::vector<ShapeCase> shape_cases() {
   const Transform odd = placement(1.7);
   const Transform mirrored = placement(0.6) * Transform::scale({1, 1, -1});
   const Transform uneven = placement() * Transform::scale({2.0, 0.5, 1.0});
+  const double rows[4][4] = {{1, 0.4, -0.3, 0}, {0, 0.8, 0.6, 0}, {0.2, 0, 1.3, 0}, {0, 0, 0, 1}};
+  const Transform sheared = placement(0.8) * Transform(rows);
+  const Transform taller = placement() * Transform::scale({0.7, 0.7, 2.5});
   return {
       {"rectangle", "rectangle", {{"to_world", uneven, {}}}},
       {"cube", "cube", {{"to_world", uneven, {}}}},
@@ -29,6 +32,15 @@ std::vector<ShapeCase> shape_cases() {
        "sphere",
        {{"center", Vec3d(1, 2, 3), {}}, {"radius", 0.7, {}}, {"to_world", odd, {}}}},
       {"sphere mirrored", "sphere", {{"to_world", mirrored, {}}}},
+      {"ellipsoid",
+       "sphere",
+       {{"center", Vec3d(1, 2, 3), {}}, {"radius", 0.7, {}}, {"to_world", uneven, {}}}},
+      {"ellipsoid sheared", "sphere", {{"to_world", sheared, {}}}},
+      {"ellipsoid mirrored",
+       "sphere",
+       {{"to_world", sheared * Transform::scale({-1.0, 2, 1}), {}}}},
+      {"ellipsoid flipped", "sphere", {{"to_world", sheared, {}}, {"flip_normals", true, {}}}},
+      {"disk sheared", "disk", {{"to_world", sheared, {}}}},
       {"sphere flipped", "sphere", {{"flip_normals", true, {}}}},
       {"cylinder",
        "cylinder",
@@ -37,6 +49,17 @@ std::vector<ShapeCase> shape_cases() {
         {"radius", 0.5, {}},
         {"to_world", odd, {}}}},
       {"cylinder mirrored", "cylinder", {{"to_world", mirrored, {}}}},
+      {"cylinder taller", "cylinder", {{"to_world", taller, {}}, {"radius", 0.6, {}}}},
+      {"cylinder uneven", "cylinder", {{"to_world", uneven, {}}, {"radius", 0.6, {}}}},
+      {"cylinder sheared",
+       "cylinder",
+       {{"p1", Vec3d(1, 2, 1), {}}, {"radius", 0.5, {}}, {"to_world", sheared, {}}}},
+      {"cylinder sheared and mirrored",
+       "cylinder",
+       {{"to_world", sheared * Transform::scale({1.0, -1, 2}), {}}}},
+      {"cylinder sheared and flipped",
+       "cylinder",
+       {{"to_world", sheared, {}}, {"flip_normals", true, {}}}},
       {"cylinder flipped", "cylinder", {{"flip_normals", true, {}}}},
       {"thin cylinder", "cylinder", {{"p1", Vec3d(3, 2, 1), {}}, {"radius", 0.001, {}}}},
   };
@@ -197,11 +220,69 @@ TEST(Shapes, InsideOfSphereAndCylinderIsHit) {
   }
 }
 
-TEST(Shapes, DistortedSphereIsAnError) {
+/// Of spheroids and of an ellipse.
+TEST(Shapes, AreasUnderUnevenScalesAreClosedForms) {
+  const auto area = [](const char* type, const Vec3d& scale) {
+    return double(
+        make_shape(type, {{"to_world", placement() * Transform::scale(scale), {}}})->area());
+  };
+  const double pi_d = std::numbers::pi;
+  for (const double c : {1.3, 5.0, 1000.0}) {
+    const double e = std::sqrt(1 - 1 / (c * c));
+    const double prolate = 2 * pi_d * (1 + c / e * std::asin(e));
+    const double oblate = 2 * pi_d * (1 + std::atanh(e) / (c * c * e));
+    EXPECT_NEAR(area("sphere", {1, 1, c}) / prolate, 1, 1e-6);
+    EXPECT_NEAR(area("sphere", {1, c, 1}) / prolate, 1, 1e-6);
+    EXPECT_NEAR(area("sphere", {1, 1, 1 / c}) / oblate, 1, 1e-6);
+  }
+  EXPECT_NEAR(area("cylinder", {2, 2, 3}), 12 * pi_d, 1e-5);
+  // The circumference of an ellipse with half axes 1 and 2, by its series in
+  // ((2 − 1) / (2 + 1))² = 1/9 (Ivory 1796).
+  double series = 1, factor = 1;
+  for (int n = 1; n < 20; ++n) {
+    factor *= n == 1 ? 0.5 : (2.0 * n - 3) / (2 * n);
+    series += factor * factor * std::pow(1.0 / 9, n);
+  }
+  EXPECT_NEAR(area("cylinder", {1, 2, 3}), 3 * 3 * pi_d * series, 1e-5);
+  EXPECT_NEAR(area("disk", {1, 2, 3}), 2 * pi_d, 1e-5);
+}
+
+/// What is stretched is met where the stretched ray of the sphere meets it, with its texture
+/// coordinates.
+TEST(Shapes, UnevenScalesKeepTextureCoordinates) {
+  const Transform stretch = Transform::scale({2.0, 0.25, 3.0});
   for (const char* type : {"sphere", "cylinder"}) {
-    const Transform uneven = Transform::scale({1, 2, 1});
+    const auto original = tracer_of({make_shape(type)});
+    const auto stretched = tracer_of({make_shape(type, {{"to_world", stretch, {}}})});
+    Random random(5);
+    int met = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const Ray ray{random.direction() * 3.0f, {0, 0, 0}, infinity};
+      Ray before = ray;
+      before.direction = random.in_box(0.7f) - ray.origin;
+      const Ray after{stretch.point(before.origin), stretch.vector(before.direction), infinity};
+      Hit a, b;
+      const bool is_met = original->intersect(before, a);
+      if (is_met != stretched->intersect(after, b)) continue;  // at its outline
+      if (!is_met) continue;
+      ++met;
+      const SurfacePoint p = original->surface_point(before, a);
+      const SurfacePoint q = stretched->surface_point(after, b);
+      EXPECT_NEAR(a.t, b.t, 1e-4f);
+      EXPECT_LT(length(stretch.point(p.position) - q.position), 1e-4f) << type;
+      EXPECT_GT(dot(normalize(stretch.normal(p.ng)), q.ng), 0.99999f) << type;
+      EXPECT_NEAR(p.uv.x, q.uv.x, 1e-4f) << type;
+      EXPECT_NEAR(p.uv.y, q.uv.y, 1e-4f) << type;
+    }
+    EXPECT_GT(met, 300) << type;
+  }
+}
+
+TEST(Shapes, FlattenedToNothingIsAnError) {
+  for (const char* type : {"sphere", "cylinder"}) {
+    const Transform flat = Transform::scale({1, 1e-20, 1});
     try {
-      make_shape(type, {{"to_world", uneven, place_in("scene.xml", 7, 3)}});
+      make_shape(type, {{"to_world", flat, place_in("scene.xml", 7, 3)}});
       ADD_FAILURE() << type;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input);

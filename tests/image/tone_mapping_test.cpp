@@ -42,6 +42,67 @@ TEST(SimpleTone, scales) {
   EXPECT_NEAR(shown_by(image, "linear", {"exposure=-3"}).at(1, 0, 1), 0.5f, 1e-6);
 }
 
+// Operators that take an exposure add the film's; those that adapt as an eye does don't ask.
+TEST(SimpleTone, adds_the_exposure_of_the_film) {
+  const Image plain = grey_image(2, 1, [](int x, int) { return x ? 0.125f : 0.0625f; });
+  Image exposed = plain;
+  exposed.set_metadata(film_exposure_key, 2.0);
+  EXPECT_NEAR(shown_by(exposed, "srgb").at(1, 0, 0), 0.5f, 1e-6);
+  EXPECT_NEAR(shown_by(exposed, "linear", {"exposure=-1"}).at(1, 0, 1), 0.25f, 1e-6);
+  EXPECT_EQ(shown_by(exposed, "aces").at(1, 0, 0),
+            shown_by(plain, "aces", {"exposure=2"}).at(1, 0, 0));
+  EXPECT_EQ(shown_by(exposed, "histogram").at(1, 0, 0), shown_by(plain, "histogram").at(1, 0, 0));
+  exposed.set_metadata(film_exposure_key, std::string("no number"));
+  EXPECT_NEAR(shown_by(exposed, "srgb").at(1, 0, 0), 0.125f, 1e-6);
+}
+
+/// A row of grey 0.1 beside a lamp of 100, whose edge covers a share of the pixels in between.
+Image lamp_edge(const std::vector<float>& shares) {
+  Image image(int(shares.size()), 1,
+              {"R", "G", "B", "emission.R", "emission.G", "emission.B", "emission.A"});
+  for (int x = 0; x < image.width(); ++x) {
+    const float share = shares[size_t(x)];
+    for (int c = 0; c < 3; ++c) {
+      image.at(x, 0, 3 + c) = 100 * share;
+      image.at(x, 0, c) = 100 * share + 0.1f * (1 - share);
+    }
+    image.at(x, 0, 6) = share;
+  }
+  return image;
+}
+
+// A pixel that a lamp fills to a tenth is a tenth of the way from the wall to the lamp as shown;
+// its mean light alone is white many times over.
+TEST(LampEdges, are_no_stairs) {
+  const std::vector<float> shares = {0, 0, 0, 0, 0.1f, 0.5f, 0.9f, 1, 1, 1};
+  for (const char* name : {"histogram", "reinhard", "aces", "linear", "srgb"}) {
+    SCOPED_TRACE(name);
+    const Image shown = shown_by(lamp_edge(shares), name);
+    const float wall = shown.at(0, 0, 0), lamp = shown.at(9, 0, 0);
+    ASSERT_GT(lamp, 2 * wall);
+    for (int x = 0; x < shown.width(); ++x)
+      EXPECT_NEAR(shown.at(x, 0, 1), std::lerp(wall, lamp, shares[size_t(x)]), 0.02f) << x;
+  }
+  // The twin: without the layer the pixel is as bright as the lamp.
+  const Image image = lamp_edge(shares);
+  Image bare(image.width(), 1, {"R", "G", "B"});
+  for (int x = 0; x < image.width(); ++x)
+    for (int c = 0; c < 3; ++c) bare.at(x, 0, c) = image.at(x, 0, c);
+  EXPECT_EQ(shown_by(bare, "srgb").at(4, 0, 0), 1);
+}
+
+// What is in a layer of its own, or in false colours, is shown as it is.
+TEST(LampEdges, are_measured_as_they_are) {
+  const Image image = lamp_edge({0, 0.1f, 1});
+  EXPECT_EQ(tone_map(image, *make_tone_operator("srgb"), "emission").at(1, 0, 0), 1);
+  Image bare(3, 1, {"R", "G", "B"});
+  for (int x = 0; x < 3; ++x)
+    for (int c = 0; c < 3; ++c) bare.at(x, 0, c) = image.at(x, 0, c);
+  const std::vector<std::string> plain = {"legend=false"};
+  EXPECT_EQ(shown_by(image, "falsecolor", plain).at(1, 0, 1),
+            shown_by(bare, "falsecolor", plain).at(1, 0, 1));
+}
+
 TEST(Operators, names_and_parameters) {
   expect_input_error([] { make_tone_operator("histgram"); }, "did you mean 'histogram'");
   expect_input_error([] { make_tone_operator("linear", {"exposur=1"}); },

@@ -52,6 +52,45 @@ TEST_F(Furnace, PhotonMap) {
   check("photonmap", render(scene_, "photonmap", few_neighbors(8'000), {16}));
 }
 
+/// The same within an ellipsoid, and within a leaning elliptic tube with its ends: the form makes
+/// no difference.
+class DistortedFurnace : public testing::Test {
+ protected:
+  static std::string shape(const std::string& type, const std::string& transform, bool flipped,
+                           const std::string& more = "") {
+    return fmt::format(
+        R"(<shape type="{}"><transform name="to_world">{}{}</transform>
+        <boolean name="flip_normals" value="{}"/>{}{}</shape>)",
+        type, transform, distortion, flipped, more,
+        diffuse("0.7, 0.7, 0.7") + area_light("1, 1, 1"));
+  }
+  static constexpr const char* distortion =
+      R"(<matrix value="1.3 0.2 0.4 0  0 0.6 -0.2 0  0.1 0 0.9 0  0 0 0 1"/>)";
+
+  DistortedFurnace()
+      : ellipsoid_(view() + shape("sphere", "", true)),
+        tube_(view() + shape("disk", translate("0, 0, -1"), false) +
+              shape("disk", translate("0, 0, 1"), true) +
+              shape("cylinder", "", true,
+                    R"(<point name="p0" value="0, 0, -1"/><point name="p1" value="0, 0, 1"/>)")) {}
+  static std::string view() { return camera("0.2, 0.1, -0.2", "1, 0.3, 0.2", 80); }
+
+  void check(const std::string& type, double samples) {
+    for (const TestScene* scene : {&ellipsoid_, &tube_}) {
+      const Passes rendered = render(*scene, type, "", {.samples = samples});
+      const std::string name = type + (scene == &tube_ ? " tube" : " ellipsoid");
+      expect_mean(name, rendered.mean({""}), 1 / 0.3);
+      expect_mean(name + " direct", rendered.mean({"direct"}), 0.7);
+    }
+  }
+  TestScene ellipsoid_, tube_;
+};
+
+TEST_F(DistortedFurnace, Path) { check("path", 20); }
+TEST_F(DistortedFurnace, LightTracer) { check("lighttracer", 220); }
+TEST_F(DistortedFurnace, Bdpt) { check("bdpt", 16); }
+TEST_F(DistortedFurnace, Auto) { check("auto", 40); }
+
 // ---------------------------------------------------------------- light in a diffuse sphere
 
 /// A lamp of flux Φ anywhere within: the light that was reflected at least once falls evenly,

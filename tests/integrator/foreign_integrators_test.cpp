@@ -178,5 +178,37 @@ TEST(ScenesWithoutShapes, ShowTheirEnvironment) {
   }
 }
 
+// Research renderers have methods of their own, which change no light.
+TEST(ForeignIntegrators, OfDialectsTheDefaultStandsForThem) {
+  std::vector<std::string> notes;
+  const Object unknown = described("restirgi", set("max_depth", 4) + set("reservoirs", 9));
+  const Object stand_in = native_integrator(unknown, notes, false);
+  EXPECT_EQ(stand_in.type, default_integrator);
+  EXPECT_EQ(native_type(unknown), default_integrator);
+  EXPECT_EQ(stand_in.properties.size(), 2u);  // what nobody knows of them is told where it is made
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("nobody knows integrator 'restirgi'"), std::string::npos);
+  // The one in it, by its own name here.
+  const Object holder = described("guidedsdtree", "<integrator type=\"volpath\"/>");
+  EXPECT_EQ(native_integrator(holder, notes, false).type, "path");
+  EXPECT_EQ(native_type(holder), "path");
+  // A slip of the pen, and what is read strictly, stay as they are: errors.
+  EXPECT_EQ(native_integrator(described("photon_map", ""), notes, false).type, "photon_map");
+  EXPECT_EQ(native_integrator(unknown, notes, true).type, "restirgi");
+  Object typed = unknown;
+  typed.place = place_in("command line: --integrator");
+  EXPECT_EQ(native_integrator(typed, notes, false).type, "restirgi");
+}
+
+TEST(ForeignIntegrators, WhatHoldsNoneLeavesItOut) {
+  const TestScene scene(camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 12) + flat("rectangle", "", ""));
+  const Object object = described("path", "<integrator type=\"direct\"/>");
+  std::vector<std::string> warnings;
+  make_integrator(object, scene.scene(), warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0], "integrator 'path' holds none: 'direct' in it is left out");
+  EXPECT_THROW(make_integrator(object, scene.scene(), warnings, true), Error);
+}
+
 }  // namespace
 }  // namespace kaustik

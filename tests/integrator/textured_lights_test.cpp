@@ -40,11 +40,11 @@ TEST(TexturedLights, EveryMethodFindsTheirLight) {
                      render(scene, "lighttracer", set("max_depth", 3), {1000, 2}).mean({""}),
                      by_path);
   const RunningStatistics direct =
-      render(scene, "path", set("components", "direct"), {400, 3}).mean({"direct"});
+      render(scene, "path", set("components", "direct"), {560, 3}).mean({"direct"});
   for (const char* integrator : {"raytracing", "localphong"})
     expect_equal_means(
         integrator,
-        render(scene, integrator, set("components", "direct"), {400, 4}).mean({"direct"}), direct);
+        render(scene, integrator, set("components", "direct"), {560, 4}).mean({"direct"}), direct);
 }
 
 /// Photon maps: what the lamps send out by emitted rays, gathered in a ball that is seen from

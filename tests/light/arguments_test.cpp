@@ -56,6 +56,11 @@ TEST(LightArguments, ContradictionsAreErrors) {
   expect_error("spot", {{"cutoff_angle", Value(10.0), {}}, {"beam_width", Value(20.0), {}}},
                "more than");
   expect_error("spot", {{"to_world", sheared, {}}}, "distorts");
+  expect_error("spot", {{"falloff", Value(std::string("cubic")), {}}}, "cannot be 'cubic'");
+  expect_error("projector", {{"to_world", sheared, {}}}, "distorts");
+  expect_error("projector", {{"focal_length", Value(std::string("50")), {}}}, "focal_length");
+  expect_error("projector", {{"irradiance", Value(3e38), {}}, {"fov", Value(170.0), {}}},
+               "overflows");
 }
 
 TEST(LightArguments, TransformsPlaceAndTurnLights) {

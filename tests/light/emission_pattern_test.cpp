@@ -175,6 +175,129 @@ TEST(EmissionPattern, MeshesAreSampledByRadiance) {
   EXPECT_LT(by_light.variance(), 0.2 * by_area.variance());
 }
 
+/// Bright in one corner of its square, where little of the shape lies.
+class BrightCorner final : public EmissionPattern {
+ public:
+  Spectrum radiance(const SurfacePoint& at, const Wavelengths&) const override {
+    return Spectrum(at.uv.x < 0.25f && at.uv.y < 0.25f ? 20.0f : 0.1f);
+  }
+  float maximum() const override { return 20; }
+};
+
+struct PatternedShape {
+  std::string name;
+  std::shared_ptr<const Shape> shape;
+};
+std::vector<PatternedShape> shapes_with_tables() {
+  const Value placed(Transform::translate({0.5, 0.2, 2}) * Transform::rotate({1, 2, 3}, 40) *
+                     Transform::scale({0.4, 0.4, 0.4}));
+  return {{"quad", make_quad({-1, -1, 2}, {0.3f, 2, 0.5f}, {2, 0, 0})},
+          {"disk", make_disk({0.5f, 0, 1.5f}, normalize(Vec3f(0.3f, 0.2f, -1)), 0.8f)},
+          {"sphere", make_ball({0.3f, 0.4f, 2}, 0.7f)},
+          {"cube", make_shape("cube", {{"to_world", placed, {}}})}};
+}
+
+/// By the numbers that sample_area() takes for the points.
+TEST(EmissionPattern, PointsFollowTheirDensity) {
+  for (const PatternedShape& test : shapes_with_tables())
+    for (const bool two_sided : {false, true}) {
+      SCOPED_TRACE(test.name);
+      const auto light = make_patterned(test.shape, 1, two_sided, std::make_shared<BrightCorner>());
+      constexpr int side = 16, fine = 32, count = 400'000 / sample_share;
+      std::vector<double> observed(side * side), expected(side * side);
+      Random random(13);
+      const auto cell_of = [&](const SurfacePoint& point) {
+        const Vec2f p = *test.shape->area_coordinates(point);
+        return size_t(std::clamp(int(p.y * side), 0, side - 1) * side +
+                      std::clamp(int(p.x * side), 0, side - 1));
+      };
+      for (int i = 0; i < count; ++i) {
+        const EmissionSample s = light->placed().sample_origin(random.next_2d());
+        ASSERT_GT(s.pdf_position, 0);
+        observed[cell_of(s.point)] += 1;
+      }
+      const double weight = double(count) * double(test.shape->area()) * (two_sided ? 2 : 1) /
+                            (side * side * fine * fine);
+      for (int y = 0; y < side * fine; ++y)
+        for (int x = 0; x < side * fine; ++x) {
+          const Vec2f u((float(x) + 0.5f) / (side * fine), (float(y) + 0.5f) / (side * fine));
+          expected[size_t(y / fine * side + x / fine)] +=
+              weight * double(light->emission_pdf_position(test.shape->sample_area(u).point));
+        }
+      EXPECT_GT(chi_square_p_value(observed, expected), failure_level);
+      for (size_t i = 0; i < expected.size(); ++i) expected[i] *= i % side < side / 2 ? 1.03 : 0.97;
+      expect_twin_fails(chi_square_p_value(observed, expected));
+    }
+}
+
+/// Without edges, which the sums over cells of directions would only half see.
+class SmoothSpot final : public EmissionPattern {
+ public:
+  Spectrum radiance(const SurfacePoint& at, const Wavelengths&) const override {
+    const float distance_sq = sqr(at.uv.x - 0.35f) + sqr(at.uv.y - 0.45f);
+    return Spectrum(0.2f + 3 * std::exp(-20 * distance_sq));
+  }
+  float maximum() const override { return 3.2f; }
+};
+
+TEST(EmissionPattern, DirectionsFollowTheirDensity) {
+  const Vec3f reference(0.2f, -0.1f, 0.0f);
+  for (const PatternedShape& test : shapes_with_tables()) {
+    if (test.name == "sphere") continue;  // at its outline the density has no bound
+    SCOPED_TRACE(test.name);
+    const auto light = make_patterned(test.shape, 1, false, std::make_shared<SmoothSpot>());
+    const RayTracer tracer({{test.shape}, {}, {}});
+    DirectionGrid grid;
+    grid.axis = normalize(center(test.shape->bounds()) - reference);
+    grid.one_minus_cos = test.name == "quad" ? 0.7f : 0.3f;
+    Random random(17);
+    const auto sample = [&] {
+      const LightSample s = light->sample_toward(reference, random.next_2d());
+      return s.pdf_solid_angle > 0 ? s.direction : Vec3f(0, 0, 0);
+    };
+    const auto pdf = [&](const Vec3f& d) -> double {
+      const Ray ray{reference, d};
+      Hit hit;
+      if (!tracer.intersect(ray, hit)) return 0;
+      return double(light->pdf_toward(reference, tracer.surface_point(ray, hit)));
+    };
+    const int count = 400'000 / sample_share;
+    EXPECT_GT(direction_p_value(grid, count, sample, pdf), failure_level);
+    expect_twin_fails(direction_p_value(grid, count, sample, with_planted_error(grid, pdf)));
+  }
+}
+
+/// A mostly black picture on a lamp: light is found where it is bright, and its mean stays.
+TEST(EmissionPattern, IsSampledWhereItIsBright) {
+  for (const PatternedShape& test : shapes_with_tables()) {
+    SCOPED_TRACE(test.name);
+    const auto pattern = std::make_shared<BrightCorner>();
+    const auto light = make_patterned(test.shape, 1, false, pattern);
+    const LightQuery query(Vec3f(0.2f, -0.1f, 0), Vec3f(0, 0, 1));
+    Random random(19);
+    RunningStatistics by_pattern, by_geometry;
+    for (int i = 0; i < 200'000 / sample_share; ++i) {
+      const LightSample s = light->sample_toward(query, random.next_2d());
+      by_pattern.add(s.pdf_solid_angle > 0
+                         ? s.radiance[0] * std::max(0.0f, s.direction.z) / s.pdf_solid_angle
+                         : 0.0f);
+      float pdf = 0;
+      const ShapeSample g = test.shape->sample_toward(query.reference, random.next_2d(), pdf);
+      const Vec3f way = normalize(g.point.position - query.reference);
+      const bool faces = pdf > 0 && dot(g.point.ng, way) < 0;
+      by_geometry.add(faces ? pattern->radiance(g.point, {})[0] * std::max(0.0f, way.z) / pdf
+                            : 0.0f);
+    }
+    const double error = std::hypot(by_pattern.standard_error(), by_geometry.standard_error());
+    EXPECT_GT(z_test_p_value(by_pattern.mean(), error, by_geometry.mean()), failure_level);
+    expect_twin_fails(z_test_p_value(1.2 * by_pattern.mean(), error, by_geometry.mean()));
+    // The corner of a cube's faces, or of a sphere's square, is nowhere or far from where it is.
+    if (test.name == "quad" || test.name == "disk") {
+      EXPECT_LT(by_pattern.variance(), 0.3 * by_geometry.variance());
+    }
+  }
+}
+
 /// A spot that no point of the quadrature finds is no reason to leave the light out.
 TEST(EmissionPattern, IsNotDarkWhereOnlyASpotShines) {
   class Spot final : public EmissionPattern {

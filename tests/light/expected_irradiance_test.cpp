@@ -24,6 +24,12 @@ std::vector<IrradianceCase> lights_at_the_origin() {
   cases.push_back({"spot", make_light("spot", {{"intensity", colored, {}},
                                                {"cutoff_angle", Value(60.0), {}},
                                                {"to_world", aimed, {}}})});
+  cases.push_back({"spot with a slide",
+                   make_light("spot", {{"cutoff_angle", Value(60.0), {}}, {"to_world", aimed, {}}},
+                              nullptr, test_bounds(), fields_pattern())});
+  cases.push_back(
+      {"projector", make_light("projector", {{"fov", Value(100.0), {}}, {"to_world", aimed, {}}},
+                               nullptr, test_bounds(), fields_pattern())});
   cases.push_back({"directional", make_light("directional", {{"irradiance", colored, {}}})});
   cases.push_back({"constant", make_light("constant", radiance)});
   cases.push_back({"disk", make_light("area", radiance, make_disk({0, 0, 0}, {0, 0, 1}, 0.5f))});

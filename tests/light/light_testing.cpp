@@ -24,6 +24,23 @@ std::unique_ptr<Light> make_light(const std::string& type, const std::vector<Pro
   throw std::logic_error("no such light");
 }
 
+namespace {
+
+class FieldsPattern final : public EmissionPattern {
+ public:
+  Spectrum radiance(const SurfacePoint& at, const Wavelengths&) const override {
+    constexpr float values[2][2] = {{0, 2}, {1, 0.2f}};
+    return spectrum_from_rgb(1, 2, 3) * values[at.uv.x > 0.5f][at.uv.y > 0.75f];
+  }
+  float maximum() const override { return 6; }
+};
+
+}  // namespace
+
+std::shared_ptr<const EmissionPattern> fields_pattern() {
+  return std::make_shared<FieldsPattern>();
+}
+
 std::unique_ptr<Light> make_envmap(int width, int height, const std::vector<Rgb>& pixels,
                                    std::vector<Property> properties) {
   Image image(width, height, {"R", "G", "B"});

@@ -56,6 +56,9 @@ std::unique_ptr<Light> make_light(const std::string& type, const std::vector<Pro
                                   const Bounds3f& scene_bounds = test_bounds(),
                                   std::shared_ptr<const EmissionPattern> pattern = nullptr);
 
+/// Four fields of the uv square with radiances of their own, one of them dark.
+std::shared_ptr<const EmissionPattern> fields_pattern();
+
 /// An environment of a picture with one float per pixel and channel, row by row.
 std::unique_ptr<Light> make_envmap(int width, int height, const std::vector<Rgb>& pixels,
                                    std::vector<Property> properties = {});

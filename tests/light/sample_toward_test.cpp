@@ -45,6 +45,13 @@ std::vector<ShapeCase> shapes_around() {
       {"sphere", make_ball(ball, 0.7f), 1.2f * cap},
       {"sphere from inside",
        make_shape("sphere", {{"radius", Value(2.0), {}}, {"flip_normals", flipped, {}}}), 2},
+      {"ellipsoid from inside",
+       make_shape("sphere",
+                  {{"flip_normals", flipped, {}},
+                   {"to_world",
+                    Value(Transform::rotate({1, 2, 3}, 40) * Transform::scale({1.5, 2.0, 1.2})),
+                    {}}}),
+       2},
       {"cube", make_shape("cube", {{"to_world", placed, {}}}), 0.2f},
       {"cylinder from inside",
        make_shape("cylinder", {{"p0", Value(Vec3d(0, 0, -1)), {}}, {"flip_normals", flipped, {}}}),
@@ -73,7 +80,8 @@ TEST(SampleToward, AreaLightsFollowTheirDensity) {
 }
 
 /// From so near that samples by area would be worth from nothing to very much: closed forms of
-/// irradiance below the middle of a disk (π L sin²) and of a square (Lambert's polygon formula).
+/// irradiance below the middle of a disk (π L sin²), of a square (Lambert's polygon formula) and of
+/// a spheroid, of whose outline the cone has the tangent a / √(d² − c²).
 TEST(SampleToward, NearLightsGiveTheirClosedForm) {
   struct Case {
     std::string name;
@@ -86,7 +94,14 @@ TEST(SampleToward, NearLightsGiveTheirClosedForm) {
   for (const Case& test :
        {Case{"disk", make_disk(middle, {0, 0, -1}, 1), 2 * std::numbers::pi / (1 + h * h)},
         Case{"square", make_quad(middle - Vec3f(1, 1, 0), {0, 2, 0}, {2, 0, 0}),
-             2 * 4 / side * std::atan(1 / side)}}) {
+             2 * 4 / side * std::atan(1 / side)},
+        Case{
+            "spheroid",
+            make_shape("sphere", {{"to_world",
+                                   Value(Transform::translate(Vec3d(reference) + Vec3d(0, 0, 1.5)) *
+                                         Transform::scale({1.5, 1.5, 0.5})),
+                                   {}}}),
+            2 * std::numbers::pi * 2.25 / (2.25 - 0.25 + 2.25)}}) {
     SCOPED_TRACE(test.name);
     const auto light = area_light(test.shape);
     Random random(19);
@@ -102,6 +117,25 @@ TEST(SampleToward, NearLightsGiveTheirClosedForm) {
     EXPECT_LT(std::sqrt(irradiance.variance()), 0.9 * test.irradiance);  // by area: several times
     expect_twin_fails(z_test_p_value(irradiance, 1.02 * test.irradiance));
   }
+}
+
+/// Within a shell that shines inward the irradiance is π L everywhere, whatever its form.
+TEST(SampleToward, InsideOfAnEllipsoidItIsThatOfTheHemisphere) {
+  const auto light = area_light(make_shape(
+      "sphere", {{"flip_normals", Value(true), {}},
+                 {"to_world",
+                  Value(Transform::rotate({1, 2, 3}, 40) * Transform::scale({1.0, 0.6, 1.4})),
+                  {}}}));
+  Random random(20);
+  RunningStatistics irradiance;
+  for (int i = 0; i < 400'000 / sample_share; ++i) {
+    const LightSample s = light->sample_toward(reference, random.next_2d());
+    irradiance.add(s.pdf_solid_angle > 0
+                       ? s.radiance[0] * std::max(0.0f, s.direction.z) / s.pdf_solid_angle
+                       : 0);
+  }
+  EXPECT_GT(z_test_p_value(irradiance, 2 * std::numbers::pi), failure_level);
+  expect_twin_fails(z_test_p_value(irradiance, 2 * std::numbers::pi * 1.02));
 }
 
 TEST(SampleToward, ReportsTheDensityThatItAnswersLater) {

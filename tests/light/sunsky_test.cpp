@@ -187,7 +187,7 @@ TEST(SunSky, IsRedAtSunsetAndBlueAbove) {
 
 TEST(SunSky, IsPositiveForAllParameters) {
   Random random(3);
-  for (const double turbidity : {2.0, 3.0, 6.0, 10.0})
+  for (const double turbidity : {1.0, 1.5, 2.0, 3.0, 6.0, 10.0})
     for (const double elevation : {0.1, 5.0, 45.0, 90.0}) {
       const auto sky = make_day("sky", elevation, turbidity);
       ASSERT_GT(sky->traits().power[1], 0);
@@ -199,6 +199,19 @@ TEST(SunSky, IsPositiveForAllParameters) {
         ASSERT_GT(radiance[1], 0);
       }
     }
+}
+
+/// Without haze more of the sun arrives, and less of the sky.
+TEST(SunSky, MayHaveNoHazeAtAll) {
+  const auto power = [](const std::string& type, double turbidity) {
+    return double(make_day(type, 45, turbidity)->traits().power[1]);
+  };
+  for (const double turbidity : {1.0, 1.5}) {
+    EXPECT_GT(power("sun", turbidity), power("sun", turbidity + 0.5));
+    EXPECT_LT(power("sky", turbidity), power("sky", turbidity + 0.5));
+  }
+  // Of green light the aerosols of turbidity 2 take what exp(−0.0461 · 0.55^−1.3 · 1.41) leaves.
+  EXPECT_NEAR(power("sun", 1) / power("sun", 2), 1 / std::exp(-0.0461 * 2.175 * 1.412), 0.02);
 }
 
 TEST(SunSky, StandsInTheFrameOfToWorld) {
@@ -232,7 +245,7 @@ TEST(SunSky, RefusesWhatCannotBe) {
   expect_error({{"sun_direction", up, {}}, {"hour", Value(1.0), {}}}, "both");
   expect_error({{"month", Value(int64_t(2)), {}}, {"day", Value(int64_t(30)), {}}}, "no day");
   expect_error({{"sun_direction", up, {}}, {"albedo", Value(1.5), {}}}, "albedo");
-  expect_error({{"turbidity", Value(1.0), {}}}, "turbidity");
+  expect_error({{"turbidity", Value(0.9), {}}}, "turbidity");
   expect_error({{"to_world", Value(Transform::scale({1, 2, 1})), {}}}, "distorts");
 }
 

@@ -36,6 +36,22 @@ TEST(LightWavelengths, PlacedLightsSendTheirCurve) {
   const LightQuery before(Vec3f(0, 0, 2), Vec3f(0, 0, -1), 0, four);
   expect_lanes(spot->sample_toward(before, {}).radiance, ramp_lanes * 0.25f);
 
+  // A white slide, or half a one, changes no colour.
+  class Half final : public EmissionPattern {
+   public:
+    Spectrum radiance(const SurfacePoint&, const Wavelengths&) const override {
+      return Spectrum(0.5f);
+    }
+    float maximum() const override { return 0.5f; }
+  };
+  const auto slide = make_light("spot", {{"intensity", Value(ramp), {}}}, nullptr, test_bounds(),
+                                std::make_shared<Half>());
+  expect_lanes(slide->emitted({}, {0, 0, 1}, four), ramp_lanes * 0.5f);
+  expect_lanes(slide->sample_toward(before, {}).radiance, ramp_lanes * 0.125f);
+  const auto projector = make_light("projector", {{"irradiance", Value(ramp), {}}});
+  expect_lanes(projector->emitted({}, {0, 0, 1}, four), ramp_lanes * pi);
+  expect_lanes(projector->sample_toward(before, {}).radiance, ramp_lanes * (pi / 4));
+
   const auto area =
       make_light("area", {{"radiance", Value(ramp), {}}}, make_disk({0, 0, 0}, {0, 0, -1}, 0.5f));
   expect_lanes(area->sample_toward(below, {0.2f, 0.7f}).radiance, ramp_lanes);

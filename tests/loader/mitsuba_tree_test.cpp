@@ -220,5 +220,162 @@ TEST(MitsubaTree, EachFileHasItsOwnVersion) {
   EXPECT_EQ(scene->children.at(1).object->properties.at(0).name, "aB");
 }
 
+TEST(MitsubaTree, OldTypesAndNamesAreUpgraded) {
+  const auto old = [](const std::string& inside, const std::string& version) {
+    return parse(in_scene(inside, version)).scene->children.at(0).object;
+  };
+  EXPECT_EQ(old("<bsdf type='bump'/>", "0.4.4")->type, "bumpmap");
+  EXPECT_EQ(old("<bsdf type='bump'/>", "0.5.0")->type, "bump");
+  const auto glass =
+      old("<bsdf type='roughglass'><float name='alphaX' value='1'/></bsdf>", "0.2.1");
+  EXPECT_EQ(glass->type, "roughdielectric");
+  EXPECT_EQ(glass->properties.at(0).name, "alpha_u");
+  const std::string lamp =
+      "<luminaire type='directional'><float name='intensity' value='1'/>"
+      "</luminaire>";
+  EXPECT_EQ(old(lamp, "0.3.0")->properties.at(0).name, "irradiance");
+  EXPECT_EQ(old(lamp, "0.4.0")->properties.at(0).name, "intensity");
+  const std::string pipe =
+      "<shape type='cylinder'><point name='p1' value='1,2,3'/>"
+      "<point name='p2' value='4,5,6'/></shape>";
+  EXPECT_EQ(value<Vec3d>(*old(pipe, "0.2.0"), "p1"), Vec3d(4, 5, 6));
+  EXPECT_EQ(value<Vec3d>(*old(pipe, "0.2.0"), "p0"), Vec3d(1, 2, 3));
+  EXPECT_EQ(value<Vec3d>(*old(pipe, "0.6.0"), "p1"), Vec3d(1, 2, 3));
+}
+
+TEST(MitsubaTree, OldCamerasTellOfTheSmallerSide) {
+  const auto axis = [](const std::string& inside, const std::string& version) {
+    const auto scene =
+        parse(in_scene("<camera type='perspective'>" + inside + "</camera>", version)).scene;
+    const Object& camera = *scene->children.at(0).object;
+    return camera.properties.empty() ? "" : value<std::string>(camera, "fov_axis");
+  };
+  EXPECT_EQ(axis("", "0.3.0"), "smaller");
+  EXPECT_EQ(axis("<boolean name='mapSmallerSide' value='false'/>", "0.3.0"), "larger");
+  EXPECT_EQ(axis("<string name='fovAxis' value='y'/>", "0.3.0"), "y");
+  EXPECT_EQ(axis("", "0.4.0"), "");
+}
+
+TEST(MitsubaTree, OfMotionTheStartHolds) {
+  const std::string shape =
+      "<shape type='sphere'><animation name='to_world'>"
+      "<transform time='0'><translate x='1'/></transform>"
+      "<transform time='1'><translate x='2'/></transform></animation></shape>";
+  const Description description = parse_inside(shape + shape);
+  EXPECT_EQ(value<Transform>(*description.scene->children.at(1).object, "to_world"),
+            Transform::translate({1, 0, 0}));
+  ASSERT_EQ(description.warnings.size(), 1u);
+  EXPECT_NE(description.warnings[0].find("test.xml:2:22: motion comes later"), std::string::npos)
+      << description.warnings[0];
+  EXPECT_NE(description.warnings[0].find("1 more like it"), std::string::npos);
+  expect_problem(problems_in(in_scene("<shape type='s'><animation name='to_world'/></shape>")),
+                 "test.xml:2:17", "without a transform", "transform time");
+  expect_problem(problems_in(in_scene("<shape type='s'><animation name='to_world'><rotate x='1' "
+                                      "angle='1'/></animation></shape>")),
+                 "test.xml:2:44", "<rotate> cannot stand in <animation>", "transform time");
+}
+
+TEST(MitsubaTree, SubsurfaceScatteringIsLeftOut) {
+  const std::string shape = "<shape type='sphere'><subsurface type='dipole'/></shape>";
+  const Description description = parse_inside(shape);
+  ASSERT_EQ(description.warnings.size(), 1u);
+  EXPECT_NE(description.warnings[0].find("subsurface scattering comes later"), std::string::npos);
+  LoadOptions strict;
+  strict.is_strict = true;
+  EXPECT_EQ(problems_in(in_scene(shape), strict).at(0).message, "unknown element <subsurface>");
+}
+
+/// The only warning of a scene, which is an error where it is read strictly.
+std::string lenient_warning(const std::string& text) {
+  LoadOptions strict;
+  strict.is_strict = true;
+  EXPECT_FALSE(problems_in(text, strict).empty());
+  const Description description = parse(text);
+  EXPECT_EQ(description.warnings.size(), 1u);
+  return description.warnings.empty() ? "" : description.warnings[0];
+}
+
+TEST(MitsubaTree, VersionsMayBeShortOrMissing) {
+  const auto name = [](const std::string& version) {
+    const auto scene =
+        parse("<scene" + version + "><shape type='s'><float name='aB' value='1'/></shape></scene>");
+    return scene.scene->children.at(0).object->properties.at(0).name;
+  };
+  EXPECT_EQ(name(" version='3'"), "aB");
+  EXPECT_EQ(name(" version='0.6'"), "a_b");
+  EXPECT_EQ(name(""), "a_b");
+  EXPECT_NE(lenient_warning("<scene/>").find("lacks its version: it is read as one of Mitsuba 0.2"),
+            std::string::npos);
+}
+
+TEST(MitsubaTree, TextBetweenElementsIsLeftOut) {
+  EXPECT_NE(lenient_warning(in_scene("<shape type='s'>\n  3\n</shape>")).find("test.xml:3:3: text"),
+            std::string::npos);
+}
+
+TEST(MitsubaTree, ReflectancesMakeNoLight) {
+  const auto scene = parse(
+      in_scene("<bsdf type='diffuse' id='a'><rgb name='reflectance' value='255, 127.5, 0'/></bsdf>"
+               "<bsdf type='diffuse' id='b'><float name='reflectance' value='1'/></bsdf>"
+               "<emitter type='point'><rgb name='intensity' value='255'/></emitter>",
+               "0.6.0"));
+  const Rgb scaled = value<Rgb>(*scene.scene->children.at(0).object, "reflectance");
+  EXPECT_DOUBLE_EQ(scaled.r, 0.99);
+  EXPECT_DOUBLE_EQ(scaled.g, 0.495);
+  EXPECT_EQ(value<double>(*scene.scene->children.at(1).object, "reflectance"), 1);
+  EXPECT_EQ(value<Rgb>(*scene.scene->children.at(2).object, "intensity").r, 255);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("'reflectance' is above 1"), std::string::npos);
+}
+
+TEST(MitsubaTree, OldShapesWithAMediumAreBoundaries) {
+  const auto bsdf_of = [](const std::string& inside, const std::string& version) {
+    const auto scene = parse(in_scene("<medium type='homogeneous' id='fog'/><shape type='sphere'>" +
+                                          inside + "</shape>",
+                                      version))
+                           .scene;
+    for (const Child& child : scene->children.at(1).object->children)
+      if (child.object->family == "bsdf") return child.object->type;
+    return std::string("none");
+  };
+  const std::string fog = "<ref name='interior' id='fog'/>";
+  EXPECT_EQ(bsdf_of(fog, "0.6.0"), "null");
+  EXPECT_EQ(bsdf_of(fog, "2.0.0"), "none");
+  EXPECT_EQ(bsdf_of("", "0.6.0"), "none");
+  EXPECT_EQ(bsdf_of(fog + "<bsdf type='dielectric'/>", "0.6.0"), "dielectric");
+  EXPECT_EQ(bsdf_of(fog + "<emitter type='area'/>", "0.6.0"), "none");
+}
+
+TEST(MitsubaTree, NamesOfDialects) {
+  const auto bsdf = parse_inside("<bsdf type='roughconductorGGX'/>").scene->children.at(0).object;
+  EXPECT_EQ(bsdf->type, "roughconductor");
+  EXPECT_EQ(value<std::string>(*bsdf, "distribution"), "ggx");
+  EXPECT_EQ(
+      parse(in_scene("<shape type='Rectangle'/>", "0.6.0")).scene->children.at(0).object->type,
+      "rectangle");
+  EXPECT_EQ(parse_inside("<shape type='Rectangle'/>").scene->children.at(0).object->type,
+            "Rectangle");
+}
+
+TEST(MitsubaTree, OfTwoValuesInOldFilesTheLastHolds) {
+  const std::string twice =
+      "<shape type='s'><float name='x' value='1'/><float name='x' value='2'/>"
+      "</shape>";
+  const Description old = parse(in_scene(twice, "0.6.0"));
+  EXPECT_EQ(value<double>(*old.scene->children.at(0).object, "x"), 2);
+  EXPECT_EQ(old.warnings.size(), 1u);
+  expect_problem(problems_in(in_scene(twice)), "test.xml:2:44", "'x' is given twice", "keep one");
+}
+
+TEST(MitsubaTree, FileNamesMayHaveBackslashes) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("meshes/a.obj", "");
+  const std::string path = folder.write(
+      "scene.xml", in_scene("<shape type='obj'><string name='filename' value='meshes\\a.obj'/>"
+                            "</shape>"));
+  EXPECT_EQ(value<std::string>(*load_mitsuba_xml(path).scene->children.at(0).object, "filename"),
+            mesh);
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -20,6 +20,7 @@ TEST(MitsubaValues, Numbers) {
   EXPECT_EQ(value_in_shape<double>("<float name='x' value=' -1.5e-3 '/>"), -1.5e-3);
   EXPECT_EQ(value_in_shape<double>("<float name='x' value='+2'/>"), 2.0);
   EXPECT_EQ(value_in_shape<double>("<float name='x' value='.5'/>"), 0.5);
+  EXPECT_EQ(value_in_shape<double>("<float name='x' value='0.1f'/>"), 0.1);
   EXPECT_EQ(value_in_shape<int64_t>("<integer name='x' value=' 42 '/>"), 42);
   EXPECT_EQ(value_in_shape<int64_t>("<integer name='x' value='-9223372036854775808'/>"), INT64_MIN);
 }
@@ -44,6 +45,10 @@ TEST(MitsubaValues, Colors) {
   EXPECT_DOUBLE_EQ(orange.r, 1.0);
   EXPECT_NEAR(orange.g, 0.21586050011389926, 1e-12);  // 128/255 by IEC 61966-2-1
   EXPECT_EQ(orange.b, 0.0);
+  // Mitsuba 0.6 means sRGB by <srgb> only.
+  EXPECT_EQ(value_in_shape<Rgb>("<rgb name='x' value='#FF8000' intent='reflectance'/>", "0.6.0"),
+            (Rgb{1, 128 / 255.0, 0}));
+  EXPECT_EQ(value_in_shape<Rgb>("<srgb name='x' value='#FF8000'/>", "0.6.0"), orange);
   // The linear part of the curve.
   EXPECT_NEAR(value_in_shape<Rgb>("<rgb name='x' value='#010101'/>").r, 1 / 255.0 / 12.92, 1e-15);
 }
@@ -53,6 +58,61 @@ TEST(MitsubaValues, Spectra) {
   const auto curve =
       value_in_shape<SpectralCurve>("<spectrum name='x' value='400:0.1, 500.5:0.2 700:3'/>");
   EXPECT_EQ(curve, (SpectralCurve{{{400, 0.1}, {500.5, 0.2}, {700, 3}}}));
+}
+
+/// A number stands for light of equal energy in files of version 2 and later, for white light
+/// before.
+TEST(MitsubaValues, SpectraOfLamps) {
+  const std::string lamp = "<emitter type='point'><spectrum name='intensity' value='2'/></emitter>";
+  EXPECT_EQ(value<SpectralCurve>(*parse_inside(lamp).scene->children[0].object, "intensity"),
+            (SpectralCurve{{{360, 2}, {830, 2}}}));
+  const auto old = [](const std::string& inside) {
+    return parse("<scene version='0.6.0'><emitter type='point'>" + inside + "</emitter></scene>")
+        .scene->children.at(0)
+        .object;
+  };
+  EXPECT_EQ(value<double>(*old("<spectrum name='intensity' value='2'/>"), "intensity"), 2.0);
+  EXPECT_EQ(value<Rgb>(*old("<spectrum name='intensity' value='1, 2, 3'/>"), "intensity"),
+            (Rgb{1, 2, 3}));
+  const auto hot = old("<blackbody name='intensity' temperature='4500K' scale='0.1'/>");
+  const Child& child = hot->children.at(0);
+  EXPECT_EQ(child.name, "intensity");
+  EXPECT_EQ(child.object->family, "texture");
+  EXPECT_EQ(child.object->type, "blackbody");
+  EXPECT_EQ(value<double>(*child.object, "temperature"), 4500.0);
+  EXPECT_EQ(value<double>(*child.object, "scale"), 0.1);
+}
+
+/// In 0.6 the zenith is +y, north −z, east +x.
+TEST(MitsubaValues, OldSkies) {
+  const auto sky = [](const std::string& type, const std::string& inside,
+                      const std::string& version = "0.6.0") {
+    return parse("<scene version='" + version + "'><emitter type='" + type + "'>" + inside +
+                 "</emitter></scene>")
+        .scene->children.at(0)
+        .object;
+  };
+  const auto expect_axes = [](const Transform& t, const Vec3f& south, const Vec3f& west,
+                              const Vec3f& zenith) {
+    EXPECT_EQ(t.vector({1, 0, 0}), south);
+    EXPECT_EQ(t.vector({0, 1, 0}), west);
+    EXPECT_EQ(t.vector({0, 0, 1}), zenith);
+  };
+  expect_axes(value<Transform>(*sky("sky", ""), "to_world"), {0, 0, 1}, {-1, 0, 0}, {0, 1, 0});
+  // A scene that has its zenith at +z turned the sky upright: y became z.
+  const std::string upright = "<transform name='toWorld'><rotate x='1' angle='90'/></transform>";
+  const Transform turned = value<Transform>(*sky("sunsky", upright), "to_world");
+  EXPECT_NEAR(turned.vector({0, 0, 1}).z, 1, 1e-6);
+  EXPECT_NEAR(turned.vector({1, 0, 0}).y, -1, 1e-6);
+  const auto scaled = sky("sunsky",
+                          "<float name='scale' value='2'/><float name='sunScale' "
+                          "value='3'/><float name='sunRadiusScale' value='10'/>");
+  EXPECT_EQ(value<double>(*scaled, "sun_scale"), 6.0);
+  EXPECT_EQ(value<double>(*scaled, "sky_scale"), 2.0);
+  EXPECT_NEAR(value<double>(*scaled, "sun_aperture"), 5.358, 1e-9);
+  EXPECT_EQ(value<double>(*sky("sky", "<float name='scale' value='2'/>"), "sky_scale"), 2.0);
+  EXPECT_TRUE(sky("sky", "", "2.0.0")->properties.empty());
+  EXPECT_TRUE(sky("constant", "")->properties.empty());
 }
 
 TEST(MitsubaValues, SpectrumFromFile) {

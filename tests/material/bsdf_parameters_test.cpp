@@ -33,9 +33,9 @@ TEST(bsdf_parameters, out_of_range) {
   EXPECT_EQ(message_of("diffuse", {at("reflectance", Rgb{0.5, 1.2, 0}, 4)}),
             "scene.xml:4:7: 'reflectance' is 1.2, outside its range\n"
             "  remedy: give a value from 0 to 1");
-  EXPECT_EQ(message_of("roughconductor", {at("alpha", 0.0, 4)}),
-            "scene.xml:4:7: 'alpha' is 0, outside its range\n"
-            "  remedy: give a value from 0.001 to 10");
+  EXPECT_EQ(message_of("roughconductor", {at("alpha", -0.5, 4)}),
+            "scene.xml:4:7: 'alpha' is -0.5, outside its range\n"
+            "  remedy: give a value from 0 to 10");
 }
 
 TEST(bsdf_parameters, unknown_material) {

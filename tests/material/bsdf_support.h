@@ -59,8 +59,8 @@ class DirectionGrid {
 inline constexpr int sample_count = 25000;
 inline constexpr double planted_error = 0.065;  ///< what a tenth of the samples can still find
 #else
-inline constexpr int sample_count = 250000;
-inline constexpr double planted_error = 0.02;
+inline constexpr int sample_count = 110000;
+inline constexpr double planted_error = 0.03;
 #endif
 
 }  // namespace kaustik::test

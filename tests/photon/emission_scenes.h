@@ -47,7 +47,8 @@ inline const std::vector<std::string>& light_kinds() {
 }
 /// That share their way of aiming with one of the above, but not their emission.
 inline const std::vector<std::string>& further_light_kinds() {
-  static const std::vector<std::string> kinds = {"sunsky", "distributedspot", "two-sided ball"};
+  static const std::vector<std::string> kinds = {"sunsky", "distributedspot", "two-sided ball",
+                                                 "projector"};
   return kinds;
 }
 
@@ -71,6 +72,8 @@ inline ObjectPointer light(const std::string& kind) {
   if (kind == "sunsky")
     return object("emitter", "sunsky",
                   {{"sun_direction", Vec3d(0.3, 0.2, 1)}, {"sun_aperture", 20.0}});
+  if (kind == "projector")
+    return object("emitter", "projector", {{"to_world", down}, {"fov", 60.0}});
   if (kind == "distributedspot")
     return object("emitter", "distributedspot",
                   {{"to_world", down}, {"radius", 0.3}, {"cutoff_angle", 50.0}});

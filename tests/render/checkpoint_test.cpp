@@ -85,7 +85,7 @@ RenderRecord little_record() {
   record.outputs.tone = "linear";
   record.outputs.tone_settings = {"exposure=1"};
   record.outputs.full_float = true;
-  record.view = {"path", 40, 30, Quantity::irradiance, {}};
+  record.view = {"path", 40, 30, Quantity::irradiance, 1.5, {}};
   record.seconds = 12.5;
   return record;
 }
@@ -172,6 +172,7 @@ TEST_F(CheckpointFile, HoldsEverything) {
   EXPECT_FALSE(read.record.outputs.denoise);
   EXPECT_EQ(read.record.view.vertical_fov, 30);
   EXPECT_EQ(read.record.view.quantity, Quantity::irradiance);
+  EXPECT_EQ(read.record.view.exposure, 1.5);
   EXPECT_EQ(read.record.seconds, 12.5);
   expect_same_bits(read.film, film);
 }
@@ -320,7 +321,7 @@ TEST_F(CheckpointFile, ForeignFilesAreRefused) {
   // Its lessons tell otherwise what guides have learned.
   other[12] = 7;
   write(other);
-  expect_refused("has version 7, this program reads version 9");
+  expect_refused("has version 7, this program reads version 10");
 }
 
 TEST_F(CheckpointFile, TruncatedAndDamagedFilesAreRefused) {

@@ -198,6 +198,9 @@ TEST(FilmMemory, ComponentsThatNobodyAskedForTakeNothing) {
   none.in_images = false;
   EXPECT_LT(expected_film_memory(none, true).film, 0.5 * of_two.film);
   EXPECT_EQ(expected_film_memory(none, true).image, 3 * sizeof(float));
+  // Displays ask for the light of lamps, and which share of a pixel they have.
+  none.components.add(Component::emission);
+  EXPECT_EQ(expected_film_memory(none, true).image, 7 * sizeof(float));
 }
 
 /// What is needed, what there is, and what to do.

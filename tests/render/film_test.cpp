@@ -39,6 +39,7 @@ std::vector<std::vector<PassPixel>> made_up_passes(size_t count) {
       pixel.first_hit.albedo = {0.5f, 0.25f, 1, 0};
       pixel.first_hit.normal = {uniform(generator), uniform(generator), 0};
       pixel.first_hit.depth = std::pow(10.0f, exponent(generator));
+      pixel.first_hit.lamps = uniform(generator);
     }
   return passes;
 }
@@ -493,10 +494,14 @@ TEST(Film, PicturesWithoutLayers) {
   const Image expected = whole.image();
   for (const Film* each : {&film, &rest}) {
     const Image image = each->image();
-    EXPECT_EQ(image.channel_names(), (std::vector<std::string>{"R", "G", "B"}));
-    for (int c = 0; c < image.channel_count(); ++c)
-      for (size_t i = 0; i < image.pixel_count(); ++i)
-        ASSERT_EQ(image.channel(c)[i], expected.channel(c)[i]);
+    // And the share that lamps have in it, which displays ask for.
+    EXPECT_EQ(image.channel_names(),
+              (std::vector<std::string>{"R", "G", "B", "emission.R", "emission.G", "emission.B",
+                                        "emission.A"}));
+    for (const std::string& name : image.channel_names())
+      for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+          ASSERT_EQ(value_at(image, x, y, name), value_at(expected, x, y, name)) << name;
     EXPECT_EQ(each->mean_error(), whole.mean_error());
     EXPECT_EQ(each->picture_error(), whole.picture_error());
   }

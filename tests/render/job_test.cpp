@@ -161,12 +161,12 @@ TEST(Job, MakesTheChangesOfItsRecipe) {
 }
 
 TEST(Job, WaitThrowsWhatIsWrongWithTheScene) {
-  Job wrong(room_with("nonsense"), settings_for(1));
+  Job wrong(room_with("pathh"), settings_for(1));
   wrong.start();
   EXPECT_THROW(wrong.wait(), Error);
   EXPECT_THROW(wrong.wait(), Error);
   EXPECT_FALSE(wrong.snapshot());
-  Job here(room_with("nonsense"), settings_for(1));
+  Job here(room_with("pathh"), settings_for(1));
   EXPECT_THROW(here.prepare(), Error);
   EXPECT_THROW(Job(room_with("path"), settings_for(1)).wait(), std::logic_error);
 }
@@ -325,7 +325,7 @@ TEST(Job, EditsMakeAllAnew) {
   while (!job.snapshot()) std::this_thread::yield();
   job.cancel();
   EXPECT_TRUE(job.wait().report.cancelled);
-  Job wrong(room_with("nonsense"), settings);
+  Job wrong(room_with("pathh"), settings);
   wrong.start();
   EXPECT_THROW(wrong.wait(), Error);
   wrong.edit(room_with("path"));

@@ -462,11 +462,11 @@ TEST(MakeIntegrator, ChoosesAndChecks) {
             std::string::npos);
   EXPECT_NE(refused("<integrator type=\"path\"/><integrator type=\"path\"/>").find("second"),
             std::string::npos);
-  EXPECT_EQ(refused("<integrator type=\"path\"><boolean name=\"hide_emitters\" value=\"true\"/>"
+  EXPECT_EQ(refused("<integrator type=\"path\"><boolean name=\"strict_normals\" value=\"true\"/>"
                     "</integrator>"),
             "");
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("hide_emitters"), std::string::npos);
+  EXPECT_NE(warnings[0].find("strict_normals"), std::string::npos);
 }
 
 /// What denoisers go by is of the surface behind clear glass, seen through it or in a mirror.

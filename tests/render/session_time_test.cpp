@@ -290,7 +290,7 @@ TEST(SessionTime, AClockThatFailsInALightPassEndsIt) {
 TEST(PartPicture, WeighsByShares) {
   Image image(1, 1,
               {"R", "G", "B", "caustic.G", "albedo.B", "N.Y", "depth.Z", "error.R", "bias.B",
-               "noise.mirrored"});
+               "noise.mirrored", "emission.A"});
   for (int c = 0; c < image.channel_count(); ++c) image.at(0, 0, c) = 3;
   PassPixel pixel;
   pixel.radiance[size_t(Component::caustic)] = {1, 2, 3, 0};
@@ -298,12 +298,13 @@ TEST(PartPicture, WeighsByShares) {
   pixel.first_hit.albedo = {0.1f, 0.2f, 0.3f, 0};
   pixel.first_hit.normal = {4, 5, 6};
   pixel.first_hit.depth = 7;
+  pixel.first_hit.lamps = 0.25f;
   pixel.bias = {8, 9, 10, 0};
   PartPicture(image, 3, 0.5).put(0, 0, pixel);
   const auto mean = [](double part) { return float((3 * 3 + 0.5 * part) / 3.5); };
   const float fallen = 3 * std::sqrt(3 / 3.5f);
-  const float expected[] = {mean(11), mean(22), mean(33), mean(2),  mean(0.3),
-                            mean(5),  mean(7),  fallen,   mean(10), fallen};
+  const float expected[] = {mean(11), mean(22), mean(33), mean(2), mean(0.3), mean(5),
+                            mean(7),  fallen,   mean(10), fallen,  mean(0.25)};
   for (int c = 0; c < image.channel_count(); ++c)
     EXPECT_NEAR(image.at(0, 0, c), expected[c], 1e-5f) << image.channel_names()[size_t(c)];
 }

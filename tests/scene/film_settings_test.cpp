@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/statistics.h"
 #include "kaustik/scene/filter_kinds.h"
@@ -109,6 +111,33 @@ TEST(PixelFilter, EndsAtItsRadius) {
     }
     EXPECT_NEAR(c.filter.sample({0.5f, 0.5f}).x, 0, 1e-5) << c.name;
   }
+}
+
+PixelFilter filter_named(const std::string& name, const std::vector<Property>& properties = {}) {
+  for (const FilterType& type : filter_types()) {
+    if (type.info.name != name) continue;
+    Problems problems;
+    const Arguments arguments(type.info, properties, {}, problems);
+    problems.throw_if_any();
+    return type.create(arguments);
+  }
+  throw std::invalid_argument("no filter " + name);
+}
+
+// Of a filter with negative lobes the one in the middle stays: in its shape up to its first zero.
+TEST(PixelFilter, WithNegativeLobesKeepsTheOneInTheMiddle) {
+  EXPECT_NEAR(filter_named("catmullrom").radius(), 1, 1e-6);
+  EXPECT_NEAR(filter_named("lanczos").radius(), 1, 1e-6);
+  // Without negative lobes all of it: the cubic B-spline, 2/3 in the middle and 1/6 beside it.
+  const PixelFilter spline = filter_named("mitchell", {{"B", 1.0, {}}, {"C", 0.0, {}}});
+  EXPECT_NEAR(spline.radius(), 2, 1e-3);
+  EXPECT_NEAR(spline.eval({0, 0}), 4.0 / 9, 1e-4);
+  EXPECT_NEAR(spline.eval({1, 0}), 2.0 / 3 / 6, 1e-4);
+  // Mitchell and Netravali's own: 8/9 in the middle, 77/144 halfway to the next pixel.
+  const PixelFilter mitchell = filter_named("mitchell");
+  EXPECT_GT(mitchell.radius(), 1);
+  EXPECT_LT(mitchell.radius(), 1.2);
+  EXPECT_NEAR(mitchell.eval({0.5f, 0}) / mitchell.eval({0, 0}), 77.0 / 144 / (8.0 / 9), 1e-4);
 }
 
 }  // namespace

@@ -35,15 +35,15 @@ Rgb without_negatives(const Rgb& c) {
   return {std::max(0.0, c.r), std::max(0.0, c.g), std::max(0.0, c.b)};
 }
 
-/// Values of a curve at ascending wavelengths, each asked for once.
+/// Values of a curve at ascending wavelengths, each asked for once; zero beyond its ends.
 class CurveReader {
  public:
   explicit CurveReader(const SpectralCurve& curve) : samples_(curve.samples) {}
   double operator()(double nm) {
     while (next_ < samples_.size() && samples_[next_].first <= nm) ++next_;
     if (samples_.empty()) return 0;
-    if (next_ == 0) return samples_.front().second;
-    if (next_ == samples_.size()) return samples_.back().second;
+    if (next_ == 0) return 0;
+    if (next_ == samples_.size()) return samples_.back().first == nm ? samples_.back().second : 0;
     const auto& [low_nm, low] = samples_[next_ - 1];
     const auto& [high_nm, high] = samples_[next_];
     return low + (high - low) * (nm - low_nm) / (high_nm - low_nm);

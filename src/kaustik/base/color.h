@@ -14,11 +14,13 @@ Vec3d cie_xyz_at(double wavelength_nm);
 double d65_at(double wavelength_nm);
 Rgb rgb_from_xyz(const Vec3d& xyz);
 
-/// Linear Rec. 709 of a reflectance (or another factor) curve under D65: a constant curve c gives
-/// (c, c, c). Colours outside the gamut are clamped to zero.
+/// Linear Rec. 709 of a reflectance (or another factor) curve under D65: one that is c from 360 to
+/// 830 nm gives (c, c, c). Beyond its ends it is zero. Colours outside the gamut are clamped to
+/// zero.
 Rgb rgb_from_reflectance(const SpectralCurve& curve);
-/// Linear Rec. 709 of an emission curve, scaled such that a constant c over the visible range gives
-/// (c, c, c) in luminance as Mitsuba's RGB mode does.
+/// Linear Rec. 709 of an emission curve, zero beyond its ends; one that is c from 360 to 830 nm has
+/// the luminance c and the colour of equal energy, c · (1.2048, 0.9483, 0.9089), as in Mitsuba's
+/// RGB mode.
 Rgb rgb_from_emission(const SpectralCurve& curve);
 
 /// What a `color` argument means for something that reflects or for something that emits.

@@ -42,6 +42,8 @@ class Descriptor {
   bool is_open() const { return fd_ >= 0; }
   /// False (errno says why) if the system reports a write error only now, as network disks do.
   bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
+  /// It stays open.
+  void release() { fd_ = -1; }
 
  private:
   int fd_;
@@ -210,22 +212,6 @@ class TemporaryFile {
   bool is_renamed_ = false;
 };
 
-std::vector<uint8_t> read_bytes(const std::string& path, int fd, size_t size) {
-  std::vector<uint8_t> bytes(size);
-  size_t filled = 0;
-  while (filled < size) {
-    const ssize_t count = ::read(fd, bytes.data() + filled, size - filled);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0)
-      throw Error(ErrorKind::system, fmt::format("cannot read '{}': {}", path, text_of(errno)),
-                  "check the disk");
-    if (count == 0) break;
-    filled += size_t(count);
-  }
-  bytes.resize(filled);
-  return bytes;
-}
-
 }  // namespace
 
 std::vector<uint8_t> read_file(const std::string& path) {
@@ -237,26 +223,48 @@ std::vector<uint8_t> read_file_start(const std::string& path, size_t most) {
 }
 
 FilePart read_file_part(const std::string& path, uint64_t begin, size_t most) {
-  // Without O_NONBLOCK a named pipe would be waited for.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  const InputFile file(path);
+  if (begin >= file.size()) return {{}, file.size()};
+  try {
+    std::vector<uint8_t> bytes(size_t(std::min<uint64_t>(most, file.size() - begin)));
+    bytes.resize(file.read(begin, bytes));
+    return {std::move(bytes), file.size()};
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::system, fmt::format("cannot read '{}': not enough memory", path),
+                "the file is larger than this machine can hold");
+  }
+}
+
+InputFile::InputFile(const std::string& path)
+    // Without O_NONBLOCK a named pipe would be waited for.
+    : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+  Descriptor closer(descriptor_);
   struct stat status;
-  if (!file.is_open() || ::fstat(file.get(), &status) != 0)
+  if (!closer.is_open() || ::fstat(descriptor_, &status) != 0)
     throw_input(fmt::format("cannot read '{}': {}", path, text_of(errno)),
                 "check the name and the permissions");
   if (!S_ISREG(status.st_mode))
     throw_input(fmt::format("cannot read '{}': it is not a regular file", path),
                 "give the name of a file");
-  const auto size = uint64_t(status.st_size);
-  if (begin >= size) return {{}, size};
-  if (::lseek(file.get(), off_t(begin), SEEK_SET) < 0)
-    throw Error(ErrorKind::system, fmt::format("cannot read '{}': {}", path, text_of(errno)),
-                "check the disk");
-  try {
-    return {read_bytes(path, file.get(), size_t(std::min<uint64_t>(most, size - begin))), size};
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::system, fmt::format("cannot read '{}': not enough memory", path),
-                "the file is larger than this machine can hold");
+  size_ = uint64_t(status.st_size);
+  closer.release();
+}
+
+InputFile::~InputFile() { ::close(descriptor_); }
+
+size_t InputFile::read(uint64_t begin, std::span<uint8_t> out) const {
+  size_t filled = 0;
+  while (filled < out.size()) {
+    const ssize_t count =
+        ::pread(descriptor_, out.data() + filled, out.size() - filled, off_t(begin + filled));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0)
+      throw Error(ErrorKind::system, fmt::format("cannot read '{}': {}", path_, text_of(errno)),
+                  "check the disk");
+    if (count == 0) break;
+    filled += size_t(count);
   }
+  return filled;
 }
 
 std::string output_target(const std::string& path) {

@@ -19,6 +19,27 @@ struct FilePart {
 /// The same of at most so many bytes from `begin` on; none where the file ends before.
 FilePart read_file_part(const std::string& path, uint64_t begin, size_t most);
 
+/// A file that stays open while parts of it are read, by several threads at once if they like.
+class InputFile {
+ public:
+  /// Throws as read_file() does.
+  explicit InputFile(const std::string& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  /// When it was opened.
+  uint64_t size() const { return size_; }
+  /// Fills `out` with what there is from `begin` on; returns how many bytes that are: fewer only
+  /// where the file ends. Throws Error(system).
+  size_t read(uint64_t begin, std::span<uint8_t> out) const;
+
+ private:
+  std::string path_;
+  int descriptor_;
+  uint64_t size_ = 0;
+};
+
 /// Puts `bytes` at `path` as a whole or not at all: written to a temporary file in the same folder,
 /// flushed to the disk, renamed over the target. Whatever goes wrong, a file that was there before
 /// stays as it was and the temporary one is removed; if the program is killed, by the next one that

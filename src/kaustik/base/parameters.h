@@ -22,7 +22,8 @@ struct Rgb {
   double r = 0, g = 0, b = 0;
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
-/// Values over wavelength in nm, ascending, at least one; linear between, constant outside.
+/// Values over wavelength in nm, ascending, at least one; linear between. Beyond its ends light and
+/// reflectances are zero, and indices of refraction and extinctions stay as they are there.
 struct SpectralCurve {
   std::vector<std::pair<double, double>> samples;
   friend bool operator==(const SpectralCurve&, const SpectralCurve&) = default;

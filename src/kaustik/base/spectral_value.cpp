@@ -10,8 +10,11 @@ namespace {
 
 class Tabulated final : public SpectralFunction {
  public:
-  explicit Tabulated(SpectralCurve curve) : samples_(std::move(curve.samples)) {}
+  Tabulated(SpectralCurve curve, bool is_zero_outside)
+      : samples_(std::move(curve.samples)), is_zero_outside_(is_zero_outside) {}
   double at(double nm) const override {
+    if (is_zero_outside_ && !(nm >= samples_.front().first && nm <= samples_.back().first))
+      return 0;
     const auto next =
         std::upper_bound(samples_.begin(), samples_.end(), nm,
                          [](double x, const auto& sample) { return x < sample.first; });
@@ -23,6 +26,7 @@ class Tabulated final : public SpectralFunction {
 
  private:
   std::vector<std::pair<double, double>> samples_;
+  bool is_zero_outside_;
 };
 
 class Blackbody final : public SpectralFunction {
@@ -68,22 +72,42 @@ bool is_grey(const Rgb& c) { return c.r == c.g && c.g == c.b; }
 }  // namespace
 
 SpectralFunctionPointer tabulated(SpectralCurve curve) {
-  return std::make_shared<Tabulated>(std::move(curve));
+  return std::make_shared<Tabulated>(std::move(curve), false);
+}
+
+SpectralFunctionPointer tabulated_within(SpectralCurve curve) {
+  return std::make_shared<Tabulated>(std::move(curve), true);
 }
 
 SpectralFunctionPointer blackbody(double kelvin) { return std::make_shared<Blackbody>(kelvin); }
 
 SpectralValue SpectralValue::reflectance(const std::variant<Rgb, SpectralCurve>& color) {
   const Spectrum rgb = reflectance_spectrum(color);
-  if (const auto* curve = std::get_if<SpectralCurve>(&color)) return {rgb, tabulated(*curve)};
+  if (const auto* curve = std::get_if<SpectralCurve>(&color))
+    return {rgb, tabulated_within(*curve)};
   if (is_grey(std::get<Rgb>(color))) return SpectralValue(rgb[0]).with_rgb(rgb);
   return {rgb, by_lanes(rgb, lanes_from_reflectance)};
 }
 
 SpectralValue SpectralValue::emission(const std::variant<Rgb, SpectralCurve>& color) {
   const Spectrum rgb = emission_spectrum(color);
-  if (const auto* curve = std::get_if<SpectralCurve>(&color)) return {rgb, tabulated(*curve)};
+  if (const auto* curve = std::get_if<SpectralCurve>(&color))
+    return {rgb, tabulated_within(*curve)};
   return rgb.is_zero() ? SpectralValue() : SpectralValue(rgb, by_lanes(rgb, lanes_from_emission));
+}
+
+SpectralValue SpectralValue::material_constant(const std::variant<Rgb, SpectralCurve>& color) {
+  const auto* curve = std::get_if<SpectralCurve>(&color);
+  if (!curve) return reflectance(color);
+  // As far as anybody asks the ends are repeated.
+  SpectralCurve held = *curve;
+  const auto [first_nm, first] = held.samples.front();
+  const auto [last_nm, last] = held.samples.back();
+  if (first_nm > double(Wavelengths::first_nm))
+    held.samples.insert(held.samples.begin(), {double(Wavelengths::first_nm), first});
+  if (last_nm < double(Wavelengths::last_nm))
+    held.samples.emplace_back(double(Wavelengths::last_nm), last);
+  return {reflectance(held).rgb(), tabulated(*curve)};
 }
 
 SpectralValue SpectralValue::emission(const SpectralFunctionPointer& function) {

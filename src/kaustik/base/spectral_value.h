@@ -16,8 +16,10 @@ class SpectralFunction {
 };
 using SpectralFunctionPointer = std::shared_ptr<const SpectralFunction>;
 
-/// Linear between the samples, constant outside; at least one sample.
+/// Linear between the samples, at least one; constant outside …
 SpectralFunctionPointer tabulated(SpectralCurve curve);
+/// … or zero, as Mitsuba has it for light and reflectances.
+SpectralFunctionPointer tabulated_within(SpectralCurve curve);
 /// Planck's radiance of a black body, W/(sr·m²·nm). `kelvin` above 0.
 SpectralFunctionPointer blackbody(double kelvin);
 
@@ -34,11 +36,14 @@ class SpectralValue {
   SpectralValue(const Spectrum& rgb, SpectralFunctionPointer function)
       : rgb_(rgb), function_(std::move(function)) {}
 
-  /// What a `color` argument means for something that reflects: a curve as it is, a colour by
-  /// lanes_from_reflectance.
+  /// What a `color` argument means for something that reflects: a curve as it is, zero beyond its
+  /// ends; a colour by lanes_from_reflectance.
   static SpectralValue reflectance(const std::variant<Rgb, SpectralCurve>& color);
   /// The same for something that emits: a curve as it is, a colour by lanes_from_emission.
   static SpectralValue emission(const std::variant<Rgb, SpectralCurve>& color);
+  /// The same for an index of refraction, an extinction and the like: as of something that
+  /// reflects, but a curve stays as it is beyond its ends.
+  static SpectralValue material_constant(const std::variant<Rgb, SpectralCurve>& color);
   /// A function of emission; its RGB lanes are those of rgb_from_emission.
   static SpectralValue emission(const SpectralFunctionPointer& function);
 

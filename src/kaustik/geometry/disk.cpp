@@ -51,6 +51,13 @@ class Disk : public Shape {
     return {point_at(d.x, d.y), area_ > 0 ? 1.0f / area_ : 0.0f};
   }
 
+  std::optional<Vec2f> area_coordinates(const SurfacePoint& point) const override {
+    const Vec3d from_center = Vec3d(point.position) - center_;
+    const Vec2f u =
+        disk_to_square({float(from_center.dot(dual_s_)), float(from_center.dot(dual_t_))});
+    return Vec2f(std::clamp(u.x, 0.0f, 1.0f), std::clamp(u.y, 0.0f, 1.0f));
+  }
+
   /// From nearby a direction to the square about the disk, whose corners are no light.
   ShapeSample sample_toward(const Vec3f& reference, const Vec2f& u,
                             float& pdf_solid_angle) const override {

@@ -1,5 +1,5 @@
 #pragma once
-#include <span>
+#include <optional>
 
 #include "kaustik/geometry/shape.h"
 
@@ -19,18 +19,23 @@ struct MeshFile {
 /// finite coordinates, or Error(input) is thrown that names the file, the place and what to do; it
 /// takes time in proportion to their number.
 MeshFile read_ply(const std::string& path);
-/// Wavefront OBJ: v, vt, vn and f, in small or capital letters; groups, materials, smoothing,
-/// points and lines are skipped, what it does not know is remarked. Vertices are split where
-/// texture coordinates or normals differ.
-MeshFile read_obj(const std::string& path);
 
-/// Mitsuba's packed meshes, versions 3 and 4: the one with this index of those that a file holds.
-/// Colours are skipped.
+/// Which faces of an OBJ file are read.
+struct ObjSelection {
+  /// Those of one of the parts that lines `g` and `usemtl` divide it into, counted from 0.
+  std::optional<uint64_t> shape_index = {};
+  /// Those of one material; "": those before any `usemtl`.
+  std::optional<std::string> material = {};
+};
+/// Wavefront OBJ: v, vt, vn and f, in small or capital letters; smoothing, points and lines are
+/// skipped, what it does not know is remarked. Vertices are split where texture coordinates or
+/// normals differ.
+MeshFile read_obj(const std::string& path, const ObjSelection& selection = {});
+
+/// Mitsuba's packed meshes, versions 3 to 5: the one with this index of those that a file holds.
+/// Colours and other attributes are skipped.
 MeshFile read_serialized(const std::string& path, uint64_t shape_index);
 
-/// How many bytes of `bytes` are a mark that it is UTF-8 text. Throws Error(input) naming `file`
-/// where the mark of another encoding stands.
-size_t byte_order_mark(std::span<const uint8_t> bytes, const std::string& file);
 /// The remark on faces with fewer than three corners.
 std::string remark_on_small_faces(size_t count, const std::string& file);
 

@@ -1,5 +1,8 @@
 #include "kaustik/geometry/mesh_shape.h"
 
+#include <algorithm>
+
+#include "kaustik/base/parallel.h"
 #include "kaustik/base/prefetch.h"
 #include "kaustik/base/warp.h"
 #include "kaustik/geometry/mesh_surface.h"
@@ -8,6 +11,9 @@
 namespace kaustik {
 namespace {
 
+/// Triangles or vertices that a thread goes through at a time.
+constexpr size_t block_size = size_t{1} << 16;
+
 double triangle_area(const TriangleMesh& mesh, const std::array<uint32_t, 3>& corner) {
   const Vec3d p0(mesh.positions[corner[0]]);
   return 0.5 * (Vec3d(mesh.positions[corner[1]]) - p0)
@@ -15,19 +21,33 @@ double triangle_area(const TriangleMesh& mesh, const std::array<uint32_t, 3>& co
                    .length();
 }
 
-void turn_round(TriangleMesh& mesh) {
-  for (auto& corner : mesh.triangles) std::swap(corner[1], corner[2]);
+/// Calls `body` with each of them, in parallel.
+template <typename Item, typename Body>
+void for_each_in_parallel(std::vector<Item>& items, const Body& body) {
+  parallel_blocks(items.size(), block_size, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end; ++i) body(items[i]);
+  });
 }
 
-/// Turns triangles round whose vertex normals point to their back.
-void wind_by_normals(TriangleMesh& mesh) {
-  if (mesh.normals.empty()) return;
-  for (auto& corner : mesh.triangles) {
-    const Vec3f n = mesh.normals[corner[0]] + mesh.normals[corner[1]] + mesh.normals[corner[2]];
-    const Vec3f ng = triangle_normal(mesh.positions[corner[0]], mesh.positions[corner[1]],
-                                     mesh.positions[corner[2]]);
-    if (dot(n, ng) < 0) std::swap(corner[1], corner[2]);
-  }
+void turn_round(TriangleMesh& mesh) {
+  for_each_in_parallel(mesh.triangles, [](auto& corner) { std::swap(corner[1], corner[2]); });
+}
+
+/// Turns a triangle round if its vertex normals point to its back.
+void wind_by_normals(const TriangleMesh& mesh, std::array<uint32_t, 3>& corner) {
+  const Vec3f n = mesh.normals[corner[0]] + mesh.normals[corner[1]] + mesh.normals[corner[2]];
+  const Vec3f ng = triangle_normal(mesh.positions[corner[0]], mesh.positions[corner[1]],
+                                   mesh.positions[corner[2]]);
+  if (dot(n, ng) < 0) std::swap(corner[1], corner[2]);
+}
+
+/// Gives normals to those vertices that have none.
+void add_missing_normals(TriangleMesh& mesh) {
+  const Vec3f nothing(0, 0, 0);
+  if (std::find(mesh.normals.begin(), mesh.normals.end(), nothing) == mesh.normals.end()) return;
+  const std::vector<Vec3f> smooth = smooth_normals(mesh);
+  for (size_t i = 0; i < mesh.normals.size(); ++i)
+    if (mesh.normals[i] == nothing) mesh.normals[i] = smooth[i];
 }
 
 /// See MeshShape::rectangle_.
@@ -51,13 +71,20 @@ MeshShape::MeshShape(TriangleMesh mesh, std::vector<std::string> remarks)
     : mesh_(std::move(mesh)), remarks_(std::move(remarks)) {
   // Embree reads vertices by 16 bytes: room behind the last one.
   mesh_.positions.reserve(mesh_.positions.size() + 1);
-  wind_by_normals(mesh_);
-  double area = 0;
-  for (const auto& corner : mesh_.triangles) {
-    area += triangle_area(mesh_, corner);
-    for (const uint32_t vertex : corner) bounds_.extendBy(mesh_.positions[vertex]);
-  }
-  area_ = float(area);
+  const size_t count = mesh_.triangles.size();
+  std::vector<Bounds3f> boxes((count + block_size - 1) / block_size);
+  area_ = float(sum_over_blocks(count, block_size, [&](size_t begin, size_t end) {
+    double area = 0;
+    Bounds3f box;
+    for (size_t i = begin; i < end; ++i) {
+      if (!mesh_.normals.empty()) wind_by_normals(mesh_, mesh_.triangles[i]);
+      area += triangle_area(mesh_, mesh_.triangles[i]);
+      for (const uint32_t vertex : mesh_.triangles[i]) box.extendBy(mesh_.positions[vertex]);
+    }
+    boxes[begin / block_size] = box;
+    return area;
+  }));
+  for (const Bounds3f& box : boxes) bounds_.extendBy(box);
   rectangle_ = rectangle_of(mesh_);
 }
 
@@ -89,6 +116,26 @@ ShapeSample MeshShape::sample_area(const Vec2f& u) const {
   ShapeSample sample{triangle_surface_point(mesh_, triangle, b.x, b.y), 1.0f / area_};
   if (sample.point.ng == Vec3f(0, 0, 0)) sample.pdf_area = 0;
   return sample;
+}
+
+std::optional<Vec2f> MeshShape::area_coordinates(const SurfacePoint& point) const {
+  if (!(area_ > 0) || point.primitive >= mesh_.triangles.size()) return std::nullopt;
+  std::call_once(distribution_once_, [this] { build_distribution(); });
+  const auto& corner = mesh_.triangles[point.primitive];
+  const Vec3d p0(mesh_.positions[corner[0]]);
+  const Vec3d a = Vec3d(mesh_.positions[corner[1]]) - p0,
+              b = Vec3d(mesh_.positions[corner[2]]) - p0, p = Vec3d(point.position) - p0;
+  const Vec3d normal = a.cross(b);
+  const double normal_sq = normal.length2();
+  if (!(normal_sq > 0)) return std::nullopt;
+  // Barycentric coordinates of the second and the third corner.
+  const double b1 = std::max(0.0, p.cross(b).dot(normal) / normal_sq);
+  const double b2 = std::max(0.0, a.cross(p).dot(normal) / normal_sq);
+  const double sum = std::min(b1 + b2, 1.0);
+  const double before = point.primitive > 0 ? cumulative_area_[point.primitive - 1] : 0.0;
+  const double of_triangle = cumulative_area_[point.primitive] - before;
+  return Vec2f(float((before + sum * sum * of_triangle) / cumulative_area_.back()),
+               sum > 0 ? float(std::min(b2 / (b1 + b2), 1.0)) : 0.0f);
 }
 
 ShapeSample MeshShape::sample_toward(const Vec3f& reference, const Vec2f& u,
@@ -127,48 +174,81 @@ std::vector<Bounds3f> MeshShape::bounding_boxes(int budget) const {
 
 std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh) {
   std::vector<Vec3f> normals(mesh.positions.size(), Vec3f(0, 0, 0));
-  for (const auto& corner : mesh.triangles) {
-    const Vec3f p[3] = {mesh.positions[corner[0]], mesh.positions[corner[1]],
-                        mesh.positions[corner[2]]};
-    const Vec3f n = triangle_normal(p[0], p[1], p[2]);
-    if (n == Vec3f(0, 0, 0)) continue;
-    for (int i = 0; i < 3; ++i) {
-      const Vec3d a(p[(i + 1) % 3] - p[i]), b(p[(i + 2) % 3] - p[i]);
-      normals[corner[size_t(i)]] += n * float(std::atan2(a.cross(b).length(), a.dot(b)));
-    }
+  // What faces give is computed in parallel, and added in their order.
+  constexpr size_t batch_size = 4 * block_size;
+  std::vector<std::array<Vec3f, 3>> parts(std::min(batch_size, mesh.triangles.size()));
+  for (size_t first = 0; first < mesh.triangles.size(); first += batch_size) {
+    const size_t count = std::min(batch_size, mesh.triangles.size() - first);
+    parallel_blocks(count, block_size / 4, [&](size_t begin, size_t end, size_t) {
+      for (size_t i = begin; i < end; ++i)
+        parts[i] = weighted_normals(mesh, mesh.triangles[first + i]);
+    });
+    for (size_t i = 0; i < count; ++i)
+      for (size_t corner = 0; corner < 3; ++corner)
+        normals[mesh.triangles[first + i][corner]] += parts[i][corner];
   }
-  for (Vec3f& n : normals) {
+  for_each_in_parallel(normals, [](Vec3f& n) {
     const float n_length = length(n);
     n = n_length > 0 ? n * (1.0f / n_length) : Vec3f(0, 0, 1);
-  }
+  });
   return normals;
+}
+
+std::array<Vec3f, 3> weighted_normals(const TriangleMesh& mesh,
+                                      const std::array<uint32_t, 3>& corner) {
+  const Vec3f p[3] = {mesh.positions[corner[0]], mesh.positions[corner[1]],
+                      mesh.positions[corner[2]]};
+  const Vec3f n = triangle_normal(p[0], p[1], p[2]);
+  std::array<Vec3f, 3> weighted;
+  weighted.fill(Vec3f(0, 0, 0));
+  if (n == Vec3f(0, 0, 0)) return weighted;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3d a(p[(i + 1) % 3] - p[i]), b(p[(i + 2) % 3] - p[i]);
+    weighted[size_t(i)] = n * float(std::atan2(a.cross(b).length(), a.dot(b)));
+  }
+  return weighted;
 }
 
 TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const Place& place) {
   constexpr float largest = 1e18f;  // what Embree can hold
-  for (size_t i = 0; i < mesh.positions.size(); ++i) {
-    Vec3f& p = mesh.positions[i];
-    p = options.to_world.point(p);
-    if (!is_finite(p) || max_abs(p) > largest)
+  const bool is_moved = !(options.to_world == Transform());
+  // The first vertex of each block that is too far away.
+  std::vector<size_t> too_far((mesh.positions.size() + block_size - 1) / block_size,
+                              mesh.positions.size());
+  parallel_blocks(mesh.positions.size(), block_size, [&](size_t begin, size_t end, size_t block) {
+    for (size_t i = end; i-- > begin;) {
+      Vec3f& p = mesh.positions[i];
+      if (is_moved) p = options.to_world.point(p);
+      if (!is_finite(p) || max_abs(p) > largest) too_far[block] = i;
+    }
+  });
+  for (const size_t vertex : too_far)
+    if (vertex < mesh.positions.size())
       throw Error(ErrorKind::input,
-                  "vertex " + std::to_string(i) + " is too far away once placed by 'to_world'",
+                  "vertex " + std::to_string(vertex) + " is too far away once placed by 'to_world'",
                   "coordinates must stay below 1e18", place);
-  }
   // Mirrored, what ran anticlockwise round the front runs clockwise.
   if (options.to_world.determinant3() < 0) turn_round(mesh);
-  if (options.face_normals) mesh.normals.clear();
-  for (Vec3f& n : mesh.normals) {
-    n = options.to_world.normal(n);
+  if (options.face_normals || options.max_smooth_angle) mesh.normals = std::vector<Vec3f>();
+  for_each_in_parallel(mesh.normals, [&](Vec3f& n) {
+    if (is_moved) n = options.to_world.normal(n);
     const float n_length = length(n);
     n = n_length > 0 && std::isfinite(n_length) ? n * (1.0f / n_length) : Vec3f(0, 0, 0);
+  });
+  if (!options.face_normals) {
+    if (options.max_smooth_angle)
+      mesh = split_at_creases(std::move(mesh), *options.max_smooth_angle);
+    else if (mesh.normals.empty())
+      mesh.normals = smooth_normals(mesh);
+    else
+      add_missing_normals(mesh);
   }
-  if (mesh.normals.empty() && !options.face_normals) mesh.normals = smooth_normals(mesh);
   if (options.flip_normals) {
-    for (Vec3f& n : mesh.normals) n = -n;
+    for_each_in_parallel(mesh.normals, [](Vec3f& n) { n = -n; });
     turn_round(mesh);
   }
   if (options.flip_tex_coords)
-    for (Vec2f& uv : mesh.uvs) uv.y = 1.0f - uv.y;
+    for_each_in_parallel(mesh.uvs, [](Vec2f& uv) { uv.y = 1.0f - uv.y; });
   return mesh;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 #include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "kaustik/geometry/shape.h"
 #include "kaustik/geometry/spherical_rectangle.h"
@@ -22,6 +25,7 @@ class MeshShape : public Shape {
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
   UvDerivatives uv_derivatives(const SurfacePoint& at) const override;
   ShapeSample sample_area(const Vec2f& u) const override;
+  std::optional<Vec2f> area_coordinates(const SurfacePoint& point) const override;
   /// A rectangle by its solid angle, where that is better.
   ShapeSample sample_toward(const Vec3f& reference, const Vec2f& u,
                             float& pdf_solid_angle) const override;
@@ -52,16 +56,27 @@ struct MeshOptions {
   bool face_normals = false;     ///< drop vertex normals
   bool flip_normals = false;     ///< turn the surface inside out
   bool flip_tex_coords = false;  ///< v becomes 1 − v
+  /// Makes the normals anew, see split_at_creases().
+  std::optional<double> max_smooth_angle = {};
 };
 
 /// `mesh` placed in the world. Its front stays the front under mirroring transforms, too: Mitsuba
 /// transforms normals, not the winding. A mesh without normals gets smooth ones unless
-/// `face_normals`, as in Mitsuba 3. Throws Error(input) at `place` if a vertex becomes infinite.
+/// `face_normals`, as in Mitsuba 3; where some vertices have none, these get them. Throws
+/// Error(input) at `place` if a vertex becomes infinite.
 TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const Place& place);
 
 /// Unit vertex normals: the face normals weighted by the angle at the vertex (Thürmer and Wüthrich,
 /// "Computing Vertex Normals from Polygonal Facets", JGT 1998). Vertices of no area get +z.
 std::vector<Vec3f> smooth_normals(const TriangleMesh& mesh);
+/// What one triangle adds to the normals of its corners; zero if it has no area.
+std::array<Vec3f, 3> weighted_normals(const TriangleMesh& mesh,
+                                      const std::array<uint32_t, 3>& corner);
+
+/// The mesh with normals that are smooth but at its creases: edges between faces whose normals are
+/// more than so many degrees apart. Vertices are doubled there; those at the same place count as
+/// one (Mitsuba 0.6's `maxSmoothAngle`).
+TriangleMesh split_at_creases(TriangleMesh mesh, double degrees);
 
 /// At most `budget` boxes that hold all triangles, split top-down.
 std::vector<Bounds3f> triangle_boxes(const TriangleMesh& mesh, int budget);

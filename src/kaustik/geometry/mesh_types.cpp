@@ -16,6 +16,11 @@ std::vector<Parameter> mesh_option_parameters(bool flip_tex_coords) {
       boolean_parameter("face_normals", false,
                         "Flat faces: normals that are given are dropped. Otherwise a mesh without "
                         "normals gets smooth ones."),
+      optional(number_parameter("max_smooth_angle", 0,
+                                "Makes the normals anew: smooth but at creases, edges between "
+                                "faces that are turned against one another by more than that.")
+                   .range(0, 180)
+                   .in("degrees")),
       boolean_parameter("flip_normals", false, "Turns the surface inside out."),
       boolean_parameter("flip_tex_coords", flip_tex_coords,
                         "Turns texture coordinates upside down (v becomes 1 - v)."),
@@ -28,10 +33,13 @@ std::vector<Parameter> with_options(std::vector<Parameter> rows, bool flip_tex_c
 }
 
 MeshOptions mesh_options(const Arguments& arguments) {
-  return {.to_world = affine_to_world(arguments),
-          .face_normals = arguments.boolean("face_normals"),
-          .flip_normals = arguments.boolean("flip_normals"),
-          .flip_tex_coords = arguments.boolean("flip_tex_coords")};
+  MeshOptions options{.to_world = affine_to_world(arguments),
+                      .face_normals = arguments.boolean("face_normals"),
+                      .flip_normals = arguments.boolean("flip_normals"),
+                      .flip_tex_coords = arguments.boolean("flip_tex_coords")};
+  if (arguments.given("max_smooth_angle"))
+    options.max_smooth_angle = arguments.number("max_smooth_angle");
+  return options;
 }
 
 std::vector<Parameter> file_mesh_parameters(bool flip_tex_coords) {
@@ -75,12 +83,28 @@ void add_square(TriangleMesh& mesh, const Vec3f& middle, const Vec3f& u, const V
 }  // namespace
 
 const TypeInfo& obj_info() {
-  static const TypeInfo info{"shape", "obj", "Triangle mesh from a Wavefront OBJ file.",
-                             file_mesh_parameters(true)};
+  static const TypeInfo info = [] {
+    TypeInfo made{"shape", "obj", "Triangle mesh from a Wavefront OBJ file.",
+                  file_mesh_parameters(true)};
+    made.parameters.insert(
+        made.parameters.begin() + 1,
+        {integer_parameter("shape_index", -1,
+                           "Only one of the parts that lines 'g' and 'usemtl' divide the file "
+                           "into, counted from 0; -1: all.")
+             .range(-1, 0x7fffffff),
+         optional(text_parameter("material", "", "Only the faces of that material ('usemtl').")),
+         ignored_parameter("collapse", ParameterKind::boolean)});
+    return made;
+  }();
   return info;
 }
 std::unique_ptr<Shape> create_obj(const Arguments& arguments) {
-  return create_from_file(arguments, read_obj);
+  ObjSelection selection;
+  if (const int64_t index = arguments.integer("shape_index"); index >= 0)
+    selection.shape_index = uint64_t(index);
+  if (arguments.given("material")) selection.material = arguments.text("material");
+  return create_from_file(arguments,
+                          [&](const std::string& path) { return read_obj(path, selection); });
 }
 
 const TypeInfo& ply_info() {

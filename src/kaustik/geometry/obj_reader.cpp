@@ -9,8 +9,8 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "kaustik/base/file.h"
 #include "kaustik/base/sampler.h"
+#include "kaustik/base/text_lines.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/polygon_cutter.h"
@@ -25,22 +25,54 @@ struct CornerKey {
   uint32_t position = none, uv = none, normal = none;
   friend bool operator==(const CornerKey&, const CornerKey&) = default;
 };
-struct CornerHash {
-  size_t operator()(const CornerKey& key) const {
-    return size_t(hash_mix((uint64_t(key.position) << 32) | key.uv, key.normal));
+
+/// The vertex that each corner becomes: those of a position are few, and looked through one after
+/// another; only where they are many they are hashed.
+class VertexTable {
+ public:
+  /// The vertex of a corner; `next` where the corner is new.
+  uint32_t vertex_of(const CornerKey& key, uint32_t next) {
+    if (key.position >= first_.size()) first_.resize(size_t(key.position) + 1, none);
+    uint32_t* link = &first_[key.position];
+    for (int i = 0; *link != none; ++i) {
+      if (keys_[*link] == key) return *link;
+      if (i == most_links) return overflow_.try_emplace(key, next).first->second;
+      link = &following_[*link];
+    }
+    *link = next;
+    keys_.resize(size_t(next) + 1);
+    following_.resize(size_t(next) + 1, none);
+    keys_[next] = key;
+    return next;
   }
+
+ private:
+  static constexpr int most_links = 16;
+  struct Hash {
+    size_t operator()(const CornerKey& key) const {
+      return size_t(hash_mix((uint64_t(key.position) << 32) | key.uv, key.normal));
+    }
+  };
+
+  std::vector<uint32_t> first_;      ///< of each position
+  std::vector<CornerKey> keys_;      ///< of each vertex
+  std::vector<uint32_t> following_;  ///< vertex of the same position
+  std::unordered_map<CornerKey, uint32_t, Hash> overflow_;
 };
 
 class ObjReader {
  public:
-  explicit ObjReader(const std::string& path)
-      : path_(path), bytes_(read_file(path)), cutter_(bytes_.size()) {}
+  ObjReader(const std::string& path, const ObjSelection& selection)
+      : path_(path), selection_(selection), lines_(path), cutter_(size_t(lines_.file_size())) {}
 
   MeshFile read() {
-    at_ = byte_order_mark(bytes_, path_);
-    while (at_ < bytes_.size()) read_line(next_line());
+    for (std::string_view line; lines_.next(line);) {
+      line_ = lines_.number();
+      read_line(line);
+    }
+    line_ = 0;
+    if (mesh_.triangles.empty()) check_selection();
     if (mesh_.triangles.empty()) {
-      line_ = 0;
       const MeshFault fault = fault_of_no_faces();
       fail(fault.message, fault.remedy);
     }
@@ -58,36 +90,30 @@ class ObjReader {
     return positions_.empty() ? "…" : word.substr(0, 40);
   }
 
-  std::string_view next_line();
-  std::string_view next_part();
   void read_line(std::string_view line);
   void remark_unknown(const std::string& keyword);
-  void read_numbers(std::string_view line, std::string_view what, float* values, int count) const;
+  void read_numbers(std::string_view line, const char* what, size_t before, float* values,
+                    int count) const;
   void read_face(std::string_view line);
   CornerKey read_corner(std::string_view word) const;
   uint32_t read_index(std::string_view text, size_t count, std::string_view what) const;
   uint32_t vertex_of(const CornerKey& key);
+  void begin_part();
+  bool is_selected() const;
+  void check_selection() const;
   void finish();
 
-  static std::string_view next_word(std::string_view& line) {
-    constexpr std::string_view blanks = " \t\r";
-    const size_t begin = std::min(line.find_first_not_of(blanks), line.size());
-    const size_t end = std::min(line.find_first_of(blanks, begin), line.size());
-    const std::string_view word = line.substr(begin, end - begin);
-    line.remove_prefix(end);
-    return word;
-  }
-
   std::string path_;
-  std::vector<uint8_t> bytes_;
-  size_t at_ = 0;
-  int line_ = 1;        ///< on which the line that is read begins
-  int parts_ = 0;       ///< over how many lines of the file it goes
-  std::string joined_;  ///< the line, where it goes on
+  ObjSelection selection_;
+  TextLines lines_;
+  int line_ = 1;
   size_t faces_ = 0;
+  uint64_t part_ = 0;       ///< of those between groups and materials that have faces
+  bool has_faces_ = false;  ///< the part
+  std::string material_;
   std::vector<Vec3f> positions_, normals_;
   std::vector<Vec2f> uvs_;
-  std::unordered_map<CornerKey, uint32_t, CornerHash> vertices_;
+  VertexTable vertices_;
   TriangleMesh mesh_;
   PolygonCutter cutter_;
   std::vector<uint32_t> corners_;  ///< of the face that is read
@@ -97,37 +123,11 @@ class ObjReader {
   bool any_uv_ = false, any_normal_ = false;
 };
 
-/// Up to the end of the line, which any system may have written.
-std::string_view ObjReader::next_part() {
-  const std::string_view rest(reinterpret_cast<const char*>(bytes_.data()) + at_,
-                              bytes_.size() - at_);
-  const size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
-  at_ += std::min(end + (rest.substr(end, 2) == "\r\n" ? 2 : 1), rest.size());
-  ++parts_;
-  return rest.substr(0, end);
-}
-
-/// A line; one that ends with a backslash goes on in the next one.
-std::string_view ObjReader::next_line() {
-  line_ += parts_;
-  parts_ = 0;
-  std::string_view part = next_part();
-  if (!part.ends_with('\\')) return part;
-  joined_.clear();
-  for (; part.ends_with('\\'); part = next_part()) {
-    joined_.append(part.substr(0, part.size() - 1));
-    joined_.push_back(' ');
-  }
-  joined_.append(part);
-  return joined_;
-}
-
 /// What says nothing about the faces, or about points and lines alone.
 bool is_skipped(std::string_view keyword) {
-  constexpr std::string_view known[] = {"g",        "o",        "s",          "mg",        "usemtl",
-                                        "mtllib",   "usemap",   "maplib",     "lod",       "bevel",
-                                        "c_interp", "d_interp", "shadow_obj", "trace_obj", "l",
-                                        "p",        "vp"};
+  constexpr std::string_view known[] = {"o",      "s",   "mg",    "mtllib",     "usemap",
+                                        "maplib", "lod", "bevel", "c_interp",   "d_interp",
+                                        "l",      "p",   "vp",    "shadow_obj", "trace_obj"};
   return keyword.empty() || keyword[0] == '#' ||
          std::find(std::begin(known), std::end(known), keyword) != std::end(known);
 }
@@ -147,27 +147,32 @@ void ObjReader::read_line(std::string_view line) {
     if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
   float values[3] = {0, 0, 0};
   if (keyword == "v") {
-    read_numbers(line, fmt::format("vertex {}", positions_.size() + 1), values, 3);
+    read_numbers(line, "vertex", positions_.size(), values, 3);
     positions_.emplace_back(values[0], values[1], values[2]);
   } else if (keyword == "vn") {
-    read_numbers(line, fmt::format("normal {}", normals_.size() + 1), values, 3);
+    read_numbers(line, "normal", normals_.size(), values, 3);
     normals_.emplace_back(values[0], values[1], values[2]);
   } else if (keyword == "vt") {
     // v may be missing in textures of one dimension.
     std::string_view rest = line;
     next_word(rest);
     const bool has_v = !next_word(rest).empty();
-    read_numbers(line, fmt::format("texture coordinate {}", uvs_.size() + 1), values,
-                 has_v ? 2 : 1);
+    read_numbers(line, "texture coordinate", uvs_.size(), values, has_v ? 2 : 1);
     uvs_.emplace_back(values[0], values[1]);
   } else if (keyword == "f") {
     read_face(line);
+  } else if (keyword == "g") {
+    begin_part();
+  } else if (keyword == "usemtl") {
+    begin_part();
+    material_ = trimmed(line);
   } else if (!is_skipped(keyword)) {
     remark_unknown(keyword);
   }
 }
 
-void ObjReader::read_numbers(std::string_view line, std::string_view what, float* values,
+/// Of what there are `before` so far.
+void ObjReader::read_numbers(std::string_view line, const char* what, size_t before, float* values,
                              int count) const {
   for (int i = 0; i < count; ++i) {
     std::string_view word = next_word(line);
@@ -176,16 +181,42 @@ void ObjReader::read_numbers(std::string_view line, std::string_view what, float
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error == std::errc::invalid_argument || end != word.data() + word.size())
-      fail(fmt::format("{}: '{}' is no number", what, given), "it takes numbers between blanks");
+      fail(fmt::format("{} {}: '{}' is no number", what, before + 1, given),
+           "it takes numbers between blanks");
     values[i] = float(value);
     if (error != std::errc() || !std::isfinite(values[i]))
-      fail(fmt::format("{} is not finite ('{}')", what, given),
+      fail(fmt::format("{} {} is not finite ('{}')", what, before + 1, given),
            "repair the mesh: all coordinates must be numbers");
   }
 }
 
+/// Mitsuba 0.6 makes a shape of the faces up to the next group or material.
+void ObjReader::begin_part() {
+  part_ += has_faces_ ? 1 : 0;
+  has_faces_ = false;
+}
+
+bool ObjReader::is_selected() const {
+  if (selection_.shape_index && *selection_.shape_index != part_) return false;
+  return !selection_.material || *selection_.material == material_;
+}
+
+/// Tells what was selected and is not there.
+void ObjReader::check_selection() const {
+  const uint64_t parts = part_ + (has_faces_ ? 1 : 0);
+  if (selection_.shape_index && parts > 0 && *selection_.shape_index >= parts)
+    fail(fmt::format("there is no shape {}", *selection_.shape_index),
+         parts == 1 ? "the file holds one, with index 0"
+                    : fmt::format("the file holds {}, counted from 0", parts));
+  if (selection_.material && faces_ > 0)
+    fail(fmt::format("no face has the material '{}'", *selection_.material),
+         "name one that a line 'usemtl' of the file names");
+}
+
 void ObjReader::read_face(std::string_view line) {
   ++faces_;
+  has_faces_ = true;
+  if (!is_selected()) return;
   corners_.clear();
   for (std::string_view word = next_word(line); !word.empty() && word[0] != '#';
        word = next_word(line))
@@ -228,25 +259,40 @@ uint32_t ObjReader::read_index(std::string_view text, size_t count, std::string_
 }
 
 uint32_t ObjReader::vertex_of(const CornerKey& key) {
-  const auto [it, is_new] = vertices_.try_emplace(key, uint32_t(mesh_.positions.size()));
-  if (!is_new) return it->second;
-  if (mesh_.positions.size() >= none - 1) fail("the mesh has too many vertices", "split the mesh");
+  const auto next = uint32_t(mesh_.positions.size());
+  const uint32_t vertex = vertices_.vertex_of(key, next);
+  if (vertex != next) return vertex;
+  if (next >= none - 1) fail("the mesh has too many vertices", "split the mesh");
   mesh_.positions.push_back(positions_[key.position]);
   mesh_.uvs.push_back(key.uv != none ? uvs_[key.uv] : Vec2f(0, 0));
   mesh_.normals.push_back(key.normal != none ? normals_[key.normal] : Vec3f(0, 0, 0));
   any_uv_ |= key.uv != none;
   any_normal_ |= key.normal != none;
-  return it->second;
+  return vertex;
 }
 
 void ObjReader::finish() {
+  // What the lines held is not needed any more, and vectors that have grown have room to spare.
+  positions_ = std::vector<Vec3f>();
+  normals_ = std::vector<Vec3f>();
+  uvs_ = std::vector<Vec2f>();
+  vertices_ = VertexTable();
   if (!any_uv_) mesh_.uvs.clear();
   if (!any_normal_) mesh_.normals.clear();
+  mesh_.uvs.shrink_to_fit();
+  mesh_.normals.shrink_to_fit();
+  mesh_.triangles.shrink_to_fit();
+  std::vector<Vec3f> positions;
+  positions.reserve(mesh_.positions.size() + 1);  // see MeshShape
+  positions.insert(positions.end(), mesh_.positions.begin(), mesh_.positions.end());
+  mesh_.positions = std::move(positions);
   if (small_faces_ > 0) remarks_.push_back(remark_on_small_faces(small_faces_, path_));
 }
 
 }  // namespace
 
-MeshFile read_obj(const std::string& path) { return ObjReader(path).read(); }
+MeshFile read_obj(const std::string& path, const ObjSelection& selection) {
+  return ObjReader(path, selection).read();
+}
 
 }  // namespace kaustik

@@ -2,13 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <bit>
 #include <charconv>
+#include <cstring>
+#include <memory>
 #include <set>
 #include <span>
 #include <string_view>
 
-#include "kaustik/base/file.h"
+#include "kaustik/base/parallel.h"
+#include "kaustik/base/text_lines.h"
+#include "kaustik/geometry/file_window.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/polygon_cutter.h"
@@ -37,6 +44,33 @@ std::optional<Type> type_named(std::string_view name) {
   return std::nullopt;
 }
 
+/// The number of a type that begins at `bytes`.
+double value_at(const uint8_t* bytes, Type type, bool big_endian) {
+  const size_t size = size_of(type);
+  uint64_t bits = 0;
+  for (size_t i = 0; i < size; ++i)
+    bits |= uint64_t(bytes[i]) << (8 * (big_endian ? size - 1 - i : i));
+  switch (type) {
+    case Type::int8:
+      return int8_t(bits);
+    case Type::uint8:
+      return uint8_t(bits);
+    case Type::int16:
+      return int16_t(bits);
+    case Type::uint16:
+      return uint16_t(bits);
+    case Type::int32:
+      return int32_t(bits);
+    case Type::uint32:
+      return uint32_t(bits);
+    case Type::float32:
+      return double(std::bit_cast<float>(uint32_t(bits)));
+    case Type::float64:
+      return std::bit_cast<double>(bits);
+  }
+  return 0;
+}
+
 struct PlyProperty {
   std::string name;
   bool is_list = false;
@@ -60,7 +94,7 @@ struct PlyElement {
 class PlyReader {
  public:
   explicit PlyReader(const std::string& path)
-      : path_(path), bytes_(read_file(path)), cutter_(bytes_.size()) {}
+      : path_(path), file_(path), window_(file_), cutter_(size_t(file_.size())) {}
 
   MeshFile read() {
     read_header();
@@ -107,20 +141,42 @@ class PlyReader {
     for (const PlyProperty& property : element.properties) skip(property);
   }
 
+  // Vertices -----------------------------------------------------------------------------------
+  /// Which property of a vertex each number of it is; −1: none.
+  struct VertexLayout {
+    std::array<int, 3> position, normal;
+    std::array<int, 2> uv;
+    bool has_normals, has_uvs;
+  };
+  static VertexLayout layout_of(const PlyElement& element);
   void read_vertices(const PlyElement& element);
+  void read_vertex(const PlyElement& element, const VertexLayout& layout, uint64_t vertex,
+                   std::vector<float>& values);
+  bool read_vertex_block(const PlyElement& element, const VertexLayout& layout);
+  void check_vertex(uint64_t vertex) const;
+
+  // Faces --------------------------------------------------------------------------------------
   void read_faces(const PlyElement& element);
+  bool read_triangle_block(const PlyElement& element, size_t indices);
   void read_polygon(const PlyProperty& property, uint64_t face);
 
-  size_t left() const { return bytes_.size() - at_; }
+  /// Calls body(first, bytes) for all records of an element with so many bytes each, in parallel
+  /// and in pieces; `first` is the number of the piece's first record. False if the file is too
+  /// short; otherwise it is read on behind them.
+  template <typename Body>
+  bool each_piece(uint64_t count, size_t record_bytes, const Body& body);
+
+  uint64_t left() const { return window_.left(); }
 
   std::string path_;
-  std::vector<uint8_t> bytes_;
-  size_t at_ = 0;
+  InputFile file_;
+  FileWindow window_;
   int line_ = 0;  ///< 0 in binary data
   Format format_ = Format::text;
   std::vector<PlyElement> elements_;
   std::set<std::string> element_names_;
   char line_end_ = '\n';  ///< '\r' where no '\n' follows
+  std::string header_line_;
   TriangleMesh mesh_;
   uint64_t vertex_count_ = 0;
   PolygonCutter cutter_;
@@ -129,13 +185,15 @@ class PlyReader {
 };
 
 std::vector<std::string_view> PlyReader::header_line() {
-  const auto begin = bytes_.begin() + std::ptrdiff_t(at_);
-  const auto end = std::find(begin, bytes_.end(), uint8_t(line_end_));
-  if (end == bytes_.end())
+  constexpr size_t longest = 1 << 16;
+  const std::span<const uint8_t> ahead = window_.ahead(longest);
+  const auto end = std::find(ahead.begin(), ahead.end(), uint8_t(line_end_));
+  if (end == ahead.end())
     fail("the header has no end", "it is truncated or no PLY file: export it again");
-  std::string_view line(reinterpret_cast<const char*>(bytes_.data()) + at_, size_t(end - begin));
-  at_ += line.size() + 1;
+  header_line_.assign(ahead.begin(), end);
+  window_.advance(header_line_.size() + 1);
   ++line_;
+  const std::string_view line = header_line_;
   std::vector<std::string_view> words;
   constexpr std::string_view blanks = " \t\r";
   for (size_t i = line.find_first_not_of(blanks); i != line.npos;
@@ -148,9 +206,10 @@ std::vector<std::string_view> PlyReader::header_line() {
 }
 
 void PlyReader::read_header() {
-  at_ = byte_order_mark(bytes_, path_);
-  const std::string_view start(reinterpret_cast<const char*>(bytes_.data()) + at_,
-                               std::min<size_t>(left(), 5));
+  window_.advance(length_of_byte_order_mark(window_.ahead(3), path_));
+  const std::span<const uint8_t> ahead = window_.ahead(5);
+  const std::string start(ahead.begin(),
+                          ahead.begin() + std::ptrdiff_t(std::min<size_t>(ahead.size(), 5)));
   line_ = 1;
   if (!start.starts_with("ply")) fail("the file does not start with 'ply'", "give a PLY file");
   line_ = 0;
@@ -236,51 +295,44 @@ void PlyReader::check_count(const PlyElement& element) const {
 }
 
 double PlyReader::text_value() {
-  while (at_ < bytes_.size() && bytes_[at_] <= ' ')
-    if (bytes_[at_++] == uint8_t(line_end_)) ++line_;
-  const size_t begin = at_;
-  while (at_ < bytes_.size() && bytes_[at_] > ' ') ++at_;
-  if (begin == at_) fail_truncated();
-  const char* text = reinterpret_cast<const char*>(bytes_.data());
-  const char* first = text + begin + (bytes_[begin] == '+' ? 1 : 0);
+  constexpr size_t longest = 4096;  // far more digits than a number has
+  std::span<const uint8_t> ahead = window_.ahead(1);
+  while (!ahead.empty() && ahead[0] <= ' ') {
+    size_t blanks = 0;
+    for (; blanks < ahead.size() && ahead[blanks] <= ' '; ++blanks)
+      if (ahead[blanks] == uint8_t(line_end_)) ++line_;
+    window_.advance(blanks);
+    ahead = window_.ahead(1);
+  }
+  if (ahead.empty()) fail_truncated();
+  const auto end_of_word = [&] {
+    return size_t(std::find_if(ahead.begin(), ahead.end(), [](uint8_t c) { return c <= ' '; }) -
+                  ahead.begin());
+  };
+  size_t length = end_of_word();
+  if (length == ahead.size()) {
+    ahead = window_.ahead(longest);
+    length = end_of_word();
+  }
+  const bool is_too_long = length == ahead.size() && window_.left() > length;
+  const std::string_view word(reinterpret_cast<const char*>(ahead.data()), length);
+  const char* first = word.data() + (word[0] == '+' ? 1 : 0);
   double result = 0;
-  const auto [end, error] = std::from_chars(first, text + at_, result);
-  if (error == std::errc::result_out_of_range) return infinity;
-  if (error != std::errc() || end != text + at_)
-    fail(fmt::format("'{}' is no number",
-                     std::string_view(text + begin, std::min<size_t>(at_ - begin, 40))),
-         "export the file again");
-  return result;
+  const auto [end, error] = std::from_chars(first, word.data() + length, result);
+  if (is_too_long || (error != std::errc::result_out_of_range &&
+                      (error != std::errc() || end != word.data() + length)))
+    fail(fmt::format("'{}' is no number", word.substr(0, 40)), "export the file again");
+  window_.advance(length);
+  return error == std::errc() ? result : double(infinity);
 }
 
 double PlyReader::binary_value(Type type) {
   const size_t size = size_of(type);
-  if (left() < size) fail_truncated();
-  uint64_t bits = 0;
-  for (size_t i = 0; i < size; ++i) {
-    const size_t shift = 8 * (format_ == Format::big_endian ? size - 1 - i : i);
-    bits |= uint64_t(bytes_[at_ + i]) << shift;
-  }
-  at_ += size;
-  switch (type) {
-    case Type::int8:
-      return int8_t(bits);
-    case Type::uint8:
-      return uint8_t(bits);
-    case Type::int16:
-      return int16_t(bits);
-    case Type::uint16:
-      return uint16_t(bits);
-    case Type::int32:
-      return int32_t(bits);
-    case Type::uint32:
-      return uint32_t(bits);
-    case Type::float32:
-      return double(std::bit_cast<float>(uint32_t(bits)));
-    case Type::float64:
-      return std::bit_cast<double>(bits);
-  }
-  return 0;
+  const std::span<const uint8_t> ahead = window_.ahead(size);
+  if (ahead.size() < size) fail_truncated();
+  const double result = value_at(ahead.data(), type, format_ == Format::big_endian);
+  window_.advance(size);
+  return result;
 }
 
 uint64_t PlyReader::list_size(const PlyProperty& property) {
@@ -301,45 +353,134 @@ void PlyReader::skip(const PlyProperty& property) {
   }
   const uint64_t size = count * size_of(property.type);
   if (size > left()) fail_truncated();
-  at_ += size;
+  if (window_.ahead(1).size() >= size)
+    window_.advance(size_t(size));
+  else
+    window_.move_to(window_.position() + size);
+}
+
+template <typename Body>
+bool PlyReader::each_piece(uint64_t count, size_t record_bytes, const Body& body) {
+  const uint64_t begin = window_.position();
+  if (count > left() / record_bytes) return false;
+  const size_t block = std::max<size_t>(1, (size_t{1} << 19) / record_bytes);
+  std::vector<char> is_short((count + block - 1) / block, 0);
+  parallel_blocks(size_t(count), block, [&](size_t first, size_t end, size_t piece) {
+    const size_t size = (end - first) * record_bytes;
+    // Not zeroed: it is written over at once.
+    const std::unique_ptr<uint8_t[]> bytes(new uint8_t[size]);
+    if (file_.read(begin + first * record_bytes, {bytes.get(), size}) < size)
+      is_short[piece] = 1;
+    else
+      body(first, std::span<const uint8_t>(bytes.get(), size));
+  });
+  if (std::find(is_short.begin(), is_short.end(), 1) != is_short.end()) return false;
+  window_.move_to(begin + count * record_bytes);
+  return true;
+}
+
+PlyReader::VertexLayout PlyReader::layout_of(const PlyElement& element) {
+  VertexLayout layout{};
+  layout.position = {element.find({"x"}), element.find({"y"}), element.find({"z"})};
+  layout.normal = {element.find({"nx"}), element.find({"ny"}), element.find({"nz"})};
+  layout.uv = {element.find({"u", "s", "texture_u"}), element.find({"v", "t", "texture_v"})};
+  const auto has = [](const auto& indices) {
+    return std::all_of(indices.begin(), indices.end(), [](int i) { return i >= 0; });
+  };
+  layout.has_normals = has(layout.normal);
+  layout.has_uvs = has(layout.uv);
+  return layout;
+}
+
+void PlyReader::check_vertex(uint64_t vertex) const {
+  const auto i = size_t(vertex);
+  check(fault_of_position(vertex, mesh_.positions[i]));
+  if (!mesh_.normals.empty()) check(fault_of_normal(vertex, mesh_.normals[i]));
+  if (!mesh_.uvs.empty()) check(fault_of_uv(vertex, mesh_.uvs[i]));
 }
 
 void PlyReader::read_vertices(const PlyElement& element) {
-  const int position[3] = {element.find({"x"}), element.find({"y"}), element.find({"z"})};
-  const int normal[3] = {element.find({"nx"}), element.find({"ny"}), element.find({"nz"})};
-  const int uv[2] = {element.find({"u", "s", "texture_u"}), element.find({"v", "t", "texture_v"})};
-  if (position[0] < 0 || position[1] < 0 || position[2] < 0)
+  const VertexLayout layout = layout_of(element);
+  if (layout.position[0] < 0 || layout.position[1] < 0 || layout.position[2] < 0)
     fail("the vertices have no 'x', 'y' and 'z'", "export the positions as well");
-  const bool has_normals = normal[0] >= 0 && normal[1] >= 0 && normal[2] >= 0;
-  const bool has_uvs = uv[0] >= 0 && uv[1] >= 0;
   vertex_count_ = element.count;
-  mesh_.positions.reserve(size_t(element.count) + 1);
-  if (has_normals) mesh_.normals.reserve(size_t(element.count));
-  if (has_uvs) mesh_.uvs.reserve(size_t(element.count));
+  mesh_.positions.reserve(size_t(element.count) + 1);  // see MeshShape
+  if (layout.has_normals) mesh_.normals.reserve(size_t(element.count));
+  if (layout.has_uvs) mesh_.uvs.reserve(size_t(element.count));
+  if (read_vertex_block(element, layout)) return;
   std::vector<float> values(element.properties.size());
-  for (uint64_t vertex = 0; vertex < element.count; ++vertex) {
-    for (size_t i = 0; i < values.size(); ++i) {
-      const PlyProperty& property = element.properties[i];
-      if (property.is_list)
-        skip(property);
-      else
-        values[i] = float(value(property.type));
-    }
-    const auto at = [&](int i) { return values[size_t(i)]; };
-    const Vec3f p(at(position[0]), at(position[1]), at(position[2]));
-    check(fault_of_position(vertex, p));
-    mesh_.positions.push_back(p);
-    if (has_normals) {
-      const Vec3f n(at(normal[0]), at(normal[1]), at(normal[2]));
-      check(fault_of_normal(vertex, n));
-      mesh_.normals.push_back(n);
-    }
-    if (has_uvs) {
-      const Vec2f t(at(uv[0]), at(uv[1]));
-      check(fault_of_uv(vertex, t));
-      mesh_.uvs.push_back(t);
-    }
+  for (uint64_t vertex = 0; vertex < element.count; ++vertex)
+    read_vertex(element, layout, vertex, values);
+}
+
+void PlyReader::read_vertex(const PlyElement& element, const VertexLayout& layout, uint64_t vertex,
+                            std::vector<float>& values) {
+  for (size_t i = 0; i < values.size(); ++i) {
+    const PlyProperty& property = element.properties[i];
+    if (property.is_list)
+      skip(property);
+    else
+      values[i] = float(value(property.type));
   }
+  const auto at = [&](int i) { return values[size_t(i)]; };
+  const auto& [x, y, z] = layout.position;
+  mesh_.positions.emplace_back(at(x), at(y), at(z));
+  if (layout.has_normals) {
+    const auto& [nx, ny, nz] = layout.normal;
+    mesh_.normals.emplace_back(at(nx), at(ny), at(nz));
+  }
+  if (layout.has_uvs) mesh_.uvs.emplace_back(at(layout.uv[0]), at(layout.uv[1]));
+  check_vertex(vertex);
+}
+
+/// All at once and in parallel, if their records have the same size; false: they do not.
+bool PlyReader::read_vertex_block(const PlyElement& element, const VertexLayout& layout) {
+  if (format_ == Format::text || element.count == 0) return false;
+  std::vector<size_t> offsets;
+  size_t record_bytes = 0;
+  for (const PlyProperty& property : element.properties) {
+    if (property.is_list) return false;
+    offsets.push_back(record_bytes);
+    record_bytes += size_of(property.type);
+  }
+  const auto count = size_t(element.count);
+  mesh_.positions.resize(count);
+  if (layout.has_normals) mesh_.normals.resize(count);
+  if (layout.has_uvs) mesh_.uvs.resize(count);
+  const bool big_endian = format_ == Format::big_endian;
+  const auto number = [&](const uint8_t* record, int index) {
+    const Type type = element.properties[size_t(index)].type;
+    const uint8_t* bytes = record + offsets[size_t(index)];
+    if (type != Type::float32 || big_endian) return float(value_at(bytes, type, big_endian));
+    float value;
+    std::memcpy(&value, bytes, sizeof(value));
+    return value;
+  };
+  std::atomic<size_t> first_fault{count};
+  const auto is_sound = [&](size_t i) {
+    return is_finite(mesh_.positions[i]) && (!layout.has_normals || is_finite(mesh_.normals[i])) &&
+           (!layout.has_uvs || (std::isfinite(mesh_.uvs[i].x) && std::isfinite(mesh_.uvs[i].y)));
+  };
+  const auto read_piece = [&](size_t first, std::span<const uint8_t> bytes) {
+    const uint8_t* record = bytes.data();
+    for (size_t i = first; i < first + bytes.size() / record_bytes; ++i, record += record_bytes) {
+      const auto fill = [&](auto& vector, const auto& indices) {
+        for (size_t axis = 0; axis < indices.size(); ++axis)
+          vector[int(axis)] = number(record, indices[axis]);
+      };
+      fill(mesh_.positions[i], layout.position);
+      if (layout.has_normals) fill(mesh_.normals[i], layout.normal);
+      if (layout.has_uvs) fill(mesh_.uvs[i], layout.uv);
+      if (is_sound(i)) [[likely]]
+        continue;
+      size_t known = first_fault;
+      while (i < known && !first_fault.compare_exchange_weak(known, i)) {
+      }
+    }
+  };
+  if (!each_piece(element.count, record_bytes, read_piece)) fail_truncated();
+  if (first_fault < count) check_vertex(first_fault);
+  return true;
 }
 
 void PlyReader::read_faces(const PlyElement& element) {
@@ -350,6 +491,7 @@ void PlyReader::read_faces(const PlyElement& element) {
     if (other.name == "vertex") break;
     if (&other == &element) fail("the faces come before the vertices", "export the file again");
   }
+  if (read_triangle_block(element, size_t(indices))) return;
   mesh_.triangles.reserve(size_t(element.count));
   for (uint64_t face = 0; face < element.count; ++face)
     for (size_t i = 0; i < element.properties.size(); ++i)
@@ -357,6 +499,63 @@ void PlyReader::read_faces(const PlyElement& element) {
         read_polygon(element.properties[i], face);
       else
         skip(element.properties[i]);
+}
+
+/// All at once and in parallel, if they are triangles and have no other lists; false, and nothing
+/// read: they are or have.
+bool PlyReader::read_triangle_block(const PlyElement& element, size_t indices) {
+  if (format_ == Format::text || element.count == 0) return false;
+  const bool big_endian = format_ == Format::big_endian;
+  const PlyProperty& list = element.properties[indices];
+  const size_t count_bytes = size_of(list.count_type), index_bytes = size_of(list.type);
+  size_t before = 0, record_bytes = 0;
+  for (size_t i = 0; i < element.properties.size(); ++i) {
+    if (i == indices) {
+      before = record_bytes;
+      record_bytes += count_bytes + 3 * index_bytes;
+    } else if (element.properties[i].is_list) {
+      return false;
+    } else {
+      record_bytes += size_of(element.properties[i].type);
+    }
+  }
+  const uint64_t begin = window_.position();
+  const std::span<const uint8_t> first_face = window_.ahead(record_bytes);
+  if (element.count > left() / record_bytes || first_face.size() < record_bytes ||
+      value_at(first_face.data() + before, list.count_type, big_endian) != 3)
+    return false;
+  const bool is_plain = !big_endian && (list.type == Type::int32 || list.type == Type::uint32);
+  mesh_.triangles.resize(size_t(element.count));
+  // What is wrong is told by reading face by face.
+  std::atomic<bool> is_sound{true};
+  const auto read_piece = [&](size_t first, std::span<const uint8_t> bytes) {
+    const uint8_t* record = bytes.data() + before;
+    bool sound = true;
+    for (size_t i = first; i < first + bytes.size() / record_bytes; ++i, record += record_bytes) {
+      std::array<uint32_t, 3>& corners = mesh_.triangles[i];
+      const uint8_t* from = record + count_bytes;
+      sound = sound && (count_bytes == 1 ? *record == 3
+                                         : value_at(record, list.count_type, big_endian) == 3);
+      if (is_plain) {
+        std::memcpy(corners.data(), from, sizeof(corners));
+        sound = sound && std::max({corners[0], corners[1], corners[2]}) < vertex_count_;
+        continue;
+      }
+      for (uint32_t& corner : corners) {
+        const double index = value_at(from, list.type, big_endian);
+        const bool is_index =
+            index >= 0 && index < double(vertex_count_) && index == std::floor(index);
+        sound = sound && is_index;
+        corner = is_index ? uint32_t(index) : 0;
+        from += index_bytes;
+      }
+    }
+    if (!sound) is_sound = false;
+  };
+  if (each_piece(element.count, record_bytes, read_piece) && is_sound) return true;
+  mesh_.triangles.clear();
+  window_.move_to(begin);
+  return false;
 }
 
 void PlyReader::read_polygon(const PlyProperty& property, uint64_t face) {

@@ -36,7 +36,7 @@ struct SurfacePoint {
   Vec2f uv{0, 0};
   float error = 0;     ///< bound on the distance, along ng, between `position` and the surface as
                        ///< the ray intersection sees it
-  uint32_t shape = 0;  ///< index into the scene's shapes
+  uint32_t shape = 0;  ///< index into the scene's shapes and parts of bodies
   uint32_t primitive = 0;
   uint32_t instance = no_instance;
 };

@@ -9,8 +9,9 @@
 #include <map>
 
 #include "kaustik/base/prefetch.h"
-#include "kaustik/geometry/embree_scene.h"
+#include "kaustik/geometry/embree_rays.h"
 #include "kaustik/geometry/mesh_surface.h"
+#include "kaustik/geometry/solid_bodies.h"
 
 namespace kaustik {
 namespace {
@@ -144,29 +145,6 @@ void fill(RTCRayHit8& out, size_t i, const Ray& ray) {
   out.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
 }
 
-void fill(RTCRay& out, const Ray& ray) {
-  out.org_x = ray.origin.x, out.org_y = ray.origin.y, out.org_z = ray.origin.z;
-  out.tnear = std::numeric_limits<float>::min();  // Embree's range includes its ends
-  out.dir_x = ray.direction.x, out.dir_y = ray.direction.y, out.dir_z = ray.direction.z;
-  out.time = 0;
-  out.tfar = ray.t_max;
-  out.mask = 0xffffffffu;
-  out.id = 0;
-  out.flags = 0;
-}
-
-// Single rays and packets come from anywhere: the default of both versions is to expect incoherent
-// ones.
-inline void trace_closest(RTCScene scene, RTCRayHit& rayhit) {
-#if RTC_VERSION_MAJOR >= 4
-  rtcIntersect1(scene, &rayhit, nullptr);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(scene, &context, &rayhit);
-#endif
-}
-
 inline void trace_closest(RTCScene scene, const int* valid, RTCRayHit8& rayhits) {
 #if RTC_VERSION_MAJOR >= 4
   rtcIntersect8(valid, scene, &rayhits, nullptr);
@@ -200,9 +178,12 @@ struct RayTracer::Impl {
   bool takes(const Ray& ray) const;
   void intersect_packet(std::span<const Ray> rays, std::span<Hit> hits) const;
   SurfacePoint point_of_others(const ShapeRecord& record, const Ray& ray, const Hit& hit) const;
+  void find_part(SurfacePoint& point) const;
 
   Geometry geometry;
-  std::vector<ShapeRecord> records;
+  std::vector<ShapeRecord> records;  ///< of shapes, then of parts of bodies
+  size_t shape_count = 0;
+  std::unique_ptr<const SolidBodies> bodies;  ///< null: none
   std::vector<InstanceRecord> instances;
   std::vector<uint32_t> first_shape_of_group;
   Bounds3f bounds;
@@ -221,6 +202,10 @@ RayTracer::Impl::Impl(Geometry g, const Impl* previous) : geometry(std::move(g))
   device = previous ? previous->device : std::make_shared<EmbreeDevice>();
   build(previous);
   scene = top->get();
+  shape_count = records.size();
+  if (geometry.bodies.empty()) return;
+  bodies = std::make_unique<const SolidBodies>(device, geometry.shapes, geometry.bodies);
+  for (const BodyPart& part : bodies->parts()) records.push_back(records[part.shape]);
 }
 
 void RayTracer::Impl::build(const Impl* previous) {
@@ -427,11 +412,21 @@ void RayTracer::pieces_near(const Vec3f& center, float radius, const PieceSink& 
   rtcPointQuery(impl_->scene, &query, &context, visit, &search);
 }
 
+void RayTracer::Impl::find_part(SurfacePoint& point) const {
+  const int part =
+      point.instance == no_instance ? bodies->part_at(point.position, point.shape) : -1;
+  if (part >= 0) point.shape = uint32_t(shape_count + size_t(part));
+}
+
 SurfacePoint RayTracer::surface_point(const Ray& ray, const Hit& hit) const {
   const ShapeRecord& record = impl_->records[hit.shape];
-  if (!record.mesh || hit.instance != no_instance) [[unlikely]]
-    return impl_->point_of_others(record, ray, hit);
-  return mesh_point(*record.mesh, hit);
+  const bool is_mesh = record.mesh && hit.instance == no_instance;
+  if (is_mesh && !impl_->bodies) [[likely]]
+    return mesh_point(*record.mesh, hit);
+  SurfacePoint point =
+      is_mesh ? mesh_point(*record.mesh, hit) : impl_->point_of_others(record, ray, hit);
+  if (impl_->bodies) impl_->find_part(point);
+  return point;
 }
 
 UvDerivatives RayTracer::uv_derivatives(const SurfacePoint& point) const {
@@ -446,7 +441,11 @@ UvDerivatives RayTracer::uv_derivatives(const SurfacePoint& point) const {
 }
 
 const Shape& RayTracer::shape(uint32_t index) const { return *impl_->records[index].shape; }
-size_t RayTracer::shape_count() const { return impl_->records.size(); }
+size_t RayTracer::shape_count() const { return impl_->shape_count; }
+std::span<const BodyPart> RayTracer::body_parts() const {
+  if (!impl_->bodies) return {};
+  return impl_->bodies->parts();
+}
 const Geometry& RayTracer::geometry() const { return impl_->geometry; }
 Bounds3f RayTracer::bounds() const { return impl_->bounds; }
 uint64_t RayTracer::refused_rays() const { return impl_->refused_rays; }
@@ -458,6 +457,7 @@ bool RayTracer::traces_like(const RayTracer& other) const {
   };
   const Geometry &ours = impl_->geometry, &theirs = other.impl_->geometry;
   return impl_->top == other.impl_->top && ours.groups == theirs.groups &&
+         ours.bodies == theirs.bodies &&
          std::equal(ours.instances.begin(), ours.instances.end(), theirs.instances.begin(),
                     theirs.instances.end(), same_place);
 }

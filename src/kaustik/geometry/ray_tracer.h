@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "kaustik/geometry/body_part.h"
 #include "kaustik/geometry/shape.h"
 
 namespace kaustik {
@@ -17,11 +18,14 @@ struct Instance {
 
 /// Shapes to trace rays against. `shapes` stand in the world; each group is a list of shapes that
 /// only appear through instances. Indices in Hit::shape count world shapes first, then the shapes
-/// of the groups one after another.
+/// of the groups one after another. Those in SurfacePoint::shape go on with
+/// RayTracer::body_parts().
 struct Geometry {
   std::vector<std::shared_ptr<const Shape>> shapes;
   std::vector<std::vector<std::shared_ptr<const Shape>>> groups;
   std::vector<Instance> instances;
+  /// Shapes of the world that are solid bodies, those first that win where they overlap.
+  std::vector<uint32_t> bodies = {};
 };
 
 /// A piece of a surface, in the world: a triangle, or the box around a shape without a mesh.
@@ -81,8 +85,11 @@ class RayTracer {
   /// The same point's derivatives by its texture coordinates.
   UvDerivatives uv_derivatives(const SurfacePoint& point) const;
 
+  /// Of a body's part: the body's.
   const Shape& shape(uint32_t index) const;
   size_t shape_count() const;
+  /// What surfaces of bodies are cut into where bodies overlap.
+  std::span<const BodyPart> body_parts() const;
   /// What it was made from.
   const Geometry& geometry() const;
   Bounds3f bounds() const;

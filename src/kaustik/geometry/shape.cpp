@@ -76,28 +76,18 @@ Vec3d orthogonal_to(const Vec3d& unit) {
   return (other - unit * unit.dot(other)).normalized();
 }
 
-namespace {
-
-[[noreturn]] void throw_at_to_world(const Arguments& arguments, const std::string& problem,
-                                    const std::string& remedy) {
-  throw Error(ErrorKind::input, "shape '" + arguments.info().name + "': " + problem, remedy,
-              arguments.place_of("to_world"));
-}
-
-}  // namespace
-
 const Transform& affine_to_world(const Arguments& arguments) {
   const Transform& t = arguments.transform("to_world");
   // Shapes take apart what stands above the last row: another factor than 1 there would be lost, or
   // mirror the shape unnoticed.
   if (t.at(3, 0) != 0 || t.at(3, 1) != 0 || t.at(3, 2) != 0 || std::fabs(t.at(3, 3) - 1) > 1e-6)
-    throw_at_to_world(arguments, "'to_world' is a projection",
-                      "the last row of the matrix has to be 0 0 0 1");
+    throw Error(ErrorKind::input,
+                "shape '" + arguments.info().name + "': 'to_world' is a projection",
+                "the last row of the matrix has to be 0 0 0 1", arguments.place_of("to_world"));
   return t;
 }
 
-double similarity_scale(const Arguments& arguments) {
-  const Transform& t = affine_to_world(arguments);
+std::optional<double> similarity_scale(const Transform& t) {
   const Vec3d x = transform_vector(t, {1, 0, 0});
   const Vec3d y = transform_vector(t, {0, 1, 0});
   const Vec3d z = transform_vector(t, {0, 0, 1});
@@ -110,9 +100,7 @@ double similarity_scale(const Arguments& arguments) {
   const bool orthogonal = std::fabs(x.dot(y)) < tolerance * scale_sq &&
                           std::fabs(y.dot(z)) < tolerance * scale_sq &&
                           std::fabs(z.dot(x)) < tolerance * scale_sq;
-  if (!even || !orthogonal)
-    throw_at_to_world(arguments, "'to_world' scales unevenly or shears",
-                      "use one factor for all axes, or a mesh (ply, obj) for a distorted shape");
+  if (!even || !orthogonal) return std::nullopt;
   return scale;
 }
 

@@ -15,6 +15,10 @@ struct ShapeSample {
   float pdf_area = 0;  ///< 1/m²; zero if sampling failed
 };
 
+/// Density per solid angle at `reference` of a density per area at `point`; zero where the surface
+/// is seen edge-on.
+float solid_angle_density(const Vec3f& reference, const SurfacePoint& point, float pdf_area);
+
 /// Triangles with shared vertices, in world space (in group space for shapes of a shape group).
 struct TriangleMesh {
   std::vector<Vec3f> positions;
@@ -58,6 +62,12 @@ class Shape {
   virtual bool can_sample() const { return true; }
   /// Uniform by area.
   virtual ShapeSample sample_area(const Vec2f& u) const = 0;
+  /// The numbers for which sample_area() gives this point of the shape, but for rounding; nothing
+  /// from shapes that do not know them.
+  virtual std::optional<Vec2f> area_coordinates(const SurfacePoint& point) const {
+    (void)point;
+    return std::nullopt;
+  }
   /// A point for lighting `reference`: the default samples by area; shapes may do better (a sphere
   /// samples the cone it subtends). `pdf_solid_angle` is with respect to solid angle at
   /// `reference`.

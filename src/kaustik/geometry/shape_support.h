@@ -1,14 +1,14 @@
 #pragma once
 // What several shapes share; not for other rooms.
 
+#include <bit>
+#include <optional>
+
 #include "kaustik/base/limits.h"
+#include "kaustik/base/sampler.h"
 #include "kaustik/geometry/shape.h"
 
 namespace kaustik {
-
-/// Density per solid angle at `reference` of a density per area at `point`; zero where the surface
-/// is seen edge-on.
-float solid_angle_density(const Vec3f& reference, const SurfacePoint& point, float pdf_area);
 
 /// A sample by solid angle, with the density per area that it stands for.
 ShapeSample sample_of(const SurfacePoint& point, const Vec3f& reference, float pdf_solid_angle);
@@ -29,8 +29,26 @@ Vec3d orthogonal_to(const Vec3d& unit);
 
 /// The parameter `to_world`. Throws Error(input) if it is a projection.
 const Transform& affine_to_world(const Arguments& arguments);
-/// The factor by which `to_world` scales all lengths. Throws Error(input) if it shears or scales
-/// unevenly.
-double similarity_scale(const Arguments& arguments);
+/// The factor by which a transform scales all lengths; none if it shears or scales unevenly.
+std::optional<double> similarity_scale(const Transform& transform);
+
+/// Numbers beside the two that a sample is given, for what draws again after a number that it
+/// refuses: always the same for the same two.
+class FurtherNumbers {
+ public:
+  explicit FurtherNumbers(const Vec2f& u)
+      : seed_((uint64_t(std::bit_cast<uint32_t>(u.x)) << 32) | std::bit_cast<uint32_t>(u.y)) {}
+  /// In [0, 1).
+  float next() { return float(hash_mix(seed_, count_++) >> 40) * 0x1p-24f; }
+  Vec2f next_2d() {
+    const float x = next();
+    return {x, next()};
+  }
+
+ private:
+  uint64_t seed_, count_ = 0;
+};
+/// After so many refusals what comes next is taken: each is as likely as not, or less likely.
+inline constexpr int most_draws = 60;
 
 }  // namespace kaustik

@@ -2,13 +2,14 @@
 // floats can be, whatever the radius and the distance from the origin.
 
 #include <array>
-#include <map>
 
 #include "kaustik/base/fast_math.h"
 #include "kaustik/base/warp.h"
+#include "kaustik/geometry/make_ellipsoid.h"
 #include "kaustik/geometry/make_sphere.h"
 #include "kaustik/geometry/shape_creators.h"
 #include "kaustik/geometry/shape_support.h"
+#include "kaustik/geometry/unit_sphere.h"
 
 namespace kaustik {
 namespace {
@@ -31,6 +32,7 @@ class Sphere : public Shape {
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
   UvDerivatives uv_derivatives(const SurfacePoint& at) const override;
   ShapeSample sample_area(const Vec2f& u) const override;
+  std::optional<Vec2f> area_coordinates(const SurfacePoint& point) const override;
   ShapeSample sample_toward(const Vec3f& reference, const Vec2f& u,
                             float& pdf_solid_angle) const override;
   float pdf_toward(const Vec3f& reference, const SurfacePoint& point) const override;
@@ -39,11 +41,9 @@ class Sphere : public Shape {
 
  private:
   SurfacePoint point_at(const Vec3d& unit) const;
-  /// 1 − cos of the half angle of the cone that the sphere fills, seen from a point at the given
-  /// squared distance of its centre; 0 where there is no such cone: from inside, and for all
-  /// spheres that face inward, which are seen from inside only (a point on the sphere itself would
-  /// seem to be outside half of the time, by rounding).
-  double one_minus_cos(double distance_sq) const;
+  /// None from inside, and for all spheres that face inward, which are seen from inside only (a
+  /// point on the sphere itself would seem to be outside half of the time, by rounding).
+  std::optional<SphereCone> cone_from(const Vec3f& reference) const;
   std::vector<Bounds3f> surface_cells(int resolution) const;
 
   Vec3d center_;
@@ -53,24 +53,10 @@ class Sphere : public Shape {
 };
 
 std::optional<ShapeHit> Sphere::intersect(const Ray& ray) const {
-  const Vec3d d(ray.direction);
-  const Vec3d f = Vec3d(ray.origin) - center_;
-  const double a = d.dot(d), b = -f.dot(d);
-  // The discriminant by the distance of the line from the centre: no cancellation for spheres that
-  // are small or far away (Haines et al., "Precision Improvements for Ray/Sphere Intersection",
-  // Ray Tracing Gems 2019, eq. 5).
-  const Vec3d nearest = f + d * (b / a);
-  const double distance_sq = nearest.dot(nearest);
-  const double discriminant = radius_ * radius_ - distance_sq;
-  if (!(discriminant >= 0)) return std::nullopt;
-  const double f_length = f.length();
-  const double c = (f_length - radius_) * (f_length + radius_);
-  const double q = b + std::copysign(std::sqrt(a * discriminant), b);
-  if (q == 0) return std::nullopt;
-  const double t0 = std::min(c / q, q / a), t1 = std::max(c / q, q / a);
-  const double t = t0 > 0 ? t0 : t1;
-  if (!(t > 0) || !(t < double(ray.t_max))) return std::nullopt;
-  return ShapeHit{float(t), 0, 0, Vec3f((f + d * t) * double(side_))};
+  const Vec3d d(ray.direction), f = Vec3d(ray.origin) - center_;
+  const std::optional<double> t = sphere_hit(f, d, radius_, double(ray.t_max));
+  if (!t) return std::nullopt;
+  return ShapeHit{float(*t), 0, 0, Vec3f((f + d * *t) * double(side_))};
 }
 
 SurfacePoint Sphere::point_at(const Vec3d& unit) const {
@@ -108,31 +94,23 @@ ShapeSample Sphere::sample_area(const Vec2f& u) const {
   return {point_at(Vec3d(square_to_sphere(u)).normalized()), 1.0f / area()};
 }
 
-double Sphere::one_minus_cos(double distance_sq) const {
-  const double sin_sq = radius_ * radius_ / distance_sq;
-  if (side_ < 0 || !(sin_sq < 1)) return 0;
-  return sin_sq / (1 + std::sqrt(1 - sin_sq));
+std::optional<Vec2f> Sphere::area_coordinates(const SurfacePoint& point) const {
+  const Vec3d unit = (Vec3d(point.position) - center_).normalized();
+  const double turn = std::atan2(unit.y, unit.x) / (2 * std::numbers::pi);
+  return Vec2f(float(0.5 * (1 - unit.z)), float(turn < 0 ? turn + 1 : turn));
+}
+
+std::optional<SphereCone> Sphere::cone_from(const Vec3f& reference) const {
+  if (side_ < 0) return std::nullopt;
+  return SphereCone::make(center_ - Vec3d(reference), radius_);
 }
 
 ShapeSample Sphere::sample_toward(const Vec3f& reference, const Vec2f& u,
                                   float& pdf_solid_angle) const {
-  const Vec3d to_center = center_ - Vec3d(reference);
-  const double distance_sq = to_center.length2();
-  const double h_max = one_minus_cos(distance_sq);
-  if (h_max == 0) return Shape::sample_toward(reference, u, pdf_solid_angle);
-  // Angle θ at the reference → angle α at the centre, both from the axis between the two.
-  const double h = double(u.x) * h_max, cos_theta = 1 - h, sin_theta_sq = h * (2 - h);
-  const double sin_max_sq = radius_ * radius_ / distance_sq;
-  const double cos_alpha = sin_theta_sq / std::sqrt(sin_max_sq) +
-                           cos_theta * std::sqrt(std::max(0.0, 1 - sin_theta_sq / sin_max_sq));
-  const double sin_alpha = std::sqrt(std::max(0.0, 1 - cos_alpha * cos_alpha));
-  const double phi = 2 * std::numbers::pi * double(u.y);
-  const Vec3d z = -to_center / std::sqrt(distance_sq);
-  const Vec3d x = orthogonal_to(z), y = z.cross(x);
-  const Vec3d unit =
-      (x * (sin_alpha * std::cos(phi)) + y * (sin_alpha * std::sin(phi)) + z * cos_alpha)
-          .normalized();
-  pdf_solid_angle = float(1 / (2 * std::numbers::pi * h_max));
+  const std::optional<SphereCone> cone = cone_from(reference);
+  if (!cone) return Shape::sample_toward(reference, u, pdf_solid_angle);
+  const Vec3d unit = cone->sample(u);
+  pdf_solid_angle = float(cone->pdf());
   ShapeSample sample{point_at(unit), 0};
   const Vec3d to_point = center_ + unit * radius_ - Vec3d(reference);
   const double cosine = std::fabs(to_point.dot(unit)) / to_point.length();
@@ -141,44 +119,20 @@ ShapeSample Sphere::sample_toward(const Vec3f& reference, const Vec2f& u,
 }
 
 float Sphere::pdf_toward(const Vec3f& reference, const SurfacePoint& point) const {
-  const double h_max = one_minus_cos((center_ - Vec3d(reference)).length2());
-  if (h_max == 0) return Shape::pdf_toward(reference, point);
-  return float(1 / (2 * std::numbers::pi * h_max));
+  const std::optional<SphereCone> cone = cone_from(reference);
+  return cone ? float(cone->pdf()) : Shape::pdf_toward(reference, point);
 }
 
 TriangleMesh Sphere::tessellate(int level) const {
-  // An icosahedron, each triangle divided into four `level` times.
-  const double g = (1 + std::sqrt(5.0)) / 2;
-  std::vector<Vec3d> units = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
-                              {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
-                              {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  for (Vec3d& unit : units) unit.normalize();
-  std::vector<std::array<uint32_t, 3>> triangles = {
-      {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-  for (int i = 0; i < std::clamp(level, 0, 8); ++i) {
-    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
-    const auto middle = [&](uint32_t a, uint32_t b) {
-      const auto [it, is_new] = middles.try_emplace(std::minmax(a, b), uint32_t(units.size()));
-      if (is_new) units.push_back((units[a] + units[b]).normalized());
-      return it->second;
-    };
-    std::vector<std::array<uint32_t, 3>> finer;
-    for (const auto& [a, b, c] : triangles) {
-      const uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-    }
-    triangles = std::move(finer);
-  }
+  Icosphere ball = icosphere(level);
   TriangleMesh mesh;
-  for (const Vec3d& unit : units) {
+  for (const Vec3d& unit : ball.units) {
     mesh.positions.push_back(Vec3f(center_ + unit * radius_));
     mesh.normals.push_back(Vec3f(unit) * side_);
   }
   if (side_ < 0)
-    for (auto& corner : triangles) std::swap(corner[1], corner[2]);
-  mesh.triangles = std::move(triangles);
+    for (auto& corner : ball.triangles) std::swap(corner[1], corner[2]);
+  mesh.triangles = std::move(ball.triangles);
   return mesh;
 }
 
@@ -227,7 +181,7 @@ const TypeInfo& sphere_info() {
        number_parameter("radius", 1.0, "Radius of the sphere.")
            .range(smallest_length, largest_length)
            .in("m"),
-       to_world_parameter("Places the sphere in the world; one scale for all axes."),
+       to_world_parameter("Places the sphere in the world; may make it an ellipsoid."),
        boolean_parameter("flip_normals", false, "The inside is the front.")}};
   return info;
 }
@@ -238,14 +192,19 @@ std::unique_ptr<Shape> make_sphere(const Vec3d& center, double radius) {
 }
 
 std::unique_ptr<Shape> create_sphere(const Arguments& arguments) {
-  const double scale = similarity_scale(arguments);
-  const Transform& to_world = arguments.transform("to_world");
-  const std::array<Vec3d, 3> axes = {transform_vector(to_world, {1, 0, 0}).normalized(),
-                                     transform_vector(to_world, {0, 1, 0}).normalized(),
-                                     transform_vector(to_world, {0, 0, 1}).normalized()};
-  return std::make_unique<Sphere>(transform_point(to_world, arguments.point("center")),
-                                  arguments.number("radius") * scale, axes,
-                                  arguments.boolean("flip_normals"));
+  const Transform& to_world = affine_to_world(arguments);
+  const Vec3d center = transform_point(to_world, arguments.point("center"));
+  const double radius = arguments.number("radius");
+  const bool flipped = arguments.boolean("flip_normals");
+  std::array<Vec3d, 3> axes = {transform_vector(to_world, {1, 0, 0}),
+                               transform_vector(to_world, {0, 1, 0}),
+                               transform_vector(to_world, {0, 0, 1})};
+  if (const std::optional<double> scale = similarity_scale(to_world)) {
+    for (Vec3d& axis : axes) axis.normalize();
+    return std::make_unique<Sphere>(center, radius * *scale, axes, flipped);
+  }
+  for (Vec3d& axis : axes) axis *= radius;
+  return make_ellipsoid(center, axes, flipped, arguments.place_of("to_world"));
 }
 
 }  // namespace kaustik

@@ -30,20 +30,26 @@ int cells_across(float half_extent, int pixels) {
   return to_integer(std::round(half_extent / half_tangent(1)), 1, pixels);
 }
 
-std::optional<float> angle_of(const Image& image, const char* key) {
+/// Of metadata that are a finite number or its text.
+std::optional<float> number_of(const Image& image, const char* key) {
   const MetadataValue* value = image.find_metadata(key);
   if (!value) return std::nullopt;
-  double degrees = 0;
-  if (const auto* number = std::get_if<double>(value)) {
-    degrees = *number;
+  double number = 0;
+  if (const auto* given = std::get_if<double>(value)) {
+    number = *given;
   } else if (const auto* integer = std::get_if<int64_t>(value)) {
-    degrees = double(*integer);
+    number = double(*integer);
   } else {
     const std::string& text = std::get<std::string>(*value);
-    std::from_chars(text.data(), text.data() + text.size(), degrees);
+    std::from_chars(text.data(), text.data() + text.size(), number);
   }
-  if (degrees > 0 && degrees < 180) return float(degrees);
-  return std::nullopt;
+  if (!std::isfinite(number)) return std::nullopt;
+  return float(number);
+}
+
+std::optional<float> angle_of(const Image& image, const char* key) {
+  const std::optional<float> degrees = number_of(image, key);
+  return degrees && *degrees > 0 && *degrees < 180 ? degrees : std::nullopt;
 }
 
 }  // namespace
@@ -73,6 +79,8 @@ Picture::Picture(const Image& image, const std::string& layer, const FieldOfView
   check(view);
   if (const MetadataValue* quantity = image.find_metadata("quantity"))
     is_irradiance = *quantity == MetadataValue("irradiance");
+  exposure =
+      std::exp2(std::clamp(number_of(image, film_exposure_key).value_or(0.0f), -100.0f, 100.0f));
   const RgbView rgb = rgb_view(image, layer);
   half_width = half_tangent(view.horizontal);
   half_height =

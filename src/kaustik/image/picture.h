@@ -15,6 +15,9 @@ struct FieldOfView {
   float vertical = 0;  ///< 0: from the picture's aspect, with square pixels
 };
 
+/// Metadata: the film's exposure, in stops.
+inline constexpr const char* film_exposure_key = "film_exposure";
+
 /// What the image's metadata say ("horizontal_fov", "vertical_fov": numbers or text), if they do.
 std::optional<FieldOfView> field_of_view(const Image& image);
 
@@ -38,6 +41,11 @@ struct Picture {
   int width, height;
   /// The metadata "quantity" is "irradiance": the pixels are in W/m².
   bool is_irradiance = false;
+  /// By what the light is multiplied where it is shown; what the eye adapts to does not ask.
+  float exposure = 1;
+  /// Colours of parts of pixels, which are shown as pixels are; what an eye or a curve adapts to
+  /// are the pixels alone. Finite.
+  std::vector<Vec3f> parts;
   std::vector<Vec3f> pixels;  ///< linear Rec. 709, radiance in W/(sr·m²), finite; row by row
   /// Half the picture's extent on a plane at distance 1 before the eye.
   float half_width, half_height;

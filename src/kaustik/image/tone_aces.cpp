@@ -26,8 +26,9 @@ class Aces : public ToneOperator {
  public:
   explicit Aces(float scale) : scale_(scale) {}
   std::vector<Vec3f> displayed(Picture picture) const override {
-    for (Vec3f& colour : picture.pixels) colour = filmic(colour * scale_);
-    return std::move(picture.pixels);
+    std::vector<Vec3f> colours = with_parts(picture);
+    for (Vec3f& colour : colours) colour = filmic(colour * (scale_ * picture.exposure));
+    return colours;
   }
 
  private:

@@ -48,6 +48,8 @@ class FalseColor : public ToneOperator {
     return std::move(picture.pixels);
   }
 
+  bool shows_parts() const override { return false; }
+
   Image decorated(Image shown, const Picture& picture) const override {
     return has_legend_ ? with_legend(shown, picture) : shown;
   }

@@ -35,9 +35,12 @@ class Histogram : public ToneOperator {
   }
 
   bool needs_view() const override { return true; }
+  /// Glare and acuity are known of whole pixels only.
+  bool shows_parts() const override { return !has_glare_ && !loses_acuity_; }
   /// The order of the paper's section 6.
   std::vector<Vec3f> displayed(Picture picture) const override {
     for (Vec3f& colour : picture.pixels) colour *= exposure_;
+    for (Vec3f& colour : picture.parts) colour *= exposure_;
     Grid<Vec3f> foveal = foveal_means(picture);
     if (has_glare_) {
       const Grid<Vec3f> scattered = veil(foveal, picture);
@@ -47,12 +50,14 @@ class Histogram : public ToneOperator {
     if (loses_acuity_) blur_to_acuity(picture, foveal);
     if (loses_color_) {
       for (Vec3f& colour : picture.pixels) colour = seen_color(colour);
+      for (Vec3f& colour : picture.parts) colour = seen_color(colour);
       for (Vec3f& colour : foveal.cells) colour = seen_color(colour);
     }
     std::vector<float> luminances;
     for (const Vec3f& colour : foveal.cells) luminances.push_back(luminance(colour));
-    apply(HistogramAdjustment(luminances, settings_), picture.pixels);
-    return std::move(picture.pixels);
+    std::vector<Vec3f> colours = with_parts(std::move(picture));
+    apply(HistogramAdjustment(luminances, settings_), colours);
+    return colours;
   }
 
  private:

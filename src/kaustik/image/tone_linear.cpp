@@ -9,8 +9,9 @@ class Linear : public ToneOperator {
  public:
   explicit Linear(float scale) : scale_(scale) {}
   std::vector<Vec3f> displayed(Picture picture) const override {
-    for (Vec3f& colour : picture.pixels) colour *= scale_;
-    return std::move(picture.pixels);
+    std::vector<Vec3f> colours = with_parts(picture);
+    for (Vec3f& colour : colours) colour *= scale_ * picture.exposure;
+    return colours;
   }
 
  private:
@@ -26,7 +27,10 @@ Parameter exposure_parameter() {
 }
 
 ToneOperatorType srgb_tone() {
-  return {{"tonemap", "srgb", "Radiance 1 W/(sr·m²) becomes white; nothing else is changed.", {}},
+  return {{"tonemap",
+           "srgb",
+           "Radiance 1 W/(sr·m²) becomes white, with the film's exposure; nothing else is changed.",
+           {}},
           [](const Arguments&) -> std::unique_ptr<ToneOperator> {
             return std::make_unique<Linear>(1.0f);
           }};
@@ -35,7 +39,7 @@ ToneOperatorType srgb_tone() {
 ToneOperatorType linear_tone() {
   return {{"tonemap",
            "linear",
-           "Radiance is multiplied by 2^exposure; then 1 becomes white.",
+           "Radiance is multiplied by 2^exposure, and the film's; then 1 becomes white.",
            {exposure_parameter()}},
           [](const Arguments& arguments) -> std::unique_ptr<ToneOperator> {
             return std::make_unique<Linear>(float(std::exp2(arguments.number("exposure"))));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kaustik/base/error.h"
@@ -75,15 +76,55 @@ Vec3f into_gamut(const Vec3f& rgb) {
   return result;
 }
 
+/// Pixels that a lamp fills in part.
+struct LampEdges {
+  std::vector<size_t> pixels;
+  std::vector<float> shares;  ///< of the lamp, in (0, 1)
+};
+
+/// Puts the colours of lamp and rest of such pixels into the picture's parts, two for each pixel.
+LampEdges split_lamp_edges(const Image& image, const RgbView& rgb, Picture& picture) {
+  LampEdges edges;
+  const int share_channel = image.find_channel("emission.A");
+  const std::array<int, 3> channels = {image.find_channel("emission.R"),
+                                       image.find_channel("emission.G"),
+                                       image.find_channel("emission.B")};
+  if (share_channel < 0 || *std::min_element(channels.begin(), channels.end()) < 0) return edges;
+  for (size_t i = 0; i < picture.pixel_count(); ++i) {
+    const float share = image.channel(share_channel)[i];
+    if (!(share > 0 && share < 1)) continue;
+    Vec3f lamp, rest;
+    for (int c = 0; c < 3; ++c) {
+      const float light = image.channel(channels[size_t(c)])[i];
+      lamp[c] = light / share;
+      rest[c] = std::max(0.0f, rgb[i][c] - light) / (1 - share);
+    }
+    if (!is_finite(lamp) || !is_finite(rest)) continue;
+    edges.pixels.push_back(i);
+    edges.shares.push_back(share);
+    picture.parts.insert(picture.parts.end(), {lamp, rest});
+  }
+  return edges;
+}
+
 Image tone_map(const Image& image, const ToneOperator& tone, const std::string& layer,
                const std::optional<FieldOfView>& view, bool in_frame) {
-  const Picture picture(image, layer, view ? *view : field_of_view(image).value_or(FieldOfView{}));
-  const std::vector<Vec3f> colours = tone.displayed(picture);
+  Picture picture(image, layer, view ? *view : field_of_view(image).value_or(FieldOfView{}));
   const RgbView rgb = rgb_view(image, layer);
+  const LampEdges edges =
+      layer.empty() && tone.shows_parts() ? split_lamp_edges(image, rgb, picture) : LampEdges{};
+  const std::vector<Vec3f> colours = tone.displayed(picture);
   Image result(image.width(), image.height(), {"R", "G", "B"});
-  for (size_t i = 0; i < colours.size(); ++i) {
+  const size_t pixel_count = picture.pixel_count();
+  for (size_t i = 0; i < pixel_count; ++i) {
     const Vec3f shown = is_finite(rgb[i]) ? into_gamut(colours[i]) : Vec3f(shown_for_bad(rgb[i]));
     for (int c = 0; c < 3; ++c) result.channel(c)[i] = shown[c];
+  }
+  for (size_t k = 0; k < edges.pixels.size(); ++k) {
+    const Vec3f lamp = into_gamut(colours[pixel_count + 2 * k]),
+                rest = into_gamut(colours[pixel_count + 2 * k + 1]);
+    for (int c = 0; c < 3; ++c)
+      result.channel(c)[edges.pixels[k]] = std::lerp(rest[c], lamp[c], edges.shares[k]);
   }
   if (in_frame) {
     result.set_frame(image.frame());

@@ -15,8 +15,11 @@ namespace kaustik {
 class ToneOperator {
  public:
   virtual ~ToneOperator() = default;
-  /// Display-linear colours, row by row, 1 being the display's white; they may lie outside [0, 1].
+  /// Display-linear colours of the pixels, row by row, and then of the parts, 1 being the display's
+  /// white; they may lie outside [0, 1].
   virtual std::vector<Vec3f> displayed(Picture picture) const = 0;
+  /// Whether colours are shown as they look, so that parts of a pixel may be mixed.
+  virtual bool shows_parts() const { return true; }
   /// Depends on the camera's field of view.
   virtual bool needs_view() const { return false; }
   /// What else is drawn: gets the finished picture in [0, 1] and may return a larger one.
@@ -37,7 +40,9 @@ std::shared_ptr<const ToneOperator> make_tone_operator(
     const std::string& name, const std::vector<std::string>& settings = {});
 
 /// "R", "G", "B" in [0, 1] of `layer` of an image as a display shows it, linear; 1 is its white.
-/// Colours that it cannot show are desaturated toward their luminance. A pixel with a NaN becomes
+/// Colours that it cannot show are desaturated toward their luminance. Where the image tells which
+/// part of a pixel a lamp fills ("emission.A"), lamp and rest are shown apart and then mixed: else
+/// the edges of bright lamps would be stairs. A pixel with a NaN becomes
 /// black, +infinity white; neither influences others. `view`: of the camera; without one, what the
 /// image's metadata say, else 50° across. Keeps the metadata. An image that is a window of a
 /// picture is shown as such; `in_frame`: in its place in the picture, which is black elsewhere.

@@ -12,6 +12,12 @@ ToneOperatorType reinhard_tone();
 ToneOperatorType aces_tone();
 ToneOperatorType falsecolor_tone();
 
+/// The pixels, and then the parts.
+inline std::vector<Vec3f> with_parts(Picture picture) {
+  picture.pixels.insert(picture.pixels.end(), picture.parts.begin(), picture.parts.end());
+  return std::move(picture.pixels);
+}
+
 /// The row "exposure" that several operators have, in stops.
 Parameter exposure_parameter();
 

@@ -57,25 +57,32 @@ class Reinhard : public ToneOperator {
   }
 
   std::vector<Vec3f> displayed(Picture picture) const override {
-    Plane scaled = scaled_luminance(picture);
+    const double to_key = double(key_) / geometric_mean(picture);
+    const Plane scaled = scaled_luminance(picture, to_key);
     const float white =
         white_ > 0 ? white_ : *std::max_element(scaled.cells.begin(), scaled.cells.end());
     const Plane surround = is_local_ ? local_average(scaled) : scaled;
-    for (size_t i = 0; i < picture.pixels.size(); ++i) {
-      const float l = scaled.cells[i], y = photopic(picture.pixels[i]);
-      if (!(l > 0)) {
-        picture.pixels[i] = Vec3f(0);
-        continue;
-      }
-      const float shown = l * (1 + l / sqr(white)) / (1 + surround.cells[i]);
-      picture.pixels[i] *= shown / y;
+    for (size_t i = 0; i < picture.pixels.size(); ++i)
+      show(picture.pixels[i], scaled.cells[i], surround.cells[i], white);
+    for (Vec3f& colour : picture.parts) {
+      const auto l = float(std::max(0.0, to_key * double(photopic(colour))));
+      show(colour, l, l, white);
     }
-    return std::move(picture.pixels);
+    return with_parts(std::move(picture));
   }
 
  private:
-  /// Luminance with its geometric mean brought to the key.
-  Plane scaled_luminance(const Picture& picture) const {
+  /// `l`: luminance on the key's scale, as `white` and `surround`.
+  static void show(Vec3f& colour, float l, float surround, float white) {
+    if (!(l > 0)) {
+      colour = Vec3f(0);
+      return;
+    }
+    const float y = photopic(colour), shown = l * (1 + l / sqr(white)) / (1 + surround);
+    colour *= shown / y;
+  }
+
+  static double geometric_mean(const Picture& picture) {
     double sum = 0;
     size_t count = 0;
     for (const Vec3f& colour : picture.pixels)
@@ -83,11 +90,15 @@ class Reinhard : public ToneOperator {
         sum += std::log(double(y));
         ++count;
       }
-    const double mean = count > 0 ? std::exp(sum / double(count)) : 1;
+    return count > 0 ? std::exp(sum / double(count)) : 1;
+  }
+
+  /// Luminance with its geometric mean brought to the key.
+  static Plane scaled_luminance(const Picture& picture, double to_key) {
     Plane plane{picture.width, picture.height, {}};
     plane.cells.reserve(picture.pixels.size());
     for (const Vec3f& colour : picture.pixels)
-      plane.cells.push_back(float(std::max(0.0, double(key_) * double(photopic(colour)) / mean)));
+      plane.cells.push_back(float(std::max(0.0, to_key * double(photopic(colour)))));
     return plane;
   }
 

@@ -103,7 +103,33 @@ std::string choice_note(const Object& object, const Object& native,
                                        object.type, what);
 }
 
+/// Of a dialect: its renderer's own methods change no light.
+bool is_nobodys(const Object& object) {
+  return object.place.line > 0 && !find_foreign_integrator(object.type) &&
+         !find_integrator_type(object.type) &&
+         nearest_name(object.type, integrator_names()).empty();
+}
+
+/// What stands for an integrator that nobody knows.
+Object stand_in_of(const Object& object, std::vector<std::string>& notes) {
+  const Object* held = held_by(object);
+  Object result = held ? *held : Object{"integrator", default_integrator, "", {}, {}, object.place};
+  if (!held) result.properties = object.properties;
+  notes.push_back(fmt::format("nobody knows integrator '{}': {} '{}' renders the picture",
+                              object.type, held ? "the one in it," : "the default,", result.type));
+  return result;
+}
+
 }  // namespace
+
+std::vector<std::string> integrator_names() {
+  std::vector<std::string> names;
+  for (const IntegratorType& row : integrator_types()) names.push_back(row.info.name);
+  for (const ForeignIntegrator& foreign : foreign_integrators())
+    if (foreign.refusal.empty())
+      names.insert(names.end(), foreign.names.begin(), foreign.names.end());
+  return names;
+}
 
 const ForeignIntegrator* find_foreign_integrator(const std::string& type) {
   for (const ForeignIntegrator& foreign : foreign_integrators())
@@ -126,6 +152,10 @@ bool is_implied(const Property& property) {
 
 std::string native_type(const Object& object) {
   const ForeignIntegrator* foreign = find_foreign_integrator(object.type);
+  if (!foreign && is_nobodys(object)) {
+    const Object* held = held_by(object);
+    return held ? native_type(*held) : default_integrator;
+  }
   if (!foreign || !foreign->refusal.empty()) return object.type;
   if (!foreign->holds_another()) return foreign->native;
   const Object* held = held_by(object);
@@ -134,6 +164,8 @@ std::string native_type(const Object& object) {
 
 Object native_integrator(const Object& object, std::vector<std::string>& notes, bool is_strict) {
   const ForeignIntegrator* foreign = find_foreign_integrator(object.type);
+  if (!foreign && !is_strict && is_nobodys(object))
+    return native_integrator(stand_in_of(object, notes), notes, is_strict);
   if (!foreign) return object;
   if (!foreign->refusal.empty())
     throw Error(ErrorKind::input,

@@ -29,15 +29,20 @@ const std::vector<ForeignIntegrator>& foreign_integrators();
 /// Null for names that no other renderer has.
 const ForeignIntegrator* find_foreign_integrator(const std::string& type);
 
+/// All that integrators may be called.
+std::vector<std::string> integrator_names();
+
 /// The integrator as one of Kaustik's own types: where it has another renderer's name, what is
 /// meant or what is nearest, with those of its parameters that have a meaning here; of one that
-/// holds others (`aov`) the first of them. Objects of types that nobody knows stay as they are.
-/// What was chosen and left out goes to `notes`. Throws Error for wrong parameters, if it
-/// `is_strict` for unknown ones, and for what nothing here is near.
+/// holds others (`aov`) the first of them. For a type that nobody knows the integrator in it
+/// stands, or Kaustik's default, with its parameters; if it `is_strict`, is like a name
+/// that there is, or was given by no file, it stays as it is. What was chosen and left out goes to
+/// `notes`. Throws Error for wrong parameters, if it `is_strict` for unknown ones, and for what
+/// nothing here is near.
 Object native_integrator(const Object& object, std::vector<std::string>& notes,
                          bool is_strict = true);
 
-/// The type of native_integrator(); checks no parameters, throws nothing.
+/// The type of native_integrator() if that is not strict; checks no parameters, throws nothing.
 std::string native_type(const Object& object);
 
 /// Whether native_integrator() has added the property because the type implies it.

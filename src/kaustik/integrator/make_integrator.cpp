@@ -12,26 +12,23 @@
 namespace kaustik {
 namespace {
 
-std::vector<std::string> type_names(bool models_only) {
+std::vector<std::string> model_names() {
   std::vector<std::string> names;
   for (const IntegratorType& row : integrator_types())
-    if (row.is_model || !models_only) names.push_back(row.info.name);
-  if (!models_only)
-    for (const ForeignIntegrator& foreign : foreign_integrators())
-      if (foreign.refusal.empty())
-        names.insert(names.end(), foreign.names.begin(), foreign.names.end());
+    if (row.is_model) names.push_back(row.info.name);
   return names;
 }
 
-const IntegratorType& type_of(const Object& object, bool of_surface = false) {
-  if (const IntegratorType* type = find_integrator_type(native_type(object))) return *type;
+/// Of an integrator's type here.
+const IntegratorType& type_of(const Object& object, const std::string& native, bool of_surface) {
+  if (const IntegratorType* type = find_integrator_type(native)) return *type;
   throw Error(ErrorKind::input, fmt::format("unknown integrator type '{}'", object.type),
-              suggest(object.type, type_names(of_surface)), object.place);
+              suggest(object.type, of_surface ? model_names() : integrator_names()), object.place);
 }
 
 /// What belongs to the picture cannot be said of one surface.
 void refuse_what_is_the_scenes(const Arguments& arguments, Problems& problems) {
-  for (const char* name : {"components", "samples_per_pass"})
+  for (const char* name : {"components", "samples_per_pass", "hide_emitters"})
     if (arguments.info().find(name) && arguments.given(name))
       problems.add(fmt::format("'{}' in the integrator of a single shape", name),
                    "give it to the scene's integrator: it holds for the whole picture",
@@ -48,16 +45,23 @@ std::unique_ptr<Integrator> create(const Object& given, const Scene& scene, bool
   std::vector<std::string> notes;
   const Object object = native_integrator(given, notes, is_strict);
   for (const std::string& note : notes) tell_once(note, warnings);
-  const IntegratorType& type = type_of(object);
+  const IntegratorType& type = type_of(object, object.type, of_surface);
   Problems problems;
   UnknownParameters unknown;
   const Arguments arguments(
       type.info,
       is_strict ? object.properties : unknown.without_unknown(type.info, object.properties),
       object.place, problems);
-  for (const Child& child : object.children)
+  for (const Child& child : object.children) {
+    if (child.object->family == "integrator" && !is_strict) {
+      tell_once(fmt::format("integrator '{}' holds none: '{}' in it is left out", given.type,
+                            child.object->type),
+                warnings);
+      continue;
+    }
     problems.add(fmt::format("integrator '{}' cannot hold a {}", object.type, child.object->family),
                  "remove it", child.object->place);
+  }
   if (of_surface) refuse_what_is_the_scenes(arguments, problems);
   problems.throw_if_any();
   for (const std::string& warning : unknown.warnings()) tell_once(warning, warnings);
@@ -84,11 +88,10 @@ std::vector<std::pair<const Object*, std::vector<uint32_t>>> own_models(const Sc
 std::unique_ptr<IlluminationModel> create_model(const Object& object, const Scene& scene,
                                                 bool is_strict,
                                                 std::vector<std::string>& warnings) {
-  if (!type_of(object, true).is_model)
+  if (!type_of(object, native_type(object), true).is_model)
     throw Error(ErrorKind::input,
                 fmt::format("integrator '{}' cannot belong to a single shape", object.type),
-                fmt::format("one of these can: {}", fmt::join(type_names(true), ", ")),
-                object.place);
+                fmt::format("one of these can: {}", fmt::join(model_names(), ", ")), object.place);
   auto integrator = create(object, scene, true, is_strict, warnings);
   return std::unique_ptr<IlluminationModel>(static_cast<IlluminationModel*>(integrator.release()));
 }
@@ -108,7 +111,7 @@ std::unique_ptr<Integrator> make_integrator(const Object& object, const Scene& s
   for (auto& [own, surfaces] : own_models(scene))
     of_surfaces.push_back({create_model(*own, scene, is_strict, warnings), std::move(surfaces)});
   if (of_surfaces.empty()) return of_scene;
-  if (!type_of(object).is_model) {
+  if (!type_of(object, native_type(object), false).is_model) {
     warnings.push_back(fmt::format(
         "the integrators of single shapes have no effect with integrator '{}'", object.type));
     return of_scene;

@@ -12,6 +12,7 @@ namespace {
 
 /// In Kaustik's words where these are known.
 Object in_our_words(const Object& object) {
+  if (!find_foreign_integrator(object.type)) return object;
   std::vector<std::string> ignored;
   try {
     return native_integrator(object, ignored, false);

@@ -10,8 +10,7 @@ const TypeInfo& PathIntegrator::info() {
       "path",
       "Unbiased path tracing with light sampling and multiple importance sampling.",
       {components_parameter(), max_depth_parameter(), rr_depth_parameter(),
-       ignored_parameter("hide_emitters", ParameterKind::boolean),
-       ignored_parameter("strict_normals", ParameterKind::boolean),
+       hide_emitters_parameter(), ignored_parameter("strict_normals", ParameterKind::boolean),
        ignored_parameter("samples_per_pass", ParameterKind::integer)}};
   return info;
 }

@@ -2,13 +2,15 @@
 #include "kaustik/light/light_kinds.h"
 #include "kaustik/light/mesh_faces.h"
 #include "kaustik/light/normal_cone.h"
+#include "kaustik/light/pattern_points.h"
 #include "kaustik/light/power_distribution.h"
 
 namespace kaustik {
 namespace {
 
 /// Emits from every point of a shape in every direction on the side of its geometric normal, or on
-/// both: the same radiance everywhere, or that of a pattern. Points are chosen by geometry alone.
+/// both: the same radiance everywhere, or that of a pattern. Points are chosen by geometry; half of
+/// those that light a point, and all that emit, by a pattern if there is one.
 class AreaLight final : public PlacedLight {
  public:
   /// `pattern` may be null, else `radiance` is its mean; both are multiplied by `scale`.
@@ -37,6 +39,7 @@ class AreaLight final : public PlacedLight {
     const TriangleMesh* mesh = shape_->mesh();
     if (mesh && mesh->triangles.size() >= MeshFaces::least_triangles)
       faces_ = std::make_unique<MeshFaces>(*shape_, two_sided, pattern_.get());
+    if (pattern_) points_ = PatternPoints::make(*shape_, *pattern_);
   }
 
   float expected_irradiance(const LightQuery& query) const override {
@@ -46,8 +49,8 @@ class AreaLight final : public PlacedLight {
   LightSample sample_toward(const LightQuery& query, const Vec2f& u) const override {
     const Vec3f& reference = query.reference;
     float pdf_solid_angle = 0;
-    const ShapeSample s = faces_ ? faces_->sample_toward(query, u, pdf_solid_angle)
-                                 : shape_->sample_toward(reference, u, pdf_solid_angle);
+    const ShapeSample s = points_ ? sample_by_pattern(query, u, pdf_solid_angle)
+                                  : sample_by_geometry(query, u, pdf_solid_angle);
     LightSample result;
     if (!(pdf_solid_angle > 0)) return result;
     const Vec3f to_light = s.point.position - reference;
@@ -67,7 +70,10 @@ class AreaLight final : public PlacedLight {
   float pdf_toward(const LightQuery& query, const LightTarget& target) const override {
     const SurfacePoint& point = *target.point;
     if (!traits_.is_two_sided && !(dot(point.ng, point.position - query.reference) < 0)) return 0;
-    return faces_ ? faces_->pdf_toward(query, point) : shape_->pdf_toward(query.reference, point);
+    const float by_geometry = pdf_by_geometry(query, point);
+    if (!points_) return by_geometry;
+    return 0.5f *
+           (by_geometry + solid_angle_density(query.reference, point, points_->pdf_area(point)));
   }
 
   Spectrum emitted(const SurfacePoint& point, const Vec3f& direction,
@@ -89,7 +95,8 @@ class AreaLight final : public PlacedLight {
     return result;
   }
 
-  float emission_pdf_position(const SurfacePoint&) const override {
+  float emission_pdf_position(const SurfacePoint& point) const override {
+    if (points_) return (traits_.is_two_sided ? 0.5f : 1.0f) * points_->pdf_area(point);
     return area_ > 0 ? 1.0f / emitting_area() : 0.0f;
   }
   float emission_pdf_direction(const SurfacePoint& point, const Vec3f& direction) const override {
@@ -100,7 +107,8 @@ class AreaLight final : public PlacedLight {
   EmissionSample sample_origin(const Vec2f& u) const override {
     const bool behind = traits_.is_two_sided && u.x < 0.5f;
     const float u_area = !traits_.is_two_sided ? u.x : rescaled(u.x, behind ? 0.0f : 0.5f, 0.5f);
-    const ShapeSample s = shape_->sample_area({u_area, u.y});
+    const ShapeSample s =
+        points_ ? points_->sample({u_area, u.y}) : shape_->sample_area({u_area, u.y});
     EmissionSample result;
     if (!(s.pdf_area > 0)) return result;
     result.point = placed(s.point);
@@ -114,6 +122,34 @@ class AreaLight final : public PlacedLight {
   }
 
  private:
+  ShapeSample sample_by_geometry(const LightQuery& query, const Vec2f& u,
+                                 float& pdf_solid_angle) const {
+    return faces_ ? faces_->sample_toward(query, u, pdf_solid_angle)
+                  : shape_->sample_toward(query.reference, u, pdf_solid_angle);
+  }
+  float pdf_by_geometry(const LightQuery& query, const SurfacePoint& point) const {
+    return faces_ ? faces_->pdf_toward(query, point) : shape_->pdf_toward(query.reference, point);
+  }
+  /// One half each, with the density of both.
+  ShapeSample sample_by_pattern(const LightQuery& query, const Vec2f& u,
+                                float& pdf_solid_angle) const {
+    ShapeSample s;
+    float by_pattern = 0, by_geometry = 0;
+    if (u.x < 0.5f) {
+      s = points_->sample({rescaled(u.x, 0.0f, 0.5f), u.y});
+      if (!(s.pdf_area > 0)) return s;
+      by_pattern = s.pdf_area;
+      by_geometry = pdf_by_geometry(query, s.point);
+    } else {
+      s = sample_by_geometry(query, {rescaled(u.x, 0.5f, 0.5f), u.y}, by_geometry);
+      if (!(by_geometry > 0)) return s;
+      by_pattern = points_->pdf_area(s.point);
+    }
+    pdf_solid_angle =
+        0.5f * (by_geometry + solid_angle_density(query.reference, s.point, by_pattern));
+    return s;
+  }
+
   Spectrum radiance_at(const SurfacePoint& point, const Wavelengths& wavelengths) const {
     return pattern_ ? pattern_->radiance(point, wavelengths) * scale_ : radiance_.at(wavelengths);
   }
@@ -129,7 +165,8 @@ class AreaLight final : public PlacedLight {
   float scale_;
   std::shared_ptr<const Shape> shape_;
   // Of many lights none is in a cache: what samples ask for lies together.
-  std::unique_ptr<const MeshFaces> faces_;  ///< of meshes of more than a few triangles
+  std::unique_ptr<const MeshFaces> faces_;       ///< of meshes of more than a few triangles
+  std::unique_ptr<const PatternPoints> points_;  ///< of patterns on shapes that a table fits
   float area_;
 };
 
@@ -164,7 +201,7 @@ LightType area_light_type() {
            .textured(),
        number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
        boolean_parameter("two_sided", false, "The back shines as the front does."),
-       shadow_samples_parameter(), ignored_sampling_weight()}};
+       shadow_samples_parameter(), visible_parameter(), ignored_sampling_weight()}};
   return {info, true, create_area};
 }
 

@@ -17,8 +17,8 @@ struct Daylight {
 /// molecules, ozone and aerosols, as Preetham, Shirley and Smits ("A Practical Analytic Model for
 /// Daylight", SIGGRAPH 1999, appendix A.1, after Iqbal 1983) list them; the mass of air by Kasten
 /// and Young (1989). The sky: what the same transmittances leave over, by the clear sky model of
-/// Bird and Hulstrom (SERI/TR-642-761, 1981). `turbidity` of at least 2; `sun_height`, the sine of
-/// the sun's elevation, above 0.
+/// Bird and Hulstrom (SERI/TR-642-761, 1981). `turbidity` of at least 1, where the air holds no
+/// aerosols; `sun_height`, the sine of the sun's elevation, above 0.
 Daylight daylight(double turbidity, double sun_height);
 
 /// How the light of a cloudless sky is spread over it, with its colours, by Preetham, Shirley and
@@ -27,7 +27,8 @@ Daylight daylight(double turbidity, double sun_height);
 /// the zenith.
 class ClearSky {
  public:
-  /// `to_sun` is a unit vector above the horizon; `turbidity` 2 to 10.
+  /// `to_sun` is a unit vector above the horizon; `turbidity` 2 to 10: the functions were fitted to
+  /// these.
   ClearSky(double turbidity, const Vec3d& to_sun);
 
   /// XYZ toward a unit direction, relative; zero below the horizon.

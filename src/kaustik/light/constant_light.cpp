@@ -59,7 +59,7 @@ LightType constant_light_type() {
       "emitter",
       "constant",
       "The same light from every direction around the scene.",
-      {color_parameter("radiance", 1, "Radiance.").in("W/(sr·m²)"),
+      {color_parameter("radiance", 1, "Radiance.").in("W/(sr·m²)"), visible_parameter(),
        ignored_parameter("to_world", ParameterKind::transform), ignored_sampling_weight()}};
   return {info, false, create_constant};
 }

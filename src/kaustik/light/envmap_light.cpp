@@ -178,11 +178,12 @@ std::unique_ptr<Light> create_envmap(const LightInputs& inputs) {
 LightType envmap_light_type() {
   static const TypeInfo info{
       "emitter", "envmap", "A picture of the light around the scene, in latitude and longitude.",
-      picture_parameters(": radiance.",
-                         {number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
-                          to_world_parameter("World from the picture, whose upper edge is +y."),
-                          ignored_parameter("mis_compensation", ParameterKind::boolean),
-                          ignored_sampling_weight()})};
+      picture_parameters(
+          ": radiance.",
+          {number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
+           to_world_parameter("World from the picture, whose upper edge is +y."),
+           visible_parameter(), ignored_parameter("mis_compensation", ParameterKind::boolean),
+           ignored_sampling_weight()})};
   return {info, false, create_envmap};
 }
 

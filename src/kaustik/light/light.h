@@ -213,6 +213,8 @@ struct LightType {
   bool needs_shape = false;
   /// Throws Error where arguments contradict one another, or the shape cannot be a light.
   std::unique_ptr<Light> (*create)(const LightInputs&);
+  /// A texture in it is a factor on its light: white changes no colour, whatever is rendered.
+  bool pattern_is_factor = false;
 };
 /// One row per type of emitter.
 const std::vector<LightType>& light_types();

@@ -13,6 +13,14 @@ bool keeps_angles(const Transform& t) {
          abs_dot(x, y) < tolerance && abs_dot(y, z) < tolerance && abs_dot(x, z) < tolerance;
 }
 
+Frame axes_of(const Transform& world_from_light) {
+  Frame frame;
+  frame.x = normalize(world_from_light.vector({1, 0, 0}));
+  frame.y = normalize(world_from_light.vector({0, 1, 0}));
+  frame.z = normalize(world_from_light.vector({0, 0, 1}));
+  return frame;
+}
+
 SpectralValue emission_argument(const LightInputs& inputs, std::string_view name) {
   return SpectralValue::emission(inputs.arguments.color(name));
 }
@@ -38,6 +46,12 @@ Parameter shadow_samples_parameter() {
              "most 16), the others where these disagree (penumbra); half as many at each deeper "
              "recursion level.")
       .range(1, 4096);
+}
+
+Parameter visible_parameter() {
+  return boolean_parameter("visible", true,
+                           "The camera sees the light itself. If not, it looks past it, and all "
+                           "that is reflected, refracted or scattered on the way still meets it.");
 }
 
 Parameter ignored_sampling_weight() {

@@ -12,6 +12,7 @@ namespace kaustik {
 LightType area_light_type();
 LightType point_light_type();
 LightType spot_light_type();
+LightType projector_light_type();
 LightType directional_light_type();
 LightType constant_light_type();
 LightType envmap_light_type();
@@ -24,6 +25,8 @@ LightType distributed_spot_light_type();
 
 /// Whether the map keeps angles, up to rounding of its numbers.
 bool keeps_angles(const Transform& t);
+/// The axes of a map that keeps angles, unit vectors of the world; it may mirror.
+Frame axes_of(const Transform& world_from_light);
 /// A color argument of something that emits.
 SpectralValue emission_argument(const LightInputs& inputs, std::string_view name);
 /// The emitter's own `to_world` if the arguments give it, else that of the inputs.
@@ -32,6 +35,8 @@ const Transform& emitter_transform(const LightInputs& inputs);
 std::unique_ptr<Light> with_finite_power(std::unique_ptr<Light> light, const LightInputs& inputs);
 /// What Light::shadow_samples is read from.
 Parameter shadow_samples_parameter();
+/// Whether the camera sees the light itself; see Scene::is_hidden().
+Parameter visible_parameter();
 /// What Mitsuba's emitters accept and Kaustik has no use for.
 Parameter ignored_sampling_weight();
 

@@ -9,10 +9,15 @@ std::vector<Parameter> spot_cone_parameters() {
               .range(0, 180)
               .in("degrees"),
           optional(number_parameter("beam_width", 15,
-                                    "Angle from the axis from which on intensity falls, linearly "
-                                    "with the angle; 3/4 of `cutoff_angle` if not given.")
+                                    "Angle from the axis from which on intensity falls; 3/4 of "
+                                    "`cutoff_angle` if not given.")
                        .range(0, 180)
-                       .in("degrees"))};
+                       .in("degrees")),
+          choice_parameter("falloff", "linear", {"linear", "smooth", "square", "none"},
+                           "How intensity falls from the beam to the cutoff: linearly with the "
+                           "angle (Mitsuba), as a smooth step of the cosine (pbrt), with the "
+                           "square of its share (glTF), or not at all before the cutoff "
+                           "(Radiance).")};
 }
 
 SpotCone spot_cone_argument(const Arguments& arguments) {
@@ -27,7 +32,12 @@ SpotCone spot_cone_argument(const Arguments& arguments) {
                 fmt::format("'beam_width' is {}, more than the 'cutoff_angle' of {}", beam, cutoff),
                 "the beam lies inside of the cutoff angle", arguments.place_of("beam_width"));
   const double radians = std::numbers::pi / 180;
-  return SpotCone(cutoff * radians, beam * radians);
+  const std::string& falloff = arguments.text("falloff");
+  if (falloff == "none") return SpotCone(cutoff * radians, cutoff * radians);
+  return SpotCone(cutoff * radians, beam * radians,
+                  falloff == "smooth"   ? SpotFalloff::smooth
+                  : falloff == "square" ? SpotFalloff::square
+                                        : SpotFalloff::linear);
 }
 
 }  // namespace kaustik

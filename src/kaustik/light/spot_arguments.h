@@ -4,8 +4,8 @@
 
 namespace kaustik {
 
-/// The rows `cutoff_angle` and `beam_width`, and the cone that they stand for. Throws Error(input)
-/// where the cone is empty or the beam is wider than the cutoff.
+/// The rows `cutoff_angle`, `beam_width` and `falloff`, and the cone that they stand for. Throws
+/// Error(input) where the cone is empty or the beam is wider than the cutoff.
 std::vector<Parameter> spot_cone_parameters();
 SpotCone spot_cone_argument(const Arguments& arguments);
 

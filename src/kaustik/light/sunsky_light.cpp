@@ -114,11 +114,15 @@ struct SunSkySettings {
   Transform to_world;
 };
 
+/// Of air with less haze the light is known, but not how the sky spreads it: as it does at this.
+constexpr double least_fitted_turbidity = 2;
+
 class SunSkyLight final : public EnvironmentLight {
  public:
   SunSkyLight(const SunSkySettings& settings, const Daylight& day, const EmissionDisk& disk)
       : EnvironmentLight(disk),
-        sky_(ClearSky(settings.turbidity, settings.to_sun), sky_illuminance(settings, day)),
+        sky_(ClearSky(std::max(settings.turbidity, least_fitted_turbidity), settings.to_sun),
+             sky_illuminance(settings, day)),
         sky_distribution_(distribution_of(sky_)),
         sky_scale_(float(settings.sky_scale)),
         sun_(Vec3f(settings.to_sun), sun_irradiance(settings, day), 0.5 * settings.sun_aperture),
@@ -285,8 +289,9 @@ enum class Parts { sun, sky, both };
 std::vector<Parameter> parameters(Parts parts) {
   std::vector<Parameter> table = {
       number_parameter("turbidity", 3,
-                       "Haze of the air: 2 is very clear, 3 clear, 6 warm and moist, 10 hazy.")
-          .range(2, 10),
+                       "Haze of the air: 1 is air without any, 2 very clear, 3 clear, 6 warm and "
+                       "moist, 10 hazy.")
+          .range(1, 10),
       color_parameter("albedo", 0.3,
                       "What the ground around reflects; part of it comes back from the sky."),
       number_parameter("latitude", 35.6894, "Of the place, north positive.")
@@ -320,6 +325,7 @@ std::vector<Parameter> parameters(Parts parts) {
         number_parameter("sky_scale", 1, "Factor on the sky's radiance.").range(0, 1e30));
   table.push_back(
       to_world_parameter("World from the sky, whose +z is the zenith, +x south and +y west."));
+  table.push_back(visible_parameter());
   table.push_back(ignored_parameter("complex_sun", ParameterKind::boolean));
   table.push_back(ignored_sampling_weight());
   return table;

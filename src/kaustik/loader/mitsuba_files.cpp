@@ -93,6 +93,11 @@ fs::path Reader::found(const std::string& file, const Source& source) const {
   if (fs::path(file).is_absolute()) return file;
   for (const fs::path& folder : source.folders)
     if (is_there(folder / file)) return folder / file;
+  if (file.find('\\') != std::string::npos) {
+    std::string with_slashes = file;
+    std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
+    return found(with_slashes, source);
+  }
   return source.own_folder / file;
 }
 
@@ -177,7 +182,7 @@ void Reader::read_included(const fs::path& path, const Element& element, Unfinis
   if (!root) {
     incomplete_ = true;
   } else if (root->tag == "scene") {
-    check_attributes(*root, {{"version"}, {"type", "id", "name"}}, problems_);
+    check_attributes(*root, {{}, {"version", "type", "id", "name"}}, problems_);
     read_parts(root->node, parent, source);
   } else {
     read_included_object(*root, element.value("name"), parent, source);

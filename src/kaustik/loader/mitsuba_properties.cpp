@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
+#include "kaustik/base/wavelengths.h"
 #include "kaustik/loader/mitsuba_reader.h"
 #include "kaustik/loader/mitsuba_tags.h"
 #include "kaustik/loader/mitsuba_transform.h"
@@ -16,6 +19,13 @@ AttributeRule property_rule(const std::string& tag) {
   if (tag == "point" || tag == "vector") return {{"name"}, {"value", "x", "y", "z"}};
   if (tag == "spectrum") return {{"name"}, {"value", "filename"}};
   return {{"name", "value"}, {}};
+}
+
+/// Mitsuba 0.6 tells of colours whether they are a reflectance or light.
+AttributeRule with_intent(AttributeRule rule, const std::string& tag, Version version) {
+  if (version < first_with_snake_case && is_in({"rgb", "srgb", "spectrum"}, tag))
+    rule.optional.emplace_back("intent");
+  return rule;
 }
 
 Vec3d parse_point(const Element& element) {
@@ -34,13 +44,55 @@ size_t bytes_of(const SpectralCurve& curve) {
 
 void Reader::read_property(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, property_rule(element.tag), problems_)) return;
-  const std::string name =
-      upgraded_name(element.value("name"), parent.object->type, source.version);
+  const AttributeRule rule = with_intent(property_rule(element.tag), element.tag, source.version);
+  if (!check_attributes(element, rule, problems_)) return;
+  const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   try {
     if (name.empty()) throw BadValue("a property without a name", "give its name");
+    if (source.version < first_with_snake_case && parent.names.contains(name)) {
+      const size_t before = std::erase_if(parent.object->properties,
+                                          [&](const Property& p) { return p.name == name; });
+      if (before > 0) {
+        leave_out("twice " + name, fmt::format("'{}' is given twice: the last one holds", name),
+                  element.place);
+        parent.names.erase(name);
+      }
+    }
     if (!take_name(parent, name, element.place)) return;
-    parent.object->properties.push_back({name, value_of(element, name, source), element.place});
+    Value value = value_of(element, name, source);
+    if (element.tag == "spectrum" && parent.object->family == "emitter")
+      value = light_of(value, source);
+    parent.object->properties.push_back({name, std::move(value), element.place});
+  } catch (const BadValue& bad) {
+    add(problems_, bad, element.place);
+  }
+}
+
+Value Reader::light_of(const Value& spectrum, const Source& source) {
+  // Since 2.0 the same at every wavelength, which is no white but pink; before, daylight.
+  const auto* number = std::get_if<double>(&spectrum);
+  if (!number || !(*number > 0) || source.version < Version{2, 0, 0}) return spectrum;
+  return SpectralCurve{
+      {{double(Wavelengths::first_nm), *number}, {double(Wavelengths::last_nm), *number}}};
+}
+
+/// Mitsuba 0.6 has an element for what is now a spectrum of this type.
+void Reader::read_blackbody(const Element& element, Unfinished& parent, Source& source) {
+  refuse_children(element, source);
+  if (!check_attributes(element, {{"name", "temperature"}, {"scale"}}, problems_)) return;
+  const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
+  if (!take_name(parent, name, element.place)) return;
+  const auto object = std::make_shared<Object>();
+  object->family = "texture";
+  object->type = element.tag;
+  object->place = element.place;
+  try {
+    const Attribute& temperature = *element.find("temperature");
+    object->properties.push_back(
+        {"temperature", parse_attribute(temperature, parse_kelvin), temperature.place});
+    if (const Attribute* scale = element.find("scale"))
+      object->properties.push_back({"scale", parse_attribute(*scale, parse_float), scale->place});
+    parent.object->children.push_back({name, object});
   } catch (const BadValue& bad) {
     add(problems_, bad, element.place);
   }
@@ -53,7 +105,9 @@ Value Reader::value_of(const Element& element, const std::string& name, const So
   if (element.tag == "float") return parse_attribute(value, parse_float);
   if (element.tag == "integer") return parse_attribute(value, parse_integer);
   if (element.tag == "boolean") return parse_attribute(value, parse_boolean);
-  if (element.tag == "rgb") return parse_attribute(value, parse_rgb);
+  if (element.tag == "rgb")
+    return parse_attribute(
+        value, source.version < first_with_snake_case ? parse_rgb_of_old_scenes : parse_rgb);
   if (element.tag == "srgb") return parse_attribute(value, parse_srgb);
   if (!is_in(file_property_names(), name)) return value.value;
   if (value.value.empty()) throw BadValue("the file name is empty", "name a file", value.place);
@@ -65,7 +119,8 @@ Value Reader::spectrum_of(const Element& element, const Source& source) {
   const Attribute* file = element.find("filename");
   if (!value == !file)
     throw BadValue("<spectrum> takes either 'value' or 'filename'", "give one of the two");
-  const Value result = value ? parse_attribute(*value, parse_spectrum)
+  const bool is_old = source.version < Version{2, 0, 0};
+  const Value result = value ? parse_attribute(*value, is_old ? parse_old_spectrum : parse_spectrum)
                              : Value(curve_of(found(file->value, source).string(), file->place));
   if (const auto* curve = std::get_if<SpectralCurve>(&result))
     budget_.spend(bytes_of(*curve), element.place);
@@ -90,6 +145,10 @@ const SpectralCurve& Reader::curve_of(const std::string& path, const Place& plac
 
 void Reader::read_transform(const Element& element, Unfinished& parent, Source& source) {
   if (!check_attributes(element, {{"name"}, {}}, problems_)) return;
+  add_transform(element, transform_of(element, source), parent, source);
+}
+
+Transform Reader::transform_of(const Element& element, const Source& source) {
   Transform transform;
   for (const pugi::xml_node& node : element.node.children()) {
     if (!is_element(node, source)) continue;
@@ -108,10 +167,43 @@ void Reader::read_transform(const Element& element, Unfinished& parent, Source& 
       add(problems_, bad, operation->place);
     }
   }
-  const std::string name =
-      upgraded_name(element.value("name"), parent.object->type, source.version);
+  return transform;
+}
+
+void Reader::add_transform(const Element& element, const Transform& transform, Unfinished& parent,
+                           const Source& source) {
+  const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   if (take_name(parent, name, element.place))
     parent.object->properties.push_back({name, transform, element.place});
+}
+
+void Reader::read_animation(const Element& element, Unfinished& parent, Source& source) {
+  if (!check_attributes(element, {{"name"}, {}}, problems_)) return;
+  std::optional<Transform> first;
+  bool is_sound = true;
+  for (const pugi::xml_node& node : element.node.children()) {
+    if (!is_element(node, source)) continue;
+    const auto moment = ready(node, source);
+    if (!moment) continue;
+    if (moment->tag != "transform") {
+      problems_.add(fmt::format("<{}> cannot stand in <animation>", moment->tag),
+                    "it holds transforms: <transform time=\"0\">…</transform>", moment->place);
+      is_sound = false;
+      continue;
+    }
+    if (!check_attributes(*moment, {{"time"}, {}}, problems_)) continue;
+    const Transform transform = transform_of(*moment, source);
+    if (!first) first = transform;
+  }
+  if (!first && !is_sound) return;
+  if (!first) {
+    problems_.add("an <animation> without a transform",
+                  "write <animation name=\"to_world\"><transform time=\"0\">…", element.place);
+    return;
+  }
+  leave_out("motion", "motion comes later: the first transform of an <animation> holds",
+            element.place);
+  add_transform(element, *first, parent, source);
 }
 
 }  // namespace kaustik::mitsuba

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "kaustik/loader/mitsuba_sky.h"
 #include "kaustik/loader/mitsuba_tags.h"
+#include "kaustik/loader/obj_materials.h"
 
 namespace kaustik::mitsuba {
 namespace {
@@ -18,6 +20,14 @@ constexpr size_t bytes_per_element = 500, bytes_per_attribute = 50;
 bool Reader::read_version(Source& source) {
   const pugi::xml_node root = source.document.root();
   const pugi::xml_attribute version = root.attribute("version");
+  if (!version && !is_strict_ && std::string_view(root.name()) == "scene") {
+    // As Mitsuba 0.6 took it.
+    source.version = {0, 2, 0};
+    leave_out("version",
+              fmt::format("<{}> lacks its version: it is read as one of Mitsuba 0.2", root.name()),
+              source.document.place(root));
+    return true;
+  }
   if (!version) {
     // A file that is no scene may have such a root, too: nothing of it is quoted.
     Place place = source.document.place(root);
@@ -52,16 +62,18 @@ std::shared_ptr<Object> Reader::read_scene(Source& source) {
 Description Reader::finish(const std::shared_ptr<Object>& scene) {
   if (scene && !incomplete_) {
     references_.resolve(scene, problems_);
+    if (problems_.empty()) open_old_shapes();
     // What is left out may have used them.
-    if (foreign_.empty()) definitions_.report_unused(problems_);
+    if (left_out_.empty()) definitions_.report_unused(problems_);
   }
   problems_.throw_if_any();
   Description description{.scene = scene, .sources = {sources_.begin(), sources_.end()}};
   description.is_strict = is_strict_;
-  for (const auto& [tag, foreign] : foreign_)
+  for (const auto& [what, left_out] : left_out_)
     description.warnings.push_back(fmt::format(
-        "{}: Kaustik does not know <{}>: it is left out{}", kaustik::text_of(foreign.first), tag,
-        foreign.count > 1 ? fmt::format(", and {} more like it", foreign.count - 1) : ""));
+        "{}: {}{}", kaustik::text_of(left_out.first), left_out.sentence,
+        left_out.count > 1 ? fmt::format(", and {} more like it", left_out.count - 1) : ""));
+  use_obj_materials(description, old_obj_shapes_);
   return description;
 }
 
@@ -91,7 +103,9 @@ std::optional<Element> Reader::ready(const pugi::xml_node& node, const Source& s
 }
 
 bool Reader::is_element(const pugi::xml_node& node, const Source& source) {
-  if (node.type() == pugi::node_pcdata)
+  if (node.type() == pugi::node_pcdata && !is_strict_)
+    leave_out("text", "text between the elements is left out", source.document.place(node));
+  else if (node.type() == pugi::node_pcdata)
     problems_.add(fmt::format("text between the elements: {}", in_quotes(trimmed(node.value()))),
                   "values stand in attributes, as in <float name=\"radius\" value=\"1\"/>",
                   source.document.place(node));
@@ -120,7 +134,8 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
   static const std::map<std::string_view, Read> others = {
       {"transform", &Reader::read_transform}, {"ref", &Reader::read_reference},
       {"alias", &Reader::read_alias},         {"default", &Reader::read_default},
-      {"path", &Reader::read_search_folder},  {"include", &Reader::read_include}};
+      {"path", &Reader::read_search_folder},  {"include", &Reader::read_include},
+      {"animation", &Reader::read_animation}, {"blackbody", &Reader::read_blackbody}};
   const bool is_srgb = element.tag == "srgb" && source.version < Version{2, 0, 0};
   const bool typed_spectrum = element.tag == "spectrum" && element.find("type");
   if (const auto other = others.find(element.tag); other != others.end())
@@ -135,12 +150,19 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
 
 void Reader::report_unknown(const Element& element) {
   // Other renderers have elements of their own. What looks like one of ours was meant to be one.
-  static const std::vector<std::string> of_mitsuba = {"animation", "blackbody", "subsurface"};
-  const bool is_ours = is_in(transform_tags(), element.tag) || is_in(of_mitsuba, element.tag) ||
+  if (element.tag == "subsurface" && !is_strict_) {
+    leave_out("subsurface",
+              "subsurface scattering comes later: <subsurface> is left out, the surface is what "
+              "its bsdf says",
+              element.place);
+    return;
+  }
+  const bool is_ours = is_in(transform_tags(), element.tag) ||
                        upgraded_tag(element.tag, {0, 0, 0}) != element.tag ||
                        suggestion(element.tag, part_tags()).starts_with("did you mean");
   if (!is_strict_ && !is_ours) {
-    ++foreign_.try_emplace(element.tag, Foreign{element.place, 0}).first->second.count;
+    leave_out(element.tag, fmt::format("Kaustik does not know <{}>: it is left out", element.tag),
+              element.place);
     return;
   }
   incomplete_ = true;  // its ids and definitions are unknown
@@ -153,6 +175,45 @@ void Reader::report_unknown(const Element& element) {
   }
   problems_.add(fmt::format("unknown element <{}>", element.tag),
                 suggestion(element.tag, part_tags()), element.place);
+}
+
+void Reader::leave_out(const std::string& what, const std::string& sentence, const Place& place) {
+  ++left_out_.try_emplace(what, LeftOut{sentence, place, 0}).first->second.count;
+}
+
+void Reader::scale_reflectances(Object& object) {
+  // As Mitsuba 0.6 does it, so that no surface makes light.
+  constexpr double largest = 0.99;
+  for (Property& property : object.properties) {
+    if (!property.name.ends_with("reflectance") && !property.name.ends_with("transmittance"))
+      continue;
+    auto* colour = std::get_if<Rgb>(&property.value);
+    auto* number = std::get_if<double>(&property.value);
+    const double most = colour ? std::max({colour->r, colour->g, colour->b}) : number ? *number : 0;
+    if (!(most > 1)) continue;
+    const double factor = largest / most;
+    if (colour) *colour = {colour->r * factor, colour->g * factor, colour->b * factor};
+    if (number) *number = largest;
+    leave_out("reflectance",
+              fmt::format("'{}' is above 1, which makes light: it is scaled to {}", property.name,
+                          largest),
+              property.place);
+  }
+}
+
+void Reader::open_old_shapes() {
+  const auto holds = [](const Object& shape, const char* family) {
+    return std::any_of(shape.children.begin(), shape.children.end(),
+                       [&](const Child& child) { return child.object->family == family; });
+  };
+  for (const std::shared_ptr<Object>& shape : old_shapes_) {
+    if (!holds(*shape, "medium") || holds(*shape, "bsdf") || holds(*shape, "emitter")) continue;
+    const auto boundary = std::make_shared<Object>();
+    boundary->family = "bsdf";
+    boundary->type = "null";
+    boundary->place = shape->place;
+    shape->children.push_back({"", boundary});
+  }
 }
 
 bool Reader::take_name(Unfinished& parent, const std::string& name, const Place& place) {
@@ -169,15 +230,15 @@ bool Reader::take_name(Unfinished& parent, const std::string& name, const Place&
 std::shared_ptr<Object> Reader::read_object(const Element& element, Source& source) {
   const bool is_root = element.node == source.document.root();
   const bool is_scene = element.tag == "scene";
-  AttributeRule rule = {{"type"}, {"id", "name"}};
-  if (is_scene) rule = {{}, {"type", "id", "name"}};
-  if (is_root) rule.required.emplace_back("version");
+  AttributeRule rule = {{"type"}, {"id", "name", "version"}};
+  if (is_scene) rule = {{}, {"type", "id", "name", "version"}};
+  if (is_root && is_strict_) rule.required.emplace_back("version");
   check_attributes(element, rule, problems_);
 
   Unfinished unfinished = {std::make_shared<Object>(), {}};
   Object& object = *unfinished.object;
   object.family = element.tag == "spectrum" ? "texture" : element.tag;
-  object.type = is_scene ? "" : element.value("type");
+  object.type = is_scene ? "" : upgraded_type(object.family, element.value("type"), source.version);
   object.id = element.value("id");
   object.place = element.place;
   if (!object.id.empty())
@@ -189,8 +250,12 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   }
   read_parts(element.node, unfinished, source);
   --depth_;
-  upgrade_texture_placement(object, source.version, problems_);
-  upgrade_conductor(object, source.version);
+  upgrade_object(object, element.value("type"), source.version, problems_);
+  if (!is_strict_) scale_reflectances(object);
+  if (source.version < first_with_snake_case && object.family == "shape")
+    old_shapes_.push_back(unfinished.object);
+  upgrade_sky(object, source.version);
+  if (loads_materials(object, source.version)) old_obj_shapes_.insert(&object);
   return unfinished.object;
 }
 
@@ -200,8 +265,7 @@ void Reader::read_nested_object(const Element& element, Unfinished& parent, Sour
                   element.place);
     return;
   }
-  const std::string name =
-      upgraded_name(element.value("name"), parent.object->type, source.version);
+  const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   take_name(parent, name, element.place);
   parent.object->children.push_back({name, read_object(element, source)});
 }
@@ -209,8 +273,7 @@ void Reader::read_nested_object(const Element& element, Unfinished& parent, Sour
 void Reader::read_reference(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
   if (!check_attributes(element, {{"id"}, {"name"}}, problems_)) return;
-  const std::string name =
-      upgraded_name(element.value("name"), parent.object->type, source.version);
+  const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   take_name(parent, name, element.place);
   references_.refer(parent.object, name, element.value("id"), element.place);
 }

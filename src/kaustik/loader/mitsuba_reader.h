@@ -55,7 +55,13 @@ class Reader {
   std::shared_ptr<Object> read_object(const Element& element, Source& source);
   void read_nested_object(const Element& element, Unfinished& parent, Source& source);
   void read_property(const Element& element, Unfinished& parent, Source& source);
+  void read_blackbody(const Element& element, Unfinished& parent, Source& source);
   void read_transform(const Element& element, Unfinished& parent, Source& source);
+  void read_animation(const Element& element, Unfinished& parent, Source& source);
+  /// Of the operations in the element.
+  Transform transform_of(const Element& element, const Source& source);
+  void add_transform(const Element& element, const Transform& transform, Unfinished& parent,
+                     const Source& source);
   void read_reference(const Element& element, Unfinished& parent, Source& source);
   void read_alias(const Element& element, Unfinished& parent, Source& source);
   void read_default(const Element& element, Unfinished& parent, Source& source);
@@ -70,15 +76,23 @@ class Reader {
   /// Of a file that a <spectrum> names at that place; each is read once.
   const SpectralCurve& curve_of(const std::string& path, const Place& place);
   void report_unknown(const Element& element);
+  /// Reflectances and transmittances above 1.
+  void scale_reflectances(Object& object);
+  /// Before Mitsuba 2 a shape with a medium and no bsdf was a boundary of media alone.
+  void open_old_shapes();
+  /// `what` is told once, with how many there were.
+  void leave_out(const std::string& what, const std::string& sentence, const Place& place);
 
   Value value_of(const Element& element, const std::string& name, const Source& source);
   Value spectrum_of(const Element& element, const Source& source);
+  /// What a <spectrum> of one number means in a lamp.
+  static Value light_of(const Value& spectrum, const Source& source);
   /// False, with the reason told, if the parent has such a part already.
   bool take_name(Unfinished& parent, const std::string& name, const Place& place);
   std::filesystem::path found(const std::string& file, const Source& source) const;
 
-  /// An element that is none of Mitsuba's.
-  struct Foreign {
+  struct LeftOut {
+    std::string sentence;
     Place first;
     int count = 0;
   };
@@ -90,11 +104,13 @@ class Reader {
   LoadBudget budget_;
   std::map<std::filesystem::path, std::unique_ptr<XmlDocument>> documents_;  ///< by identity
   std::map<std::string, SpectralCurve> curves_;                              ///< by path
-  std::map<std::string, Foreign> foreign_;                                   ///< by tag
+  std::map<std::string, LeftOut> left_out_;                                  ///< by what it is
   std::set<std::string> sources_;                                            ///< see Description
+  std::set<const Object*> old_obj_shapes_;         ///< that take materials from their files
   std::vector<std::filesystem::path> open_files_;  ///< the outermost first
   size_t included_files_ = 0;
   size_t read_bytes_ = 0;
+  std::vector<std::shared_ptr<Object>> old_shapes_;  ///< of files before Mitsuba 2
   int depth_ = 0;
   bool incomplete_ = false;  ///< a part of the scene could not be read at all
 };

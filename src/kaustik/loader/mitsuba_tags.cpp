@@ -9,7 +9,7 @@ std::vector<std::string> all_part_tags() {
   std::vector<std::string> tags = object_tags();
   tags.erase(tags.begin());  // scene
   tags.insert(tags.end(), property_tags().begin(), property_tags().end());
-  tags.insert(tags.end(), {"transform", "ref", "alias", "default", "path", "include"});
+  tags.insert(tags.end(), {"transform", "animation", "ref", "alias", "default", "path", "include"});
   return tags;
 }
 

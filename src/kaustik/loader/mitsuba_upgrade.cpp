@@ -12,7 +12,55 @@
 namespace kaustik::mitsuba {
 namespace {
 
-constexpr Version first_with_snake_case = {2, 0, 0};
+constexpr Version first_of_mitsuba_0_3 = {0, 3, 0}, first_of_mitsuba_0_4 = {0, 4, 0},
+                  first_of_mitsuba_0_5 = {0, 5, 0};
+
+/// In files of versions before `until` a type or a name was called `old_name`. A type may imply a
+/// distribution of facets.
+struct TypeName {
+  Version until;
+  std::string_view family, old_name, name, distribution = {};
+};
+/// Of dialects of any version.
+constexpr Version any_version = {1'000'000, 0, 0};
+constexpr TypeName type_names[] = {
+    {first_of_mitsuba_0_5, "bsdf", "bump", "bumpmap"},
+    {first_of_mitsuba_0_3, "bsdf", "lambertian", "diffuse"},
+    {first_of_mitsuba_0_3, "bsdf", "mirror", "conductor"},
+    {first_of_mitsuba_0_3, "bsdf", "roughmetal", "roughconductor"},
+    {first_of_mitsuba_0_3, "bsdf", "roughglass", "roughdielectric"},
+    {first_of_mitsuba_0_3, "bsdf", "microfacet", "roughplastic"},
+    {first_of_mitsuba_0_3, "bsdf", "composite", "mixturebsdf"},
+    {first_of_mitsuba_0_3, "texture", "exrtexture", "bitmap"},
+    {first_of_mitsuba_0_3, "texture", "ldrtexture", "bitmap"},
+    {any_version, "bsdf", "roughconductorggx", "roughconductor", "ggx"},
+    {any_version, "bsdf", "roughdielectricggx", "roughdielectric", "ggx"},
+    {any_version, "bsdf", "roughplasticggx", "roughplastic", "ggx"},
+    {any_version, "bsdf", "disneybsdf", "principled"},
+    {any_version, "bsdf", "mixture", "mixturebsdf"},
+    {any_version, "phase", "rayleigh_polarized", "rayleigh"}};
+
+/// Of an object of this family and, unless it is empty, of this type; in snake case.
+struct PropertyName {
+  Version until;
+  std::string_view family, type, old_name, name;
+};
+constexpr PropertyName property_names[] = {
+    {first_with_snake_case, "bsdf", "diffuse", "diffuse_reflectance", "reflectance"},
+    {first_of_mitsuba_0_4, "emitter", "area", "intensity", "radiance"},
+    {first_of_mitsuba_0_4, "emitter", "constant", "intensity", "radiance"},
+    {first_of_mitsuba_0_4, "emitter", "directional", "intensity", "irradiance"},
+    {first_of_mitsuba_0_4, "emitter", "envmap", "intensity_scale", "scale"},
+    {first_of_mitsuba_0_4, "medium", "", "density_multiplier", "scale"},
+    {first_of_mitsuba_0_4, "sensor", "", "focus_depth", "focus_distance"},
+    {first_of_mitsuba_0_3, "bsdf", "", "alpha_b", "alpha"},
+    {first_of_mitsuba_0_3, "bsdf", "", "alpha_x", "alpha_u"},
+    {first_of_mitsuba_0_3, "bsdf", "", "alpha_y", "alpha_v"},
+    {first_of_mitsuba_0_3, "texture", "checkerboard", "bright_color", "color0"},
+    {first_of_mitsuba_0_3, "texture", "checkerboard", "dark_color", "color1"},
+    {first_of_mitsuba_0_3, "shape", "sphere", "inverted", "flip_normals"},
+    {first_of_mitsuba_0_3, "shape", "cylinder", "p1", "p0"},
+    {first_of_mitsuba_0_3, "shape", "cylinder", "p2", "p1"}};
 
 bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
@@ -34,53 +82,72 @@ std::string snake_case_from_camel_case(const std::string& name) {
   return result;
 }
 
-/// Removes a number from the properties.
-std::optional<Property> take_number(Object& object, std::string_view name) {
+std::string lower_case(std::string text) {
+  for (char& c : text) c = lower(c);
+  return text;
+}
+
+const TypeName* row_of(const std::string& family, const std::string& type, Version version) {
+  const std::string wanted = lower_case(type);
+  for (const TypeName& row : type_names)
+    if (version < row.until && family == row.family && wanted == row.old_name) return &row;
+  return nullptr;
+}
+
+/// Removes a property with a value of type T.
+template <typename T>
+std::optional<Property> take(Object& object, std::string_view name) {
   const auto at = std::find_if(
       object.properties.begin(), object.properties.end(),
-      [&](const Property& p) { return p.name == name && std::holds_alternative<double>(p.value); });
+      [&](const Property& p) { return p.name == name && std::holds_alternative<T>(p.value); });
   if (at == object.properties.end()) return std::nullopt;
   Property taken = std::move(*at);
   object.properties.erase(at);
   return taken;
 }
 
-}  // namespace
+bool has(const Object& object, std::string_view name) {
+  return std::any_of(object.properties.begin(), object.properties.end(),
+                     [&](const Property& p) { return p.name == name; });
+}
 
-Version parse_version(std::string_view text) {
-  int parts[3] = {0, 0, 0};
-  const char* at = text.data();
-  const char* const end = text.data() + text.size();
-  for (int i = 0; i < 3; ++i) {
-    if (i > 0 && (at == end || *at++ != '.')) at = end;
-    const auto [next, error] = std::from_chars(at, end, parts[i]);
-    if (error != std::errc{} || parts[i] < 0 || (i == 2 && next != end))
-      throw BadValue(fmt::format("{} is not a version", in_quotes(text)),
-                     "write three numbers, as in version=\"3.0.0\"");
-    at = next;
+/// Turns uoffset, voffset, uscale and vscale of a texture into `to_uv`.
+void upgrade_texture_placement(Object& object, Problems& problems) {
+  Vec3d offset(0, 0, 0), scale(1, 1, 1);
+  Place place;
+  const auto take_into = [&](std::string_view name, double& target) {
+    if (const auto property = take<double>(object, name)) {
+      target = std::get<double>(property->value);
+      if (!place.file) place = property->place;
+    }
+  };
+  take_into("uoffset", offset.x);
+  take_into("voffset", offset.y);
+  take_into("uscale", scale.x);
+  take_into("vscale", scale.y);
+  if (!place.file) return;
+  try {
+    const Transform to_uv = Transform::scale(scale) * Transform::translate(offset);
+    object.properties.push_back({"to_uv", to_uv, place});
+  } catch (const std::invalid_argument&) {
+    problems.add("the texture's uscale or vscale is too near to 0", "give another scale", place);
   }
-  return {parts[0], parts[1], parts[2]};
 }
 
-std::string upgraded_name(const std::string& name, const std::string& object_type,
-                          Version version) {
-  if (version >= first_with_snake_case) return name;
-  const std::string snake = snake_case_from_camel_case(name);
-  if (object_type == "diffuse" && snake == "diffuse_reflectance") return "reflectance";
-  return snake;
+/// Cameras of Mitsuba 0.3 gave the field of view of the picture's smaller side, or of the larger
+/// one.
+void upgrade_field_of_view(Object& object) {
+  if (object.family != "sensor" || has(object, "fov_axis")) return;
+  const auto smaller = take<bool>(object, "map_smaller_side");
+  const bool is_smaller = !smaller || std::get<bool>(smaller->value);
+  object.properties.push_back({"fov_axis", std::string(is_smaller ? "smaller" : "larger"),
+                               smaller ? smaller->place : object.place});
 }
 
-std::string upgraded_tag(const std::string& tag, Version version) {
-  if (version >= first_with_snake_case) return tag;
-  if (tag == "lookAt") return "lookat";
-  if (tag == "luminaire") return "emitter";
-  if (tag == "camera") return "sensor";
-  return tag;
-}
-
-void upgrade_conductor(Object& object, Version version) {
-  if (version >= first_with_snake_case || object.family != "bsdf") return;
-  if (object.type != "conductor" && object.type != "roughconductor") return;
+/// What no metal was named of was copper.
+void upgrade_conductor(Object& object) {
+  if (object.family != "bsdf" || (object.type != "conductor" && object.type != "roughconductor"))
+    return;
   const auto tells_metal = [](const auto& part) {
     return part.name == "material" || part.name == "eta" || part.name == "k" ||
            part.name == "reflectance";
@@ -91,27 +158,62 @@ void upgrade_conductor(Object& object, Version version) {
   object.properties.push_back({"material", std::string("cu"), object.place});
 }
 
-void upgrade_texture_placement(Object& object, Version version, Problems& problems) {
-  if (version >= first_with_snake_case) return;
-  Vec3d offset(0, 0, 0), scale(1, 1, 1);
-  Place place;
-  const auto take = [&](std::string_view name, double& target) {
-    if (const auto property = take_number(object, name)) {
-      target = std::get<double>(property->value);
-      if (!place.file) place = property->place;
-    }
-  };
-  take("uoffset", offset.x);
-  take("voffset", offset.y);
-  take("uscale", scale.x);
-  take("vscale", scale.y);
-  if (!place.file) return;
-  try {
-    const Transform to_uv = Transform::scale(scale) * Transform::translate(offset);
-    object.properties.push_back({"to_uv", to_uv, place});
-  } catch (const std::invalid_argument&) {
-    problems.add("the texture's uscale or vscale is too near to 0", "give another scale", place);
+}  // namespace
+
+Version parse_version(std::string_view text) {
+  int parts[3] = {0, 0, 0};
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  for (int i = 0; i < 3; ++i) {
+    const auto [next, error] = std::from_chars(at, end, parts[i]);
+    const bool ends = next == end;
+    if (error != std::errc{} || parts[i] < 0 || (!ends && (i == 2 || *next != '.')))
+      throw BadValue(fmt::format("{} is not a version", in_quotes(text)),
+                     "write three numbers, as in version=\"3.0.0\"");
+    if (ends) break;
+    at = next + 1;
   }
+  return {parts[0], parts[1], parts[2]};
+}
+
+std::string upgraded_tag(const std::string& tag, Version version) {
+  if (version >= first_with_snake_case) return tag;
+  if (tag == "lookAt") return "lookat";
+  if (tag == "luminaire") return "emitter";
+  if (tag == "camera") return "sensor";
+  return tag;
+}
+
+std::string upgraded_type(const std::string& family, const std::string& type, Version version) {
+  if (const TypeName* row = row_of(family, type, version)) return std::string(row->name);
+  // Mitsuba 0.6 does not tell upper from lower case.
+  return version < first_with_snake_case ? lower_case(type) : type;
+}
+
+std::string upgraded_name(const std::string& name, const Object& parent, Version version) {
+  if (version >= first_with_snake_case) return name;
+  const std::string snake = snake_case_from_camel_case(name);
+  for (const PropertyName& row : property_names)
+    if (version < row.until && parent.family == row.family &&
+        (row.type.empty() || parent.type == row.type) && snake == row.old_name)
+      return std::string(row.name);
+  return snake;
+}
+
+void upgrade_object(Object& object, const std::string& written_type, Version version,
+                    Problems& problems) {
+  const TypeName* row = row_of(object.family, written_type, version);
+  if (row && !row->distribution.empty() && !has(object, "distribution"))
+    object.properties.push_back({"distribution", std::string(row->distribution), object.place});
+  if (version < first_with_snake_case) {
+    upgrade_texture_placement(object, problems);
+    if (written_type != "mirror") upgrade_conductor(object);
+  }
+  if (version < first_of_mitsuba_0_4) upgrade_field_of_view(object);
+}
+
+bool loads_materials(const Object& object, Version version) {
+  return version < first_with_snake_case && object.family == "shape" && object.type == "obj";
 }
 
 }  // namespace kaustik::mitsuba

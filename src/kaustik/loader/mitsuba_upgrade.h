@@ -1,6 +1,6 @@
 #pragma once
-// What changed between the versions of Mitsuba's scene format. Like Mitsuba 3 itself this upgrades
-// the spelling of names and tags, not the meaning of types that are gone.
+// What changed between the versions of Mitsuba's scene format: the spelling of tags, types and
+// names.
 
 #include <compare>
 #include <string>
@@ -16,19 +16,28 @@ struct Version {
   friend auto operator<=>(const Version&, const Version&) = default;
 };
 
-/// Throws BadValue unless `text` is three numbers with dots between.
-Version parse_version(std::string_view text);
+/// Names are camelCase before it.
+inline constexpr Version first_with_snake_case = {2, 0, 0};
 
-/// The present name of a property or nested object of an object of type `object_type`.
-std::string upgraded_name(const std::string& name, const std::string& object_type, Version version);
+/// Throws BadValue unless `text` is three numbers with dots between, or fewer: the others are 0.
+Version parse_version(std::string_view text);
 
 /// The present name of a tag.
 std::string upgraded_tag(const std::string& tag, Version version);
 
-/// Before version 2 a conductor without material, eta and k was of copper.
-void upgrade_conductor(Object& object, Version version);
+/// The present name of a type.
+std::string upgraded_type(const std::string& family, const std::string& type, Version version);
 
-/// Turns uoffset, voffset, uscale and vscale of a texture into `to_uv`.
-void upgrade_texture_placement(Object& object, Version version, Problems& problems);
+/// The present name of a property or nested object of `parent`, whose type is a present one.
+std::string upgraded_name(const std::string& name, const Object& parent, Version version);
+
+/// Upgrades what more than one property says, or the type as it was written: the placement of a
+/// texture (uoffset, voffset, uscale, vscale), which side of the picture a camera's field of view
+/// is, and conductors without material, eta and k, which were of copper before version 2.
+void upgrade_object(Object& object, const std::string& written_type, Version version,
+                    Problems& problems);
+
+/// Whether a shape takes materials from its mesh file: see use_obj_materials().
+bool loads_materials(const Object& object, Version version);
 
 }  // namespace kaustik::mitsuba

@@ -35,8 +35,7 @@ Rgb parse_hexadecimal(std::string_view text) {
   if (text.size() != 7 || error != std::errc{} || end != text.data() + text.size())
     throw BadValue(fmt::format("{} is not a colour", in_quotes(text)),
                    "write six hexadecimal digits after the '#', as in #ff8000");
-  return linear_from_srgb(
-      Rgb{double(code >> 16) / 255, double((code >> 8) & 255) / 255, double(code & 255) / 255});
+  return {double(code >> 16) / 255, double((code >> 8) & 255) / 255, double(code & 255) / 255};
 }
 
 Rgb parse_three_or_one(std::string_view text) {
@@ -88,7 +87,12 @@ std::vector<std::string_view> split_list(std::string_view text) {
 }
 
 double parse_float(std::string_view text) {
-  const std::string_view digits = without_plus(trimmed(text));
+  std::string_view digits = without_plus(trimmed(text));
+  // As programs write floats.
+  if (digits.size() > 1 && digits.ends_with('f') &&
+      (std::isdigit(static_cast<unsigned char>(digits[digits.size() - 2])) != 0 ||
+       digits[digits.size() - 2] == '.'))
+    digits.remove_suffix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range)
@@ -134,13 +138,19 @@ Vec3d parse_vector(std::string_view text) {
 
 Rgb parse_rgb(std::string_view text) {
   const std::string_view word = trimmed(text);
+  return word.starts_with('#') ? linear_from_srgb(parse_hexadecimal(word))
+                               : parse_three_or_one(word);
+}
+
+Rgb parse_rgb_of_old_scenes(std::string_view text) {
+  const std::string_view word = trimmed(text);
   return word.starts_with('#') ? parse_hexadecimal(word) : parse_three_or_one(word);
 }
 
 Rgb parse_srgb(std::string_view text) {
   const std::string_view word = trimmed(text);
-  return word.starts_with('#') ? parse_hexadecimal(word)
-                               : linear_from_srgb(parse_three_or_one(word));
+  return linear_from_srgb(word.starts_with('#') ? parse_hexadecimal(word)
+                                                : parse_three_or_one(word));
 }
 
 Value parse_spectrum(std::string_view text) {
@@ -164,7 +174,21 @@ Value parse_spectrum(std::string_view text) {
                      std::string(remedy));
     append_sample(curve, parse_float(part.substr(0, colon)), parse_float(part.substr(colon + 1)));
   }
+  if (curve.samples.size() < 2)
+    throw BadValue("a curve of one wavelength is zero everywhere else",
+                   "give the ends of a range, such as \"360:0.5, 830:0.5\"");
   return curve;
+}
+
+Value parse_old_spectrum(std::string_view text) {
+  const bool is_rgb = split_list(text).size() == 3 && text.find(':') == std::string_view::npos;
+  return is_rgb ? Value(parse_three_or_one(text)) : parse_spectrum(text);
+}
+
+double parse_kelvin(std::string_view text) {
+  std::string_view number = trimmed(text);
+  if (!number.empty() && (number.back() == 'K' || number.back() == 'k')) number.remove_suffix(1);
+  return parse_float(number);
 }
 
 void append_sample(SpectralCurve& curve, double wavelength_nm, double value) {

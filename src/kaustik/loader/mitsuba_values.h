@@ -38,10 +38,17 @@ bool parse_boolean(std::string_view text);
 Vec3d parse_vector(std::string_view text);
 /// One number for all channels or three, linear; or "#rrggbb" in sRGB, which is decoded.
 Rgb parse_rgb(std::string_view text);
+/// As parse_rgb(), but "#rrggbb" is linear, too (Mitsuba 0.6).
+Rgb parse_rgb_of_old_scenes(std::string_view text);
 /// As parse_rgb(), but the numbers are sRGB too (Mitsuba 0.6).
 Rgb parse_srgb(std::string_view text);
-/// One number (a double: the same in every lane) or "wavelength:value" pairs (a SpectralCurve).
+/// One number (a double: the same in every lane) or at least two "wavelength:value" pairs (a
+/// SpectralCurve).
 Value parse_spectrum(std::string_view text);
+/// The same of Mitsuba 0.6, where three numbers are red, green and blue.
+Value parse_old_spectrum(std::string_view text);
+/// A temperature, which may end in K.
+double parse_kelvin(std::string_view text);
 
 /// Appends a sample to a curve; throws BadValue unless the wavelength is positive and ascends.
 void append_sample(SpectralCurve& curve, double wavelength_nm, double value);

@@ -46,8 +46,10 @@ SpectralCurve read_spectrum_file(const std::string& path) {
     read_line(rest.substr(0, end), Place{name, line, 0}, curve);
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
-  if (curve.samples.empty())
-    fail("the spectrum is empty", "write a wavelength in nanometres and a value on each line",
+  if (curve.samples.size() < 2)
+    fail(curve.samples.empty() ? "the spectrum is empty"
+                               : "the spectrum has one wavelength: it is zero everywhere else",
+         "write a wavelength in nanometres and a value on each line, at least two",
          Place{name, 0, 0});
   return curve;
 }

@@ -21,6 +21,10 @@ class Bitmap final : public Texture {
   }
   float scalar(const TextureCoordinates& at) const override { return luminance_of(rgb(at)); }
   float maximum() const override { return maximum_; }
+  float aspect() const override {
+    const Vec2f texel = pyramid_.texel_size({0, 0});
+    return texel.y / texel.x;
+  }
   Spectrum mean() const override { return pyramid_.mean(); }
   /// By differences over one texel, which turn the kinks of bilinear interpolation into a gradient
   /// without steps.

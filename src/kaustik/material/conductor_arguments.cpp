@@ -63,7 +63,7 @@ SpectralIor given_ior(const Arguments& arguments) {
     const auto eta_curve = as_curve(eta), k_curve = as_curve(k);
     if (eta_curve && k_curve) return conductor_ior(*eta_curve, *k_curve);
   }
-  SpectralIor ior{SpectralValue::reflectance(eta), SpectralValue::reflectance(k)};
+  SpectralIor ior{SpectralValue::material_constant(eta), SpectralValue::material_constant(k)};
   // The unused lane of RGB mode is that of a perfect mirror, which is finite.
   Spectrum k_rgb = ior.k.rgb();
   k_rgb.set(3, 1);

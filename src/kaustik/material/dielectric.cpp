@@ -122,10 +122,15 @@ class Dielectric final : public Bsdf {
   std::shared_ptr<const Texture> reflectance_, transmittance_;
 };
 
+TypeInfo make_dielectric_info() {
+  TypeInfo info{"bsdf", "dielectric", "Smooth transparent surface such as glass or water.",
+                dielectric_parameters()};
+  info.parameters.push_back(priority_parameter());
+  return info;
+}
+
 const TypeInfo& dielectric_info() {
-  static const TypeInfo info{"bsdf", "dielectric",
-                             "Smooth transparent surface such as glass or water.",
-                             dielectric_parameters()};
+  static const TypeInfo info = make_dielectric_info();
   return info;
 }
 

@@ -18,6 +18,15 @@ std::vector<Parameter> dielectric_ior_parameters(std::string_view usual_interior
           ior_parameter("ext_ior", "air", "outside")};
 }
 
+Parameter priority_parameter() {
+  return optional(integer_parameter(priority_name, 0,
+                                    "Makes closed shapes of it solid bodies: where two overlap "
+                                    "only the one of higher priority is "
+                                    "there (of equal ones the first in the file), and its surface "
+                                    "knows the index of the other."))
+      .range(-1000000, 1000000);
+}
+
 SpectralValue dielectric_ior_of(const Arguments& arguments, std::string_view name) {
   const auto value = arguments.number_or_name(name);
   if (const auto* material = std::get_if<std::string>(&value))

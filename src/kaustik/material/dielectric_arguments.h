@@ -8,6 +8,10 @@ std::vector<Parameter> dielectric_ior_parameters(std::string_view usual_interior
 /// … and what one of them says.
 SpectralValue dielectric_ior_of(const Arguments& arguments, std::string_view name);
 
+/// The name of the row by which solid bodies of this material win where they overlap, and the row.
+inline constexpr const char* priority_name = "priority";
+Parameter priority_parameter();
+
 /// The rows of glass: both indices, and the factors below.
 std::vector<Parameter> dielectric_parameters();
 

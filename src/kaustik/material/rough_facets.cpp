@@ -5,9 +5,7 @@
 namespace kaustik {
 
 Parameter alpha_parameter(const std::string& name, const std::string& sentence) {
-  return number_parameter(name, 0.1, sentence)
-      .range(RoughFacets::least_alpha, RoughFacets::largest_alpha)
-      .textured();
+  return number_parameter(name, 0.1, sentence).range(0, RoughFacets::largest_alpha).textured();
 }
 
 Parameter distribution_parameter() {

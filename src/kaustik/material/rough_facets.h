@@ -24,8 +24,9 @@ struct FacetRange {
   friend auto operator<=>(const FacetRange&, const FacetRange&) = default;
 };
 
-/// Microscopic facets whose roughness varies over the surface. What a texture says beyond the range
-/// of the parameter is taken to its ends: black paint then means as smooth as can be.
+/// Microscopic facets whose roughness varies over the surface. What a number or a texture says
+/// beyond least_alpha and largest_alpha is taken to these ends: black paint means as smooth as can
+/// be.
 class RoughFacets {
  public:
   using Kind = MicrofacetDistribution::Kind;

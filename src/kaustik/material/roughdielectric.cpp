@@ -57,6 +57,7 @@ TypeInfo make_roughdielectric_info() {
     info.parameters.push_back(std::move(parameter));
   info.parameters.push_back(specular_reflectance_parameter());
   info.parameters.push_back(specular_transmittance_parameter());
+  info.parameters.push_back(priority_parameter());
   return info;
 }
 

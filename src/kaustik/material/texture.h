@@ -39,6 +39,8 @@ class Texture {
   virtual float scalar(const TextureCoordinates& at) const;
   /// Upper bound of every lane in RGB mode, for checks ("albedo over 1").
   virtual float maximum() const = 0;
+  /// Width over height of the picture that it is; 1 if it is none.
+  virtual float aspect() const { return 1; }
   /// Whether eval() gives the same everywhere.
   virtual bool is_constant() const { return false; }
   /// Mean over the uv square in RGB mode, for importance and previews; of textures in space

@@ -63,7 +63,7 @@ const TypeInfo& homogeneous_info() {
 /// The argument as a factor; in RGB mode the lane that carries no light gets the mean of the
 /// others, which makes it harmless where lanes are sampled.
 SpectralValue coefficient(const Arguments& arguments, std::string_view name) {
-  const SpectralValue value = SpectralValue::reflectance(arguments.color(name));
+  const SpectralValue value = SpectralValue::material_constant(arguments.color(name));
   Spectrum rgb = value.rgb();
   rgb.set(3, (rgb[0] + rgb[1] + rgb[2]) / 3);
   return value.with_rgb(rgb);

@@ -18,8 +18,8 @@ constexpr float least_cosine = 0.05f;
 bool finds_photons(const PhotonSurroundings& around, const Vec3f& side, const Ray& ray,
                    uint64_t& rays) {
   bool found = false;
-  look_through(around.scene, ray, rays, [&](const SurfacePoint& point, const Hit& hit) {
-    const Surface& surface = around.scene.surface(hit.shape);
+  look_through(around.scene, ray, rays, [&](const SurfacePoint& point, const Hit&) {
+    const Surface& surface = around.scene.surface(point.shape);
     const bool keeps = any(surface.traits.lobes & around.keeping);
     const float cosine =
         dot(point.ng, ray.direction) < 0 ? dot(point.ng, side) : -dot(point.ng, side);

@@ -48,6 +48,7 @@ class PresetReader {
 std::vector<Parameter> parameters() {
   std::vector<Parameter> result;
   for (const PhotonMapParameter& row : photon_map_parameters()) result.push_back(row.parameter);
+  result.push_back(hide_emitters_parameter());
   return result;
 }
 

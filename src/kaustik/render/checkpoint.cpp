@@ -15,7 +15,7 @@ namespace {
 
 constexpr BinaryFileKind checkpoint_kind = {
     {0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
-    9,
+    10,
     "checkpoint",
     "give a .kpt file that was written by: kaustik render SCENE --checkpoint FILE.kpt",
     "render again with this program: kaustik render SCENE --checkpoint FILE.kpt"};
@@ -137,6 +137,7 @@ void put_view(BinaryWriter& writer, const ViewFacts& view) {
   writer.put(view.horizontal_fov);
   writer.put(view.vertical_fov);
   writer.put(uint8_t(view.quantity == Quantity::irradiance));
+  writer.put(view.exposure);
   for (const int number : {view.frame.width, view.frame.height, view.frame.x, view.frame.y})
     writer.put(int32_t(number));
 }
@@ -147,6 +148,7 @@ ViewFacts get_view(BinaryReader& reader) {
   view.horizontal_fov = get_finite(reader);
   view.vertical_fov = get_finite(reader);
   view.quantity = reader.get_flag() ? Quantity::irradiance : Quantity::radiance;
+  view.exposure = get_finite(reader);
   for (int* number : {&view.frame.width, &view.frame.height, &view.frame.x, &view.frame.y})
     *number = reader.get<int32_t>();
   return view;

@@ -52,7 +52,8 @@ struct ViewFacts {
   std::string integrator;                       ///< that was used
   double horizontal_fov = 0, vertical_fov = 0;  ///< degrees
   Quantity quantity = Quantity::radiance;
-  PictureFrame frame;  ///< of a crop window; no size: the image is all of the picture
+  double exposure = 0;  ///< of the film, stops
+  PictureFrame frame;   ///< of a crop window; no size: the image is all of the picture
 };
 
 /// All that is known of a render beside its sums.

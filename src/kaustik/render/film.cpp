@@ -31,9 +31,14 @@ FilmNumbers::FilmNumbers(const FilmLayers& layers) {
   if (layers.in_images) {
     squares = next(lanes);
     first_hit = next(first_hit_lanes);
+    emission = radiance + size_t(Component::emission) * lanes;
+    lamps = first_hit + first_hit_lanes - 1;
     sample_squares = next(noise_kinds);
     inverse_samples = next(1);
     luminance_squares = next(1);
+  } else {
+    emission = next(lanes);
+    lamps = next(1);
   }
   replicate_luminances = next(replicate_count);
   if (layers.bias) bias = next(bias_halves * lanes);
@@ -66,7 +71,7 @@ class Film::Addition {
     if (film_.layers_.in_images)
       add_layers(tile, packer);
     else
-      for (const auto& sums : exact_totals_) packer.add(sums);
+      add_picture(tile, packer);
     for (size_t r = 0; r < replicate_count; ++r) {
       if (r == replicate_)
         packer.add(rounded_luminances_);
@@ -94,6 +99,15 @@ class Film::Addition {
             add_to(exact_totals_[lane][i], fixed_from(double((*line)[i])));
       }
     }
+  }
+
+  void add_picture(size_t tile, TilePacker& packer) {
+    for (const auto& sums : exact_totals_) packer.add(sums);
+    constexpr size_t emission =
+        PassTiles::radiance + size_t(Component::emission) * FilmNumbers::lanes;
+    for (size_t lane = 0; lane < FilmNumbers::lanes; ++lane)
+      add_line(tile, emission + lane, packer);
+    add_line(tile, PassTiles::lamps, packer);
   }
 
   void add_layers(size_t tile, TilePacker& packer) {

@@ -32,18 +32,20 @@ struct FilmLayers {
 
 /// Which numbers a film sums up of each pixel, in their order.
 struct FilmNumbers {
-  static constexpr size_t lanes = 3, first_hit_lanes = 7;
+  static constexpr size_t lanes = 3, first_hit_lanes = 8;
 
   explicit FilmNumbers(const FilmLayers& layers);
 
-  /// [component][lane]; [lane] of all components together where images have no layers, and then
-  /// nothing of what follows up to the luminances of replicates.
+  /// [component][lane]; [lane] of all components together where images have no layers, and then of
+  /// what follows up to the luminances of replicates only what shows lamps.
   size_t radiance = 0;
-  size_t squares = 0;               ///< [lane], of the whole
-  size_t first_hit = 0;             ///< [albedo 3, normal 3, depth 1]
-  size_t sample_squares = 0;        ///< [kind of light]
-  size_t inverse_samples = 0;       ///< one over the samples of a pass: passes count alike
-  size_t luminance_squares = 0;     ///< of the passes
+  size_t emission = 0;           ///< [lane], of that component; among those if images have layers
+  size_t lamps = 0;              ///< FirstHit::lamps; in the same way
+  size_t squares = 0;            ///< [lane], of the whole
+  size_t first_hit = 0;          ///< [albedo 3, normal 3, depth 1, lamps 1]
+  size_t sample_squares = 0;     ///< [kind of light]
+  size_t inverse_samples = 0;    ///< one over the samples of a pass: passes count alike
+  size_t luminance_squares = 0;  ///< of the passes
   size_t replicate_luminances = 0;  ///< [replicate]
   size_t bias = 0;                  ///< [half][lane], if held
   size_t count = 0;
@@ -83,12 +85,13 @@ class Film {
   /// That it takes; grows with the passes, slowly.
   size_t bytes() const;
 
-  /// The mean of the passes: "R" "G" "B", a layer per component, "albedo", "N", "depth", "error"
+  /// The mean of the passes: "R" "G" "B", a layer per component, "albedo", "N", "depth",
+  /// "emission.A" (the share of the pixel where lamps are seen), "error"
   /// (standard error of the mean per channel, see FilmErrors), "bias" where the integrator
   /// estimates it (how much the picture is expected to be too bright, per channel), and
   /// "noise.scattered" and "noise.mirrored" (of the photopic value, over all samples, as if they
   /// were independent: what denoising goes by; only from two samples per pixel on). All zero
-  /// without a pass. "R" "G" "B" alone if images are to have no layers.
+  /// without a pass. "R" "G" "B" and "emission" alone if images are to have no layers.
   Image image() const;
   /// FilmErrors::of_mean()
   double mean_error() const;

@@ -36,6 +36,13 @@ class PixelSums {
                  float(sum(numbers_.radiance + size_t(component) * lanes + lane) / passes_));
     return result;
   }
+  Spectrum mean_emission() const {
+    Spectrum result;
+    for (size_t lane = 0; lane < lanes; ++lane)
+      result.set(int(lane), float(sum(numbers_.emission + lane) / passes_));
+    return result;
+  }
+  float mean_lamps() const { return float(sum(numbers_.lamps) / passes_); }
   float mean_first_hit(size_t lane) const {
     return float(sum(numbers_.first_hit + lane) / passes_);
   }
@@ -77,13 +84,17 @@ std::array<double, noise_kinds> PixelSums::noise() const {
 
 std::vector<std::string> Film::channel_names() const {
   std::vector<std::string> names = {"R", "G", "B"};
-  if (!layers_.in_images) return names;
+  if (!layers_.in_images) {
+    if (layers_.components.has(Component::emission))
+      names.insert(names.end(), {"emission.R", "emission.G", "emission.B", "emission.A"});
+    return names;
+  }
   for (int c = 0; c < component_count; ++c)
     for (const char* lane : {"R", "G", "B"})
       if (layers_.components.has(Component(c)))
         names.push_back(fmt::format("{}.{}", component_names[size_t(c)], lane));
   for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "depth.Z",
-                           "error.R", "error.G", "error.B"})
+                           "emission.A", "error.R", "error.G", "error.B"})
     names.emplace_back(name);
   if (layers_.bias) names.insert(names.end(), {"bias.R", "bias.G", "bias.B"});
   if (knows_noise()) names.insert(names.end(), {"noise.scattered", "noise.mirrored"});
@@ -101,7 +112,11 @@ Image Film::image() const {
       for (int lane = 0; lane < int(lanes); ++lane) add(rgb[lane]);
     };
     add_rgb(sums.mean());
-    if (!layers_.in_images) return;
+    if (!layers_.in_images) {
+      if (!layers_.components.has(Component::emission)) return;
+      add_rgb(sums.mean_emission());
+      return add(sums.mean_lamps());
+    }
     for (int c = 0; c < component_count; ++c)
       if (layers_.components.has(Component(c))) add_rgb(sums.mean(Component(c)));
     for (size_t k = 0; k < FilmNumbers::first_hit_lanes; ++k) add(sums.mean_first_hit(k));

@@ -75,6 +75,10 @@ FilmMemory expected_film_memory(const FilmLayers& layers, bool splats) {
         lanes_of_light + FilmNumbers::first_hit_lanes + lanes_of_sum + lanes_of_bias + noise_kinds;
   } else {
     memory.film += of_light * lanes_of_sum;
+    if (layers.components.has(Component::emission)) {
+      memory.film += of_light * lanes_of_sum + of_surface;
+      channels += lanes_of_sum + 1;
+    }
   }
   const double numbers =
       lanes_of_light + FilmNumbers::first_hit_lanes + noise_kinds + lanes_of_bias + 1;

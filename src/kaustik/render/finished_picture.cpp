@@ -29,6 +29,7 @@ void set_metadata(Image& image, const Film& film, const RenderRecord& record,
   image.set_metadata(
       "quantity",
       std::string(record.view.quantity == Quantity::irradiance ? "irradiance" : "radiance"));
+  if (record.view.exposure != 0) image.set_metadata(film_exposure_key, record.view.exposure);
   if (const PictureFrame& f = image.frame(); !image.is_whole())
     image.set_metadata(crop_window_key,
                        fmt::format("{} x {} pixels at ({}, {}) of {} x {}", image.width(),

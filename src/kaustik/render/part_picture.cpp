@@ -5,10 +5,12 @@
 namespace kaustik {
 namespace {
 
-// The numbers of a pixel: [picture 3][component][lane], [albedo 3, normal 3, depth 1], [bias 3].
+// The numbers of a pixel: [picture 3][component][lane], [albedo 3, normal 3, depth 1, lamps 1],
+// [bias 3].
 constexpr int lanes_of_part = 3;
 constexpr int components = lanes_of_part, albedo = components + component_count * lanes_of_part;
-constexpr int normal = albedo + 3, depth = normal + 3, bias = depth + 1, number_count = bias + 3;
+constexpr int normal = albedo + 3, depth = normal + 3, lamps = depth + 1;
+constexpr int bias = lamps + 1, number_count = bias + 3;
 
 constexpr int scaled_error = -2;  ///< no number, but falls with the passes
 
@@ -25,6 +27,7 @@ std::array<float, number_count> numbers_of(const PassPixel& pixel) {
     numbers[size_t(bias + lane)] = pixel.bias[lane];
   }
   numbers[size_t(depth)] = pixel.first_hit.depth;
+  numbers[size_t(lamps)] = pixel.first_hit.lamps;
   return numbers;
 }
 
@@ -36,6 +39,7 @@ int source_of(const std::string& channel) {
   if (layer == "depth") return depth;
   if (layer == "error" || layer == "noise") return scaled_error;
   if (layer == "N") return normal + (last - 'X');
+  if (channel == "emission.A") return lamps;
   const int lane = last == 'R' ? 0 : last == 'G' ? 1 : 2;
   if (layer.empty()) return lane;
   if (layer == "albedo") return albedo + lane;

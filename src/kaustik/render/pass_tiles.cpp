@@ -26,6 +26,7 @@ void for_numbers_of(const PassPixel& pixel, const Body& body) {
   put(pixel.first_hit.albedo);
   for (int axis = 0; axis < 3; ++axis) body(line++, pixel.first_hit.normal[axis]);
   body(line++, pixel.first_hit.depth);
+  body(line++, pixel.first_hit.lamps);
   for (const float square : pixel.squares) body(line++, square);
   put(pixel.bias);
 }
@@ -41,6 +42,7 @@ void set_numbers_of(PassPixel& pixel, const NumberOf& number_of) {
   get(pixel.first_hit.albedo);
   for (int axis = 0; axis < 3; ++axis) pixel.first_hit.normal[axis] = number_of(line++);
   pixel.first_hit.depth = number_of(line++);
+  pixel.first_hit.lamps = number_of(line++);
   for (float& square : pixel.squares) square = number_of(line++);
   get(pixel.bias);
 }

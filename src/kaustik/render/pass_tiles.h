@@ -36,8 +36,9 @@ class PassTiles {
   // The numbers of a pixel, in lanes of RGB.
   static constexpr size_t radiance = 0;                                ///< [component][lane]
   static constexpr size_t first_hit = radiance + component_count * 3;  ///< [albedo 3, normal 3,
-                                                                       ///< depth 1]
-  static constexpr size_t squares = first_hit + 7;
+                                                                       ///< depth 1, lamps 1]
+  static constexpr size_t lamps = first_hit + 7;
+  static constexpr size_t squares = lamps + 1;
   static constexpr size_t bias = squares + noise_kinds;
   static constexpr size_t line_count = bias + 3;
 

@@ -22,8 +22,11 @@ PictureFrame frame_of(const FilmSettings& film) {
 }
 
 ViewFacts facts_of(const Scene& scene, const std::string& integrator) {
-  return {integrator, double(scene.camera().traits().horizontal_fov),
-          double(scene.camera().traits().vertical_fov), scene.film().quantity,
+  return {integrator,
+          double(scene.camera().traits().horizontal_fov),
+          double(scene.camera().traits().vertical_fov),
+          scene.film().quantity,
+          double(scene.film().exposure),
           frame_of(scene.film())};
 }
 

@@ -21,6 +21,7 @@ int add_sample(const SampleSink& sink, PassPixel& sum) {
     sum.bias += bias;
   else
     ++dropped;
+  if (!finite[size_t(Component::emission)].is_zero()) sum.first_hit.lamps += 1;
   const FirstHit& hit = sink.first_hit();
   if (!hit.albedo.is_finite() || !is_finite(hit.normal) || !std::isfinite(hit.depth))
     return dropped + 1;

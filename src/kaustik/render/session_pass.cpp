@@ -38,6 +38,7 @@ void add_scaled(const PassPixel& pixel, float scale, PassPixel& sum) {
   sum.first_hit.albedo += pixel.first_hit.albedo * scale;
   sum.first_hit.normal += pixel.first_hit.normal * scale;
   sum.first_hit.depth += pixel.first_hit.depth * scale;
+  sum.first_hit.lamps += pixel.first_hit.lamps * scale;
   for (size_t k = 0; k < noise_kinds; ++k) sum.squares[k] += pixel.squares[k] * scale;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "kaustik/scene/placed_scenes.h"
@@ -32,6 +33,34 @@ std::vector<std::shared_ptr<Object>> integrators_of_top(const Description& descr
   return at_top;
 }
 
+/// Of an integrator, or one within it.
+bool says_to_hide_emitters(const Object& integrator, std::set<const Object*>& visited) {
+  if (!visited.insert(&integrator).second) return false;
+  for (const Property& property : integrator.properties) {
+    if (property.name != "hide_emitters") continue;
+    const auto* given = std::get_if<bool>(&property.value);
+    const auto* typed = std::get_if<Untyped>(&property.value);
+    if ((given && *given) || (typed && typed->text == "true")) return true;
+  }
+  return std::any_of(integrator.children.begin(), integrator.children.end(),
+                     [&](const Child& child) {
+                       return child.object->family == "integrator" &&
+                              says_to_hide_emitters(*child.object, visited);
+                     });
+}
+
+/// Whether the scene's integrator says so; integrators of shapes do not count.
+bool hides_emitters(const Description& description) {
+  std::vector<std::shared_ptr<Object>> at_top = integrators_of_top(description);
+  std::set<const Object*> visited;
+  std::erase_if(at_top,
+                [&](const auto& object) { return !says_to_hide_emitters(*object, visited); });
+  if (at_top.empty()) return false;
+  const std::set<const Object*> of_shapes = integrators_of_shapes(*description.scene);
+  return std::any_of(at_top.begin(), at_top.end(),
+                     [&](const auto& object) { return !of_shapes.contains(object.get()); });
+}
+
 std::vector<std::string> places_of(const std::vector<std::shared_ptr<Object>>& objects) {
   std::vector<std::string> places;
   for (const auto& object : objects)
@@ -52,6 +81,7 @@ std::shared_ptr<const Scene> build_scene(const Description& description,
   SceneBuilder builder(options.texture_memory_bytes, previous.get(), description.is_strict);
   std::vector<std::string> warnings = description.warnings;
   const Description flat = flatten_placed_scenes(description, warnings);
+  if (hides_emitters(description)) builder.hide_lights();
   Scene::Parts parts = builder.build(*flat.scene);
   parts.warnings.insert(parts.warnings.begin(), warnings.begin(), warnings.end());
   parts.observer = options.observer;

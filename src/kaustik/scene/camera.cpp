@@ -11,7 +11,7 @@ const std::vector<CameraType>& camera_types() {
 }
 
 const std::vector<FilmType>& film_types() {
-  static const std::vector<FilmType> types = {hdr_film_type()};
+  static const std::vector<FilmType> types = hdr_film_types();
   return types;
 }
 

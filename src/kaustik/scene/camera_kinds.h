@@ -9,6 +9,7 @@ CameraType perspective_camera_type();
 CameraType thin_lens_camera_type();
 CameraType orthographic_camera_type();
 
-FilmType hdr_film_type();
+/// "hdrfilm", and films of other programs that it stands for.
+std::vector<FilmType> hdr_film_types();
 
 }  // namespace kaustik

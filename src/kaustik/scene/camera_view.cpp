@@ -1,18 +1,6 @@
 #include "kaustik/scene/camera_view.h"
 
 namespace kaustik {
-namespace {
-
-/// tan of half the field of view along x, from the axis that `fov` is measured on.
-double tan_half_x(double fov_degrees, const std::string& axis, double aspect) {
-  const double t = std::tan(0.5 * fov_degrees * std::numbers::pi / 180.0);
-  if (axis == "y" || (axis == "smaller" && aspect > 1) || (axis == "larger" && aspect < 1))
-    return t * aspect;
-  if (axis == "diagonal") return t * aspect / std::sqrt(aspect * aspect + 1);
-  return t;
-}
-
-}  // namespace
 
 CameraFrame::CameraFrame(const Arguments& arguments, bool is_uniform) {
   const Transform& world_from_camera = arguments.transform("to_world");
@@ -43,51 +31,22 @@ PictureWindow::PictureWindow(const FilmSettings& film, const Vec2f& principal_of
       crop_size_(float(film.crop_size.x), float(film.crop_size.y)),
       principal_offset_(principal_offset) {}
 
-Vec2f tan_half_fov(const Arguments& arguments, double aspect) {
-  double fov = 0;
-  std::string axis = arguments.text("fov_axis");
-  if (arguments.given("fov")) {
-    fov = arguments.number("fov");
-  } else {
-    // Mitsuba: the focal length refers to the diagonal of 36 × 24 mm film.
-    const std::string& text =
-        arguments.given("focal_length") ? arguments.text("focal_length") : "50mm";
-    char* end = nullptr;
-    const double millimetres = std::strtod(text.c_str(), &end);
-    if (!(millimetres > 0) || std::string(end) != "mm")
-      throw Error(ErrorKind::input, "'focal_length' is '" + text + "'",
-                  "give a positive number followed by mm, such as 35mm",
-                  arguments.place_of("focal_length"));
-    fov =
-        2 * std::atan(std::sqrt(36.0 * 36 + 24 * 24) / (2 * millimetres)) * 180 / std::numbers::pi;
-    axis = "diagonal";
-  }
-  const auto x = float(tan_half_x(fov, axis, aspect));
-  return {x, float(x / aspect)};
-}
-
 Vec2f principal_offset_of(const Arguments& arguments) {
   return {float(arguments.number("principal_point_offset_x")),
           float(arguments.number("principal_point_offset_y"))};
 }
 
 std::vector<Parameter> perspective_parameters() {
-  return {
-      optional(number_parameter("fov", 50, "Field of view along fov_axis.")
-                   .range(1e-4, 179.9)
-                   .in("degrees")),
-      optional(text_parameter("focal_length", "50mm",
-                              "Focal length for 35 mm film, instead of fov (a number and mm).")),
-      choice_parameter("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"},
-                       "What fov is measured along."),
-      number_parameter("principal_point_offset_x", 0,
-                       "Where the picture's centre lies right of the optical axis, as a share of "
-                       "its width.")
-          .range(-100, 100),
-      number_parameter("principal_point_offset_y", 0,
-                       "Where the picture's centre lies below the optical axis, as a share of its "
-                       "height.")
-          .range(-100, 100)};
+  std::vector<Parameter> rows = field_of_view_parameters();
+  rows.push_back(number_parameter("principal_point_offset_x", 0,
+                                  "Where the picture's centre lies right of the optical axis, as "
+                                  "a share of its width.")
+                     .range(-100, 100));
+  rows.push_back(number_parameter("principal_point_offset_y", 0,
+                                  "Where the picture's centre lies below the optical axis, as a "
+                                  "share of its height.")
+                     .range(-100, 100));
+  return rows;
 }
 
 std::vector<Parameter> ignored_camera_parameters() {

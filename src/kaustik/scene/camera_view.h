@@ -1,6 +1,7 @@
 #pragma once
 // What cameras of several types share; not for other rooms.
 
+#include "kaustik/base/field_of_view.h"
 #include "kaustik/scene/camera.h"
 
 namespace kaustik {
@@ -46,11 +47,9 @@ class PictureWindow {
   Vec2f full_size_, crop_offset_, crop_size_, principal_offset_;
 };
 
-/// The rows fov, focal_length, fov_axis, principal_point_offset_x and _y of cameras with a field of
-/// view of straight lines …
+/// The rows of field_of_view_parameters(), principal_point_offset_x and _y of cameras with a field
+/// of view of straight lines.
 std::vector<Parameter> perspective_parameters();
-/// … and what they say: tangents of half the fields of view along x and y.
-Vec2f tan_half_fov(const Arguments& arguments, double aspect);
 Vec2f principal_offset_of(const Arguments& arguments);
 
 /// Rows of Mitsuba's that mean nothing to any camera here.

@@ -5,7 +5,8 @@ namespace kaustik {
 const std::vector<TypeInfo>& sampler_infos() {
   static const std::vector<TypeInfo> infos = [] {
     std::vector<TypeInfo> list;
-    for (const char* name : {"independent", "stratified", "multijitter", "orthogonal", "ldsampler"})
+    for (const char* name : {"independent", "stratified", "multijitter", "orthogonal", "ldsampler",
+                             "halton", "hammersley", "sobol", "sobolseq", "faure", "deterministic"})
       list.push_back(
           {"sampler",
            name,

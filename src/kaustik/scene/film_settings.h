@@ -23,6 +23,7 @@ struct FilmSettings {
   int sample_count = 0;  ///< the scene file's samples per pixel; 0: not given
   Place place = {};      ///< in the scene file
   Quantity quantity = Quantity::radiance;
+  float exposure = 0;  ///< doublings of the light where it is shown; no change of the light itself
   bool layers = true;  ///< images hold components, what is seen, errors and noise
 };
 
@@ -32,7 +33,7 @@ struct FilmType {
   /// window that leaves the picture.
   FilmSettings (*create)(const Arguments&);
 };
-/// "hdrfilm".
+/// "hdrfilm", the first, and what it stands for.
 const std::vector<FilmType>& film_types();
 
 /// Tables of the samplers.

@@ -9,6 +9,9 @@ namespace kaustik {
 FilterType box_filter_type();
 FilterType tent_filter_type();
 FilterType gaussian_filter_type();
+FilterType mitchell_filter_type();
+FilterType catmull_rom_filter_type();
+FilterType lanczos_filter_type();
 
 /// The same everywhere within `radius`.
 PixelFilter box_filter(float radius);

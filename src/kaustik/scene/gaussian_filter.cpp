@@ -1,59 +1,43 @@
-#include <algorithm>
-#include <cstdint>
 #include <numbers>
 
-#include "kaustik/base/to_integer.h"
 #include "kaustik/scene/filter_kinds.h"
+#include "kaustik/scene/offset_table.h"
 
 namespace kaustik {
 namespace {
 
-constexpr size_t table_cells = 1024;
+/// Shifted down to reach zero at the radius.
+struct WindowedGauss {
+  WindowedGauss(float deviation, float cut) : stddev(deviation), radius(cut) {
+    offset = std::exp(-0.5f * sqr(radius / stddev));
+    const float mass =
+        stddev * std::sqrt(2.0f * pi) * std::erf(radius / (stddev * std::numbers::sqrt2_v<float>)) -
+        2.0f * radius * offset;
+    norm = 1.0f / mass;
+  }
+  float density(float distance) const {
+    return (std::exp(-0.5f * sqr(distance / stddev)) - offset) * norm;
+  }
+  float share_below(float x) const {
+    const float gauss =
+        stddev * std::sqrt(0.5f * pi) * std::erf(x / (stddev * std::numbers::sqrt2_v<float>));
+    return 0.5f + (gauss - x * offset) * norm;
+  }
+
+  float stddev, radius;
+  float offset = 0, norm = 1;
+};
 
 class Gaussian final : public FilterProfile {
  public:
-  Gaussian(float stddev, float radius) : radius_(radius), stddev_(stddev) {
-    offset_ = std::exp(-0.5f * sqr(radius_ / stddev_));
-    const float mass = stddev_ * std::sqrt(2.0f * pi) *
-                           std::erf(radius_ / (stddev_ * std::numbers::sqrt2_v<float>)) -
-                       2.0f * radius_ * offset_;
-    norm_ = 1.0f / mass;
-    // The distribution function has no closed inverse with the offset.
-    float so_far = 0;
-    for (size_t i = 0; i <= table_cells; ++i) {
-      const float x = radius_ * (2 * float(i) / float(table_cells) - 1);
-      const float gauss =
-          stddev_ * std::sqrt(0.5f * pi) * std::erf(x / (stddev_ * std::numbers::sqrt2_v<float>));
-      // By rounding the tails would not rise everywhere.
-      so_far = std::clamp(0.5f + (gauss - x * offset_) * norm_, so_far, 1.0f);
-      cdf_.push_back(so_far);
-    }
-    cdf_.front() = 0;
-    cdf_.back() = 1;
-    for (size_t i = 0, cell = 0; i < table_cells; ++i) {
-      while (cdf_[cell + 1] <= float(i) / float(table_cells)) ++cell;
-      guide_.push_back(uint16_t(cell));
-    }
-  }
-
-  float density(float distance) const override {
-    return (std::exp(-0.5f * sqr(distance / stddev_)) - offset_) * norm_;
-  }
-
-  float sample(float u) const override {
-    size_t cell = guide_[to_integer(u * float(table_cells), size_t(0), table_cells - 1)];
-    while (cell + 1 < table_cells && cdf_[cell + 1] <= u) ++cell;
-    const float inside = (u - cdf_[cell]) / (cdf_[cell + 1] - cdf_[cell]);
-    return radius_ * (2 * (float(cell) + inside) / float(table_cells) - 1);
-  }
+  Gaussian(float stddev, float radius)
+      : gauss_(stddev, radius), offsets_(radius, [&](float x) { return gauss_.share_below(x); }) {}
+  float density(float distance) const override { return gauss_.density(distance); }
+  float sample(float u) const override { return offsets_.sample(u); }
 
  private:
-  float radius_, stddev_;
-  float offset_ = 0, norm_ = 1;
-  /// The distribution function at evenly spaced offsets, and for evenly spaced values of it the
-  /// last of these below.
-  std::vector<float> cdf_;
-  std::vector<uint16_t> guide_;
+  WindowedGauss gauss_;
+  OffsetTable offsets_;
 };
 
 const TypeInfo& gaussian_info() {

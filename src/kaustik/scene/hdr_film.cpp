@@ -1,47 +1,82 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "kaustik/scene/camera_kinds.h"
 
 namespace kaustik {
 namespace {
 
-const TypeInfo& hdr_film_info() {
-  static const TypeInfo info{
-      "film",
-      "hdrfilm",
-      "The picture: its size, crop window and pixel filter, and what it holds.",
-      {integer_parameter("width", 768, "Width of the picture.").range(1, 1 << 20).in("pixels"),
-       integer_parameter("height", 576, "Height of the picture.").range(1, 1 << 20).in("pixels"),
-       integer_parameter("crop_offset_x", 0, "Left edge of the crop window.")
-           .range(0, 1 << 20)
-           .in("pixels"),
-       integer_parameter("crop_offset_y", 0, "Upper edge of the crop window.")
-           .range(0, 1 << 20)
-           .in("pixels"),
-       optional(integer_parameter("crop_width", 1, "Width of the crop window; the rest if absent.")
-                    .range(1, 1 << 20)
-                    .in("pixels")),
-       optional(
-           integer_parameter("crop_height", 1, "Height of the crop window; the rest if absent.")
-               .range(1, 1 << 20)
-               .in("pixels")),
-       choice_parameter("quantity", "radiance", {"radiance", "irradiance"},
-                        "Radiance in W/(sr m²), or irradiance in W/m² on the side that is seen of "
-                        "the first surface behind each pixel, whatever that is made of."),
-       choice_parameter("layers", "all", {"all", "none"},
-                        "What EXR images hold beside the picture: its components, albedo, normal, "
-                        "depth, error and noise of each pixel, or nothing, which takes less "
-                        "memory. Other images have no layers and need none."),
-       ignored_parameter("file_format", ParameterKind::text),
-       ignored_parameter("pixel_format", ParameterKind::text),
-       ignored_parameter("component_format", ParameterKind::text),
-       ignored_parameter("sample_border", ParameterKind::boolean),
-       ignored_parameter("compensate", ParameterKind::boolean),
-       ignored_parameter("banner", ParameterKind::boolean),
-       ignored_parameter("high_quality_edges", ParameterKind::boolean),
-       ignored_parameter("attach_log", ParameterKind::boolean),
-       ignored_parameter("gamma", ParameterKind::number)}};
+using Rows = std::vector<Parameter>;
+
+/// What all films take.
+Rows film_rows() {
+  return {
+      integer_parameter("width", 768, "Width of the picture.").range(1, 1 << 20).in("pixels"),
+      integer_parameter("height", 576, "Height of the picture.").range(1, 1 << 20).in("pixels"),
+      integer_parameter("crop_offset_x", 0, "Left edge of the crop window.")
+          .range(0, 1 << 20)
+          .in("pixels"),
+      integer_parameter("crop_offset_y", 0, "Upper edge of the crop window.")
+          .range(0, 1 << 20)
+          .in("pixels"),
+      optional(integer_parameter("crop_width", 1, "Width of the crop window; the rest if absent.")
+                   .range(1, 1 << 20)
+                   .in("pixels")),
+      optional(integer_parameter("crop_height", 1, "Height of the crop window; the rest if absent.")
+                   .range(1, 1 << 20)
+                   .in("pixels")),
+      number_parameter("exposure", 0,
+                       "Doublings of the light where tone mapping takes an exposure; files that "
+                       "hold light itself are not changed.")
+          .range(-100, 100)
+          .in("stops"),
+      number_parameter("iso", 100, "Sensitivity: twice as much is one stop more of exposure.")
+          .range(1e-3, 1e9),
+      choice_parameter("quantity", "radiance", {"radiance", "irradiance"},
+                       "Radiance in W/(sr m²), or irradiance in W/m² on the side that is seen of "
+                       "the first surface behind each pixel, whatever that is made of."),
+      choice_parameter("layers", "all", {"all", "none"},
+                       "What EXR images hold beside the picture and the light of lamps in it: "
+                       "components, albedo, normal, "
+                       "depth, error and noise of each pixel, or nothing, which takes less "
+                       "memory. Other images have no layers and need none."),
+      ignored_parameter("file_format", ParameterKind::text),
+      ignored_parameter("pixel_format", ParameterKind::text),
+      ignored_parameter("component_format", ParameterKind::text),
+      ignored_parameter("sample_border", ParameterKind::boolean),
+      ignored_parameter("compensate", ParameterKind::boolean),
+      ignored_parameter("banner", ParameterKind::boolean),
+      ignored_parameter("high_quality_edges", ParameterKind::boolean),
+      ignored_parameter("attach_log", ParameterKind::boolean),
+      ignored_parameter("gamma", ParameterKind::number)};
+}
+
+/// A film of another name and of Mitsuba's own parameters.
+TypeInfo foreign_film(const std::string& name, const std::string& sentence, const Rows& beside) {
+  TypeInfo info{"film", name, sentence + " Here: hdrfilm.", film_rows()};
+  info.parameters.insert(info.parameters.end(), beside.begin(), beside.end());
   return info;
+}
+
+std::vector<TypeInfo> make_film_infos() {
+  using enum ParameterKind;
+  const Rows display = {ignored_parameter("tonemap_method", text), ignored_parameter("key", number),
+                        ignored_parameter("burn", number)};
+  return {{"film", "hdrfilm",
+           "The picture: its size, crop window and pixel filter, and what it holds.", film_rows()},
+          foreign_film("ldrfilm", "Mitsuba 0.6's film of pictures for displays.", display),
+          foreign_film("mfilm", "Mitsuba 0.6's film of tables.",
+                       {ignored_parameter("digits", integer), ignored_parameter("variable", text)}),
+          foreign_film("tiledhdrfilm", "Mitsuba 0.6's film of large pictures.", {}),
+          foreign_film("exrfilm", "Mitsuba 0.2's film of OpenEXR pictures.",
+                       {ignored_parameter("alpha", boolean)}),
+          foreign_film("pngfilm", "Mitsuba 0.2's film of PNG pictures.",
+                       {ignored_parameter("alpha", boolean), ignored_parameter("bpp", integer),
+                        ignored_parameter("tone_mapping_method", text),
+                        ignored_parameter("reinhard_key", number),
+                        ignored_parameter("reinhard_burn", number)}),
+          foreign_film("specfilm", "Mitsuba's film of spectral bands.", {})};
 }
 
 FilmSettings create_hdr_film(const Arguments& arguments) {
@@ -49,6 +84,7 @@ FilmSettings create_hdr_film(const Arguments& arguments) {
   film.place = arguments.place();
   if (arguments.text("quantity") == "irradiance") film.quantity = Quantity::irradiance;
   film.layers = arguments.text("layers") == "all";
+  film.exposure = float(arguments.number("exposure") + std::log2(arguments.number("iso") / 100));
   film.size = {int(arguments.integer("width")), int(arguments.integer("height"))};
   film.crop_offset = {int(arguments.integer("crop_offset_x")),
                       int(arguments.integer("crop_offset_y"))};
@@ -68,6 +104,11 @@ FilmSettings create_hdr_film(const Arguments& arguments) {
 
 }  // namespace
 
-FilmType hdr_film_type() { return {hdr_film_info(), create_hdr_film}; }
+std::vector<FilmType> hdr_film_types() {
+  static const std::vector<TypeInfo> infos = make_film_infos();
+  std::vector<FilmType> types;
+  for (const TypeInfo& info : infos) types.push_back({info, create_hdr_film});
+  return types;
+}
 
 }  // namespace kaustik

@@ -10,8 +10,9 @@ PixelFilter::PixelFilter() {
 }
 
 const std::vector<FilterType>& filter_types() {
-  static const std::vector<FilterType> types = {box_filter_type(), tent_filter_type(),
-                                                gaussian_filter_type()};
+  static const std::vector<FilterType> types = {box_filter_type(),         tent_filter_type(),
+                                                gaussian_filter_type(),    mitchell_filter_type(),
+                                                catmull_rom_filter_type(), lanczos_filter_type()};
   return types;
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "kaustik/light/light.h"
+#include "kaustik/scene/merged_shapes.h"
 #include "kaustik/scene/type_tables.h"
 
 namespace kaustik {
@@ -249,7 +250,7 @@ class Flattener {
 
 Description flatten_placed_scenes(const Description& description,
                                   std::vector<std::string>& warnings) {
-  return Flattener(warnings).flatten(*description.scene);
+  return Flattener(warnings).flatten(*without_merges(description.scene));
 }
 
 }  // namespace kaustik

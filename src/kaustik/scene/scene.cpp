@@ -15,8 +15,19 @@ Scene::Scene(Parts parts, const Scene* previous) : parts_(std::move(parts)) {
         return light->is_infinite() ? !light->traits().is_delta && !light->traits().is_only_seen
                                     : light->traits().shape >= 0;
       });
+  find_hidden_surfaces();
+  const std::vector<bool>& hidden = parts_.hidden_lights;
+  hides_lights_ = std::find(hidden.begin(), hidden.end(), true) != hidden.end();
   find_media();
   make_light_selector(previous);
+}
+
+void Scene::find_hidden_surfaces() {
+  const std::span<const BodyPart> parts = tracer().body_parts();
+  if (parts.empty()) return;
+  for (const Surface& surface : parts_.surfaces) may_be_null_.push_back(surface.traits.is_null);
+  for (size_t i = 0; i < parts.size(); ++i)
+    may_be_null_[parts[i].shape] |= may_be_null_[tracer().shape_count() + i];
 }
 
 void Scene::make_light_selector(const Scene* previous) {

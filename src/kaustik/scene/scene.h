@@ -49,13 +49,14 @@ class Scene {
  public:
   struct Parts {
     std::unique_ptr<const RayTracer> tracer;
-    std::vector<Surface> surfaces;                     ///< parallel to the tracer's shapes
+    std::vector<Surface> surfaces;  ///< parallel to the tracer's shapes and parts of bodies
     std::vector<std::shared_ptr<const Light>> lights;  ///< never null
     FilmSettings film;
     std::unique_ptr<Camera> camera;
     std::shared_ptr<const Medium> camera_medium;  ///< null: vacuum
     /// Parallel to the lights: that they shine into; null: to be found out from the surfaces.
     std::vector<std::shared_ptr<const Medium>> light_media;
+    std::vector<bool> hidden_lights = {};  ///< parallel to the lights, or empty: none is
     std::vector<std::string> warnings;
     RayObserver* observer = nullptr;
     BuiltParts built = {};
@@ -81,12 +82,25 @@ class Scene {
     return parts_.tracer->occluded(ray);
   }
   const RayTracer& tracer() const { return *parts_.tracer; }
+  /// Of a SurfacePoint's `shape`.
   const Surface& surface(uint32_t shape) const { return parts_.surfaces[shape]; }
+  /// Whether what a ray has hit, Hit::shape, may be no more than a boundary of media, or nothing at
+  /// all: a body's surface may be hidden there. Its point tells.
+  bool may_be_null(uint32_t shape) const {
+    return may_be_null_.empty() ? surface(shape).traits.is_null : may_be_null_[shape] != 0;
+  }
   size_t surface_count() const { return parts_.surfaces.size(); }
   const std::vector<std::shared_ptr<const Light>>& lights() const { return parts_.lights; }
   const LightSelector& light_selector() const { return *light_selector_; }
   /// Indices of the lights that rays meet at infinity.
   const std::vector<int>& environment_lights() const { return environment_lights_; }
+  /// Whether the camera looks past a light (−1: none) and, if it is a surface, through it: before
+  /// anything on the way has been reflected, refracted or scattered, null boundaries apart.
+  bool is_hidden(int light) const {
+    return hides_lights_ && light >= 0 && parts_.hidden_lights[size_t(light)];
+  }
+  /// Whether it does so to any.
+  bool hides_lights() const { return hides_lights_; }
   /// Whether there is any light that a ray which has been scattered may meet.
   bool has_lights_to_meet() const { return has_lights_to_meet_; }
   const Camera& camera() const { return *parts_.camera; }
@@ -108,6 +122,7 @@ class Scene {
   const BuildCounts& build_counts() const { return parts_.counts; }
 
  private:
+  void find_hidden_surfaces();
   void find_media();
   void make_light_selector(const Scene* previous);
   bool probes_lights_like(const Scene& other) const;
@@ -116,7 +131,9 @@ class Scene {
   std::shared_ptr<const LightSelector> light_selector_;
   std::vector<int> environment_lights_;
   bool has_media_ = false, has_scattering_ = false, has_lights_to_meet_ = false;
+  bool hides_lights_ = false;
   std::vector<const Medium*> light_media_;  ///< parallel to the lights
+  std::vector<uint8_t> may_be_null_;        ///< by shape; empty: as its surface says
 };
 
 struct BuildOptions {
@@ -125,7 +142,8 @@ struct BuildOptions {
 };
 
 /// Checks every object against the table of its type and builds the scene. Throws Error with all
-/// problems found. Ignores the integrator: that is the render room's.
+/// problems found. Ignores the integrator, which is the render room's, but for what Mitsuba has it
+/// say of the lights: `hide_emitters`.
 std::shared_ptr<const Scene> build_scene(const Description& description,
                                          const BuildOptions& options = {});
 

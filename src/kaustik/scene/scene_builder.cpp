@@ -9,6 +9,8 @@
 #include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/find_row.h"
+#include "kaustik/scene/foreign_shapes.h"
+#include "kaustik/scene/spectrum_types.h"
 #include "kaustik/scene/texture_emission.h"
 #include "kaustik/scene/type_tables.h"
 
@@ -29,7 +31,7 @@ std::vector<std::string> texture_parameters(const TypeInfo& info) {
 }
 
 /// The parameter that a texture `name` stands for; null if there is none. Where a texture is all
-/// that can be given, it may have any name, as in Mitsuba's bump maps.
+/// that can be given, it may have any name that no other parameter has, as in Mitsuba's bump maps.
 const Parameter* texture_parameter(const TypeInfo& info, const std::string& name) {
   const Parameter* only = nullptr;
   int count = 0;
@@ -39,8 +41,30 @@ const Parameter* texture_parameter(const TypeInfo& info, const std::string& name
     only = &row;
     ++count;
   }
-  const bool is_free = count == 1 && std::holds_alternative<std::monostate>(only->default_value);
+  const bool is_free =
+      count == 1 && std::holds_alternative<std::monostate>(only->default_value) && !info.find(name);
   return is_free ? only : nullptr;
+}
+
+/// The parameter that a spectrum `name` is the value of; null if there is none. One without a name
+/// is the colour of what holds it.
+const Parameter* spectrum_parameter(const TypeInfo& info, const std::string& name) {
+  if (const Parameter* row = info.find(name)) return row;
+  if (name.empty())
+    for (const Parameter& row : info.parameters)
+      if (row.kind == ParameterKind::color) return &row;
+  return texture_parameter(info, name);
+}
+
+/// What will do in place of a light of Mitsuba that is not here yet; empty for all others.
+const std::string& instead_of_light(const std::string& type) {
+  static const std::string nothing;
+  static const std::map<std::string, std::string> remedies = {
+      {"directionalarea", "use a 'spot' with a small 'cutoff_angle', or a 'directional' light"},
+      {"collimated", "use a 'spot' with a small 'cutoff_angle'"},
+      {"timed_sunsky", "use 'sunsky' with the hour that matters most"}};
+  const auto found = remedies.find(type);
+  return found == remedies.end() ? nothing : found->second;
 }
 
 /// Refuses what floats cannot carry through ray tracing; `what` is the subject of the message.
@@ -91,10 +115,33 @@ void SceneBuilder::collecting(const Place& place, const std::function<void()>& b
   }
 }
 
+const std::optional<Value>& SceneBuilder::value_of_spectrum(const Object& spectrum) {
+  const auto [known, is_new] = spectra_.try_emplace(&spectrum);
+  std::optional<Value>& value = known->second;
+  if (!is_new) return value;
+  const SpectrumType& type = *spectrum_type_of(spectrum);
+  refuse_children(spectrum, {});
+  const Arguments arguments = arguments_of(type.info, spectrum);
+  if (arguments.is_complete()) collecting(spectrum.place, [&] { value = type.value(arguments); });
+  return value;
+}
+
+std::vector<Property> SceneBuilder::properties_of(const TypeInfo& info, const Object& object) {
+  std::vector<Property> properties =
+      spectrum_type_of(object) ? spectrum_properties(info, object) : object.properties;
+  for (const Child& child : object.children) {
+    if (!spectrum_type_of(*child.object)) continue;
+    const Parameter* row = spectrum_parameter(info, child.name);
+    if (const std::optional<Value>& value = value_of_spectrum(*child.object))
+      properties.push_back({row ? row->name : child.name, *value, child.object->place});
+  }
+  return properties;
+}
+
 Arguments SceneBuilder::arguments_of(const TypeInfo& info, const Object& object) {
-  Arguments arguments(
-      info, is_strict_ ? object.properties : unknown_.without_unknown(info, object.properties),
-      object.place, problems_);
+  const std::vector<Property> properties = properties_of(info, object);
+  Arguments arguments(info, is_strict_ ? properties : unknown_.without_unknown(info, properties),
+                      object.place, problems_);
   for (const std::string& name : arguments.ignored())
     if (ignored_reported_.insert(info.family + "." + name).second)
       warnings_.push_back(
@@ -107,10 +154,28 @@ void SceneBuilder::unknown_type(const Object& object, const std::vector<std::str
                 suggest(object.type, valid), object.place);
 }
 
+bool SceneBuilder::is_foreign(const Object& object, const std::vector<std::string>& valid) const {
+  return !is_strict_ && nearest_name(object.type, valid).empty();
+}
+
+void SceneBuilder::leave_out(const Object& object, const std::string& consequence) {
+  warnings_.push_back(fmt::format("{}: Kaustik does not know {} '{}': {}", text_of(object.place),
+                                  object.family, object.type, consequence));
+}
+
+void SceneBuilder::told_unless_strict(const std::string& message, const std::string& remedy,
+                                      const Place& place) {
+  if (is_strict_)
+    problems_.add(message, remedy, place);
+  else
+    warnings_.push_back(fmt::format("{}: {}; {}", text_of(place), message, remedy));
+}
+
 void SceneBuilder::refuse_children(const Object& object,
                                    const std::vector<std::string>& allowed_families) {
   for (const Child& child : object.children) {
     const std::string& family = child.object->family;
+    if (spectrum_type_of(*child.object)) continue;  // a value
     if (std::find(allowed_families.begin(), allowed_families.end(), family) !=
         allowed_families.end())
       continue;
@@ -124,26 +189,27 @@ void SceneBuilder::refuse_children(const Object& object,
 
 Scene::Parts SceneBuilder::build(const Object& scene) {
   for (const Property& property : scene.properties)
-    problems_.add(fmt::format("the scene has no parameter '{}'", property.name),
-                  "put it into the object that it belongs to", property.place);
+    told_unless_strict(fmt::format("the scene has no parameter '{}'", property.name),
+                       "put it into the object that it belongs to", property.place);
   find_emitters_of_shapes(scene);
+  read_meshes(scene);
   for (const Child& child : scene.children) add_top_level(*child.object);
-  if (!sensor_)
-    problems_.add("the scene has no camera",
-                  "add a sensor of type 'perspective', with a 'to_world'", scene.place);
-  else
-    collecting(sensor_->place, [&] { make_sensor(*sensor_); });
+  if (sensor_) collecting(sensor_->place, [&] { make_sensor(*sensor_); });
   problems_.throw_if_any();
 
   Scene::Parts parts;
   parts.tracer = std::make_unique<const RayTracer>(make_geometry(),
                                                    previous_ ? &previous_->tracer() : nullptr);
   bounds_ = parts.tracer->bounds();
+  if (!sensor_ && place_camera(scene.place)) make_sensor(*sensor_);
+  problems_.throw_if_any();
   make_lights();
   problems_.throw_if_any();
   for (BuiltShape& built : shapes_) parts.surfaces.push_back(std::move(built.surface));
   for (auto& group : groups_)
     for (BuiltShape& built : group) parts.surfaces.push_back(std::move(built.surface));
+  add_body_parts(parts.tracer->body_parts(), parts.surfaces);
+  problems_.throw_if_any();
   parts.lights = std::move(lights_);
   const StructuresBuilt structures = parts.tracer->structures_built();
   counts_.group_structures = structures.groups;
@@ -156,6 +222,7 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   parts.camera = std::move(camera_);
   parts.camera_medium = std::move(camera_medium_);
   parts.light_media = std::move(light_media_);
+  parts.hidden_lights = std::move(hidden_lights_);
   parts.warnings = std::move(warnings_);
   for (std::string& warning : unknown_.warnings()) parts.warnings.push_back(std::move(warning));
   parts.warnings.insert(parts.warnings.end(), pictures_.warnings().begin(),
@@ -186,16 +253,20 @@ void SceneBuilder::add_top_level(const Object& object) {
       make_bsdf(alias);
     else if (object.family == "medium")
       make_medium(alias);
+    else if (spectrum_type_of(object))
+      value_of_spectrum(object);
     else
-      make_texture(alias);
-  } else if (object.family != "integrator") {
+      make_texture(texture_within(alias));
+  } else if (object.family != "integrator" && object.id.empty()) {
+    // One with an id may be referred to.
     const bool is_of_sensor = object.family == "film" || object.family == "sampler";
-    problems_.add(fmt::format("a {} cannot stand at the top of a scene", object.family),
-                  is_of_sensor ? "put it into the sensor"
-                  : object.family == "rfilter"
-                      ? "put it into the film"
-                      : "it may hold: shape, bsdf, texture, medium, emitter, sensor, integrator",
-                  object.place);
+    told_unless_strict(
+        fmt::format("a {} stands at the top of the scene, where it has no effect", object.family),
+        is_of_sensor                 ? "put it into the sensor"
+        : object.family == "rfilter" ? "put it into the film"
+        : object.family == "phase"   ? "put it into a medium"
+                                     : "put it into what it belongs to",
+        object.place);
   }
 }
 
@@ -218,8 +289,15 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   const ShapeType* type = find_row(shape_types(), object.type);
   if (!type) {
     std::vector<std::string> valid = names_of(shape_types());
-    valid.insert(valid.end(), {shapegroup_info().name, instance_info().name});
-    unknown_type(object, valid);
+    valid.insert(valid.end(), {shapegroup_info().name, instance_info().name, merge_info().name});
+    const std::string remedy = remedy_for_foreign_shape(object.type);
+    if (is_foreign(object, valid) || (!is_strict_ && !remedy.empty()))
+      leave_out(object, remedy.empty() ? "it is left out" : "it is left out; " + remedy);
+    else if (!remedy.empty())
+      problems_.add(fmt::format("there is no shape '{}' here yet", object.type), remedy,
+                    object.place);
+    else
+      unknown_type(object, valid);
     return std::nullopt;
   }
   refuse_children(object, {"bsdf", "emitter", "integrator", "medium"});
@@ -239,9 +317,15 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
       built.surface.illumination = child.object;
     }
   }
-  if (!built.surface.bsdf) {
-    static const Object default_bsdf{"bsdf", "diffuse", "", {}, {}, {}};
-    built.surface.bsdf = create_bsdf(default_bsdf);
+  const bool shines = std::any_of(object.children.begin(), object.children.end(),
+                                  [](const Child& c) { return c.object->family == "emitter"; });
+  // As in Mitsuba a lamp without a bsdf reflects nothing, and other shapes half of the light.
+  if (!built.surface.bsdf) built.surface.bsdf = shines ? black_bsdf() : usual_bsdf();
+  if (shines && built.surface.bsdf->traits().is_null) {
+    told_unless_strict("a shape with bsdf 'null' is not there, so it cannot be a light",
+                       "give it another bsdf, such as diffuse; it is taken to be black",
+                       object.place);
+    built.surface.bsdf = black_bsdf();
   }
   if (built.surface.bsdf) built.surface.traits = built.surface.bsdf->traits();
   read_media(object, built.surface);
@@ -265,9 +349,6 @@ void SceneBuilder::add_shape(const Object& object) {
     if (child.object->family != "emitter") continue;
     if (built->surface.light >= 0)
       problems_.add("the shape has a second emitter", "keep one", child.object->place);
-    if (built->surface.traits.is_null)
-      problems_.add("a shape with bsdf 'null' is not there, so it cannot be a light",
-                    "give it another bsdf, such as diffuse", child.object->place);
     built->surface.light = int(pending_lights_.size());
     pending_lights_.push_back({child.object.get(), built->shape, index});
   }
@@ -318,7 +399,9 @@ std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<
     if (arguments.is_complete())
       collecting(source_place(arguments), [&] { texture = texture_of(*object, *type, arguments); });
   } else {
-    unknown_type(*object, names_of(texture_types()));
+    std::vector<std::string> valid = names_of(texture_types());
+    for (const SpectrumType& spectrum : spectrum_types()) valid.push_back(spectrum.info.name);
+    unknown_type(*object, valid);
   }
   return textures_[object.get()] = texture;
 }
@@ -327,7 +410,7 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
                                                                 const TypeInfo& info) {
   Textures textures;
   for (const Child& child : object.children) {
-    if (child.object->family != "texture") continue;
+    if (child.object->family != "texture" || spectrum_type_of(*child.object)) continue;
     const Parameter* parameter = texture_parameter(info, child.name);
     if (!parameter) {
       problems_.add(
@@ -340,7 +423,7 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
       problems_.add(
           fmt::format("{} '{}' has a second texture '{}'", object.family, object.type, child.name),
           "keep one", child.object->place);
-    texture = make_texture(child.object);
+    texture = make_texture(texture_within(child.object));
     if (!texture) return std::nullopt;
   }
   return textures;
@@ -355,11 +438,14 @@ std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object
 std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object) {
   const BsdfType* type = find_row(bsdf_types(), object.type);
   if (!type) {
-    if (const std::string_view remedy = remedy_for_bsdf_to_come(object.type); !remedy.empty())
-      problems_.add(fmt::format("bsdf '{}' is not here yet", object.type), std::string(remedy),
-                    object.place);
-    else
-      unknown_type(object, names_of(bsdf_types()));
+    const std::string remedy(remedy_for_bsdf_to_come(object.type));
+    if (!remedy.empty())
+      told_unless_strict(fmt::format("bsdf '{}' is not here yet", object.type), remedy,
+                         object.place);
+    if (!remedy.empty() && is_strict_) return nullptr;
+    if (!remedy.empty() || is_foreign(object, names_of(bsdf_types())))
+      return bsdf_instead_of(object);
+    unknown_type(object, names_of(bsdf_types()));
     return nullptr;
   }
   refuse_children(object, {"bsdf", "texture"});
@@ -410,11 +496,12 @@ Geometry SceneBuilder::make_geometry() {
     for (const BuiltShape& built : group) geometry.groups.back().push_back(built.shape);
   }
   geometry.instances = instances_;
+  geometry.bodies = find_bodies();
   return geometry;
 }
 
 std::shared_ptr<const EmissionPattern> SceneBuilder::emission_pattern_of(
-    const Object& emitter, const Arguments& arguments) {
+    const LightType& type, const Object& emitter, const Arguments& arguments) {
   if (texture_parameters(arguments.info()).empty()) return nullptr;  // refused already
   const std::optional<Textures> textures = textures_of(emitter, arguments.info());
   if (!textures || textures->empty()) return nullptr;
@@ -423,14 +510,22 @@ std::shared_ptr<const EmissionPattern> SceneBuilder::emission_pattern_of(
     problems_.add(
         fmt::format("emitter '{}' has '{}' both as a value and as a texture", emitter.type, name),
         "keep one", arguments.place_of(name));
-  return std::make_shared<TextureEmission>(texture);
+  return std::make_shared<TextureEmission>(texture, type.pattern_is_factor);
 }
 
 void SceneBuilder::make_lights() {
   for (const PendingLight& pending : pending_lights_) {
     const LightType* type = find_row(light_types(), pending.object->type);
     if (!type) {
-      unknown_type(*pending.object, names_of(light_types()));
+      const std::string& later = instead_of_light(pending.object->type);
+      // Without its only light a scene is black.
+      if (pending_lights_.size() > 1 && is_foreign(*pending.object, names_of(light_types())))
+        leave_out(*pending.object, later.empty() ? "it is left out" : "it is left out; " + later);
+      else if (later.empty())
+        unknown_type(*pending.object, names_of(light_types()));
+      else
+        problems_.add(fmt::format("emitter '{}' comes later", pending.object->type), later,
+                      pending.object->place);
       continue;
     }
     std::vector<std::string> families = {"medium"};
@@ -461,6 +556,8 @@ void SceneBuilder::make_lights() {
     collecting(pending.object->place, [&] {
       make_light(*type, pending, arguments);
       light_media_.push_back(medium_of(*pending.object));
+      hidden_lights_.push_back(hides_lights_ ||
+                               (type->info.find("visible") && !arguments.boolean("visible")));
     });
   }
 }

@@ -1,8 +1,11 @@
 #pragma once
+#include <exception>
 #include <functional>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
+#include <vector>
 
 #include "kaustik/image/picture_reader.h"
 #include "kaustik/scene/part_keys.h"
@@ -18,6 +21,8 @@ class SceneBuilder {
   explicit SceneBuilder(int64_t texture_memory_bytes, const Scene* previous = nullptr,
                         bool is_strict = false)
       : previous_(previous), pictures_(texture_memory_bytes), is_strict_(is_strict) {}
+  /// Before build(): the camera is to see no light itself, whatever the lights say.
+  void hide_lights() { hides_lights_ = true; }
   Scene::Parts build(const Object& scene);
 
  private:
@@ -59,6 +64,9 @@ class SceneBuilder {
   void read_sampler(const Object& object);
   void make_lights();
   void make_light(const LightType& type, const PendingLight& pending, const Arguments& arguments);
+  /// Reads the files of all shapes side by side, for shape_of(); what is wrong with them is told
+  /// there.
+  void read_meshes(const Object& scene);
   /// Makes what the description of a shape, a texture or a bsdf says, or finds it in the scene
   /// before. Throws Error.
   std::shared_ptr<const Shape> shape_of(const Object& object, const ShapeType& type,
@@ -68,14 +76,46 @@ class SceneBuilder {
   std::shared_ptr<const Bsdf> bsdf_of(const Object& object, const BsdfType& type,
                                       const BsdfInputs& inputs);
   /// Of the texture in an emitter, of which no type takes more than one; null: it has none.
-  std::shared_ptr<const EmissionPattern> emission_pattern_of(const Object& emitter,
+  std::shared_ptr<const EmissionPattern> emission_pattern_of(const LightType& type,
+                                                             const Object& emitter,
                                                              const Arguments& arguments);
   Geometry make_geometry();
+  /// World shapes that are solid bodies, those of the highest priority first.
+  std::vector<uint32_t> find_bodies();
+  /// Appends what covers the parts of bodies.
+  void add_body_parts(std::span<const BodyPart> parts, std::vector<Surface>& surfaces);
+  /// Of the part of a body's surface that lies in another body.
+  std::shared_ptr<const Bsdf> bsdf_within(const Object& shape, const Object& around);
 
+  /// The value of a spectrum; nothing if it is wrong, which has been told.
+  const std::optional<Value>& value_of_spectrum(const Object& spectrum);
+  /// The properties of an object, and the spectra that it holds.
+  std::vector<Property> properties_of(const TypeInfo& info, const Object& object);
   /// Arguments of an object, with warnings for what is accepted without effect.
   Arguments arguments_of(const TypeInfo& info, const Object& object);
   void refuse_children(const Object& object, const std::vector<std::string>& allowed_families);
   void unknown_type(const Object& object, const std::vector<std::string>& valid);
+  /// Whether a type that no table has is another program's, rather than a slip of the pen; none is
+  /// where the scene is read strictly.
+  bool is_foreign(const Object& object, const std::vector<std::string>& valid) const;
+  /// Warns that nobody knows its type, and what follows.
+  void leave_out(const Object& object, const std::string& consequence);
+  /// A problem where the scene is read strictly, else a warning.
+  void told_unless_strict(const std::string& message, const std::string& remedy,
+                          const Place& place);
+  /// Matt, of a reflectance of one half …
+  std::shared_ptr<const Bsdf> usual_bsdf();
+  /// … and of none.
+  std::shared_ptr<const Bsdf> black_bsdf();
+  /// The bsdf in one that nobody knows, or a matt one of its colour; warns.
+  std::shared_ptr<const Bsdf> bsdf_instead_of(const Object& object);
+  /// Makes Mitsuba's camera of scenes that have none the sensor; warns. False, with the problem
+  /// told, where there is nothing to see.
+  bool place_camera(const Place& place);
+  /// The same for what changes the light of no picture: unless the scene is read strictly, a
+  /// warning that another type stands for it.
+  void use_instead(const Object& object, const std::vector<std::string>& valid,
+                   const std::string& instead);
   /// Runs `body` and turns what it throws into problems; those without a place get `place`, those
   /// in another file tell that it was named there.
   void collecting(const Place& place, const std::function<void()>& body);
@@ -97,13 +137,23 @@ class SceneBuilder {
   std::vector<BuiltShape> shapes_;
   std::vector<std::vector<BuiltShape>> groups_;
   std::map<const Object*, uint32_t> group_of_;
+  struct ReadMesh {
+    std::shared_ptr<const Shape> shape;
+    std::exception_ptr error;
+  };
+  std::map<const Object*, ReadMesh> read_meshes_;  ///< that were not asked for yet
   std::vector<Instance> instances_;
   std::vector<PendingLight> pending_lights_;
   std::map<const Object*, std::shared_ptr<const Bsdf>> bsdfs_;
   std::map<const Object*, std::shared_ptr<const Texture>> textures_;
   std::map<const Object*, std::shared_ptr<const Medium>> media_;
+  std::vector<std::shared_ptr<const Object>> bordering_;  ///< bsdfs of parts of bodies
+  std::vector<std::shared_ptr<const Object>> stand_ins_;  ///< for what the scene lacks
+  std::map<const Object*, std::optional<Value>> spectra_;
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const Medium>> light_media_;
+  std::vector<bool> hidden_lights_;
+  bool hides_lights_ = false;
   std::shared_ptr<const Medium> camera_medium_;
   Bounds3f bounds_;
   FilmSettings film_;

@@ -136,7 +136,7 @@ SceneReport describe_scene(const Scene& scene) {
   }
   const Bounds3f b = scene.tracer().bounds();
   report.lines.push_back(fmt::format("shapes     {} ({} triangles, {} analytic or procedural)",
-                                     scene.surface_count(), triangles, analytic));
+                                     scene.tracer().shape_count(), triangles, analytic));
   report.lines.push_back(fmt::format("bounds     {:.4g}, {:.4g}, {:.4g} … {:.4g}, {:.4g}, {:.4g} m",
                                      b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z));
   report.lines.push_back(fmt::format("memory     {:.1f} MB for ray tracing",

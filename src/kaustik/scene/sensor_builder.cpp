@@ -1,4 +1,6 @@
 // The camera's part of SceneBuilder: sensor, film, filter, sampler.
+#include <fmt/format.h>
+
 #include "kaustik/scene/filter_kinds.h"
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/scene_builder.h"
@@ -7,6 +9,10 @@ namespace kaustik {
 
 void SceneBuilder::make_sensor(const Object& object) {
   const CameraType* type = find_row(camera_types(), object.type);
+  if (!type && is_foreign(object, names_of(camera_types()))) {
+    use_instead(object, names_of(camera_types()), "perspective");
+    type = find_row(camera_types(), "perspective");
+  }
   if (!type) {
     unknown_type(object, names_of(camera_types()));
     return;
@@ -28,10 +34,22 @@ void SceneBuilder::make_sensor(const Object& object) {
   camera_ = type->create(arguments, film_);
 }
 
+void SceneBuilder::use_instead(const Object& object, const std::vector<std::string>& valid,
+                               const std::string& instead) {
+  if (is_strict_) {
+    unknown_type(object, valid);
+    return;
+  }
+  warnings_.push_back(fmt::format("{}: unknown {} type '{}': '{}' is used instead; {}",
+                                  text_of(object.place), object.family, object.type, instead,
+                                  suggest(object.type, valid)));
+}
+
 void SceneBuilder::read_film(const Object& object) {
   const FilmType* type = find_row(film_types(), object.type);
   if (!type) {
-    unknown_type(object, names_of(film_types()));
+    use_instead(object, names_of(film_types()), "hdrfilm");
+    read_film({"film", "hdrfilm", "", object.properties, object.children, object.place});
     return;
   }
   const Arguments arguments = arguments_of(type->info, object);
@@ -45,7 +63,7 @@ void SceneBuilder::read_film(const Object& object) {
 void SceneBuilder::read_filter(const Object& object) {
   const FilterType* type = find_row(filter_types(), object.type);
   if (!type) {
-    unknown_type(object, names_of(filter_types()));
+    use_instead(object, names_of(filter_types()), "gaussian");
     return;
   }
   refuse_children(object, {});
@@ -55,7 +73,8 @@ void SceneBuilder::read_filter(const Object& object) {
 void SceneBuilder::read_sampler(const Object& object) {
   const TypeInfo* info = find_row(sampler_infos(), object.type);
   if (!info) {
-    unknown_type(object, names_of(sampler_infos()));
+    use_instead(object, names_of(sampler_infos()), "independent");
+    read_sampler({"sampler", "independent", "", object.properties, object.children, object.place});
     return;
   }
   refuse_children(object, {});

@@ -1,11 +1,64 @@
 // The part of SceneBuilder that takes from the scene before what has not changed.
 #include "kaustik/scene/scene_builder.h"
 
+#include <algorithm>
+#include <set>
+
+#include "kaustik/base/parallel.h"
+#include "kaustik/scene/find_row.h"
+
 namespace kaustik {
+namespace {
+
+bool names_file(const TypeInfo& info) {
+  return std::any_of(info.parameters.begin(), info.parameters.end(),
+                     [](const Parameter& row) { return row.kind == ParameterKind::file; });
+}
+
+void collect_shapes_of_files(const Object& object, std::set<const Object*>& seen,
+                             std::vector<std::pair<const Object*, const ShapeType*>>& found) {
+  if (!seen.insert(&object).second) return;
+  const ShapeType* type = object.family == "shape" ? find_row(shape_types(), object.type) : nullptr;
+  if (type && names_file(type->info)) found.emplace_back(&object, type);
+  for (const Child& child : object.children) collect_shapes_of_files(*child.object, seen, found);
+}
+
+}  // namespace
 
 const BuiltParts& SceneBuilder::before() const {
   static const BuiltParts nothing;
   return previous_ ? previous_->built() : nothing;
+}
+
+void SceneBuilder::read_meshes(const Object& scene) {
+  std::set<const Object*> seen;
+  std::vector<std::pair<const Object*, const ShapeType*>> shapes;
+  collect_shapes_of_files(scene, seen, shapes);
+  std::vector<std::pair<ReadMesh*, const ShapeType*>> jobs;
+  std::vector<Arguments> arguments;
+  for (const auto& [object, type] : shapes) {
+    // The key is asked for before the file is read: it tells when the file changed.
+    if (find_part(before().shapes, keys_.own(*object))) continue;
+    try {
+      Problems told_later;
+      UnknownParameters unknown;
+      Arguments given(type->info, unknown.without_unknown(type->info, object->properties),
+                      object->place, told_later);
+      if (!given.is_complete()) continue;
+      arguments.push_back(std::move(given));
+    } catch (const Error&) {
+      continue;  // more problems than are told at once
+    }
+    jobs.emplace_back(&read_meshes_[object], type);
+  }
+  parallel_blocks(jobs.size(), 1, [&](size_t i, size_t, size_t) {
+    ReadMesh& read = *jobs[i].first;
+    try {
+      read.shape = jobs[i].second->create(arguments[i]);
+    } catch (...) {
+      read.error = std::current_exception();
+    }
+  });
 }
 
 std::shared_ptr<const Shape> SceneBuilder::shape_of(const Object& object, const ShapeType& type,
@@ -14,6 +67,10 @@ std::shared_ptr<const Shape> SceneBuilder::shape_of(const Object& object, const 
   std::shared_ptr<const Shape> shape;
   if (const auto* known = find_part(before().shapes, key)) {
     shape = *known;
+  } else if (auto read = read_meshes_.extract(&object)) {
+    if (read.mapped().error) std::rethrow_exception(read.mapped().error);
+    shape = std::move(read.mapped().shape);
+    ++counts_.shapes;
   } else {
     shape = type.create(arguments);
     ++counts_.shapes;
@@ -57,7 +114,7 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_of(const Object& object, const Bs
 void SceneBuilder::make_light(const LightType& type, const PendingLight& pending,
                               const Arguments& arguments) {
   const std::shared_ptr<const EmissionPattern> pattern =
-      emission_pattern_of(*pending.object, arguments);
+      emission_pattern_of(type, *pending.object, arguments);
   const uint64_t key = keys_.light(*pending.object, pending.shape_index);
   BuiltParts::MadeLight made{.light = nullptr,
                              .shape = pending.shape,

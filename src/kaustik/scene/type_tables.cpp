@@ -6,6 +6,7 @@
 #include "kaustik/material/texture.h"
 #include "kaustik/medium/medium.h"
 #include "kaustik/scene/camera.h"
+#include "kaustik/scene/spectrum_types.h"
 
 namespace kaustik {
 namespace {
@@ -15,8 +16,10 @@ TypeTables all_of_scenes() {
   types.add_rows(shape_types());
   types.add(shapegroup_info());
   types.add(instance_info());
+  types.add(merge_info());
   types.add_rows(bsdf_types());
   types.add_rows(texture_types());
+  types.add_rows(spectrum_types());
   types.add_rows(light_types());
   types.add_rows(medium_types());
   types.add_rows(phase_function_types());
@@ -44,6 +47,15 @@ const TypeInfo& instance_info() {
                              "instance",
                              "Places a shape group once more.",
                              {to_world_parameter("From the group's space to the world.")}};
+  return info;
+}
+
+const TypeInfo& merge_info() {
+  static const TypeInfo info{
+      "shape",
+      "merge",
+      "Stands for the shapes in it; Mitsuba merges those that are alike, which is faster there.",
+      {}};
   return info;
 }
 

@@ -24,9 +24,11 @@ void CameraSplats::add(Component component, const Spectrum& value, Sight& sight)
   if (value.is_zero()) return;
   if (!sight.visible) {
     const Ray ray = spawn_ray_to(sight.from, sight.connection.lens);
-    sight.visible = wants_irradiance()
-                        ? Spectrum(is_unobstructed(scene_, ray, rays_) ? pi : 0.0f)
-                        : shadow_ray_transmittance(scene_, ray, sight.medium, sight.of, rays_);
+    sight.visible =
+        wants_irradiance()
+            ? Spectrum(is_unobstructed(scene_, ray, rays_, ShadowRayTo::camera) ? pi : 0.0f)
+            : shadow_ray_transmittance(scene_, ray, sight.medium, sight.of, rays_,
+                                       ShadowRayTo::camera);
     if (!sight.visible->is_zero()) ++shown_;
   }
   if (!sight.visible->is_zero())
@@ -61,7 +63,7 @@ void CameraSplats::add(const LightMediumVertex& at, const CameraConnection& conn
 
 void CameraSplats::show_lamp(int light, const SurfacePoint& origin, float pdf_area,
                              const LightOnItsWay& of) {
-  if (!wanted_.has(Component::emission) || wants_irradiance()) return;
+  if (!wanted_.has(Component::emission) || wants_irradiance() || scene_.is_hidden(light)) return;
   const CameraConnection connection = connect(origin.position, of.sampler);
   const float cosine = dot(connection.direction, origin.ng);
   if (!(connection.importance > 0 && cosine > 0 && pdf_area > 0)) return;

@@ -23,6 +23,7 @@ class CameraSplats {
   template <typename Weigh>
   void show(const LightVertex& at, const Weigh& weigh) {
     if (!wants_irradiance() && !any(at.vertex.lobes() & (Lobes::diffuse | Lobes::glossy))) return;
+    if (scene_.is_hidden(at.vertex.light())) return;
     const CameraConnection connection = connect(at.vertex.position(), at.sampler);
     if (!(connection.importance > 0)) return;
     std::optional<SurfaceVertex> as_seen;

@@ -20,7 +20,9 @@ Spectrum reflected(const SurfaceVertex& vertex, const DirectLight& light, Lobes 
 }
 
 /// Or a boundary, behind which there may be one.
-bool may_be_lamp(const Surface& surface) { return surface.light >= 0 || surface.traits.is_null; }
+bool may_be_lamp(const Scene& scene, uint32_t shape) {
+  return scene.surface(shape).light >= 0 || scene.may_be_null(shape);
+}
 
 /// What the classes of lobes of a vertex send back of direct light.
 struct ReflectedLight {
@@ -107,10 +109,15 @@ CameraWalk::Arrival CameraWalk::arrive(LightWeights* weights, const PassMedium& 
       return false;
     }
     distance_ += hit.t;
-    return !meets_lamps_only_ || may_be_lamp(scene_.surface(hit.shape));
+    return !meets_lamps_only_ || may_be_lamp(scene_, hit.shape);
   };
-  if (!travel(scene_, state_, ray_, vertex_, rays_, go_on))
-    return is_in_medium_ && !meets_lamps_only_ ? Arrival::medium : Arrival::nothing;
+  for (int lamp = 0;; ++lamp) {
+    if (!travel(scene_, state_, ray_, vertex_, rays_, go_on))
+      return is_in_medium_ && !meets_lamps_only_ ? Arrival::medium : Arrival::nothing;
+    if (!looks_through()) break;
+    if (lamp == most_null_boundaries) return Arrival::nothing;
+    pass_boundary(vertex_, state_, ray_);
+  }
   if (only_delta_) describe_what_is_seen(vertex_, distance_);
   if (only_arrives)
     vertex_.paint_white();
@@ -176,6 +183,7 @@ void CameraWalk::add_background(LightWeights* weights) {
     const DistantLight& light = scene_.lights()[size_t(index)]->distant();
     if (light.traits().is_delta || (light.traits().is_only_seen && state_.pdf_forward > 0))
       continue;
+    if (state_.depth == 0 && scene_.is_hidden(index)) continue;
     const float weight =
         weights ? weights->met(index, ray_) : emission_weight(index, ray_.direction);
     sink_.add(class_.component(),

@@ -177,6 +177,8 @@ class CameraWalk {
   }
   void add_background(LightWeights* weights);
   void add_emission(LightWeights* weights);
+  /// Whether the camera looks through the surface that the walk has come to.
+  bool looks_through() const { return state_.depth == 0 && scene_.is_hidden(vertex_.light()); }
   void describe_what_is_seen(const SurfaceVertex& vertex, float distance);
   template <typename PassMedium>
   Arrival arrive(LightWeights* weights, const PassMedium& pass_medium);

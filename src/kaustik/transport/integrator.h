@@ -41,6 +41,9 @@ struct FirstHit {
   Spectrum albedo;
   Vec3f normal{0, 0, 0};  ///< unit (of a pixel: the mean), facing the viewer
   float depth = 0;        ///< distance of the first surface of all, m; 0: nothing hit
+  /// Of a pixel: the share of its samples that see a lamp or a lit background, Component::emission;
+  /// the film's edge finds out.
+  float lamps = 0;
 };
 
 /// Where one camera sample's results go.

@@ -52,6 +52,12 @@ Parameter rr_depth_parameter() {
       .range(1, 1 << 20);
 }
 
+Parameter hide_emitters_parameter() {
+  return boolean_parameter("hide_emitters", false,
+                           "The camera sees no lamp and no surroundings themselves: all are as "
+                           "with their 'visible' false.");
+}
+
 int read_maximum_events(const Arguments& arguments) {
   const auto depth = arguments.integer("max_depth");
   return depth < 0 ? 1 << 20 : std::max(0, int(depth) - 1);

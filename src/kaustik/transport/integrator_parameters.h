@@ -13,6 +13,8 @@ ComponentSet read_components(const Arguments& arguments);
 Parameter max_depth_parameter();
 /// Mitsuba's rr_depth.
 Parameter rr_depth_parameter();
+/// Mitsuba's hide_emitters, which build_scene() reads: the camera sees no light itself.
+Parameter hide_emitters_parameter();
 /// max_depth as a number of scattering events.
 int read_maximum_events(const Arguments& arguments);
 

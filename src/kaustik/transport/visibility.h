@@ -9,22 +9,29 @@ struct LightOnItsWay {
   const Sampler& sampler;  ///< as of Medium::transmittance()
 };
 
+/// Where a shadow ray leads: to the camera it passes hidden lamps, too (Scene::is_hidden).
+enum class ShadowRayTo { light, camera };
+
 /// Light left of what sets out through `medium` along the shadow ray `ray`, where the scene has
-/// media: null boundaries let it pass, media take their share, everything else blocks it (glass
-/// too: what it refracts goes elsewhere). Counts rays.
+/// media or hides lamps: null boundaries let it pass, media take their share, everything else
+/// blocks it (glass too: what it refracts goes elsewhere). Counts rays.
 Spectrum transmittance_through_media(const Scene& scene, Ray ray, const Medium* medium,
-                                     const LightOnItsWay& of, uint64_t& rays);
+                                     const LightOnItsWay& of, uint64_t& rays,
+                                     ShadowRayTo to = ShadowRayTo::light);
 
 /// The same for any scene: 1 or 0 where there is no medium.
 inline Spectrum shadow_ray_transmittance(const Scene& scene, const Ray& ray, const Medium* medium,
-                                         const LightOnItsWay& of, uint64_t& rays) {
-  if (scene.has_media()) return transmittance_through_media(scene, ray, medium, of, rays);
+                                         const LightOnItsWay& of, uint64_t& rays,
+                                         ShadowRayTo to = ShadowRayTo::light) {
+  if (scene.has_media() || (to == ShadowRayTo::camera && scene.hides_lights()))
+    return transmittance_through_media(scene, ray, medium, of, rays, to);
   ++rays;
   return scene.occluded(ray) ? Spectrum() : Spectrum(1);
 }
 
 /// Whether nothing but null boundaries stands in the way of a shadow ray; media hide nothing.
 /// Counts rays.
-bool is_unobstructed(const Scene& scene, const Ray& ray, uint64_t& rays);
+bool is_unobstructed(const Scene& scene, const Ray& ray, uint64_t& rays,
+                     ShadowRayTo to = ShadowRayTo::light);
 
 }  // namespace kaustik

@@ -69,7 +69,7 @@ std::vector<Parameter> parameters(const Techniques& preset) {
                         "beside what merges; else they always do."),
       integer_parameter("samples_per_pass", 4, "Samples per pixel and pass.").range(1, 1 << 20),
       adaptive_parameter(),
-      ignored_parameter("hide_emitters", ParameterKind::boolean)};
+      hide_emitters_parameter()};
   return rows;
 }
 
@@ -107,7 +107,7 @@ const TypeInfo& auto_info() {
       "Chooses by itself, region by region, between paths from the camera and light paths that "
       "merge with them; needs no parameter.",
       {components_parameter(), max_depth_parameter(), rr_depth_parameter(), adaptive_parameter(),
-       ignored_parameter("hide_emitters", ParameterKind::boolean)}};
+       hide_emitters_parameter()}};
   return info;
 }
 

@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "commands.h"
+#include "file_roles.h"
+#include "kaustik/base/file.h"
+#include "kaustik/integrator/description_types.h"
+#include "kaustik/loader/mitsuba_writer.h"
+#include "kaustik/loader/scene_format.h"
+#include "render_job.h"
+#include "scene_options.h"
+#include "standard_streams.h"
+
+namespace kaustik::app {
+namespace {
+
+struct ConvertOptions {
+  std::string scene, output;
+  std::vector<std::string> definitions;
+  bool is_strict = false, force = false;
+};
+
+/// A scene is somebody's work: without --force it is not replaced.
+bool is_any_file(const std::string&) { return true; }
+
+void convert(const ConvertOptions& options) {
+  FileRoles roles;
+  roles.reads_scene(options.scene);
+  roles.writes(options.output, {"not empty", is_any_file},
+               options.force ? Replacing::anything : Replacing::nothing, "choose another name");
+  const Description description = read_scene(
+      options.scene,
+      {.definitions = parse_definitions(options.definitions), .is_strict = options.is_strict});
+  roles.reads(description);
+  roles.check();
+  const std::string folder = std::filesystem::path(options.output).parent_path().string();
+  const std::string text = mitsuba_xml(description, description_types(), folder);
+  write_file_atomically(options.output,
+                        {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  say("wrote {}: {} in Mitsuba 3's XML; it names the same mesh and picture files", options.output,
+      options.scene);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "convert", "Write a scene of any format as XML of Mitsuba 3, with old spellings upgraded.");
+  command->footer(
+      "Meshes and pictures stay where they are: the new file names them from its own folder.\n"
+      "  kaustik convert old_scene.xml -o scene.xml");
+  auto o = std::make_shared<ConvertOptions>();
+  add_scene(*command, o->scene);
+  command->add_option("-o,--output", o->output, "Scene file to write, .xml")->required();
+  add_definitions(*command, o->definitions);
+  add_strict(*command, o->is_strict);
+  command->add_flag("--force", o->force, "Replace a file that is there");
+  command->callback([o] { convert(*o); });
+}
+
+}  // namespace kaustik::app

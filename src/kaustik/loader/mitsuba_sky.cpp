@@ -1,0 +1,67 @@
+#include "kaustik/loader/mitsuba_sky.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kaustik::mitsuba {
+namespace {
+
+/// Angle across the sun's disk, degrees, that 0.6 scales.
+constexpr double sun_aperture_degrees = 0.5358;
+
+Property* find_property(Object& object, std::string_view name) {
+  for (Property& property : object.properties)
+    if (property.name == name) return &property;
+  return nullptr;
+}
+
+/// A number that the object gives no more; null where it gives none.
+std::optional<Property> without_number(Object& object, std::string_view name) {
+  const Property* found = find_property(object, name);
+  if (!found || !std::holds_alternative<double>(found->value)) return std::nullopt;
+  const Property taken = *found;
+  std::erase_if(object.properties, [&](const Property& p) { return p.name == name; });
+  return taken;
+}
+
+void multiply(Object& object, const std::string& name, const Property& factor) {
+  Property* known = find_property(object, name);
+  if (!known)
+    object.properties.push_back({name, factor.value, factor.place});
+  else if (auto* number = std::get_if<double>(&known->value))
+    *number *= std::get<double>(factor.value);
+}
+
+/// The space of a sky of 0.6 from that of one of today, whose +z is the zenith, +x south and +y
+/// west. It mirrors: seen from above, today's south, west and north follow one another the wrong
+/// way round, as in Mitsuba 3.
+Transform old_from_new() {
+  const double rows[4][4] = {{0, -1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {0, 0, 0, 1}};
+  return Transform(rows);
+}
+
+}  // namespace
+
+void upgrade_sky(Object& object, Version version) {
+  const bool is_sun = object.type == "sun", is_sky = object.type == "sky";
+  const bool has_both = object.type == "sunsky";
+  if (version >= Version{2, 0, 0} || object.family != "emitter" || !(is_sun || is_sky || has_both))
+    return;
+  if (const auto scale = without_number(object, "scale")) {
+    if (!is_sky) multiply(object, "sun_scale", *scale);
+    if (!is_sun) multiply(object, "sky_scale", *scale);
+  }
+  if (auto wider = without_number(object, "sun_radius_scale")) {
+    std::get<double>(wider->value) *= sun_aperture_degrees;
+    if (!is_sky) object.properties.push_back({"sun_aperture", wider->value, wider->place});
+  }
+  Property* to_world = find_property(object, "to_world");
+  if (!to_world)
+    object.properties.push_back({"to_world", old_from_new(), object.place});
+  else if (const auto* placed = std::get_if<Transform>(&to_world->value))
+    to_world->value = *placed * old_from_new();
+}
+
+}  // namespace kaustik::mitsuba

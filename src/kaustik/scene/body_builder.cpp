@@ -1,0 +1,109 @@
+// The part of SceneBuilder that deals with solid bodies, which overlap: see SolidBodies.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "kaustik/material/dielectric_arguments.h"
+#include "kaustik/scene/scene_builder.h"
+
+namespace kaustik {
+namespace {
+
+const Property* find_property(const Object& object, std::string_view name) {
+  for (const Property& property : object.properties)
+    if (property.name == name) return &property;
+  return nullptr;
+}
+
+/// The bsdf in an object that has a priority: the object itself, or one that it holds; null: none.
+const Object* bsdf_with_priority(const Object& object) {
+  if (object.family == "bsdf" && find_property(object, priority_name)) return &object;
+  for (const Child& child : object.children)
+    if (child.object->family == "bsdf")
+      if (const Object* found = bsdf_with_priority(*child.object)) return found;
+  return nullptr;
+}
+
+/// What is no number was told when the bsdf was made.
+double priority_of(const Object& bsdf) {
+  const Property& property = *find_property(bsdf, priority_name);
+  if (const auto* integer = std::get_if<int64_t>(&property.value)) return double(*integer);
+  if (const auto* number = std::get_if<double>(&property.value)) return *number;
+  return 0;
+}
+
+/// A copy of a bsdf, and of those in it, where the one of a priority borders on `exterior` outside.
+std::shared_ptr<Object> bordering_on(const Object& bsdf, const Value& exterior) {
+  auto copy = std::make_shared<Object>(bsdf);
+  copy->id.clear();
+  if (find_property(bsdf, priority_name)) {
+    std::erase_if(copy->properties, [](const Property& p) { return p.name == "ext_ior"; });
+    copy->properties.push_back({"ext_ior", exterior, bsdf.place});
+  }
+  for (Child& child : copy->children)
+    if (child.object->family == "bsdf") child.object = bordering_on(*child.object, exterior);
+  return copy;
+}
+
+const Object* bsdf_of_shape(const Object& shape) {
+  for (const Child& child : shape.children)
+    if (child.object->family == "bsdf") return child.object.get();
+  return nullptr;
+}
+
+/// The index inside a body: as it is given, or the usual one.
+Value interior_of(const Object& shape) {
+  const Property* given = find_property(*bsdf_with_priority(shape), "int_ior");
+  return given ? given->value : Value(std::string("bk7"));
+}
+
+}  // namespace
+
+std::vector<uint32_t> SceneBuilder::find_bodies() {
+  std::vector<uint32_t> bodies;
+  for (size_t i = 0; i < shapes_.size(); ++i)
+    if (bsdf_with_priority(*shapes_[i].object)) bodies.push_back(uint32_t(i));
+  std::stable_sort(bodies.begin(), bodies.end(), [&](uint32_t a, uint32_t b) {
+    return priority_of(*bsdf_with_priority(*shapes_[a].object)) >
+           priority_of(*bsdf_with_priority(*shapes_[b].object));
+  });
+  for (const auto& group : groups_)
+    for (const BuiltShape& built : group)
+      if (bsdf_with_priority(*built.object))
+        warnings_.push_back(fmt::format(
+            "the priority of '{}' has no effect: it is in a shape group", built.surface.name));
+  return bodies;
+}
+
+void SceneBuilder::add_body_parts(std::span<const BodyPart> parts, std::vector<Surface>& surfaces) {
+  static const Object nothing{"bsdf", "null", "", {}, {}, {}};
+  for (const BodyPart& part : parts) {
+    Surface surface = surfaces[part.shape];
+    surface.light = -1;
+    if (part.is_hidden) {
+      surface.bsdf = create_bsdf(nothing);
+      surface.interior = surface.exterior = nullptr;
+      surface.names_media = false;
+    } else {
+      const Surface& around = surfaces[part.around];
+      surface.exterior = around.interior;
+      surface.names_media |= around.names_media;
+      surface.bsdf = bsdf_within(*shapes_[part.shape].object, *shapes_[part.around].object);
+    }
+    if (!surface.bsdf) continue;  // told
+    surface.traits = surface.bsdf->traits();
+    surfaces.push_back(std::move(surface));
+  }
+}
+
+std::shared_ptr<const Bsdf> SceneBuilder::bsdf_within(const Object& shape, const Object& around) {
+  static const Object nothing{"bsdf", "null", "", {}, {}, {}};
+  const Value exterior = interior_of(around);
+  // Between two bodies of the same index there is nothing to see.
+  if (exterior == interior_of(shape)) return create_bsdf(nothing);
+  bordering_.push_back(bordering_on(*bsdf_of_shape(shape), exterior));
+  return create_bsdf(*bordering_.back());
+}
+
+}  // namespace kaustik
