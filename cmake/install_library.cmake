@@ -7,7 +7,7 @@ install(TARGETS ${rooms} kaustik_library EXPORT kaustikTargets
 # Left out are the headers that show a library which the rooms hide: Embree, libtiff, pugixml.
 install(DIRECTORY src/kaustik DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.h"
-        REGEX "/(geometry/embree_scene|image/tiff_memory)\\.h$" EXCLUDE
+        REGEX "/(geometry/(embree_scene|embree_rays|solid_bodies)|image/tiff_memory)\\.h$" EXCLUDE
         REGEX "/loader/(xml_document|mitsuba_(element|reader|transform))\\.h$" EXCLUDE)
 install(FILES ${PROJECT_BINARY_DIR}/include/kaustik/base/version.h
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kaustik/base COMPONENT development)

@@ -22,6 +22,9 @@ BlockRender by(const std::string& scene, const std::string& integrator, uint32_t
   return render;
 }
 
+/// Of a pass: textures are filtered by how many samples share a pixel.
+constexpr uint32_t samples_of_pass = 4;
+
 }  // namespace
 
 std::vector<std::string> gallery_scenes() {
@@ -33,10 +36,14 @@ std::vector<std::string> gallery_scenes() {
   return scenes;
 }
 
-BlockRender gallery_reference(const std::string& scene) { return by(scene, "path", 64, 3'000'000); }
+BlockRender gallery_reference(const std::string& scene) {
+  BlockRender render = by(scene, "path", samples_of_pass, 3'000'000);
+  render.passes = 16;
+  return render;
+}
 
 BlockRender gallery_render(const std::string& scene, const std::string& integrator) {
-  return by(scene, integrator, 4, 1);
+  return by(scene, integrator, samples_of_pass, 1);
 }
 
 std::string gallery_path(const std::string& scene) {

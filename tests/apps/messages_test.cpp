@@ -106,14 +106,21 @@ TEST_F(Messages, MeshesThatDoNotFitAreAnErrorAfterAWarning) {
   RunOptions little_memory;
   little_memory.memory_limit = rlim_t(8) << 30;
   write("scene.xml", large_mesh_scene);
-  write_sparse("mesh.ply", 2'000'000'000'000);
+  // A file as long as it says.
+  constexpr uint64_t vertices = 4'000'000'000;
+  const std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                             std::to_string(vertices) +
+                             "\nproperty float x\nproperty float y\nproperty float z\n"
+                             "element face 0\nproperty list uchar int vertex_indices\nend_header\n";
+  write("mesh.ply", header);
+  std::filesystem::resize_file(path("mesh.ply"), header.size() + 12 * vertices);
   for (const std::vector<std::string>& command : commands_that_build) {
     const RunResult result = run(command, little_memory);
     EXPECT_EQ(result.exit_code, 1) << result.err;
     EXPECT_TRUE(matches(result.err,
-                        "info: .* up to 14000.0 GB of memory\n"
+                        "info: .* up to 336.0 GB of memory\n"
                         "warning: this machine has [0-9.]+ GB: .*\n"
-                        ".*not enough memory\n *remedy: .*larger than this machine"))
+                        ".*not enough memory\n *remedy: "))
         << result.err;
   }
 }
