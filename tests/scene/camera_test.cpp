@@ -401,8 +401,8 @@ TEST(Camera, APinholeNeedsNoNumbers) {
 TEST(Camera, TypesAndFilmsAreRows) {
   expect_rows_of("sensor", camera_types());
   expect_rows_of("film", film_types());
-  expect_problem(std::string("<sensor type=\"no_camera\"/>") + any_shape, "2:1", "no_camera",
-                 "perspective");
+  expect_problem(std::string("<sensor type=\"perspektive\"/>") + any_shape, "2:1", "perspektive",
+                 "did you mean 'perspective'");
 }
 
 }  // namespace

@@ -63,12 +63,19 @@ TEST(MergedShapes, ThatHoldThemselvesAreRefused) {
 }
 
 TEST(ForeignShapes, AreToldWithWhatToDo) {
-  expect_problem(any_camera + std::string("\n<shape type=\"hair\"/>"), "3:1",
-                 "no shape 'hair' here yet", "tubes");
-  expect_problem(any_camera + std::string("\n<shape type=\"heightfield\"/>"), "3:1",
-                 "no shape 'heightfield'", "mesh");
-  expect_problem(any_camera + std::string("\n<shape type=\"hare\"/>"), "3:1", "unknown shape type",
-                 "sphere");
+  const auto warning_of = [](const std::string& type) {
+    const auto scene =
+        scene_of(any_camera + std::string(any_shape) + "\n<shape type=\"" + type + "\"/>");
+    EXPECT_EQ(scene->warnings().size(), 1u);
+    return scene->warnings().empty() ? "" : scene->warnings()[0];
+  };
+  EXPECT_NE(warning_of("hair").find("export them as a mesh of tubes"), std::string::npos);
+  EXPECT_NE(warning_of("heightfield").find("export it as a mesh"), std::string::npos);
+  EXPECT_EQ(warning_of("hare"), "test.xml:3:1: Kaustik does not know shape 'hare': it is left out");
+  Description strict =
+      description_of(any_camera + std::string(any_shape) + "\n<shape type=\"hair\"/>");
+  strict.is_strict = true;
+  EXPECT_THROW(build_scene(strict), Error);
 }
 
 class MeshFiles : public testing::Test {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "kaustik/material/dielectric_arguments.h"
 #include "kaustik/scene/scene_builder.h"
@@ -16,13 +18,19 @@ const Property* find_property(const Object& object, std::string_view name) {
   return nullptr;
 }
 
-/// The bsdf in an object that has a priority: the object itself, or one that it holds; null: none.
-const Object* bsdf_with_priority(const Object& object) {
+const Object* bsdf_with_priority(const Object& object, std::set<const Object*>& seen) {
+  if (!seen.insert(&object).second) return nullptr;  // shared by several
   if (object.family == "bsdf" && find_property(object, priority_name)) return &object;
   for (const Child& child : object.children)
     if (child.object->family == "bsdf")
-      if (const Object* found = bsdf_with_priority(*child.object)) return found;
+      if (const Object* found = bsdf_with_priority(*child.object, seen)) return found;
   return nullptr;
+}
+
+/// The bsdf in an object that has a priority: the object itself, or one that it holds; null: none.
+const Object* bsdf_with_priority(const Object& object) {
+  std::set<const Object*> seen;
+  return bsdf_with_priority(object, seen);
 }
 
 /// What is no number was told when the bsdf was made.
@@ -33,16 +41,22 @@ double priority_of(const Object& bsdf) {
   return 0;
 }
 
+using Copies = std::map<const Object*, std::shared_ptr<Object>>;
+
 /// A copy of a bsdf, and of those in it, where the one of a priority borders on `exterior` outside.
-std::shared_ptr<Object> bordering_on(const Object& bsdf, const Value& exterior) {
-  auto copy = std::make_shared<Object>(bsdf);
+/// What several share is copied once.
+std::shared_ptr<Object> bordering_on(const Object& bsdf, const Value& exterior, Copies& copies) {
+  std::shared_ptr<Object>& copy = copies[&bsdf];
+  if (copy) return copy;
+  copy = std::make_shared<Object>(bsdf);
   copy->id.clear();
   if (find_property(bsdf, priority_name)) {
     std::erase_if(copy->properties, [](const Property& p) { return p.name == "ext_ior"; });
     copy->properties.push_back({"ext_ior", exterior, bsdf.place});
   }
   for (Child& child : copy->children)
-    if (child.object->family == "bsdf") child.object = bordering_on(*child.object, exterior);
+    if (child.object->family == "bsdf")
+      child.object = bordering_on(*child.object, exterior, copies);
   return copy;
 }
 
@@ -102,7 +116,8 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_within(const Object& shape, const
   const Value exterior = interior_of(around);
   // Between two bodies of the same index there is nothing to see.
   if (exterior == interior_of(shape)) return create_bsdf(nothing);
-  bordering_.push_back(bordering_on(*bsdf_of_shape(shape), exterior));
+  Copies copies;
+  bordering_.push_back(bordering_on(*bsdf_of_shape(shape), exterior, copies));
   return create_bsdf(*bordering_.back());
 }
 
