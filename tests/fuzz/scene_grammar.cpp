@@ -38,6 +38,7 @@ const std::vector<std::pair<Names, Names>>& alternatives() {
   static const std::vector<std::pair<Names, Names>> list = {
       {{"albedo", "sigma_t"}, {"sigma_a", "sigma_s"}},
       {{"material"}, {"eta", "k"}},
+      {{"reflectance", "edge_tint"}, {"material", "eta", "k", "ext_eta"}},
       {{"alpha"}, {"alpha_u", "alpha_v"}},
       {{"position"}, {"to_world"}},
       {{"direction"}, {"to_world"}},
@@ -55,8 +56,10 @@ const Names& misfits_in(const std::string& type) {
                            see_through = {"dielectric", "roughdielectric", "thindielectric",
                                           "difftrans",  "thinphong",       "mask",
                                           "null"};
-  if (type == "twosided") return see_through;
-  return type == "bumpmap" || type == "normalmap" || type == "blendbsdf" ? relief : none;
+  if (type == "twosided" || type == "coating" || type == "roughcoating") return see_through;
+  return type == "bumpmap" || type == "normalmap" || type == "blendbsdf" || type == "mixturebsdf"
+             ? relief
+             : none;
 }
 
 class Grammar {
@@ -151,13 +154,23 @@ class Grammar {
       return type.minimum_nested == 0 || depth < deepest_nesting;
     });
     const BsdfType& type = *draw_.one_of(fitting);
-    std::string result = open(type.info, "", id) + properties(type.info);
-    const int spare = depth < deepest_nesting ? type.maximum_nested - type.minimum_nested : 0;
+    // Those that take any number take a few.
+    const int spare =
+        depth < deepest_nesting ? std::min(2, type.maximum_nested - type.minimum_nested) : 0;
     const int nested = type.minimum_nested + (spare > 0 ? int(draw_.below(size_t(spare) + 1)) : 0);
+    std::string result = open(type.info, "", id) + properties(type.info, {"weights"});
+    if (type.info.find("weights") && draw_.chance(0.95)) result += weights(nested);
     Names inside = misfits_in(type.info.name);
     inside.insert(inside.end(), misfits.begin(), misfits.end());
     for (int i = 0; i < nested; ++i) result += bsdf(inside, depth + 1);
     return result + close(type.info);
+  }
+
+  std::string weights(int count) {
+    std::string list;
+    for (int i = 0; i < count; ++i)
+      list += fmt::format("{:.3g}, ", draw_.one_of({0.0, 0.2, 0.3, 0.5, 1.0}));
+    return "<string name=\"weights\" value=\"" + list + "\"/>";
   }
 
   std::string medium(const std::string& name, const std::string& id = "") {

@@ -209,6 +209,22 @@ TEST(MitsubaTree, OldTexturesAreBroughtUpToDate) {
   EXPECT_EQ(present->children.at(1).object->type, "vertexcolors");
 }
 
+// What no metal was named of was copper before version 2, and is a perfect mirror since.
+TEST(MitsubaTree, OldConductorsAreOfCopper) {
+  const auto conductor = [](const std::string& inside, const std::string& version) {
+    return parse(in_scene("<bsdf type='roughconductor'>" + inside + "</bsdf>", version))
+        .scene->children.at(0)
+        .object;
+  };
+  const std::string rough = "<float name='alpha' value='0.2'/>",
+                    index = "<spectrum name='eta' value='0.2'/><spectrum name='k' value='3'/>";
+  EXPECT_EQ(value<std::string>(*conductor(rough, "0.6.0"), "material"), "cu");
+  EXPECT_EQ(conductor(rough, "2.0.0")->properties.size(), 1u);
+  EXPECT_EQ(conductor(index, "0.5.0")->properties.size(), 2u);
+  const std::string gold = "<string name='material' value='Au'/>";
+  EXPECT_EQ(value<std::string>(*conductor(gold, "0.6.0"), "material"), "Au");
+}
+
 TEST(MitsubaTree, NewVersionsAreNotUpgraded) {
   for (const std::string version : {"2.0.0", "2.2.1", "3.0.0", "3.7.1"}) {
     const auto scene =

@@ -69,6 +69,31 @@ TEST(bsdf_parameters, conductor_that_contradicts_itself) {
             "  remedy: use material 'none' for a perfect mirror");
 }
 
+TEST(bsdf_parameters, metal_that_is_given_twice) {
+  EXPECT_EQ(
+      message_of("conductor", {at("reflectance", 0.8, 4), at("material", std::string("Au"), 5)}),
+      "scene.xml:4:7: 'reflectance' is given together with 'material', 'eta', 'k' or "
+      "'ext_eta'\n  remedy: keep the reflectance or the others");
+  EXPECT_EQ(message_of("roughconductor", {at("edge_tint", 0.8, 4)}),
+            "scene.xml:4:7: 'edge_tint' is given without 'reflectance'\n"
+            "  remedy: give both, or reflectance alone");
+}
+
+// Mitsuba 0.6 divides by the index of the surroundings.
+TEST(bsdf_parameters, conductor_under_water) {
+  const auto wet = make_bsdf("conductor", {property("eta", 1.333), property("k", 2.666),
+                                           property("ext_eta", std::string("water"))});
+  EXPECT_NEAR(wet->albedo({}, {0, 0, 1}, Lobes::all)[1], 4.0 / (4 + 4), 1e-4);
+}
+
+TEST(bsdf_parameters, types_to_come_have_a_remedy) {
+  for (const char* type : {"hair", "measured", "bsdfdata", "polarizer"})
+    EXPECT_FALSE(remedy_for_bsdf_to_come(type).empty()) << type;
+  EXPECT_TRUE(remedy_for_bsdf_to_come("difuse").empty());
+  for (const BsdfType& type : bsdf_types())
+    EXPECT_TRUE(remedy_for_bsdf_to_come(type.info.name).empty()) << type.info.name;
+}
+
 TEST(bsdf_parameters, roughness_that_contradicts_itself) {
   EXPECT_EQ(message_of("roughconductor", {at("alpha", 0.2, 4), at("alpha_u", 0.2, 5)}),
             "scene.xml:4:7: 'alpha' is given together with 'alpha_u' or 'alpha_v'\n"

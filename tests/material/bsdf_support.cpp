@@ -14,7 +14,8 @@ Property property(const std::string& name, Value value) { return {name, std::mov
 std::shared_ptr<const Bsdf> make_bsdf(
     const std::string& type, const std::vector<Property>& properties,
     std::vector<std::shared_ptr<const Bsdf>> nested,
-    std::map<std::string, std::shared_ptr<const Texture>> textures) {
+    std::map<std::string, std::shared_ptr<const Texture>> textures,
+    const std::function<void(const std::string&)>& warn) {
   for (const BsdfType& t : bsdf_types()) {
     if (t.info.name != type) continue;
     Problems problems;
@@ -24,7 +25,7 @@ std::shared_ptr<const Bsdf> make_bsdf(
       const auto found = textures.find(std::string(name));
       return found != textures.end() ? found->second : constant_texture_of(arguments, name);
     };
-    return t.create({arguments, std::move(nested), texture});
+    return t.create({arguments, std::move(nested), texture, warn});
   }
   throw std::invalid_argument("no bsdf type " + type);
 }
@@ -118,6 +119,19 @@ std::shared_ptr<const Bsdf> sheet(double diffuse, double glossy, double diffuse_
       {property("diffuse_reflectance", diffuse), property("specular_reflectance", glossy),
        property("diffuse_transmittance", diffuse_through),
        property("specular_transmittance", glossy_through), property("exponent", exponent)});
+}
+
+std::shared_ptr<const Bsdf> ward(const std::string& variant, double alpha_u, double alpha_v) {
+  return make_bsdf(
+      "ward", {property("variant", variant), property("alpha_u", alpha_u),
+               property("alpha_v", alpha_v), property("diffuse_reflectance", Rgb{0.3, 0.1, 0.2}),
+               property("specular_reflectance", Rgb{0.7, 0.4, 0.1})});
+}
+
+std::shared_ptr<const Bsdf> metal_of_colours(double alpha) {
+  return make_bsdf("roughconductor", {property("distribution", "ggx"), property("alpha", alpha),
+                                      property("reflectance", Rgb{0.9, 0.6, 0.2}),
+                                      property("edge_tint", Rgb{0.2, 0.9, 0.5})});
 }
 
 /// A checkerboard that is `at_origin` where the tests look.
@@ -219,6 +233,71 @@ std::vector<BsdfInstance> make_instances() {
                                          {"roughness", checks(0.5, 0.1)},
                                          {"metallic", checks(0.2, 1)},
                                          {"spec_trans", checks(0.3, 0)}})},
+      {"principled_air_bubble",
+       make_bsdf("principled", {property("base_color", Rgb{0.9, 0.8, 0.6}), property("eta", 0.7),
+                                property("spec_trans", 0.8), property("spec_tint", 0.3),
+                                property("clearcoat", 0.5), property("roughness", 0.4)})},
+      {"thin_leaf",
+       make_bsdf("principledthin",
+                 {property("base_color", Rgb{0.3, 0.7, 0.1}), property("roughness", 0.6),
+                  property("diff_trans", 1.2), property("sheen", 0.6), property("flatness", 0.5)})},
+      {"thin_frosted_pane",
+       make_bsdf("principledthin",
+                 {property("base_color", Rgb{0.9, 0.6, 0.8}), property("roughness", 0.5),
+                  property("spec_trans", 0.8), property("eta", 1.4), property("diff_trans", 0.6),
+                  property("spec_tint", 0.5), property("anisotropic", 0.6)})},
+      {"ward_balanced", ward("balanced", 0.15, 0.4)},
+      {"ward_duer", ward("ward-duer", 0.3, 0.3)},
+      {"mirror_of_colour", make_bsdf("conductor", {property("reflectance", Rgb{0.9, 0.6, 0.2})})},
+      {"rough_metal_of_colours", metal_of_colours(0.3)},
+      {"rough_metal_of_textures",
+       make_bsdf("roughconductor", {property("alpha", 0.2), property("edge_tint", 0.5)}, {},
+                 {{"reflectance", checks(0.7, 0.1)}})},
+      {"mixture_of_three",
+       make_bsdf("mixturebsdf", {property("weights", "0.3 0.2, 0.4")},
+                 {make_bsdf("diffuse", {property("reflectance", Rgb{0.9, 0.2, 0.4})}),
+                  metal_of_colours(0.4), sheet(0.2, 0.15, 0.3, 0.25, 20)})},
+      {"coating_over_colour",
+       make_bsdf("coating", {property("sigma_a", Rgb{0.1, 0.5, 0.9}), property("thickness", 0.3)},
+                 {make_bsdf("diffuse", {property("reflectance", Rgb{0.9, 0.7, 0.3})})})},
+      {"coating_over_copper_and_phong",
+       make_bsdf("coating", {property("int_ior", 1.3)},
+                 {make_bsdf("blendbsdf", {},
+                            {rough("ggx", 0.3), phong({0.5, 0.1, 0.2}, {0, 0, 0}, 1)})})},
+      {"rough_coating_over_gold",
+       make_bsdf("roughcoating", {property("alpha", 0.3), property("distribution", "ggx")},
+                 {make_bsdf("conductor", {property("material", "Au")})})},
+      // Rough, since sharp ones take long to integrate.
+      {"openpbr_plaster_skin_and_fuzz",
+       make_bsdf("openpbr",
+                 {property("base_color", Rgb{0.9, 0.4, 0.1}),
+                  property("base_diffuse_roughness", 0.8), property("subsurface_weight", 0.4),
+                  property("specular_weight", 0.5), property("specular_roughness", 0.7),
+                  property("specular_color", Rgb{1, 0.5, 1}), property("fuzz_weight", 0.6)})},
+      {"openpbr_car_paint",
+       make_bsdf("openpbr",
+                 {property("base_color", Rgb{0.8, 0.3, 0.1}), property("base_metalness", 0.7),
+                  property("specular_roughness", 0.6), property("specular_color", Rgb{0.9, 0.5, 1}),
+                  property("specular_roughness_anisotropy", 0.5), property("coat_weight", 0.8),
+                  property("coat_roughness", 0.6), property("coat_color", Rgb{1, 0.7, 0.5})})},
+      {"openpbr_coated_glass",
+       make_bsdf("openpbr",
+                 {property("transmission_weight", 0.8), property("coat_weight", 0.5),
+                  property("transmission_color", Rgb{0.9, 1, 0.6}), property("coat_roughness", 0.6),
+                  property("specular_roughness", 0.6), property("base_metalness", 0.1)})},
+      {"openpbr_sheet",
+       make_bsdf("openpbr",
+                 {property("geometry_thin_walled", true), property("subsurface_weight", 0.7),
+                  property("subsurface_color", Rgb{0.4, 0.9, 0.2}), property("fuzz_weight", 0.3),
+                  property("subsurface_scatter_anisotropy", 0.3),
+                  property("transmission_weight", 0.5), property("specular_roughness", 0.6),
+                  property("transmission_color", Rgb{1, 0.6, 0.9})})},
+      {"openpbr_textured", make_bsdf("openpbr", {property("specular_roughness", 0.6)}, {},
+                                     {{"base_color", checks(0.8, 0.1)},
+                                      {"base_metalness", checks(0.2, 1)},
+                                      {"specular_weight", checks(0.7, 1)},
+                                      {"transmission_weight", checks(0.3, 0)},
+                                      {"geometry_opacity", checks(0.9, 0)}})},
   };
 }
 

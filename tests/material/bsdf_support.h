@@ -15,7 +15,8 @@ namespace kaustik::test {
 std::shared_ptr<const Bsdf> make_bsdf(
     const std::string& type, const std::vector<Property>& properties = {},
     std::vector<std::shared_ptr<const Bsdf>> nested = {},
-    std::map<std::string, std::shared_ptr<const Texture>> textures = {});
+    std::map<std::string, std::shared_ptr<const Texture>> textures = {},
+    const std::function<void(const std::string&)>& warn = [](const std::string&) {});
 /// With the values that a scene need not give, around matt bsdfs if it is made of others.
 std::shared_ptr<const Bsdf> make_usual_bsdf(const BsdfType& type);
 /// Throws Error as build_scene() would, with places in scene.xml. The surface that it lies on has

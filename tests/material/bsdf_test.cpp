@@ -85,7 +85,9 @@ constexpr std::array<Lobes, 3> single_lobes = {Lobes::diffuse, Lobes::glossy, Lo
 int samples_for(const Bsdf& bsdf) {
   const auto is_mixed = [](const std::string& name) {
     return name == "sheet_all_lobes" || name == "textured_phong" || name == "mask_half" ||
-           name == "blend_paper_glass" || name == "principled_glass";
+           name == "blend_paper_glass" || name == "principled_glass" ||
+           name == "mixture_of_three" || name == "thin_frosted_pane" || name == "openpbr_sheet" ||
+           name == "openpbr_coated_glass";
   };
   for (const BsdfInstance& instance : bsdf_instances()) {
     if (instance.bsdf.get() != &bsdf) continue;

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kaustik/material/metal_fresnel.h"
+
 namespace kaustik {
 namespace {
 
@@ -122,6 +124,58 @@ TEST(metals, reflect_as_measured) {
     const Spectrum r = fresnel_conductor(1, conductor_ior(f.name).at({}));
     EXPECT_NEAR(r[f.lane], f.reflectance, f.tolerance) << f.name << " " << f.lane;
   }
+}
+
+double normal_reflectance(double n, double k) {
+  return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
+}
+
+// What others than the sources of the tables have measured, away from the edges where metals take
+// on colour: gold and copper of Babar and Weaver (Appl. Opt. 54, 2015), silver of Johnson and
+// Christy (Phys. Rev. B 6, 1972), aluminium of Mathewson and Myers (Phys. Scr. 4, 1971).
+TEST(metals, reflect_at_each_wavelength_as_others_have_measured) {
+  struct Figure {
+    const char* name;
+    double nm, n, k;
+  };
+  const Figure figures[] = {{"Au", 459.2, 1.457, 1.736},      {"Au", 590.4, 0.1823, 2.880},
+                            {"Au", 652.5, 0.1091, 3.529},     {"Au", 688.8, 0.08524, 3.871},
+                            {"Cu", 442.8, 1.168, 2.299},      {"Cu", 495.9, 1.121, 2.485},
+                            {"Cu", 652.5, 0.0878, 3.759},     {"Cu", 688.8, 0.07277, 4.123},
+                            {"Ag", 495.9, 0.05, 3.093},       {"Ag", 548.6, 0.06, 3.586},
+                            {"Ag", 659.5, 0.05, 4.483},       {"Al", 495.94, 0.77909, 5.84012},
+                            {"Al", 551.04, 1.00461, 6.51991}, {"Al", 604.8, 1.30548, 7.0855},
+                            {"Al", 688.8, 1.94186, 7.82757}};
+  const float tolerance = 0.045f;
+  for (const Figure& f : figures) {
+    const auto nm = float(f.nm);
+    const ComplexIor ior = conductor_ior(f.name).at(Wavelengths(nm, nm, nm, nm));
+    const float found = fresnel_conductor(1, ior)[0];
+    EXPECT_NEAR(found, normal_reflectance(f.n, f.k), tolerance) << f.name << " " << f.nm;
+  }
+  // Another metal's table would be found out: copper beside gold, silver beside aluminium.
+  const auto at = [](const char* name, float nm) {
+    return fresnel_conductor(1, conductor_ior(name).at(Wavelengths(nm, nm, nm, nm)))[0];
+  };
+  EXPECT_GT(std::fabs(at("Cu", 459.2f) - normal_reflectance(1.457, 1.736)), 2 * tolerance);
+  EXPECT_GT(std::fabs(at("Al", 688.8f) - normal_reflectance(0.07277, 4.123)), tolerance);
+}
+
+TEST(metals, of_two_colours_reflect_these) {
+  const Spectrum color(0.9f, 0.5f, 0.05f, 0.999f);
+  for (const float edge : {0.0f, 0.4f, 1.0f}) {
+    const ComplexIor ior = ior_of_metal(color, Spectrum(edge));
+    for (int lane = 0; lane < 4; ++lane) {
+      EXPECT_NEAR(fresnel_conductor(1, ior)[lane], color[lane], 1e-4f);
+      EXPECT_NEAR(fresnel_conductor(1e-7f, ior)[lane], 1, 0.01f);
+    }
+  }
+  // The tint raises what is reflected toward the edge; Gulbrandsen 2014, figure 3.
+  const float c = cosine(75);
+  const float low = fresnel_conductor(c, ior_of_metal(color, Spectrum(0.0f)))[0],
+              high = fresnel_conductor(c, ior_of_metal(color, Spectrum(1.0f)))[0];
+  EXPECT_LT(low, 0.88f);
+  EXPECT_GT(high, 0.9f);
 }
 
 TEST(metals, are_all_known_by_name_in_any_case) {

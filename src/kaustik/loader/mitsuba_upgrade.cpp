@@ -180,6 +180,20 @@ void upgrade_grid(Object& object) {
     object.properties.push_back({"use_grid_bbox", true, object.place});
 }
 
+/// What no metal was named of was copper.
+void upgrade_conductor(Object& object) {
+  if (object.family != "bsdf" || (object.type != "conductor" && object.type != "roughconductor"))
+    return;
+  const auto tells_metal = [](const auto& part) {
+    return part.name == "material" || part.name == "eta" || part.name == "k" ||
+           part.name == "reflectance";
+  };
+  if (std::any_of(object.properties.begin(), object.properties.end(), tells_metal) ||
+      std::any_of(object.children.begin(), object.children.end(), tells_metal))
+    return;
+  object.properties.push_back({"material", std::string("cu"), object.place});
+}
+
 }  // namespace
 
 Version parse_version(std::string_view text) {
@@ -230,6 +244,7 @@ void upgrade_object(Object& object, const std::string& written_type, Version ver
   if (version < first_with_snake_case) {
     upgrade_texture(object, problems);
     upgrade_grid(object);
+    if (written_type != "mirror") upgrade_conductor(object);
   }
   if (version < first_of_mitsuba_0_4) upgrade_field_of_view(object);
 }

@@ -33,7 +33,8 @@ std::string upgraded_name(const std::string& name, const Object& parent, Version
 
 /// Upgrades what more than one property says, or the type as it was written, or values: the
 /// placement of a texture (uoffset, voffset, uscale, vscale, uvscale), the names of its filter and
-/// of what lies outside of a picture, and which side of the picture a camera's field of view is.
+/// of what lies outside of a picture, which side of the picture a camera's field of view is, where
+/// a grid lies, and conductors without material, eta and k, which were of copper before version 2.
 void upgrade_object(Object& object, const std::string& written_type, Version version,
                     Problems& problems);
 

@@ -1,4 +1,8 @@
+#include <fmt/format.h>
+
+#include "kaustik/material/blend.h"
 #include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/lobe_event.h"
 
 namespace kaustik {
 namespace {
@@ -83,8 +87,14 @@ class BlendBsdf final : public Bsdf {
     const Spectrum diffuse = first.diffuse * (1 - w) + second.diffuse * w;
     const Spectrum glossy = first.glossy * (1 - w) + second.glossy * w;
     const float pdf = first.pdf * (1 - chance) + second.pdf * chance;
-    sample.pdf_solid_angle = pdf;
-    return {with_event(sample, diffuse, glossy, rest), diffuse, glossy, pdf};
+    // What the choice of the lobe has left of `rest` are its lower digits.
+    const float digits = rest * 4096 - std::floor(rest * 4096);
+    BsdfSample drawn =
+        sample_with_event(sample.wi, diffuse, glossy, pdf, sample.transmission, digits);
+    if (drawn.event == Lobes::none) return {};
+    drawn.eta = sample.eta;
+    drawn.only_lane = sample.only_lane;
+    return {drawn, diffuse, glossy, pdf};
   }
 
   static void find_values(const Bsdf& bsdf, const BsdfContext& context, const Vec3f& wo,
@@ -93,22 +103,6 @@ class BlendBsdf final : public Bsdf {
     choice.pdf = bsdf.pdf(context, wo, wi, lobes);
     choice.diffuse = bsdf.eval(context, wo, wi, lobes & Lobes::diffuse);
     choice.glossy = bsdf.eval(context, wo, wi, lobes & Lobes::glossy);
-  }
-
-  /// The event, diffuse or glossy, drawn by the shares of the two in f, with its weight. What the
-  /// choice of the lobe has left of `u` are its lower digits.
-  static BsdfSample with_event(BsdfSample sample, const Spectrum& diffuse, const Spectrum& glossy,
-                               float u) {
-    const float total = diffuse.sum() + glossy.sum();
-    if (!(total > 0) || !(sample.pdf_solid_angle > 0)) return {};
-    const float diffuse_share = diffuse.sum() / total;
-    const float digits = u * 4096 - std::floor(u * 4096);
-    const bool is_diffuse = digits < diffuse_share;
-    sample.event = is_diffuse ? Lobes::diffuse : Lobes::glossy;
-    const float cosine = std::fabs(sample.wi.z) / sample.pdf_solid_angle;
-    sample.weight =
-        is_diffuse ? diffuse * (cosine / diffuse_share) : glossy * (cosine / (1 - diffuse_share));
-    return sample;
   }
 
   /// What a texture says beyond 1 is 1.
@@ -140,14 +134,26 @@ const TypeInfo& blend_info() {
 }
 
 std::shared_ptr<const Bsdf> create_blend(const BsdfInputs& inputs) {
-  for (const auto& nested : inputs.nested)
-    if (nested->relief(true) || nested->relief(false))
-      throw Error(ErrorKind::input, "bsdf 'blendbsdf' holds one with a bump or normal map",
-                  "put the bump map around the 'blendbsdf'", inputs.arguments.place());
-  return std::make_shared<BlendBsdf>(inputs.nested[0], inputs.nested[1], inputs.texture("weight"));
+  refuse_reliefs_in_blend(inputs);
+  return make_blend(inputs.nested[0], inputs.nested[1], inputs.texture("weight"));
 }
 
 }  // namespace
+
+std::shared_ptr<const Bsdf> make_blend(std::shared_ptr<const Bsdf> first,
+                                       std::shared_ptr<const Bsdf> second,
+                                       std::shared_ptr<const Texture> weight) {
+  return std::make_shared<BlendBsdf>(std::move(first), std::move(second), std::move(weight));
+}
+
+void refuse_reliefs_in_blend(const BsdfInputs& inputs) {
+  const std::string& type = inputs.arguments.info().name;
+  for (const auto& nested : inputs.nested)
+    if (nested->relief(true) || nested->relief(false))
+      throw Error(ErrorKind::input,
+                  fmt::format("bsdf '{}' holds one with a bump or normal map", type),
+                  fmt::format("put the bump map around the '{}'", type), inputs.arguments.place());
+}
 
 BsdfType blendbsdf_type() { return {blend_info(), 2, 2, create_blend}; }
 

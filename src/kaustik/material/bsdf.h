@@ -74,6 +74,7 @@ class BsdfContext {
     texture_ = texture;
     wavelengths_ = wavelengths;
     known_ = 0;
+    known_numbers_ = 0;
   }
   /// What the texture gives there as a colour …
   Spectrum value_of(const Texture& texture) const {
@@ -83,10 +84,18 @@ class BsdfContext {
   float scalar_of(const Texture& texture) const {
     return remembered(&texture, 1, [&] { return Spectrum(texture.scalar(texture_)); })[0];
   }
-  /// A number that a bsdf finds for the point, with much work, whatever the directions.
+  /// A number that a bsdf finds for the point, with much work, whatever the directions; `key` is
+  /// the address of something of its own. Textures, however many, don't crowd it out.
   template <typename Ask>
-  float number_of(const void* bsdf, const Ask& ask) const {
-    return remembered(bsdf, 2, [&] { return Spectrum(ask()); })[0];
+  float number_of(const void* key, const Ask& ask) const {
+    for (size_t i = 0; i < known_numbers_; ++i)
+      if (number_keys_[i] == key) return numbers_[i];
+    const float number = ask();
+    if (known_numbers_ < numbers_.size()) {
+      number_keys_[known_numbers_] = key;
+      numbers_[known_numbers_++] = number;
+    }
+    return number;
   }
 
   TransportMode mode = TransportMode::radiance;
@@ -111,6 +120,9 @@ class BsdfContext {
   mutable size_t known_ = 0;
   mutable std::array<uintptr_t, 8> keys_{};
   mutable std::array<Spectrum, 8> values_{};
+  mutable size_t known_numbers_ = 0;
+  mutable std::array<const void*, 4> number_keys_{};
+  mutable std::array<float, 4> numbers_{};
 };
 
 /// A direction that a bsdf has chosen. The event is drawn by the shares of the lobes in f at wi,
@@ -198,6 +210,8 @@ struct BsdfInputs {
   /// In the order of the file.
   std::vector<std::shared_ptr<const Bsdf>> nested;
   TextureOfParameter texture;
+  /// Tells the user, once per message, what is not quite as the scene asks for.
+  std::function<void(const std::string&)> warn = [](const std::string&) {};
 };
 
 struct BsdfType {
@@ -210,9 +224,13 @@ struct BsdfType {
 std::shared_ptr<const Texture> constant_texture_of(const Arguments& arguments,
                                                    std::string_view name);
 
-/// "diffuse", "roughdiffuse", "phong", "thinphong", "difftrans", "dielectric", "roughdielectric",
-/// "thindielectric", "conductor", "roughconductor", "plastic", "roughplastic", "principled",
-/// "twosided", "mask", "blendbsdf", "bumpmap", "normalmap", "null".
+/// "diffuse", "roughdiffuse", "phong", "thinphong", "ward", "difftrans", "dielectric",
+/// "roughdielectric", "thindielectric", "conductor", "roughconductor", "plastic", "roughplastic",
+/// "pplastic", "principled", "principledthin", "openpbr", "twosided", "mask", "blendbsdf",
+/// "mixturebsdf", "coating", "roughcoating", "bumpmap", "normalmap", "null".
 const std::vector<BsdfType>& bsdf_types();
+
+/// What to do about a type of Mitsuba's that is still to be built; empty if it is no such type.
+std::string_view remedy_for_bsdf_to_come(std::string_view type);
 
 }  // namespace kaustik

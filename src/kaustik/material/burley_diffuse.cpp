@@ -1,6 +1,9 @@
 #include "kaustik/material/burley_diffuse.h"
 
+
 #include <array>
+
+#include "kaustik/material/schlick.h"
 
 namespace kaustik {
 namespace {

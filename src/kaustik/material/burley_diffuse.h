@@ -3,12 +3,6 @@
 
 namespace kaustik {
 
-/// (1 − cosine)⁵, what Schlick's approximation weights grazing light with.
-inline float schlick_weight(float cosine) {
-  const float m = std::clamp(1 - cosine, 0.0f, 1.0f), m_sq = m * m;
-  return m_sq * m_sq * m;
-}
-
 /// The broad lobes of Burley, "Physically Based Shading at Disney" (2012) and "Extending the Disney
 /// BRDF to a BSDF with Integrated Subsurface Scattering" (2015), for directions on the outer side.
 /// All are reciprocal. Of colour and weights the caller knows.

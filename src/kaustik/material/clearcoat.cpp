@@ -1,7 +1,8 @@
 #include "kaustik/material/clearcoat.h"
 
-#include "kaustik/material/burley_diffuse.h"
 #include "kaustik/material/facet_scattering.h"
+#include "kaustik/material/schlick.h"
+#include "kaustik/material/shared_by_key.h"
 
 namespace kaustik {
 namespace {
@@ -46,15 +47,19 @@ Vec3f Clearcoat::sample(const Vec3f& wo, const Vec2f& u) const {
   return reflected_by({sine * std::cos(phi), sine * std::sin(phi), safe_sqrt(cos_sq)}, wo);
 }
 
-float Clearcoat::albedo(float gloss, const Vec3f& wo) {
-  static const AlbedoTables tables(
-      0, 1, true, [](float gloss_of_table, const Vec3f& from, const Vec2f& u) {
-        const Clearcoat coat(gloss_of_table, 1.5f);
-        const Vec3f wi = coat.sample(from, u);
-        const float pdf = wi.z > 0 ? coat.pdf(from, wi) : 0.0f;
-        return Spectrum(pdf > 0 ? coat.eval(from, wi) * wi.z / pdf : 0.0f);
-      });
-  return tables(std::clamp(gloss, 0.0f, 1.0f), wo)[0];
+std::shared_ptr<const AlbedoTables> clearcoat_albedos(float eta) {
+  static SharedByKey<float, AlbedoTables> all;
+  // From 1 on it makes no difference.
+  const float key = std::min(eta, 1.0f);
+  return all.get(key, [&] {
+    return std::make_shared<const AlbedoTables>(
+        0.0f, 1.0f, true, [key](float gloss, const Vec3f& from, const Vec2f& u) {
+          const Clearcoat coat(gloss, key);
+          const Vec3f wi = coat.sample(from, u);
+          const float pdf = wi.z > 0 ? coat.pdf(from, wi) : 0.0f;
+          return Spectrum(pdf > 0 ? coat.eval(from, wi) * wi.z / pdf : 0.0f);
+        });
+  });
 }
 
 }  // namespace kaustik

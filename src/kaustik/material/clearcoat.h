@@ -1,4 +1,6 @@
 #pragma once
+#include <memory>
+
 #include "kaustik/material/albedo_table.h"
 
 namespace kaustik {
@@ -16,13 +18,15 @@ class Clearcoat {
   float pdf(const Vec3f& wo, const Vec3f& wi) const;
   /// May lie on the inner side.
   Vec3f sample(const Vec3f& wo, const Vec2f& u) const;
-  /// Directional albedo, good to some percent.
-  static float albedo(float gloss, const Vec3f& wo);
 
  private:
   float density(const Vec3f& m) const;
 
   float alpha_sq_, eta_;
 };
+
+/// Directional albedos of such coats by their gloss, 0 … 1, good to some percent; one for all with
+/// the same `eta`.
+std::shared_ptr<const AlbedoTables> clearcoat_albedos(float eta);
 
 }  // namespace kaustik

@@ -7,9 +7,9 @@ namespace {
 /// Smooth metal; black seen from behind.
 class Conductor final : public Bsdf {
  public:
-  Conductor(const SpectralIor& ior, std::shared_ptr<const Texture> reflectance)
-      : Bsdf({.lobes = Lobes::delta, .needs = texture_needs({reflectance.get()})}),
-        ior_(ior),
+  Conductor(MetalFresnel metal, std::shared_ptr<const Texture> reflectance)
+      : Bsdf({.lobes = Lobes::delta, .needs = metal.needs() | texture_needs({reflectance.get()})}),
+        metal_(std::move(metal)),
         reflectance_(std::move(reflectance)) {}
 
   Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override {
@@ -30,12 +30,11 @@ class Conductor final : public Bsdf {
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (!any(lobes & Lobes::delta) || wo.z <= 0) return Spectrum();
-    return context.value_of(*reflectance_) *
-           fresnel_conductor(wo.z, ior_.at(context.wavelengths()));
+    return context.value_of(*reflectance_) * fresnel_conductor(wo.z, metal_.at(context));
   }
 
  private:
-  SpectralIor ior_;
+  MetalFresnel metal_;
   std::shared_ptr<const Texture> reflectance_;
 };
 
@@ -47,7 +46,7 @@ const TypeInfo& conductor_info() {
 }
 
 std::shared_ptr<const Bsdf> create_conductor(const BsdfInputs& inputs) {
-  return std::make_shared<Conductor>(conductor_ior(inputs.arguments),
+  return std::make_shared<Conductor>(metal_fresnel_of(inputs),
                                      inputs.texture("specular_reflectance"));
 }
 

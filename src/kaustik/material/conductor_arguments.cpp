@@ -29,10 +29,26 @@ std::vector<Parameter> conductor_parameters() {
               .range(0, 1000),
           optional(color_parameter("k", 1, "Imaginary part of the index of refraction."))
               .range(0, 1000),
+          optional(number_or_name_parameter(
+                       "ext_eta", Value(std::string("air")), dielectric_names(),
+                       "Mitsuba 0.6: index of the surroundings, which eta and k are divided by."))
+              .range(0.01, 100),
+          optional(color_parameter("reflectance", 0.9,
+                                   "Share that is reflected at normal incidence, instead of a "
+                                   "material or of eta and k."))
+              .range(0, 1)
+              .textured(),
+          optional(color_parameter("edge_tint", 1,
+                                   "With reflectance: how much is reflected toward the edge; 1, "
+                                   "which is usual: as much as a metal can."))
+              .range(0, 1)
+              .textured(),
           specular_reflectance_parameter()};
 }
 
-SpectralIor conductor_ior(const Arguments& arguments) {
+namespace {
+
+SpectralIor given_ior(const Arguments& arguments) {
   const bool has_eta = arguments.given("eta"), has_k = arguments.given("k");
   if (!has_eta && !has_k) return conductor_ior(arguments.text("material"));
   if (arguments.given("material") && arguments.text("material") != "none")
@@ -58,6 +74,35 @@ SpectralIor conductor_ior(const Arguments& arguments) {
       throw Error(ErrorKind::input, "'eta' and 'k' are both 0 in one channel",
                   "use material 'none' for a perfect mirror", arguments.place_of("eta"));
   return ior;
+}
+
+/// As given by name, or by eta and k.
+bool has_ior(const Arguments& arguments) {
+  return (arguments.given("material") && arguments.text("material") != "none") ||
+         arguments.given("eta") || arguments.given("k");
+}
+
+}  // namespace
+
+MetalFresnel metal_fresnel_of(const BsdfInputs& inputs) {
+  const Arguments& arguments = inputs.arguments;
+  const auto reflectance = inputs.texture("reflectance");
+  auto edge = inputs.texture("edge_tint");
+  if (!reflectance) {
+    if (edge)
+      throw Error(ErrorKind::input, "'edge_tint' is given without 'reflectance'",
+                  "give both, or reflectance alone", arguments.place_of("edge_tint"));
+    const SpectralIor ior = given_ior(arguments);
+    if (!arguments.given("ext_eta")) return MetalFresnel(ior);
+    const float inverse = 1 / dielectric_ior_of(arguments, "ext_eta").rgb()[0];
+    return MetalFresnel(SpectralIor{ior.eta * inverse, ior.k * inverse});
+  }
+  if (has_ior(arguments) || arguments.given("ext_eta"))
+    throw Error(ErrorKind::input,
+                "'reflectance' is given together with 'material', 'eta', 'k' or 'ext_eta'",
+                "keep the reflectance or the others", arguments.place_of("reflectance"));
+  if (!edge) edge = make_constant_texture(SpectralValue(1.0f));
+  return {reflectance, std::move(edge)};
 }
 
 }  // namespace kaustik

@@ -1,12 +1,13 @@
 #pragma once
-#include "kaustik/material/fresnel.h"
+#include "kaustik/material/metal_fresnel.h"
 
 namespace kaustik {
 
-/// The rows that all conductors share: material, eta, k, specular_reflectance.
+/// The rows that all conductors share: material, eta, k, ext_eta, reflectance, edge_tint,
+/// specular_reflectance.
 std::vector<Parameter> conductor_parameters();
-/// What they say. Throws Error(input) if both a material and eta or k are given, or only one of
-/// these.
-SpectralIor conductor_ior(const Arguments& arguments);
+/// What they say. Throws Error(input) if a metal is given twice (by its name, by eta and k, by its
+/// colours), or one of eta and k alone, or edge_tint alone.
+MetalFresnel metal_fresnel_of(const BsdfInputs& inputs);
 
 }  // namespace kaustik

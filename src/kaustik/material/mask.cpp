@@ -1,10 +1,10 @@
+#include "kaustik/material/mask.h"
+
 #include "kaustik/material/bsdf_kinds.h"
 
 namespace kaustik {
 namespace {
 
-/// A surface with holes: light meets the nested bsdf by the chance `opacity` and goes straight on
-/// otherwise, a delta event.
 class Mask final : public Bsdf {
  public:
   Mask(std::shared_ptr<const Bsdf> nested, std::shared_ptr<const Texture> opacity)
@@ -86,10 +86,15 @@ const TypeInfo& mask_info() {
 }
 
 std::shared_ptr<const Bsdf> create_mask(const BsdfInputs& inputs) {
-  return std::make_shared<Mask>(inputs.nested.front(), inputs.texture("opacity"));
+  return make_mask(inputs.nested.front(), inputs.texture("opacity"));
 }
 
 }  // namespace
+
+std::shared_ptr<const Bsdf> make_mask(std::shared_ptr<const Bsdf> nested,
+                                      std::shared_ptr<const Texture> opacity) {
+  return std::make_shared<Mask>(std::move(nested), std::move(opacity));
+}
 
 BsdfType mask_type() { return {mask_info(), 1, 1, create_mask}; }
 

@@ -14,6 +14,8 @@ class MicrofacetDistribution {
       : kind_(kind), alpha_x_(alpha_x), alpha_y_(alpha_y) {}
 
   bool is_isotropic() const { return alpha_x_ == alpha_y_; }
+  float alpha_x() const { return alpha_x_; }
+  float alpha_y() const { return alpha_y_; }
 
   /// D(m): area of the facets with normal m per area of the surface and solid angle.
   float density(const Vec3f& m) const;

@@ -1,10 +1,9 @@
-#include <fmt/format.h>
-
 #include <array>
 
 #include "kaustik/base/warp.h"
 #include "kaustik/material/albedo_table.h"
 #include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/energy_scale.h"
 #include "kaustik/material/lobe_event.h"
 
 namespace kaustik {
@@ -255,33 +254,10 @@ const TypeInfo& difftrans_info() {
   return info;
 }
 
-/// Throws where constant factors add up to over 1; the scale that keeps textured ones below.
-float energy_scale(const PhongTextures& textures, const Arguments& arguments) {
-  Spectrum sum;
-  float maximum = 0;
-  bool constant = true;
-  for (const Texture* texture : textures.reflecting_and_transmitting()) {
-    sum += texture->mean();
-    maximum += texture->maximum();
-    constant = constant && texture->is_constant();
-  }
-  if (!constant) return 1 / std::max(1.0f, maximum);
-  if (sum.max_lane() > 1 + 1e-5f) {
-    std::vector<std::string> names;
-    for (const Parameter& parameter : arguments.info().parameters)
-      if (parameter.kind == ParameterKind::color) names.push_back("'" + parameter.name + "'");
-    throw Error(ErrorKind::input,
-                fmt::format("{} add up to {:.4g}, more light than arrives",
-                            fmt::join(names, " and "), sum.max_lane()),
-                "make their sum at most 1 in every channel",
-                arguments.place_of(arguments.info().parameters.front().name));
-  }
-  return 1;
-}
-
 std::shared_ptr<const Bsdf> make(PhongTextures textures, const Arguments& arguments,
                                  bool is_sheet) {
-  const float scale = energy_scale(textures, arguments);
+  const auto factors = textures.reflecting_and_transmitting();
+  const float scale = energy_scale({factors.begin(), factors.end()}, arguments);
   return std::make_shared<Phong>(std::move(textures), scale, is_sheet);
 }
 

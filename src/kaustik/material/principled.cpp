@@ -1,46 +1,20 @@
 #include <array>
-#include <map>
-#include <mutex>
 
 #include "kaustik/base/warp.h"
-#include "kaustik/material/albedo_table.h"
 #include "kaustik/material/bsdf_kinds.h"
 #include "kaustik/material/burley_diffuse.h"
+#include "kaustik/material/burley_facets.h"
 #include "kaustik/material/clearcoat.h"
 #include "kaustik/material/facet_scattering.h"
 #include "kaustik/material/lobe_event.h"
+#include "kaustik/material/most_reflected.h"
+#include "kaustik/material/schlick.h"
+#include "kaustik/material/share.h"
 
 namespace kaustik {
 namespace {
 
 using TexturePointer = std::shared_ptr<const Texture>;
-
-/// A parameter that is one number from 0 to 1; a texture is asked only if it varies.
-class Share {
- public:
-  explicit Share(TexturePointer texture)
-      : texture_(std::move(texture)), value_(in_range(texture_->scalar({}))) {}
-  bool is_constant() const { return texture_->is_constant(); }
-  bool is_zero() const { return is_constant() && value_ == 0; }
-  const Texture* texture() const { return texture_.get(); }
-  float at(const BsdfContext& context) const {
-    return is_constant() ? value_ : in_range(context.scalar_of(*texture_));
-  }
-  /// What to look at who wants to know the most that can be.
-  std::vector<float> extremes(int steps) const {
-    if (is_constant()) return {value_};
-    std::vector<float> values;
-    for (int i = 0; i <= steps; ++i) values.push_back(float(i) / float(steps));
-    return values;
-  }
-  float mean() const { return in_range(luminance_of(texture_->mean())); }
-
- private:
-  static float in_range(float value) { return std::clamp(value, 0.0f, 1.0f); }
-
-  TexturePointer texture_;
-  float value_;
-};
 
 struct PrincipledShares {
   Share roughness, anisotropic, metallic, spec_trans, spec_tint, sheen, sheen_tint, flatness,
@@ -66,54 +40,6 @@ struct Look {
   }
 };
 
-MicrofacetDistribution facets_of(float roughness, float anisotropic) {
-  const float aspect = std::sqrt(1 - 0.9f * anisotropic), alpha = roughness * roughness;
-  return {MicrofacetDistribution::Kind::ggx, std::max(1e-3f, alpha / aspect),
-          std::max(1e-3f, alpha * aspect)};
-}
-
-/// Directional albedos of the facets, by roughness: what those reflect that are white (lane 0), the
-/// part of that which Schlick's approximation adds at grazing angles (lane 1), and what those of
-/// glass reflect and transmit (lanes 2 and 3).
-struct FacetAlbedos {
-  AlbedoTables from_outside, from_inside;
-};
-
-AlbedoTables facet_albedos(float eta, float anisotropic, bool outside) {
-  const auto weight = [=](float roughness, const Vec3f& up, const Vec2f& u) {
-    const MicrofacetDistribution facets = facets_of(roughness, anisotropic);
-    const Vec3f m = facets.sample(up, u), wo = outside ? up : -up;
-    const float cos_facet = dot(wo, m);
-    Spectrum shares;
-    if (!(cos_facet * wo.z > 0)) return shares;
-    const DielectricFresnel fresnel = fresnel_dielectric(cos_facet, eta);
-    const Vec3f back = reflected_by(m, wo), on = refracted_by(m, wo, fresnel);
-    if (back.z * wo.z > 0) {
-      const float lit = facets.masking(back);
-      shares.set(0, lit);
-      shares.set(1, lit * schlick_weight(eta >= 1 ? cos_facet : fresnel.cos_transmitted));
-      shares.set(2, lit * fresnel.reflectance);
-    }
-    if (on.z * wo.z < 0) shares.set(3, (1 - fresnel.reflectance) * facets.masking(on));
-    return shares;
-  };
-  return {0, 1, anisotropic == 0, weight};
-}
-
-/// One for all materials that are alike in this.
-std::shared_ptr<const FacetAlbedos> facet_albedos_of(float eta, float anisotropic) {
-  static std::mutex mutex;
-  static std::map<std::pair<float, float>, std::weak_ptr<const FacetAlbedos>> all;
-  const std::lock_guard lock(mutex);
-  std::weak_ptr<const FacetAlbedos>& known = all[{eta, anisotropic}];
-  if (auto albedos = known.lock()) return albedos;
-  const auto made = std::make_shared<const FacetAlbedos>(
-      FacetAlbedos{.from_outside = facet_albedos(eta, anisotropic, true),
-                   .from_inside = facet_albedos(eta, anisotropic, false)});
-  known = made;
-  return made;
-}
-
 /// Burley's model with all its lobes, as in Mitsuba: a matt base with sheen, a facetted surface
 /// that is glass, metal or between, and a clear coat. From behind only what is of glass is seen.
 /// Where the lobes together would reflect more light than arrives, all of them are scaled down.
@@ -128,7 +54,8 @@ class Principled final : public Bsdf {
         shares_(std::move(shares)),
         eta_(eta),
         normal_reflectance_(sqr((eta - 1) / (eta + 1))),
-        facet_albedos_(facet_albedos_of(eta, shares_.anisotropic.mean())) {
+        facet_albedos_(burley_albedos(eta, shares_.anisotropic.mean())),
+        coat_albedos_(clearcoat_albedos(eta)) {
     find_scale();
   }
 
@@ -162,7 +89,7 @@ class Principled final : public Bsdf {
     } else {
       if (!(chances.facets > 0)) return {};
       rest = std::min((rest - chances.coat) / chances.facets, one_minus_epsilon);
-      const Vec3f m = sample_facet(facets_of(look.roughness, look.anisotropic), wo, u);
+      const Vec3f m = sample_facet(burley_facets(look.roughness, look.anisotropic), wo, u);
       const float cos_facet = dot(wo, m);
       if (!(cos_facet * wo.z > 0)) return {};
       const DielectricFresnel fresnel = fresnel_dielectric(cos_facet, eta_);
@@ -276,7 +203,7 @@ class Principled final : public Bsdf {
     if ((!is_front || is_through) && !(look.clear() > 0)) return result;
     const bool has_gloss = any(lobes & Lobes::glossy);
     const Chances chances = chances_of(look, wo, lobes), reverse = chances_of(look, wi, lobes);
-    const MicrofacetDistribution facets = facets_of(look.roughness, look.anisotropic);
+    const MicrofacetDistribution facets = burley_facets(look.roughness, look.anisotropic);
     if (is_through) {
       if (!has_gloss) return result;
       const double ratio = eta_, eta = is_front ? ratio : 1 / ratio;
@@ -363,7 +290,7 @@ class Principled final : public Bsdf {
     if (look.sheen > 0) albedos.matt += sheen_color(context, look) * burley_sheen_albedo(wo.z);
     if (look.clearcoat > 0)
       albedos.coat =
-          white(context) * (look.clearcoat * Clearcoat::albedo(look.clearcoat_gloss, wo));
+          white(context) * (look.clearcoat * (*coat_albedos_)(look.clearcoat_gloss, wo)[0]);
     return albedos;
   }
 
@@ -380,20 +307,16 @@ class Principled final : public Bsdf {
     return {chances.matt / total, chances.coat / total, chances.facets / total};
   }
 
-  /// The largest sum of the directional albedos of all lobes.
-  float most_reflected(const Look& look) const {
-    float most = 0;
-    for (const float cosine : {1.0f, 0.6f, 0.3f, 0.15f, 0.08f, 0.04f, 0.02f, 0.01f}) {
-      const Albedos albedos = albedos_of({}, look, {safe_sqrt(1 - cosine * cosine), 0, cosine});
-      most = std::max(
-          most, (albedos.matt + albedos.reflected + albedos.transmitted + albedos.coat).max_lane());
-    }
-    return most;
+  float most_reflected_by(const Look& look) const {
+    return most_reflected([&](const Vec3f& wo) {
+      const Albedos albedos = albedos_of({}, look, wo);
+      return albedos.matt + albedos.reflected + albedos.transmitted + albedos.coat;
+    });
   }
   /// Of all lobes, so that no more is reflected than arrives.
   float scale_of(const BsdfContext& context, const Look& look) const {
     if (constant_scale_ > 0) return constant_scale_;
-    return context.number_of(this, [&] { return 1 / std::max(1.0f, most_reflected(look)); });
+    return context.number_of(this, [&] { return 1 / std::max(1.0f, most_reflected_by(look)); });
   }
   /// Sets constant_scale_ where it is the same everywhere: all parameters are constant, or the most
   /// that textures may say is no more than arrives. Albedos are linear in metallic, spec_trans,
@@ -404,7 +327,7 @@ class Principled final : public Bsdf {
     for (const Share* share : shares_.all()) is_constant = is_constant && share->is_constant();
     Look look = look_at({});
     if (is_constant) {
-      constant_scale_ = 1 / std::max(1.0f, most_reflected(look));
+      constant_scale_ = 1 / std::max(1.0f, most_reflected_by(look));
       return;
     }
     if (!base_color_->is_constant()) {
@@ -427,7 +350,7 @@ class Principled final : public Bsdf {
                   look.sheen_tint = sheen_tint;
                   look.flatness = flatness;
                   look.clearcoat_gloss = gloss;
-                  if (most_reflected(look) > 1) return;
+                  if (most_reflected_by(look) > 1) return;
                 }
     constant_scale_ = 1;
   }
@@ -436,7 +359,8 @@ class Principled final : public Bsdf {
   PrincipledShares shares_;
   float eta_;                 ///< n_interior/n_exterior
   float normal_reflectance_;  ///< of glass
-  std::shared_ptr<const FacetAlbedos> facet_albedos_;
+  std::shared_ptr<const BurleyAlbedos> facet_albedos_;
+  std::shared_ptr<const AlbedoTables> coat_albedos_;
   float constant_scale_ = 0;  ///< 0: it has to be found at each point
 };
 

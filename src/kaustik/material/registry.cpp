@@ -3,26 +3,34 @@
 namespace kaustik {
 
 const std::vector<BsdfType>& bsdf_types() {
-  static const std::vector<BsdfType> types = {diffuse_type(),
-                                              roughdiffuse_type(),
-                                              phong_type(),
-                                              thinphong_type(),
-                                              difftrans_type(),
-                                              dielectric_type(),
-                                              roughdielectric_type(),
-                                              thindielectric_type(),
-                                              conductor_type(),
-                                              roughconductor_type(),
-                                              plastic_type(),
-                                              roughplastic_type(),
-                                              principled_type(),
-                                              twosided_type(),
-                                              mask_type(),
-                                              blendbsdf_type(),
-                                              bumpmap_type(),
-                                              normalmap_type(),
-                                              null_type()};
+  static const std::vector<BsdfType> types = {
+      diffuse_type(),        roughdiffuse_type(), phong_type(),          thinphong_type(),
+      ward_type(),           difftrans_type(),    dielectric_type(),     roughdielectric_type(),
+      thindielectric_type(), conductor_type(),    roughconductor_type(), plastic_type(),
+      roughplastic_type(),   pplastic_type(),     principled_type(),     principledthin_type(),
+      openpbr_type(),        twosided_type(),     mask_type(),           blendbsdf_type(),
+      mixturebsdf_type(),    coating_type(),      roughcoating_type(),   bumpmap_type(),
+      normalmap_type(),      null_type()};
   return types;
+}
+
+std::string_view remedy_for_bsdf_to_come(std::string_view type) {
+  struct Row {
+    std::string_view type, remedy;
+  };
+  static constexpr Row rows[] = {
+      {"hair", "it comes later; use 'principled' or 'roughplastic', or leave the hair out"},
+      {"measured", "it comes later; use 'principled' or 'roughconductor' with a like colour"},
+      {"measured_polarized", "light is not polarised; use 'principled' with a like colour"},
+      {"bsdfdata", "it comes later; use 'thinphong' with its mean reflectance and transmittance"},
+      {"polarizer", "light is not polarised; use 'mask' of opacity 0.5 around a black 'diffuse'"},
+      {"retarder", "light is not polarised; use 'null'"},
+      {"circular", "light is not polarised; use 'mask' of opacity 0.5 around a black 'diffuse'"},
+      {"hk", "it comes later; use 'difftrans' or 'thinphong' with a like colour"},
+      {"irawan", "it comes later; use 'principled' with sheen"}};
+  for (const Row& row : rows)
+    if (row.type == type) return row.remedy;
+  return {};
 }
 
 const std::vector<TextureType>& texture_types() {

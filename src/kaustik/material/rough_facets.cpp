@@ -1,17 +1,15 @@
 #include "kaustik/material/rough_facets.h"
 
-namespace kaustik {
-namespace {
+#include <fmt/format.h>
 
-/// The row of a roughness; `name` is alpha, alpha_u or alpha_v.
+namespace kaustik {
+
 Parameter alpha_parameter(const std::string& name, const std::string& sentence) {
   return number_parameter(name, 0.1, sentence).range(0, RoughFacets::largest_alpha).textured();
 }
 
-}  // namespace
-
 Parameter distribution_parameter() {
-  return choice_parameter("distribution", "beckmann", {"beckmann", "ggx"},
+  return choice_parameter("distribution", "beckmann", {"beckmann", "ggx", "phong", "as"},
                           "Distribution of the normals of the microscopic facets.");
 }
 
@@ -20,9 +18,13 @@ Parameter sample_visible_parameter() {
                            "No effect: facets that can be seen are always the ones sampled.");
 }
 
-RoughFacets::Kind facet_kind_of(const Arguments& arguments) {
-  return arguments.text("distribution") == "ggx" ? RoughFacets::Kind::ggx
-                                                 : RoughFacets::Kind::beckmann;
+RoughFacets::Kind facet_kind_of(const BsdfInputs& inputs) {
+  const std::string& name = inputs.arguments.text("distribution");
+  if (name == "ggx") return RoughFacets::Kind::ggx;
+  if (name != "beckmann")
+    inputs.warn(fmt::format("distribution '{}' of bsdf '{}' is 'beckmann' of the same alpha here",
+                            name, inputs.arguments.info().name));
+  return RoughFacets::Kind::beckmann;
 }
 
 std::vector<Parameter> rough_facets_parameters() {
@@ -35,7 +37,7 @@ std::vector<Parameter> rough_facets_parameters() {
 
 RoughFacets rough_facets_of(const BsdfInputs& inputs) {
   const Arguments& arguments = inputs.arguments;
-  const auto kind = facet_kind_of(arguments);
+  const auto kind = facet_kind_of(inputs);
   auto u = inputs.texture("alpha_u"), v = inputs.texture("alpha_v");
   if (!u && !v) {
     auto alpha = inputs.texture("alpha");
@@ -48,9 +50,7 @@ RoughFacets rough_facets_of(const BsdfInputs& inputs) {
     throw Error(ErrorKind::input,
                 u ? "'alpha_u' is given without 'alpha_v'" : "'alpha_v' is given without 'alpha_u'",
                 "give both, or alpha alone", arguments.place_of(u ? "alpha_u" : "alpha_v"));
-  // Isotropic facets are told by one texture for both.
-  if (u->is_constant() && v->is_constant() && u->mean() == v->mean()) v = u;
-  return {kind, std::move(u), std::move(v)};
+  return RoughFacets::of_pair(kind, std::move(u), std::move(v));
 }
 
 }  // namespace kaustik

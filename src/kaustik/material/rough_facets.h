@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <memory>
 #include <vector>
 
@@ -8,6 +9,20 @@
 #include "kaustik/material/microfacet.h"
 
 namespace kaustik {
+
+/// Which roughnesses facets have: all that the albedos of what is made of them depend on.
+struct FacetRange {
+  MicrofacetDistribution::Kind kind = MicrofacetDistribution::Kind::beckmann;
+  float least_log_alpha = 0, largest_log_alpha = 0;  ///< along u
+  bool is_isotropic = true;
+  float across = 0;  ///< the mean one along v where it differs
+
+  MicrofacetDistribution at(float log_alpha) const {
+    const float alpha = std::exp2(log_alpha);
+    return {kind, alpha, is_isotropic ? alpha : across};
+  }
+  friend auto operator<=>(const FacetRange&, const FacetRange&) = default;
+};
 
 /// Microscopic facets whose roughness varies over the surface. What a number or a texture says
 /// beyond least_alpha and largest_alpha is taken to these ends: black paint means as smooth as can
@@ -22,6 +37,13 @@ class RoughFacets {
   RoughFacets(Kind kind, TexturePointer alpha_u, TexturePointer alpha_v)
       : kind_(kind), alpha_u_(std::move(alpha_u)), alpha_v_(std::move(alpha_v)) {}
 
+  /// The same where both may be the same constant, which then is isotropic.
+  static RoughFacets of_pair(Kind kind, TexturePointer alpha_u, TexturePointer alpha_v) {
+    if (alpha_u->is_constant() && alpha_v->is_constant() && alpha_u->mean() == alpha_v->mean())
+      alpha_v = alpha_u;
+    return {kind, std::move(alpha_u), std::move(alpha_v)};
+  }
+
   bool is_isotropic() const { return alpha_u_ == alpha_v_; }
   SurfaceNeeds needs() const {
     const SurfaceNeeds textures = texture_needs({alpha_u_.get(), alpha_v_.get()});
@@ -34,17 +56,16 @@ class RoughFacets {
   float log_alpha(const BsdfContext& context) const {
     return std::log2(in_range(context.scalar_of(*alpha_u_)));
   }
-  float least_log_alpha() const {
-    return alpha_u_->is_constant() ? log_alpha({}) : std::log2(float(least_alpha));
-  }
-  float largest_log_alpha() const {
-    return alpha_u_->is_constant() ? log_alpha({}) : std::log2(in_range(alpha_u_->maximum()));
-  }
-  /// With a given roughness along u and, where it differs, the mean one along v.
-  MicrofacetDistribution of_log_alpha(float log_alpha) const {
-    const float alpha = std::exp2(log_alpha);
-    const float across = is_isotropic() ? alpha : in_range(luminance_of(alpha_v_->mean()));
-    return {kind_, alpha, across};
+  FacetRange range() const {
+    FacetRange range{.kind = kind_, .is_isotropic = is_isotropic()};
+    if (alpha_u_->is_constant()) {
+      range.least_log_alpha = range.largest_log_alpha = log_alpha({});
+    } else {
+      range.least_log_alpha = std::log2(float(least_alpha));
+      range.largest_log_alpha = std::log2(in_range(alpha_u_->maximum()));
+    }
+    if (!range.is_isotropic) range.across = in_range(luminance_of(alpha_v_->mean()));
+    return range;
   }
 
  private:
@@ -62,9 +83,13 @@ std::vector<Parameter> rough_facets_parameters();
 /// one of these.
 RoughFacets rough_facets_of(const BsdfInputs& inputs);
 
-/// The rows of the distribution and of Mitsuba's choice of sampling, and what the first says.
+/// The rows of the distribution and of Mitsuba's choice of sampling, and what the first says. Of
+/// Mitsuba 0.6 are "phong" and "as" (Ashikhmin and Shirley's): there, too, their exponents come
+/// from alpha, as 2/alpha² − 2. They are Beckmann's here, which is nearly the same, with a warning.
 Parameter distribution_parameter();
 Parameter sample_visible_parameter();
-RoughFacets::Kind facet_kind_of(const Arguments& arguments);
+RoughFacets::Kind facet_kind_of(const BsdfInputs& inputs);
+/// The row of a roughness; `name` is alpha, alpha_u or alpha_v.
+Parameter alpha_parameter(const std::string& name, const std::string& sentence);
 
 }  // namespace kaustik

@@ -1,8 +1,11 @@
 #include "kaustik/material/rough_interface.h"
 
+#include <utility>
+
 #include "kaustik/base/sampler.h"
 #include "kaustik/base/warp.h"
 #include "kaustik/material/facet_scattering.h"
+#include "kaustik/material/shared_by_key.h"
 
 namespace kaustik {
 namespace {
@@ -18,6 +21,31 @@ float reflection_chance(float reflectance, const InterfaceFactors& factors) {
   return 1 - transmission_chance(1 - reflectance, factors);
 }
 
+/// An estimate of the directional albedo, from a facet that is drawn: lane 0 has what it reflects,
+/// lane 1 what it transmits.
+Spectrum interface_shares(const MicrofacetDistribution& facets, float ratio, const Vec3f& wo,
+                          const Vec2f& u) {
+  const Vec3f m = sample_facet(facets, wo, u);
+  const float cos_o = dot(wo, m), pdf = facets.pdf(wo, m);
+  Spectrum shares;
+  if (!(cos_o * wo.z > 0) || !(pdf > 0)) return shares;
+  const DielectricFresnel fresnel = fresnel_dielectric(cos_o, ratio);
+  const float seen = facets.density(m) * facets.masking(wo) * cos_o / (wo.z * pdf);
+  const Vec3f back = reflected_by(m, wo), through = refracted_by(m, wo, fresnel);
+  if (back.z * wo.z > 0) shares.set(0, fresnel.reflectance * seen * facets.masking(back));
+  if (through.z * wo.z < 0)
+    shares.set(1, (1 - fresnel.reflectance) * seen * facets.masking(through));
+  return shares;
+}
+
+/// Of light that arrives from outside (or inside).
+AlbedoTables tables_of_interface(const FacetRange& facets, float ratio, bool outside) {
+  return {facets.least_log_alpha, facets.largest_log_alpha, facets.is_isotropic,
+          [=](float log_alpha, const Vec3f& up, const Vec2f& u) {
+            return interface_shares(facets.at(log_alpha), ratio, outside ? up : -up, u);
+          }};
+}
+
 }  // namespace
 
 RoughInterface::RoughInterface(RoughFacets facets, const SpectralValue& interior,
@@ -26,8 +54,7 @@ RoughInterface::RoughInterface(RoughFacets facets, const SpectralValue& interior
       interior_(interior),
       exterior_(exterior),
       is_dispersive_(!interior.is_constant() || !exterior.is_constant()),
-      from_outside_(albedo_tables(true)),
-      from_inside_(albedo_tables(false)) {}
+      albedos_(InterfaceAlbedos::of(facets_.range(), interior.rgb()[0] / exterior.rgb()[0])) {}
 
 RoughInterface::Ratios RoughInterface::ratios_at(const Wavelengths& wavelengths) const {
   return {interior_.at(wavelengths) / exterior_.at(wavelengths),
@@ -141,44 +168,51 @@ BsdfSample RoughInterface::sample(const BsdfContext& context, const InterfaceFac
 }
 
 InterfaceAlbedo RoughInterface::albedo(const BsdfContext& context, const Vec3f& wo) const {
+  return albedos_->at(facets_.log_alpha(context), wo);
+}
+
+InterfaceAlbedos::InterfaceAlbedos(const FacetRange& facets, float ratio)
+    : facets_(facets),
+      ratio_(ratio),
+      from_outside_(tables_of_interface(facets, ratio, true)),
+      from_inside_(tables_of_interface(facets, ratio, false)) {}
+
+std::shared_ptr<const InterfaceAlbedos> InterfaceAlbedos::of(const FacetRange& facets,
+                                                             float ratio) {
+  static SharedByKey<std::pair<FacetRange, float>, InterfaceAlbedos> all;
+  return all.get({facets, ratio},
+                 [&] { return std::make_shared<const InterfaceAlbedos>(facets, ratio); });
+}
+
+InterfaceAlbedo InterfaceAlbedos::at(float log_alpha, const Vec3f& wo) const {
   const AlbedoTables& tables = wo.z > 0 ? from_outside_ : from_inside_;
-  const Spectrum shares = tables(facets_.log_alpha(context), wo.z > 0 ? wo : -wo);
+  const Spectrum shares = tables(log_alpha, wo.z > 0 ? wo : -wo);
   return {shares[0], shares[1]};
 }
 
-Spectrum RoughInterface::shares_of(const MicrofacetDistribution& facets, const Vec3f& wo,
-                                   const Vec2f& u) const {
-  const Vec3f m = sample_facet(facets, wo, u);
-  const float cos_o = dot(wo, m), pdf = facets.pdf(wo, m);
-  Spectrum shares;
-  if (!(cos_o * wo.z > 0) || !(pdf > 0)) return shares;
-  const DielectricFresnel fresnel =
-      fresnel_dielectric(cos_o, interior_.rgb()[0] / exterior_.rgb()[0]);
-  const float seen = facets.density(m) * facets.masking(wo) * cos_o / (wo.z * pdf);
-  const Vec3f back = reflected_by(m, wo), through = refracted_by(m, wo, fresnel);
-  if (back.z * wo.z > 0) shares.set(0, fresnel.reflectance * seen * facets.masking(back));
-  if (through.z * wo.z < 0)
-    shares.set(1, (1 - fresnel.reflectance) * seen * facets.masking(through));
-  return shares;
+const EvenLightShares& InterfaceAlbedos::of_even_light() const {
+  std::call_once(once_, [this] { even_light_ = find_even_light(); });
+  return even_light_;
 }
 
-AlbedoTables RoughInterface::albedo_tables(bool outside) const {
-  return {facets_.least_log_alpha(), facets_.largest_log_alpha(), facets_.is_isotropic(),
-          [this, outside](float log_alpha, const Vec3f& up, const Vec2f& u) {
-            return shares_of(facets_.of_log_alpha(log_alpha), outside ? up : -up, u);
-          }};
-}
-
-InterfaceAlbedo RoughInterface::of_even_light_inside() const {
+EvenLightShares InterfaceAlbedos::find_even_light() const {
+  // What enters by the same tables as light from one direction, so that white is white.
+  constexpr int steps = 512;
+  double enters = 0;
+  for (int i = 0; i < steps; ++i) {
+    const float cosine = (float(i) + 0.5f) / float(steps);
+    const Vec3f wo(safe_sqrt(1 - cosine * cosine), 0, cosine);
+    enters += double(cosine * at(facets_.largest_log_alpha, wo).transmitted);
+  }
   constexpr uint32_t count = 8192;
-  const MicrofacetDistribution facets = facets_.of_log_alpha(facets_.largest_log_alpha());
+  const MicrofacetDistribution facets = facets_.at(facets_.largest_log_alpha);
   Spectrum sum;
   for (uint32_t i = 0; i < count; ++i) {
     Sampler sampler = Sampler::of(Quadrature::albedo, i, 0);
     const Vec3f up = square_to_cosine_hemisphere(sampler.next_2d());
-    if (up.z > 0) sum += shares_of(facets, -up, sampler.next_2d());
+    if (up.z > 0) sum += interface_shares(facets, ratio_, -up, sampler.next_2d());
   }
-  return {sum[0] / float(count), sum[1] / float(count)};
+  return {.enters = float(2 * enters / steps), .reflected_inside = sum[0] / float(count)};
 }
 
 }  // namespace kaustik

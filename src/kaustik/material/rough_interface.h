@@ -1,4 +1,7 @@
 #pragma once
+#include <memory>
+#include <mutex>
+
 #include "kaustik/material/albedo_table.h"
 #include "kaustik/material/rough_facets.h"
 
@@ -14,6 +17,35 @@ struct InterfaceAlbedo {
   float reflected = 0, transmitted = 0;
 };
 
+/// What even light meets at a rough boundary.
+struct EvenLightShares {
+  float enters = 0;            ///< of what arrives from outside
+  float reflected_inside = 0;  ///< of what arrives from inside
+};
+
+/// Directional albedos of rough boundaries, one for all that are alike; tabulated when first asked
+/// for.
+class InterfaceAlbedos {
+ public:
+  /// `ratio`: n_interior/n_exterior.
+  static std::shared_ptr<const InterfaceAlbedos> of(const FacetRange& facets, float ratio);
+  InterfaceAlbedos(const FacetRange& facets, float ratio);
+
+  /// wo on either side.
+  InterfaceAlbedo at(float log_alpha, const Vec3f& wo) const;
+  /// Where the roughness is the same everywhere.
+  const EvenLightShares& of_even_light() const;
+
+ private:
+  EvenLightShares find_even_light() const;
+
+  FacetRange facets_;
+  float ratio_;
+  AlbedoTables from_outside_, from_inside_;
+  mutable std::once_flag once_;
+  mutable EvenLightShares even_light_;
+};
+
 /// The rough boundary of two transparent materials, +z the exterior: facets that each reflect and
 /// refract as smooth glass does, with Smith's shadowing; light that meets a second facet is lost
 /// (Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007). All of it
@@ -21,8 +53,6 @@ struct InterfaceAlbedo {
 class RoughInterface {
  public:
   RoughInterface(RoughFacets facets, const SpectralValue& interior, const SpectralValue& exterior);
-  RoughInterface(const RoughInterface&) = delete;  // the tables refer to it
-  RoughInterface& operator=(const RoughInterface&) = delete;
 
   SurfaceNeeds needs() const { return facets_.needs(); }
   /// As Bsdf::values(); either direction may lie on either side.
@@ -34,8 +64,8 @@ class RoughInterface {
                     float u_lobe, const Vec2f& u) const;
   /// Of the indices in RGB mode, without factors; wo on either side.
   InterfaceAlbedo albedo(const BsdfContext& context, const Vec3f& wo) const;
-  /// Of even light from inside, where the roughness is the same everywhere.
-  InterfaceAlbedo of_even_light_inside() const;
+  /// Of the indices in RGB mode, where the roughness is the same everywhere.
+  const EvenLightShares& of_even_light() const { return albedos_->of_even_light(); }
 
  private:
   /// n_interior/n_exterior of each lane.
@@ -48,16 +78,11 @@ class RoughInterface {
                        const Vec3f& wi) const;
   BsdfValues transmitted(const BsdfContext& context, const InterfaceFactors& factors,
                          const Vec3f& wo, const Vec3f& wi) const;
-  /// An estimate of the directional albedo, from a facet that is drawn: lane 0 has what it
-  /// reflects, lane 1 what it transmits.
-  Spectrum shares_of(const MicrofacetDistribution& facets, const Vec3f& wo, const Vec2f& u) const;
-  /// Of light that arrives from outside (or inside).
-  AlbedoTables albedo_tables(bool outside) const;
 
   RoughFacets facets_;
   SpectralValue interior_, exterior_;
   bool is_dispersive_;
-  AlbedoTables from_outside_, from_inside_;
+  std::shared_ptr<const InterfaceAlbedos> albedos_;
 };
 
 }  // namespace kaustik

@@ -2,6 +2,7 @@
 #include "kaustik/material/bsdf_kinds.h"
 #include "kaustik/material/conductor_arguments.h"
 #include "kaustik/material/rough_facets.h"
+#include "kaustik/material/schlick.h"
 
 namespace kaustik {
 namespace {
@@ -9,16 +10,17 @@ namespace {
 /// Rough metal after Torrance and Sparrow with Walter et al.'s distributions; black from behind.
 class RoughConductor final : public Bsdf {
  public:
-  RoughConductor(RoughFacets facets, const SpectralIor& ior,
-                 std::shared_ptr<const Texture> reflectance)
-      : Bsdf(
-            {.lobes = Lobes::glossy, .needs = facets.needs() | texture_needs({reflectance.get()})}),
+  RoughConductor(RoughFacets facets, MetalFresnel metal, std::shared_ptr<const Texture> reflectance)
+      : Bsdf({.lobes = Lobes::glossy,
+              .needs = facets.needs() | metal.needs() | texture_needs({reflectance.get()})}),
         facets_(std::move(facets)),
-        ior_(ior),
+        metal_(std::move(metal)),
         reflectance_(std::move(reflectance)),
         albedo_(albedo_tables(
-            [this](float cos_facet) { return fresnel_conductor(cos_facet, ior_.at({})); })),
-        ideal_albedo_(albedo_tables([](float) { return Spectrum(1); })) {}
+            [this](float cos_facet) { return fresnel_conductor(cos_facet, metal_.at({})); })),
+        means_(albedo_tables([](float cos_facet) {
+          return Spectrum(1, schlick_weight(cos_facet), lazanyi_weight(cos_facet), 0);
+        })) {}
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                 Lobes lobes) const override {
@@ -52,7 +54,7 @@ class RoughConductor final : public Bsdf {
                     Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0) return {};
     BsdfSample sample = sample_lobe(facets_.at(context), wo, u, [&](float cos_facet) {
-      return fresnel_conductor(cos_facet, ior_.at(context.wavelengths()));
+      return fresnel_conductor(cos_facet, metal_.at(context));
     });
     sample.weight *= context.value_of(*reflectance_);
     return sample;
@@ -61,11 +63,14 @@ class RoughConductor final : public Bsdf {
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (!any(lobes & Lobes::glossy) || wo.z <= 0) return Spectrum();
     const float log_alpha = facets_.log_alpha(context);
-    const Wavelengths& wavelengths = context.wavelengths();
-    if (wavelengths.is_rgb()) return context.value_of(*reflectance_) * albedo_(log_alpha, wo);
-    // There are no tables of every wavelength.
-    return context.value_of(*reflectance_) * ideal_albedo_(log_alpha, wo) *
-           fresnel_conductor(wo.z, ior_.at(wavelengths));
+    if (context.wavelengths().is_rgb() && metal_.is_constant())
+      return context.value_of(*reflectance_) * albedo_(log_alpha, wo);
+    // There are no tables of every wavelength, nor of every colour.
+    const ComplexIor ior = metal_.at(context);
+    const Spectrum means = means_(log_alpha, wo);
+    const LazanyiMetal metal = LazanyiMetal::through(
+        fresnel_conductor(1, ior), Spectrum(1), fresnel_conductor(lazanyi_cosine, ior));
+    return context.value_of(*reflectance_) * metal.reflectance(means[0], means[1], means[2]);
   }
 
  private:
@@ -75,16 +80,17 @@ class RoughConductor final : public Bsdf {
   /// Of facets that reflect what `fresnel` tells of the cosine to their normals.
   template <typename Fresnel>
   AlbedoTables albedo_tables(const Fresnel& fresnel) const {
-    return {facets_.least_log_alpha(), facets_.largest_log_alpha(), facets_.is_isotropic(),
-            [this, fresnel](float log_alpha, const Vec3f& wo, const Vec2f& u) {
-              return sample_lobe(facets_.of_log_alpha(log_alpha), wo, u, fresnel).weight;
+    const FacetRange range = facets_.range();
+    return {range.least_log_alpha, range.largest_log_alpha, range.is_isotropic,
+            [range, fresnel](float log_alpha, const Vec3f& wo, const Vec2f& u) {
+              return sample_lobe(range.at(log_alpha), wo, u, fresnel).weight;
             }};
   }
 
   /// f; `visible` is the density of facets with normal m that neither way is hidden.
   Spectrum value_of(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi, const Vec3f& m,
                     float visible) const {
-    const Spectrum fresnel = fresnel_conductor(cosine_to(m, wo), ior_.at(context.wavelengths()));
+    const Spectrum fresnel = fresnel_conductor(cosine_to(m, wo), metal_.at(context));
     return context.value_of(*reflectance_) * fresnel * (visible / (4 * wo.z * wi.z));
   }
 
@@ -111,10 +117,10 @@ class RoughConductor final : public Bsdf {
   }
 
   RoughFacets facets_;
-  SpectralIor ior_;
+  MetalFresnel metal_;
   std::shared_ptr<const Texture> reflectance_;
-  AlbedoTables albedo_;        ///< in RGB mode, without the texture
-  AlbedoTables ideal_albedo_;  ///< of facets that reflect everything
+  AlbedoTables albedo_;  ///< in RGB mode, without the texture
+  AlbedoTables means_;   ///< of 1, schlick_weight and lazanyi_weight over what facets reflect
 };
 
 TypeInfo make_roughconductor_info() {
@@ -131,7 +137,7 @@ const TypeInfo& roughconductor_info() {
 }
 
 std::shared_ptr<const Bsdf> create_roughconductor(const BsdfInputs& inputs) {
-  return std::make_shared<RoughConductor>(rough_facets_of(inputs), conductor_ior(inputs.arguments),
+  return std::make_shared<RoughConductor>(rough_facets_of(inputs), metal_fresnel_of(inputs),
                                           inputs.texture("specular_reflectance"));
 }
 

@@ -1,13 +1,11 @@
 #include "kaustik/base/warp.h"
 #include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/oren_nayar.h"
 
 namespace kaustik {
 namespace {
 
-/// Matt surface of facets that are matt themselves: Fujii's form of Oren and Nayar's model, and
-/// beside it what is scattered between facets, so that white is white at every roughness
-/// (Portsmouth, Kutz and Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT 2025).
-/// Black from behind.
+/// Matt surface of facets that are matt themselves; black from behind.
 class RoughDiffuse final : public Bsdf {
  public:
   RoughDiffuse(std::shared_ptr<const Texture> reflectance, std::shared_ptr<const Texture> roughness)
@@ -20,15 +18,7 @@ class RoughDiffuse final : public Bsdf {
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
                 Lobes lobes) const override {
     if (!any(lobes & Lobes::diffuse) || wo.z <= 0 || wi.z <= 0) return Spectrum();
-    const float roughness = roughness_at(context), scale = scale_of(roughness);
-    const float across = wo.x * wi.x + wo.y * wi.y;
-    const float once =
-        scale * (1 + roughness * (across > 0 ? across / std::max(wo.z, wi.z) : across));
-    const Spectrum color = context.value_of(*reflectance_);
-    const float mean = mean_albedo(roughness, scale);
-    const float between = (1 - albedo_of_once(roughness, scale, wo.z)) *
-                          (1 - albedo_of_once(roughness, scale, wi.z)) / std::max(1e-7f, 1 - mean);
-    return (color * once + several_times(color, mean) * between) * inv_pi;
+    return OrenNayar(roughness_at(context)).eval(context.value_of(*reflectance_), wo, wi);
   }
 
   float pdf(const BsdfContext&, const Vec3f& wo, const Vec3f& wi, Lobes lobes) const override {
@@ -50,32 +40,12 @@ class RoughDiffuse final : public Bsdf {
 
   Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const override {
     if (!any(lobes & Lobes::diffuse) || wo.z <= 0) return Spectrum();
-    const float roughness = roughness_at(context), scale = scale_of(roughness);
-    const float once = albedo_of_once(roughness, scale, wo.z);
-    const Spectrum color = context.value_of(*reflectance_);
-    return color * once + several_times(color, mean_albedo(roughness, scale)) * (1 - once);
+    return OrenNayar(roughness_at(context)).albedo(context.value_of(*reflectance_), wo.z);
   }
 
  private:
   float roughness_at(const BsdfContext& context) const {
     return std::clamp(context.scalar_of(*roughness_), 0.0f, 1.0f);
-  }
-  /// Of what is scattered once, of white facets: A of Fujii's form.
-  static float scale_of(float roughness) { return 1 / (1 + (0.5f - 2 / (3 * pi)) * roughness); }
-  /// Its directional albedo …
-  static float albedo_of_once(float roughness, float scale, float cosine) {
-    const float sine = safe_sqrt(1 - cosine * cosine);
-    const float along = sine * (std::acos(std::min(cosine, 1.0f)) - sine * cosine) +
-                        (2.0f / 3) * (sine / cosine * (1 - sine * sine * sine) - sine);
-    return std::min(1.0f, scale * (1 + roughness * inv_pi * along));
-  }
-  /// … and the mean of that over even light.
-  static float mean_albedo(float roughness, float scale) {
-    return scale * (1 + (2.0f / 3 - 28 / (15 * pi)) * roughness);
-  }
-  /// Albedo of what is scattered more than once.
-  static Spectrum several_times(const Spectrum& color, float mean) {
-    return color * color * mean / (Spectrum(1) - color * (1 - mean));
   }
 
   std::shared_ptr<const Texture> reflectance_, roughness_;

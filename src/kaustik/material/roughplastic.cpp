@@ -19,9 +19,9 @@ class RoughPlastic final : public Bsdf {
               .is_lambertian = false,
               .needs = facets.needs() | texture_needs({diffuse.get(), specular.get()})}),
         coat_(std::move(facets), interior, exterior),
-        even_light_enters_(tabulated_even_light()),
+        even_light_enters_(coat_.of_even_light().enters),
         base_(std::move(diffuse), nonlinear, interior.rgb()[0] / exterior.rgb()[0],
-              coat_.of_even_light_inside().reflected),
+              coat_.of_even_light().reflected_inside),
         specular_(std::move(specular)) {}
 
   Spectrum eval(const BsdfContext& context, const Vec3f& wo, const Vec3f& wi,
@@ -111,18 +111,6 @@ class RoughPlastic final : public Bsdf {
     return chance * pdf_of_coat + (1 - chance) * cosine_hemisphere_pdf(wi.z);
   }
 
-  /// Share of even light that the coat lets in, by the same tables as light from one direction.
-  float tabulated_even_light() const {
-    constexpr int steps = 512;
-    double sum = 0;
-    for (int i = 0; i < steps; ++i) {
-      const float cosine = (float(i) + 0.5f) / float(steps);
-      sum += double(cosine *
-                    coat_.albedo({}, {safe_sqrt(1 - cosine * cosine), 0, cosine}).transmitted);
-    }
-    return float(2 * sum / steps);
-  }
-
   RoughInterface coat_;
   float even_light_enters_;
   PlasticBase base_;
@@ -147,17 +135,57 @@ const TypeInfo& roughplastic_info() {
   return info;
 }
 
-std::shared_ptr<const Bsdf> create_roughplastic(const BsdfInputs& inputs) {
+std::shared_ptr<const Bsdf> make_roughplastic(const BsdfInputs& inputs,
+                                              RoughFacets::TexturePointer alpha) {
   const Arguments& arguments = inputs.arguments;
-  const auto alpha = make_constant_texture(SpectralValue(float(arguments.number("alpha"))));
   return std::make_shared<RoughPlastic>(
-      RoughFacets(facet_kind_of(arguments), alpha, alpha), dielectric_ior_of(arguments, "int_ior"),
+      RoughFacets(facet_kind_of(inputs), alpha, alpha), dielectric_ior_of(arguments, "int_ior"),
       dielectric_ior_of(arguments, "ext_ior"), inputs.texture("diffuse_reflectance"),
       arguments.boolean("nonlinear"), inputs.texture("specular_reflectance"));
+}
+
+std::shared_ptr<const Texture> constant_alpha(double alpha) {
+  return make_constant_texture(SpectralValue(float(alpha)));
+}
+
+std::shared_ptr<const Bsdf> create_roughplastic(const BsdfInputs& inputs) {
+  return make_roughplastic(inputs, constant_alpha(inputs.arguments.number("alpha")));
+}
+
+TypeInfo make_pplastic_info() {
+  TypeInfo info = make_roughplastic_info();
+  info.name = "pplastic";
+  info.sentence = "Mitsuba's plastic for polarised light: 'roughplastic' here.";
+  for (const char* name : {"alpha_u", "alpha_v"})
+    info.parameters.push_back(
+        optional(number_parameter(name, 0.1,
+                                  "Roughness in one direction; that of both, their geometric "
+                                  "mean, is used."))
+            .range(0, RoughFacets::largest_alpha));
+  return info;
+}
+
+const TypeInfo& pplastic_info() {
+  static const TypeInfo info = make_pplastic_info();
+  return info;
+}
+
+std::shared_ptr<const Bsdf> create_pplastic(const BsdfInputs& inputs) {
+  inputs.warn("bsdf 'pplastic' is 'roughplastic' here: light is not polarised");
+  const Arguments& arguments = inputs.arguments;
+  double alpha = arguments.number("alpha");
+  if (arguments.given("alpha_u") || arguments.given("alpha_v")) {
+    const auto one = [&](std::string_view name) {
+      return arguments.number(arguments.given(name) ? name : "alpha");
+    };
+    alpha = std::sqrt(one("alpha_u") * one("alpha_v"));
+  }
+  return make_roughplastic(inputs, constant_alpha(alpha));
 }
 
 }  // namespace
 
 BsdfType roughplastic_type() { return {roughplastic_info(), 0, 0, create_roughplastic}; }
+BsdfType pplastic_type() { return {pplastic_info(), 0, 0, create_pplastic}; }
 
 }  // namespace kaustik

@@ -538,7 +538,13 @@ std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object
 std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, const BuiltShape* on) {
   const BsdfType* type = find_row(bsdf_types(), object.type);
   if (!type) {
-    if (is_foreign(object, names_of(bsdf_types()))) return bsdf_instead_of(object, on);
+    const std::string remedy(remedy_for_bsdf_to_come(object.type));
+    if (!remedy.empty())
+      told_unless_strict(fmt::format("bsdf '{}' is not here yet", object.type), remedy,
+                         object.place);
+    if (!remedy.empty() && is_strict_) return nullptr;
+    if (!remedy.empty() || is_foreign(object, names_of(bsdf_types())))
+      return bsdf_instead_of(object, on);
     unknown_type(object, names_of(bsdf_types()));
     return nullptr;
   }
@@ -558,9 +564,12 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, cons
     return nullptr;
   }
   const Arguments arguments = arguments_of(type->info, object);
+  const auto warn = [&](const std::string& message) {
+    if (remarks_reported_.insert(message).second) warnings_.push_back(message);
+  };
   std::shared_ptr<const Bsdf> bsdf;
   collecting(object.place, [&] {
-    bsdf = bsdf_of(object, *type, {arguments, nested, textures_for(arguments, *textures)}, on);
+    bsdf = bsdf_of(object, *type, {arguments, nested, textures_for(arguments, *textures), warn}, on);
   });
   if (bsdf && bsdf->traits().size > maximum_bsdf_size) {
     problems_.add(fmt::format("bsdf '{}' nests {} bsdfs, each counted for every place it is used "

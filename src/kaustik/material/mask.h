@@ -1,0 +1,11 @@
+#pragma once
+#include "kaustik/material/bsdf.h"
+
+namespace kaustik {
+
+/// A surface with holes: light meets the nested bsdf by the chance `opacity` and goes straight on
+/// otherwise, a delta event.
+std::shared_ptr<const Bsdf> make_mask(std::shared_ptr<const Bsdf> nested,
+                                      std::shared_ptr<const Texture> opacity);
+
+}  // namespace kaustik

@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "kaustik/material/blend.h"
+#include "kaustik/material/bsdf_kinds.h"
+
+namespace kaustik {
+namespace {
+
+constexpr int most_mixed = 64;
+
+/// Scatters nothing.
+class Black final : public Bsdf {
+ public:
+  Black() : Bsdf({}) {}
+  Spectrum eval(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override {
+    return Spectrum();
+  }
+  float pdf(const BsdfContext&, const Vec3f&, const Vec3f&, Lobes) const override { return 0; }
+  BsdfSample sample(const BsdfContext&, const Vec3f&, float, const Vec2f&, Lobes) const override {
+    return {};
+  }
+  Spectrum albedo(const BsdfContext&, const Vec3f&, Lobes) const override { return Spectrum(); }
+};
+
+bool is_separator(char c) {
+  return c == ' ' || c == ',' || c == ';' || c == '\t' || c == '\n' || c == '\r';
+}
+
+/// Numbers with commas or spaces between. Throws Error(input) if one is none, negative or far too
+/// large.
+std::vector<double> weights_of(const Arguments& arguments) {
+  const std::string& text = arguments.text("weights");
+  std::vector<double> weights;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (true) {
+    while (at != end && is_separator(*at)) ++at;
+    if (at == end) return weights;
+    double weight = 0;
+    const auto [next, error] = std::from_chars(at, end, weight);
+    const bool ends = next == end || is_separator(*next);
+    if (error != std::errc{} || !ends || !(weight >= 0 && weight <= 1e6))
+      throw Error(ErrorKind::input, "'weights' holds something that is no weight",
+                  "give numbers from 0 to 1 with commas between, one for each nested bsdf",
+                  arguments.place_of("weights"));
+    weights.push_back(weight);
+    at = next;
+  }
+}
+
+void check_weights(const std::vector<double>& weights, const BsdfInputs& inputs, double sum) {
+  if (weights.size() != inputs.nested.size())
+    throw Error(ErrorKind::input,
+                fmt::format("'weights' has {} numbers, for {} nested bsdfs", weights.size(),
+                            inputs.nested.size()),
+                "give one for each, in their order", inputs.arguments.place_of("weights"));
+  if (!(sum > 0))
+    throw Error(ErrorKind::input, "'weights' are all 0", "give one of them a larger value",
+                inputs.arguments.place_of("weights"));
+}
+
+const TypeInfo& mixturebsdf_info() {
+  static const TypeInfo info{
+      "bsdf",
+      "mixturebsdf",
+      "Mixes any number of nested bsdfs; what their weights lack of 1 is absorbed.",
+      {text_parameter("weights", "1", "One for each nested bsdf, with commas between."),
+       ignored_parameter("ensure_energy_conservation", ParameterKind::boolean)}};
+  return info;
+}
+
+/// A chain of blends, from the last one backward.
+std::shared_ptr<const Bsdf> create_mixturebsdf(const BsdfInputs& inputs) {
+  const std::vector<double> weights = weights_of(inputs.arguments);
+  double sum = 0;
+  for (const double weight : weights) sum += weight;
+  check_weights(weights, inputs, sum);
+  refuse_reliefs_in_blend(inputs);
+  // As in Mitsuba 0.6; rounded thirds are no reason to speak.
+  if (sum > 1 + 1e-4)
+    inputs.warn(
+        fmt::format("the weights of bsdf 'mixturebsdf' add up to {:.4g}: they are divided "
+                    "by that",
+                    sum));
+  const double whole = std::max(sum, 1.0);
+  // What is mixed so far, with the share of the whole that it stands for.
+  std::shared_ptr<const Bsdf> mixed = std::make_shared<Black>();
+  double share = 1 - sum / whole;
+  if (share < 1e-6) share = 0;
+  for (size_t i = weights.size(); i-- > 0;) {
+    const double weight = weights[i] / whole;
+    if (weight == 0) continue;
+    if (share > 0) {
+      const auto rest = make_constant_texture(SpectralValue(float(share / (share + weight))));
+      mixed = make_blend(inputs.nested[i], mixed, rest);
+    } else {
+      mixed = inputs.nested[i];
+    }
+    share += weight;
+  }
+  return mixed;
+}
+
+}  // namespace
+
+BsdfType mixturebsdf_type() { return {mixturebsdf_info(), 1, most_mixed, create_mixturebsdf}; }
+
+}  // namespace kaustik
