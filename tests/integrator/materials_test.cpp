@@ -1,7 +1,8 @@
-// One ball of each material on a matt floor: all integrators see the same light.
+// One ball of each material on a matt floor, which fills the picture: all integrators see the same
+// light on it, in each channel.
 
-#include "tests/support/glossy_scenes.h"
 #include "tests/support/measure.h"
+#include "tests/support/scene_text.h"
 
 namespace kaustik {
 namespace {
@@ -34,47 +35,90 @@ const std::vector<Material>& materials() {
       {"principled_cloth", bsdf("principled", rgb("base_color", "0.3, 0.5, 0.7") +
                                                   set("sheen", 1.0) + set("flatness", 0.5))},
       {"principled_glass", bsdf("principled", rgb("base_color", "0.8, 0.9, 0.7") +
-                                                  set("spec_trans", 0.7) + set("roughness", 0.5))}};
+                                                  set("spec_trans", 0.7) + set("roughness", 0.5))},
+      {"leaf", bsdf("principledthin", rgb("base_color", "0.4, 0.8, 0.3") + set("diff_trans", 1.0) +
+                                          set("spec_trans", 0.3))},
+      {"ward", bsdf("ward", rgb("diffuse_reflectance", "0.4, 0.2, 0.3") +
+                                rgb("specular_reflectance", "0.3, 0.5, 0.4") + set("alpha_u", 0.2) +
+                                set("alpha_v", 0.5))},
+      {"metal_of_colours",
+       bsdf("roughconductor", rgb("reflectance", "0.9, 0.6, 0.3") +
+                                  rgb("edge_tint", "0.3, 0.8, 0.6") + set("alpha", 0.4))},
+      {"car_paint",
+       bsdf("openpbr", rgb("base_color", "0.8, 0.4, 0.2") + set("base_metalness", 0.6) +
+                           set("specular_roughness", 0.6) + set("coat_weight", 1.0) +
+                           set("coat_roughness", 0.5) + rgb("coat_color", "1, 0.8, 0.6"))},
+      {"coated_glass",
+       bsdf("openpbr", set("transmission_weight", 0.6) + set("specular_roughness", 0.6) +
+                           rgb("transmission_color", "0.7, 0.9, 1") + set("coat_weight", 0.5) +
+                           set("coat_roughness", 0.5) + set("fuzz_weight", 0.3))}};
   return all;
 }
 
-TestScene ball_of(const Material& material) {
+/// All pixels see the ball, whose radius is 8.4 degrees.
+TestScene ball_of(const std::string& material) {
   return TestScene(
-      glossy_scene(diffuse("0.6"), diffuse("0.6"), sphere("0, 0, 0.62", 0.6, material.bsdf), 16));
+      camera("0, -4, 1.6", "0, 0, 0.62", 11, 16) +
+      flat("rectangle", scale("2, 2, 1"), diffuse("0.6")) +
+      flat("rectangle", scale("2, 2, 1") + rotate("1, 0, 0", 90) + translate("0, 2, 0"),
+           diffuse("0.6, 0.5, 0.4")) +
+      flat("rectangle", scale("0.5, 0.5, 1") + rotate("1, 0, 0", 180) + translate("0.8, 0, 2"),
+           diffuse("0") + area_light("8, 6, 7")) +
+      sphere("0, 0, 0.62", 0.6, material));
+}
+
+constexpr const char* channel_names = "RGB";
+
+Passes picture_of(const TestScene& scene, const std::string& type, const std::string& parameters,
+                  double samples) {
+  RenderOptions options;
+  options.samples = samples;
+  return render(scene, type, parameters, options);
+}
+
+/// With the same seed.
+Comparison in_channel(const Passes& a, const Passes& b, int channel) {
+  return Comparison::same_seed(a.values({""}, {}, channel), b.values({""}, {}, channel));
 }
 
 class Materials : public testing::TestWithParam<Material> {
  protected:
   /// Beside `path`, with the same seed.
-  void expect_agreement(const TestScene& scene, const std::vector<double>& path,
-                        const std::string& type, const std::string& parameters, double tolerance,
-                        double samples) const {
-    RenderOptions options;
-    options.samples = samples;
-    expect_near_means(
-        GetParam().name + ", " + type,
-        Comparison::same_seed(render(scene, type, parameters, options).values({""}), path),
-        tolerance, 0.005);
-  }
-  std::vector<double> path_of(const TestScene& scene, double samples) const {
-    RenderOptions options;
-    options.samples = samples;
-    return render(scene, "path", "", options).values({""});
+  void expect_agreement(const TestScene& scene, const Passes& path, const std::string& type,
+                        const std::string& parameters, double tolerance, double samples) const {
+    const Passes found = picture_of(scene, type, parameters, samples);
+    for (int channel = 0; channel < 3; ++channel)
+      expect_near_means(GetParam().name + ", " + type + ", " + channel_names[channel],
+                        in_channel(found, path, channel), tolerance, 0.005);
   }
 };
 
 TEST_P(Materials, BdptAgreesWithPath) {
-  const TestScene scene = ball_of(GetParam());
-  expect_agreement(scene, path_of(scene, 64), "bdpt", "", 0.01, 64);
+  const TestScene scene = ball_of(GetParam().bsdf);
+  expect_agreement(scene, picture_of(scene, "path", "", 64), "bdpt", "", 0.01, 64);
 }
 
 // What merges has a bias of its own.
 TEST_P(Materials, AllAgreeWithPathLong) {
-  const TestScene scene = ball_of(GetParam());
-  const std::vector<double> path = path_of(scene, 512);
+  const TestScene scene = ball_of(GetParam().bsdf);
+  const Passes path = picture_of(scene, "path", "", 512);
   expect_agreement(scene, path, "vcm", set("light_paths", 2.0), 0.01, 128);
   expect_agreement(scene, path, "auto", "", 0.02, 128);
   expect_agreement(scene, path, "photonmap", set("global_photons", 100000), 0.03, 128);
+}
+
+// A ball that is off by 4 % in one channel is found out in that channel, and in no other.
+TEST(MaterialsPlanted, AnErrorInOneChannelIsFound) {
+  if (slow_build) GTEST_SKIP();
+  const auto ball = [](const std::string& reflectance) {
+    return ball_of(bsdf("plastic", rgb("diffuse_reflectance", reflectance)));
+  };
+  const Passes right = picture_of(ball("0.6, 0.7, 0.2"), "path", "", 64),
+               wrong = picture_of(ball("0.6, 0.7, 0.21"), "path", "", 64);
+  for (int channel = 0; channel < 3; ++channel) {
+    const double p = in_channel(wrong, right, channel).p_value_of_nearness(0.01);
+    EXPECT_EQ(p > nearness_level(), channel != 2) << channel_names[channel];
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Materials, testing::ValuesIn(materials()),
