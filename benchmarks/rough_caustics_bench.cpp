@@ -14,7 +14,7 @@ using namespace kaustik;
 
 constexpr int picture_size = 96;
 
-struct Surface {
+struct Finish {
   std::string name, bsdf;
 };
 
@@ -25,8 +25,8 @@ std::string of_type(const std::string& type, const std::string& inside) {
   return "<bsdf type=\"" + type + "\">" + inside + "</bsdf>";
 }
 
-std::vector<Surface> surfaces() {
-  std::vector<Surface> all;
+std::vector<Finish> finishes() {
+  std::vector<Finish> all;
   for (const double alpha : {0.01, 0.05, 0.1, 0.3})
     all.push_back({fmt::format("ground glass, alpha {}", alpha),
                    of_type("roughdielectric", number("alpha", alpha))});
@@ -77,15 +77,15 @@ int main(int count, char** words) {
   const double seconds = count > 1 ? std::atof(words[1]) : 10;
   const double reference_seconds = count > 2 ? std::atof(words[2]) : 20 * seconds;
   bench::MarkdownTable table({"surface", "path", "auto", "lead"});
-  for (const Surface& surface : surfaces()) {
-    const auto scene = build_scene(parse_mitsuba_xml(ball_scene(surface.bsdf), "benchmark", ""));
+  for (const Finish& finish : finishes()) {
+    const auto scene = build_scene(parse_mitsuba_xml(ball_scene(finish.bsdf), "benchmark", ""));
     const Image reference = picture_of(*scene, "bdpt", 1, reference_seconds);
     const double path = bench::error_of(picture_of(*scene, "path", 2, seconds), reference),
                  chosen = bench::error_of(picture_of(*scene, "auto", 3, seconds), reference);
-    bench::report("rough_caustic: " + surface.name, path / chosen,
+    bench::report("rough_caustic: " + finish.name, path / chosen,
                   "relative MSE of path over that of auto at equal time",
                   fmt::format("path {:.3g}, auto {:.3g} after {:g} s", path, chosen, seconds));
-    table.add({surface.name, fmt::format("{:.3g}", path), fmt::format("{:.3g}", chosen),
+    table.add({finish.name, fmt::format("{:.3g}", path), fmt::format("{:.3g}", chosen),
                fmt::format("{:.1f}", path / chosen)});
   }
   fmt::print("{}", table.text());
