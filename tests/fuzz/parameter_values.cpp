@@ -47,6 +47,8 @@ double ParameterValues::number(const Parameter& parameter) {
   const double low = std::max(parameter.minimum, -largest_float);
   const double high = std::min(parameter.maximum, largest_float);
   const double usual = default_number(parameter);
+  if (!is_wild() && parameter.name == "wavelength_min") return 400;
+  if (!is_wild() && parameter.name == "wavelength_max") return 700;
   if (!is_wild())
     return std::clamp(usual * draw_.one_of({1.0, 0.5, 0.8, 0.3, high > 1 ? 2.0 : 0.1}), low, high);
   const double wild = draw_.chance(0.5) ? wild_number() : draw_.one_of({low, high, usual, 0.0});

@@ -109,7 +109,7 @@ class Grammar {
       if (!p.required && !only_texture && !costly && !needed && !draw_.chance(0.3)) continue;
       if (p.accepts_texture && depth < deepest_nesting && (only_texture || draw_.chance(0.3)))
         result += texture(p.name, depth + 1);
-      else if (p.accepts_volume && draw_.chance(0.4))
+      else if (p.accepts_volume && takes_volume(info, p.name))
         result += volume(p.name);
       else if (p.kind == ParameterKind::color && draw_.chance(0.1))
         result += spectrum(p.name);
@@ -126,9 +126,15 @@ class Grammar {
     return open(type->info, name) + properties(type->info, {}, depth) + close(type->info);
   }
 
+  /// The density of what is homogeneous can be no grid.
+  bool takes_volume(const TypeInfo& info, const std::string& name) {
+    return draw_.chance(info.name == "homogeneous" && name == "sigma_t" ? 0.03 : 0.4);
+  }
   std::string volume(const std::string& name) {
     const TypeInfo& info = draw_.one_of(volume_types()).info;
-    return open(info, name) + properties(info) + close(info);
+    Names skips;  // no albedo is above 1
+    if (name == "albedo" && draw_.chance(0.9)) skips.emplace_back("value");
+    return open(info, name) + properties(info, skips) + close(info);
   }
 
   std::string phase(int depth = 0) {
@@ -377,7 +383,7 @@ void write_files(const std::string& folder) {
                          {0, 0, 1, 0, 0, 1}},
               .corners = {0, 1, 2}}},
             4));
-  write("cloud.vol", test::vol_file({3, 2, 2}, {0, 0.5, 1, 2, 0, 0, 0.1f, 3, 0, 0, 1, 0.2f}));
+  write("cloud.vol", test::vol_file({3, 2, 2}, {0, 0.5, 1, 0.2f, 0, 0, 0.1f, 0.7f, 0, 0, 1, 0.2f}));
   write("bytes.vol", test::vol_file({2, 2, 2}, {0, 0.5, 1, 0, 1, 0, 1, 1}, {.encoding = 3}));
   write("colors.vol", test::vol_file({2, 1, 1}, {0.1f, 0.5f, 0.9f, 1, 0.5f, 0}, {.channels = 3}));
   write("flow.vol", test::vol_file({1, 1, 1}, {1, 2, 3, 4, 5, 6}, {.channels = 6}));

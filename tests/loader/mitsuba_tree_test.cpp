@@ -180,7 +180,7 @@ TEST(MitsubaTree, OldTexturePlacementBecomesATransform) {
   const Transform& to_uv = value<Transform>(*old, "to_uv");
   EXPECT_EQ(to_uv.at(0, 0), 2);
   EXPECT_EQ(to_uv.at(1, 1), 4);
-  EXPECT_EQ(to_uv.at(0, 3), 1);  // the offset first, then the scale
+  EXPECT_EQ(to_uv.at(0, 3), 0.5);  // the offset is not scaled
   EXPECT_EQ(parse(in_scene(texture, "2.0.0")).scene->children.at(0).object->properties.size(), 3u);
 }
 
@@ -196,7 +196,7 @@ TEST(MitsubaTree, OldTexturesAreBroughtUpToDate) {
   const Transform& to_uv = value<Transform>(bitmap, "to_uv");
   EXPECT_EQ(to_uv.at(0, 0), 3);
   EXPECT_EQ(to_uv.at(1, 1), 3);
-  EXPECT_EQ(to_uv.at(1, 3), 3);
+  EXPECT_EQ(to_uv.at(1, 3), 1);
   EXPECT_EQ(value<std::string>(bitmap, "filter_type"), "bilinear");
   EXPECT_EQ(value<std::string>(bitmap, "wrap_mode_u"), "zero");
   EXPECT_EQ(value<std::string>(bitmap, "wrap_mode_v"), "mirror");

@@ -121,7 +121,43 @@ TEST(mixturebsdf, absorbs_what_weights_lack_of_one) {
     EXPECT_THROW(of(wrong), Error) << wrong;
 }
 
+// What passes `null` goes straight on in a mixture, too.
+TEST(mixturebsdf, lets_light_pass_null) {
+  const auto nothing = make_bsdf("null"),
+             white = make_bsdf("diffuse", {property("reflectance", 1.0)});
+  const Vec3f wo = tilted(40);
+  for (const auto& mixed :
+       {make_bsdf("mixturebsdf", {property("weights", "0.25, 0.75")}, {white, nothing}),
+        make_bsdf("blendbsdf", {property("weight", 0.75)}, {white, nothing}),
+        make_bsdf("mask", {property("opacity", 0.5)},
+                  {make_bsdf("blendbsdf", {property("weight", 0.5)}, {white, nothing})})}) {
+    EXPECT_TRUE(mixed->traits().transmits);
+    EXPECT_NEAR(mixed->albedo(radiance(), wo, Lobes::diffuse)[0], 0.25, 1e-6);
+    EXPECT_NEAR(mixed->albedo(radiance(), wo, Lobes::delta)[0], 0.75, 1e-6);
+    const BsdfSample straight = mixed->sample(radiance(), wo, 0.9f, {0.5f, 0.5f}, Lobes::all);
+    ASSERT_EQ(straight.event, Lobes::delta);
+    EXPECT_TRUE(straight.wi.equalWithAbsError(-wo, 1e-6f));
+    EXPECT_NEAR(straight.weight[0], 1, 1e-6);
+  }
+}
+
 // ---- coats over anything ----
+
+// The table of what leaves is made at uv (0, 0), where this gloss is black.
+TEST(coating, over_gloss_that_is_black_in_a_corner) {
+  const auto board =
+      make_texture("checkerboard", {property("color0", 0.0), property("color1", 1.0)});
+  const auto gold =
+      make_bsdf("roughconductor", {property("alpha", 0.2)}, {}, {{"specular_reflectance", board}});
+  const auto coated = make_bsdf("coating", {property("int_ior", 1.5)}, {gold});
+  TextureCoordinates beside;
+  beside.uv = {0.75f, 0.25f};
+  const BsdfContext bright(beside, TransportMode::radiance, {});
+  ASSERT_GT(gold->albedo(bright, tilted(30), Lobes::all)[0], 0.5);
+  ASSERT_TRUE(gold->albedo({}, tilted(30), Lobes::all).is_zero());
+  EXPECT_GT(coated->albedo(bright, tilted(30), Lobes::glossy)[0], 0.5);
+  EXPECT_GT(coated->pdf(bright, tilted(30), tilted(-30), Lobes::all), 0.1);
+}
 
 TEST(coating, over_matt_loses_what_it_throws_back) {
   const auto coated = make_bsdf("coating", {property("int_ior", 1.5), property("ext_ior", 1.0)},

@@ -182,6 +182,19 @@ TEST(Batch, HoldsCameras) {
             "the scene has 3 cameras: 'front' is used, the others are left out: plan, sensor2");
 }
 
+// A shape of the scene that a batch refers to stays one shape.
+TEST(Batch, RefersToShapesOfTheScene) {
+  Description description =
+      description_of(R"(<shape type="sphere" id="ball">)" + meter +
+                     R"(</shape><sensor type="batch"><ref id="ball" name="ball"/>
+                     <sensor type="perspective" id="front"/></sensor>)");
+  EXPECT_EQ(cameras_of(*description.scene).size(), 2u);
+  choose_camera(description, "ball");
+  const auto scene = build_scene(description);
+  EXPECT_EQ(scene->quantity(), Quantity::irradiance);
+  EXPECT_EQ(scene->surface_count(), 1u);
+}
+
 // Programs may build a scene without asking for a camera.
 TEST(Batch, TheFirstCameraIsUsed) {
   const Description description = description_of(batch + any_shape);

@@ -114,7 +114,8 @@ bool has(const Object& object, std::string_view name) {
                      [&](const Property& p) { return p.name == name; });
 }
 
-/// uoffset, voffset, uscale, vscale and uvscale become `to_uv`.
+/// uoffset, voffset, uscale, vscale and uvscale become `to_uv`: scaled first, then moved, as 0.6
+/// does it.
 void upgrade_placement(Object& object, Problems& problems) {
   Vec3d offset(0, 0, 0), scale(1, 1, 1);
   Place place;
@@ -132,7 +133,7 @@ void upgrade_placement(Object& object, Problems& problems) {
   take_into("vscale", scale.y);
   if (!place.file) return;
   try {
-    const Transform to_uv = Transform::scale(scale) * Transform::translate(offset);
+    const Transform to_uv = Transform::translate(offset) * Transform::scale(scale);
     object.properties.push_back({"to_uv", to_uv, place});
   } catch (const std::invalid_argument&) {
     problems.add("the texture's uscale or vscale is too near to 0", "give another scale", place);

@@ -3,6 +3,7 @@
 #include "kaustik/material/blend.h"
 #include "kaustik/material/bsdf_kinds.h"
 #include "kaustik/material/lobe_event.h"
+#include "kaustik/material/mask.h"
 
 namespace kaustik {
 namespace {
@@ -135,7 +136,8 @@ const TypeInfo& blend_info() {
 
 std::shared_ptr<const Bsdf> create_blend(const BsdfInputs& inputs) {
   refuse_reliefs_in_blend(inputs);
-  return make_blend(inputs.nested[0], inputs.nested[1], inputs.texture("weight"));
+  return make_blend(with_lobe(inputs.nested[0]), with_lobe(inputs.nested[1]),
+                    inputs.texture("weight"));
 }
 
 }  // namespace

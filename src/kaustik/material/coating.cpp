@@ -186,7 +186,8 @@ class Coating final : public Bsdf {
     if (any(lobes & Lobes::glossy & nested_->traits().lobes)) {
       const Spectrum leaves = gloss_leaves_(0, wo);
       sum += nested_->albedo(context, *o, Lobes::glossy) * remaining(context.wavelengths(), *o) *
-             (leaves[1] > 0 ? leaves[0] / leaves[1] : 0.0f);
+             // A texture may be black where the table was made.
+             (leaves[1] > 0 ? leaves[0] / leaves[1] : entering(context, wo));
     }
     if (any(lobes & Lobes::delta & nested_->traits().lobes))
       sum += nested_->albedo(context, *o, Lobes::delta) * passed(context, wo, *o);

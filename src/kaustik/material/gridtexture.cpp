@@ -6,8 +6,8 @@
 namespace kaustik {
 namespace {
 
-/// Lines about the borders of each unit of uv, as Mitsuba 0.6 draws them: half of their width lies
-/// on either side.
+/// Lines about the borders of each unit of uv, as Mitsuba 0.6 draws them: each reaches
+/// `line_width` to either side.
 class GridTexture final : public TwoColours {
  public:
   GridTexture(std::shared_ptr<const Texture> color0, std::shared_ptr<const Texture> color1,

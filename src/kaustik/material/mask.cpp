@@ -86,7 +86,7 @@ const TypeInfo& mask_info() {
 }
 
 std::shared_ptr<const Bsdf> create_mask(const BsdfInputs& inputs) {
-  return make_mask(inputs.nested.front(), inputs.texture("opacity"));
+  return make_mask(with_lobe(inputs.nested.front()), inputs.texture("opacity"));
 }
 
 }  // namespace
@@ -94,6 +94,11 @@ std::shared_ptr<const Bsdf> create_mask(const BsdfInputs& inputs) {
 std::shared_ptr<const Bsdf> make_mask(std::shared_ptr<const Bsdf> nested,
                                       std::shared_ptr<const Texture> opacity) {
   return std::make_shared<Mask>(std::move(nested), std::move(opacity));
+}
+
+std::shared_ptr<const Bsdf> with_lobe(std::shared_ptr<const Bsdf> bsdf) {
+  if (!bsdf->traits().is_null) return bsdf;
+  return make_mask(std::move(bsdf), make_constant_texture(SpectralValue(0)));
 }
 
 BsdfType mask_type() { return {mask_info(), 1, 1, create_mask}; }

@@ -8,4 +8,8 @@ namespace kaustik {
 std::shared_ptr<const Bsdf> make_mask(std::shared_ptr<const Bsdf> nested,
                                       std::shared_ptr<const Texture> opacity);
 
+/// The bsdf; for `null`, which has no lobe, one that passes light as a delta event, so that a
+/// mixture can choose it.
+std::shared_ptr<const Bsdf> with_lobe(std::shared_ptr<const Bsdf> bsdf);
+
 }  // namespace kaustik

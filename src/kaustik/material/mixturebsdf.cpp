@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
+#include "kaustik/base/number_list.h"
 #include "kaustik/material/blend.h"
 #include "kaustik/material/bsdf_kinds.h"
+#include "kaustik/material/mask.h"
 
 namespace kaustik {
 namespace {
@@ -25,30 +26,16 @@ class Black final : public Bsdf {
   Spectrum albedo(const BsdfContext&, const Vec3f&, Lobes) const override { return Spectrum(); }
 };
 
-bool is_separator(char c) {
-  return c == ' ' || c == ',' || c == ';' || c == '\t' || c == '\n' || c == '\r';
-}
-
-/// Numbers with commas or spaces between. Throws Error(input) if one is none, negative or far too
-/// large.
+/// Throws Error(input) if one is no number, negative or far too large.
 std::vector<double> weights_of(const Arguments& arguments) {
-  const std::string& text = arguments.text("weights");
-  std::vector<double> weights;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (true) {
-    while (at != end && is_separator(*at)) ++at;
-    if (at == end) return weights;
-    double weight = 0;
-    const auto [next, error] = std::from_chars(at, end, weight);
-    const bool ends = next == end || is_separator(*next);
-    if (error != std::errc{} || !ends || !(weight >= 0 && weight <= 1e6))
-      throw Error(ErrorKind::input, "'weights' holds something that is no weight",
-                  "give numbers from 0 to 1 with commas between, one for each nested bsdf",
-                  arguments.place_of("weights"));
-    weights.push_back(weight);
-    at = next;
-  }
+  auto [weights, wrong_word] = parse_number_list(arguments.text("weights"));
+  const bool fit = std::all_of(weights.begin(), weights.end(),
+                               [](double weight) { return weight >= 0 && weight <= 1e6; });
+  if (!wrong_word.empty() || !fit)
+    throw Error(ErrorKind::input, "'weights' holds something that is no weight",
+                "give numbers from 0 to 1 with commas between, one for each nested bsdf",
+                arguments.place_of("weights"));
+  return weights;
 }
 
 void check_weights(const std::vector<double>& weights, const BsdfInputs& inputs, double sum) {
@@ -95,9 +82,9 @@ std::shared_ptr<const Bsdf> create_mixturebsdf(const BsdfInputs& inputs) {
     if (weight == 0) continue;
     if (share > 0) {
       const auto rest = make_constant_texture(SpectralValue(float(share / (share + weight))));
-      mixed = make_blend(inputs.nested[i], mixed, rest);
+      mixed = make_blend(with_lobe(inputs.nested[i]), mixed, rest);
     } else {
-      mixed = inputs.nested[i];
+      mixed = with_lobe(inputs.nested[i]);
     }
     share += weight;
   }

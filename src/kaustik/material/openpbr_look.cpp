@@ -21,9 +21,6 @@ float rougher(float roughness, float above) {
   return std::pow(std::min(1.0f, sum), 0.25f);
 }
 
-Parameter pbr_share(const std::string& name, double usual, const std::string& sentence) {
-  return number_parameter(name, usual, sentence).range(0, 1).textured();
-}
 Parameter pbr_color(const std::string& name, double usual, const std::string& sentence) {
   return color_parameter(name, usual, sentence).range(0, 1).textured();
 }
@@ -32,41 +29,44 @@ Parameter pbr_color(const std::string& name, double usual, const std::string& se
 
 std::vector<Parameter> OpenPbrParameters::rows() {
   std::vector<Parameter> rows = {
-      pbr_share("base_weight", 1, "Factor on the base's colour."),
+      share_parameter("base_weight", 1, "Factor on the base's colour."),
       pbr_color("base_color", 0.8, "Of what is matt, and of metal at normal incidence."),
-      pbr_share("base_diffuse_roughness", 0, "Of what is matt: 0 as 'diffuse', 1 like plaster."),
-      pbr_share("base_metalness", 0, "Share of metal."),
-      pbr_share("specular_weight", 1, "Factor on what the base's surface reflects straight on."),
+      share_parameter("base_diffuse_roughness", 0,
+                      "Of what is matt: 0 as 'diffuse', 1 like plaster."),
+      share_parameter("base_metalness", 0, "Share of metal."),
+      share_parameter("specular_weight", 1,
+                      "Factor on what the base's surface reflects straight on."),
       pbr_color("specular_color", 1,
                 "Factor on what the base's surface reflects; of metal only toward its edge."),
-      pbr_share("specular_roughness", 0.3, "Of the base's surface; its slope is about the square."),
-      pbr_share("specular_roughness_anisotropy", 0,
-                "How much longer highlights of the base are across the tangent."),
+      share_parameter("specular_roughness", 0.3,
+                      "Of the base's surface; its slope is about the square."),
+      share_parameter("specular_roughness_anisotropy", 0,
+                      "How much longer highlights of the base are along the tangent."),
       number_parameter("specular_ior", 1.5, "Index of refraction of the base over that outside.")
           .range(0.01, 100),
-      pbr_share("transmission_weight", 0, "Share of glass in what is no metal."),
+      share_parameter("transmission_weight", 0, "Share of glass in what is no metal."),
       pbr_color("transmission_color", 1, "Factor on what passes the surface of glass."),
-      pbr_share("subsurface_weight", 0, "Share of skin or wax in what is matt."),
+      share_parameter("subsurface_weight", 0, "Share of skin or wax in what is matt."),
       pbr_color("subsurface_color", 0.8,
                 "Colour of that share, which scatters light where it arrives."),
       number_parameter("subsurface_scatter_anisotropy", 0,
                        "Of sheets: 1 lets through what that share scatters, −1 throws it back.")
           .range(-1, 1),
-      pbr_share("coat_weight", 0, "Share of the surface that has a coat."),
+      share_parameter("coat_weight", 0, "Share of the surface that has a coat."),
       pbr_color("coat_color", 1, "Factor on what has passed the coat twice."),
-      pbr_share("coat_roughness", 0, "Of the coat; what is beneath it gets rougher, too."),
-      pbr_share("coat_roughness_anisotropy", 0,
-                "How much longer highlights of the coat are across the tangent."),
+      share_parameter("coat_roughness", 0, "Of the coat; what is beneath it gets rougher, too."),
+      share_parameter("coat_roughness_anisotropy", 0,
+                      "How much longer highlights of the coat are along the tangent."),
       number_parameter("coat_ior", 1.6, "Index of refraction of the coat over that outside.")
           .range(0.01, 100),
-      pbr_share("coat_darkening", 1,
-                "How much light that the coat throws back again darkens the base."),
-      pbr_share("fuzz_weight", 0, "Share of the surface that has fibres on it."),
+      share_parameter("coat_darkening", 1,
+                      "How much light that the coat throws back again darkens the base."),
+      share_parameter("fuzz_weight", 0, "Share of the surface that has fibres on it."),
       pbr_color("fuzz_color", 1, "Factor on what the fibres reflect."),
-      pbr_share("fuzz_roughness", 0.5, "0: upright fibres; 1: dust."),
+      share_parameter("fuzz_roughness", 0.5, "0: upright fibres; 1: dust."),
       boolean_parameter("geometry_thin_walled", false,
                         "A sheet, alike on both sides; light leaves it where it enters."),
-      pbr_share("geometry_opacity", 1, "Share of the surface that is there at all.")};
+      share_parameter("geometry_opacity", 1, "Share of the surface that is there at all.")};
   for (const char* name :
        {"transmission_depth", "transmission_scatter_anisotropy", "transmission_dispersion_scale",
         "transmission_dispersion_abbe_number", "subsurface_radius", "thin_film_weight",

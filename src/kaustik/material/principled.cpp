@@ -364,10 +364,6 @@ class Principled final : public Bsdf {
   float constant_scale_ = 0;  ///< 0: it has to be found at each point
 };
 
-Parameter share_parameter(const std::string& name, double usual, const std::string& sentence) {
-  return number_parameter(name, usual, sentence).range(0, 1).textured();
-}
-
 const TypeInfo& principled_info() {
   static const TypeInfo info{
       "bsdf",
@@ -377,7 +373,7 @@ const TypeInfo& principled_info() {
            .range(0, 1)
            .textured(),
        share_parameter("roughness", 0.5, "Of the facets; their slope is about its square."),
-       share_parameter("anisotropic", 0, "How much longer highlights are across the tangent."),
+       share_parameter("anisotropic", 0, "How much longer highlights are along the tangent."),
        share_parameter("metallic", 0, "Share of metal; the rest is matt or glass."),
        share_parameter("spec_trans", 0, "Share of glass in what is no metal."),
        optional(number_parameter("eta", 1.5, "Index of refraction inside over that outside."))

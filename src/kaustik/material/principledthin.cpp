@@ -278,10 +278,6 @@ class PrincipledThin final : public Bsdf {
   float constant_scale_ = 0;  ///< 0: it has to be found at each point
 };
 
-Parameter thin_share(const std::string& name, double usual, const std::string& sentence) {
-  return number_parameter(name, usual, sentence).range(0, 1).textured();
-}
-
 const TypeInfo& principledthin_info() {
   static const TypeInfo info{
       "bsdf",
@@ -290,15 +286,15 @@ const TypeInfo& principledthin_info() {
       {color_parameter("base_color", 0.5, "Colour of what is matt and of what goes through.")
            .range(0, 1)
            .textured(),
-       thin_share("roughness", 0.5, "Of the facets; their slope is about its square."),
-       thin_share("anisotropic", 0, "How much longer highlights are across the tangent."),
-       thin_share("spec_trans", 0, "Share of what is glassy; the rest is matt."),
+       share_parameter("roughness", 0.5, "Of the facets; their slope is about its square."),
+       share_parameter("anisotropic", 0, "How much longer highlights are along the tangent."),
+       share_parameter("spec_trans", 0, "Share of what is glassy; the rest is matt."),
        number_parameter("eta", 1.5, "Index of refraction of the sheet over that beside it.")
            .range(0.01, 100),
-       thin_share("spec_tint", 0, "How much the reflection of glass has the base's colour."),
-       thin_share("sheen", 0, "Shine of cloth at grazing angles."),
-       thin_share("sheen_tint", 0, "How much the sheen has the base's colour."),
-       thin_share("flatness", 0, "How much the base looks like skin or wax."),
+       share_parameter("spec_tint", 0, "How much the reflection of glass has the base's colour."),
+       share_parameter("sheen", 0, "Shine of cloth at grazing angles."),
+       share_parameter("sheen_tint", 0, "How much the sheen has the base's colour."),
+       share_parameter("flatness", 0, "How much the base looks like skin or wax."),
        number_parameter("diff_trans", 0,
                         "How much of what is matt goes through: 0 nothing, 2 all of it.")
            .range(0, 2)

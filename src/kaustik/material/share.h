@@ -7,6 +7,12 @@
 
 namespace kaustik {
 
+/// The row of what a Share reads.
+inline Parameter share_parameter(const std::string& name, double usual,
+                                 const std::string& sentence) {
+  return number_parameter(name, usual, sentence).range(0, 1).textured();
+}
+
 /// A parameter that is one number from 0 to `largest`; a texture is asked only if it varies, and
 /// what it says beyond the range is taken to its ends.
 class Share {
@@ -20,7 +26,7 @@ class Share {
   float at(const BsdfContext& context) const {
     return is_constant() ? value_ : in_range(context.scalar_of(*texture_));
   }
-  /// What to look at who wants to know the most that can be.
+  /// Values among which the largest result is looked for.
   std::vector<float> extremes(int steps) const {
     if (is_constant()) return {value_};
     std::vector<float> values;

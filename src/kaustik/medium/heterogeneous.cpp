@@ -46,7 +46,7 @@ void check_density_grid(const GridVolume& grid, const Place& place) {
   if (grid.largest() > 0 && grid.largest() < least)
     throw Error(ErrorKind::input,
                 fmt::format("the largest density of the grid is {:g}", grid.largest()),
-                "give larger ones, and a smaller 'scale'", place);
+                "multiply the densities, and divide 'scale' by the same number", place);
 }
 
 Extinction extinction_of(const MediumInputs& inputs) {
@@ -67,8 +67,9 @@ Extinction extinction_of(const MediumInputs& inputs) {
   }
   throw Error(
       ErrorKind::input,
-      fmt::format("the grid of sigma_t has {} channels that differ from place to place",
-                  grid->channels()),
+      grid->channels() == 3
+          ? std::string("the colour of the grid of sigma_t differs from place to place")
+          : fmt::format("the grid of sigma_t has {} channels", grid->channels()),
       "extinction has to be a density times one colour: give a grid of one channel; its colour can "
       "vary by the albedo alone",
       given.place);

@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
+#include "kaustik/base/number_list.h"
 #include "kaustik/medium/medium_kinds.h"
 
 namespace kaustik {
@@ -77,26 +76,14 @@ const TypeInfo& tabphase_info() {
 
 std::vector<double> parse_values(const std::string& text, const Place& place) {
   constexpr size_t most = 1 << 20;
-  std::vector<double> values;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  const auto is_gap = [](char c) {
-    return c == ' ' || c == ',' || c == '\t' || c == '\n' || c == '\r';
-  };
-  while (true) {
-    while (at != end && is_gap(*at)) ++at;
-    if (at == end) break;
-    double value = 0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    const bool is_number = error == std::errc{} && (next == end || is_gap(*next));
-    if (!is_number || !std::isfinite(value) || value < 0 || values.size() == most)
-      throw Error(
-          ErrorKind::input,
-          fmt::format("value {} of phase 'tabphase' is no number from zero on", values.size() + 1),
-          fmt::format("give 2 to {} finite numbers, none of them negative", most), place);
-    values.push_back(value);
-    at = next;
-  }
+  auto [values, wrong_word] = parse_number_list(text);
+  const auto wrong =
+      std::find_if(values.begin(), values.end(), [](double value) { return value < 0; });
+  if (!wrong_word.empty() || wrong != values.end() || values.size() > most)
+    throw Error(ErrorKind::input,
+                fmt::format("value {} of phase 'tabphase' is no number from zero on",
+                            std::min(size_t(wrong - values.begin()), most) + 1),
+                fmt::format("give 2 to {} finite numbers, none of them negative", most), place);
   if (values.size() < 2 || *std::max_element(values.begin(), values.end()) == 0)
     throw Error(ErrorKind::input,
                 fmt::format("phase 'tabphase' has {} values{}", values.size(),

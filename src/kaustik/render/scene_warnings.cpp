@@ -123,7 +123,7 @@ std::string missed_lamps_warning(const Scene& scene) {
   const bool has_lamps = std::ranges::any_of(scene.lights(), [](const auto& light) {
     return light->traits().is_delta && !light->traits().is_only_seen;
   });
-  if (scene.camera().traits().weight == 1 || !has_lamps) return {};
+  if (!scene.camera().traits().measures_irradiance || !has_lamps) return {};
   return "the irradiancemeter stands in a shape with bsdf 'null', where it misses what point, spot "
          "and directional lamps send straight to it: give the shape another bsdf";
 }

@@ -58,7 +58,8 @@ struct CameraTraits {
   bool can_connect = true;  ///< whether it can be asked how a point is seen; else connect()
                             ///< answers with importance 0
   bool repeats = false;     ///< see Camera::visit_repetitions()
-  float weight = 1;         ///< that a ray's radiance counts with; π: it measures irradiance
+  float weight = 1;         ///< that a ray's radiance counts with
+  bool measures_irradiance = false;  ///< then that weight is π, and pixels are irradiances
   /// Of a camera that sees along parallel lines: from where one of usual field of view would see as
   /// much, m; 0: it sees from a point.
   float parallel_distance = 0;

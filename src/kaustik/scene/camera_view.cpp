@@ -54,12 +54,12 @@ ClipRange::ClipRange(const Arguments& arguments) {
 
 std::vector<Parameter> clip_parameters() {
   return {optional(number_parameter("near_clip", 0,
-                                    "What is nearer along the direction of view is cut off; "
+                                    "What is nearer is cut off, see docs/cameras.md; "
                                     "nothing if absent.")
                        .range(0, 1e12)
                        .in("m")),
           optional(number_parameter("far_clip", 1e4,
-                                    "What is farther along the direction of view is cut off; "
+                                    "What is farther is cut off, see docs/cameras.md; "
                                     "nothing if absent.")
                        .range(0, 1e12)
                        .in("m"))};

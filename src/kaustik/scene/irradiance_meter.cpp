@@ -28,6 +28,7 @@ class IrradianceMeter final : public Camera {
       traits_.pixel_spread = half_angle;
       traits_.has_ways = true;
       traits_.weight = pi;
+      traits_.measures_irradiance = true;
     } else {
       // As if it were seen in a picture of so many pixels on a side.
       constexpr float pixels = 32;

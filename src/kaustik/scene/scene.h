@@ -107,7 +107,7 @@ class Scene {
   const FilmSettings& film() const { return parts_.film; }
   /// What the picture holds, by what the film asks for and by what the camera is.
   Quantity quantity() const {
-    return camera().traits().weight != 1 ? Quantity::irradiance : film().quantity;
+    return camera().traits().measures_irradiance ? Quantity::irradiance : film().quantity;
   }
 
   /// Whether there is any medium or null boundary. Without them every segment ends at a surface,

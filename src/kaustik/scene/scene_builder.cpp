@@ -235,6 +235,8 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   counts_.top_structures = structures.top_level ? 1 : 0;
   counts_.pictures = pictures_.read_count();
   built_.sensor = keys_.whole(*sensor_);
+  if (sensor_shape_ >= 0)
+    built_.sensor = hash_mix(built_.sensor, keys_.whole(*shapes_[size_t(sensor_shape_)].object));
   parts.built = std::move(built_);
   parts.counts = counts_;
   parts.film = film_;
@@ -569,7 +571,8 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, cons
   };
   std::shared_ptr<const Bsdf> bsdf;
   collecting(object.place, [&] {
-    bsdf = bsdf_of(object, *type, {arguments, nested, textures_for(arguments, *textures), warn}, on);
+    bsdf =
+        bsdf_of(object, *type, {arguments, nested, textures_for(arguments, *textures), warn}, on);
   });
   if (bsdf && bsdf->traits().size > maximum_bsdf_size) {
     problems_.add(fmt::format("bsdf '{}' nests {} bsdfs, each counted for every place it is used "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -46,8 +47,9 @@ class Batch {
     if (const auto film = child_of(batch, "film")) film_ = part_of_film(*film, parts_.size());
   }
 
-  std::vector<Child> unfolded() const {
-    std::vector<Child> result;
+  /// Appends its cameras to the children of the scene. A shape that is among them already, which
+  /// the batch refers to, is there once.
+  void unfold_into(std::vector<Child>& result) const {
     for (size_t i = 0; i < parts_.size(); ++i) {
       const std::string name =
           parts_[i].name.empty() ? "sensor" + std::to_string(i) : parts_[i].name;
@@ -58,9 +60,14 @@ class Batch {
       auto shape = std::make_shared<Object>(*parts_[i].object);
       for (Child& child : shape->children)
         if (is_sensor(child)) child.object = camera(*child.object, name);
-      result.push_back({"", shape});
+      const auto known = std::find_if(result.begin(), result.end(), [&](const Child& child) {
+        return child.object == parts_[i].object;
+      });
+      if (known != result.end())
+        known->object = shape;
+      else
+        result.push_back({"", shape});
     }
-    return result;
   }
 
  private:
@@ -85,13 +92,10 @@ class Batch {
 void unfold_batches(Object& scene) {
   if (std::none_of(scene.children.begin(), scene.children.end(), is_batch)) return;
   std::vector<Child> children;
-  for (const Child& child : scene.children) {
-    if (!is_batch(child)) {
-      children.push_back(child);
-      continue;
-    }
-    for (Child& part : Batch(*child.object).unfolded()) children.push_back(std::move(part));
-  }
+  std::copy_if(scene.children.begin(), scene.children.end(), std::back_inserter(children),
+               [](const Child& child) { return !is_batch(child); });
+  for (const Child& child : scene.children)
+    if (is_batch(child)) Batch(*child.object).unfold_into(children);
   scene.children = std::move(children);
 }
 

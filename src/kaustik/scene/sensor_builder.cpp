@@ -42,7 +42,8 @@ void SceneBuilder::make_sensor(const Object& object) {
   camera_ = type->create({arguments, film_, shape, own && own->traits.is_null, bounds});
   // Of what rays meet, unless they bring irradiance themselves.
   if (own)
-    film_.quantity = camera_->traits().weight != 1 ? Quantity::radiance : Quantity::irradiance;
+    film_.quantity =
+        camera_->traits().measures_irradiance ? Quantity::radiance : Quantity::irradiance;
 }
 
 std::shared_ptr<const Shape> SceneBuilder::shape_of_sensor(const Object& object,

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "kaustik/base/number_list.h"
 #include "kaustik/base/spectral_value.h"
 #include "kaustik/scene/find_row.h"
 
@@ -19,23 +19,12 @@ constexpr double first_visible_nm = Wavelengths::first_nm, last_visible_nm = Wav
   throw Error(ErrorKind::input, message, remedy, arguments.place_of(name));
 }
 
-/// The numbers of a text, between commas or blanks.
 std::vector<double> number_list(const Arguments& arguments, const std::string& name) {
-  constexpr std::string_view separators = ", \t\r\n";
-  const std::string_view text = arguments.text(name);
-  std::vector<double> numbers;
-  for (size_t begin = text.find_first_not_of(separators); begin != std::string_view::npos;) {
-    const size_t end = std::min(text.find_first_of(separators, begin), text.size());
-    const std::string_view word = text.substr(begin, end - begin);
-    double number = 0;
-    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc{} || stop != word.data() + word.size() || !std::isfinite(number))
-      refuse(arguments, name,
-             fmt::format("'{}' holds '{}', which is no finite number", name, word.substr(0, 60)),
-             "list numbers, as in \"0.1, 0.5, 0.2\"");
-    numbers.push_back(number);
-    begin = text.find_first_not_of(separators, end);
-  }
+  auto [numbers, wrong_word] = parse_number_list(arguments.text(name));
+  if (!wrong_word.empty())
+    refuse(arguments, name,
+           fmt::format("'{}' holds '{}', which is no finite number", name, wrong_word),
+           "list numbers, as in \"0.1, 0.5, 0.2\"");
   if (numbers.size() < 2)
     refuse(arguments, name, fmt::format("'{}' has fewer than two numbers", name),
            "list one for each wavelength, at least two");

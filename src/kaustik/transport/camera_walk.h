@@ -104,6 +104,8 @@ class CameraWalk {
   float last_pdf() const { return state_.pdf_forward; }
   /// Along which the next advance() goes.
   const Ray& ray() const { return ray_; }
+  /// From the lens to the vertex along the path, m; before the first advance() to the ray's origin.
+  float distance() const { return distance_; }
   /// The component of light that arrives at the vertex, after specular events only or others, and
   /// leaves it by `event`.
   Component component_of(Lobes event, bool after_specular_events) const {

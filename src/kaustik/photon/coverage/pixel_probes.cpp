@@ -17,13 +17,14 @@ PixelProbe look(const Scene& scene, const Vec2f& raster, uint64_t block, uint32_
   SampleSink nowhere{ComponentSet()};
   CameraWalk walk(scene, raster, sampler, nowhere);
   const Vec3f origin = walk.ray().origin;
+  const float cut_off = walk.distance();
   PixelProbe probe;
   probe.raster = raster;
   while (walk.events() < most_delta_events && walk.advance()) {
     const SurfaceVertex& vertex = walk.vertex();
     if (walk.events() == 0) {
       const float parallel = scene.camera().traits().parallel_distance;
-      probe.distance = parallel > 0 ? parallel : length(vertex.position() - origin);
+      probe.distance = parallel > 0 ? parallel : cut_off + length(vertex.position() - origin);
     }
     if (any(vertex.lobes() & (Lobes::diffuse | Lobes::glossy))) {
       probe.found = true;
