@@ -134,7 +134,7 @@ TEST(mixturebsdf, lets_light_pass_null) {
     EXPECT_TRUE(mixed->traits().transmits);
     EXPECT_NEAR(mixed->albedo(radiance(), wo, Lobes::diffuse)[0], 0.25, 1e-6);
     EXPECT_NEAR(mixed->albedo(radiance(), wo, Lobes::delta)[0], 0.75, 1e-6);
-    const BsdfSample straight = mixed->sample(radiance(), wo, 0.9f, {0.5f, 0.5f}, Lobes::all);
+    const BsdfSample straight = mixed->sample(radiance(), wo, 0.1f, {0.5f, 0.5f}, Lobes::all);
     ASSERT_EQ(straight.event, Lobes::delta);
     EXPECT_TRUE(straight.wi.equalWithAbsError(-wo, 1e-6f));
     EXPECT_NEAR(straight.weight[0], 1, 1e-6);

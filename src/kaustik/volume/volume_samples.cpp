@@ -124,11 +124,11 @@ class VolReader {
   uint64_t data_bytes() const { return value_count(samples_) * value_bytes(); }
 
   void check_file_size(uint64_t file_size) const {
-    if (file_size >= header_bytes + data_bytes()) return;  // some writers add bytes
+    if (file_size == header_bytes + data_bytes()) return;
     fail(fmt::format("the volume's {} x {} x {} cells take {} bytes, but {} are there",
                      samples_.size[0], samples_.size[1], samples_.size[2], data_bytes(),
                      file_size - header_bytes),
-         "the file is truncated: copy or export it again");
+         "the file is damaged or truncated: copy or export it again");
   }
 
   /// Piece by piece, so that the file is not in memory twice.
