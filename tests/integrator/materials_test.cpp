@@ -11,6 +11,7 @@ using namespace test;
 
 struct Material {
   std::string name, bsdf;
+  double samples = 64;  ///< for one percent of noise in each channel
 };
 void PrintTo(const Material& material, std::ostream* out) { *out << material.name; }
 
@@ -27,7 +28,7 @@ const std::vector<Material>& materials() {
        bsdf("roughdiffuse", rgb("reflectance", "0.8, 0.7, 0.5") + set("roughness", 0.9))},
       {"ground_glass", bsdf("roughdielectric", set("alpha", 0.3))},
       {"pane", bsdf("thindielectric", rgb("specular_transmittance", "0.7, 0.8, 0.9"))},
-      {"plastic", bsdf("plastic", rgb("diffuse_reflectance", "0.6, 0.7, 0.2"))},
+      {"plastic", bsdf("plastic", rgb("diffuse_reflectance", "0.6, 0.7, 0.2")), 256},
       {"rough_plastic",
        bsdf("roughplastic", rgb("diffuse_reflectance", "0.6, 0.7, 0.2") + set("alpha", 0.3))},
       {"principled_metal", bsdf("principled", rgb("base_color", "0.9, 0.7, 0.3") +
@@ -95,7 +96,8 @@ class Materials : public testing::TestWithParam<Material> {
 
 TEST_P(Materials, BdptAgreesWithPath) {
   const TestScene scene = ball_of(GetParam().bsdf);
-  expect_agreement(scene, picture_of(scene, "path", "", 64), "bdpt", "", 0.01, 64);
+  expect_agreement(scene, picture_of(scene, "path", "", GetParam().samples), "bdpt", "", 0.01,
+                   GetParam().samples);
 }
 
 // What merges has a bias of its own.
