@@ -56,6 +56,15 @@ const std::vector<Material>& materials() {
   return all;
 }
 
+std::vector<Material> mixed_materials() {
+  std::vector<Material> mixed;
+  for (const char* name :
+       {"ground_glass", "plastic", "principled_glass", "leaf", "ward", "coated_glass"})
+    for (const Material& material : materials())
+      if (material.name == name) mixed.push_back(material);
+  return mixed;
+}
+
 /// All pixels see the ball, whose radius is 8.4 degrees.
 TestScene ball_of(const std::string& material) {
   return TestScene(
@@ -92,21 +101,28 @@ class Materials : public testing::TestWithParam<Material> {
       expect_near_means(GetParam().name + ", " + type + ", " + channel_names[channel],
                         in_channel(found, path, channel), tolerance, 0.005);
   }
+  void expect_bdpt_agrees() const {
+    const TestScene scene = ball_of(GetParam().bsdf);
+    const double samples = GetParam().samples;
+    expect_agreement(scene, picture_of(scene, "path", "", samples), "bdpt", "", 0.01, samples);
+  }
 };
 
-TEST_P(Materials, BdptAgreesWithPath) {
-  const TestScene scene = ball_of(GetParam().bsdf);
-  expect_agreement(scene, picture_of(scene, "path", "", GetParam().samples), "bdpt", "", 0.01,
-                   GetParam().samples);
-}
+TEST_P(Materials, BdptAgreesWithPathLong) { expect_bdpt_agrees(); }
+
+/// Those with most lobes.
+class MixedMaterials : public Materials {};
+
+TEST_P(MixedMaterials, BdptAgreesWithPath) { expect_bdpt_agrees(); }
 
 // What merges has a bias of its own.
 TEST_P(Materials, AllAgreeWithPathLong) {
   const TestScene scene = ball_of(GetParam().bsdf);
-  const Passes path = picture_of(scene, "path", "", 512);
-  expect_agreement(scene, path, "vcm", set("light_paths", 2.0), 0.01, 128);
-  expect_agreement(scene, path, "auto", "", 0.02, 128);
-  expect_agreement(scene, path, "photonmap", set("global_photons", 100000), 0.03, 128);
+  const Passes path = picture_of(scene, "path", "", 8 * GetParam().samples);
+  const double samples = 2 * GetParam().samples;
+  expect_agreement(scene, path, "vcm", set("light_paths", 2.0), 0.01, samples);
+  expect_agreement(scene, path, "auto", "", 0.02, samples);
+  expect_agreement(scene, path, "photonmap", set("global_photons", 100000), 0.03, samples);
 }
 
 // A ball that is off by 4 % in one channel is found out in that channel, and in no other.
@@ -124,6 +140,8 @@ TEST(MaterialsPlanted, AnErrorInOneChannelIsFound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Materials, testing::ValuesIn(materials()),
+                         [](const auto& instance) { return instance.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, MixedMaterials, testing::ValuesIn(mixed_materials()),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
