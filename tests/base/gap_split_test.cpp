@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace kaustik {
 namespace {
 
@@ -19,6 +21,9 @@ TEST(SplitInGap, LeavesPlanesWhole) {
 
 TEST(SplitInGap, IsNoneWithoutGap) {
   EXPECT_FALSE(split_in_gap({}, 0));
+  // Of floats that are neighbours the larger one divides them.
+  const float next = std::nextafter(1.0f, 2.0f);
+  EXPECT_EQ(split_in_gap({1, next}, 0), next);
   EXPECT_FALSE(split_in_gap({1}, 0));
   EXPECT_FALSE(split_in_gap({1, 1, 1}, 0));
   EXPECT_FALSE(split_in_gap({0, 0.5f, 1}, 0.5f));

@@ -146,7 +146,7 @@ std::string ParameterValues::wild_transform_step() {
       return fmt::format("<scale value=\"{}\"/>", triple(2));
     case 1:
       return fmt::format("<scale value=\"{}\"/>",
-                         draw_.one_of({1e-30, 1e-20, 1e-12, 1e-6, -1.0, 1e6, 1e12, 1e20}));
+                         draw_.one_of({1e-20, 1e-6, 1e-4, 0.01, -1.0, 30.0, 1e4, 1e6, 1e12}));
     case 2: {
       std::string rows;
       for (int i = 0; i < 12; ++i)

@@ -12,7 +12,11 @@ std::optional<float> split_in_gap(std::vector<float> places, float least_gap) {
   };
   for (size_t off = 0; off <= middle; ++off)
     for (const size_t i : {middle - off, middle + off})
-      if (is_gap(i)) return places[i - 1] + 0.5f * (places[i] - places[i - 1]);
+      if (is_gap(i)) {
+        const float between = places[i - 1] + 0.5f * (places[i] - places[i - 1]);
+        // Of two floats that are neighbours there is none between.
+        return between > places[i - 1] ? between : places[i];
+      }
   return std::nullopt;
 }
 
