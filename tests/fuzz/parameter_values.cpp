@@ -142,8 +142,13 @@ std::string ParameterValues::transform_step() {
 
 std::string ParameterValues::wild_transform_step() {
   switch (draw_.below(4)) {
-    case 0:
-      return fmt::format("<scale value=\"{}\"/>", triple(2));
+    case 0: {
+      const auto one = [&] {
+        return draw_.chance(0.1) ? wild_number() : draw_.one_of({0.5, 1.0, 2.0, -1.0, 0.001, 50.0});
+      };
+      const double x = one(), y = one(), z = one();
+      return fmt::format("<scale value=\"{:.6g}, {:.6g}, {:.6g}\"/>", x, y, z);
+    }
     case 1:
       return fmt::format("<scale value=\"{}\"/>",
                          draw_.one_of({1e-20, 1e-6, 1e-4, 0.01, -1.0, 30.0, 1e4, 1e6, 1e12}));

@@ -66,7 +66,7 @@ class Grammar {
  public:
   Grammar(uint64_t seed, const std::string& files_folder)
       : draw_(seed), values_(draw_, files_folder) {
-    values_.wildness = draw_.one_of({0.0, 0.02, 0.05, 0.1, 0.3});
+    values_.wildness = draw_.one_of({0.0, 0.005, 0.02, 0.05, 0.3});
   }
 
   GeneratedScene scene() {
