@@ -89,8 +89,8 @@ function check_names(line,    i) {
 BEGIN {
   allow("base", "")
   allow("image", "base")
-  allow("geometry", "base")
   allow("volume", "base")
+  allow("geometry", "base image volume")
   allow("material", "base image volume")
   allow("medium", "base image volume")
   allow("light", "base image geometry")

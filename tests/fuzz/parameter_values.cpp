@@ -104,6 +104,8 @@ std::string ParameterValues::file(const TypeInfo& info) {
           ? draw_.one_of({"quad.obj", "tent.obj", "flat.obj", is_wild() ? "far.obj" : "quad.obj"})
       : info.name == "ply"        ? draw_.one_of({"pyramid.ply", "needle.ply", "painted.ply"})
       : info.name == "serialized" ? "pair.serialized"
+      : info.name == "sdfgrid"
+          ? draw_.one_of({"ball.vol", "ball.vol", "folds.vol", is_wild() ? "flow.vol" : "ball.vol"})
       : info.name == "gridvolume"
           ? draw_.one_of({"cloud.vol", "bytes.vol", is_wild() ? "colors.vol" : "cloud.vol",
                           is_wild() ? "flow.vol" : "bytes.vol"})

@@ -33,6 +33,9 @@ bool holds(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// Shapes that nobody samples by area.
+bool can_shine(const TypeInfo& shape) { return shape.name != "sdf" && shape.name != "sdfgrid"; }
+
 /// Parameters of which a type takes either the first or the second.
 const std::vector<std::pair<Names, Names>>& alternatives() {
   static const std::vector<std::pair<Names, Names>> list = {
@@ -194,7 +197,7 @@ class Grammar {
         light_types(), [&](const LightType& type) { return type.needs_shape == of_shape; });
     const TypeInfo& info = draw_.one_of(fitting)->info;
     std::string result = open(info) + properties(info);
-    if (!of_shape && draw_.chance(0.1)) result += medium("");
+    if (of_shape.empty() && draw_.chance(0.1)) result += medium("");
     return result + close(info);
   }
 
@@ -229,7 +232,7 @@ class Grammar {
           [](const Parameter& p) { return p.required && p.kind == ParameterKind::array; });
     });
     const TypeInfo& info = draw_.one_of(types)->info;
-    return shape_in(info, shines && info.name != "sdf", values_.transform("to_world"));
+    return shape_in(info, shines && can_shine(info), values_.transform("to_world"));
   }
 
   /// A room around everything.
@@ -337,6 +340,16 @@ class Grammar {
   size_t media_ = 0, bsdfs_ = 0, groups_ = 0;  ///< that may be referred to
 };
 
+/// At the nodes of a grid of 3³ over the unit cube, to a ball in its middle.
+std::vector<float> distances_to_ball() {
+  std::vector<float> values;
+  for (int z = 0; z < 3; ++z)
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x)
+        values.push_back(0.5f * length(Vec3f(float(x - 1), float(y - 1), float(z - 1))) - 0.4f);
+  return values;
+}
+
 void write_pfm(const std::string& path, int width, int height, const std::vector<float>& pixels) {
   std::ofstream file(path, std::ios::binary);
   file << fmt::format("PF\n{} {}\n-1.0\n", width, height);
@@ -387,6 +400,8 @@ void write_files(const std::string& folder) {
   write("bytes.vol", test::vol_file({2, 2, 2}, {0, 0.5, 1, 0, 1, 0, 1, 1}, {.encoding = 3}));
   write("colors.vol", test::vol_file({2, 1, 1}, {0.1f, 0.5f, 0.9f, 1, 0.5f, 0}, {.channels = 3}));
   write("flow.vol", test::vol_file({1, 1, 1}, {1, 2, 3, 4, 5, 6}, {.channels = 6}));
+  write("ball.vol", test::vol_file({3, 3, 3}, distances_to_ball()));
+  write("folds.vol", test::vol_file({2, 3, 2}, {1, -1, -1, 1, 0, 2, -1, 1, 1, -1, 1, -1}));
   write("packed.serialized", test::serialized_file({test::record_mesh()}));
   write("needle.ply", ply + "0 0 0\n1 0 0\n1 1e-20 0\n1e6 1e6 1e6\n3 0 1 2\n3 0 1 3\n");
   write_pfm(folder + "/colors.pfm", 8, 4, {0.1f, 0.5f, 0.9f, 0.3f, 0.7f});

@@ -14,6 +14,7 @@ const std::vector<ShapeType>& shape_types() {
       {sphere_info(), create_sphere},
       {cylinder_info(), create_cylinder},
       {sdf_info(), create_sdf},
+      {sdfgrid_info(), create_sdfgrid},
   };
   return types;
 }

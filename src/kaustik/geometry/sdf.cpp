@@ -7,6 +7,7 @@
 #include "kaustik/geometry/sdf_field.h"
 #include "kaustik/geometry/shape_creators.h"
 #include "kaustik/geometry/shape_support.h"
+#include "kaustik/geometry/zero_set.h"
 
 namespace kaustik {
 namespace {
@@ -15,31 +16,6 @@ namespace {
 constexpr double precision = 1e-5;
 /// Beyond the unit cube the surface has nothing but what `precision` adds.
 constexpr double extent = 1.0 + 4 * precision;
-
-/// Triangles of the zero set in a tetrahedron (marching tetrahedra), facing the positive side.
-void add_tetrahedron(const Vec3d (&p)[4], const double (&value)[4], std::vector<Vec3d>& corners) {
-  int inside[4], outside[4], n_inside = 0, n_outside = 0;
-  for (int i = 0; i < 4; ++i) (value[i] < 0 ? inside[n_inside++] : outside[n_outside++]) = i;
-  if (n_inside == 0 || n_outside == 0) return;
-  const auto crossing = [&](int a, int b) {
-    const double s = value[a] / (value[a] - value[b]);
-    return p[a] + (p[b] - p[a]) * s;
-  };
-  const auto add = [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    const bool faces_outside = (b - a).cross(c - a).dot(p[outside[0]] - a) > 0;
-    corners.insert(corners.end(), {a, faces_outside ? b : c, faces_outside ? c : b});
-  };
-  if (n_inside == 2) {
-    const Vec3d a = crossing(inside[0], outside[0]), b = crossing(inside[0], outside[1]);
-    const Vec3d c = crossing(inside[1], outside[1]), d = crossing(inside[1], outside[0]);
-    add(a, b, c);
-    add(a, c, d);
-    return;
-  }
-  const int single = n_inside == 1 ? inside[0] : outside[0];
-  const int* others = n_inside == 1 ? outside : inside;
-  add(crossing(single, others[0]), crossing(single, others[1]), crossing(single, others[2]));
-}
 
 class SdfShape : public Shape {
  public:
@@ -221,61 +197,14 @@ std::vector<Bounds3f> SdfShape::bounding_boxes(int budget) const {
 }
 
 TriangleMesh SdfShape::tessellate(int level) const {
-  const int n = 16 << std::clamp(level, 0, 4);
-  const double width = 2 * (extent + 0.01) / n;
-  const auto grid_point = [&](int i, int j, int k) {
-    return Vec3d(i, j, k) * width - Vec3d(1, 1, 1) * (extent + 0.01);
-  };
-  const auto layer = [&](int k) {
-    std::vector<double> values;
-    for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= n; ++i) values.push_back(field_.value(grid_point(i, j, k)));
-    return values;
-  };
-  // The six tetrahedra round the diagonal from corner 0 to corner 7 (bits: x, y, z).
-  constexpr int tetrahedra[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
-                                    {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
-  std::vector<Vec3d> corners;
-  std::vector<double> below = layer(0);
-  for (int k = 0; k < n; ++k) {
-    std::vector<double> above = layer(k + 1);
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-        for (const auto& tetrahedron : tetrahedra) {
-          Vec3d p[4];
-          double value[4];
-          for (int c = 0; c < 4; ++c) {
-            const int x = i + (tetrahedron[c] & 1), y = j + (tetrahedron[c] >> 1 & 1);
-            const int z = tetrahedron[c] >> 2;
-            p[c] = grid_point(x, y, k + z);
-            value[c] = (z ? above : below)[size_t(y) * size_t(n + 1) + size_t(x)];
-          }
-          add_tetrahedron(p, value, corners);
-        }
-    below = std::move(above);
-  }
-  TriangleMesh mesh;
-  const bool mirrored = world_from_field_.determinant3() < 0;
-  for (size_t i = 0; i < corners.size(); i += 3) {
-    for (size_t c = 0; c < 3; ++c)
-      mesh.positions.push_back(Vec3f(transform_point(world_from_field_, corners[i + c])));
-    const auto a = uint32_t(i);
-    mesh.triangles.push_back(mirrored ? std::array{a, a + 2, a + 1} : std::array{a, a + 1, a + 2});
-  }
-  return mesh;
+  const double reach = extent + 0.01;
+  const Vec3d corner(reach, reach, reach);
+  return zero_set([this](const Vec3d& p) { return field_.value(p); }, -corner, corner,
+                  16 << std::clamp(level, 0, 4), world_from_field_);
 }
 
 float SdfShape::area() const {
-  std::call_once(area_once_, [this] {
-    const TriangleMesh mesh = tessellate(2);
-    double sum = 0;
-    for (size_t i = 0; i < mesh.positions.size(); i += 3) {
-      const Vec3d p(mesh.positions[i]);
-      sum +=
-          0.5 * (Vec3d(mesh.positions[i + 1]) - p).cross(Vec3d(mesh.positions[i + 2]) - p).length();
-    }
-    area_ = float(sum);
-  });
+  std::call_once(area_once_, [this] { area_ = float(mesh_area(tessellate(2))); });
   return area_;
 }
 

@@ -25,5 +25,7 @@ const TypeInfo& cylinder_info();
 std::unique_ptr<Shape> create_cylinder(const Arguments& arguments);
 const TypeInfo& sdf_info();
 std::unique_ptr<Shape> create_sdf(const Arguments& arguments);
+const TypeInfo& sdfgrid_info();
+std::unique_ptr<Shape> create_sdfgrid(const Arguments& arguments);
 
 }  // namespace kaustik
