@@ -31,6 +31,7 @@ int64_t largest_affordable(const std::string& name) {
   if (name == "rr_depth") return 12;
   if (name == "iterations") return 5;
   if (name == "count") return 40;
+  if (name == "width" || name == "height") return 12;
   return int64_t(1) << 62;
 }
 

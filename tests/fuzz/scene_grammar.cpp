@@ -104,8 +104,8 @@ class Grammar {
     std::string result;
     for (const Parameter& p : info.parameters) {
       if (holds(skips, p.name)) continue;
-      const bool only_texture =
-          p.accepts_texture && std::holds_alternative<std::monostate>(p.default_value);
+      const bool only_texture = p.accepts_texture && p.kind != ParameterKind::file &&
+                                std::holds_alternative<std::monostate>(p.default_value);
       const bool costly = p.name.find("photons") != std::string::npos ||
                           p.name == "cache_samples" || p.name == "samples_per_pass";
       const bool needed = both && (p.name == "eta" || p.name == "k");

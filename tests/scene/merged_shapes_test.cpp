@@ -70,7 +70,7 @@ TEST(ForeignShapes, AreToldWithWhatToDo) {
     return scene->warnings().empty() ? "" : scene->warnings()[0];
   };
   EXPECT_NE(warning_of("hair").find("export them as a mesh of tubes"), std::string::npos);
-  EXPECT_NE(warning_of("heightfield").find("export it as a mesh"), std::string::npos);
+  EXPECT_NE(warning_of("deformable").find("export it at one time"), std::string::npos);
   EXPECT_EQ(warning_of("hare"), "test.xml:3:1: Kaustik does not know shape 'hare': it is left out");
   Description strict =
       description_of(any_camera + std::string(any_shape) + "\n<shape type=\"hair\"/>");

@@ -8,6 +8,7 @@ const std::vector<ShapeType>& shape_types() {
       {ply_info(), create_ply},
       {serialized_info(), create_serialized},
       {mesh_info(), create_mesh},
+      {heightfield_info(), create_heightfield},
       {rectangle_info(), create_rectangle},
       {cube_info(), create_cube},
       {disk_info(), create_disk},

@@ -106,8 +106,9 @@ struct ShapeType {
   std::unique_ptr<Shape> (*create)(const Arguments&);
 };
 
-/// The registry: one row per type ("obj", "ply", "mesh", "rectangle", "cube", "disk", "sphere",
-/// "cylinder", "sdf"). Shape groups and instances are the scene's own.
+/// The registry: one row per type ("obj", "ply", "serialized", "mesh", "heightfield", "rectangle",
+/// "cube", "disk", "sphere", "cylinder", "sdf", "sdfgrid"). Shape groups and instances are the
+/// scene's own.
 const std::vector<ShapeType>& shape_types();
 
 }  // namespace kaustik

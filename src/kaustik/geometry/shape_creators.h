@@ -11,6 +11,8 @@ const TypeInfo& ply_info();
 std::unique_ptr<Shape> create_ply(const Arguments& arguments);
 const TypeInfo& serialized_info();
 std::unique_ptr<Shape> create_serialized(const Arguments& arguments);
+const TypeInfo& heightfield_info();
+std::unique_ptr<Shape> create_heightfield(const Arguments& arguments);
 const TypeInfo& mesh_info();
 std::unique_ptr<Shape> create_mesh(const Arguments& arguments);
 const TypeInfo& rectangle_info();

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,10 @@ class Bitmap final : public Texture {
   float aspect() const override {
     const Vec2f texel = pyramid_.texel_size({0, 0});
     return texel.y / texel.x;
+  }
+  Vec2i resolution() const override {
+    const Vec2f texel = pyramid_.texel_size({0, 0});
+    return {int(std::lround(1 / texel.x)), int(std::lround(1 / texel.y))};
   }
   Spectrum mean() const override { return pyramid_.mean(); }
   /// By differences over one texel, which turn the kinks of bilinear interpolation into a gradient

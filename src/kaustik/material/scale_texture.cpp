@@ -14,6 +14,7 @@ class ScaleTexture final : public Texture {
   }
   float maximum() const override { return (rgb(value_->maximum()) * scale_.rgb()).max_lane(); }
   float aspect() const override { return value_->aspect(); }
+  Vec2i resolution() const override { return value_->resolution(); }
   bool is_constant() const override { return value_->is_constant(); }
   Spectrum mean() const override { return value_->mean() * scale_.rgb(); }
   HeightGradient height_gradient(const TextureCoordinates& at) const override {

@@ -61,6 +61,8 @@ class Texture {
   virtual float maximum() const = 0;
   /// Width over height of the picture that it is; 1 if it is none.
   virtual float aspect() const { return 1; }
+  /// Pixels of the picture that it is; 0: none.
+  virtual Vec2i resolution() const { return {0, 0}; }
   /// Whether eval() gives the same everywhere.
   virtual bool is_constant() const { return false; }
   /// Mean over the uv square in RGB mode, for importance and previews; of textures in space

@@ -14,7 +14,6 @@ std::string remedy_for_foreign_shape(const std::string& type) {
       {"hair", curves},
       {"ellipsoids", ellipsoids},
       {"ellipsoidsmesh", ellipsoids},
-      {"heightfield", "export it as a mesh (ply, obj)"},
       {"deformable", "export it at one time as a mesh (ply, obj)"},
       {"packed", "export the mesh as ply or serialized"}};
   for (const auto& [name, remedy] : remedies)

@@ -332,11 +332,13 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
       unknown_type(object, valid);
     return std::nullopt;
   }
-  refuse_children(object, {"bsdf", "emitter", "integrator", "medium", "sensor"});
+  refuse_children(object, {"bsdf", "emitter", "integrator", "medium", "sensor", "texture"});
+  const std::optional<Object> described = with_heights(object, type->info);
+  if (!described) return std::nullopt;
   BuiltShape built;
   built.object = &object;
   built.surface.name = display_name(object);
-  const Arguments arguments = arguments_of(type->info, object);
+  const Arguments arguments = arguments_of(type->info, *described);
   if (arguments.is_complete())
     collecting(source_place(arguments), [&] {
       built.shape = shape_of(object, *type, arguments);

@@ -46,6 +46,11 @@ class SceneBuilder {
   void add_instance(const Object& object);
   uint32_t group_index(const std::shared_ptr<Object>& group);
   std::optional<BuiltShape> make_shape(const Object& object);
+  /// Whether shapes of the type take a texture, for heights.
+  static bool takes_heights(const TypeInfo& shape);
+  /// The shape, with the heights that a texture in it gives as the buffer that stands for them;
+  /// nothing if the texture is wrong, which was told.
+  std::optional<Object> with_heights(const Object& shape, const TypeInfo& info);
   // `on`: the shape that a bsdf or a texture lies on, for textures that ask it; null: none, it is
   // only checked.
   std::shared_ptr<const Bsdf> make_bsdf(const std::shared_ptr<Object>& object,
@@ -98,6 +103,7 @@ class SceneBuilder {
   /// scene before. Throws Error.
   std::shared_ptr<const Shape> shape_of(const Object& object, const ShapeType& type,
                                         const Arguments& arguments);
+  uint64_t shape_key(const Object& object, const ShapeType& type);
   std::shared_ptr<const Texture> texture_of(const Object& object, const TextureType& type,
                                             const TextureInputs& inputs, const BuiltShape* on);
   std::shared_ptr<const Bsdf> bsdf_of(const Object& object, const BsdfType& type,

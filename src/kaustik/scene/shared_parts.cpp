@@ -38,7 +38,7 @@ void SceneBuilder::read_meshes(const Object& scene) {
   std::vector<Arguments> arguments;
   for (const auto& [object, type] : shapes) {
     // The key is asked for before the file is read: it tells when the file changed.
-    if (find_part(before().shapes, keys_.own(*object))) continue;
+    if (find_part(before().shapes, shape_key(*object, *type))) continue;
     try {
       Problems told_later;
       UnknownParameters unknown;
@@ -61,9 +61,13 @@ void SceneBuilder::read_meshes(const Object& scene) {
   });
 }
 
+uint64_t SceneBuilder::shape_key(const Object& object, const ShapeType& type) {
+  return takes_heights(type.info) ? keys_.whole(object) : keys_.own(object);
+}
+
 std::shared_ptr<const Shape> SceneBuilder::shape_of(const Object& object, const ShapeType& type,
                                                     const Arguments& arguments) {
-  const uint64_t key = keys_.own(object);
+  const uint64_t key = shape_key(object, type);
   std::shared_ptr<const Shape> shape;
   if (const auto* known = find_part(before().shapes, key)) {
     shape = *known;
