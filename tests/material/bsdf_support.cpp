@@ -45,7 +45,8 @@ std::shared_ptr<const Bsdf> make_usual_bsdf(const BsdfType& type) {
 
 std::shared_ptr<const Texture> make_texture(
     const std::string& type, std::vector<Property> properties,
-    std::map<std::string, std::shared_ptr<const Texture>> textures) {
+    std::map<std::string, std::shared_ptr<const Texture>> textures,
+    std::map<std::string, std::shared_ptr<const Volume>> volumes) {
   for (const TextureType& t : texture_types()) {
     if (t.info.name != type) continue;
     for (Property& p : properties) p.place = place_in("scene.xml", 9, 4);
@@ -61,9 +62,23 @@ std::shared_ptr<const Texture> make_texture(
       if (name != "vertex_color") throw Error(ErrorKind::input, "no attribute " + name, "", {});
       return std::make_shared<SlantedAttribute>();
     };
-    return t.create({arguments, pictures, texture, attribute});
+    const auto volume = [&](std::string_view name) -> std::shared_ptr<const Volume> {
+      const auto found = volumes.find(std::string(name));
+      return found != volumes.end() ? found->second : nullptr;
+    };
+    return t.create({arguments, pictures, texture, attribute, volume});
   }
   throw std::invalid_argument("no texture type " + type);
+}
+
+std::shared_ptr<const Volume> repeated_volume() {
+  VolumeSamples samples;
+  samples.size = {3, 2, 2};
+  samples.channels = 3;
+  for (int i = 0; i < 36; ++i) samples.values.push_back(float(i * 7 % 36) / 36);
+  return std::make_shared<Volume>(GridVolume(samples, GridVolume::Filter::trilinear,
+                                             GridVolume::Wrap::repeat,
+                                             Transform::scale({4, 4, 4})));
 }
 
 std::shared_ptr<const Texture> make_usual_texture(const TextureType& type,
@@ -72,7 +87,10 @@ std::shared_ptr<const Texture> make_usual_texture(const TextureType& type,
   if (type.info.find("filename")) properties.push_back(property("filename", picture));
   if (type.info.find("name")) properties.push_back(property("name", std::string("vertex_color")));
   if (type.info.find("value")) properties.push_back(property("value", 0.5));
-  return make_texture(type.info.name, std::move(properties));
+  std::map<std::string, std::shared_ptr<const Volume>> volumes;
+  for (const Parameter& parameter : type.info.parameters)
+    if (parameter.accepts_volume) volumes[parameter.name] = repeated_volume();
+  return make_texture(type.info.name, std::move(properties), {}, std::move(volumes));
 }
 
 namespace {

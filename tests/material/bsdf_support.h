@@ -23,8 +23,12 @@ std::shared_ptr<const Bsdf> make_usual_bsdf(const BsdfType& type);
 /// the attribute "vertex_color", a SlantedAttribute.
 std::shared_ptr<const Texture> make_texture(
     const std::string& type, std::vector<Property> properties = {},
-    std::map<std::string, std::shared_ptr<const Texture>> textures = {});
-/// With the values that a scene need not give; what it must have is given: `picture` is a file.
+    std::map<std::string, std::shared_ptr<const Texture>> textures = {},
+    std::map<std::string, std::shared_ptr<const Volume>> volumes = {});
+/// A grid of colours over a cube with edges of 4 m, again and again.
+std::shared_ptr<const Volume> repeated_volume();
+/// With the values that a scene need not give; what it must have is given: `picture` is a file, and
+/// a volume is the repeated one.
 std::shared_ptr<const Texture> make_usual_texture(const TextureType& type,
                                                   const std::string& picture,
                                                   std::vector<Property> properties = {});

@@ -1,6 +1,10 @@
 // Textures that hold textures, and those of other programs.
 
+#include <fstream>
+
 #include "tests/scene/scene_support.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/vol_file.h"
 
 namespace kaustik {
 namespace {
@@ -44,6 +48,52 @@ TEST(NestedTextures, ThatFitNowhereAreTold) {
       covered_ball("\n<bsdf type=\"diffuse\"><texture type=\"scale\" name=\"reflectance\"/>"
                    "</bsdf>"),
       "3:22", "nothing to multiply");
+}
+
+Spectrum albedo_of_place(const Scene& scene, const Vec3f& position) {
+  TextureCoordinates at;
+  at.position = position;
+  BsdfContext context;
+  context.move_to(at, {});
+  return scene.surface(0).bsdf->albedo(context, {0, 0, 1}, Lobes::all);
+}
+
+/// In the world, whatever the surface's own place.
+TEST(NestedTextures, ShowVolumes) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path("grid.vol"), std::ios::binary) << vol_file({2, 1, 1}, {0.2f, 0.6f});
+  const std::string volume =
+      "<volume name=\"volume\" type=\"gridvolume\"><string "
+      "name=\"filename\" value=\"" +
+      folder.path("grid.vol") +
+      "\"/><transform name=\"to_world\"><scale value=\"4\"/>"
+      "</transform></volume>";
+  const auto painted = [&](const std::string& texture) {
+    return covered_ball("<bsdf type=\"diffuse\">" + texture + "</bsdf>");
+  };
+  const auto scene =
+      scene_of(painted("<texture type=\"scale\" name=\"reflectance\"><float name=\"scale\" "
+                       "value=\"0.5\"/><texture type=\"volume\">" +
+                       volume + "</texture></texture>"));
+  EXPECT_NEAR(albedo_of_place(*scene, {1, 9, 9})[0], 0.1f, 1e-6f);
+  EXPECT_NEAR(albedo_of_place(*scene, {2, 0, 0})[0], 0.2f, 1e-6f);
+  EXPECT_NEAR(albedo_of_place(*scene, {3, 0, 0})[0], 0.3f, 1e-6f);
+  // By reference, and one value.
+  const auto referring = scene_of(
+      painted("<texture type=\"volume\" name=\"reflectance\"><ref name=\"volume\" id=\"v\"/>"
+              "</texture>") +
+      "<volume id=\"v\" type=\"constvolume\"><rgb name=\"value\" value=\"0.1, 0.2, 0.3\"/>"
+      "</volume>");
+  EXPECT_EQ(albedo_of_place(*referring, {1, 0, 0}), spectrum_from_rgb(0.1f, 0.2f, 0.3f));
+  const auto plain = scene_of(painted("<texture type=\"volume\" name=\"reflectance\"/>"));
+  EXPECT_FLOAT_EQ(albedo_of_place(*plain, {1, 0, 0})[0], 0.75f);
+
+  expect_problem(painted("\n<texture type=\"volume\" name=\"reflectance\"><volume "
+                         "name=\"value\" type=\"constvolume\"/></texture>"),
+                 "3:43", "takes no volume 'value'", "did you mean 'volume'?");
+  expect_problem(painted("\n<texture type=\"checkerboard\" name=\"reflectance\"><volume "
+                         "name=\"color0\" type=\"constvolume\"/></texture>"),
+                 "3:49", "cannot hold a volume");
 }
 
 /// Each board shows the one before it twice: answers would take twice as long at each level.

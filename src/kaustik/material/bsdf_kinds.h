@@ -37,6 +37,7 @@ TextureType checkerboard_type();
 TextureType gridtexture_type();
 TextureType scale_type();
 TextureType mesh_attribute_type();
+TextureType volume_texture_type();
 TextureType noise_type();
 TextureType marble_type();
 TextureType wood_type();

@@ -35,8 +35,9 @@ std::string_view remedy_for_bsdf_to_come(std::string_view type) {
 
 const std::vector<TextureType>& texture_types() {
   static const std::vector<TextureType> types = {
-      bitmap_type(), checkerboard_type(), gridtexture_type(), scale_type(), mesh_attribute_type(),
-      noise_type(),  marble_type(),       wood_type(),        tiles_type(), waves_type()};
+      bitmap_type(),         checkerboard_type(),   gridtexture_type(), scale_type(),
+      mesh_attribute_type(), volume_texture_type(), noise_type(),       marble_type(),
+      wood_type(),           tiles_type(),          waves_type()};
   return types;
 }
 

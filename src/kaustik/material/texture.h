@@ -8,6 +8,7 @@
 
 #include "kaustik/base/parameters.h"
 #include "kaustik/base/spectral_value.h"
+#include "kaustik/volume/volume.h"
 
 namespace kaustik {
 
@@ -91,6 +92,9 @@ std::shared_ptr<const Texture> make_constant_texture(const SpectralValue& value)
 /// from the argument; null if there is neither.
 using TextureOfParameter = std::function<std::shared_ptr<const Texture>(std::string_view)>;
 
+/// The nested volume that stands for a parameter; null if there is none.
+using VolumeOfParameter = std::function<std::shared_ptr<const Volume>(std::string_view)>;
+
 /// What create() of a texture gets.
 struct TextureInputs {
   const Arguments& arguments;
@@ -100,6 +104,7 @@ struct TextureInputs {
   /// and the texture is only checked. Throws Error(input) where the surface has nothing of the
   /// name.
   std::function<std::shared_ptr<const SurfaceAttribute>(const std::string& name)> attribute;
+  VolumeOfParameter volume;
 };
 
 struct TextureType {
@@ -109,8 +114,8 @@ struct TextureType {
   /// Whether each surface that it lies on has one of its own, which knows the surface's attributes.
   bool asks_surface = false;
 };
-/// "bitmap", "checkerboard", "gridtexture", "scale", "mesh_attribute", "noise", "marble", "wood",
-/// "tiles", "waves".
+/// "bitmap", "checkerboard", "gridtexture", "scale", "mesh_attribute", "volume", "noise", "marble",
+/// "wood", "tiles", "waves".
 const std::vector<TextureType>& texture_types();
 
 }  // namespace kaustik

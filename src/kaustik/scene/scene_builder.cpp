@@ -31,6 +31,11 @@ std::vector<std::string> texture_parameters(const TypeInfo& info) {
   return names;
 }
 
+bool takes_volumes(const TypeInfo& info) {
+  return std::any_of(info.parameters.begin(), info.parameters.end(),
+                     [](const Parameter& row) { return row.accepts_volume; });
+}
+
 /// Of all that can be written as a texture.
 std::vector<std::string> texture_names() {
   std::vector<std::string> names = names_of(texture_types());
@@ -473,22 +478,28 @@ std::shared_ptr<const Texture> SceneBuilder::create_texture(const Object& object
     unknown_type(object, texture_names());
     return nullptr;
   }
+  std::vector<std::string> families;
+  if (!texture_parameters(type->info).empty()) families.emplace_back("texture");
+  if (takes_volumes(type->info)) families.emplace_back("volume");
+  refuse_children(object, families);
   std::optional<Textures> nested = Textures();
-  if (texture_parameters(type->info).empty())
-    refuse_children(object, {});
-  else {
-    refuse_children(object, {"texture"});
-    nested = textures_of(object, type->info, on);
-  }
+  if (!texture_parameters(type->info).empty()) nested = textures_of(object, type->info, on);
+  std::optional<Volumes> volumes = Volumes();
+  if (takes_volumes(type->info)) volumes = volumes_of(object, type->info);
   const Arguments arguments = arguments_of(type->info, object);
-  if (!nested || !arguments.is_complete()) return nullptr;
+  if (!nested || !volumes || !arguments.is_complete()) return nullptr;
   std::shared_ptr<const Texture> texture;
   const auto attribute = [&](const std::string& name) {
     return attribute_of(on, name, arguments.place_of("name"));
   };
+  const auto volume = [&](std::string_view name) -> std::shared_ptr<const Volume> {
+    const auto found = volumes->find(name);
+    return found != volumes->end() ? found->second.volume : nullptr;
+  };
   collecting(source_place(arguments), [&] {
-    texture = texture_of(object, *type,
-                         {arguments, pictures_, textures_for(arguments, *nested), attribute}, on);
+    texture =
+        texture_of(object, *type,
+                   {arguments, pictures_, textures_for(arguments, *nested), attribute, volume}, on);
   });
   if (texture && texture->size() > maximum_texture_size) {
     problems_.add(fmt::format("texture '{}' nests {} textures, each counted for every place it is "
