@@ -192,9 +192,14 @@ class Grammar {
     return result + close(info);
   }
 
-  std::string emitter(bool of_shape) {
-    const auto fitting = rows_that(
-        light_types(), [&](const LightType& type) { return type.needs_shape == of_shape; });
+  /// `of_shape`: the type of the shape that it stands in; "": none.
+  std::string emitter(const std::string& of_shape) {
+    // Beams are flat.
+    const bool may_be_beam = of_shape == "rectangle" || of_shape == "disk" || draw_.chance(0.1);
+    const auto fitting = rows_that(light_types(), [&](const LightType& type) {
+      return type.needs_shape == !of_shape.empty() &&
+             (may_be_beam || type.info.name != "directionalarea");
+    });
     const TypeInfo& info = draw_.one_of(fitting)->info;
     std::string result = open(info) + properties(info);
     if (of_shape.empty() && draw_.chance(0.1)) result += medium("");
@@ -209,7 +214,7 @@ class Grammar {
       if (draw_.chance(0.9)) skips.emplace_back(name);
     result += properties(info, skips) + placed;
     if (draw_.chance(0.9)) result += bsdf(shines ? Names{"null"} : Names{});
-    if (shines) result += emitter(true);
+    if (shines) result += emitter(info.name);
     for (const char* side : {"interior", "exterior"})
       if (draw_.chance(0.15)) result += medium(side);
     if (draw_.chance(0.03)) {
@@ -274,7 +279,7 @@ class Grammar {
       result += joined({"<shape type=\"merge\">", shape(false), shape(true), "</shape>\n"});
     if (groups_ > 0)
       for (size_t i = 1 + draw_.below(3); i > 0; --i) result += instance();
-    for (size_t i = draw_.below(4); i > 0; --i) result += emitter(false);
+    for (size_t i = draw_.below(4); i > 0; --i) result += emitter("");
     return result;
   }
 

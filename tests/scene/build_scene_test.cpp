@@ -313,6 +313,39 @@ TEST(BuildScene, TypesOfDialects) {
              "the scene has no parameter 'gamma'");
 }
 
+/// Lamps keep their surfaces, though one before them is left out.
+TEST(BuildScene, LampsBehindOneThatIsLeftOut) {
+  const auto scene =
+      scene_of(camera +
+               "<emitter type=\"volumelight\"/><emitter type=\"point\"/>"
+               "<shape type=\"sphere\"/><shape type=\"disk\"><emitter type=\"area\"/>"
+               "</shape><shape type=\"rectangle\"><emitter type=\"directionalarea\"/>"
+               "</shape>");
+  ASSERT_EQ(scene->lights().size(), 3u);
+  EXPECT_EQ(scene->surface(0).light, -1);
+  EXPECT_EQ(scene->surface(1).light, 1);
+  EXPECT_EQ(scene->lights()[1]->traits().shape, 1);
+  // No ray meets a beam.
+  EXPECT_EQ(scene->surface(2).light, -1);
+  EXPECT_EQ(scene->lights()[2]->traits().beam_shape, 2);
+}
+
+/// Names that Mitsuba 0.6 wrote so, in a scene of a later version.
+TEST(BuildScene, NamesInCamelCase) {
+  const std::string placed =
+      camera +
+      "\n<shape type=\"sphere\"><transform name=\"toWorld\"><translate value=\"5, 0, 0\"/>"
+      "</transform>";
+  expect_one(lenient_warnings(placed + "</shape>"),
+             "test.xml:3:23: 'toWorld' of shape 'sphere' is taken as 'to_world'");
+  EXPECT_NEAR(scene_of(placed + "</shape>")->tracer().bounds().min.x, 4, 1e-5f);
+  // What is given as it should be holds.
+  expect_one(lenient_warnings(placed + "<transform name=\"to_world\"/></shape>"),
+             "has no parameter 'toWorld': it is left out");
+  EXPECT_NEAR(scene_of(placed + "<transform name=\"to_world\"/></shape>")->tracer().bounds().min.x,
+              -1, 1e-5f);
+}
+
 TEST(BuildScene, SurfacesOfDialects) {
   const auto reflected = [](const std::string& bsdf) {
     const std::string text = camera + "<shape type=\"sphere\">" + bsdf + "</shape>";

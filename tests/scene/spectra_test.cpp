@@ -231,9 +231,8 @@ TEST(Spectra, WhatIsWrong) {
 }
 
 TEST(Lights, ThatComeLaterTellWhatWillDoInstead) {
-  expect_problem(any_camera + std::string("<shape type=\"disk\">\n"
-                                          "<emitter type=\"directionalarea\"/></shape>"),
-                 "3:1", "'directionalarea' comes later", "'spot'");
+  expect_problem(any_camera + std::string(any_shape) + "\n<emitter type=\"collimated\"/>", "3:1",
+                 "'collimated' comes later", "'spot'");
 }
 
 /// Each holds the one before twice: looked at once each.

@@ -79,6 +79,7 @@ struct LightTraits {
   bool is_only_seen = false;
   bool is_two_sided = false;  ///< both sides of its surface shine
   int shape = -1;             ///< index into the scene's shapes if it is an area light, else −1
+  int beam_shape = -1;        ///< the same of a distant light that begins at a shape, see below
   /// Most shadow rays for one sample of the light at recursion level 0: where some arrive and some
   /// don't, up to so many are worth their time. 1: one always does.
   int shadow_samples = 1;
@@ -90,14 +91,19 @@ struct LightTraits {
   std::optional<EmissionBall> ball;
   /// In classical ray tracing. Photons, and everything else that is physical, ignore it.
   ClassicalAttenuation attenuation;
+
+  /// Whether it is a beam: emitted rays begin on a shape, and points outside of the beam get none.
+  bool is_beam() const { return beam_shape >= 0; }
+  /// The shape that it shines from; −1: none.
+  int surface() const { return shape >= 0 ? shape : beam_shape; }
 };
 
 class PlacedLight;
 class DistantLight;
 
 /// A source of light, of one of two families: it has a place (PlacedLight), or it shines from
-/// infinity (DistantLight). Immutable. Emission is one-sided on surfaces (the side of the geometric
-/// normal), as in Mitsuba.
+/// infinity, or as if it did (DistantLight). Immutable. Emission is one-sided on surfaces (the side
+/// of the geometric normal), as in Mitsuba.
 class Light {
  public:
   virtual ~Light() = default;
@@ -163,7 +169,8 @@ struct TravelDirection {
 };
 
 /// A light at infinity: a direction or an environment. Emission is a direction of travel, then an
-/// origin on the plane across it.
+/// origin on the plane across it. A beam from a flat shape is one, too: light that comes from a
+/// single direction falls off with no distance, wherever it begins.
 class DistantLight : public Light {
  public:
   /// Radiance of rays that leave the scene along `direction`; zero where none meets the light.

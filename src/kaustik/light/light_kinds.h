@@ -10,6 +10,7 @@
 namespace kaustik {
 
 LightType area_light_type();
+LightType directional_area_light_type();
 LightType point_light_type();
 LightType spot_light_type();
 LightType projector_light_type();

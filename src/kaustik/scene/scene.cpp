@@ -77,17 +77,18 @@ void Scene::find_media() {
   if (!has_media_) return;
   for (size_t i = 0; i < parts_.lights.size(); ++i) {
     const Light& light = *parts_.lights[i];
-    const Surface* surface =
-        light.traits().shape >= 0 ? &parts_.surfaces[size_t(light.traits().shape)] : nullptr;
+    const Surface* surface = light.traits().surface() >= 0
+                                 ? &parts_.surfaces[size_t(light.traits().surface())]
+                                 : nullptr;
     if (surface && surface->separates_media())
       light_media_[i] = surface->exterior.get();
     else if (parts_.light_media[i])
       light_media_[i] = parts_.light_media[i].get();
-    else if (light.is_infinite())
+    else if (light.is_infinite() && !light.traits().is_beam())
       light_media_[i] = separated ? nullptr : camera_medium();
     else
-      light_media_[i] =
-          find_medium(*this, light.placed().sample_origin({0.5f, 0.5f}).point, camera_medium());
+      light_media_[i] = find_medium(
+          *this, light.sample_emission({0.5f, 0.5f}, {0.5f, 0.5f}, {}).point, camera_medium());
   }
   if (const std::string message = contradicting_media(*this); !message.empty())
     parts_.warnings.push_back(message);

@@ -73,7 +73,6 @@ const Parameter* spectrum_parameter(const TypeInfo& info, const std::string& nam
 const std::string& instead_of_light(const std::string& type) {
   static const std::string nothing;
   static const std::map<std::string, std::string> remedies = {
-      {"directionalarea", "use a 'spot' with a small 'cutoff_angle', or a 'directional' light"},
       {"collimated", "use a 'spot' with a small 'cutoff_angle'"},
       {"timed_sunsky", "use 'sunsky' with the hour that matters most"}};
   const auto found = remedies.find(type);
@@ -386,11 +385,11 @@ void SceneBuilder::add_shape(const Object& object) {
   const int index = int(shapes_.size());
   for (const Child& child : object.children)
     if (child.object->family == "sensor") add_sensor(*child.object, index);
+  int emitters = 0;
   for (const Child& child : object.children) {
     if (child.object->family != "emitter") continue;
-    if (built->surface.light >= 0)
+    if (++emitters == 2)
       problems_.add("the shape has a second emitter", "keep one", child.object->place);
-    built->surface.light = int(pending_lights_.size());
     pending_lights_.push_back({child.object.get(), built->shape, index});
   }
   shapes_.push_back(std::move(*built));
@@ -674,6 +673,9 @@ void SceneBuilder::make_lights() {
     if (!arguments.is_complete()) continue;
     collecting(pending.object->place, [&] {
       make_light(*type, pending, arguments);
+      // Not all that are pending are made, and no ray meets a beam.
+      if (lights_.back()->traits().shape >= 0)
+        shapes_[size_t(pending.shape_index)].surface.light = int(lights_.size()) - 1;
       light_media_.push_back(medium_of(*pending.object));
       hidden_lights_.push_back(hides_lights_ ||
                                (type->info.find("visible") && !arguments.boolean("visible")));

@@ -104,8 +104,8 @@ void describe_lights(const Scene& scene, SceneReport& report) {
   for (const auto& light : scene.lights()) {
     const float power = light->traits().power.sum();
     const std::string where =
-        light->traits().shape >= 0
-            ? fmt::format("surface '{}'", scene.surface(uint32_t(light->traits().shape)).name)
+        light->traits().surface() >= 0
+            ? fmt::format("surface '{}'", scene.surface(uint32_t(light->traits().surface())).name)
         : light->is_infinite() ? std::string("at infinity")
                                : std::string("without a surface");
     const Spectrum rgb = light->traits().power;

@@ -63,12 +63,13 @@ void CameraSplats::add(const LightMediumVertex& at, const CameraConnection& conn
 
 void CameraSplats::show_lamp(int light, const SurfacePoint& origin, float pdf_area,
                              const LightOnItsWay& of) {
+  const Light& lamp = *scene_.lights()[size_t(light)];
   if (!wanted_.has(Component::emission) || wants_irradiance() || scene_.is_hidden(light)) return;
+  if (lamp.traits().is_beam()) return;
   const CameraConnection connection = connect(origin.position, of.sampler);
   const float cosine = dot(connection.direction, origin.ng);
   if (!(connection.importance > 0 && cosine > 0 && pdf_area > 0)) return;
-  const Spectrum radiance =
-      scene_.lights()[size_t(light)]->emitted(origin, connection.direction, of.wavelengths);
+  const Spectrum radiance = lamp.emitted(origin, connection.direction, of.wavelengths);
   for_all_rasters(connection, [&](const CameraConnection& one) {
     Sight sight{origin, scene_.light_medium(light), one, of};
     add(Component::emission, radiance * (cosine / pdf_area) * scale(one, 1), sight);

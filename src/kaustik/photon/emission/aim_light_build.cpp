@@ -40,6 +40,11 @@ AimedLight::AimedLight(const Light& light, const Shape* shape, const AimInputs& 
     scene_center_ = center(inputs.scene_bounds);
     scene_radius_ = 1.001f * bounding_radius(inputs.scene_bounds);
   }
+  if (light.traits().is_beam()) {
+    // Its rays begin on its shape, all along one direction: there is nothing to aim.
+    kind_ = inputs.spheres.empty() ? Kind::dark : Kind::own;
+    return;
+  }
   if (light.is_infinite()) {
     kind_ = Kind::infinite;
   } else {

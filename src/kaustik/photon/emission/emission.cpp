@@ -55,7 +55,8 @@ void EmissionSampler::aim_at(std::vector<AimTarget> targets,
     const Shape* shape = shape_of(*scene_, *light);
     const ProjectionInputs inputs{boxes, scene_bounds, resolution, std::max(2, probes / 2)};
     // An environment's planes are as many as its directions: no map could hold them.
-    if (boxes.empty() || (light->is_infinite() && !light->traits().is_delta))
+    if (boxes.empty() || (light->is_infinite() && !light->traits().is_delta) ||
+        light->traits().is_beam())
       lights_.push_back(
           std::make_unique<AimedLight>(*light, shape, AimInputs{spheres, scene_bounds, probes}));
     else if (light->is_infinite())
@@ -78,7 +79,8 @@ EmittedRay EmissionSampler::sample(int light, const Vec2f& u_position, const Vec
 
 void EmissionSampler::dim(int light, EmittedRay& emitted, const Wavelengths& wavelengths) const {
   const Medium* medium = scene_->light_medium(light);
-  if (!medium || !scene_->lights()[size_t(light)]->is_infinite()) return;
+  const Light& of = *scene_->lights()[size_t(light)];
+  if (!medium || !of.is_infinite() || of.traits().is_beam()) return;
   const Sampler by_segment = Sampler::of(Quadrature::light_medium, 0);
   emitted.flux *= medium->transmittance({emitted.ray.origin, emitted.ray.direction, infinity},
                                         wavelengths, by_segment);

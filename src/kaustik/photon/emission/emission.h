@@ -49,9 +49,9 @@ inline constexpr Aim default_aim = Aim::boxes;
 /// projected along the direction (likewise). Spherical lights only use the side that faces the
 /// target. Where a target surrounds the origin, or takes more than the light emits into, the
 /// light's own distribution stands in for its cone. By `Aim::projection_map` see ProjectionMap;
-/// environment lights are aimed as by `boxes`. Lights whose own distribution serves the targets as
-/// well use that. A target has no chance only where bounds prove that the light cannot reach it.
-/// Immutable.
+/// environment lights are aimed as by `boxes`. Beams, and lights whose own distribution serves the
+/// targets as well, use that. A target has no chance only where bounds prove that the light cannot
+/// reach it. Immutable.
 class EmissionSampler {
  public:
   /// By power: every light by its own distribution. `scene` must outlive this.

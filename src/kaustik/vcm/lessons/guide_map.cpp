@@ -30,7 +30,7 @@ GuideMap::GuideMap(const Light& light, const Shape* shape, const Bounds3f& scene
   if (!light.is_infinite()) {
     kind_ = Kind::direction;
     frame_ = Frame(light.traits().bounds.axis);
-  } else if (light.traits().is_delta && !scene_bounds.isEmpty()) {
+  } else if (light.traits().is_delta && !light.traits().is_beam() && !scene_bounds.isEmpty()) {
     kind_ = Kind::plane;
     frame_ = Frame(light.distant().sample_travel_direction({0.5f, 0.5f}).direction);
     middle_ = frame_.to_local(center(scene_bounds));

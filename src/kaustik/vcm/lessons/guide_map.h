@@ -16,7 +16,7 @@ class GuideMap {
   GuideMap(const Light& light, const Shape* shape, const Bounds3f& scene_bounds);
 
   /// Where a ray lies on the square; a density there times `scale` is the joint one of the ray. Of
-  /// environment lights, of which nothing is learned, `scale` is zero.
+  /// environment lights and beams, of which nothing is learned, `scale` is zero.
   struct Place {
     Vec2f u{0, 0};
     float scale = 0;
