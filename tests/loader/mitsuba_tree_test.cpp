@@ -395,6 +395,22 @@ TEST(MitsubaTree, OfTwoValuesInOldFilesTheLastHolds) {
   expect_problem(problems_in(in_scene(twice)), "test.xml:2:44", "'x' is given twice", "keep one");
 }
 
+/// Mitsuba 0.6 rendered the last one, later versions the first.
+TEST(MitsubaTree, OfSeveralSensorsOneComesFirst) {
+  const std::string sensors =
+      "<sensor type='a'/><shape type='s'/><sensor type='b'/><sensor type='c'/><shape type='t'/>";
+  const auto types = [&](const std::string& version) {
+    std::string result;
+    for (const Child& child : parse(in_scene(sensors, version)).scene->children)
+      result += child.object->type;
+    return result;
+  };
+  EXPECT_EQ(types("3.0.0"), "asbct");
+  EXPECT_EQ(types("2.0.0"), "asbct");
+  EXPECT_EQ(types("0.6.0"), "casbt");
+  EXPECT_EQ(parse(in_scene("<shape type='s'/>", "0.6.0")).scene->children.size(), 1u);
+}
+
 TEST(MitsubaTree, FileNamesMayHaveBackslashes) {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("meshes/a.obj", "");

@@ -221,7 +221,7 @@ TEST(BuildScene, DescriptionsWithoutPlaces) {
       Object{"scene", "", "", {}, {{"", sensor()}, {"", sensor()}, {"", ball}}, {}})};
   EXPECT_EQ(build_scene(two)->warnings(),
             std::vector<std::string>{
-                "the scene has more than one camera: the first is used, not sensor 'perspective'"});
+                "the scene has more than one camera: sensor 'perspective' is not used"});
   const Description none{std::make_shared<Object>(Object{"scene", "", "", {}, {}, {}})};
   try {
     build_scene(none);
@@ -337,7 +337,7 @@ TEST(BuildScene, NamesInCamelCase) {
       "\n<shape type=\"sphere\"><transform name=\"toWorld\"><translate value=\"5, 0, 0\"/>"
       "</transform>";
   expect_one(lenient_warnings(placed + "</shape>"),
-             "test.xml:3:23: 'toWorld' of shape 'sphere' is taken as 'to_world'");
+             "test.xml:3:22: 'toWorld' of shape 'sphere' is taken as 'to_world'");
   EXPECT_NEAR(scene_of(placed + "</shape>")->tracer().bounds().min.x, 4, 1e-5f);
   // What is given as it should be holds.
   expect_one(lenient_warnings(placed + "<transform name=\"to_world\"/></shape>"),

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
 #include "kaustik/base/limits.h"
+#include "kaustik/base/snake_case.h"
 
 namespace kaustik {
 namespace {
@@ -313,10 +315,23 @@ std::vector<std::string> TypeInfo::parameter_names() const {
 std::vector<Property> UnknownParameters::without_unknown(const TypeInfo& info,
                                                          const std::vector<Property>& properties) {
   std::vector<Property> known;
+  const auto has = [&](const std::string& name) {
+    const auto is_it = [&](const Property& property) { return property.name == name; };
+    return std::any_of(properties.begin(), properties.end(), is_it) ||
+           std::any_of(known.begin(), known.end(), is_it);
+  };
   for (const Property& property : properties) {
     const bool is_of_file = property.place.file && property.place.line > 0;
     if (info.find(property.name) || !is_of_file) {
       known.push_back(property);
+      continue;
+    }
+    const std::string snake = snake_case_from_camel_case(property.name);
+    if (info.find(snake) && !has(snake)) {
+      add(fmt::format("'{}' of {} '{}' is taken as '{}'", property.name, info.family, info.name,
+                      snake),
+          property.place);
+      known.push_back({snake, property.value, property.place});
       continue;
     }
     add(fmt::format("{} '{}' has no parameter '{}': it is left out", info.family, info.name,

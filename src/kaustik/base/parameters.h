@@ -138,8 +138,8 @@ struct TypeInfo {
 /// They are left out, and told once for each kind, with how many there were.
 class UnknownParameters {
  public:
-  /// The properties that the table knows, and those that no file gave: who types a name or writes
-  /// a program is told of a mistake as of an error.
+  /// The properties that the table knows (toWorld as to_world), and those that no file gave: who
+  /// types a name or writes a program is told of a mistake as of an error.
   std::vector<Property> without_unknown(const TypeInfo& info,
                                         const std::vector<Property>& properties);
   /// Counts what is left out elsewhere; `text` says what it is and what follows, `nearest` ("":

@@ -86,7 +86,9 @@ Description Reader::read_text(std::string text, const std::string& name, const f
   const bool may_be_quoted = begins_as_scene(text);
   const XmlDocument document(std::move(text), name, may_be_quoted);
   Source source = {document, {}, {folder}, folder};
-  return finish(read_version(source) ? read_scene(source) : nullptr);
+  const bool has_version = read_version(source);
+  is_old_ = source.version < first_with_snake_case;
+  return finish(has_version ? read_scene(source) : nullptr);
 }
 
 fs::path Reader::found(const std::string& file, const Source& source) const {

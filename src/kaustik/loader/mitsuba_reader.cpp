@@ -63,6 +63,7 @@ Description Reader::finish(const std::shared_ptr<Object>& scene) {
   if (scene && !incomplete_) {
     references_.resolve(scene, problems_);
     if (problems_.empty()) open_old_shapes();
+    if (problems_.empty() && is_old_) put_last_sensor_first(*scene);
     // What is left out may have used them.
     if (left_out_.empty()) definitions_.report_unused(problems_);
   }
@@ -214,6 +215,14 @@ void Reader::open_old_shapes() {
     boundary->place = shape->place;
     shape->children.push_back({"", boundary});
   }
+}
+
+void Reader::put_last_sensor_first(Object& scene) {
+  const auto is_sensor = [](const Child& child) { return child.object->family == "sensor"; };
+  const auto first = std::find_if(scene.children.begin(), scene.children.end(), is_sensor);
+  const auto behind_last =
+      std::find_if(scene.children.rbegin(), scene.children.rend(), is_sensor).base();
+  if (first < behind_last) std::rotate(first, behind_last - 1, behind_last);
 }
 
 bool Reader::take_name(Unfinished& parent, const std::string& name, const Place& place) {

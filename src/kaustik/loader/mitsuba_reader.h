@@ -80,6 +80,8 @@ class Reader {
   void scale_reflectances(Object& object);
   /// Before Mitsuba 2 a shape with a medium and no bsdf was a boundary of media alone.
   void open_old_shapes();
+  /// Of several sensors Mitsuba 0.6 rendered the last one, and later versions the first.
+  static void put_last_sensor_first(Object& scene);
   /// `what` is told once, with how many there were.
   void leave_out(const std::string& what, const std::string& sentence, const Place& place);
 
@@ -112,6 +114,7 @@ class Reader {
   size_t read_bytes_ = 0;
   std::vector<std::shared_ptr<Object>> old_shapes_;  ///< of files before Mitsuba 2
   int depth_ = 0;
+  bool is_old_ = false;      ///< the scene is one of before Mitsuba 2
   bool incomplete_ = false;  ///< a part of the scene could not be read at all
 };
 

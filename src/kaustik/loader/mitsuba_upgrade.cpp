@@ -7,6 +7,7 @@
 #include <charconv>
 #include <optional>
 
+#include "kaustik/base/snake_case.h"
 #include "kaustik/loader/mitsuba_values.h"
 
 namespace kaustik::mitsuba {
@@ -65,28 +66,8 @@ constexpr PropertyName property_names[] = {
     {first_of_mitsuba_0_3, "shape", "cylinder", "p1", "p0"},
     {first_of_mitsuba_0_3, "shape", "cylinder", "p2", "p1"}};
 
-bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }
-bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
-char lower(char c) { return char(std::tolower(static_cast<unsigned char>(c))); }
-
-/// toWorld becomes to_world, intIOR int_ior.
-std::string snake_case_from_camel_case(const std::string& name) {
-  std::string result;
-  for (size_t i = 0; i < name.size(); ++i) {
-    const bool starts_word = i > 0 && is_lower(name[i - 1]) && is_upper(name[i]);
-    if (!starts_word) {
-      result += name[i];
-      continue;
-    }
-    result += '_';
-    result += lower(name[i]);
-    while (i + 1 < name.size() && is_upper(name[i + 1])) result += lower(name[++i]);
-  }
-  return result;
-}
-
 std::string lower_case(std::string text) {
-  for (char& c : text) c = lower(c);
+  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
 

@@ -298,8 +298,8 @@ void SceneBuilder::add_top_level(const Object& object) {
 
 void SceneBuilder::add_sensor(const Object& object, int shape) {
   if (sensor_) {
-    warnings_.push_back(fmt::format("the scene has more than one camera: the first is used, not {}",
-                                    display_name(object)));
+    warnings_.push_back(
+        fmt::format("the scene has more than one camera: {} is not used", display_name(object)));
     return;
   }
   sensor_ = &object;
