@@ -2,9 +2,13 @@
 
 #include "kaustik/geometry/mesh_reader.h"
 
+#include <fmt/format.h>
+
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <ctime>
+#include <map>
 
 #include "geometry_support.h"
 
@@ -34,6 +38,23 @@ void put(std::string& out, T value, bool big_endian) {
   std::memcpy(raw, &value, sizeof(T));
   if (big_endian) std::reverse(std::begin(raw), std::end(raw));
   out.append(raw, sizeof(T));
+}
+
+template <typename Vector>
+void expect_same_bits(const Vector& a, const Vector& b, const std::string& what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  if (a.empty()) return;
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])), 0) << what;
+}
+
+void expect_same_mesh(const TriangleMesh& a, const TriangleMesh& b, const std::string& what) {
+  expect_same_bits(a.positions, b.positions, what);
+  expect_same_bits(a.normals, b.normals, what);
+  expect_same_bits(a.uvs, b.uvs, what);
+  expect_same_bits(a.triangles, b.triangles, what);
+  ASSERT_EQ(a.attributes.size(), b.attributes.size()) << what;
+  for (size_t i = 0; i < a.attributes.size(); ++i)
+    expect_same_bits(a.attributes[i].values, b.attributes[i].values, what);
 }
 
 /// A quad with everything that a vertex can have, and things to be skipped.
@@ -78,7 +99,7 @@ void expect_quad(const TriangleMesh& mesh) {
   EXPECT_EQ(mesh.positions[2], Vec3f(1, 1, 2.5f));
   EXPECT_EQ(mesh.normals[3], Vec3f(0, 0, 1));
   EXPECT_EQ(mesh.uvs[1], Vec2f(1, 0));
-  const std::vector<std::array<uint32_t, 3>> fan = {{0, 1, 2}, {0, 2, 3}};
+  const TriangleList fan = {{0, 1, 2}, {0, 2, 3}};
   EXPECT_EQ(mesh.triangles, fan);
 }
 
@@ -420,6 +441,99 @@ TEST(PlyReader, FindsTheFirstFaultOfALargeMesh) {
   quad.insert(faces + 14 * 50'000 + 13, std::string("\0\0\0\0", 4));
   quad[faces + 14 * 50'000] = 4;
   EXPECT_EQ(ply(quad).triangles.size(), count - 1);
+}
+
+/// How a PLY file writes a mesh.
+struct PlyForm {
+  std::string format, number = "float", length = "uchar", index = "int";
+  bool shuffled = false;   ///< numbers of a vertex that do not stand side by side
+  bool with_list = false;  ///< one by one: records differ in size
+};
+
+/// Vertices with all that they can have, and random triangles.
+std::string written(const PlyForm& form, uint32_t vertices, uint32_t faces) {
+  std::vector<std::string> names = {"x", "y", "z", "nx", "ny", "nz", "u", "v"};
+  if (form.shuffled) names = {"v", "nz", "y", "u", "z", "x", "ny", "nx"};
+  std::string out =
+      "ply\nformat " + form.format + " 1.0\nelement vertex " + std::to_string(vertices) + "\n";
+  for (const std::string& name : names) out += "property " + form.number + " " + name + "\n";
+  if (form.with_list) out += "property list uchar uchar none\n";
+  out += "element face " + std::to_string(faces) + "\nproperty list " + form.length + " " +
+         form.index + " vertex_indices\nend_header\n";
+  const auto add = [&](const std::string& type, double value) {
+    const bool big_endian = form.format == "binary_big_endian";
+    if (form.format == "ascii")
+      out += fmt::format("{} ", value);
+    else if (type == "float")
+      put(out, float(value), big_endian);
+    else if (type == "double")
+      put(out, value, big_endian);
+    else if (type == "uchar")
+      put(out, uint8_t(value), big_endian);
+    else
+      put(out, uint32_t(value), big_endian);
+  };
+  Random random(11);
+  for (uint32_t i = 0; i < vertices; ++i) {
+    std::map<std::string, float> vertex;
+    for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "u", "v"})
+      vertex[name] = random.uniform(-1, 1) * random.magnitude(-20, 20);
+    for (const std::string& name : names) add(form.number, double(vertex[name]));
+    if (form.with_list) add("uchar", 0);
+  }
+  for (uint32_t i = 0; i < faces; ++i) {
+    add(form.length, 3);
+    for (int corner = 0; corner < 3; ++corner)
+      add(form.index, std::floor(double(random.uniform()) * double(vertices)));
+  }
+  return out;
+}
+
+/// What is copied as it stands is what is read number by number.
+TEST(PlyReader, AllFormsAreTheSameMesh) {
+  const std::string little = "binary_little_endian", big = "binary_big_endian";
+  const uint32_t vertices = 20'000, faces = 50'000;
+  const TriangleMesh plain = ply(written({.format = little}, vertices, faces));
+  ASSERT_EQ(plain.positions.size(), vertices);
+  ASSERT_EQ(plain.triangles.size(), faces);
+  ASSERT_EQ(plain.normals.size(), vertices);
+  ASSERT_EQ(plain.uvs.size(), vertices);
+  const PlyForm forms[] = {{.format = "ascii"},
+                           {.format = big},
+                           {.format = big, .number = "double", .shuffled = true},
+                           {.format = little, .shuffled = true},
+                           {.format = little, .number = "double", .length = "uint"},
+                           {.format = little, .index = "uint", .with_list = true},
+                           {.format = little, .index = "double"}};
+  for (const PlyForm& form : forms)
+    expect_same_mesh(ply(written(form, vertices, faces)), plain,
+                     form.format + " " + form.number + " " + form.index);
+  // A single bit tells.
+  std::string flipped = written({.format = little}, vertices, faces);
+  flipped[flipped.find("end_header") + 11] ^= 1;
+  EXPECT_NE(ply(flipped).positions[0], plain.positions[0]);
+}
+
+/// Many attributes of faces times one large polygon would be many times the file.
+TEST(PlyReader, AttributesOfFacesAreBounded) {
+  const auto file = [](int attributes, int corners) {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 2000\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uint int vertex_indices\n";
+    for (int i = 0; i < attributes; ++i) text += fmt::format("property uchar a{}_x\n", i);
+    text += "end_header\n";
+    for (int i = 0; i < 2000; ++i) text += "0 0 0\n";
+    text += std::to_string(corners);
+    for (int i = 0; i < corners; ++i) text += " 1";
+    for (int i = 0; i < attributes; ++i) text += " 7";
+    return text;
+  };
+  const std::string message = error_of([&] { ply(file(10'000, 2000)); });
+  EXPECT_NE(message.find("the attributes of faces up to face 0"), std::string::npos) << message;
+  const TriangleMesh few = ply(file(100, 2000));
+  EXPECT_EQ(few.triangles.size(), 1998u);
+  ASSERT_EQ(few.attributes.size(), 100u);
+  EXPECT_EQ(few.attributes[99].values.size(), 1998u);
 }
 
 TEST(PlyReader, TellsSmallFaces) {

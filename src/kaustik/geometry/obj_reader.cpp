@@ -253,7 +253,7 @@ void ObjReader::read_face(std::string_view line) {
     corners_.push_back(vertex_of(read_corner(word)));
   if (corners_.size() < 3)
     ++small_faces_;
-  else if (!cutter_.cut(mesh_.positions, corners_, mesh_.triangles))
+  else if (!cutter_.cut(mesh_.positions, corners_, corners_, mesh_.triangles))
     fail(fmt::format("face {} with {} corners takes too long to be cut into triangles", faces_,
                      corners_.size()),
          "export the mesh as triangles");
