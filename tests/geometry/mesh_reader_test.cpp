@@ -11,6 +11,9 @@
 #include <map>
 
 #include "geometry_support.h"
+#include "kaustik/base/parallel.h"
+#include "kaustik/base/srgb.h"
+#include "kaustik/geometry/polygon_cutter.h"
 
 namespace kaustik::test {
 namespace {
@@ -360,6 +363,106 @@ TEST(ObjReader, TellsWhatItLeavesOutOnce) {
   EXPECT_NE(small[0].find("3 faces were left out"), std::string::npos) << small[0];
   EXPECT_NE(error_of([&] { obj("v 0 0 0\nv 1 0 0\nf 1 2\n"); }).find("no faces"),
             std::string::npos);
+}
+
+/// A file of some pieces, with all that its reader has to keep in order, and the mesh that it is.
+struct LongObj {
+  std::string text;
+  TriangleMesh mesh;
+
+  explicit LongObj(bool with_colours) {
+    Random random(17);
+    std::vector<Vec3f> positions, normals, colours;
+    std::vector<Vec2f> uvs;
+    std::map<std::array<int, 3>, uint32_t> known;
+    const auto number = [&] { return std::round(double(random.uniform(-1000, 1000)) * 1e4) / 1e4; };
+    const auto pick = [&](size_t count) {  // mostly one of the last
+      const float share = random.uniform() * random.uniform() * random.uniform();
+      return int(count) - 1 - int(share * float(count));
+    };
+    const auto add_vertex = [&](const std::array<int, 3>& key) {
+      const auto [found, is_new] = known.try_emplace(key, uint32_t(known.size()));
+      if (is_new) {
+        mesh.positions.push_back(positions[size_t(key[0])]);
+        mesh.uvs.push_back(key[1] < 0 ? Vec2f(0) : uvs[size_t(key[1])]);
+        mesh.normals.push_back(key[2] < 0 ? Vec3f(0) : normals[size_t(key[2])]);
+        if (with_colours) colours.push_back(colour_of_position_[size_t(key[0])]);
+      }
+      return found->second;
+    };
+    while (text.size() < 1'500'000) {
+      for (int i = 0; i < 20; ++i) {
+        const double x = number(), y = number(), z = number();
+        text += fmt::format("v {} {:+} {:e}", x, y, z);
+        const bool has_colour = with_colours && random.uniform() < 0.3f;
+        if (has_colour) text += " 0.5 1 0";
+        colour_of_position_.push_back(has_colour ? Vec3f(linear_from_srgb(0.5f), 1, 0) : Vec3f(1));
+        text += random.uniform() < 0.1f ? " # a remark\r\n" : "\n";
+        positions.emplace_back(float(x), float(y), float(z));
+      }
+      for (int i = 0; i < 7; ++i) {
+        const double x = number(), y = number(), z = number();
+        text += fmt::format("vn {} {} \\\n{}\n", x, y, z);
+        normals.emplace_back(float(x), float(y), float(z));
+        text += i < 3 ? fmt::format("vt {}\n", x) : fmt::format("vt {:.2f} {}\r\n", x, y);
+        uvs.emplace_back(i < 3 ? float(x) : float(std::stod(fmt::format("{:.2f}", x))),
+                         i < 3 ? 0.0f : float(y));
+      }
+      text += "g part\nusemtl shiny\n\n";
+      for (int i = 0; i < 30; ++i) {
+        text += "f";
+        std::vector<uint32_t> corners;
+        const int count = 2 + int(random.uniform() * 3);  // two are no face
+        for (int corner = 0; corner < count; ++corner) {
+          std::array<int, 3> key = {pick(positions.size()), pick(uvs.size()), pick(normals.size())};
+          const float form = random.uniform();
+          if (form < 0.1f) key[2] = -1;
+          if (form < 0.2f) key[1] = -1;
+          const auto index = [&](int from_zero, size_t size) {
+            return random.uniform() < 0.1f ? from_zero - int(size) : from_zero + 1;
+          };
+          text += fmt::format(" {}", index(key[0], positions.size()));
+          if (key[1] >= 0) text += fmt::format("/{}", index(key[1], uvs.size()));
+          if (key[1] < 0 && key[2] >= 0) text += "/";
+          if (key[2] >= 0) text += fmt::format("/{}", index(key[2], normals.size()));
+          corners.push_back(add_vertex(key));
+        }
+        text += "\n";
+        if (count < 3) continue;
+        EXPECT_TRUE(PolygonCutter(1000).cut(mesh.positions, corners, corners, mesh.triangles));
+      }
+    }
+    if (!with_colours) return;
+    MeshAttribute attribute{"vertex_color", 3};
+    for (const Vec3f& colour : colours)
+      attribute.values.insert(attribute.values.end(), {colour.x, colour.y, colour.z});
+    mesh.attributes.push_back(std::move(attribute));
+  }
+
+ private:
+  std::vector<Vec3f> colour_of_position_;
+};
+
+/// By any number of threads: to the bit what faces make one after the other.
+TEST(ObjReader, PiecesAreTheMeshOfTheWhole) {
+  for (const bool with_colours : {false, true}) {
+    const LongObj file(with_colours);
+    for (const int threads : {1, 4})
+      with_threads(threads, [&] {
+        expect_same_mesh(obj(file.text), file.mesh, std::to_string(threads) + " threads");
+      });
+  }
+}
+
+/// Whatever kind of line it is, and whichever kind is read first.
+TEST(ObjReader, TellsTheFirstOfManyFaults) {
+  const std::string good = LongObj(false).text;
+  const auto line = 1 + std::count(good.begin(), good.end(), '\n');
+  for (const std::string fault : {"v 0 0\n", "vt x\n", "f 1 2 99999999\n", "vn 0 1e99 0\n"}) {
+    const std::string message =
+        error_of([&] { obj(good + fault + "v 0 0\nvn x 0 0\nf 0\nvt\nf 1/1/1/1 2 3\n" + good); });
+    EXPECT_NE(message.find(":" + std::to_string(line) + ": "), std::string::npos) << message;
+  }
 }
 
 TEST(PlyReader, MarksAndLineEnds) {
