@@ -8,8 +8,6 @@
 namespace kaustik {
 namespace {
 
-using Corners = std::array<uint32_t, 3>;
-
 template <typename Number>
 Number loaded(const uint8_t* bytes, bool big_endian) {
   std::array<uint8_t, sizeof(Number)> raw;
@@ -20,12 +18,12 @@ Number loaded(const uint8_t* bytes, bool big_endian) {
 
 /// Where the length is a byte, and the numbers are what they become.
 bool copy_plain_corners(const PlyRecords& records, size_t length_offset, uint64_t vertices,
-                        Corners* to) {
+                        std::array<uint32_t, 3>* to) {
   const uint8_t* from = records.bytes.data() + length_offset;
   uint32_t largest[3] = {0, 0, 0};
   uint8_t differences = 0;
   for (size_t i = 0; i < records.size(); ++i, from += records.record_bytes) {
-    Corners& corners = to[i];
+    std::array<uint32_t, 3>& corners = to[i];
     differences |= *from ^ uint8_t(3);
     std::memcpy(corners.data(), from + 1, sizeof(corners));
     for (size_t k = 0; k < 3; ++k) largest[k] = std::max(largest[k], corners[k]);
@@ -81,7 +79,7 @@ double value_at(const uint8_t* bytes, PlyType type, bool big_endian) {
 }
 
 bool copy_corners(const PlyRecords& records, const PlyField& length, PlyType index,
-                  uint64_t vertices, Corners* to) {
+                  uint64_t vertices, std::array<uint32_t, 3>* to) {
   if (!records.big_endian && size_of(length.type) == 1 &&
       (index == PlyType::int32 || index == PlyType::uint32))
     return copy_plain_corners(records, length.offset, vertices, to);
