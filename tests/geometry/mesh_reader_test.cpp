@@ -447,7 +447,7 @@ struct LongObj {
 TEST(ObjReader, PiecesAreTheMeshOfTheWhole) {
   for (const bool with_colours : {false, true}) {
     const LongObj file(with_colours);
-    for (const int threads : {1, 4})
+    for (const int threads : {1, 2})
       with_threads(threads, [&] {
         expect_same_mesh(obj(file.text), file.mesh, std::to_string(threads) + " threads");
       });

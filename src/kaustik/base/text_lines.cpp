@@ -1,8 +1,6 @@
 #include "kaustik/base/text_lines.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
 #include "kaustik/base/error.h"
 
@@ -12,21 +10,6 @@ namespace {
 constexpr size_t most_at_once = size_t{1} << 20;
 /// Of the line that goes on behind the end of a part.
 constexpr size_t step_behind_end = size_t{1} << 14;
-
-/// The first '\n' or '\r'; `last` where there is none.
-const char* find_line_end(const char* first, const char* last) {
-  using Letters = signed char __attribute__((vector_size(16)));
-  for (; last - first >= 16; first += 16) {
-    Letters letters;
-    std::memcpy(&letters, first, sizeof(letters));
-    const Letters found = (letters == '\n') | (letters == '\r');
-    uint64_t halves[2];
-    std::memcpy(halves, &found, sizeof(found));
-    if (halves[0] != 0) return first + std::countr_zero(halves[0]) / 8;
-    if (halves[1] != 0) return first + 8 + std::countr_zero(halves[1]) / 8;
-  }
-  return std::find_if(first, last, [](char c) { return c == '\n' || c == '\r'; });
-}
 
 }  // namespace
 
@@ -130,10 +113,7 @@ std::string_view TextLines::next_part() {
   return rest.substr(0, length);
 }
 
-bool TextLines::next(std::string_view& line) {
-  number_ += parts_;
-  parts_ = 0;
-  if (at_end() || position() >= end_) return false;
+bool TextLines::next_slowly(std::string_view& line) {
   line = next_part();
   if (!line.ends_with('\\')) return true;
   joined_.clear();

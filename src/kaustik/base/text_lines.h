@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
@@ -43,6 +46,7 @@ class TextLines {
 
  private:
   void skip_to(uint64_t begin);
+  bool next_slowly(std::string_view& line);
   std::string_view next_part();
   bool refill();
   bool at_end() const { return begin_ == buffer_.size() && read_ == size_; }
@@ -56,5 +60,36 @@ class TextLines {
   std::string joined_;  ///< the line, where it goes on
   int number_ = 1, parts_ = 0;
 };
+
+/// The first '\n' or '\r'; `last` where there is none.
+inline const char* find_line_end(const char* first, const char* last) {
+  using Letters = signed char __attribute__((vector_size(16)));
+  for (; last - first >= 16; first += 16) {
+    Letters letters;
+    std::memcpy(&letters, first, sizeof(letters));
+    const Letters found = (letters == '\n') | (letters == '\r');
+    uint64_t halves[2];
+    std::memcpy(halves, &found, sizeof(found));
+    if (halves[0] != 0) return first + std::countr_zero(halves[0]) / 8;
+    if (halves[1] != 0) return first + 8 + std::countr_zero(halves[1]) / 8;
+  }
+  return std::find_if(first, last, [](char c) { return c == '\n' || c == '\r'; });
+}
+
+inline bool TextLines::next(std::string_view& line) {
+  number_ += parts_;
+  parts_ = 0;
+  if (at_end() || position() >= end_) return false;
+  // Mostly all of the line is there, with what follows its end, and it does not go on.
+  const char* const first = buffer_.data() + begin_;
+  const char* const last = buffer_.data() + buffer_.size();
+  const char* const stop = find_line_end(first, last);
+  if (last - stop < 2 || (stop != first && stop[-1] == '\\')) [[unlikely]]
+    return next_slowly(line);
+  parts_ = 1;
+  line = std::string_view(first, size_t(stop - first));
+  begin_ += line.size() + (stop[0] == '\r' && stop[1] == '\n' ? 2 : 1);
+  return true;
+}
 
 }  // namespace kaustik
