@@ -70,11 +70,11 @@ struct Sheet {
   }
 };
 
-template <typename T>
-void expect_same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+template <typename Vector>
+void expect_same_bits(const Vector& a, const Vector& b) {
   ASSERT_EQ(a.size(), b.size());
   if (a.empty()) return;
-  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(T)), 0);
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])), 0);
 }
 
 void expect_same_mesh(const Shape& a, const Shape& b) {

@@ -2,11 +2,18 @@
 
 #include "kaustik/geometry/mesh_reader.h"
 
+#include <fmt/format.h>
+
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <ctime>
+#include <map>
 
 #include "geometry_support.h"
+#include "kaustik/base/parallel.h"
+#include "kaustik/base/srgb.h"
+#include "kaustik/geometry/polygon_cutter.h"
 
 namespace kaustik::test {
 namespace {
@@ -34,6 +41,23 @@ void put(std::string& out, T value, bool big_endian) {
   std::memcpy(raw, &value, sizeof(T));
   if (big_endian) std::reverse(std::begin(raw), std::end(raw));
   out.append(raw, sizeof(T));
+}
+
+template <typename Vector>
+void expect_same_bits(const Vector& a, const Vector& b, const std::string& what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  if (a.empty()) return;
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])), 0) << what;
+}
+
+void expect_same_mesh(const TriangleMesh& a, const TriangleMesh& b, const std::string& what) {
+  expect_same_bits(a.positions, b.positions, what);
+  expect_same_bits(a.normals, b.normals, what);
+  expect_same_bits(a.uvs, b.uvs, what);
+  expect_same_bits(a.triangles, b.triangles, what);
+  ASSERT_EQ(a.attributes.size(), b.attributes.size()) << what;
+  for (size_t i = 0; i < a.attributes.size(); ++i)
+    expect_same_bits(a.attributes[i].values, b.attributes[i].values, what);
 }
 
 /// A quad with everything that a vertex can have, and things to be skipped.
@@ -78,7 +102,7 @@ void expect_quad(const TriangleMesh& mesh) {
   EXPECT_EQ(mesh.positions[2], Vec3f(1, 1, 2.5f));
   EXPECT_EQ(mesh.normals[3], Vec3f(0, 0, 1));
   EXPECT_EQ(mesh.uvs[1], Vec2f(1, 0));
-  const std::vector<std::array<uint32_t, 3>> fan = {{0, 1, 2}, {0, 2, 3}};
+  const TriangleList fan = {{0, 1, 2}, {0, 2, 3}};
   EXPECT_EQ(mesh.triangles, fan);
 }
 
@@ -341,6 +365,106 @@ TEST(ObjReader, TellsWhatItLeavesOutOnce) {
             std::string::npos);
 }
 
+/// A file of some pieces, with all that its reader has to keep in order, and the mesh that it is.
+struct LongObj {
+  std::string text;
+  TriangleMesh mesh;
+
+  explicit LongObj(bool with_colours) {
+    Random random(17);
+    std::vector<Vec3f> positions, normals, colours;
+    std::vector<Vec2f> uvs;
+    std::map<std::array<int, 3>, uint32_t> known;
+    const auto number = [&] { return std::round(double(random.uniform(-1000, 1000)) * 1e4) / 1e4; };
+    const auto pick = [&](size_t count) {  // mostly one of the last
+      const float share = random.uniform() * random.uniform() * random.uniform();
+      return int(count) - 1 - int(share * float(count));
+    };
+    const auto add_vertex = [&](const std::array<int, 3>& key) {
+      const auto [found, is_new] = known.try_emplace(key, uint32_t(known.size()));
+      if (is_new) {
+        mesh.positions.push_back(positions[size_t(key[0])]);
+        mesh.uvs.push_back(key[1] < 0 ? Vec2f(0) : uvs[size_t(key[1])]);
+        mesh.normals.push_back(key[2] < 0 ? Vec3f(0) : normals[size_t(key[2])]);
+        if (with_colours) colours.push_back(colour_of_position_[size_t(key[0])]);
+      }
+      return found->second;
+    };
+    while (text.size() < 1'500'000) {
+      for (int i = 0; i < 20; ++i) {
+        const double x = number(), y = number(), z = number();
+        text += fmt::format("v {} {:+} {:e}", x, y, z);
+        const bool has_colour = with_colours && random.uniform() < 0.3f;
+        if (has_colour) text += " 0.5 1 0";
+        colour_of_position_.push_back(has_colour ? Vec3f(linear_from_srgb(0.5f), 1, 0) : Vec3f(1));
+        text += random.uniform() < 0.1f ? " # a remark\r\n" : "\n";
+        positions.emplace_back(float(x), float(y), float(z));
+      }
+      for (int i = 0; i < 7; ++i) {
+        const double x = number(), y = number(), z = number();
+        text += fmt::format("vn {} {} \\\n{}\n", x, y, z);
+        normals.emplace_back(float(x), float(y), float(z));
+        text += i < 3 ? fmt::format("vt {}\n", x) : fmt::format("vt {:.2f} {}\r\n", x, y);
+        uvs.emplace_back(i < 3 ? float(x) : float(std::stod(fmt::format("{:.2f}", x))),
+                         i < 3 ? 0.0f : float(y));
+      }
+      text += "g part\nusemtl shiny\n\n";
+      for (int i = 0; i < 30; ++i) {
+        text += "f";
+        std::vector<uint32_t> corners;
+        const int count = 2 + int(random.uniform() * 3);  // two are no face
+        for (int corner = 0; corner < count; ++corner) {
+          std::array<int, 3> key = {pick(positions.size()), pick(uvs.size()), pick(normals.size())};
+          const float form = random.uniform();
+          if (form < 0.1f) key[2] = -1;
+          if (form < 0.2f) key[1] = -1;
+          const auto index = [&](int from_zero, size_t size) {
+            return random.uniform() < 0.1f ? from_zero - int(size) : from_zero + 1;
+          };
+          text += fmt::format(" {}", index(key[0], positions.size()));
+          if (key[1] >= 0) text += fmt::format("/{}", index(key[1], uvs.size()));
+          if (key[1] < 0 && key[2] >= 0) text += "/";
+          if (key[2] >= 0) text += fmt::format("/{}", index(key[2], normals.size()));
+          corners.push_back(add_vertex(key));
+        }
+        text += "\n";
+        if (count < 3) continue;
+        EXPECT_TRUE(PolygonCutter(1000).cut(mesh.positions, corners, corners, mesh.triangles));
+      }
+    }
+    if (!with_colours) return;
+    MeshAttribute attribute{"vertex_color", 3};
+    for (const Vec3f& colour : colours)
+      attribute.values.insert(attribute.values.end(), {colour.x, colour.y, colour.z});
+    mesh.attributes.push_back(std::move(attribute));
+  }
+
+ private:
+  std::vector<Vec3f> colour_of_position_;
+};
+
+/// By any number of threads: to the bit what faces make one after the other.
+TEST(ObjReader, PiecesAreTheMeshOfTheWhole) {
+  for (const bool with_colours : {false, true}) {
+    const LongObj file(with_colours);
+    for (const int threads : {1, 2})
+      with_threads(threads, [&] {
+        expect_same_mesh(obj(file.text), file.mesh, std::to_string(threads) + " threads");
+      });
+  }
+}
+
+/// Whatever kind of line it is, and whichever kind is read first.
+TEST(ObjReader, TellsTheFirstOfManyFaults) {
+  const std::string good = LongObj(false).text;
+  const auto line = 1 + std::count(good.begin(), good.end(), '\n');
+  for (const std::string fault : {"v 0 0\n", "vt x\n", "f 1 2 99999999\n", "vn 0 1e99 0\n"}) {
+    const std::string message =
+        error_of([&] { obj(good + fault + "v 0 0\nvn x 0 0\nf 0\nvt\nf 1/1/1/1 2 3\n" + good); });
+    EXPECT_NE(message.find(":" + std::to_string(line) + ": "), std::string::npos) << message;
+  }
+}
+
 TEST(PlyReader, MarksAndLineEnds) {
   expect_quad(ply("\xef\xbb\xbf" + text_ply));
   std::string old = text_ply;
@@ -420,6 +544,99 @@ TEST(PlyReader, FindsTheFirstFaultOfALargeMesh) {
   quad.insert(faces + 14 * 50'000 + 13, std::string("\0\0\0\0", 4));
   quad[faces + 14 * 50'000] = 4;
   EXPECT_EQ(ply(quad).triangles.size(), count - 1);
+}
+
+/// How a PLY file writes a mesh.
+struct PlyForm {
+  std::string format, number = "float", length = "uchar", index = "int";
+  bool shuffled = false;   ///< numbers of a vertex that do not stand side by side
+  bool with_list = false;  ///< one by one: records differ in size
+};
+
+/// Vertices with all that they can have, and random triangles.
+std::string written(const PlyForm& form, uint32_t vertices, uint32_t faces) {
+  std::vector<std::string> names = {"x", "y", "z", "nx", "ny", "nz", "u", "v"};
+  if (form.shuffled) names = {"v", "nz", "y", "u", "z", "x", "ny", "nx"};
+  std::string out =
+      "ply\nformat " + form.format + " 1.0\nelement vertex " + std::to_string(vertices) + "\n";
+  for (const std::string& name : names) out += "property " + form.number + " " + name + "\n";
+  if (form.with_list) out += "property list uchar uchar none\n";
+  out += "element face " + std::to_string(faces) + "\nproperty list " + form.length + " " +
+         form.index + " vertex_indices\nend_header\n";
+  const auto add = [&](const std::string& type, double value) {
+    const bool big_endian = form.format == "binary_big_endian";
+    if (form.format == "ascii")
+      out += fmt::format("{} ", value);
+    else if (type == "float")
+      put(out, float(value), big_endian);
+    else if (type == "double")
+      put(out, value, big_endian);
+    else if (type == "uchar")
+      put(out, uint8_t(value), big_endian);
+    else
+      put(out, uint32_t(value), big_endian);
+  };
+  Random random(11);
+  for (uint32_t i = 0; i < vertices; ++i) {
+    std::map<std::string, float> vertex;
+    for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "u", "v"})
+      vertex[name] = random.uniform(-1, 1) * random.magnitude(-20, 20);
+    for (const std::string& name : names) add(form.number, double(vertex[name]));
+    if (form.with_list) add("uchar", 0);
+  }
+  for (uint32_t i = 0; i < faces; ++i) {
+    add(form.length, 3);
+    for (int corner = 0; corner < 3; ++corner)
+      add(form.index, std::floor(double(random.uniform()) * double(vertices)));
+  }
+  return out;
+}
+
+/// What is copied as it stands is what is read number by number.
+TEST(PlyReader, AllFormsAreTheSameMesh) {
+  const std::string little = "binary_little_endian", big = "binary_big_endian";
+  const uint32_t vertices = 20'000, faces = 50'000;
+  const TriangleMesh plain = ply(written({.format = little}, vertices, faces));
+  ASSERT_EQ(plain.positions.size(), vertices);
+  ASSERT_EQ(plain.triangles.size(), faces);
+  ASSERT_EQ(plain.normals.size(), vertices);
+  ASSERT_EQ(plain.uvs.size(), vertices);
+  const PlyForm forms[] = {{.format = "ascii"},
+                           {.format = big},
+                           {.format = big, .number = "double", .shuffled = true},
+                           {.format = little, .shuffled = true},
+                           {.format = little, .number = "double", .length = "uint"},
+                           {.format = little, .index = "uint", .with_list = true},
+                           {.format = little, .index = "double"}};
+  for (const PlyForm& form : forms)
+    expect_same_mesh(ply(written(form, vertices, faces)), plain,
+                     form.format + " " + form.number + " " + form.index);
+  // A single bit tells.
+  std::string flipped = written({.format = little}, vertices, faces);
+  flipped[flipped.find("end_header") + 11] ^= 1;
+  EXPECT_NE(ply(flipped).positions[0], plain.positions[0]);
+}
+
+/// Many attributes of faces times one large polygon would be many times the file.
+TEST(PlyReader, AttributesOfFacesAreBounded) {
+  const auto file = [](int attributes, int corners) {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 2000\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uint int vertex_indices\n";
+    for (int i = 0; i < attributes; ++i) text += fmt::format("property uchar a{}_x\n", i);
+    text += "end_header\n";
+    for (int i = 0; i < 2000; ++i) text += "0 0 0\n";
+    text += std::to_string(corners);
+    for (int i = 0; i < corners; ++i) text += " 1";
+    for (int i = 0; i < attributes; ++i) text += " 7";
+    return text;
+  };
+  const std::string message = error_of([&] { ply(file(10'000, 2000)); });
+  EXPECT_NE(message.find("the attributes of faces up to face 0"), std::string::npos) << message;
+  const TriangleMesh few = ply(file(100, 2000));
+  EXPECT_EQ(few.triangles.size(), 1998u);
+  ASSERT_EQ(few.attributes.size(), 100u);
+  EXPECT_EQ(few.attributes[99].values.size(), 1998u);
 }
 
 TEST(PlyReader, TellsSmallFaces) {

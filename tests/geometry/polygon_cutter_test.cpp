@@ -11,7 +11,7 @@
 namespace kaustik::test {
 namespace {
 
-using Triangles = std::vector<PolygonCutter::Triangle>;
+using Triangles = PolygonCutter::Triangles;
 using Points = std::vector<Vec3f>;
 
 Points in_plane(const std::vector<Vec2f>& flat) {
@@ -24,7 +24,7 @@ Triangles cut(const Points& points) {
   std::vector<uint32_t> corners(points.size());
   std::iota(corners.begin(), corners.end(), 0u);
   Triangles triangles;
-  EXPECT_TRUE(PolygonCutter(64 * points.size()).cut(points, corners, triangles));
+  EXPECT_TRUE(PolygonCutter(64 * points.size()).cut(points, corners, corners, triangles));
   EXPECT_EQ(triangles.size(), points.size() - 2);
   return triangles;
 }
@@ -207,7 +207,7 @@ TEST(PolygonCutter, LargePolygonsTakeNoSquareOfTheirCorners) {
     Triangles triangles;
     const std::clock_t begin = std::clock();
     // A file holds at least 16 bytes for each corner.
-    EXPECT_TRUE(PolygonCutter(16 * points.size()).cut(points, corners, triangles));
+    EXPECT_TRUE(PolygonCutter(16 * points.size()).cut(points, corners, corners, triangles));
     const double taken = double(std::clock() - begin) / CLOCKS_PER_SEC;
     EXPECT_LT(taken, 1.0 * samples_divisor);  // s of the processor
     EXPECT_NEAR(area_of(points, triangles), shoelace(points), 1e-4 * shoelace(points));
@@ -222,7 +222,7 @@ TEST(PolygonCutter, StopsWhenItsStepsAreSpent) {
   bool complete = true;
   for (int i = 0; complete && i < 1000; ++i) {
     Triangles triangles;
-    complete = cutter.cut(points, corners, triangles);
+    complete = cutter.cut(points, corners, corners, triangles);
   }
   EXPECT_FALSE(complete);
 }

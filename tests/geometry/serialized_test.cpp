@@ -42,7 +42,7 @@ TEST(Serialized, HoldsMeshesOfBothVersions) {
               (std::vector<Vec3f>{{0, 0, 5}, {1, 0, 5}, {1, 1, 5}, {0, 1, 5}}));
     EXPECT_EQ(whole.mesh.normals[3], Vec3f(0, 0, 2));
     EXPECT_EQ(whole.mesh.uvs, (std::vector<Vec2f>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
-    EXPECT_EQ(whole.mesh.triangles, (std::vector<std::array<uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(whole.mesh.triangles, (TriangleList{{0, 1, 2}, {0, 2, 3}}));
     const MeshFile last = read_serialized(file.path(), 2);
     EXPECT_FALSE(last.has_face_normals);
     EXPECT_EQ(last.mesh.positions[0], Vec3f(3, 0, 0));
@@ -63,7 +63,7 @@ TEST(Serialized, HoldsRecords) {
     EXPECT_EQ(found.mesh.positions, (std::vector<Vec3f>{{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}));
     EXPECT_EQ(found.mesh.normals, (std::vector<Vec3f>(3, {0, 0, 1})));
     EXPECT_EQ(found.mesh.uvs, (std::vector<Vec2f>{{0, 0}, {1, 0}, {0, 1}}));
-    EXPECT_EQ(found.mesh.triangles, (std::vector<std::array<uint32_t, 3>>{{0, 1, 2}}));
+    EXPECT_EQ(found.mesh.triangles, (TriangleList{{0, 1, 2}}));
     EXPECT_TRUE(read_serialized(file.path(), 0).mesh.normals.empty());
   }
 }

@@ -28,6 +28,7 @@ class InputFile {
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
+  const std::string& path() const { return path_; }
   /// When it was opened.
   uint64_t size() const { return size_; }
   /// Fills `out` with what there is from `begin` on; returns how many bytes that are: fewer only

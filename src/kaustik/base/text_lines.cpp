@@ -7,9 +7,9 @@
 namespace kaustik {
 namespace {
 
-constexpr size_t piece_bytes = size_t{1} << 20;
-
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+constexpr size_t most_at_once = size_t{1} << 20;
+/// Of the line that goes on behind the end of a part.
+constexpr size_t step_behind_end = size_t{1} << 14;
 
 }  // namespace
 
@@ -39,24 +39,57 @@ std::string_view next_word(std::string_view& line) {
   return word;
 }
 
-TextLines::TextLines(const std::string& path) : file_(path), end_(file_.size()) {
-  refill();
-  const auto* bytes = reinterpret_cast<const uint8_t*>(buffer_.data());
-  begin_ = length_of_byte_order_mark({bytes, buffer_.size()}, path);
+TextLines::TextLines(const std::string& path)
+    : own_(std::make_unique<InputFile>(path)),
+      file_(*own_),
+      read_(0),
+      size_(file_.size()),
+      end_(size_) {
+  skip_to(0);
+}
+
+TextLines::TextLines(const InputFile& file, uint64_t begin, uint64_t end)
+    // What ends before a line tells whether it goes on: a backslash and two letters.
+    : file_(file), read_(begin - std::min<uint64_t>(begin, 3)), size_(file.size()), end_(end) {
+  skip_to(begin);
+}
+
+/// Goes to the first line that begins there or behind, within the part.
+void TextLines::skip_to(uint64_t begin) {
+  const auto skipped = size_t(begin - read_);
+  do refill();
+  while (begin > 0 && read_ < std::min(end_, size_));
+  if (begin == 0) {
+    const auto* bytes = reinterpret_cast<const uint8_t*>(buffer_.data());
+    begin_ = length_of_byte_order_mark({bytes, buffer_.size()}, file_.path());
+    return;
+  }
+  const char* const first = buffer_.data();
+  const char* const last = first + buffer_.size();
+  for (bool goes_on = true; goes_on && first + begin_ != last;) {
+    const char* const stop = find_line_end(first + begin_, last);
+    goes_on = stop != first && stop[-1] == '\\';
+    begin_ = size_t(
+        std::min(stop + (last - stop > 1 && stop[0] == '\r' && stop[1] == '\n' ? 2 : 1), last) -
+        first);
+    goes_on |= begin_ < skipped;
+  }
 }
 
 /// False: the file has no more.
 bool TextLines::refill() {
-  buffer_.erase(0, begin_);
+  buffer_.erase(buffer_.begin(), buffer_.begin() + std::ptrdiff_t(begin_));
   begin_ = 0;
   const size_t before = buffer_.size();
-  const auto wanted = size_t(std::min<uint64_t>(piece_bytes, end_ - read_));
+  const uint64_t most =
+      read_ < end_ ? std::min<uint64_t>(most_at_once, end_ - read_) : uint64_t{step_behind_end};
+  const auto wanted = size_t(std::min(most, size_ - read_));
   buffer_.resize(before + wanted);
   const size_t count =
       file_.read(read_, {reinterpret_cast<uint8_t*>(buffer_.data()) + before, wanted});
   buffer_.resize(before + count);
   read_ += count;
-  if (count < wanted) end_ = read_;  // it has become shorter meanwhile
+  if (count < wanted) size_ = read_;  // it has become shorter meanwhile
   return count > 0;
 }
 
@@ -65,25 +98,22 @@ std::string_view TextLines::next_part() {
   ++parts_;
   size_t length = 0;
   for (;;) {
-    while (begin_ + length < buffer_.size() && buffer_[begin_ + length] != '\n' &&
-           buffer_[begin_ + length] != '\r')
-      ++length;
+    const char* const last = buffer_.data() + buffer_.size();
+    length =
+        size_t(find_line_end(buffer_.data() + begin_ + length, last) - buffer_.data()) - begin_;
     // After a '\r' the next letter tells whether the end has two.
     const size_t needed = begin_ + length + 1;
     const bool is_clear =
         needed < buffer_.size() || (needed == buffer_.size() && buffer_[begin_ + length] == '\n');
     if (is_clear || !refill()) break;
   }
-  const std::string_view rest = std::string_view(buffer_).substr(begin_);
+  const std::string_view rest(buffer_.data() + begin_, buffer_.size() - begin_);
   const size_t end = rest.substr(length, 2) == "\r\n" ? 2 : 1;
   begin_ += std::min(length + end, rest.size());
   return rest.substr(0, length);
 }
 
-bool TextLines::next(std::string_view& line) {
-  number_ += parts_;
-  parts_ = 0;
-  if (at_end()) return false;
+bool TextLines::next_slowly(std::string_view& line) {
   line = next_part();
   if (!line.ends_with('\\')) return true;
   joined_.clear();

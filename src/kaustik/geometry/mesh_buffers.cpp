@@ -32,10 +32,10 @@ class BufferReader {
     expect_one_per_vertex(vertices);
     return tuples<Vec2f>(fault_of_uv);
   }
-  std::vector<std::array<uint32_t, 3>> faces(size_t vertices) {
+  TriangleList faces(size_t vertices) {
     start("faces");
     if (rows() == 0) fail(fault_of_no_faces());
-    std::vector<std::array<uint32_t, 3>> faces(rows());
+    TriangleList faces(rows());
     array_->visit([&](auto values) {
       for (size_t i = 0; i < values.size(); ++i) {
         check(fault_of_index(i / 3, double(values[i]), vertices,

@@ -1,7 +1,10 @@
 #pragma once
 // What readers of meshes check alike, wherever the numbers come from; not for other rooms.
 
+#include <algorithm>
+#include <bit>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "kaustik/base/vec.h"
@@ -18,6 +21,15 @@ struct MeshFault {
 std::optional<MeshFault> fault_of_position(uint64_t vertex, const Vec3f& position);
 std::optional<MeshFault> fault_of_normal(uint64_t vertex, const Vec3f& normal);
 std::optional<MeshFault> fault_of_uv(uint64_t vertex, const Vec2f& uv);
+/// Whether all numbers of vectors of floats are finite; which one is not, the above tell.
+template <typename Vector>
+bool are_finite(std::span<const Vector> vectors) {
+  const auto* numbers = reinterpret_cast<const float*>(vectors.data());
+  uint32_t largest = 0;
+  for (size_t i = 0; i < vectors.size_bytes() / sizeof(float); ++i)
+    largest = std::max(largest, std::bit_cast<uint32_t>(numbers[i]) & 0x7fffffffu);
+  return largest < std::bit_cast<uint32_t>(infinity);
+}
 /// Nothing where the index is that of one of the vertices; the remedy is the reader's.
 std::optional<MeshFault> fault_of_index(uint64_t face, double index, uint64_t vertices,
                                         const char* remedy);

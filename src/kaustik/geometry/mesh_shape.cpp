@@ -1,6 +1,7 @@
 #include "kaustik/geometry/mesh_shape.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/prefetch.h"
@@ -13,6 +14,8 @@ namespace {
 
 /// Triangles or vertices that a thread goes through at a time.
 constexpr size_t block_size = size_t{1} << 16;
+/// So that they are in a cache when they are gone through again.
+constexpr size_t small_block_size = size_t{1} << 13;
 
 double triangle_area(const TriangleMesh& mesh, const std::array<uint32_t, 3>& corner) {
   const Vec3d p0(mesh.positions[corner[0]]);
@@ -22,8 +25,8 @@ double triangle_area(const TriangleMesh& mesh, const std::array<uint32_t, 3>& co
 }
 
 /// Calls `body` with each of them, in parallel.
-template <typename Item, typename Body>
-void for_each_in_parallel(std::vector<Item>& items, const Body& body) {
+template <typename Items, typename Body>
+void for_each_in_parallel(Items& items, const Body& body) {
   parallel_blocks(items.size(), block_size, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) body(items[i]);
   });
@@ -33,18 +36,63 @@ void turn_round(TriangleMesh& mesh) {
   for_each_in_parallel(mesh.triangles, [](auto& corner) { std::swap(corner[1], corner[2]); });
 }
 
+/// Of some of its triangles.
+double area_of(const TriangleMesh& mesh, size_t begin, size_t end) {
+  double area = 0;
+  for (size_t i = begin; i < end; ++i) area += triangle_area(mesh, mesh.triangles[i]);
+  return area;
+}
+
 /// Turns a triangle round if its vertex normals point to its back.
 void wind_by_normals(const TriangleMesh& mesh, std::array<uint32_t, 3>& corner) {
-  const Vec3f n = mesh.normals[corner[0]] + mesh.normals[corner[1]] + mesh.normals[corner[2]];
-  const Vec3f ng = triangle_normal(mesh.positions[corner[0]], mesh.positions[corner[1]],
-                                   mesh.positions[corner[2]]);
-  if (dot(n, ng) < 0) std::swap(corner[1], corner[2]);
+  const Lanes n = lanes(mesh.normals[corner[0]]) + lanes(mesh.normals[corner[1]]) +
+                  lanes(mesh.normals[corner[2]]);
+  const Lanes p0 = lanes(mesh.positions[corner[0]]), p1 = lanes(mesh.positions[corner[1]]),
+              p2 = lanes(mesh.positions[corner[2]]);
+  // Mostly the sign is clear, whatever the roundings, before the length is known.
+  const Lanes products = n * triangle_cross(p0, p1, p2).normal;
+  if (sum_of(products) > 1e-6f * sum_of(lane_abs(products)) + 1e-30f) [[likely]]
+    return;
+  if (dot(vec3(n), vec3(triangle_normal(p0, p1, p2).unit)) < 0) std::swap(corner[1], corner[2]);
+}
+
+/// Of the corners of some of its triangles.
+Bounds3f bounds_of(const TriangleMesh& mesh, size_t begin, size_t end) {
+  Bounds3f box;
+  Lanes low = lanes(box.min), high = lanes(box.max);
+  for (size_t i = begin; i < end; ++i)
+    for (const uint32_t vertex : mesh.triangles[i]) {
+      const Lanes p = lanes(mesh.positions[vertex]);
+      low = p < low ? p : low;
+      high = p > high ? p : high;
+    }
+  box.min = vec3(low), box.max = vec3(high);
+  return box;
+}
+
+/// Moves the normals to the world and makes their length one; those that have no direction become
+/// zero. Whether any are.
+bool place_normals(std::vector<Vec3f>& normals, const Transform& to_world) {
+  const bool is_moved = !(to_world == Transform());
+  std::atomic<bool> any_missing{false};
+  parallel_blocks(normals.size(), block_size, [&](size_t begin, size_t end, size_t) {
+    bool missing = false;
+    for (size_t i = begin; i < end; ++i) {
+      Vec3f& n = normals[i];
+      if (is_moved) n = to_world.normal(n);
+      const float n_length = length(n);
+      const bool is_sound = n_length > 0 && std::isfinite(n_length);
+      n = is_sound ? n * (1.0f / n_length) : Vec3f(0, 0, 0);
+      missing |= n == Vec3f(0, 0, 0);
+    }
+    if (missing) any_missing = true;
+  });
+  return any_missing;
 }
 
 /// Gives normals to those vertices that have none.
 void add_missing_normals(TriangleMesh& mesh) {
   const Vec3f nothing(0, 0, 0);
-  if (std::find(mesh.normals.begin(), mesh.normals.end(), nothing) == mesh.normals.end()) return;
   const std::vector<Vec3f> smooth = smooth_normals(mesh);
   for (size_t i = 0; i < mesh.normals.size(); ++i)
     if (mesh.normals[i] == nothing) mesh.normals[i] = smooth[i];
@@ -72,20 +120,25 @@ MeshShape::MeshShape(TriangleMesh mesh, std::vector<std::string> remarks)
   // Embree reads vertices by 16 bytes: room behind the last one.
   mesh_.positions.reserve(mesh_.positions.size() + 1);
   const size_t count = mesh_.triangles.size();
-  std::vector<Bounds3f> boxes((count + block_size - 1) / block_size);
-  area_ = float(sum_over_blocks(count, block_size, [&](size_t begin, size_t end) {
-    double area = 0;
-    Bounds3f box;
-    for (size_t i = begin; i < end; ++i) {
-      if (!mesh_.normals.empty()) wind_by_normals(mesh_, mesh_.triangles[i]);
-      area += triangle_area(mesh_, mesh_.triangles[i]);
-      for (const uint32_t vertex : mesh_.triangles[i]) box.extendBy(mesh_.positions[vertex]);
-    }
-    boxes[begin / block_size] = box;
-    return area;
-  }));
+  std::vector<Bounds3f> boxes((count + small_block_size - 1) / small_block_size);
+  parallel_blocks(count, small_block_size, [&](size_t begin, size_t end, size_t block) {
+    boxes[block] = bounds_of(mesh_, begin, end);
+    if (mesh_.normals.empty()) return;
+    for (size_t i = begin; i < end; ++i) wind_by_normals(mesh_, mesh_.triangles[i]);
+  });
   for (const Bounds3f& box : boxes) bounds_.extendBy(box);
   rectangle_ = rectangle_of(mesh_);
+}
+
+float MeshShape::area() const {
+  float area = area_.load(std::memory_order_relaxed);
+  if (area < 0) {
+    area = float(sum_over_blocks(mesh_.triangles.size(), block_size, [&](size_t begin, size_t end) {
+      return area_of(mesh_, begin, end);
+    }));
+    area_.store(area, std::memory_order_relaxed);  // whoever else finds it out finds the same
+  }
+  return area;
 }
 
 SurfacePoint MeshShape::surface_point(const Ray&, const Hit& hit) const {
@@ -105,7 +158,7 @@ void MeshShape::build_distribution() const {
 
 ShapeSample MeshShape::sample_area(const Vec2f& u) const {
   std::call_once(distribution_once_, [this] { build_distribution(); });
-  if (!(area_ > 0)) return {};
+  if (!(area() > 0)) return {};
   const double target = double(u.x) * cumulative_area_.back();
   auto it = std::upper_bound(cumulative_area_.begin(), cumulative_area_.end(), target);
   if (it == cumulative_area_.end()) --it;
@@ -113,13 +166,13 @@ ShapeSample MeshShape::sample_area(const Vec2f& u) const {
   const double rest = *it > before ? (target - before) / (*it - before) : 0.0;
   const Vec2f b = square_to_triangle({std::min(float(rest), one_minus_epsilon), u.y});
   const auto triangle = uint32_t(it - cumulative_area_.begin());
-  ShapeSample sample{triangle_surface_point(mesh_, triangle, b.x, b.y), 1.0f / area_};
+  ShapeSample sample{triangle_surface_point(mesh_, triangle, b.x, b.y), 1.0f / area()};
   if (sample.point.ng == Vec3f(0, 0, 0)) sample.pdf_area = 0;
   return sample;
 }
 
 std::optional<Vec2f> MeshShape::area_coordinates(const SurfacePoint& point) const {
-  if (!(area_ > 0) || point.primitive >= mesh_.triangles.size()) return std::nullopt;
+  if (!(area() > 0) || point.primitive >= mesh_.triangles.size()) return std::nullopt;
   std::call_once(distribution_once_, [this] { build_distribution(); });
   const auto& corner = mesh_.triangles[point.primitive];
   const Vec3d p0(mesh_.positions[corner[0]]);
@@ -230,17 +283,13 @@ TriangleMesh prepare_mesh(TriangleMesh mesh, const MeshOptions& options, const P
   // Mirrored, what ran anticlockwise round the front runs clockwise.
   if (options.to_world.determinant3() < 0) turn_round(mesh);
   if (options.face_normals || options.max_smooth_angle) mesh.normals = std::vector<Vec3f>();
-  for_each_in_parallel(mesh.normals, [&](Vec3f& n) {
-    if (is_moved) n = options.to_world.normal(n);
-    const float n_length = length(n);
-    n = n_length > 0 && std::isfinite(n_length) ? n * (1.0f / n_length) : Vec3f(0, 0, 0);
-  });
+  const bool any_missing = place_normals(mesh.normals, options.to_world);
   if (!options.face_normals) {
     if (options.max_smooth_angle)
       mesh = split_at_creases(std::move(mesh), *options.max_smooth_angle);
     else if (mesh.normals.empty())
       mesh.normals = smooth_normals(mesh);
-    else
+    else if (any_missing)
       add_missing_normals(mesh);
   }
   if (options.flip_normals) {

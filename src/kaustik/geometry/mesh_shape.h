@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -18,7 +19,8 @@ class MeshShape : public Shape {
   explicit MeshShape(TriangleMesh mesh, std::vector<std::string> remarks = {});
 
   Bounds3f bounds() const override { return bounds_; }
-  float area() const override { return area_; }
+  /// Found out when it is first asked for: only lamps are.
+  float area() const override;
   const TriangleMesh* mesh() const override { return &mesh_; }
   /// What its file has that was left out, a sentence each.
   const std::vector<std::string>& remarks() const { return remarks_; }
@@ -41,7 +43,7 @@ class MeshShape : public Shape {
   TriangleMesh mesh_;
   std::vector<std::string> remarks_;
   Bounds3f bounds_;
-  float area_ = 0;
+  mutable std::atomic<float> area_{-1};  ///< negative: nobody has asked yet
   /// Of meshes that are one: two triangles that share the diagonal from the first vertex to the
   /// third, as the shape `rectangle` has them.
   std::optional<SphericalRectangle> rectangle_;

@@ -41,17 +41,25 @@ inline Lanes unit_and_scale(Lanes n, float& scale) {
   return scaled * inv_length;
 }
 
+/// The normal before its length is one, and products that were subtracted in it.
+struct TriangleCross {
+  Lanes normal, products;
+};
+
 /// cross(p1 - p0, p2 - p0), each component from the two edges whose products cancel least, as
 /// Embree does; slivers have normals too.
-inline TriangleNormal triangle_normal(Lanes p0, Lanes p1, Lanes p2) {
+inline TriangleCross triangle_cross(Lanes p0, Lanes p1, Lanes p2) {
   const Lanes a = p2 - p0, b = p0 - p1, c = p1 - p2;
   const Lanes ab = zxy(a) * yzx(b), bc = zxy(b) * yzx(c);
   const LaneMask use_ab = lane_abs(ab) < lane_abs(bc);
-  const Lanes n = use_ab ? yzx(a) * zxy(b) - ab : yzx(b) * zxy(c) - bc;
+  return {use_ab ? yzx(a) * zxy(b) - ab : yzx(b) * zxy(c) - bc, use_ab ? ab : bc};
+}
+
+inline TriangleNormal triangle_normal(Lanes p0, Lanes p1, Lanes p2) {
+  const TriangleCross cross = triangle_cross(p0, p1, p2);
   float scale = 0;
-  const Lanes unit = unit_and_scale(n, scale);
-  const Lanes products = lane_abs(use_ab ? ab : bc);
-  return {unit, products * (8.0f * scale) + lane_abs(unit) * 4.0f};
+  const Lanes unit = unit_and_scale(cross.normal, scale);
+  return {unit, lane_abs(cross.products) * (8.0f * scale) + lane_abs(unit) * 4.0f};
 }
 
 inline Vec3f triangle_normal(const Vec3f& p0, const Vec3f& p1, const Vec3f& p2) {

@@ -20,70 +20,26 @@
 #include "kaustik/geometry/mesh_attribute.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
+#include "kaustik/geometry/ply_values.h"
 #include "kaustik/geometry/polygon_cutter.h"
 
 namespace kaustik {
 namespace {
 
 enum class Format { text, little_endian, big_endian };
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-size_t size_of(Type type) {
-  constexpr size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-  return sizes[size_t(type)];
-}
+/// Of the file, that are read at a time: they and what they become stay in a core's cache.
+constexpr size_t bytes_at_once = size_t{1} << 18;
 
-std::optional<Type> type_named(std::string_view name) {
-  constexpr std::pair<std::string_view, Type> names[] = {
-      {"char", Type::int8},      {"int8", Type::int8},       {"uchar", Type::uint8},
-      {"uint8", Type::uint8},    {"short", Type::int16},     {"int16", Type::int16},
-      {"ushort", Type::uint16},  {"uint16", Type::uint16},   {"int", Type::int32},
-      {"int32", Type::int32},    {"uint", Type::uint32},     {"uint32", Type::uint32},
-      {"float", Type::float32},  {"float32", Type::float32}, {"double", Type::float64},
-      {"float64", Type::float64}};
-  for (const auto& [text, type] : names)
-    if (text == name) return type;
-  return std::nullopt;
-}
-
-/// The number that an integer of this type stands for 1 with; 0: it is none.
-double largest_of(Type type) {
-  constexpr double largest[] = {0x7f, 0xff, 0x7fff, 0xffff, 0x7fffffff, 0xffffffff, 0, 0};
-  return largest[size_t(type)];
-}
-
-/// The number of a type that begins at `bytes`.
-double value_at(const uint8_t* bytes, Type type, bool big_endian) {
-  const size_t size = size_of(type);
-  uint64_t bits = 0;
-  for (size_t i = 0; i < size; ++i)
-    bits |= uint64_t(bytes[i]) << (8 * (big_endian ? size - 1 - i : i));
-  switch (type) {
-    case Type::int8:
-      return int8_t(bits);
-    case Type::uint8:
-      return uint8_t(bits);
-    case Type::int16:
-      return int16_t(bits);
-    case Type::uint16:
-      return uint16_t(bits);
-    case Type::int32:
-      return int32_t(bits);
-    case Type::uint32:
-      return uint32_t(bits);
-    case Type::float32:
-      return double(std::bit_cast<float>(uint32_t(bits)));
-    case Type::float64:
-      return std::bit_cast<double>(bits);
-  }
-  return 0;
-}
+/// Attributes of faces take more than their bytes in the file, once for each triangle: a dozen
+/// times as much where polygons have dozens of corners.
+constexpr uint64_t usual_attribute_growth = 20, always_allowed_attribute_bytes = uint64_t{64} << 20;
 
 struct PlyProperty {
   std::string name;
   bool is_list = false;
-  Type count_type = Type::uint8;  ///< of lists
-  Type type = Type::float32;
+  PlyType count_type = PlyType::uint8;  ///< of lists
+  PlyType type = PlyType::float32;
 };
 
 struct PlyElement {
@@ -98,6 +54,15 @@ struct PlyElement {
     return -1;
   }
 };
+
+/// Those with the given numbers.
+template <size_t count>
+std::array<PlyField, count> fields_at(const std::vector<PlyField>& fields,
+                                      const std::array<int, count>& numbers) {
+  std::array<PlyField, count> some;
+  for (size_t i = 0; i < count; ++i) some[i] = fields[size_t(numbers[i])];
+  return some;
+}
 
 /// Attributes that are read from the properties of an element.
 class AttributeReader {
@@ -115,10 +80,11 @@ class AttributeReader {
   }
 
   bool empty() const { return attributes_.empty(); }
+  size_t values_of_element() const { return members_.size(); }
   /// For so many elements.
   void reserve(size_t elements) {
     for (MeshAttribute& attribute : attributes_)
-      attribute.values.reserve(elements * size_t(attribute.components));
+      reserve_large(attribute.values, elements * size_t(attribute.components));
   }
   /// Makes them those of so many elements, to be set in any order.
   void resize(size_t elements) {
@@ -136,6 +102,15 @@ class AttributeReader {
         attribute.values[element * components + i] =
             attribute_value(number(member->property), member->largest);
     }
+  }
+  /// Sets those of elements from `first` on, whose properties are `fields` of records.
+  void set_all(size_t first, const PlyRecords& records, const std::vector<PlyField>& fields) {
+    if (empty()) return;
+    for (size_t i = 0; i < records.size(); ++i)
+      set(first + i, [&](size_t property) {
+        const PlyField& field = fields[property];
+        return value_at(records[i] + field.offset, field.type, records.big_endian);
+      });
   }
   /// Sets those of one element more.
   template <typename Number>
@@ -205,9 +180,9 @@ class PlyReader {
   void check_count(const PlyElement& element) const;
 
   // Values -------------------------------------------------------------------------------------
-  double value(Type type) { return format_ == Format::text ? text_value() : binary_value(type); }
+  double value(PlyType type) { return format_ == Format::text ? text_value() : binary_value(type); }
   double text_value();
-  double binary_value(Type type);
+  double binary_value(PlyType type);
   uint64_t list_size(const PlyProperty& property);
   void skip(const PlyProperty& property);
   void skip(const PlyElement& element) {
@@ -234,12 +209,19 @@ class PlyReader {
   bool read_triangle_block(const PlyElement& element, size_t indices, AttributeReader& attributes);
   void read_polygons(const PlyElement& element, size_t indices, AttributeReader& attributes);
   void read_polygon(const PlyProperty& property, uint64_t face);
+  void check_growth(const AttributeReader& attributes, uint64_t face) const;
 
   /// Calls body(first, bytes) for all records of an element with so many bytes each, in parallel
   /// and in pieces; `first` is the number of the piece's first record. False if the file is too
   /// short; otherwise it is read on behind them.
   template <typename Body>
   bool each_piece(uint64_t count, size_t record_bytes, const Body& body);
+
+  std::optional<std::vector<PlyField>> fields_of(const PlyElement& element,
+                                                 int triangles = -1) const;
+  static size_t record_bytes_of(const std::vector<PlyField>& fields) {
+    return fields.back().offset;
+  }
 
   uint64_t left() const { return window_.left(); }
 
@@ -341,7 +323,7 @@ void PlyReader::header_property(const std::vector<std::string_view>& words) {
   if (!property.is_list && words.size() != 3)
     fail("a property needs a type and a name", "export the file again");
   const auto type = [&](std::string_view name) {
-    const auto found = type_named(name);
+    const auto found = ply_type_named(name);
     if (!found)
       fail(fmt::format("unknown type '{}'", name),
            "valid: char, uchar, short, ushort, int, uint, float, double");
@@ -402,7 +384,7 @@ double PlyReader::text_value() {
   return error == std::errc() ? result : double(infinity);
 }
 
-double PlyReader::binary_value(Type type) {
+double PlyReader::binary_value(PlyType type) {
   const size_t size = size_of(type);
   const std::span<const uint8_t> ahead = window_.ahead(size);
   if (ahead.size() < size) fail_truncated();
@@ -439,20 +421,38 @@ template <typename Body>
 bool PlyReader::each_piece(uint64_t count, size_t record_bytes, const Body& body) {
   const uint64_t begin = window_.position();
   if (count > left() / record_bytes) return false;
-  const size_t block = std::max<size_t>(1, (size_t{1} << 19) / record_bytes);
-  std::vector<char> is_short((count + block - 1) / block, 0);
-  parallel_blocks(size_t(count), block, [&](size_t first, size_t end, size_t piece) {
+  const size_t block = std::max<size_t>(1, bytes_at_once / record_bytes);
+  std::atomic<bool> is_short{false};
+  parallel_blocks(size_t(count), block, [&](size_t first, size_t end, size_t) {
     const size_t size = (end - first) * record_bytes;
     // Not zeroed: it is written over at once.
     const std::unique_ptr<uint8_t[]> bytes(new uint8_t[size]);
     if (file_.read(begin + first * record_bytes, {bytes.get(), size}) < size)
-      is_short[piece] = 1;
+      is_short = true;
     else
-      body(first, std::span<const uint8_t>(bytes.get(), size));
+      body(first, PlyRecords{{bytes.get(), size}, record_bytes, format_ == Format::big_endian});
   });
-  if (std::find(is_short.begin(), is_short.end(), 1) != is_short.end()) return false;
+  if (is_short) return false;
   window_.move_to(begin + count * record_bytes);
   return true;
+}
+
+/// Where the properties lie in the records of an element, and behind them the end of a record;
+/// nothing where records differ in size. `triangles`: a list that is taken to have three numbers,
+/// by its length; −1: none.
+std::optional<std::vector<PlyField>> PlyReader::fields_of(const PlyElement& element,
+                                                          int triangles) const {
+  if (format_ == Format::text || element.count == 0) return std::nullopt;
+  std::vector<PlyField> fields;
+  size_t offset = 0;
+  for (const PlyProperty& property : element.properties) {
+    if (property.is_list && int(fields.size()) != triangles) return std::nullopt;
+    fields.push_back({offset, property.is_list ? property.count_type : property.type});
+    offset += property.is_list ? size_of(property.count_type) + 3 * size_of(property.type)
+                               : size_of(property.type);
+  }
+  fields.push_back({offset});
+  return fields;
 }
 
 PlyReader::VertexLayout PlyReader::layout_of(const PlyElement& element) {
@@ -480,9 +480,9 @@ void PlyReader::read_vertices(const PlyElement& element) {
   if (layout.position[0] < 0 || layout.position[1] < 0 || layout.position[2] < 0)
     fail("the vertices have no 'x', 'y' and 'z'", "export the positions as well");
   vertex_count_ = element.count;
-  mesh_.positions.reserve(size_t(element.count) + 1);  // see MeshShape
-  if (layout.has_normals) mesh_.normals.reserve(size_t(element.count));
-  if (layout.has_uvs) mesh_.uvs.reserve(size_t(element.count));
+  reserve_large(mesh_.positions, size_t(element.count) + 1);  // see MeshShape
+  if (layout.has_normals) reserve_large(mesh_.normals, size_t(element.count));
+  if (layout.has_uvs) reserve_large(mesh_.uvs, size_t(element.count));
   AttributeReader attributes(element, "vertex_");
   if (!read_vertex_block(element, layout, attributes)) {
     attributes.reserve(size_t(element.count));
@@ -518,55 +518,30 @@ void PlyReader::read_vertex(const PlyElement& element, const VertexLayout& layou
 /// All at once and in parallel, if their records have the same size; false: they do not.
 bool PlyReader::read_vertex_block(const PlyElement& element, const VertexLayout& layout,
                                   AttributeReader& attributes) {
-  if (format_ == Format::text || element.count == 0) return false;
-  std::vector<size_t> offsets;
-  size_t record_bytes = 0;
-  for (const PlyProperty& property : element.properties) {
-    if (property.is_list) return false;
-    offsets.push_back(record_bytes);
-    record_bytes += size_of(property.type);
-  }
+  const auto fields = fields_of(element);
+  if (!fields) return false;
   const auto count = size_t(element.count);
   mesh_.positions.resize(count);
   if (layout.has_normals) mesh_.normals.resize(count);
   if (layout.has_uvs) mesh_.uvs.resize(count);
   attributes.resize(count);
-  const bool big_endian = format_ == Format::big_endian;
-  const auto number = [&](const uint8_t* record, int index) {
-    const Type type = element.properties[size_t(index)].type;
-    const uint8_t* bytes = record + offsets[size_t(index)];
-    if (type != Type::float32 || big_endian) return float(value_at(bytes, type, big_endian));
-    float value;
-    std::memcpy(&value, bytes, sizeof(value));
-    return value;
-  };
-  std::atomic<size_t> first_fault{count};
-  const auto is_sound = [&](size_t i) {
-    return is_finite(mesh_.positions[i]) && (!layout.has_normals || is_finite(mesh_.normals[i])) &&
-           (!layout.has_uvs || (std::isfinite(mesh_.uvs[i].x) && std::isfinite(mesh_.uvs[i].y)));
-  };
-  const auto read_piece = [&](size_t first, std::span<const uint8_t> bytes) {
-    const uint8_t* record = bytes.data();
-    for (size_t i = first; i < first + bytes.size() / record_bytes; ++i, record += record_bytes) {
-      const auto fill = [&](auto& vector, const auto& indices) {
-        for (size_t axis = 0; axis < indices.size(); ++axis)
-          vector[int(axis)] = number(record, indices[axis]);
-      };
-      fill(mesh_.positions[i], layout.position);
-      if (layout.has_normals) fill(mesh_.normals[i], layout.normal);
-      if (layout.has_uvs) fill(mesh_.uvs[i], layout.uv);
-      attributes.set(i, [&](size_t property) {
-        return value_at(record + offsets[property], element.properties[property].type, big_endian);
-      });
-      if (is_sound(i)) [[likely]]
-        continue;
-      size_t known = first_fault;
-      while (i < known && !first_fault.compare_exchange_weak(known, i)) {
-      }
+  std::atomic<size_t> first_fault{count};  // the first of a piece that has one
+  const auto read_piece = [&](size_t first, const PlyRecords& records) {
+    const auto is_sound = [&](auto& vectors, const auto& properties) {
+      auto* const to = vectors.data() + first;
+      copy_vectors(records, fields_at(*fields, properties), to);
+      return are_finite(std::span<const std::remove_pointer_t<decltype(to)>>(to, records.size()));
+    };
+    bool sound = is_sound(mesh_.positions, layout.position);
+    if (layout.has_normals) sound &= is_sound(mesh_.normals, layout.normal);
+    if (layout.has_uvs) sound &= is_sound(mesh_.uvs, layout.uv);
+    attributes.set_all(first, records, *fields);
+    size_t known = first_fault;
+    while (!sound && first < known && !first_fault.compare_exchange_weak(known, first)) {
     }
   };
-  if (!each_piece(element.count, record_bytes, read_piece)) fail_truncated();
-  if (first_fault < count) check_vertex(first_fault);
+  if (!each_piece(element.count, record_bytes_of(*fields), read_piece)) fail_truncated();
+  for (size_t i = first_fault; i < count; ++i) check_vertex(i);
   return true;
 }
 
@@ -578,6 +553,7 @@ void PlyReader::read_faces(const PlyElement& element) {
     if (other.name == "vertex") break;
     if (&other == &element) fail("the faces come before the vertices", "export the file again");
   }
+  reserve_large(mesh_.triangles, size_t(element.count));
   AttributeReader attributes(element, "face_");
   if (!read_triangle_block(element, size_t(indices), attributes))
     read_polygons(element, size_t(indices), attributes);
@@ -586,7 +562,6 @@ void PlyReader::read_faces(const PlyElement& element) {
 
 void PlyReader::read_polygons(const PlyElement& element, size_t indices,
                               AttributeReader& attributes) {
-  mesh_.triangles.reserve(size_t(element.count));
   attributes.reserve(size_t(element.count));
   std::vector<double> values(element.properties.size());
   for (uint64_t face = 0; face < element.count; ++face) {
@@ -600,6 +575,7 @@ void PlyReader::read_polygons(const PlyElement& element, size_t indices,
       else
         values[i] = value(property.type);
     }
+    check_growth(attributes, face);
     // Each triangle has what its face has.
     for (size_t i = triangles; i < mesh_.triangles.size(); ++i)
       attributes.add([&](size_t property) { return values[property]; });
@@ -610,79 +586,63 @@ void PlyReader::read_polygons(const PlyElement& element, size_t indices,
 /// read: they are or have.
 bool PlyReader::read_triangle_block(const PlyElement& element, size_t indices,
                                     AttributeReader& attributes) {
-  if (format_ == Format::text || element.count == 0) return false;
-  const bool big_endian = format_ == Format::big_endian;
-  const PlyProperty& list = element.properties[indices];
-  const size_t count_bytes = size_of(list.count_type), index_bytes = size_of(list.type);
-  std::vector<size_t> offsets;
-  size_t record_bytes = 0;
-  for (size_t i = 0; i < element.properties.size(); ++i) {
-    offsets.push_back(record_bytes);
-    if (i == indices) {
-      record_bytes += count_bytes + 3 * index_bytes;
-    } else if (element.properties[i].is_list) {
-      return false;
-    } else {
-      record_bytes += size_of(element.properties[i].type);
-    }
-  }
-  const uint64_t begin = window_.position();
-  const std::span<const uint8_t> first_face = window_.ahead(record_bytes);
-  if (element.count > left() / record_bytes || first_face.size() < record_bytes ||
-      value_at(first_face.data() + offsets[indices], list.count_type, big_endian) != 3)
+  const auto fields = fields_of(element, int(indices));
+  if (!fields || element.count > left() / record_bytes_of(*fields)) return false;
+  const PlyField& length = (*fields)[indices];
+  // Other polygons are mostly told by the first one, before memory is taken.
+  const std::span<const uint8_t> ahead = window_.ahead(length.offset + size_of(length.type));
+  if (value_at(ahead.data() + length.offset, length.type, format_ == Format::big_endian) != 3)
     return false;
-  const bool is_plain = !big_endian && (list.type == Type::int32 || list.type == Type::uint32);
   mesh_.triangles.resize(size_t(element.count));
   attributes.resize(size_t(element.count));
   // What is wrong is told by reading face by face.
   std::atomic<bool> is_sound{true};
-  const auto read_piece = [&](size_t first, std::span<const uint8_t> bytes) {
-    const uint8_t* record = bytes.data();
-    bool sound = true;
-    for (size_t i = first; i < first + bytes.size() / record_bytes; ++i, record += record_bytes) {
-      std::array<uint32_t, 3>& corners = mesh_.triangles[i];
-      const uint8_t* corner_count = record + offsets[indices];
-      const uint8_t* from = corner_count + count_bytes;
-      sound =
-          sound && (count_bytes == 1 ? *corner_count == 3
-                                     : value_at(corner_count, list.count_type, big_endian) == 3);
-      attributes.set(i, [&](size_t property) {
-        return value_at(record + offsets[property], element.properties[property].type, big_endian);
-      });
-      if (is_plain) {
-        std::memcpy(corners.data(), from, sizeof(corners));
-        sound = sound && std::max({corners[0], corners[1], corners[2]}) < vertex_count_;
-        continue;
-      }
-      for (uint32_t& corner : corners) {
-        const double index = value_at(from, list.type, big_endian);
-        const bool is_index =
-            index >= 0 && index < double(vertex_count_) && index == std::floor(index);
-        sound = sound && is_index;
-        corner = is_index ? uint32_t(index) : 0;
-        from += index_bytes;
-      }
-    }
-    if (!sound) is_sound = false;
+  const auto read_piece = [&](size_t first, const PlyRecords& records) {
+    if (!copy_corners(records, length, element.properties[indices].type, vertex_count_,
+                      mesh_.triangles.data() + first))
+      is_sound = false;
+    attributes.set_all(first, records, *fields);
   };
-  if (each_piece(element.count, record_bytes, read_piece) && is_sound) return true;
+  const uint64_t begin = window_.position();
+  if (each_piece(element.count, record_bytes_of(*fields), read_piece) && is_sound) return true;
   mesh_.triangles.clear();
   attributes.resize(0);
   window_.move_to(begin);
   return false;
 }
 
+/// A file that has many attributes and large polygons could ask for a number of values that goes
+/// with the square of its size.
+void PlyReader::check_growth(const AttributeReader& attributes, uint64_t face) const {
+  const uint64_t values = attributes.values_of_element() * mesh_.triangles.size();
+  if (values * sizeof(float) >
+      always_allowed_attribute_bytes + usual_attribute_growth * file_.size())
+    fail(fmt::format("the attributes of faces up to face {}, one of each for every triangle, are "
+                     "{} numbers",
+                     face, values),
+         "export the mesh as triangles, or without attributes of faces");
+}
+
 void PlyReader::read_polygon(const PlyProperty& property, uint64_t face) {
   const uint64_t corners = list_size(property);
   corners_.clear();
-  for (uint64_t i = 0; i < corners; ++i) {
-    const double index = value(property.type);
+  const auto add = [&](double index) {
     check(fault_of_index(face, index, vertex_count_, "the file is damaged: export it again"));
     corners_.push_back(uint32_t(index));
+  };
+  if (format_ == Format::text) {
+    for (uint64_t i = 0; i < corners; ++i) add(text_value());
+  } else {
+    const size_t index_bytes = size_of(property.type), size = size_t(corners) * index_bytes;
+    const std::span<const uint8_t> ahead = window_.ahead(size);
+    if (ahead.size() < size) fail_truncated();
+    for (size_t i = 0; i < size; i += index_bytes)
+      add(value_at(ahead.data() + i, property.type, format_ == Format::big_endian));
+    window_.advance(size);
   }
   if (corners_.size() < 3)
     ++small_faces_;
-  else if (!cutter_.cut(mesh_.positions, corners_, mesh_.triangles))
+  else if (!cutter_.cut(mesh_.positions, corners_, corners_, mesh_.triangles))
     fail(fmt::format("face {} with {} corners takes too long to be cut into triangles", face,
                      corners),
          "export the mesh as triangles");

@@ -8,33 +8,33 @@
 namespace kaustik {
 namespace {
 
-using Positions = std::vector<Vec3f>;
+using Positions = std::span<const Vec3f>;
 using Corners = std::span<const uint32_t>;
 
 /// Of the triangle from corner `a` to `b` to `c`: twice its area.
-Vec3d area_vector(const Positions& p, uint32_t a, uint32_t b, uint32_t c) {
+Vec3d area_vector(Positions p, uint32_t a, uint32_t b, uint32_t c) {
   const Vec3d from(p[a]);
   return (Vec3d(p[b]) - from).cross(Vec3d(p[c]) - from);
 }
 
-void add_fan(Corners c, std::vector<PolygonCutter::Triangle>& triangles) {
-  for (size_t i = 2; i < c.size(); ++i) triangles.push_back({c[0], c[i - 1], c[i]});
+void add_fan(Corners names, PolygonCutter::Triangles& triangles) {
+  for (size_t i = 2; i < names.size(); ++i) triangles.push_back({names[0], names[i - 1], names[i]});
 }
 
 /// By the first diagonal, unless the halves lie over one another so, and not by the second one.
-void add_quad(const Positions& p, Corners c, std::vector<PolygonCutter::Triangle>& triangles) {
+void add_quad(Positions p, Corners c, Corners names, PolygonCutter::Triangles& triangles) {
   const auto agree = [&](size_t i) {
     const uint32_t a = c[i], b = c[(i + 1) % 4], across = c[(i + 2) % 4], d = c[(i + 3) % 4];
     return area_vector(p, a, b, across).dot(area_vector(p, a, across, d)) >= 0;
   };
-  if (agree(0) || !agree(1)) return add_fan(c, triangles);
-  triangles.push_back({c[1], c[2], c[3]});
-  triangles.push_back({c[1], c[3], c[0]});
+  if (agree(0) || !agree(1)) return add_fan(names, triangles);
+  triangles.push_back({names[1], names[2], names[3]});
+  triangles.push_back({names[1], names[3], names[0]});
 }
 
 /// Some normal of the polygon: its area vector, or, where lobes cancel in that, that of its largest
 /// triangle at the first corner. Zero if it has no area.
-Vec3d normal_of(const Positions& p, Corners c) {
+Vec3d normal_of(Positions p, Corners c) {
   Vec3d sum(0, 0, 0), largest(0, 0, 0);
   double total = 0;
   for (size_t i = 2; i < c.size(); ++i) {
@@ -47,7 +47,7 @@ Vec3d normal_of(const Positions& p, Corners c) {
 }
 
 /// The polygon as seen against its normal, anticlockwise if its area vector is `normal`.
-std::vector<Vec2d> flattened(const Positions& p, Corners c, const Vec3d& normal) {
+std::vector<Vec2d> flattened(Positions p, Corners c, const Vec3d& normal) {
   const Vec3d unit = normal.normalized(), first(p[c[0]]);
   double extent = 0, depth = 0;
   for (const uint32_t corner : c) {
@@ -94,28 +94,27 @@ bool is_convex(const std::vector<Vec2d>& flat) {
 
 }  // namespace
 
-bool PolygonCutter::cut(const Positions& positions, Corners corners,
-                        std::vector<Triangle>& triangles) {
+bool PolygonCutter::cut(Positions positions, Corners corners, Corners names, Triangles& triangles) {
   // More than once round all of them, there and back: no polygon, but work without end.
   if (corners.size() > 2 * positions.size() + 4) return false;
   if (corners.size() == 4) {
-    add_quad(positions, corners, triangles);
+    add_quad(positions, corners, names, triangles);
     return true;
   }
   const Vec3d normal = corners.size() > 3 ? normal_of(positions, corners) : Vec3d(0, 0, 0);
   if (normal == Vec3d(0, 0, 0)) {
-    add_fan(corners, triangles);
+    add_fan(names, triangles);
     return true;
   }
   const std::vector<Vec2d> flat = flattened(positions, corners, normal);
   if (is_convex(flat)) {
-    add_fan(corners, triangles);
+    add_fan(names, triangles);
     return true;
   }
   EarClipper clipper(flat, steps_);
   const bool complete = clipper.clip();
   for (const auto& [a, b, c] : clipper.triangles())
-    triangles.push_back({corners[a], corners[b], corners[c]});
+    triangles.push_back({names[a], names[b], names[c]});
   return complete;
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "kaustik/base/memory.h"
 #include "kaustik/base/vec.h"
 
 namespace kaustik {
@@ -11,6 +12,7 @@ namespace kaustik {
 class PolygonCutter {
  public:
   using Triangle = std::array<uint32_t, 3>;
+  using Triangles = UnsetVector<Triangle>;
 
   /// All polygons together may take steps in proportion to the size of their file, so that no file
   /// takes long for its size.
@@ -19,10 +21,10 @@ class PolygonCutter {
   /// Appends corners.size() − 2 triangles whose sides are sides or diagonals of the polygon, wound
   /// as it is. Where it is convex they are the fan from its first corner. Parts that only touch
   /// (holes reached by a slit, lobes that meet in a point) are told apart; where sides cross, some
-  /// triangles overlap. Corners are indices into `positions`, at least three. False if the steps
-  /// are spent; then triangles are missing.
-  [[nodiscard]] bool cut(const std::vector<Vec3f>& positions, std::span<const uint32_t> corners,
-                         std::vector<Triangle>& triangles);
+  /// triangles overlap. Corners are indices into `positions`, at least three; triangles have the
+  /// names of corners in their stead. False if the steps are spent; then triangles are missing.
+  [[nodiscard]] bool cut(std::span<const Vec3f> positions, std::span<const uint32_t> corners,
+                         std::span<const uint32_t> names, Triangles& triangles);
 
  private:
   size_t steps_;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "kaustik/base/error.h"
@@ -105,7 +106,8 @@ class SerializedReader {
   void read_arrays();
   void read_colors();
   void read_records();
-  void take_corners(uint64_t face, const std::array<uint32_t, 3>& corners);
+  void read_corners();
+  void check_corners(uint64_t face, const std::array<uint32_t, 3>& corners) const;
 
   const std::string& path_;
   uint64_t index_, size_ = 0;  ///< of the file
@@ -212,7 +214,7 @@ template <typename Vector>
 void SerializedReader::read_vectors(std::vector<Vector>& vectors, size_t spare,
                                     std::optional<MeshFault> (*fault_of)(uint64_t, const Vector&)) {
   constexpr size_t numbers = sizeof(Vector) / sizeof(float);
-  vectors.reserve(size_t(vertices_) + spare);
+  reserve_large(vectors, size_t(vertices_) + spare);
   if (flags_ & in_doubles) {
     each<std::array<double, numbers>>(vertices_, [&](uint64_t, const auto& given) {
       Vector& vector = vectors.emplace_back();
@@ -222,13 +224,24 @@ void SerializedReader::read_vectors(std::vector<Vector>& vectors, size_t spare,
     vectors.resize(size_t(vertices_));
     fill(std::span(vectors));
   }
+  if (are_finite(std::span<const Vector>(vectors))) return;
   for (size_t i = 0; i < vectors.size(); ++i) check(fault_of(i, vectors[i]));
 }
 
-void SerializedReader::take_corners(uint64_t face, const std::array<uint32_t, 3>& corners) {
+void SerializedReader::check_corners(uint64_t face, const std::array<uint32_t, 3>& corners) const {
   for (const uint32_t corner : corners)
     check(fault_of_index(face, corner, vertices_, "the file is damaged: export it again"));
-  result_.mesh.triangles.push_back(corners);
+}
+
+void SerializedReader::read_corners() {
+  TriangleList& triangles = result_.mesh.triangles;
+  triangles.resize(size_t(triangles_));
+  fill(std::span(triangles));
+  uint32_t largest = 0;
+  for (const auto& corners : triangles)
+    largest = std::max({largest, corners[0], corners[1], corners[2]});
+  if (largest < vertices_) return;
+  for (size_t face = 0; face < triangles.size(); ++face) check_corners(face, triangles[face]);
 }
 
 /// Versions 3 and 4: all positions, then all normals, and so on.
@@ -242,9 +255,8 @@ void SerializedReader::read_arrays() {
   if (flags_ & has_normals) read_vectors(mesh.normals, 0, fault_of_normal);
   if (flags_ & has_uvs) read_vectors(mesh.uvs, 0, fault_of_uv);
   if (flags_ & has_colors) read_colors();
-  mesh.triangles.reserve(size_t(triangles_));
-  each<std::array<uint32_t, 3>>(
-      triangles_, [&](uint64_t face, const auto& corners) { take_corners(face, corners); });
+  reserve_large(mesh.triangles, size_t(triangles_));
+  read_corners();
 }
 
 void SerializedReader::read_colors() {
@@ -275,9 +287,9 @@ void SerializedReader::read_records() {
   TriangleMesh& mesh = result_.mesh;
   const bool frames = (flags_ & records_frames) != 0;
   const bool normals = (flags_ & records_normals) != 0, uvs = (flags_ & records_uvs) != 0;
-  mesh.positions.reserve(size_t(vertices_) + 1);
-  if (normals) mesh.normals.reserve(size_t(vertices_));
-  if (uvs) mesh.uvs.reserve(size_t(vertices_));
+  reserve_large(mesh.positions, size_t(vertices_) + 1);
+  if (normals) reserve_large(mesh.normals, size_t(vertices_));
+  if (uvs) reserve_large(mesh.uvs, size_t(vertices_));
   each<VertexRecord>(vertices_, [&](uint64_t i, const VertexRecord& record) {
     mesh.positions.emplace_back(record[0], record[1], record[2]);
     check(fault_of_position(i, mesh.positions.back()));
@@ -291,9 +303,9 @@ void SerializedReader::read_records() {
       check(fault_of_uv(i, mesh.uvs.back()));
     }
   });
-  mesh.triangles.reserve(size_t(triangles_));
+  reserve_large(mesh.triangles, size_t(triangles_));
   each<FaceRecord>(triangles_, [&](uint64_t face, const FaceRecord& record) {
-    take_corners(face, {record[0], record[1], record[2]});
+    check_corners(face, mesh.triangles.emplace_back(std::array{record[0], record[1], record[2]}));
   });
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kaustik/base/memory.h"
 #include "kaustik/base/parameters.h"
 #include "kaustik/geometry/ray.h"
 
@@ -30,12 +31,15 @@ struct MeshAttribute {
   bool is_of_faces() const { return name.starts_with("face_"); }
 };
 
+/// The corners of triangles, as numbers of vertices.
+using TriangleList = UnsetVector<std::array<uint32_t, 3>>;
+
 /// Triangles with shared vertices, in world space (in group space for shapes of a shape group).
 struct TriangleMesh {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;  ///< per vertex, unit; empty: flat faces
   std::vector<Vec2f> uvs;      ///< per vertex; empty: barycentric
-  std::vector<std::array<uint32_t, 3>> triangles;
+  TriangleList triangles;
   std::vector<MeshAttribute> attributes = {};  ///< of different names
 };
 

@@ -55,7 +55,7 @@ Icosphere icosphere(int level) {
                               {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
                               {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
   for (Vec3d& unit : units) unit.normalize();
-  std::vector<std::array<uint32_t, 3>> triangles = {
+  TriangleList triangles = {
       {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
@@ -66,7 +66,7 @@ Icosphere icosphere(int level) {
       if (is_new) units.push_back((units[a] + units[b]).normalized());
       return it->second;
     };
-    std::vector<std::array<uint32_t, 3>> finer;
+    TriangleList finer;
     for (const auto& [a, b, c] : triangles) {
       const uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
       finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kaustik/base/vec.h"
+#include "kaustik/geometry/shape.h"
 
 namespace kaustik {
 
@@ -38,7 +39,7 @@ class SphereCone {
 /// outside corners run anticlockwise.
 struct Icosphere {
   std::vector<Vec3d> units;
-  std::vector<std::array<uint32_t, 3>> triangles;
+  TriangleList triangles;
 };
 Icosphere icosphere(int level);
 
