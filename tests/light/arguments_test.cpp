@@ -58,7 +58,7 @@ TEST(LightArguments, ContradictionsAreErrors) {
   expect_error("spot", {{"to_world", sheared, {}}}, "distorts");
   expect_error("spot", {{"falloff", Value(std::string("cubic")), {}}}, "cannot be 'cubic'");
   expect_error("projector", {{"to_world", sheared, {}}}, "distorts");
-  expect_error("projector", {{"focal_length", Value(std::string("50")), {}}}, "focal_length");
+  expect_error("projector", {{"focal_length", Value(std::string("50 km")), {}}}, "focal_length");
   expect_error("projector", {{"irradiance", Value(3e38), {}}, {"fov", Value(170.0), {}}},
                "overflows");
 }

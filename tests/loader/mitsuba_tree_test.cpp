@@ -383,6 +383,33 @@ TEST(MitsubaTree, NamesOfDialects) {
       "rectangle");
   EXPECT_EQ(parse_inside("<shape type='Rectangle'/>").scene->children.at(0).object->type,
             "Rectangle");
+  const auto metal = parse_inside(
+                         "<bsdf type='disneymetal'><float name='eta' value='1.5'/>"
+                         "<float name='specular' value='0.5'/></bsdf>")
+                         .scene->children.at(0)
+                         .object;
+  EXPECT_EQ(metal->type, "principled");
+  EXPECT_EQ(metal->properties.size(), 2u);
+  EXPECT_EQ(value<double>(*metal, "metallic"), 1);
+  EXPECT_EQ(parse_inside("<bsdf type='mirror'/>").scene->children.at(0).object->type, "conductor");
+  const auto sky = parse_inside("<background><rgb name='radiance' value='1'/></background>")
+                       .scene->children.at(0)
+                       .object;
+  EXPECT_EQ(sky->family, "emitter");
+  EXPECT_EQ(sky->type, "constant");
+}
+
+// As Mitsuba 0.6 does it: together they reflect at most 0.99.
+TEST(MitsubaTree, OldReflectancesThatMakeLightAreScaled) {
+  const std::string phong =
+      "<bsdf type='phong'><rgb name='diffuseReflectance' value='0.8, 0.2, 0.1'/>"
+      "<rgb name='specularReflectance' value='0.4, 0, 0'/></bsdf>";
+  const Description old = parse(in_scene(phong, "0.6.0"));
+  EXPECT_EQ(old.warnings.size(), 1u);
+  const Object& bsdf = *old.scene->children.at(0).object;
+  EXPECT_NEAR(value<Rgb>(bsdf, "diffuse_reflectance").r, 0.8 * 0.99 / 1.2, 1e-12);
+  EXPECT_NEAR(value<Rgb>(bsdf, "specular_reflectance").r, 0.4 * 0.99 / 1.2, 1e-12);
+  EXPECT_NEAR(value<Rgb>(bsdf, "diffuse_reflectance").b, 0.1 * 0.99 / 1.2, 1e-12);
 }
 
 TEST(MitsubaTree, OfTwoValuesInOldFilesTheLastHolds) {

@@ -304,8 +304,25 @@ TEST(BuildScene, TypesOfDialects) {
   expect_one(lenient_warnings(camera + sphere + "<emitter type=\"point\"/>" +
                               "\n<emitter type=\"volumelight\"/>"),
              "test.xml:3:1: Kaustik does not know emitter 'volumelight'");
-  expect_problem(camera + sphere + "\n<emitter type=\"volumelight\"/>", "3:1",
-                 "unknown emitter type");  // the only light
+  // Also the only light.
+  expect_one(lenient_warnings(camera + sphere + "\n<emitter type=\"volumelight\"/>"),
+             "test.xml:3:1: Kaustik does not know emitter 'volumelight': it is left out");
+  expect_one(lenient_warnings(camera + sphere + "\n<emitter type=\"collimated\"/>"),
+             "it is left out; use a 'spot'");
+  expect_one(lenient_warnings(camera + sphere +
+                              "\n<emitter type=\"ringflash\">"
+                              "<rgb name=\"intensity\" value=\"1\"/></emitter>"),
+             "'point' stands for it");
+  expect_one(lenient_warnings(camera + "<shape type=\"sphere\"><emitter type=\"angularlamp\">"
+                                       "<rgb name=\"radiance\" value=\"1\"/></emitter></shape>"),
+             "'area' stands for it");
+  expect_one(lenient_warnings(camera + "<emitter type=\"point\"/><shape type=\"sphere\">"
+                                       "<bsdf type=\"polarizer\"/></shape>"),
+             "half of the light passes");
+  expect_one(lenient_warnings(camera + sphere +
+                              "<shape type=\"sphere\">"
+                              "<sensor type=\"nlos_capture\"/></shape>"),
+             "Kaustik does not know sensor 'nlos_capture': it is left out");
   expect_one(lenient_warnings("<sensor type=\"dome360\"/>" + sphere), "'perspective' is used");
   expect_one(lenient_warnings(camera + sphere + "\n<film type=\"hdrfilm\"/>"),
              "a film stands at the top of the scene");
@@ -425,8 +442,10 @@ TEST(BuildScene, ParametersWithoutEffectAreReportedOnce) {
       "<sensor type=\"perspective\"><float name=\"shutter_open\" value=\"0.1\"/>"
       "<float name=\"shutter_close\" value=\"9\"/></sensor>" +
       odd);
-  ASSERT_EQ(scene->warnings().size(), 2u);
-  EXPECT_EQ(scene->warnings()[0], "'shutter_open' of sensor 'perspective' has no effect here");
+  ASSERT_EQ(scene->warnings().size(), 1u);
+  EXPECT_EQ(scene->warnings()[0],
+            "without effect here: 'shutter_close' of sensor 'perspective', 'shutter_open' of "
+            "sensor 'perspective'");
 }
 
 /// `levels` bsdfs, a line each, every one made of the one before, twice if `twice`.

@@ -227,7 +227,7 @@ TEST(Cameras, ASpectralResponseIsTold) {
       "<sensor type=\"radiancemeter\"><spectrum name=\"srf\" value=\"400:1, 700:2\"/></sensor>" +
       std::string(any_shape));
   ASSERT_EQ(scene->warnings().size(), 1u);
-  EXPECT_EQ(scene->warnings()[0], "'srf' of sensor 'radiancemeter' has no effect here");
+  EXPECT_EQ(scene->warnings()[0], "without effect here: 'srf' of sensor 'radiancemeter'");
 }
 
 }  // namespace

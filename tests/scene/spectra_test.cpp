@@ -230,11 +230,6 @@ TEST(Spectra, WhatIsWrong) {
                  "cannot hold a texture");
 }
 
-TEST(Lights, ThatComeLaterTellWhatWillDoInstead) {
-  expect_problem(any_camera + std::string(any_shape) + "\n<emitter type=\"collimated\"/>", "3:1",
-                 "'collimated' comes later", "'spot'");
-}
-
 /// Each holds the one before twice: looked at once each.
 TEST(Spectra, NestedManyTimesAreLookedAtOnce) {
   auto inner = std::make_shared<Object>(Object{"texture", "d65", "", {}, {}, {}});

@@ -43,9 +43,11 @@ Vec2f tan_half_fov(const Arguments& arguments, double aspect) {
         arguments.given("focal_length") ? arguments.text("focal_length") : "50mm";
     char* end = nullptr;
     const double millimetres = std::strtod(text.c_str(), &end);
-    if (!(millimetres > 0) || std::string(end) != "mm")
+    while (*end == ' ') ++end;
+    const std::string unit = end;
+    if (!(millimetres > 0) || (!unit.empty() && unit != "mm"))
       throw Error(ErrorKind::input, "'focal_length' is '" + text + "'",
-                  "give a positive number followed by mm, such as 35mm",
+                  "give a positive number of millimetres, such as 35mm",
                   arguments.place_of("focal_length"));
     fov =
         2 * std::atan(std::sqrt(36.0 * 36 + 24 * 24) / (2 * millimetres)) * 180 / std::numbers::pi;

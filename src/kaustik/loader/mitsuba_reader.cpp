@@ -139,6 +139,14 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
       {"animation", &Reader::read_animation}, {"blackbody", &Reader::read_blackbody}};
   const bool is_srgb = element.tag == "srgb" && source.version < Version{2, 0, 0};
   const bool typed_spectrum = element.tag == "spectrum" && element.find("type");
+  if (element.tag == "background" && !is_strict_) {  // of torrey
+    Element light = element;
+    light.tag = "emitter";
+    if (!light.find("type"))
+      light.attributes.push_back({"type", "constant", "constant", element.place, element.place});
+    read_nested_object(light, parent, source);
+    return;
+  }
   if (const auto other = others.find(element.tag); other != others.end())
     (this->*other->second)(element, parent, source);
   else if (typed_spectrum || is_in(object_tags(), element.tag))
@@ -182,22 +190,56 @@ void Reader::leave_out(const std::string& what, const std::string& sentence, con
   ++left_out_.try_emplace(what, LeftOut{sentence, place, 0}).first->second.count;
 }
 
+namespace {
+
+/// What a surface that makes light is scaled to, as by Mitsuba 0.6.
+constexpr double largest_reflectance = 0.99;
+
+/// Lane by lane; zeros where the value is no colour.
+Rgb colour_of(const Value& value) {
+  if (const auto* colour = std::get_if<Rgb>(&value)) return *colour;
+  const auto* number = std::get_if<double>(&value);
+  return number ? Rgb{*number, *number, *number} : Rgb{0, 0, 0};
+}
+double largest_lane(const Rgb& colour) { return std::max({colour.r, colour.g, colour.b}); }
+void scale(Value& value, double factor) {
+  if (auto* colour = std::get_if<Rgb>(&value))
+    *colour = {colour->r * factor, colour->g * factor, colour->b * factor};
+  else if (auto* number = std::get_if<double>(&value))
+    *number *= factor;
+}
+
+}  // namespace
+
+void Reader::scale_sum_of_reflectances(Object& object) {
+  if (object.family != "bsdf" || (object.type != "phong" && object.type != "ward")) return;
+  std::vector<Property*> shares;
+  Rgb sum{0, 0, 0};
+  for (Property& property : object.properties) {
+    if (property.name != "diffuse_reflectance" && property.name != "specular_reflectance") continue;
+    shares.push_back(&property);
+    const Rgb share = colour_of(property.value);
+    sum = {sum.r + share.r, sum.g + share.g, sum.b + share.b};
+  }
+  if (!(largest_lane(sum) > 1)) return;
+  for (Property* share : shares) scale(share->value, largest_reflectance / largest_lane(sum));
+  leave_out("sum of reflectances",
+            fmt::format("the reflectances of '{}' add up to {:.4g}, which makes light: they are "
+                        "scaled to {}",
+                        object.type, largest_lane(sum), largest_reflectance),
+            shares.front()->place);
+}
+
 void Reader::scale_reflectances(Object& object) {
-  // As Mitsuba 0.6 does it, so that no surface makes light.
-  constexpr double largest = 0.99;
   for (Property& property : object.properties) {
     if (!property.name.ends_with("reflectance") && !property.name.ends_with("transmittance"))
       continue;
-    auto* colour = std::get_if<Rgb>(&property.value);
-    auto* number = std::get_if<double>(&property.value);
-    const double most = colour ? std::max({colour->r, colour->g, colour->b}) : number ? *number : 0;
+    const double most = largest_lane(colour_of(property.value));
     if (!(most > 1)) continue;
-    const double factor = largest / most;
-    if (colour) *colour = {colour->r * factor, colour->g * factor, colour->b * factor};
-    if (number) *number = largest;
+    scale(property.value, largest_reflectance / most);
     leave_out("reflectance",
               fmt::format("'{}' is above 1, which makes light: it is scaled to {}", property.name,
-                          largest),
+                          largest_reflectance),
               property.place);
   }
 }
@@ -261,6 +303,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   --depth_;
   upgrade_object(object, element.value("type"), source.version, problems_);
   if (!is_strict_) scale_reflectances(object);
+  if (!is_strict_ && source.version < first_with_snake_case) scale_sum_of_reflectances(object);
   if (source.version < first_with_snake_case && object.family == "shape")
     old_shapes_.push_back(unfinished.object);
   upgrade_sky(object, source.version);

@@ -78,6 +78,8 @@ class Reader {
   void report_unknown(const Element& element);
   /// Reflectances and transmittances above 1.
   void scale_reflectances(Object& object);
+  /// Of two lobes that together reflect more than arrives, in scenes before Mitsuba 2.
+  void scale_sum_of_reflectances(Object& object);
   /// Before Mitsuba 2 a shape with a medium and no bsdf was a boundary of media alone.
   void open_old_shapes();
   /// Of several sensors Mitsuba 0.6 rendered the last one, and later versions the first.

@@ -27,7 +27,6 @@ constexpr Version any_version = {1'000'000, 0, 0};
 constexpr TypeName type_names[] = {
     {first_of_mitsuba_0_5, "bsdf", "bump", "bumpmap"},
     {first_of_mitsuba_0_3, "bsdf", "lambertian", "diffuse"},
-    {first_of_mitsuba_0_3, "bsdf", "mirror", "conductor"},
     {first_of_mitsuba_0_3, "bsdf", "roughmetal", "roughconductor"},
     {first_of_mitsuba_0_3, "bsdf", "roughglass", "roughdielectric"},
     {first_of_mitsuba_0_3, "bsdf", "microfacet", "roughplastic"},
@@ -38,7 +37,13 @@ constexpr TypeName type_names[] = {
     {any_version, "bsdf", "roughconductorggx", "roughconductor", "ggx"},
     {any_version, "bsdf", "roughdielectricggx", "roughdielectric", "ggx"},
     {any_version, "bsdf", "roughplasticggx", "roughplastic", "ggx"},
+    {any_version, "bsdf", "mirror", "conductor"},
+    {any_version, "bsdf", "blinn", "phong"},
+    {any_version, "bsdf", "blinn_microfacet", "phong"},
     {any_version, "bsdf", "disneybsdf", "principled"},
+    {any_version, "bsdf", "disneydiffuse", "principled"},
+    {any_version, "bsdf", "disneymetal", "principled"},
+    {any_version, "bsdf", "disneyglass", "principled"},
     {any_version, "bsdf", "mixture", "mixturebsdf"},
     {any_version, "phase", "rayleigh_polarized", "rayleigh"},
     {any_version, "volume", "grid", "gridvolume"}};
@@ -56,6 +61,8 @@ constexpr PropertyName property_names[] = {
     {first_of_mitsuba_0_4, "emitter", "envmap", "intensity_scale", "scale"},
     {first_of_mitsuba_0_4, "medium", "", "density_multiplier", "scale"},
     {first_with_snake_case, "medium", "heterogeneous", "density", "sigma_t"},
+    {any_version, "medium", "homogeneous", "density", "scale"},
+    {any_version, "medium", "", "density_scale", "scale"},
     {first_of_mitsuba_0_4, "sensor", "", "focus_depth", "focus_distance"},
     {first_of_mitsuba_0_3, "bsdf", "", "alpha_b", "alpha"},
     {first_of_mitsuba_0_3, "bsdf", "", "alpha_x", "alpha_u"},
@@ -176,6 +183,15 @@ void upgrade_conductor(Object& object) {
   object.properties.push_back({"material", std::string("cu"), object.place});
 }
 
+/// Of lajolla, whose 'specular' is a factor beside 'eta', and where metal and glass are types.
+void upgrade_disney(Object& object, const std::string& written_type) {
+  if (object.family != "bsdf" || object.type != "principled") return;
+  if (has(object, "eta")) take<double>(object, "specular");
+  const std::string type = lower_case(written_type);
+  if (type == "disneymetal") object.properties.push_back({"metallic", 1.0, object.place});
+  if (type == "disneyglass") object.properties.push_back({"spec_trans", 1.0, object.place});
+}
+
 }  // namespace
 
 Version parse_version(std::string_view text) {
@@ -223,6 +239,7 @@ void upgrade_object(Object& object, const std::string& written_type, Version ver
   const TypeName* row = row_of(object.family, written_type, version);
   if (row && !row->distribution.empty() && !has(object, "distribution"))
     object.properties.push_back({"distribution", std::string(row->distribution), object.place});
+  upgrade_disney(object, written_type);
   if (version < first_with_snake_case) {
     upgrade_texture(object, problems);
     upgrade_grid(object);

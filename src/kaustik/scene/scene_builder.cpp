@@ -69,16 +69,6 @@ const Parameter* spectrum_parameter(const TypeInfo& info, const std::string& nam
   return texture_parameter(info, name);
 }
 
-/// What will do in place of a light of Mitsuba that is not here yet; empty for all others.
-const std::string& instead_of_light(const std::string& type) {
-  static const std::string nothing;
-  static const std::map<std::string, std::string> remedies = {
-      {"collimated", "use a 'spot' with a small 'cutoff_angle'"},
-      {"timed_sunsky", "use 'sunsky' with the hour that matters most"}};
-  const auto found = remedies.find(type);
-  return found == remedies.end() ? nothing : found->second;
-}
-
 /// See TextureOfParameter; valid as long as the two are.
 TextureOfParameter textures_for(
     const Arguments& arguments,
@@ -164,9 +154,7 @@ Arguments SceneBuilder::arguments_of(const TypeInfo& info, const Object& object)
   Arguments arguments(info, is_strict_ ? properties : unknown_.without_unknown(info, properties),
                       object.place, problems_);
   for (const std::string& name : arguments.ignored())
-    if (ignored_reported_.insert(info.family + "." + name).second)
-      warnings_.push_back(
-          fmt::format("'{}' of {} '{}' has no effect here", name, info.family, info.name));
+    ignored_.insert(fmt::format("'{}' of {} '{}'", name, info.family, info.name));
   return arguments;
 }
 
@@ -249,6 +237,8 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   parts.light_media = std::move(light_media_);
   parts.hidden_lights = std::move(hidden_lights_);
   parts.warnings = std::move(warnings_);
+  if (!ignored_.empty())
+    parts.warnings.push_back(fmt::format("without effect here: {}", fmt::join(ignored_, ", ")));
   for (std::string& warning : unknown_.warnings()) parts.warnings.push_back(std::move(warning));
   parts.warnings.insert(parts.warnings.end(), pictures_.warnings().begin(),
                         pictures_.warnings().end());
@@ -297,6 +287,11 @@ void SceneBuilder::add_top_level(const Object& object) {
 }
 
 void SceneBuilder::add_sensor(const Object& object, int shape) {
+  const std::vector<std::string> valid = names_of(camera_types());
+  if (shape >= 0 && !find_row(camera_types(), object.type) && is_foreign(object, valid)) {
+    leave_out(object, "it is left out");
+    return;
+  }
   if (sensor_) {
     warnings_.push_back(
         fmt::format("the scene has more than one camera: {} is not used", display_name(object)));
@@ -323,6 +318,8 @@ bool SceneBuilder::is_for_shapes(const Object& emitter) {
 
 std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& object) {
   const ShapeType* type = find_row(shape_types(), object.type);
+  if (!type)
+    if (const Object* known = shape_instead_of(object)) return make_shape(*known);
   if (!type) {
     std::vector<std::string> valid = names_of(shape_types());
     valid.insert(valid.end(), {shapegroup_info().name, instance_info().name, merge_info().name});
@@ -518,10 +515,17 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
   for (const Child& child : object.children) {
     if (child.object->family != "texture" || spectrum_type_of(*child.object)) continue;
     const Parameter* parameter = texture_parameter(info, child.name);
+    const std::vector<std::string> valid = texture_parameters(info);
+    if (!parameter && object.family == "emitter" && valid.size() == 1 && !is_strict_) {
+      parameter = info.find(valid.front());
+      unknown_.add(fmt::format("the texture '{}' of emitter '{}' is taken as '{}'", child.name,
+                               object.type, parameter->name),
+                   child.object->place);
+    }
     if (!parameter) {
       problems_.add(
           fmt::format("{} '{}' takes no texture '{}'", object.family, object.type, child.name),
-          suggest(child.name, texture_parameters(info)), child.object->place);
+          suggest(child.name, valid), child.object->place);
       continue;
     }
     const std::shared_ptr<Object>& given = texture_within(child.object);
@@ -553,10 +557,10 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, cons
   const BsdfType* type = find_row(bsdf_types(), object.type);
   if (!type) {
     const std::string remedy(remedy_for_bsdf_to_come(object.type));
-    if (!remedy.empty())
-      told_unless_strict(fmt::format("bsdf '{}' is not here yet", object.type), remedy,
-                         object.place);
-    if (!remedy.empty() && is_strict_) return nullptr;
+    if (!remedy.empty() && is_strict_) {
+      problems_.add(fmt::format("bsdf '{}' is not here yet", object.type), remedy, object.place);
+      return nullptr;
+    }
     if (!remedy.empty() || is_foreign(object, names_of(bsdf_types())))
       return bsdf_instead_of(object, on);
     unknown_type(object, names_of(bsdf_types()));
@@ -632,19 +636,12 @@ std::shared_ptr<const EmissionPattern> SceneBuilder::emission_pattern_of(
 }
 
 void SceneBuilder::make_lights() {
-  for (const PendingLight& pending : pending_lights_) {
+  for (PendingLight& pending : pending_lights_) {
     const LightType* type = find_row(light_types(), pending.object->type);
     if (!type) {
-      const std::string& later = instead_of_light(pending.object->type);
-      // Without its only light a scene is black.
-      if (pending_lights_.size() > 1 && is_foreign(*pending.object, names_of(light_types())))
-        leave_out(*pending.object, later.empty() ? "it is left out" : "it is left out; " + later);
-      else if (later.empty())
-        unknown_type(*pending.object, names_of(light_types()));
-      else
-        problems_.add(fmt::format("emitter '{}' comes later", pending.object->type), later,
-                      pending.object->place);
-      continue;
+      pending.object = emitter_instead_of(pending);
+      if (!pending.object) continue;
+      type = find_row(light_types(), pending.object->type);
     }
     std::vector<std::string> families = {"medium"};
     if (!texture_parameters(type->info).empty()) families.emplace_back("texture");

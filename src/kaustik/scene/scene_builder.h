@@ -144,6 +144,11 @@ class SceneBuilder {
   std::shared_ptr<const Bsdf> black_bsdf();
   /// The bsdf in one that nobody knows, or a matt one of its colour; warns.
   std::shared_ptr<const Bsdf> bsdf_instead_of(const Object& object, const BuiltShape* on);
+  /// An emitter that shines with what one of an unknown type has; null, with the reason told: there
+  /// is none.
+  const Object* emitter_instead_of(const PendingLight& pending);
+  /// Of the mesh file that a shape of another program names; null: it names none.
+  const Object* shape_instead_of(const Object& shape);
   /// Makes Mitsuba's camera of scenes that have none the sensor; warns. False, with the problem
   /// told, where there is nothing to see.
   bool place_camera(const Place& place);
@@ -170,7 +175,8 @@ class SceneBuilder {
   bool is_strict_;  ///< Description::is_strict
   UnknownParameters unknown_;
   std::set<const Object*> left_out_;  ///< of types that nobody knows
-  std::set<std::string> ignored_reported_, remarks_reported_;
+  std::set<std::string> ignored_;     ///< parameters that have no effect
+  std::set<std::string> remarks_reported_;
   std::set<std::string> emitters_of_shapes_;  ///< their ids
   std::vector<BuiltShape> shapes_;
   std::vector<std::vector<BuiltShape>> groups_;

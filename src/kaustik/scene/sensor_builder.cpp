@@ -98,7 +98,7 @@ bool SceneBuilder::leaves_out_response(const Object& sensor) {
   for (const Child& child : sensor.children)
     if (child.object->family == "texture") textures.push_back(&child);
   if (textures.size() != 1 || textures[0]->name != "srf") return false;
-  warnings_.push_back(fmt::format("'srf' of sensor '{}' has no effect here", sensor.type));
+  ignored_.insert(fmt::format("'srf' of sensor '{}'", sensor.type));
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "kaustik/scene/find_row.h"
 #include "kaustik/scene/scene_builder.h"
 
 namespace kaustik {
@@ -15,6 +16,33 @@ namespace {
 bool is_colour(const std::string& name) {
   return name == "reflectance" || name == "diffuse_reflectance" || name == "base_color" ||
          name == "color";
+}
+
+/// Of filters of polarised light, where light is not; null: it is none.
+std::shared_ptr<const Object> sheet_instead_of(const Object& filter) {
+  if (filter.type == "retarder")
+    return std::make_shared<Object>(Object{"bsdf", "null", "", {}, {}, filter.place});
+  if (filter.type != "polarizer" && filter.type != "circular") return nullptr;
+  auto sheet = std::make_shared<Object>(
+      Object{"bsdf", "mask", "", {{"opacity", 0.5, filter.place}}, {}, filter.place});
+  sheet->children.push_back(
+      {"", std::make_shared<Object>(Object{
+               "bsdf", "diffuse", "", {{"reflectance", 0.0, filter.place}}, {}, filter.place})});
+  return sheet;
+}
+
+/// What will do in place of a light of Mitsuba that is not here yet; empty for all others.
+std::string remedy_for_light_to_come(const std::string& type) {
+  if (type == "collimated") return "use a 'spot' with a small 'cutoff_angle'";
+  if (type == "timed_sunsky") return "use 'sunsky' with the hour that matters most";
+  return {};
+}
+
+bool has(const Object& object, const std::string& name) {
+  return std::any_of(object.properties.begin(), object.properties.end(),
+                     [&](const Property& property) { return property.name == name; }) ||
+         std::any_of(object.children.begin(), object.children.end(),
+                     [&](const Child& child) { return child.name == name; });
 }
 
 }  // namespace
@@ -36,6 +64,13 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_instead_of(const Object& object,
       leave_out(object, fmt::format("'{}' in it stands for it", child.object->type));
       return make_bsdf(child.object, on);
     }
+  if (const auto sheet = sheet_instead_of(object)) {
+    leave_out(object,
+              "light is not polarised: " +
+                  std::string(sheet->type == "null" ? "light passes" : "half of the light passes"));
+    stand_ins_.push_back(sheet);
+    return create_bsdf(*sheet, on);
+  }
   const auto matt = std::make_shared<Object>();
   matt->family = "bsdf";
   matt->type = "diffuse";
@@ -46,9 +81,55 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_instead_of(const Object& object,
   for (const Child& child : object.children)
     if (is_colour(child.name) && matt->properties.empty() && matt->children.empty())
       matt->children.push_back({"reflectance", child.object});
-  leave_out(object, "a matt surface stands for it");
+  const std::string remedy(remedy_for_bsdf_to_come(object.type));
+  leave_out(object, "a matt surface stands for it" + (remedy.empty() ? "" : "; " + remedy));
   stand_ins_.push_back(matt);
   return create_bsdf(*matt, on);
+}
+
+const Object* SceneBuilder::emitter_instead_of(const PendingLight& pending) {
+  const Object& emitter = *pending.object;
+  const std::vector<std::string> valid = names_of(light_types());
+  const std::string later = remedy_for_light_to_come(emitter.type);
+  if (later.empty() && !is_foreign(emitter, valid)) {
+    unknown_type(emitter, valid);
+    return nullptr;
+  }
+  if (is_strict_) {
+    problems_.add(fmt::format("emitter '{}' comes later", emitter.type), later, emitter.place);
+    return nullptr;
+  }
+  const char* instead = pending.shape                ? "area"
+                        : has(emitter, "intensity")  ? "point"
+                        : has(emitter, "irradiance") ? "directional"
+                        : has(emitter, "radiance")   ? "constant"
+                                                     : "";
+  if (*instead == '\0' || (pending.shape && !has(emitter, "radiance"))) {
+    leave_out(emitter, later.empty() ? "it is left out" : "it is left out; " + later);
+    return nullptr;
+  }
+  leave_out(emitter, fmt::format("'{}' stands for it", instead));
+  const auto known = std::make_shared<Object>(emitter);
+  known->type = instead;
+  stand_ins_.push_back(known);
+  return known.get();
+}
+
+const Object* SceneBuilder::shape_instead_of(const Object& shape) {
+  if (!is_foreign(shape, names_of(shape_types()))) return nullptr;
+  for (const Property& property : shape.properties) {
+    const auto* file = std::get_if<std::string>(&property.value);
+    if (property.name != "filename" || !file) continue;
+    for (const char* type : {"obj", "ply", "serialized"}) {
+      if (!file->ends_with(std::string(".") + type)) continue;
+      leave_out(shape, fmt::format("'{}' stands for it", type));
+      const auto known = std::make_shared<Object>(shape);
+      known->type = type;
+      stand_ins_.push_back(known);
+      return known.get();
+    }
+  }
+  return nullptr;
 }
 
 bool SceneBuilder::place_camera(const Place& place) {
