@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace kaustik {
 namespace {
@@ -57,6 +58,13 @@ GridVolume::GridVolume(const VolumeSamples& samples, Filter filter, Wrap wrap,
     sums[i % size_t(channels_)] += double(samples.values[i]);
   for (const double sum : sums)
     means_.push_back(float(sum * channels_ / double(samples.values.size())));
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3d edge(world_from_unit.at(0, axis), world_from_unit.at(1, axis),
+                     world_from_unit.at(2, axis));
+    shortest = std::min(shortest, edge.length() / size_[size_t(axis)]);
+  }
+  cell_size_ = float(shortest);
 }
 
 double GridVolume::most_kept_values(const VolumeSamples& samples, Filter filter) {

@@ -35,6 +35,8 @@ class GridVolume {
   float largest() const { return largest_; }
   /// Of the samples of a channel.
   float mean(int channel) const { return means_[size_t(channel)]; }
+  /// The shortest edge of a cell, m.
+  float cell_size() const { return cell_size_; }
 
   /// Anywhere in the world, as the box is continued there.
   float value(const Vec3f& position, int channel) const;
@@ -116,7 +118,7 @@ class GridVolume {
   float margin_ = 0;  ///< how far within the cells the box begins
   std::vector<Brick> bricks_;
   std::vector<float> values_;  ///< block by block, x fastest, channels of a place together
-  float least_ = 0, largest_ = 0;
+  float least_ = 0, largest_ = 0, cell_size_ = 0;
   std::vector<float> means_;
 };
 
