@@ -288,8 +288,11 @@ void SceneBuilder::add_top_level(const Object& object) {
 
 void SceneBuilder::add_sensor(const Object& object, int shape) {
   const std::vector<std::string> valid = names_of(camera_types());
-  if (shape >= 0 && !find_row(camera_types(), object.type) && is_foreign(object, valid)) {
-    leave_out(object, "it is left out");
+  if (shape >= 0 && !find_row(camera_types(), object.type)) {
+    if (is_foreign(object, valid))
+      leave_out(object, "it is left out");
+    else
+      unknown_type(object, valid);
     return;
   }
   if (sensor_) {
@@ -516,7 +519,8 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
     if (child.object->family != "texture" || spectrum_type_of(*child.object)) continue;
     const Parameter* parameter = texture_parameter(info, child.name);
     const std::vector<std::string> valid = texture_parameters(info);
-    if (!parameter && object.family == "emitter" && valid.size() == 1 && !is_strict_) {
+    if (!parameter && object.family == "emitter" && valid.size() == 1 && !is_strict_ &&
+        nearest_name(child.name, valid).empty()) {
       parameter = info.find(valid.front());
       unknown_.add(fmt::format("the texture '{}' of emitter '{}' is taken as '{}'", child.name,
                                object.type, parameter->name),
