@@ -169,7 +169,7 @@ TEST_F(Commands, InfoWarnsOfWhatCannotWork) {
          "the camera sees no shape");
   warned(
       {"<sensor type=\"perspective\"><integer name=\"shutter_open\" value=\"3\"/></sensor>", false},
-      "'shutter_open' of sensor 'perspective' has no effect");
+      "without effect here: 'shutter_open' of sensor 'perspective'");
 }
 
 TEST_F(Commands, InfoWarnsOfACameraInAWall) {
