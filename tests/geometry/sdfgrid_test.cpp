@@ -65,7 +65,8 @@ TEST(GridField, FirstCrossingIsThatOfSmallSteps) {
     const GridField field = noise_field(size, uint64_t(size[0]));
     const Vec3d extent = field.extent();
     for (int i = 0; i < 1000 / samples_divisor; ++i) {
-      const auto [from, direction] = line_through(random, extent);
+      const auto line = line_through(random, extent);
+      const Vec3d from = line.from, direction = line.direction;
       const auto inside = [&](double t) {
         const Vec3d p = from + direction * t;
         for (int axis = 0; axis < 3; ++axis)
