@@ -428,9 +428,9 @@ TEST(MitsubaTree, OfSeveralSensorsOneComesFirst) {
   const std::string sensors =
       "<sensor type='a'/><shape type='s'/><sensor type='b'/><sensor type='c'/><shape type='t'/>";
   const auto types = [&](const std::string& version) {
+    const auto scene = parse(in_scene(sensors, version)).scene;
     std::string result;
-    for (const Child& child : parse(in_scene(sensors, version)).scene->children)
-      result += child.object->type;
+    for (const Child& child : scene->children) result += child.object->type;
     return result;
   };
   EXPECT_EQ(types("3.0.0"), "asbct");
