@@ -1,6 +1,5 @@
 #include "kaustik/material/burley_diffuse.h"
 
-
 #include <array>
 
 #include "kaustik/material/schlick.h"

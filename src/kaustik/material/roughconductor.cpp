@@ -68,8 +68,8 @@ class RoughConductor final : public Bsdf {
     // There are no tables of every wavelength, nor of every colour.
     const ComplexIor ior = metal_.at(context);
     const Spectrum means = means_(log_alpha, wo);
-    const LazanyiMetal metal = LazanyiMetal::through(
-        fresnel_conductor(1, ior), Spectrum(1), fresnel_conductor(lazanyi_cosine, ior));
+    const LazanyiMetal metal = LazanyiMetal::through(fresnel_conductor(1, ior), Spectrum(1),
+                                                     fresnel_conductor(lazanyi_cosine, ior));
     return context.value_of(*reflectance_) * metal.reflectance(means[0], means[1], means[2]);
   }
 
