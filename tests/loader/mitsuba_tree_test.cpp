@@ -384,11 +384,12 @@ TEST(MitsubaTree, NamesOfDialects) {
       "rectangle");
   EXPECT_EQ(parse_inside("<shape type='Rectangle'/>").scene->children.at(0).object->type,
             "Rectangle");
-  const auto metal = parse_inside(
-                         "<bsdf type='disneymetal'><float name='eta' value='1.5'/>"
-                         "<float name='specular' value='0.5'/></bsdf>")
-                         .scene->children.at(0)
-                         .object;
+  const Description metals = parse_inside(
+      "<bsdf type='disneymetal'><float name='eta' value='1.5'/>"
+      "<float name='specular' value='0.5'/></bsdf>");
+  ASSERT_EQ(metals.warnings.size(), 1u);
+  EXPECT_NE(metals.warnings[0].find("'specular' is left out"), std::string::npos);
+  const auto metal = metals.scene->children.at(0).object;
   EXPECT_EQ(metal->type, "principled");
   EXPECT_EQ(metal->properties.size(), 2u);
   EXPECT_EQ(value<double>(*metal, "metallic"), 1);

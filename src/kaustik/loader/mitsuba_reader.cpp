@@ -230,6 +230,19 @@ void Reader::scale_sum_of_reflectances(Object& object) {
             shares.front()->place);
 }
 
+void Reader::leave_out_specular(Object& object) {
+  if (object.family != "bsdf" || object.type != "principled") return;
+  const auto given = [&](const char* name) {
+    return std::find_if(object.properties.begin(), object.properties.end(),
+                        [&](const Property& property) { return property.name == name; });
+  };
+  const auto specular = given("specular");
+  if (specular == object.properties.end() || given("eta") == object.properties.end()) return;
+  leave_out("specular", "'specular' is left out beside 'eta', which says the same",
+            specular->place);
+  object.properties.erase(specular);
+}
+
 void Reader::scale_reflectances(Object& object) {
   for (Property& property : object.properties) {
     if (!property.name.ends_with("reflectance") && !property.name.ends_with("transmittance"))
@@ -303,6 +316,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   --depth_;
   upgrade_object(object, element.value("type"), source.version, problems_);
   if (!is_strict_) scale_reflectances(object);
+  if (!is_strict_) leave_out_specular(object);
   if (!is_strict_ && source.version < first_with_snake_case) scale_sum_of_reflectances(object);
   if (source.version < first_with_snake_case && object.family == "shape")
     old_shapes_.push_back(unfinished.object);

@@ -76,6 +76,8 @@ class Reader {
   /// Of a file that a <spectrum> names at that place; each is read once.
   const SpectralCurve& curve_of(const std::string& path, const Place& place);
   void report_unknown(const Element& element);
+  /// Of a principled bsdf that has 'eta' as well, as lajolla's have.
+  void leave_out_specular(Object& object);
   /// Reflectances and transmittances above 1.
   void scale_reflectances(Object& object);
   /// Of two lobes that together reflect more than arrives, in scenes before Mitsuba 2.

@@ -183,10 +183,9 @@ void upgrade_conductor(Object& object) {
   object.properties.push_back({"material", std::string("cu"), object.place});
 }
 
-/// Of lajolla, whose 'specular' is a factor beside 'eta', and where metal and glass are types.
+/// Of lajolla, where metal and glass are types.
 void upgrade_disney(Object& object, const std::string& written_type) {
   if (object.family != "bsdf" || object.type != "principled") return;
-  if (has(object, "eta")) take<double>(object, "specular");
   const std::string type = lower_case(written_type);
   if (type == "disneymetal") object.properties.push_back({"metallic", 1.0, object.place});
   if (type == "disneyglass") object.properties.push_back({"spec_trans", 1.0, object.place});

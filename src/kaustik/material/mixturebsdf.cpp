@@ -32,7 +32,9 @@ std::vector<double> weights_of(const Arguments& arguments) {
   const bool fit = std::all_of(weights.begin(), weights.end(),
                                [](double weight) { return weight >= 0 && weight <= 1e6; });
   if (!wrong_word.empty() || !fit)
-    throw Error(ErrorKind::input, "'weights' holds something that is no weight",
+    throw Error(ErrorKind::input,
+                wrong_word.empty() ? "'weights' holds a number below 0 or above a million"
+                                   : "'weights' holds '" + wrong_word + "', which is no number",
                 "give numbers from 0 to 1 with commas between, one for each nested bsdf",
                 arguments.place_of("weights"));
   return weights;
