@@ -47,10 +47,12 @@ coverage: setup
 	@scripts/coverage.sh
 
 # The thesis's experiments, into docs/thesis: hours; EXPERIMENTS="figure cone" makes only those, anew.
-thesis: build
+thesis: configure
+	@cmake --build --preset release --target kaustik thesis
 	$(BUILD)/benchmarks/thesis/thesis $(EXPERIMENTS)
 
-bench: build
+bench: configure
+	@cmake --build --preset release --target kaustik benchmarks
 	@scripts/install_packages.sh bench
 	@scripts/run_benchmarks.sh $(BUILD)
 
