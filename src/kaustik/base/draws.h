@@ -46,7 +46,9 @@ enum class Fork : uint32_t {
   merge_part,
   merge_sight,
   medium_merge_sight,
-  delta_branch
+  delta_branch,
+  flight_looks,
+  medium_looks
 };
 
 /// Branches of a path: see Sampler::split().
@@ -149,6 +151,8 @@ inline constexpr ForkRow fork_rows[] = {
     {Fork::merge_sight, Parent::vertex, 0x70000014, 1, "which light vertices are looked at"},
     {Fork::medium_merge_sight, Parent::vertex, 0x70000015, 1, "the same in media"},
     {Fork::delta_branch, Parent::vertex, 0x70000016, 1, "a branch at a smooth transparent surface"},
+    {Fork::flight_looks, Parent::vertex, 0x70000017, 1, "where a flight looks at the density"},
+    {Fork::medium_looks, Parent::vertex, 0x80000000, 0x80000000, "the same of segments, by hash"},
 };
 
 inline constexpr SplitRow split_rows[] = {
@@ -206,7 +210,7 @@ constexpr bool are_sound(const Row (&rows)[count], Use last) {
   return true;
 }
 static_assert(are_sound(stream_rows, Stream::preview));
-static_assert(are_sound(fork_rows, Fork::delta_branch));
+static_assert(are_sound(fork_rows, Fork::medium_looks));
 static_assert(are_sound(split_rows, Split::wave));
 static_assert(are_sound(series_rows, Series::connection));
 static_assert(are_sound(quadrature_rows, Quadrature::aim_box));

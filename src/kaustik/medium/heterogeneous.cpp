@@ -3,21 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "kaustik/medium/coefficients.h"
+#include "kaustik/medium/grid_tracking.h"
 #include "kaustik/medium/medium_kinds.h"
 
 namespace kaustik {
 namespace {
-
-/// The depth, m, behind which floats have no light left in any lane.
-float darkest_depth(const Spectrum& extinction) {
-  constexpr float no_light = 104;  // exp(−104) is less than the smallest float
-  float depth = 0;
-  for (int lane = 0; lane < Spectrum::lane_count; ++lane)
-    depth = std::max(depth, extinction[lane] > 0 ? no_light / extinction[lane] : infinity);
-  return depth;
-}
 
 const TypeInfo& heterogeneous_info() {
   static const TypeInfo info{
@@ -75,6 +69,18 @@ Extinction extinction_of(const MediumInputs& inputs) {
       given.place);
 }
 
+/// Numbers of its own for each segment of a path.
+Sampler numbers_of(const MediumSegment& segment, const Sampler& sampler) {
+  const auto two = [](float a, float b) {
+    return uint64_t(std::bit_cast<uint32_t>(a)) << 32 | std::bit_cast<uint32_t>(b);
+  };
+  const Vec3f& origin = segment.origin;
+  const Vec3f& direction = segment.direction;
+  uint64_t bits = hash_mix(two(origin.x, origin.y), two(origin.z, direction.x));
+  bits = hash_mix(bits, two(direction.y, direction.z));
+  return sampler.fork(Fork::medium_looks, uint32_t(bits >> 33));
+}
+
 }  // namespace
 
 std::shared_ptr<const Medium> make_heterogeneous(const MediumInputs& inputs) {
@@ -118,10 +124,17 @@ bool HeterogeneousMedium::is_like(const Medium& other) const {
   return o && density_ == o->density_ && albedo_ == o->albedo_ && densest_.is_like(o->densest_);
 }
 
-float HeterogeneousMedium::depth(const MediumSegment& segment, float from, float enough) const {
+float HeterogeneousMedium::depth(const MediumSegment& segment, float from) const {
   if (!density_) return std::max(0.0f, segment.length - from);
-  return per_largest_ * density_->integral(segment.origin, segment.direction, from, segment.length,
-                                           enough / per_largest_);
+  return per_largest_ * density_->integral(segment.origin, segment.direction, from, segment.length);
+}
+
+GridCrossing HeterogeneousMedium::crossing(const MediumSegment& segment) const {
+  return {*density_, segment.origin, segment.direction, segment.length};
+}
+
+Spectrum HeterogeneousMedium::extinction_of_value(const Wavelengths& wavelengths) const {
+  return densest_.extinction({}, wavelengths) * per_largest_;
 }
 
 GridVolume::Reach HeterogeneousMedium::reach(const MediumSegment& segment, float flown) const {
@@ -133,9 +146,11 @@ GridVolume::Reach HeterogeneousMedium::reach(const MediumSegment& segment, float
 }
 
 Spectrum HeterogeneousMedium::transmittance(const MediumSegment& segment,
-                                            const Wavelengths& wavelengths, const Sampler&) const {
-  const float enough = darkest_depth(densest_.extinction({}, wavelengths));
-  return densest_.transmittance(depth(segment, 0, enough), wavelengths);
+                                            const Wavelengths& wavelengths,
+                                            const Sampler& sampler) const {
+  if (!density_) return densest_.transmittance(segment, wavelengths, sampler);
+  return tracked_transmittance(crossing(segment), extinction_of_value(wavelengths),
+                               numbers_of(segment, sampler));
 }
 
 void HeterogeneousMedium::measure(const MediumSegment& segment,
@@ -175,14 +190,22 @@ Medium::Flight HeterogeneousMedium::sample_flight(const MediumSegment& segment,
                                                   const Spectrum& shares,
                                                   const Wavelengths& wavelengths,
                                                   Sampler& sampler) const {
+  const Sampler looks = sampler.fork(Fork::flight_looks);
   const Vec2f u = sampler.next_2d();
-  const Flight in_depth = densest_.sample_flight(infinity, shares, wavelengths, u);
-  const GridVolume::Reach reached = reach(segment, in_depth.distance);
-  if (reached.is_reached)
-    return scattered_at(segment, reached.distance, in_depth.weight, wavelengths);
+  if (!density_) {
+    Flight flight = densest_.sample_flight(segment.length, shares, wavelengths, u);
+    return flight.scattered ? scattered_at(segment, flight.distance, flight.weight, wavelengths)
+                            : flight;
+  }
+  const TrackedFlight tracked =
+      tracked_flight(crossing(segment), extinction_of_value(wavelengths),
+                     HomogeneousMedium::flying_lane(shares, u.x), -std::log1p(-u.y), looks);
+  if (tracked.collided)
+    return scattered_at(segment, tracked.distance,
+                        densest_.collided(tracked.left, shares, wavelengths), wavelengths);
   Flight flight;
   flight.distance = segment.length;
-  flight.weight = densest_.passed(reached.integral, shares, wavelengths);
+  flight.weight = HomogeneousMedium::passed(tracked.left, shares);
   return flight;
 }
 

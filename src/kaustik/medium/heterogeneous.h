@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "kaustik/medium/homogeneous.h"
+#include "kaustik/volume/grid_crossing.h"
 
 namespace kaustik {
 
@@ -10,7 +11,9 @@ namespace kaustik {
 /// wavelength. Everything that the law of Beer and Lambert says of a homogeneous medium holds with
 /// the depth D(s) = ∫ ρ dt in place of the distance s, for all wavelengths alike. So light flies in
 /// depths, through the homogeneous medium of density 1, and what it has flown becomes a distance.
-/// Depths are exact: no steps, no bounds of the density, no noise.
+/// Depths are exact where many points of a segment share them, and for collisions that are sure.
+/// Flights and single transmittances cross a fine grid by looks at few of its places
+/// (grid_tracking.h): unbiased, without steps.
 class HeterogeneousMedium final : public Medium {
  public:
   /// The density is that of the grid, none of whose values is negative, relative to its largest,
@@ -56,8 +59,12 @@ class HeterogeneousMedium final : public Medium {
   Spectrum albedo_at(const Vec3f& position, const Wavelengths& wavelengths) const {
     return albedo_ ? albedo_->factor(position, wavelengths) : Spectrum(1);
   }
-  /// Of the part of the segment from there on, m; where it exceeds `enough`, something above that.
-  float depth(const MediumSegment& segment, float from = 0, float enough = infinity) const;
+  /// Of the part of the segment from there on, m.
+  float depth(const MediumSegment& segment, float from = 0) const;
+  // Where there is a grid:
+  GridCrossing crossing(const MediumSegment& segment) const;
+  /// σ_t, 1/m, where the grid's value is 1.
+  Spectrum extinction_of_value(const Wavelengths& wavelengths) const;
   /// How far light comes that flies so deep, with depths for integrals.
   GridVolume::Reach reach(const MediumSegment& segment, float flown) const;
   /// A flight to that distance as it is in the medium.

@@ -116,28 +116,31 @@ Spectrum HomogeneousMedium::transmittance(float length, const Wavelengths& wavel
   return left_after(length, extinction_.at(wavelengths));
 }
 
+int HomogeneousMedium::flying_lane(const Spectrum& shares, float u) {
+  return choose_lane(lane_probabilities(shares), u);
+}
+
 Medium::Flight HomogeneousMedium::sample_flight(float length, const Spectrum& shares,
                                                 const Wavelengths& wavelengths,
                                                 const Vec2f& u) const {
-  const Spectrum probabilities = lane_probabilities(shares);
   const Spectrum extinction = extinction_.at(wavelengths);
-  const float chosen = extinction[choose_lane(probabilities, u.x)];
+  const float chosen = extinction[flying_lane(shares, u.x)];
   Flight flight;
   if (chosen > 0) flight.distance = -std::log1p(-u.y) / chosen;
   flight.scattered = flight.distance < length;
   if (!flight.scattered) flight.distance = length;
   const Spectrum left = left_after(flight.distance, extinction);
-  if (flight.scattered)
-    flight.weight =
-        scattering_.at(wavelengths) * left * (1 / (probabilities * extinction * left).sum());
-  else
-    flight.weight = left * (1 / (probabilities * left).sum());
+  flight.weight = flight.scattered ? collided(left, shares, wavelengths) : passed(left, shares);
   return flight;
 }
 
-Spectrum HomogeneousMedium::passed(float length, const Spectrum& shares,
-                                   const Wavelengths& wavelengths) const {
-  const Spectrum left = left_after(length, extinction_.at(wavelengths));
+Spectrum HomogeneousMedium::collided(const Spectrum& left, const Spectrum& shares,
+                                     const Wavelengths& wavelengths) const {
+  const Spectrum density = lane_probabilities(shares) * extinction_.at(wavelengths) * left;
+  return scattering_.at(wavelengths) * left * (1 / density.sum());
+}
+
+Spectrum HomogeneousMedium::passed(const Spectrum& left, const Spectrum& shares) {
   const float chance = (lane_probabilities(shares) * left).sum();
   return chance > 0 ? left * (1 / chance) : Spectrum();
 }

@@ -43,8 +43,13 @@ class HomogeneousMedium final : public Medium {
   /// heuristic), so the weight is bounded by the albedo times sum over share.
   Flight sample_flight(float length, const Spectrum& shares, const Wavelengths& wavelengths,
                        const Vec2f& u) const;
-  /// The weight of a flight that comes to the end of the segment.
-  Spectrum passed(float length, const Spectrum& shares, const Wavelengths& wavelengths) const;
+  /// The lane by whose extinction a flight is sampled, by a number in [0, 1).
+  static int flying_lane(const Spectrum& shares, float u);
+  /// Weights of flights of which that is left in each lane, up to a factor: of those that collide,
+  /// and of those that come to the end of the segment.
+  Spectrum collided(const Spectrum& left, const Spectrum& shares,
+                    const Wavelengths& wavelengths) const;
+  static Spectrum passed(const Spectrum& left, const Spectrum& shares);
   Flight sample_collision(float length, const Spectrum& shares, const Wavelengths& wavelengths,
                           const Vec2f& u) const;
 

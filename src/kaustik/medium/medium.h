@@ -26,7 +26,7 @@ struct MediumSegment {
 ///
 /// Random numbers: a flight takes one dimension pair of the sampler. A medium that needs more, for
 /// a transmittance too, adds a row of forks to base/draws.h and draws from those whose numbers come
-/// from the segment, so that whoever asks needs not know how much that is. None does yet.
+/// from the segment, so that whoever asks needs not know how much that is.
 class Medium {
  public:
   virtual ~Medium() = default;

@@ -232,24 +232,25 @@ void GridVolume::walk(const Line& line, const Step& step) const {
     walk<false>(line, step);
 }
 
-float GridVolume::integral(const Vec3f& origin, const Vec3f& direction, float from, float to,
-                           float enough) const {
+float GridVolume::integral(const Line& line) const {
   double sum = 0;
-  if (const auto line = line_in_box(origin, direction, from, to))
-    walk(*line, [&](const Piece& piece, const auto&) {
-      sum += double(piece.integral);
-      return sum <= double(enough);
-    });
+  walk(line, [&](const Piece& piece, const auto&) {
+    sum += double(piece.integral);
+    return true;
+  });
   return float(std::max(0.0, sum));
 }
 
-GridVolume::Reach GridVolume::reach(const Vec3f& origin, const Vec3f& direction, float to,
-                                    float target) const {
+float GridVolume::integral(const Vec3f& origin, const Vec3f& direction, float from,
+                           float to) const {
+  const auto line = line_in_box(origin, direction, from, to);
+  return line ? integral(*line) : 0;
+}
+
+GridVolume::Reach GridVolume::reach(const Line& line, float target) const {
   double sum = 0;
   Reach result;
-  const auto line = line_in_box(origin, direction, 0, to);
-  if (!line) return result;
-  walk(*line, [&](const Piece& piece, const auto& values) {
+  walk(line, [&](const Piece& piece, const auto& values) {
     const double after = sum + double(piece.integral);
     result.is_reached = after > double(target);
     if (!result.is_reached) {
@@ -258,10 +259,19 @@ GridVolume::Reach GridVolume::reach(const Vec3f& origin, const Vec3f& direction,
     }
     const double length = double(piece.end) - double(piece.begin);
     const float share = reach_in_cell(values(), (double(target) - sum) / length);
-    result.distance = line->begin + piece.begin + share * float(length);
+    result.distance = piece.begin + share * float(length);
     return false;
   });
   result.integral = float(std::max(0.0, sum));
+  return result;
+}
+
+GridVolume::Reach GridVolume::reach(const Vec3f& origin, const Vec3f& direction, float to,
+                                    float target) const {
+  const auto line = line_in_box(origin, direction, 0, to);
+  if (!line) return {};
+  Reach result = reach(*line, target);
+  result.distance += line->begin;
   return result;
 }
 

@@ -28,6 +28,7 @@ GridVolume::GridVolume(const VolumeSamples& samples, Filter filter, Wrap wrap,
   for (size_t axis = 0; axis < 3; ++axis) {
     cells_[axis] = size_[axis] + (filter == Filter::trilinear ? 1 : 0);
     bricks_along_[axis] = (cells_[axis] + brick_size - 1) >> brick_shift;
+    regions_along_[axis] = (cells_[axis] + (1 << region_shift) - 1) >> region_shift;
     sides_[axis] = std::min(brick_size, cells_[axis]) + (filter == Filter::trilinear ? 1 : 0);
     for (int column = 0; column < 4; ++column)
       cells_from_world_[axis][size_t(column)] =
@@ -50,6 +51,7 @@ GridVolume::GridVolume(const VolumeSamples& samples, Filter filter, Wrap wrap,
         values_.insert(values_.end(), block.begin(), block.end());
       }
   values_.shrink_to_fit();
+  if (channels_ == 1) find_bounds();
   const auto [least, largest] = std::minmax_element(samples.values.begin(), samples.values.end());
   least_ = *least;
   largest_ = *largest;
@@ -65,6 +67,28 @@ GridVolume::GridVolume(const VolumeSamples& samples, Filter filter, Wrap wrap,
     shortest = std::min(shortest, edge.length() / size_[size_t(axis)]);
   }
   cell_size_ = float(shortest);
+}
+
+GridVolume::Bounds GridVolume::bounds_of(const Brick& brick) const {
+  if (brick.block == uniform) return {brick.value, brick.value};
+  const float* first = values_.data() + size_t(brick.block) * block_values();
+  const auto [least, largest] = std::minmax_element(first, first + block_values());
+  return {*least, *largest};
+}
+
+void GridVolume::find_bounds() {
+  constexpr float none = std::numeric_limits<float>::infinity();
+  bounds_.assign(region_index(0, 0, regions_along_[2]), {none, -none});
+  constexpr int to_region = region_shift - brick_shift;
+  size_t brick = 0;
+  for (int z = 0; z < bricks_along_[2]; ++z)
+    for (int y = 0; y < bricks_along_[1]; ++y)
+      for (int x = 0; x < bricks_along_[0]; ++x) {
+        const Bounds of_brick = bounds_of(bricks_[brick++]);
+        Bounds& bounds = bounds_[region_index(x >> to_region, y >> to_region, z >> to_region)];
+        bounds.least = std::min(bounds.least, of_brick.least);
+        bounds.largest = std::max(bounds.largest, of_brick.largest);
+      }
 }
 
 double GridVolume::most_kept_values(const VolumeSamples& samples, Filter filter) {
@@ -180,6 +204,7 @@ std::optional<GridVolume::Separated> GridVolume::separated() const {
     sum += double(value);
   }
   density.means_ = {float(sum / double(density.values_.size()))};
+  density.find_bounds();
   return result;
 }
 

@@ -43,10 +43,8 @@ class GridVolume {
 
   // The first channel of what lies in the box, and zero outside; of grids of one channel.
   float inside(const Vec3f& position) const;
-  /// Integral over origin + t direction, `from` ≤ t ≤ `to` (may be infinite); where it exceeds
-  /// `enough`, something above that.
-  float integral(const Vec3f& origin, const Vec3f& direction, float from, float to,
-                 float enough = infinity) const;
+  /// Integral over origin + t direction, `from` ≤ t ≤ `to` (may be infinite).
+  float integral(const Vec3f& origin, const Vec3f& direction, float from, float to) const;
   struct Reach {
     bool is_reached = false;
     float distance = 0;  ///< t, if it is
@@ -59,6 +57,9 @@ class GridVolume {
   void measure(const Vec3f& origin, const Vec3f& direction, float to,
                std::vector<LineKnot>& knots) const;
 
+  /// A line through the box on which values have bounds, piece by piece: grid_crossing.h.
+  friend class GridCrossing;
+
   struct Separated;
   /// Of three channels that are everywhere one number times one colour: these two. Nothing if they
   /// are not.
@@ -67,6 +68,8 @@ class GridVolume {
  private:
   static constexpr int brick_shift = 3, brick_size = 1 << brick_shift;
   static constexpr uint32_t uniform = 0xffffffff;
+  /// Bounds of values are kept for regions of 16³ cells.
+  static constexpr int region_shift = brick_shift + 1;
 
   struct Brick {
     uint32_t block = uniform;  ///< of samples; or else
@@ -76,6 +79,9 @@ class GridVolume {
   struct Line {
     float at[3], along[3], inverse[3];  ///< where it begins, its direction, and one over that
     float begin, length;
+  };
+  struct Bounds {
+    float least = 0, largest = 0;
   };
   /// The part of that in one cell or in a uniform brick.
   struct Piece {
@@ -92,6 +98,13 @@ class GridVolume {
     return (size_t(z) * size_t(bricks_along_[1]) + size_t(y)) * size_t(bricks_along_[0]) +
            size_t(x);
   }
+  size_t region_index(int x, int y, int z) const {
+    return (size_t(z) * size_t(regions_along_[1]) + size_t(y)) * size_t(regions_along_[0]) +
+           size_t(x);
+  }
+  /// Of all values in the brick, those between samples included.
+  Bounds bounds_of(const Brick& brick) const;
+  void find_bounds();
   double in_cells(const Vec3f& position, int axis) const {
     const auto& row = cells_from_world_[size_t(axis)];
     return row[0] * double(position.x) + row[1] * double(position.y) + row[2] * double(position.z) +
@@ -105,6 +118,9 @@ class GridVolume {
   void walk(const Line& line, const Step& step) const;
   template <typename Step>
   void walk(const Line& line, const Step& step) const;
+  float integral(const Line& line) const;
+  /// The distance counts from the begin of the line.
+  Reach reach(const Line& line, float target) const;
 
   Filter filter_;
   Wrap wrap_;
@@ -116,8 +132,10 @@ class GridVolume {
   /// Row by row: from the world to where cell i is from i to i + 1.
   std::array<std::array<double, 4>, 3> cells_from_world_{};
   float margin_ = 0;  ///< how far within the cells the box begins
+  std::array<int, 3> regions_along_{};
   std::vector<Brick> bricks_;
-  std::vector<float> values_;  ///< block by block, x fastest, channels of a place together
+  std::vector<Bounds> bounds_;  ///< of regions, in grids of one channel
+  std::vector<float> values_;   ///< block by block, x fastest, channels of a place together
   float least_ = 0, largest_ = 0, cell_size_ = 0;
   std::vector<float> means_;
 };

@@ -1,0 +1,122 @@
+#include "kaustik/medium/grid_tracking.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kaustik {
+namespace {
+
+/// A look at a place takes as long as following the line through so many cells.
+constexpr float cells_per_look = 4;
+
+/// Whether the cells of the piece are followed, rather than `looks` expected.
+bool is_followed(const GridCrossing::Piece& piece, float looks) {
+  return looks * cells_per_look > piece.cells;
+}
+
+float exponential(float u) { return -std::log1p(-u); }
+
+/// Independent optical depths, distributed exponentially.
+class Depths {
+ public:
+  explicit Depths(Sampler& numbers) : numbers_(numbers) {}
+  float next() {
+    if (!has_other_) two_ = numbers_.next_2d();
+    has_other_ = !has_other_;
+    return exponential(has_other_ ? two_.x : two_.y);
+  }
+
+ private:
+  Sampler& numbers_;
+  Vec2f two_;
+  bool has_other_ = false;
+};
+
+}  // namespace
+
+Spectrum tracked_transmittance(GridCrossing crossing, const Spectrum& extinction, Sampler numbers) {
+  // What is left of less than this is left with that chance, or nothing is.
+  constexpr float least_sure = 0.3f;
+  const float most = extinction.max_lane();
+  float fewest = most;
+  for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+    fewest = std::min(fewest, extinction[lane]);
+  Depths depths(numbers);
+  float least_left = -1, to_look = -1;
+  Spectrum left(1);    // by looks
+  float integral = 0;  // what has been crossed without
+  GridCrossing::Piece piece;
+  const auto most_left = [&] { return left.max_lane() * std::exp(-fewest * integral); };
+  // exp(−x) ≥ 1 − x tells nearly always.
+  const auto is_given_up = [&] {
+    return left.max_lane() * (1 - fewest * integral) <= least_left && most_left() <= least_left;
+  };
+  while (crossing.next(piece)) {
+    if (least_left < 0) {
+      const Vec2f u = numbers.next_2d();
+      least_left = least_sure * u.x;
+      to_look = exponential(u.y);
+    }
+    const float length = piece.end - piece.begin;
+    const float unknown = most * (piece.largest - piece.least);
+    if (is_followed(piece, unknown * length)) {
+      integral += crossing.integral(piece);
+    } else {
+      integral += piece.least * length;
+      float at = piece.begin;
+      while (to_look < unknown * (piece.end - at)) {
+        at = std::min(at + to_look / unknown, piece.end);
+        const float above = crossing.value(piece, at) - piece.least;
+        left *= Spectrum(1) - extinction * (above / unknown);
+        if (is_given_up()) return Spectrum();
+        to_look = depths.next();
+      }
+      to_look -= unknown * (piece.end - at);
+    }
+    if (is_given_up()) return Spectrum();
+  }
+  const float chance = most_left() / least_sure;
+  left *= exp(extinction * -integral);
+  return chance < 1 ? left * (1 / chance) : left;
+}
+
+TrackedFlight tracked_flight(GridCrossing crossing, const Spectrum& extinction, int lane,
+                             float depth, Sampler numbers) {
+  const float most = extinction.max_lane(), chosen = extinction[lane];
+  TrackedFlight flight;
+  float integral = 0;
+  const auto collided = [&](float place) {
+    flight.collided = true;
+    flight.distance = crossing.distance(place);
+    flight.left *= exp(extinction * -integral);
+    return flight;
+  };
+  GridCrossing::Piece piece;
+  while (crossing.next(piece)) {
+    const float densest = most * piece.largest;
+    if (is_followed(piece, densest * (piece.end - piece.begin))) {
+      const float target = chosen > 0 ? depth / chosen : infinity;
+      const GridVolume::Reach reach = crossing.reach(piece, target);
+      integral += reach.is_reached ? target : reach.integral;
+      if (reach.is_reached) return collided(reach.distance);
+      depth = std::max(0.0f, depth - chosen * reach.integral);
+      continue;
+    }
+    float at = piece.begin;
+    while (depth < densest * (piece.end - at)) {
+      at = std::min(at + depth / densest, piece.end);
+      const Vec2f u = numbers.next_2d();
+      const float threshold = u.x * densest;
+      if (threshold < chosen * piece.least) return collided(at);
+      const float value = crossing.value(piece, at);
+      if (threshold < chosen * value) return collided(at);
+      flight.left *= Spectrum(1) - extinction * (value / densest);
+      depth = exponential(u.y);
+    }
+    depth -= densest * (piece.end - at);
+  }
+  flight.left *= exp(extinction * -integral);
+  return flight;
+}
+
+}  // namespace kaustik
