@@ -14,6 +14,10 @@ bool is_followed(const GridCrossing::Piece& piece, float looks) {
   return looks * cells_per_look > piece.cells;
 }
 
+/// A shadow ray ends by Russian roulette where less than this is left of its light, if it has more
+/// cells to cross than that: else it saves no time.
+constexpr float least_sure = 0.3f, cells_worth_ending = 64;
+
 float exponential(float u) { return -std::log1p(-u); }
 
 /// Independent optical depths, distributed exponentially.
@@ -35,13 +39,12 @@ class Depths {
 }  // namespace
 
 Spectrum tracked_transmittance(GridCrossing crossing, const Spectrum& extinction, Sampler numbers) {
-  // What is left of less than this is left with that chance, or nothing is.
-  constexpr float least_sure = 0.3f;
   const float most = extinction.max_lane();
   float fewest = most;
   for (int lane = 0; lane < Spectrum::lane_count; ++lane)
     fewest = std::min(fewest, extinction[lane]);
   Depths depths(numbers);
+  const bool may_end = crossing.cells() > cells_worth_ending;
   float least_left = -1, to_look = -1;
   Spectrum left(1);    // by looks
   float integral = 0;  // what has been crossed without
@@ -49,7 +52,8 @@ Spectrum tracked_transmittance(GridCrossing crossing, const Spectrum& extinction
   const auto most_left = [&] { return left.max_lane() * std::exp(-fewest * integral); };
   // exp(−x) ≥ 1 − x tells nearly always.
   const auto is_given_up = [&] {
-    return left.max_lane() * (1 - fewest * integral) <= least_left && most_left() <= least_left;
+    return may_end && left.max_lane() * (1 - fewest * integral) <= least_left &&
+           most_left() <= least_left;
   };
   while (crossing.next(piece)) {
     if (least_left < 0) {
@@ -75,7 +79,7 @@ Spectrum tracked_transmittance(GridCrossing crossing, const Spectrum& extinction
     }
     if (is_given_up()) return Spectrum();
   }
-  const float chance = most_left() / least_sure;
+  const float chance = may_end ? most_left() / least_sure : 1;
   left *= exp(extinction * -integral);
   return chance < 1 ? left * (1 / chance) : left;
 }
