@@ -157,7 +157,7 @@ void expect_best(const char* what, const std::string& text, const std::string& w
   }
 }
 
-TEST(Auto, DecidesForTheBest) {
+TEST(Auto, DecidesForTheBestLong) {
   expect_best("open", ball_in_the_open(24), "both everywhere");
   expect_best("hidden", room_of_auto(hidden_lamp(), 24), "paths");
   expect_best("both", court_with_a_lamp(24), "");

@@ -112,7 +112,7 @@ TEST_F(BallLens, AutoLong) {
 }
 /// The number of neighbours instead of the radius; the square is wide enough to hold what is
 /// blurred. Where the density varies such estimates have a bias, so the bound is 1 %.
-TEST_F(BallLens, PhotonMapNearest) {
+TEST_F(BallLens, PhotonMapNearestLong) {
   const RunningStatistics found =
       render(scene_, "photonmap",
              set("components", "caustic") + set("caustic_photons", 200'000) +

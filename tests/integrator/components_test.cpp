@@ -154,7 +154,7 @@ TEST(Components, CornellBox) {
 
 /// The lamp is so small that `path` hardly ever finds it behind mirror and glass: for what these
 /// show there is the room below.
-TEST(Components, CornellSpheres) {
+TEST(Components, CornellSpheresLong) {
   const TestScene scene(shipped("cornell_spheres"));
   const Measurement m("cornell_spheres", scene, 32);
   m.expect_equal_to_path("emission");

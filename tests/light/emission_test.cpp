@@ -105,7 +105,7 @@ TEST(Emission, DirectionsFollowTheirDensity) {
     const auto pdf = [&](const Vec3f& d) {
       return double(test.light->emission_pdf_direction(point, d));
     };
-    const int count = 1'000'000 / sample_share;
+    const int count = 500'000 / sample_share;
     EXPECT_GT(direction_p_value(grid, count, sample, pdf), failure_level);
     expect_twin_fails(direction_p_value(grid, count, sample, with_planted_error(grid, pdf)));
   }
