@@ -180,7 +180,7 @@ TEST_F(Cloud, EveryMethodAgreesLong) {
         render(scene, type,
                type == "photonmap" ? set("volume_photons", 40'000) + set("volume_neighbors", 20)
                                    : std::string(),
-               {type == "photonmap" ? 32.0 : 300.0});
+               {type == "photonmap" ? 180.0 : 300.0});
     for (const int channel : {0, 2})
       expect_near_means(
           fmt::format("{}, cloud, volume {}", type, "RGB"[channel]),
