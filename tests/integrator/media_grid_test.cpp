@@ -63,6 +63,28 @@ double corner_depth(const Vec3d& from, const Vec3d& to, int steps = 200) {
                  [&](double s) { return corner_density(from + (to - from).normalized() * s); });
 }
 
+/// The sun's, too, by what lies behind the places where its rays begin.
+TEST_F(GridMedia, DimTheSun) {
+  const std::string density = volume("sigma_t", vol_file({1, 1, 1}, {0.1f}), 5);
+  const auto seen_by = [&](double fov) {
+    return TestScene(camera_in("<medium type=\"heterogeneous\">" + density +
+                                   "<float name=\"albedo\" value=\"0\"/></medium>",
+                               camera("0, 0, 4", "0, 0, -4", fov, 4, "0, 1, 0")) +
+                     flat("rectangle", scale("4") + translate("0, 0, -4"), diffuse("0.5")) +
+                     R"(<emitter type="directional"><vector name="direction" value="0, 0, -1"/>
+                     <rgb name="irradiance" value="2, 2, 2"/></emitter>)");
+  };
+  const double expected = 0.5 / std::numbers::pi * 2 * std::exp(-0.1 * 9) * std::exp(-0.1 * 8);
+  EXPECT_NEAR(render(seen_by(0.1), "photonmap", "", {1}).mean({"direct"}).mean() / expected, 1,
+              1e-4);
+  const TestScene wide = seen_by(40);
+  const RunningStatistics by_path = render(wide, "path", "", {400}).mean({"direct"});
+  for (const std::string type : {"lighttracer", "bdpt"})
+    expect_near_means(type + ", the sun through a grid",
+                      Comparison(render(wide, type, "", {400}).mean({"direct"}), by_path), 0.02,
+                      0.01);
+}
+
 /// Light that crosses it without being scattered.
 TEST_F(GridMedia, LetTheLightOfALampThrough) {
   const TestScene scene(camera("0.3, 0.2, 6", "0.3, 0.2, 0", 0.05, 2, "0, 1, 0") +
@@ -138,13 +160,14 @@ INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod,
 class Cloud : public GridMedia {
  protected:
   std::string scene_text(double share = 1) {
-    constexpr int n = 12;
+    constexpr int n = 48;  // some regions whose densities have bounds of their own
     std::vector<float> density;
     for (int z = 0; z < n; ++z)
       for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
-          const double r = std::hypot(x - 5.5, y - 5.5, z - 5.5) / 6;
-          const double waves = 1 + 0.8 * std::sin(1.3 * x) * std::cos(1.1 * y + 0.7 * z);
+          const double middle = 0.5 * (n - 1);
+          const double r = std::hypot(x - middle, y - middle, z - middle) / (middle + 0.5);
+          const double waves = 1 + 0.8 * std::sin(0.33 * x) * std::cos(0.28 * y + 0.18 * z);
           density.push_back(float(share * 4 * std::max(0.0, 0.9 - r) * waves));
         }
     const std::string albedo = volume(
@@ -170,6 +193,13 @@ TEST_F(Cloud, PathAndLightTracerAgreeLong) {
           fmt::format("cloud, {} {}", component, "RGB"[channel]),
           Comparison(light.mean({component}, {}, channel), path.mean({component}, {}, channel)),
           0.005);
+}
+
+TEST_F(Cloud, PathAndBdptAgree) {
+  const TestScene scene(scene_text());
+  const RunningStatistics path = render(scene, "path", "", {200}).mean({"volume"});
+  const RunningStatistics bdpt = render(scene, "bdpt", "", {150}).mean({"volume"});
+  expect_near_means("cloud, volume", Comparison(bdpt, path), 0.03, 0.01);
 }
 
 TEST_F(Cloud, EveryMethodAgreesLong) {

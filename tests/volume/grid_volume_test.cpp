@@ -246,6 +246,15 @@ TEST(GridVolume, MeasuresWhatIntegralsSay) {
   }
 }
 
+TEST(GridVolume, StopsWhereItHasEnough) {
+  const GridVolume grid(random_samples({9, 17, 24}), Filter::trilinear, Wrap::clamp, Transform());
+  const Vec3f origin(-1, -1, -1), along(1, 1, 1);
+  const float whole = grid.integral(origin, along, 0, infinity);
+  const float some = grid.integral(origin, along, 0, infinity, 0.1f * whole);
+  EXPECT_GT(some, 0.1f * whole);
+  EXPECT_LT(some, 0.5f * whole);
+}
+
 TEST(GridVolume, SeparatesWhatIsOneColour) {
   VolumeSamples samples{{2, 1, 2}, 3, {}, {}};
   for (const float density : {0.5f, 0.0f, 2.0f, 1.0f})

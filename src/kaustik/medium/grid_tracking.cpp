@@ -14,9 +14,18 @@ bool is_followed(const GridCrossing::Piece& piece, float looks) {
   return looks * cells_per_look > piece.cells;
 }
 
-/// A shadow ray ends by Russian roulette where less than this is left of its light, if it has more
-/// cells to cross than that: else it saves no time.
-constexpr float least_sure = 0.3f, cells_worth_ending = 64;
+/// Light of which less than this is left goes on by Russian roulette.
+constexpr float least_sure = 0.3f;
+/// Not before so much work has been done, in cells: where little is to be done, it saves no time.
+constexpr float work_before_roulette = 8;
+
+/// 1 − σ x, where that is not below 0 but for rounding.
+Spectrum left_by_look(const Spectrum& extinction, float x) {
+  Spectrum left = Spectrum(1) - extinction * x;
+  for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+    if (left[lane] < 0) left.set(lane, 0);
+  return left;
+}
 
 float exponential(float u) { return -std::log1p(-u); }
 
@@ -44,34 +53,37 @@ Spectrum tracked_transmittance(GridCrossing crossing, const Spectrum& extinction
   for (int lane = 0; lane < Spectrum::lane_count; ++lane)
     fewest = std::min(fewest, extinction[lane]);
   Depths depths(numbers);
-  const bool may_end = crossing.cells() > cells_worth_ending;
   float least_left = -1, to_look = -1;
+  float work = 0;      // in cells
   Spectrum left(1);    // by looks
   float integral = 0;  // what has been crossed without
-  GridCrossing::Piece piece;
   const auto most_left = [&] { return left.max_lane() * std::exp(-fewest * integral); };
-  // exp(−x) ≥ 1 − x tells nearly always.
+  const auto may_end = [&] { return work > work_before_roulette; };
   const auto is_given_up = [&] {
-    return may_end && left.max_lane() * (1 - fewest * integral) <= least_left &&
+    // exp(−x) ≥ 1 − x tells nearly always.
+    return may_end() && left.max_lane() * (1 - fewest * integral) <= least_left &&
            most_left() <= least_left;
   };
+  GridCrossing::Piece piece;
   while (crossing.next(piece)) {
     if (least_left < 0) {
       const Vec2f u = numbers.next_2d();
-      least_left = least_sure * u.x;
+      least_left = least_sure * (1 - u.x);  // above 0
       to_look = exponential(u.y);
     }
     const float length = piece.end - piece.begin;
     const float unknown = most * (piece.largest - piece.least);
     if (is_followed(piece, unknown * length)) {
       integral += crossing.integral(piece);
+      work += piece.cells;
     } else {
       integral += piece.least * length;
       float at = piece.begin;
       while (to_look < unknown * (piece.end - at)) {
         at = std::min(at + to_look / unknown, piece.end);
         const float above = crossing.value(piece, at) - piece.least;
-        left *= Spectrum(1) - extinction * (above / unknown);
+        left *= left_by_look(extinction, above / unknown);
+        work += cells_per_look;
         if (is_given_up()) return Spectrum();
         to_look = depths.next();
       }
@@ -79,7 +91,7 @@ Spectrum tracked_transmittance(GridCrossing crossing, const Spectrum& extinction
     }
     if (is_given_up()) return Spectrum();
   }
-  const float chance = may_end ? most_left() / least_sure : 1;
+  const float chance = may_end() ? most_left() / least_sure : 1;
   left *= exp(extinction * -integral);
   return chance < 1 ? left * (1 / chance) : left;
 }
@@ -114,7 +126,7 @@ TrackedFlight tracked_flight(GridCrossing crossing, const Spectrum& extinction, 
       if (threshold < chosen * piece.least) return collided(at);
       const float value = crossing.value(piece, at);
       if (threshold < chosen * value) return collided(at);
-      flight.left *= Spectrum(1) - extinction * (value / densest);
+      flight.left *= left_by_look(extinction, value / densest);
       depth = exponential(u.y);
     }
     depth -= densest * (piece.end - at);

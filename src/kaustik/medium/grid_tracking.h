@@ -14,16 +14,16 @@
 
 namespace kaustik {
 
-/// An unbiased estimate of the share of the light of each lane that comes to the end of the line,
-/// in [0, 1]. `extinction`: of value 1 of the grid, 1/m. Numbers are drawn from `numbers`.
+/// An unbiased estimate of the share of the light of each lane that comes to the end of the line; 0
+/// at least. `extinction`: of value 1 of the grid, 1/m. Numbers are drawn from `numbers`.
 Spectrum tracked_transmittance(GridCrossing crossing, const Spectrum& extinction, Sampler numbers);
 
 /// How far light flies on the line that collides as lane `lane` does.
 struct TrackedFlight {
   bool collided = false;
   float distance = 0;  ///< t, if it has
-  /// Of each lane in proportion to what the others have, the chance that light of that lane comes
-  /// so far by the places that were looked at.
+  /// Per lane, up to a common factor: the probability that light of that lane comes as far, given
+  /// the places that were looked at.
   Spectrum left{1};
 };
 /// `depth` ≥ 0: an optical depth, distributed exponentially, with which the flight begins.

@@ -13,6 +13,15 @@
 namespace kaustik {
 namespace {
 
+/// The depth, m, behind which floats have no light left in any lane.
+float darkest_depth(const Spectrum& extinction) {
+  constexpr float no_light = 104;  // exp(−104) is less than the smallest float
+  float depth = 0;
+  for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+    depth = std::max(depth, extinction[lane] > 0 ? no_light / extinction[lane] : infinity);
+  return depth;
+}
+
 const TypeInfo& heterogeneous_info() {
   static const TypeInfo info{
       "medium",
@@ -124,9 +133,10 @@ bool HeterogeneousMedium::is_like(const Medium& other) const {
   return o && density_ == o->density_ && albedo_ == o->albedo_ && densest_.is_like(o->densest_);
 }
 
-float HeterogeneousMedium::depth(const MediumSegment& segment, float from) const {
+float HeterogeneousMedium::depth(const MediumSegment& segment, float from, float enough) const {
   if (!density_) return std::max(0.0f, segment.length - from);
-  return per_largest_ * density_->integral(segment.origin, segment.direction, from, segment.length);
+  return per_largest_ * density_->integral(segment.origin, segment.direction, from, segment.length,
+                                           enough / per_largest_);
 }
 
 GridCrossing HeterogeneousMedium::crossing(const MediumSegment& segment) const {
@@ -146,8 +156,14 @@ GridVolume::Reach HeterogeneousMedium::reach(const MediumSegment& segment, float
 }
 
 Spectrum HeterogeneousMedium::transmittance(const MediumSegment& segment,
-                                            const Wavelengths& wavelengths,
-                                            const Sampler& sampler) const {
+                                            const Wavelengths& wavelengths, const Sampler&) const {
+  const float enough = darkest_depth(densest_.extinction({}, wavelengths));
+  return densest_.transmittance(depth(segment, 0, enough), wavelengths);
+}
+
+Spectrum HeterogeneousMedium::rough_transmittance(const MediumSegment& segment,
+                                                  const Wavelengths& wavelengths,
+                                                  const Sampler& sampler) const {
   if (!density_) return densest_.transmittance(segment, wavelengths, sampler);
   return tracked_transmittance(crossing(segment), extinction_of_value(wavelengths),
                                numbers_of(segment, sampler));

@@ -9,10 +9,8 @@ namespace kaustik {
 
 /// Extinction that is a density, which varies over space, times a value, which varies with the
 /// wavelength. Everything that the law of Beer and Lambert says of a homogeneous medium holds with
-/// the depth D(s) = ∫ ρ dt in place of the distance s, for all wavelengths alike. So light flies in
-/// depths, through the homogeneous medium of density 1, and what it has flown becomes a distance.
-/// Depths are exact where many points of a segment share them, and for collisions that are sure.
-/// Flights and single transmittances cross a fine grid by looks at few of its places
+/// the depth D(s) = ∫ ρ dt in place of the distance s, for all wavelengths alike. Depths are exact.
+/// Flights and rough transmittances cross a fine grid by looks at few of its places
 /// (grid_tracking.h): unbiased, without steps.
 class HeterogeneousMedium final : public Medium {
  public:
@@ -41,6 +39,8 @@ class HeterogeneousMedium final : public Medium {
 
   Spectrum transmittance(const MediumSegment& segment, const Wavelengths& wavelengths,
                          const Sampler& sampler) const override;
+  Spectrum rough_transmittance(const MediumSegment& segment, const Wavelengths& wavelengths,
+                               const Sampler& sampler) const override;
   void measure(const MediumSegment& segment, std::vector<LineKnot>& knots) const override;
   Spectrum measured_transmittance(const MediumSegment& segment, const std::vector<LineKnot>& knots,
                                   const Wavelengths& wavelengths,
@@ -59,8 +59,8 @@ class HeterogeneousMedium final : public Medium {
   Spectrum albedo_at(const Vec3f& position, const Wavelengths& wavelengths) const {
     return albedo_ ? albedo_->factor(position, wavelengths) : Spectrum(1);
   }
-  /// Of the part of the segment from there on, m.
-  float depth(const MediumSegment& segment, float from = 0) const;
+  /// Of the part of the segment from there on, m; where it exceeds `enough`, something above that.
+  float depth(const MediumSegment& segment, float from = 0, float enough = infinity) const;
   // Where there is a grid:
   GridCrossing crossing(const MediumSegment& segment) const;
   /// σ_t, 1/m, where the grid's value is 1.

@@ -137,7 +137,8 @@ Medium::Flight HomogeneousMedium::sample_flight(float length, const Spectrum& sh
 Spectrum HomogeneousMedium::collided(const Spectrum& left, const Spectrum& shares,
                                      const Wavelengths& wavelengths) const {
   const Spectrum density = lane_probabilities(shares) * extinction_.at(wavelengths) * left;
-  return scattering_.at(wavelengths) * left * (1 / density.sum());
+  const float sum = density.sum();
+  return sum > 0 ? scattering_.at(wavelengths) * left * (1 / sum) : Spectrum();
 }
 
 Spectrum HomogeneousMedium::passed(const Spectrum& left, const Spectrum& shares) {

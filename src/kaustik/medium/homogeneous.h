@@ -45,8 +45,8 @@ class HomogeneousMedium final : public Medium {
                        const Vec2f& u) const;
   /// The lane by whose extinction a flight is sampled, by a number in [0, 1).
   static int flying_lane(const Spectrum& shares, float u);
-  /// Weights of flights of which that is left in each lane, up to a factor: of those that collide,
-  /// and of those that come to the end of the segment.
+  /// The weight of a flight that collides, and of one that comes to the end of the segment. `left`:
+  /// per lane, up to a common factor, the probability that its light comes as far.
   Spectrum collided(const Spectrum& left, const Spectrum& shares,
                     const Wavelengths& wavelengths) const;
   static Spectrum passed(const Spectrum& left, const Spectrum& shares);

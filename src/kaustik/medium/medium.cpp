@@ -14,6 +14,11 @@ Medium::Medium(std::shared_ptr<const PhaseFunction> phase, bool scatters)
   }
 }
 
+Spectrum Medium::rough_transmittance(const MediumSegment& segment, const Wavelengths& wavelengths,
+                                     const Sampler& sampler) const {
+  return transmittance(segment, wavelengths, sampler);
+}
+
 Spectrum Medium::measured_transmittance(const MediumSegment& segment, const std::vector<LineKnot>&,
                                         const Wavelengths& wavelengths,
                                         const Sampler& sampler) const {

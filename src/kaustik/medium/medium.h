@@ -24,9 +24,9 @@ struct MediumSegment {
 /// What fills the space between surfaces; it may differ from place to place. Coefficients count per
 /// scene unit. Immutable, thread-safe. No medium (a null pointer) is vacuum.
 ///
-/// Random numbers: a flight takes one dimension pair of the sampler. A medium that needs more, for
-/// a transmittance too, adds a row of forks to base/draws.h and draws from those whose numbers come
-/// from the segment, so that whoever asks needs not know how much that is.
+/// Random numbers: a flight takes one dimension pair of the sampler. A medium that needs more adds
+/// a row of forks to base/draws.h, so that whoever asks needs not know how much that is. Those of a
+/// flight are told apart by the pair, those of transmittances by the segment.
 class Medium {
  public:
   virtual ~Medium() = default;
@@ -50,9 +50,13 @@ class Medium {
   virtual float typical_extinction() const = 0;
 
   /// Share of the light of each lane that is left at the end of the segment, or an unbiased
-  /// estimate of it.
+  /// estimate of it with little noise.
   virtual Spectrum transmittance(const MediumSegment& segment, const Wavelengths& wavelengths,
                                  const Sampler& sampler) const = 0;
+  /// An unbiased estimate of it in less time, if there is one: for light between points that were
+  /// themselves drawn within a medium, where more noise hardly counts.
+  virtual Spectrum rough_transmittance(const MediumSegment& segment, const Wavelengths& wavelengths,
+                                       const Sampler& sampler) const;
   // For many points of one segment (SegmentTransmittance), where that takes long:
   /// What the ways to all of them have in common, in an empty list; media that are quick to cross
   /// leave it empty.

@@ -55,7 +55,7 @@ void CameraSplats::add(const LightMediumVertex& at, const CameraConnection& conn
                        float weight) {
   SurfacePoint point;
   point.position = at.position;
-  Sight sight{point, &at.medium, connection, {at.state.wavelengths, at.sampler}};
+  Sight sight{point, &at.medium, connection, {at.state.wavelengths, at.sampler, true}};
   add(Component::volume,
       at.flux * at.medium.phase().eval(at.wo, connection.direction) * scale(connection, weight),
       sight);

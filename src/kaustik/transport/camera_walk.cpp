@@ -242,7 +242,7 @@ void CameraWalk::add_medium_light(LightWeights* weights) {
     else if (light.pdf_solid_angle > 0)
       weight = mis_weight(light.pdf_solid_angle, phase);
     const Spectrum visible = trace_shadow_ray(scene_, light, state_.medium,
-                                              {state_.wavelengths, sampler_}, rays_, answer);
+                                              {state_.wavelengths, sampler_, true}, rays_, answer);
     return light.radiance * visible * (phase * weight);
   };
   light_choice_ = LightChoice::one;

@@ -57,8 +57,9 @@ Spectrum transmittance_through_media(const Scene& scene, Ray ray, const Medium* 
   const bool arrives = follow_shadow_ray(
       scene, ray, medium, rays, to, [&](const Medium& in, const Ray& along, float parameter) {
         const float unit = length(along.direction);
-        left *= in.transmittance({along.origin, along.direction * (1 / unit), parameter * unit},
-                                 of.wavelengths, of.sampler);
+        const MediumSegment segment{along.origin, along.direction * (1 / unit), parameter * unit};
+        left *= of.may_be_rough ? in.rough_transmittance(segment, of.wavelengths, of.sampler)
+                                : in.transmittance(segment, of.wavelengths, of.sampler);
         return !left.is_zero();
       });
   return arrives ? left : Spectrum();

@@ -7,6 +7,8 @@ namespace kaustik {
 struct LightOnItsWay {
   Wavelengths wavelengths;
   const Sampler& sampler;  ///< as of Medium::transmittance()
+  /// It comes from a point in a medium, or goes to one: Medium::rough_transmittance() will do.
+  bool may_be_rough = false;
 };
 
 /// Where a shadow ray leads: to the camera it passes hidden lamps, too (Scene::is_hidden).

@@ -65,7 +65,7 @@ GridVolume::Line GridCrossing::part(const Piece& piece) const {
   return result;
 }
 
-float GridCrossing::integral(const Piece& piece) const { return grid_.integral(part(piece)); }
+float GridCrossing::integral(const Piece& piece) const { return grid_.integral(part(piece), infinity); }
 
 GridVolume::Reach GridCrossing::reach(const Piece& piece, float target) const {
   GridVolume::Reach result = grid_.reach(part(piece), target);

@@ -20,8 +20,6 @@ class GridCrossing {
   /// Moves on to the next piece that has a length and values other than 0; false where none is
   /// left. Pieces come in order.
   bool next(Piece& piece);
-  /// How many cells the whole line is about to cross.
-  float cells() const { return line_.length * cells_per_length_; }
   /// The t of a place.
   float distance(float place) const { return line_.begin + place; }
 
@@ -36,7 +34,7 @@ class GridCrossing {
   GridVolume::Line part(const Piece& piece) const;
 
   const GridVolume& grid_;
-  GridVolume::Line line_{};  ///< of length 0 where it does not meet the box
+  GridVolume::Line line_{};
   float at_ = 0;             ///< where the next piece begins
   bool is_over_ = true;
   int region_[3]{}, forward_[3]{};

@@ -232,19 +232,19 @@ void GridVolume::walk(const Line& line, const Step& step) const {
     walk<false>(line, step);
 }
 
-float GridVolume::integral(const Line& line) const {
+float GridVolume::integral(const Line& line, float enough) const {
   double sum = 0;
   walk(line, [&](const Piece& piece, const auto&) {
     sum += double(piece.integral);
-    return true;
+    return sum <= double(enough);
   });
   return float(std::max(0.0, sum));
 }
 
-float GridVolume::integral(const Vec3f& origin, const Vec3f& direction, float from,
-                           float to) const {
+float GridVolume::integral(const Vec3f& origin, const Vec3f& direction, float from, float to,
+                           float enough) const {
   const auto line = line_in_box(origin, direction, from, to);
-  return line ? integral(*line) : 0;
+  return line ? integral(*line, enough) : 0;
 }
 
 GridVolume::Reach GridVolume::reach(const Line& line, float target) const {

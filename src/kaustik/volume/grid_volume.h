@@ -43,8 +43,10 @@ class GridVolume {
 
   // The first channel of what lies in the box, and zero outside; of grids of one channel.
   float inside(const Vec3f& position) const;
-  /// Integral over origin + t direction, `from` ≤ t ≤ `to` (may be infinite).
-  float integral(const Vec3f& origin, const Vec3f& direction, float from, float to) const;
+  /// Integral over origin + t direction, `from` ≤ t ≤ `to` (may be infinite); where it exceeds
+  /// `enough`, something above that.
+  float integral(const Vec3f& origin, const Vec3f& direction, float from, float to,
+                 float enough = infinity) const;
   struct Reach {
     bool is_reached = false;
     float distance = 0;  ///< t, if it is
@@ -57,15 +59,13 @@ class GridVolume {
   void measure(const Vec3f& origin, const Vec3f& direction, float to,
                std::vector<LineKnot>& knots) const;
 
-  /// A line through the box on which values have bounds, piece by piece: grid_crossing.h.
-  friend class GridCrossing;
-
   struct Separated;
   /// Of three channels that are everywhere one number times one colour: these two. Nothing if they
   /// are not.
   std::optional<Separated> separated() const;
 
  private:
+  friend class GridCrossing;  ///< a line in pieces with bounds
   static constexpr int brick_shift = 3, brick_size = 1 << brick_shift;
   static constexpr uint32_t uniform = 0xffffffff;
   /// Bounds of values are kept for regions of 16³ cells.
@@ -118,7 +118,7 @@ class GridVolume {
   void walk(const Line& line, const Step& step) const;
   template <typename Step>
   void walk(const Line& line, const Step& step) const;
-  float integral(const Line& line) const;
+  float integral(const Line& line, float enough) const;
   /// The distance counts from the begin of the line.
   Reach reach(const Line& line, float target) const;
 

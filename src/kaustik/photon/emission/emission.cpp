@@ -82,7 +82,8 @@ void EmissionSampler::dim(int light, EmittedRay& emitted, const Wavelengths& wav
   const Light& of = *scene_->lights()[size_t(light)];
   if (!medium || !of.is_infinite() || of.traits().is_beam()) return;
   const Sampler by_segment = Sampler::of(Quadrature::light_medium, 0);
-  emitted.flux *= medium->transmittance({emitted.ray.origin, emitted.ray.direction, infinity},
+  // It has come through all of the medium that lies behind.
+  emitted.flux *= medium->transmittance({emitted.ray.origin, -emitted.ray.direction, infinity},
                                         wavelengths, by_segment);
 }
 

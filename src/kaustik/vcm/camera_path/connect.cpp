@@ -41,6 +41,7 @@ void connect_to(const ConnectibleVertex& to, const CameraPathInputs& in,
   const float weight = in.weights.connection(path);
   if (!(weight > 0)) return;
   const Spectrum arriving = to.data.flux.spectrum() * (weight * in.connection_scale / distance_sq);
+  const bool is_rough = vertex.is_in_medium() || other.is_in_medium();
   Spectrum visible;
   bool traced = false;
   for (const Lobes lobe : {Lobes::diffuse, Lobes::glossy}) {
@@ -58,9 +59,10 @@ void connect_to(const ConnectibleVertex& to, const CameraPathInputs& in,
       if (value.is_zero()) continue;
       if (!traced) {
         traced = true;
-        visible = shadow_ray_transmittance(in.scene, spawn_ray_to(vertex.point(), other.point()),
-                                           vertex.medium_toward(direction, walk.medium()),
-                                           {walk.wavelengths(), walk.sampler()}, walk.rays());
+        visible =
+            shadow_ray_transmittance(in.scene, spawn_ray_to(vertex.point(), other.point()),
+                                     vertex.medium_toward(direction, walk.medium()),
+                                     {walk.wavelengths(), walk.sampler(), is_rough}, walk.rays());
         if (visible.is_zero()) return;
       }
       walk.add(component, value * visible);
