@@ -13,6 +13,7 @@
 #include "kaustik/loader/mitsuba_references.h"
 #include "kaustik/loader/mitsuba_upgrade.h"
 #include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/xml_entities.h"
 
 namespace kaustik::mitsuba {
 
@@ -98,6 +99,13 @@ class Reader {
   std::filesystem::path found(const std::string& file, const Source& source) const;
 
   struct LeftOut {
+  /// For the entities of a file in that folder: they are files beside it.
+  EntityRules entity_rules(const std::filesystem::path& folder);
+  /// Throws Error, as all that entity_rules() makes does.
+  EntityFile entity_file(const std::string& name, const std::filesystem::path& folder,
+                         const Place& where);
+  /// Whether the file is one of those that are being read.
+  bool is_open(const std::filesystem::path& path) const;
     std::string sentence;
     Place first;
     int count = 0;
@@ -118,6 +126,7 @@ class Reader {
   size_t read_bytes_ = 0;
   std::vector<std::shared_ptr<Object>> old_shapes_;  ///< of files before Mitsuba 2
   int depth_ = 0;
+  size_t entity_bytes_left_ = EntityRules::most_bytes;
   bool is_old_ = false;      ///< the scene is one of before Mitsuba 2
   bool incomplete_ = false;  ///< a part of the scene could not be read at all
 };
