@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kaustik/loader/mitsuba_medium.h"
 #include "kaustik/loader/mitsuba_sky.h"
 #include "kaustik/loader/mitsuba_tags.h"
 #include "kaustik/loader/obj_materials.h"
@@ -350,6 +351,7 @@ void Reader::read_alias(const Element& element, Unfinished&, Source& source) {
   references_.declare_alias(element.value("id"), element.value("as"), element.place, problems_);
 }
 
+  upgrade_medium(object, source.version);
 void Reader::read_default(const Element& element, Unfinished&, Source& source) {
   refuse_children(element, source);
   if (!check_attributes(element, {{"name", "value"}, {}}, problems_)) return;
