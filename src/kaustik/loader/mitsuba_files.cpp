@@ -106,7 +106,7 @@ Description Reader::read_text(std::string text, const std::string& name, const f
   const XmlDocument document(std::move(text), name, may_be_quoted, entity_rules(folder));
   Source source = {document, {}, {folder}, folder};
   const bool has_version = read_version(source);
-  is_old_ = source.version < first_with_snake_case;
+  version_ = source.version;
   return finish(has_version ? read_scene(source) : nullptr);
 }
 
