@@ -76,6 +76,28 @@ TEST(IrradianceMeter, StandsInAShape) {
   EXPECT_NE(in_group.at(0).message.find("shape group"), std::string::npos);
 }
 
+// All directions alike, from one point.
+TEST(FluenceMeter, LooksEverywhere) {
+  const auto camera = camera_of(
+      "fluencemeter", {{"to_world", Value(Transform::translate({1, 2, 3})), {}}}, film_of(1, 1));
+  EXPECT_FALSE(camera->traits().can_connect);
+  EXPECT_EQ(camera->traits().weight, 1);
+  Vec3d sum(0, 0, 0), squares(0, 0, 0);
+  constexpr uint32_t rays = 4096;
+  for (uint32_t i = 0; i < rays; ++i) {
+    Sampler sampler(1, i);
+    const CameraRay ray = camera->sample_ray({0.5f, 0.5f}, camera->lens_numbers(sampler));
+    EXPECT_EQ(ray.origin, Vec3f(1, 2, 3));
+    EXPECT_NEAR(length(ray.direction), 1, 1e-6);
+    sum += Vec3d(ray.direction) / rays;
+    squares += Vec3d(ray.direction * ray.direction) / rays;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(sum[axis], 0, 2e-3);
+    EXPECT_NEAR(squares[axis], 1.0 / 3, 2e-3);
+  }
+}
+
 TEST(RadianceMeter, LooksAlongOneRay) {
   const auto expect_ray = [](const std::vector<Property>& properties, const Vec3f& origin,
                              const Vec3f& direction) {
