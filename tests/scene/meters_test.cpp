@@ -70,10 +70,28 @@ TEST(IrradianceMeter, StandsInAShape) {
                  "cannot belong to a shape", "top of the scene");
   expect_problem("<shape type=\"sdf\">" + meter + "</shape>", "2:19", "cannot be sampled",
                  "analytic");
-  const std::vector<Problem> in_group = problems_of(
-      std::string(any_camera) + "<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\">" +
-      meter + "</shape></shape><shape type=\"instance\"><ref id=\"g\"/></shape>");
-  EXPECT_NE(in_group.at(0).message.find("shape group"), std::string::npos);
+}
+
+// Where a shape is placed again and again there is no one to look from.
+TEST(IrradianceMeter, HasNoEffectInPlacedScenes) {
+  const std::string instance = "<shape type=\"instance\"><ref id=\"g\"/></shape>";
+  const auto placed = [&](const std::string& inside) {
+    return std::string(any_camera) +
+           "\n<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\">" + meter + inside +
+           "</shape></shape>" + instance + instance;
+  };
+  for (const std::string inside : {"", "<emitter type=\"area\"/>"}) {
+    const auto scene = scene_of(placed(inside));
+    EXPECT_EQ(scene->quantity(), Quantity::radiance);
+    ASSERT_EQ(scene->warnings().size(), 1u);
+    EXPECT_NE(scene->warnings()[0].find("has no effect"), std::string::npos);
+  }
+  EXPECT_NE(scene_of(placed(""))->warnings()[0].find("test.xml:3:54: a sensor of a shape"),
+            std::string::npos)
+      << scene_of(placed(""))->warnings()[0];
+  Description strict = description_of(placed(""));
+  strict.is_strict = true;
+  EXPECT_THROW(build_scene(strict), Error);
 }
 
 // All directions alike, from one point.
