@@ -41,6 +41,7 @@ const std::vector<std::pair<Names, Names>>& alternatives() {
   static const std::vector<std::pair<Names, Names>> list = {
       {{"albedo", "sigma_t"}, {"sigma_a", "sigma_s"}},
       {{"material"}, {"eta", "k"}},
+      {{"material"}, {"albedo", "sigma_t", "sigma_a", "sigma_s"}},
       {{"reflectance", "edge_tint"}, {"material", "eta", "k", "ext_eta"}},
       {{"alpha"}, {"alpha_u", "alpha_v"}},
       {{"position"}, {"to_world"}},

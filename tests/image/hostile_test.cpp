@@ -4,7 +4,11 @@
 #include <sys/resource.h>
 #include <tiffio.h>
 
+#include <cstring>
+#include <limits>
+
 #include "kaustik/image/image_io.h"
+#include "tests/image/child.h"
 #include "tests/image/samples.h"
 #include "tests/image/support.h"
 
@@ -151,6 +155,28 @@ TEST_F(Hostile, headers_that_promise_too_much) {
   refuses("#?RADIANCE\n\n-Y 1 +X 4\n" + std::string("\1\1\1\3", 4));  // repeats nothing
   refuses("#?RADIANCE\n" + std::string(1000000, 'x'));
 }
+
+#ifndef KAUSTIK_SLOW_BUILD
+// A header that tells of more pixels than any memory holds, or than the file can hold.
+TEST_F(Hostile, exr_windows_that_promise_too_much) {
+  write_image(testing::test_picture(24, 13, 3), path("a.exr"));
+  for (const int32_t last : {99'999, 1 << 30, std::numeric_limits<int32_t>::max() - 1,
+                             std::numeric_limits<int32_t>::max()})
+    for (const int32_t first : {0, std::numeric_limits<int32_t>::min()}) {
+      std::string file = contents(path("a.exr"));
+      for (const char* window : {"dataWindow", "displayWindow"}) {
+        const std::string head = std::string(window) + '\0' + "box2i" + '\0';
+        const size_t at = file.find(head);
+        ASSERT_NE(at, std::string::npos);
+        const int32_t corners[] = {first, first, last, last};
+        std::memcpy(file.data() + at + head.size() + 4, corners, sizeof(corners));
+      }
+      SCOPED_TRACE(std::to_string(first) + " to " + std::to_string(last));
+      EXPECT_LT(testing::memory_growth([&] { reads(file); }), 100'000'000);
+      EXPECT_FALSE(reads(file));
+    }
+}
+#endif
 
 TEST_F(Hostile, what_is_no_image_at_all) {
   EXPECT_FALSE(reads(""));

@@ -1,5 +1,8 @@
 // What meters measure: closed forms, by every method that reaches them.
 
+#include <algorithm>
+
+#include "kaustik/render/scene_warnings.h"
 #include "tests/support/measure.h"
 #include "tests/support/scene_text.h"
 
@@ -96,6 +99,23 @@ TEST(RadianceMeter, InAGlowingSphere) {
                   2, 1000);
 }
 
+// All that is seen counts alike: a ball of radius r, d away, hides (1 − √(1 − r²/d²)) / 2 of the
+// sky, and is itself half as bright.
+TEST(FluenceMeter, UnderASkyWithABall) {
+  const double hidden = (1 - std::sqrt(1 - 0.64)) / 2;
+  expect_measured(
+      "mean radiance beside a ball",
+      sensor("fluencemeter",
+             "<transform name=\"to_world\"><translate value=\"1, 2, 3\"/></transform>") +
+          sphere("1, 4, 3", 1.6, diffuse("0, 0, 0") + area_light("1")) + constant_light(2),
+      2 - hidden, 600);
+}
+
+TEST(FluenceMeter, InAGlowingSphere) {
+  expect_measured("mean radiance in a glowing sphere", sensor("fluencemeter") + glowing_sphere(""),
+                  2, 1000);
+}
+
 /// A matt floor, z = 0, and a point lamp 1 m above the origin: the radiance of a point of the
 /// floor.
 const std::string lamp_over_floor =
@@ -168,9 +188,30 @@ TEST(IrradianceMeter, InPicturesOfManyPixels) {
                 expected);
 }
 
+// Lamps that no ray meets.
+TEST(Meters, TellOfLampsThatTheyMiss) {
+  const auto tells = [](const std::string& objects) {
+    const TestScene scene(objects);
+    const std::vector<std::string> warnings = scene_warnings(scene.scene());
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("meter") != std::string::npos &&
+             warning.find("misses what point, spot") != std::string::npos;
+    });
+  };
+  const std::string passed = flat("disk", "", R"(<bsdf type="null"/>)" + sensor("irradiancemeter"));
+  const std::string shining = sphere("0, 0, 3", 0.1, area_light("1"));
+  for (const std::string& meter : {sensor("fluencemeter"), passed}) {
+    EXPECT_TRUE(tells(meter + lamp_over_floor));
+    EXPECT_FALSE(tells(meter + shining));
+  }
+  EXPECT_FALSE(tells(flat("disk", "", sensor("irradiancemeter")) + lamp_over_floor));
+  EXPECT_FALSE(tells(sensor("radiancemeter") + lamp_over_floor));
+}
+
 TEST(Meters, NoLightPathIsConnected) {
   for (const std::string& camera :
        {sensor("radiancemeter") + lamp_over_floor, sensor("distant") + lamp_over_floor,
+        sensor("fluencemeter") + lamp_over_floor,
         flat("disk", "", sensor("irradiancemeter")) + lamp_over_floor}) {
     const TestScene scene(camera);
     std::vector<std::string> warnings;

@@ -8,12 +8,13 @@ namespace kaustik {
 namespace {
 
 const std::string whole = R"(<?xml version="1.0" encoding="utf-8"?>
-<!-- every kind of element --><!DOCTYPE scene>
+<!-- every kind of element --><!DOCTYPE scene PUBLIC "" 'no.dtd' [<!ELEMENT scene ANY> <!-- ' -->
+  <!ENTITY size "2"><!ENTITY scale '<scale value="&size;"/>'><!ENTITY other SYSTEM "no.xml">]>
 <scene version="0.6.0">
   <default name="spp" value="4"/><default name="w" value="$spp$spp"/>
   <integrator type="photonmap"><boolean name="useCache" value="true"/></integrator>
   <camera type="perspective">
-    <transform name="toWorld"><translate x="1"/><rotate y="1" angle="20"/><scale value="2"/>
+    <transform name="toWorld"><translate x="1"/><rotate y="1" angle="20"/>&scale;
       <matrix value="1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"/>
       <lookAt origin="0, 0, 1" target="0, 0, 0" up="0, 1, 0"/></transform>
     <sampler type="independent"><integer name="sampleCount" value="$w"/></sampler>

@@ -333,7 +333,8 @@ TEST(MitsubaTree, VersionsMayBeShortOrMissing) {
   EXPECT_EQ(name(" version='3'"), "aB");
   EXPECT_EQ(name(" version='0.6'"), "a_b");
   EXPECT_EQ(name(""), "a_b");
-  EXPECT_NE(lenient_warning("<scene/>").find("lacks its version: it is read as one of Mitsuba 0.2"),
+  EXPECT_NE(lenient_warning("<scene><emitter type='point'/></scene>")
+                .find("lacks its version: it is read as one of Mitsuba 0.2"),
             std::string::npos);
 }
 
@@ -406,7 +407,7 @@ TEST(MitsubaTree, OldReflectancesThatMakeLightAreScaled) {
   const std::string phong =
       "<bsdf type='phong'><rgb name='diffuseReflectance' value='0.8, 0.2, 0.1'/>"
       "<rgb name='specularReflectance' value='0.4, 0, 0'/></bsdf>";
-  const Description old = parse(in_scene(phong, "0.6.0"));
+  const Description old = parse(in_scene(phong + "<emitter type='point'/>", "0.6.0"));
   EXPECT_EQ(old.warnings.size(), 1u);
   const Object& bsdf = *old.scene->children.at(0).object;
   EXPECT_NEAR(value<Rgb>(bsdf, "diffuse_reflectance").r, 0.8 * 0.99 / 1.2, 1e-12);
@@ -418,7 +419,7 @@ TEST(MitsubaTree, OfTwoValuesInOldFilesTheLastHolds) {
   const std::string twice =
       "<shape type='s'><float name='x' value='1'/><float name='x' value='2'/>"
       "</shape>";
-  const Description old = parse(in_scene(twice, "0.6.0"));
+  const Description old = parse(in_scene(twice + "<emitter type='point'/>", "0.6.0"));
   EXPECT_EQ(value<double>(*old.scene->children.at(0).object, "x"), 2);
   EXPECT_EQ(old.warnings.size(), 1u);
   expect_problem(problems_in(in_scene(twice)), "test.xml:2:44", "'x' is given twice", "keep one");
@@ -427,7 +428,7 @@ TEST(MitsubaTree, OfTwoValuesInOldFilesTheLastHolds) {
 /// Mitsuba 0.6 rendered the last one, later versions the first.
 TEST(MitsubaTree, OfSeveralSensorsOneComesFirst) {
   const std::string sensors =
-      "<sensor type='a'/><shape type='s'/><sensor type='b'/><sensor type='c'/><shape type='t'/>";
+      "<sensor type='a'/><shape type='s'/><sensor type='b'/><sensor type='c'/><emitter type='t'/>";
   const auto types = [&](const std::string& version) {
     const auto scene = parse(in_scene(sensors, version)).scene;
     std::string result;
@@ -437,7 +438,72 @@ TEST(MitsubaTree, OfSeveralSensorsOneComesFirst) {
   EXPECT_EQ(types("3.0.0"), "asbct");
   EXPECT_EQ(types("2.0.0"), "asbct");
   EXPECT_EQ(types("0.6.0"), "casbt");
-  EXPECT_EQ(parse(in_scene("<shape type='s'/>", "0.6.0")).scene->children.size(), 1u);
+  EXPECT_EQ(parse(in_scene("<emitter type='s'/>", "0.6.0")).scene->children.size(), 1u);
+}
+
+// A scene without an emitter is dark in Mitsuba 2 and 3, but not before.
+TEST(MitsubaTree, OldScenesWithoutEmittersAreNotDark) {
+  const std::string shape =
+      "<shape type='s' id='a'/><shape type='shapegroup'><ref id='a'/></shape>";
+  for (const std::string version : {"2.0.0", "3.0.0"})
+    EXPECT_EQ(parse(in_scene(shape, version)).scene->children.size(), 2u);
+  for (const std::string version : {"0.6.0", "0.4.0", "0.3.0"}) {
+    const Description lit = parse(in_scene(shape, version));
+    ASSERT_EQ(lit.scene->children.size(), 3u);
+    const Object& emitter = *lit.scene->children[2].object;
+    EXPECT_EQ(emitter.family, "emitter");
+    EXPECT_EQ(emitter.type, version == "0.3.0" ? "constant" : "sunsky");
+    ASSERT_EQ(lit.warnings.size(), 1u);
+    EXPECT_NE(lit.warnings[0].find("test.xml:1:1: the scene has no emitter: a '" + emitter.type),
+              std::string::npos)
+        << lit.warnings[0];
+    expect_problem(problems_in(in_scene(shape, version), LoadOptions{{}, true}), "test.xml:1:1",
+                   "has no emitter", "add one");
+  }
+  const auto scene = parse(in_scene(shape, "0.6.0")).scene;
+  const Object& sky = *scene->children[2].object;
+  EXPECT_EQ(value<double>(sky, "sun_scale"), 2);
+  EXPECT_EQ(value<double>(sky, "sky_scale"), 2);
+  EXPECT_NEAR(value<double>(sky, "sun_aperture"), 15 * 0.5358, 1e-12);
+  // The zenith is up, and what would be south, which is +z, is turned by -120 degrees about it.
+  const Vec3f up = value<Transform>(sky, "to_world").vector({0, 0, 1});
+  const Vec3f south = value<Transform>(sky, "to_world").vector({1, 0, 0});
+  EXPECT_LT(length(up - Vec3f(0, 1, 0)), 1e-6f);
+  EXPECT_LT(length(south - Vec3f(-0.8660254f, 0, -0.5f)), 1e-6f);
+  // One that shapes of a group have is enough.
+  const std::string lamp =
+      "<shape type='shapegroup'><shape type='s'><emitter type='area'/></shape></shape>";
+  EXPECT_EQ(parse(in_scene(lamp, "0.6.0")).scene->children.size(), 1u);
+}
+
+// What coefficients a medium of 0.6 does not give are those of skin; those of materials are a
+// hundred times what the table says.
+TEST(MitsubaTree, OldMedia) {
+  const auto medium_of = [](const std::string& inside, const std::string& version = "0.6.0") {
+    return parse(in_scene("<medium type='homogeneous'>" + inside + "</medium>", version))
+        .scene->children.at(0)
+        .object;
+  };
+  const auto expect_material = [](const Object& medium, const std::string& name, double scale) {
+    EXPECT_EQ(medium.properties.size(), 2u);
+    EXPECT_EQ(value<std::string>(medium, "material"), name);
+    EXPECT_EQ(value<double>(medium, "scale"), scale);
+  };
+  expect_material(*medium_of(""), "skin1", 100);
+  expect_material(*medium_of("<float name='scale' value='0.5'/>"), "skin1", 50);
+  expect_material(*medium_of("<string name='material' value='Regular Milk'/>"), "regular milk",
+                  100);
+  const std::string in_lower_case = "<string name='material' value='skin2'/>";
+  EXPECT_EQ(medium_of(in_lower_case, "3.0.0")->properties.size(), 1u);
+  EXPECT_EQ(medium_of("", "3.0.0")->properties.size(), 0u);
+  const auto scattering = medium_of("<rgb name='sigmaS' value='1 2 3'/>");
+  EXPECT_EQ(value<Rgb>(*scattering, "sigma_s"), (Rgb{1, 2, 3}));
+  EXPECT_EQ(value<Rgb>(*scattering, "sigma_a"), (Rgb{3.2, 17, 48}));
+  EXPECT_EQ(scattering->properties.size(), 2u);
+  EXPECT_EQ(value<Rgb>(*medium_of("<rgb name='sigmaA' value='1 2 3'/>"), "sigma_s").g, 88);
+  EXPECT_EQ(value<Rgb>(*medium_of("<rgb name='albedo' value='0'/>"), "sigma_t").r, 77.2);
+  EXPECT_NEAR(value<Rgb>(*medium_of("<rgb name='sigmaT' value='0'/>"), "albedo").b, 101.0 / 149,
+              1e-12);
 }
 
 TEST(MitsubaTree, FileNamesMayHaveBackslashes) {

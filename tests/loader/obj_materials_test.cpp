@@ -21,7 +21,10 @@ class ObjMaterials : public testing::Test {
     folder_.write("scene.obj", two_materials);
     folder_.write("scene.mtl", library);
   }
-  Description load(const std::string& inside, const std::string& version = "0.6.0") {
+  /// The shape shines, or the scene would get a light of its own.
+  Description load(const std::string& given, const std::string& version = "0.6.0") {
+    const std::string lamp = "<emitter type=\"area\"/>";
+    const std::string inside = given.find(lamp) == std::string::npos ? given + lamp : given;
     return parse_mitsuba_xml(
         in_scene("<shape type=\"obj\" id=\"o\"><string name=\"filename\" value=\"scene.obj\"/>" +
                      inside + "</shape>",

@@ -55,6 +55,7 @@ inline BsdfContext flux() { return {{}, TransportMode::flux, {}}; }
 struct BsdfInstance {
   std::string name;
   std::shared_ptr<const Bsdf> bsdf;
+  double albedo_error = 0.03;  ///< what share the albedo of glossy lobes may be off by
 };
 /// One at least of every registered type that has lobes: where none is listed, the usual one.
 const std::vector<BsdfInstance>& bsdf_instances();

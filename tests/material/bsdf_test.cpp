@@ -255,7 +255,8 @@ TEST_P(EveryBsdf, albedo_is_the_mean_weight_and_at_most_one) {
     for (size_t lane = 0; lane < 3; ++lane) {
       const RunningStatistics& weight = drawn(bsdf(), c).all_weights[lane];
       const double noise = 5 * weight.standard_error() + 2e-6;
-      EXPECT_NEAR(albedo[int(lane)], weight.mean(), (estimated ? 0.03 * weight.mean() : 0) + noise);
+      const double error = estimated ? GetParam().albedo_error * weight.mean() : 0;
+      EXPECT_NEAR(albedo[int(lane)], weight.mean(), error + noise);
       EXPECT_LE(weight.mean(), 1 + noise);
     }
   }

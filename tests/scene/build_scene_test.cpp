@@ -81,6 +81,23 @@ TEST(BuildScene, ForeignFilmsFiltersAndSamplers) {
   EXPECT_THROW(build_scene(strict), Error);
 }
 
+// One warning for the camera and its parameter; the view is that of the pinhole.
+TEST(BuildScene, RadialDistortionIsLeftOut) {
+  const std::string distorting =
+      "<sensor type=\"perspective_rdist\"><string name=\"kc\" value=\"0.1, 0.02\"/>"
+      "<float name=\"fov\" value=\"50\"/></sensor>" +
+      sphere;
+  const auto scene = scene_of(distorting);
+  EXPECT_NEAR(scene->camera().traits().horizontal_fov, 50, 1e-3);
+  ASSERT_EQ(scene->warnings().size(), 1u);
+  EXPECT_NE(scene->warnings()[0].find("'perspective' stands for it, without its radial distortion"),
+            std::string::npos)
+      << scene->warnings()[0];
+  Description strict = description_of(distorting);
+  strict.is_strict = true;
+  EXPECT_THROW(build_scene(strict), Error);
+}
+
 TEST(BuildScene, SurfacesAreNamedForMessages) {
   const auto scene = scene_of(camera + "<shape type=\"cube\" id=\"box\"/>\n" + sphere);
   EXPECT_EQ(scene->surface(0).name, "box");

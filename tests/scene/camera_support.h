@@ -64,8 +64,8 @@ inline double importance_error(const Camera& camera, const Vec2f& raster, const 
   };
   const Vec3d x = (at(step, 0) - at(-step, 0)) / (2 * step);
   const Vec3d y = (at(0, step) - at(0, -step)) / (2 * step);
-  const double area_of_pixel = x.cross(y).length();
   const CameraConnection seen = camera.connect(Vec3f(at(0, 0)), lens);
+  const double area_of_pixel = std::fabs(x.cross(y).dot(Vec3d(seen.direction)));
   return double(seen.importance) * area_of_pixel / double(distance * distance) - 1;
 }
 

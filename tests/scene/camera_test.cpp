@@ -76,7 +76,7 @@ TEST(Camera, FieldsOfViewByAxis) {
 std::unique_ptr<Camera> simplest(const CameraType& type) {
   std::vector<Property> needed;
   for (const Parameter& row : type.info.parameters)
-    if (row.required) needed.push_back({row.name, Value(0.1), {}});
+    if (row.required || row.name == "aperture_radius") needed.push_back({row.name, Value(0.1), {}});
   return camera_of(type.info.name, needed, film_of(32, 24),
                    type.needs_shape ? shape_of("rectangle") : nullptr);
 }
@@ -125,7 +125,8 @@ TEST(Camera, ClipsWhatIsNearAndFar) {
     if (type.info.find("aperture_radius")) given.push_back({"aperture_radius", Value(0.3), {}});
     const std::unique_ptr<Camera> camera = camera_of(type.info.name, given);
     // Along the direction of view, or from the camera where it looks all around.
-    const bool is_straight = camera->traits().horizontal_fov > 0;
+    const bool is_straight =
+        camera->traits().horizontal_fov > 0 || camera->traits().parallel_distance > 0;
     for (uint32_t i = 0; i < 50; ++i) {
       Sampler sampler(3, i);
       const Vec2f raster = sampler.next_2d() * Vec2f(32, 24);
@@ -155,6 +156,39 @@ TEST(Camera, ClipsWhatIsNearAndFar) {
   EXPECT_THROW(
       camera_of("perspective", {{"near_clip", Value(2.0), {}}, {"far_clip", Value(2.0), {}}}),
       Error);
+}
+
+// The aperture is measured in the world, whatever the scale of the picture; where the picture is
+// sharp it is that of the orthographic camera.
+TEST(Camera, TelecentricLooksThroughCones) {
+  const Transform placed = Transform::translate({1, 2, 3}) * Transform::scale({4, 4, 2});
+  const Property to_world{"to_world", Value(placed), {}};
+  const auto pinhole = camera_of("orthographic", {to_world});
+  const auto camera = camera_of(
+      "telecentric",
+      {to_world, {"aperture_radius", Value(0.5), {}}, {"focus_distance", Value(2.0), {}}});
+  EXPECT_TRUE(camera->traits().has_lens);
+  RunningStatistics x_squares, y_squares;
+  for (uint32_t i = 0; i < 4096; ++i) {
+    Sampler sampler(7, i);
+    const LensNumbers lens = camera->lens_numbers(sampler);
+    const Vec2f raster = sampler.next_2d() * Vec2f(32, 24);
+    const Ray ray = camera->sample_ray(raster, lens), straight = pinhole->sample_ray(raster, {});
+    const Vec3f off = ray.origin - straight.origin;
+    EXPECT_NEAR(off.z, 0, 1e-6);
+    EXPECT_LT(length(off), 0.50001f);
+    x_squares.add(double(off.x * off.x));
+    y_squares.add(double(off.y * off.y));
+    const Vec3f sharp = ray.origin + ray.direction * (2 / ray.direction.z);
+    EXPECT_LT(length(sharp - (straight.origin + Vec3f(0, 0, 2))), 1e-5f);
+  }
+  EXPECT_NEAR(x_squares.mean(), 0.25 / 4, 1e-3);
+  EXPECT_NEAR(y_squares.mean(), 0.25 / 4, 1e-3);
+  // Without an aperture it is the orthographic one.
+  const auto closed = camera_of("telecentric", {to_world});
+  EXPECT_FALSE(closed->traits().has_lens);
+  EXPECT_EQ(closed->sample_ray({3, 4}, {}).direction, Vec3f(0, 0, 1));
+  EXPECT_THROW(camera_of("telecentric", {{"blades", Value(int64_t(2)), {}}}), Error);
 }
 
 // The scale of to_world is half of the width; the height follows from the picture's shape.

@@ -94,6 +94,20 @@ TEST(Heights, AreGivenOnce) {
   problem(field(board + "<integer name=\"width\" value=\"100000\"/>"), "'width' is 100000");
 }
 
+// What is refused is not made before: as many heights would take the memory of any machine.
+TEST(Heights, OfHostileSizes) {
+  for (const std::string texture : {"<texture type=\"checkerboard\"/>", ""})
+    for (const std::string size : {"1000000000", "9223372036854775807", "-5", "1", "0"}) {
+      const std::vector<Problem> problems =
+          test::problems_of(field(texture + "<integer name=\"width\" value=\"" + size +
+                                  "\"/><integer name=\"height\" value=\"" + size + "\"/>"));
+      ASSERT_GE(problems.size(), 2u);
+      EXPECT_NE(problems[0].message.find("'width' is "), std::string::npos) << problems[0].message;
+      EXPECT_NE(problems[1].message.find("'height' is "), std::string::npos) << problems[1].message;
+      for (const Problem& p : problems) EXPECT_FALSE(p.remedy.empty()) << p.message;
+    }
+}
+
 /// Attributes of shapes that Mitsuba keeps for integrators.
 TEST(Heights, AreNoneInOtherShapes) {
   const std::string painted =

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "kaustik/medium/medium_presets.h"
 #include "tests/scene/scene_support.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/vol_file.h"
@@ -55,6 +56,55 @@ TEST(Media, CoefficientsByAlbedoOrByParts) {
                     interior_of(*b).scattering({}, {})[lane]);
   }
   EXPECT_FLOAT_EQ(interior_of(*a).extinction({}, {})[2], 40);
+}
+
+TEST(Media, SubstancesThatWereMeasured) {
+  const auto coefficients_of = [](const std::string& inside, const std::string& version) {
+    const auto scene =
+        build_scene(parse_mitsuba_xml("<scene version=\"" + version + "\">" + with_medium(inside) +
+                                          "<emitter type=\"constant\"/></scene>",
+                                      "test.xml", ""));
+    return std::pair(interior_of(*scene).extinction({}, {}),
+                     interior_of(*scene).scattering({}, {}));
+  };
+  const auto material = [](const std::string& name) {
+    return "<string name=\"material\" value=\"" + name + "\"/>";
+  };
+  const auto expect_lanes = [](const std::pair<Spectrum, Spectrum>& given, const Rgb& extinction,
+                               const Rgb& scattering) {
+    const double t[] = {extinction.r, extinction.g, extinction.b};
+    const double s[] = {scattering.r, scattering.g, scattering.b};
+    for (int lane = 0; lane < 3; ++lane) {
+      EXPECT_NEAR(double(given.first[lane]), t[lane], 2e-6 * t[lane]) << lane;
+      EXPECT_NEAR(double(given.second[lane]), s[lane], 2e-6 * s[lane]) << lane;
+    }
+  };
+  // Per millimetre; scattering is the reduced coefficient.
+  expect_lanes(coefficients_of(material("skimmilk"), "3.0.0"), {0.7014, 1.2225, 1.9142},
+               {0.7, 1.22, 1.9});
+  expect_lanes(
+      coefficients_of(material("lowfat milk") + "<float name=\"scale\" value=\"1000\"/>", "3.0.0"),
+      {894.7376, 1519.3110, 2543.4652}, {891.8676, 1513.5610, 2531.9652});
+  // Of Mitsuba 0.6, whose names do not tell upper from lower case: a hundred times that. What is
+  // missing is skin.
+  expect_lanes(coefficients_of(material("Skin1"), "0.6.0"), {77.2, 105, 149}, {74, 88, 101});
+  expect_lanes(coefficients_of("", "0.6.0"), {77.2, 105, 149}, {74, 88, 101});
+  expect_lanes(coefficients_of(color("sigmaS", "74, 88, 101"), "0.6.0"), {77.2, 105, 149},
+               {74, 88, 101});
+  expect_lanes(coefficients_of(color("sigmaA", "3.2, 17, 48"), "0.6.0"), {77.2, 105, 149},
+               {74, 88, 101});
+  expect_lanes(coefficients_of(color("sigmaT", "77.2, 105, 149"), "0.6.0"), {77.2, 105, 149},
+               {74, 88, 101});
+  // Each of them makes a medium.
+  for (const MediumPreset& preset : medium_presets()) {
+    std::string name = preset.name;
+    if (const size_t at = name.find('&'); at != std::string::npos) name.replace(at, 1, "&amp;");
+    const auto [extinction, scattering] = coefficients_of(material(name), "3.0.0");
+    for (int lane = 0; lane < 3; ++lane) {
+      EXPECT_GT(extinction[lane], 0) << preset.name;
+      EXPECT_LE(scattering[lane], extinction[lane]) << preset.name;
+    }
+  }
 }
 
 TEST(Media, AreSharedByReference) {
@@ -267,6 +317,14 @@ TEST(MediaErrors, OfCoefficients) {
   problem(color("albedo", "0, -0.5, 0"), "albedo");
   problem(color("sigma_a", "1, 1, 1") + color("sigma_t", "1, 1, 1"), "described twice");
   problem(color("sigma_s", "1, -1, 1"), "sigma_s");
+  const std::string milk = "<string name=\"material\" value=\"wholemilk\"/>";
+  problem(milk + color("sigma_s", "1, 1, 1"), "described twice");
+  problem(milk + color("albedo", "1, 1, 1"), "described twice");
+  problem("<string name=\"material\" value=\"whole milk\"/>", "'material' cannot be 'whole milk'");
+  EXPECT_NE(
+      problems_of(with_medium("<string name=\"material\" value=\"whole milk\"/>"))[0].remedy.find(
+          "did you mean 'wholemilk'?"),
+      std::string::npos);
   problem("<float name=\"scale\" value=\"-1\"/>", "scale");
   problem(color("sigma_t", "1e30, 1, 1") + "<float name=\"scale\" value=\"1e20\"/>", "too large");
   for (const std::string g : {"1", "-1"})

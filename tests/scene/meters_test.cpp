@@ -70,10 +70,50 @@ TEST(IrradianceMeter, StandsInAShape) {
                  "cannot belong to a shape", "top of the scene");
   expect_problem("<shape type=\"sdf\">" + meter + "</shape>", "2:19", "cannot be sampled",
                  "analytic");
-  const std::vector<Problem> in_group = problems_of(
-      std::string(any_camera) + "<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\">" +
-      meter + "</shape></shape><shape type=\"instance\"><ref id=\"g\"/></shape>");
-  EXPECT_NE(in_group.at(0).message.find("shape group"), std::string::npos);
+}
+
+// Where a shape is placed again and again there is no one to look from.
+TEST(IrradianceMeter, HasNoEffectInPlacedScenes) {
+  const std::string instance = "<shape type=\"instance\"><ref id=\"g\"/></shape>";
+  const auto placed = [&](const std::string& inside) {
+    return std::string(any_camera) +
+           "\n<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\">" + meter + inside +
+           "</shape></shape>" + instance + instance;
+  };
+  for (const std::string inside : {"", "<emitter type=\"area\"/>"}) {
+    const auto scene = scene_of(placed(inside));
+    EXPECT_EQ(scene->quantity(), Quantity::radiance);
+    ASSERT_EQ(scene->warnings().size(), 1u);
+    EXPECT_NE(scene->warnings()[0].find("has no effect"), std::string::npos);
+  }
+  EXPECT_NE(scene_of(placed(""))->warnings()[0].find("test.xml:3:54: a sensor of a shape"),
+            std::string::npos)
+      << scene_of(placed(""))->warnings()[0];
+  Description strict = description_of(placed(""));
+  strict.is_strict = true;
+  EXPECT_THROW(build_scene(strict), Error);
+}
+
+// All directions alike, from one point.
+TEST(FluenceMeter, LooksEverywhere) {
+  const auto camera = camera_of(
+      "fluencemeter", {{"to_world", Value(Transform::translate({1, 2, 3})), {}}}, film_of(1, 1));
+  EXPECT_FALSE(camera->traits().can_connect);
+  EXPECT_EQ(camera->traits().weight, 1);
+  Vec3d sum(0, 0, 0), squares(0, 0, 0);
+  constexpr uint32_t rays = 4096;
+  for (uint32_t i = 0; i < rays; ++i) {
+    Sampler sampler(1, i);
+    const CameraRay ray = camera->sample_ray({0.5f, 0.5f}, camera->lens_numbers(sampler));
+    EXPECT_EQ(ray.origin, Vec3f(1, 2, 3));
+    EXPECT_NEAR(length(ray.direction), 1, 1e-6);
+    sum += Vec3d(ray.direction) / rays;
+    squares += Vec3d(ray.direction * ray.direction) / rays;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(sum[axis], 0, 2e-3);
+    EXPECT_NEAR(squares[axis], 1.0 / 3, 2e-3);
+  }
 }
 
 TEST(RadianceMeter, LooksAlongOneRay) {

@@ -104,6 +104,10 @@ TEST_F(VolFiles, OfHostileSizes) {
                  "cells");
   expect_problem(with_number(with_number(with_number(good, 8, 1000), 12, 1000), 16, 1000),
                  "4000000000 bytes");
+  // 2^31 cells in a row of rows, as bytes, too.
+  for (const int32_t encoding : {1, 3})
+    expect_problem(with_number(with_number(with_number(good, 4, encoding), 8, 1 << 30), 12, 2),
+                   "cells");
 }
 
 TEST_F(VolFiles, OfNumbersThatAreNone) {

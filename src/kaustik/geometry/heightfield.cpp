@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "kaustik/base/memory.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/geometry/shape_creators.h"
 #include "kaustik/geometry/shape_support.h"
@@ -54,6 +55,14 @@ void check_heights(const Heights& heights, const Place& place) {
     throw Error(ErrorKind::input,
                 fmt::format("the height field has {} x {} heights", heights.columns, heights.rows),
                 fmt::format("give it {} in all at most", most_heights), place);
+  const double bytes = double(heights.values.size()) * double(kept_bytes_per_height);
+  if (bytes > double(physical_memory_bytes()))
+    throw Error(
+        ErrorKind::system,
+        fmt::format("the height field's {} x {} heights take {:.3g} GB of memory, more than "
+                    "there is",
+                    heights.columns, heights.rows, bytes / 1e9),
+        "give it fewer heights", place);
   for (size_t i = 0; i < heights.values.size(); ++i)
     if (!std::isfinite(heights.values[i]))
       throw Error(ErrorKind::input,

@@ -10,8 +10,8 @@ void LoadBudget::spend(size_t bytes, const Place& place) {
     return;
   }
   throw Error(ErrorKind::input,
-              fmt::format("the scene includes the same files so often that it takes more than {} "
-                          "MiB beyond them",
+              fmt::format("the scene includes the same files so often, or repeats entities so "
+                          "often, that it takes more than {} MiB beyond them",
                           beyond_files >> 20),
               "include each file once and refer to its objects by their ids, or place a "
               "shapegroup with instances",

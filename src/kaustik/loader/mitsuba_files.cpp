@@ -8,6 +8,7 @@
 #include "kaustik/loader/gzip.h"
 #include "kaustik/loader/mitsuba_reader.h"
 #include "kaustik/loader/mitsuba_tags.h"
+#include "kaustik/loader/xml_scan.h"
 
 namespace kaustik::mitsuba {
 namespace {
@@ -43,9 +44,27 @@ bool is_object_tag(const std::string& tag) {
 /// A scene may name any file: an error quotes only what looks like a part of one.
 bool begins_as_scene(const std::string& text) { return is_object_tag(root_tag(text)); }
 
+/// Of this version or an older one: what a file may begin with that stands within a scene.
+bool begins_as_part(const std::string& text) {
+  const std::string tag = root_tag(text);
+  return is_object_tag(tag) || is_in(part_tags(), tag) || tag == "srgb" || tag == "blackbody";
+}
+
 bool is_there(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(path, ignored);
+}
+
+/// The first of the folders that has the file; else where it would be in `own_folder`.
+fs::path find_file(const std::string& file, const std::vector<fs::path>& folders,
+                   const fs::path& own_folder) {
+  if (fs::path(file).is_absolute()) return file;
+  for (const fs::path& folder : folders)
+    if (is_there(folder / file)) return folder / file;
+  if (file.find('\\') == std::string::npos) return own_folder / file;
+  std::string with_slashes = file;
+  std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
+  return find_file(with_slashes, folders, own_folder);
 }
 
 }  // namespace
@@ -84,23 +103,53 @@ Description Reader::read_file(const std::string& path) {
 Description Reader::read_text(std::string text, const std::string& name, const fs::path& folder) {
   if (open_files_.empty()) open_files_ = {name};
   const bool may_be_quoted = begins_as_scene(text);
-  const XmlDocument document(std::move(text), name, may_be_quoted);
+  const XmlDocument document(std::move(text), name, may_be_quoted, entity_rules(folder));
   Source source = {document, {}, {folder}, folder};
   const bool has_version = read_version(source);
-  is_old_ = source.version < first_with_snake_case;
+  version_ = source.version;
   return finish(has_version ? read_scene(source) : nullptr);
 }
 
 fs::path Reader::found(const std::string& file, const Source& source) const {
-  if (fs::path(file).is_absolute()) return file;
-  for (const fs::path& folder : source.folders)
-    if (is_there(folder / file)) return folder / file;
-  if (file.find('\\') != std::string::npos) {
-    std::string with_slashes = file;
-    std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
-    return found(with_slashes, source);
-  }
-  return source.own_folder / file;
+  return find_file(file, source.folders, source.own_folder);
+}
+
+bool Reader::is_open(const fs::path& path) const {
+  return std::any_of(open_files_.begin(), open_files_.end(),
+                     [&](const auto& other) { return identity(other) == identity(path); });
+}
+
+EntityRules Reader::entity_rules(const fs::path& folder) {
+  return {[this, folder](const std::string& name, const Place& where) {
+            return entity_file(name, folder, where);
+          },
+          &entity_bytes_left_};
+}
+
+EntityFile Reader::entity_file(const std::string& name, const fs::path& folder,
+                               const Place& where) {
+  constexpr std::string_view here = "file://";
+  const std::string file = name.starts_with(here) ? name.substr(here.size()) : name;
+  const auto refuse = [&](const std::string& message, const std::string& remedy) {
+    throw Error(ErrorKind::input, message, remedy, where);
+  };
+  if (file.find("://") != std::string::npos)
+    refuse(fmt::format("an entity stands for {}, which is no file here", in_quotes(file)),
+           "load it to a file beside the scene and name that");
+  const fs::path path = find_file(file, {folder}, folder);
+  if (file.empty() || is_open(path))
+    refuse(file.empty() ? "an entity stands for a file without a name"
+                        : fmt::format("an entity stands for {}, which is being read already",
+                                      in_quotes(path.string())),
+           "name a file that holds a part of the scene");
+  if (++included_files_ > maximum_includes)
+    refuse(fmt::format("more than {} files are included", maximum_includes),
+           "put the parts into fewer files");
+  std::string text = text_of(path, where);
+  if (!begins_as_part(text))
+    refuse(fmt::format("{} is no part of a scene", in_quotes(path.string())),
+           "name a file that holds objects or properties, such as <bsdf type=\"…\">");
+  return {std::move(text), path.string()};
 }
 
 void Reader::read_search_folder(const Element& element, Unfinished&, Source& source) {
@@ -133,12 +182,10 @@ void Reader::read_include(const Element& element, Unfinished& parent, Source& so
   }
   const Attribute& file = *element.find("filename");
   const fs::path path = found(file.value, source);
-  const bool is_open = std::any_of(open_files_.begin(), open_files_.end(), [&](const auto& other) {
-    return identity(other) == identity(path);
-  });
+  const bool is_circular = is_open(path);
   open_files_.push_back(path);
   try {
-    if (is_open)
+    if (is_circular)
       throw BadValue(fmt::format("circular <include>: {}", joined(open_files_, " → ")),
                      "no file can include itself: remove one of these", file.place);
     if (open_files_.size() > maximum_include_depth)
@@ -161,7 +208,8 @@ const XmlDocument& Reader::included_document(const fs::path& path, const Place& 
   try {
     std::string text = text_of(path, place);
     const bool may_be_quoted = begins_as_scene(text);
-    document = std::make_unique<XmlDocument>(std::move(text), path.string(), may_be_quoted);
+    document = std::make_unique<XmlDocument>(std::move(text), path.string(), may_be_quoted,
+                                             entity_rules(path.parent_path()));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
     const Problem& problem = error.problems().front();

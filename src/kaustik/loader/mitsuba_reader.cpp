@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kaustik/loader/mitsuba_medium.h"
 #include "kaustik/loader/mitsuba_sky.h"
 #include "kaustik/loader/mitsuba_tags.h"
 #include "kaustik/loader/obj_materials.h"
@@ -63,9 +64,11 @@ Description Reader::finish(const std::shared_ptr<Object>& scene) {
   if (scene && !incomplete_) {
     references_.resolve(scene, problems_);
     if (problems_.empty()) open_old_shapes();
-    if (problems_.empty() && is_old_) put_last_sensor_first(*scene);
+    const bool is_old = version_ < first_with_snake_case;
+    if (problems_.empty() && is_old) put_last_sensor_first(*scene);
     // What is left out may have used them.
     if (left_out_.empty()) definitions_.report_unused(problems_);
+    if (problems_.empty() && is_old) light_dark_scene(*scene);
   }
   problems_.throw_if_any();
   Description description{.scene = scene, .sources = {sources_.begin(), sources_.end()}};
@@ -280,6 +283,33 @@ void Reader::put_last_sensor_first(Object& scene) {
   if (first < behind_last) std::rotate(first, behind_last - 1, behind_last);
 }
 
+namespace {
+
+bool holds_emitter(const Object& object, std::set<const Object*>& visited) {
+  if (object.family == "emitter") return true;
+  return visited.insert(&object).second &&
+         std::any_of(object.children.begin(), object.children.end(),
+                     [&](const Child& child) { return holds_emitter(*child.object, visited); });
+}
+
+}  // namespace
+
+void Reader::light_dark_scene(Object& scene) {
+  std::set<const Object*> visited;
+  if (holds_emitter(scene, visited)) return;
+  if (is_strict_) {
+    problems_.add("the scene has no emitter", "add one, such as <emitter type=\"constant\"/>",
+                  scene.place);
+    return;
+  }
+  const std::shared_ptr<Object> emitter = emitter_of_dark_scenes(version_, scene.place);
+  scene.children.push_back({"", emitter});
+  leave_out("emitter",
+            fmt::format("the scene has no emitter: a '{}' lights it, as in Mitsuba of that version",
+                        emitter->type),
+            scene.place);
+}
+
 bool Reader::take_name(Unfinished& parent, const std::string& name, const Place& place) {
   if (name.empty()) return true;
   const auto [first, is_new] = parent.names.try_emplace(name, place);
@@ -321,6 +351,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   if (source.version < first_with_snake_case && object.family == "shape")
     old_shapes_.push_back(unfinished.object);
   upgrade_sky(object, source.version);
+  upgrade_medium(object, source.version);
   if (loads_materials(object, source.version)) old_obj_shapes_.insert(&object);
   return unfinished.object;
 }

@@ -13,6 +13,7 @@
 #include "kaustik/loader/mitsuba_references.h"
 #include "kaustik/loader/mitsuba_upgrade.h"
 #include "kaustik/loader/mitsuba_xml.h"
+#include "kaustik/loader/xml_entities.h"
 
 namespace kaustik::mitsuba {
 
@@ -86,6 +87,8 @@ class Reader {
   void open_old_shapes();
   /// Of several sensors Mitsuba 0.6 rendered the last one, and later versions the first.
   static void put_last_sensor_first(Object& scene);
+  /// Scenes without an emitter were not dark before Mitsuba 2.
+  void light_dark_scene(Object& scene);
   /// `what` is told once, with how many there were.
   void leave_out(const std::string& what, const std::string& sentence, const Place& place);
 
@@ -96,6 +99,13 @@ class Reader {
   /// False, with the reason told, if the parent has such a part already.
   bool take_name(Unfinished& parent, const std::string& name, const Place& place);
   std::filesystem::path found(const std::string& file, const Source& source) const;
+  /// For the entities of a file in that folder: they are files beside it.
+  EntityRules entity_rules(const std::filesystem::path& folder);
+  /// Throws Error, as all that entity_rules() makes does.
+  EntityFile entity_file(const std::string& name, const std::filesystem::path& folder,
+                         const Place& where);
+  /// Whether the file is one of those that are being read.
+  bool is_open(const std::filesystem::path& path) const;
 
   struct LeftOut {
     std::string sentence;
@@ -116,10 +126,11 @@ class Reader {
   std::vector<std::filesystem::path> open_files_;  ///< the outermost first
   size_t included_files_ = 0;
   size_t read_bytes_ = 0;
+  size_t entity_bytes_left_ = EntityRules::most_bytes;
   std::vector<std::shared_ptr<Object>> old_shapes_;  ///< of files before Mitsuba 2
   int depth_ = 0;
-  bool is_old_ = false;      ///< the scene is one of before Mitsuba 2
-  bool incomplete_ = false;  ///< a part of the scene could not be read at all
+  Version version_ = {0, 0, 0};  ///< of the scene
+  bool incomplete_ = false;      ///< a part of the scene could not be read at all
 };
 
 }  // namespace kaustik::mitsuba

@@ -47,7 +47,8 @@ Transform old_from_new() {
 void upgrade_sky(Object& object, Version version) {
   const bool is_sun = object.type == "sun", is_sky = object.type == "sky";
   const bool has_both = object.type == "sunsky";
-  if (version >= Version{2, 0, 0} || object.family != "emitter" || !(is_sun || is_sky || has_both))
+  if (version >= first_with_snake_case || object.family != "emitter" ||
+      !(is_sun || is_sky || has_both))
     return;
   if (const auto scale = without_number(object, "scale")) {
     if (!is_sky) multiply(object, "sun_scale", *scale);
@@ -62,6 +63,25 @@ void upgrade_sky(Object& object, Version version) {
     object.properties.push_back({"to_world", old_from_new(), object.place});
   else if (const auto* placed = std::get_if<Transform>(&to_world->value))
     to_world->value = *placed * old_from_new();
+}
+
+std::shared_ptr<Object> emitter_of_dark_scenes(Version version, const Place& place) {
+  if (version >= first_with_snake_case) return nullptr;
+  const auto emitter = std::make_shared<Object>();
+  emitter->family = "emitter";
+  emitter->place = place;
+  if (version < Version{0, 4, 0}) {
+    emitter->type = "constant";
+    emitter->properties = {{"radiance", 0.8, place}};
+    return emitter;
+  }
+  // A sun that is larger than the real one, so that it is found sooner.
+  emitter->type = "sunsky";
+  emitter->properties = {{"scale", 2.0, place},
+                         {"sun_radius_scale", 15.0, place},
+                         {"to_world", Transform::rotate({0, 1, 0}, -120), place}};
+  upgrade_sky(*emitter, version);
+  return emitter;
 }
 
 }  // namespace kaustik::mitsuba

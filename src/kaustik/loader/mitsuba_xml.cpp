@@ -1,7 +1,7 @@
 #include "kaustik/loader/mitsuba_xml.h"
 
 #include "kaustik/loader/mitsuba_reader.h"
-#include "kaustik/loader/xml_document.h"
+#include "kaustik/loader/xml_scan.h"
 
 namespace kaustik {
 

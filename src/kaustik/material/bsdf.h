@@ -182,8 +182,8 @@ class Bsdf {
   virtual BsdfSample sample(const BsdfContext& context, const Vec3f& wo, float u_lobe,
                             const Vec2f& u, Lobes lobes) const = 0;
   /// Share of the light from wo that the lobes scatter (directional albedo), exact for diffuse and
-  /// delta lobes, an estimate within a few percent for glossy ones. At most 1 unless a texture is
-  /// over 1; an energy, so the transport mode makes no difference.
+  /// delta lobes, an estimate within a few percent for glossy ones; ten of textured layers. At most
+  /// 1 unless a texture is over 1; an energy, so the transport mode makes no difference.
   virtual Spectrum albedo(const BsdfContext& context, const Vec3f& wo, Lobes lobes) const = 0;
 
  private:

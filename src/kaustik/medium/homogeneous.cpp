@@ -1,10 +1,12 @@
 #include "kaustik/medium/homogeneous.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "kaustik/medium/coefficients.h"
 #include "kaustik/medium/heterogeneous.h"
 #include "kaustik/medium/medium_kinds.h"
+#include "kaustik/medium/medium_presets.h"
 
 namespace kaustik {
 namespace {
@@ -39,17 +41,28 @@ Spectrum left_after(float distance, const Spectrum& extinction) {
   return result;
 }
 
+std::vector<std::string> material_choices() {
+  std::vector<std::string> names = medium_preset_names();
+  names.insert(names.begin(), "none");
+  return names;
+}
+
 const TypeInfo& homogeneous_info() {
   static const TypeInfo info{
       "medium",
       "homogeneous",
       "Haze, water, milk: absorbs and scatters light, the same everywhere. Give 'albedo' and "
-      "'sigma_t', or 'sigma_a' and 'sigma_s'; a nested phase function says where it scatters to.",
+      "'sigma_t', 'sigma_a' and 'sigma_s', or a 'material'; a nested phase function says where it "
+      "scatters to.",
       {albedo_parameter(), sigma_t_parameter(),
        optional(
            color_parameter("sigma_a", 0, "Absorption, instead of albedo and sigma_t.").in("1/m")),
        optional(
            color_parameter("sigma_s", 0, "Scattering, instead of albedo and sigma_t.").in("1/m")),
+       choice_parameter("material", "none", material_choices(),
+                        "A substance that was measured, instead of coefficients: per millimetre, "
+                        "so that 'scale' is 1000 in a scene of metres. It scatters evenly, by its "
+                        "reduced coefficient."),
        medium_scale_parameter(), ignored_parameter("sample_emitters", ParameterKind::boolean),
        ignored_parameter("has_spectral_extinction", ParameterKind::boolean)}};
   return info;
@@ -62,25 +75,44 @@ Spectrum share(const Spectrum& part, const Spectrum& whole) {
   return result;
 }
 
+/// What a medium scatters and absorbs; before `scale`.
+struct Parts {
+  SpectralValue scattered, absorbed;
+};
+
+/// Null: the medium is described by albedo and extinction. Throws where it is described twice.
+std::optional<Parts> given_parts(const MediumInputs& inputs) {
+  const Arguments& arguments = inputs.arguments;
+  const MediumPreset* const preset = find_medium_preset(arguments.text("material"));
+  const bool by_parts = arguments.given("sigma_a") || arguments.given("sigma_s");
+  if (preset && by_parts)
+    throw Error(ErrorKind::input, "the medium is described twice",
+                "keep 'material', or 'sigma_a' and 'sigma_s'", arguments.place_of("material"));
+  if (!preset && !by_parts) return std::nullopt;
+  for (const char* name : {"albedo", "sigma_t"})
+    if (arguments.given(name) || inputs.volume(name))
+      throw Error(ErrorKind::input, "the medium is described twice",
+                  "give either 'albedo' and 'sigma_t', or 'sigma_a' and 'sigma_s', or 'material'",
+                  arguments.place_of(name));
+  if (preset) return Parts{coefficient(preset->reduced_sigma_s()), coefficient(preset->sigma_a)};
+  const auto part = [&](const char* name) {
+    return arguments.given(name) ? coefficient(arguments.color(name)) : SpectralValue();
+  };
+  return Parts{part("sigma_s"), part("sigma_a")};
+}
+
 std::shared_ptr<const Medium> create_homogeneous(const MediumInputs& inputs) {
   const Arguments& arguments = inputs.arguments;
-  const bool by_parts = arguments.given("sigma_a") || arguments.given("sigma_s");
-  for (const char* name : {"albedo", "sigma_t"})
-    if (by_parts && (arguments.given(name) || inputs.volume(name)))
-      throw Error(ErrorKind::input, "the medium is described twice",
-                  "give either 'albedo' and 'sigma_t' or 'sigma_a' and 'sigma_s'",
-                  arguments.place_of(name));
+  const std::optional<Parts> parts = given_parts(inputs);
   if (given_grid(inputs, "sigma_t"))
     throw Error(ErrorKind::input, "a homogeneous medium cannot have a grid of 'sigma_t'",
                 "make the medium one of type 'heterogeneous'", inputs.volume("sigma_t")->place);
   if (given_grid(inputs, "albedo")) return make_heterogeneous(inputs);
   const auto scale = float(arguments.number("scale"));
   SpectralValue extinction, scattering;
-  if (by_parts) {
-    const auto part = [&](const char* name) {
-      return arguments.given(name) ? coefficient(arguments.color(name)) : SpectralValue();
-    };
-    const SpectralValue scattered = part("sigma_s"), all = scattered + part("sigma_a");
+  if (parts) {
+    const SpectralValue& scattered = parts->scattered;
+    const SpectralValue all = scattered + parts->absorbed;
     extinction = all * scale;
     const Spectrum rgb = extinction.rgb() * share(scattered.rgb(), all.rgb());
     scattering = (scattered * scale).with_rgb(rgb);

@@ -123,7 +123,11 @@ std::string missed_lamps_warning(const Scene& scene) {
   const bool has_lamps = std::ranges::any_of(scene.lights(), [](const auto& light) {
     return light->traits().is_delta && !light->traits().is_only_seen;
   });
-  if (!scene.camera().traits().measures_irradiance || !has_lamps) return {};
+  const CameraTraits& camera = scene.camera().traits();
+  if (!camera.has_ways || !has_lamps) return {};
+  if (!camera.measures_irradiance)
+    return "the fluencemeter misses what point, spot and directional lamps send straight to it: "
+           "let small spheres shine instead";
   return "the irradiancemeter stands in a shape with bsdf 'null', where it misses what point, spot "
          "and directional lamps send straight to it: give the shape another bsdf";
 }

@@ -124,8 +124,8 @@ struct CameraType {
   bool needs_shape = false;  ///< it belongs to a shape
   bool takes_shape = false;  ///< it may hold one, which it looks at
 };
-/// "perspective", "thinlens", "orthographic", "fisheye", "spherical", "cylinder",
-/// "irradiancemeter", "radiancemeter", "distant".
+/// "perspective", "thinlens", "orthographic", "telecentric", "fisheye", "spherical", "cylinder",
+/// "irradiancemeter", "radiancemeter", "fluencemeter", "distant".
 const std::vector<CameraType>& camera_types();
 
 }  // namespace kaustik

@@ -8,11 +8,13 @@ namespace kaustik {
 CameraType perspective_camera_type();
 CameraType thin_lens_camera_type();
 CameraType orthographic_camera_type();
+CameraType telecentric_camera_type();
 CameraType fisheye_camera_type();
 CameraType spherical_camera_type();
 CameraType cylinder_camera_type();
 CameraType irradiance_meter_type();
 CameraType radiance_meter_type();
+CameraType fluence_meter_type();
 CameraType distant_camera_type();
 
 /// "hdrfilm", and films of other programs that it stands for.

@@ -11,15 +11,17 @@
 namespace kaustik {
 namespace {
 
-constexpr int64_t usual_size = 256, largest_size = 8192;
+constexpr int64_t usual_size = 256, least_size = 2, largest_size = 8192;
 
-/// How many heights along an axis: what the shape says, else what the texture's picture has.
+/// How many heights along an axis: what the shape says, else what the texture's picture has. Of
+/// what is out of its range, which is told elsewhere, as few as there can be.
 size_t size_along(const Object& shape, const char* name, int of_picture) {
-  int64_t size = of_picture > 0 ? of_picture : usual_size;
+  int64_t size =
+      std::clamp<int64_t>(of_picture > 0 ? of_picture : usual_size, least_size, largest_size);
   for (const Property& property : shape.properties)
     if (const auto* given = std::get_if<int64_t>(&property.value); given && property.name == name)
-      size = *given;  // what is out of its range is told elsewhere
-  return size_t(std::clamp<int64_t>(size, 2, largest_size));
+      size = *given >= least_size && *given <= largest_size ? *given : least_size;
+  return size_t(size);
 }
 
 /// Luminances in the middles of so many equal parts of the uv square. Textures in space lie on the

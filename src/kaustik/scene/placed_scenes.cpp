@@ -120,10 +120,13 @@ std::shared_ptr<Object> placed_emitter(const Object& emitter, const Transform& w
   return moved(emitter, type->info, world);
 }
 
-/// A shape, of whatever type, brought to where `world` puts it.
+/// A shape, of whatever type, brought to where `world` puts it, without the sensors in it.
 std::shared_ptr<Object> placed_shape(const Object& shape, const Transform& world) {
   const TypeInfo* info = scene_types().find(shape.family, shape.type);
-  return info ? moved(shape, *info, world) : std::make_shared<Object>(shape);
+  auto placed = info ? moved(shape, *info, world) : std::make_shared<Object>(shape);
+  std::erase_if(placed->children,
+                [](const Child& child) { return child.object->family == "sensor"; });
+  return placed;
 }
 
 class Flattener {
@@ -221,10 +224,21 @@ class Flattener {
     else if (part.family == "emitter")
       top_->children.push_back({"", placed_emitter(part, world)});
     else if (shines(part))
-      top_->children.push_back({"", placed_shape(part, world)});
+      place_lamp(part, world);
     else if (is_shape(part, "instance"))
       top_->children.push_back({"", std::make_shared<Object>(part)});  // the builder refuses it
-    else if (is_of_whole_picture(part) && reported_.insert(&part).second)
+    else if (is_of_whole_picture(part))
+      tell_of_no_effect(part);
+  }
+
+  void place_lamp(const Object& lamp, const Transform& world) {
+    for (const Child& child : lamp.children)
+      if (child.object->family == "sensor") tell_of_no_effect(*child.object);
+    top_->children.push_back({"", placed_shape(lamp, world)});
+  }
+
+  void tell_of_no_effect(const Object& part) {
+    if (reported_.insert(&part).second)
       warnings_.push_back(fmt::format("the {} of a placed scene has no effect", part.family));
   }
 

@@ -390,8 +390,8 @@ uint32_t SceneBuilder::group_index(const std::shared_ptr<Object>& group) {
     if (child.object->family != "shape") continue;
     for (const Child& part : child.object->children)
       if (part.object->family == "sensor")
-        problems_.add("a sensor cannot belong to a shape of a shape group",
-                      "put the shape at the top of the scene", part.object->place);
+        told_unless_strict("a sensor of a shape of a shape group has no effect",
+                           "put the shape at the top of the scene", part.object->place);
     if (auto built = make_shape(*child.object)) groups_[index].push_back(std::move(*built));
   }
   if (group->children.empty())

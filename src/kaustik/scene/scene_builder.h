@@ -149,6 +149,8 @@ class SceneBuilder {
   const Object* emitter_instead_of(const PendingLight& pending);
   /// Of the mesh file that a shape of another program names; null: it names none.
   const Object* shape_instead_of(const Object& shape);
+  /// A pinhole for Mitsuba 0.6's camera with radial distortion; warns. Null: it is none.
+  const Object* sensor_instead_of(const Object& sensor);
   /// Makes Mitsuba's camera of scenes that have none the sensor; warns. False, with the problem
   /// told, where there is nothing to see.
   bool place_camera(const Place& place);

@@ -9,6 +9,8 @@ namespace kaustik {
 
 void SceneBuilder::make_sensor(const Object& object) {
   const CameraType* type = find_row(camera_types(), object.type);
+  if (!type)
+    if (const Object* known = sensor_instead_of(object)) return make_sensor(*known);
   if (!type && is_foreign(object, names_of(camera_types()))) {
     use_instead(object, names_of(camera_types()), "perspective");
     type = find_row(camera_types(), "perspective");

@@ -132,6 +132,17 @@ const Object* SceneBuilder::shape_instead_of(const Object& shape) {
   return nullptr;
 }
 
+const Object* SceneBuilder::sensor_instead_of(const Object& sensor) {
+  if (is_strict_ || sensor.type != "perspective_rdist") return nullptr;
+  leave_out(sensor, "'perspective' stands for it, without its radial distortion");
+  const auto pinhole = std::make_shared<Object>(sensor);
+  pinhole->type = "perspective";
+  std::erase_if(pinhole->properties,
+                [](const Property& property) { return property.name == "kc"; });
+  stand_ins_.push_back(pinhole);
+  return pinhole.get();
+}
+
 bool SceneBuilder::place_camera(const Place& place) {
   if (shapes_.empty() && instances_.empty()) {
     problems_.add("the scene has no camera",
