@@ -105,6 +105,8 @@ BEGIN {
   allow("render", \
     "base image geometry volume material medium light scene transport photon irradiance vcm photonmap " \
     "integrator")
+  allow("live", \
+        "base image geometry volume material medium light scene transport photon irradiance vcm photonmap integrator render")
   allow("loader", "base scene")
   # The front ends get at the lower rooms through render; these are what its interface speaks of.
   allow("apps", "base image scene integrator render loader")

@@ -24,7 +24,8 @@ std::string scene_name(const RenderRecipe& recipe) {
 Job::Job(Description description, JobSettings settings, JobListener listener)
     : description_(std::move(description)),
       settings_(std::move(settings)),
-      listener_(std::move(listener)) {}
+      listener_(std::move(listener)),
+      previous_(std::move(settings_.previous)) {}
 
 Job::~Job() {
   cancel();
@@ -127,6 +128,7 @@ void Job::work() {
   } catch (...) {
     failure_ = std::current_exception();
   }
+  if (listener_.ended) listener_.ended(failure_);
 }
 
 void Job::teach(const PreparedScene& prepared) const {
@@ -247,6 +249,8 @@ void Job::edit(Description description) {
 }
 
 const Scene& Job::scene() const { return *current()->prepared.scene; }
+
+std::shared_ptr<const Scene> Job::shared_scene() const { return current()->prepared.scene; }
 
 const Film& Job::film() const { return current()->session->film(); }
 

@@ -23,6 +23,8 @@ struct JobListener {
   std::function<void(const Progress&)> progress;  ///< Session::run()
   /// After every finished pass, when no thread works.
   std::function<void(const Film&)> pass_done;
+  /// Last of all, when rendering has ended; what wait() is going to throw, or null. Must not throw.
+  std::function<void(const std::exception_ptr&)> ended = {};
 };
 
 /// What a job makes of its scene: a picture by run() or start(), lessons by learn(), photon maps by
@@ -49,6 +51,8 @@ struct JobSettings {
   /// begins with a light pass. It takes a fraction of a second of the render. Whatever is said
   /// here, they do so where time has ended the render before that.
   bool previews = false;
+  /// A scene to share with what is the same; null: none.
+  std::shared_ptr<const Scene> previous;
   std::chrono::steady_clock::time_point clock_start = std::chrono::steady_clock::now();
 };
 
@@ -109,6 +113,7 @@ class Job {
 
   /// After prepare().
   const Scene& scene() const;
+  std::shared_ptr<const Scene> shared_scene() const;
   // Only while it does not run, after the session was made.
   const Film& film() const;
   Image image() const;  ///< Session::image()

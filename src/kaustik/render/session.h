@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kaustik/render/film.h"
+#include "kaustik/render/gate.h"
 #include "kaustik/transport/integrator.h"
 
 namespace kaustik {
@@ -41,6 +42,9 @@ struct SessionSettings {
   std::optional<double> error;
   /// Seconds since some moment, asked by several threads; absent: the machine's clock.
   std::function<double()> clock;
+  /// While it is closed no samples are taken, and no time counts; a light pass is finished all the
+  /// same. Null: nobody closes it.
+  std::shared_ptr<Gate> gate;
 };
 
 /// A look at a running session.

@@ -57,9 +57,13 @@ class Session::Monitor {
   uint32_t passes_done() const { return passes_done_; }
   double error() const { return error_; }
   double now() const {
-    if (session_.settings_.clock) return session_.settings_.clock();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
+    const SessionSettings& settings = session_.settings_;
+    const double now =
+        settings.clock
+            ? settings.clock()
+            : std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+                  .count();
+    return settings.gate ? now - settings.gate->closed_s() : now;
   }
   double seconds_since(double start) const { return now() - start; }
   double elapsed() const { return seconds_since(start_); }

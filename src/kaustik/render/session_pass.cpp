@@ -15,7 +15,7 @@ namespace {
 
 /// Of the first samples of a first pass one pixel in so many squared gets the first ones, so that
 /// there is a picture early.
-constexpr int first_stride = 4;
+constexpr int first_stride = 8;
 
 /// Samples, or pixels, between two looks at the clock.
 constexpr int samples_per_look = 16;
@@ -177,6 +177,8 @@ struct Session::CameraPass {
   /// Halts at this time of the session, too.
   std::optional<double> last_second = std::nullopt;
   std::atomic<bool> halted = false, more = false;  ///< pixels have samples left
+  /// Pixels lack samples of the round, for the gate was closed.
+  std::atomic<bool> rests = false;
 
   /// Whether it is to be left as it is.
   bool halts() {
@@ -209,8 +211,13 @@ bool Session::render_camera(const Pass& pass, const PassState& state, const std:
   for (bool more = true; more && !camera.halted; round = round.next()) {
     camera.more = false;
     if (is_first && round.end > always) camera.last_second = settings_.seconds;
-    parallel_blocks(pass_.tiles().count(), 1,
-                    [&](size_t tile, size_t, size_t) { render_tile(camera, tile, round); });
+    // Who rests keeps no thread from others' work.
+    do {
+      if (settings_.gate) settings_.gate->pass(stop);
+      camera.rests = false;
+      parallel_blocks(pass_.tiles().count(), 1,
+                      [&](size_t tile, size_t, size_t) { render_tile(camera, tile, round); });
+    } while (camera.rests && !camera.halts());
     if (is_first && !camera.halted) has_picture_ = true;
     more = camera.more || round.stride > 1;
   }
@@ -227,13 +234,15 @@ void Session::render_tile(CameraPass& camera, size_t tile, const Round& round) {
   pass_.load(tile, *pixels);
   pass_.tiles().for_pixels_of(tile, [&](int x, int y, size_t place) {
     if (camera.halted || x % round.stride != 0 || y % round.stride != 0) return;
+    if (settings_.gate && settings_.gate->is_closed()) camera.rests = true;
+    if (camera.rests) return;
     PassPixel& pixel = (*pixels)[place];
     const uint32_t before = pixel.samples;
     rays += render_pixel(camera, x, y, round.end, scratch, pixel);
     samples += pixel.samples - before;
   });
   // Of a first pass snapshots show the sums.
-  if (round.is_last() && film_.pass_count() > 0) finish(tile, *pixels);
+  if (round.is_last() && film_.pass_count() > 0 && !camera.rests) finish(tile, *pixels);
   pass_.store(tile, *pixels);
   lock.unlock();
   camera.monitor.samples_done(samples, rays);

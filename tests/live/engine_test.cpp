@@ -1,0 +1,213 @@
+// Scenes that change while they are rendered.
+
+#include "kaustik/live/engine.h"
+
+#include <gtest/gtest.h>
+
+#include "kaustik/loader/mitsuba_xml.h"
+#include "tests/support/same_bits.h"
+#include "tests/support/scripted_integrator.h"
+
+namespace kaustik {
+namespace {
+
+using namespace test;
+using namespace std::chrono_literals;
+
+constexpr auto long_enough = 120s;
+
+/// A room whose ball is at that height, by `path`.
+Description room_with_ball(double height, int size = 24, const std::string& more = "") {
+  return parse_mitsuba_xml(
+      "<scene version=\"3.0.0\"><integrator type=\"path\"/><sensor type=\"perspective\">"
+      "<float name=\"fov\" value=\"45\"/><transform name=\"to_world\"><lookat origin=\"0,-4,2\" "
+      "target=\"0,0,0.5\" up=\"0,0,1\"/></transform>" +
+          film_of(size, size) + "</sensor>" + room +
+          "<shape type=\"sphere\"><float name=\"radius\" value=\"0.3\"/><point name=\"center\" "
+          "x=\"1\""
+          " y=\"0\" z=\"" +
+          std::to_string(height) + "\"/></shape>" + more + "</scene>",
+      "test.xml", "");
+}
+
+EngineSettings engine_settings(uint32_t passes) {
+  EngineSettings settings;
+  settings.session.passes = passes;
+  settings.session.samples_per_pass = 1;
+  settings.session.threads = 2;
+  settings.snapshot_interval_s = 0;
+  return settings;
+}
+
+/// What a job makes of it.
+Image by_job(Description description, uint32_t passes) {
+  JobSettings settings;
+  settings.session = engine_settings(passes).session;
+  Job job(std::move(description), std::move(settings));
+  job.run();
+  return job.image();
+}
+
+TEST(Engine, RendersWhatAJobDoes) {
+  Engine engine(engine_settings(4));
+  EXPECT_EQ(engine.status().state, EngineState::idle);
+  EXPECT_EQ(engine.snapshot(), nullptr);
+  EXPECT_EQ(engine.edit(room_with_ball(0.5)), 1u);
+  engine.start();
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  const EngineStatus status = engine.status();
+  EXPECT_EQ(status.state, EngineState::finished);
+  EXPECT_EQ(status.revision, 1u);
+  EXPECT_FALSE(status.failure);
+  const auto last = engine.snapshot();
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->kind, Snapshot::Kind::passes);
+  EXPECT_EQ(last->passes, 4u);
+  EXPECT_TRUE(same_bits(last->picture, by_job(room_with_ball(0.5), 4)));
+}
+
+TEST(Engine, NumbersItsSnapshots) {
+  Engine engine(engine_settings(6));
+  EXPECT_EQ(engine.wait_for_snapshot(0, 1ms), nullptr);
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  uint64_t number = 0;
+  uint32_t passes = 0;
+  while (const auto next = engine.wait_for_snapshot(number, long_enough)) {
+    EXPECT_GT(next->number, number);
+    EXPECT_GE(next->passes, passes);
+    number = next->number;
+    passes = next->passes;
+    if (passes == 6) break;
+  }
+  EXPECT_EQ(passes, 6u);
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_EQ(engine.wait_for_snapshot(engine.snapshot()->number, 1ms), nullptr);
+}
+
+TEST(Engine, ShowsTheLastOfManyEdits) {
+  Engine engine(engine_settings(3));
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  ASSERT_TRUE(engine.wait_for_snapshot(0, long_enough));
+  for (int i = 0; i < 50; ++i) engine.edit(room_with_ball(0.5 + 0.01 * i));
+  EXPECT_EQ(engine.edit(room_with_ball(1.5)), 52u);
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_EQ(engine.status().revision, 52u);
+  EXPECT_EQ(engine.snapshot()->revision, 52u);
+  EXPECT_TRUE(same_bits(engine.snapshot()->picture, by_job(room_with_ball(1.5), 3)));
+}
+
+/// The picture before goes on with all of its passes, as if nothing had been said.
+TEST(Engine, ARefusedEditHarmsNothing) {
+  Engine engine(engine_settings(40));
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  ASSERT_TRUE(engine.wait_for_snapshot(0, long_enough));
+  const uint64_t refused = engine.edit(room_with_ball(
+      0.5, 24, "<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>"));
+  while (!engine.status().failure) std::this_thread::sleep_for(1ms);
+  EXPECT_LT(engine.status().revision, refused);
+  try {
+    std::rethrow_exception(engine.status().failure);
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("radius"), std::string::npos) << error.what();
+  }
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_EQ(engine.status().state, EngineState::finished);
+  EXPECT_EQ(engine.snapshot()->passes, 40u);
+  EXPECT_TRUE(same_bits(engine.snapshot()->picture, by_job(room_with_ball(0.5), 40)));
+  // The next one is taken, and the failure is forgotten.
+  engine.edit(room_with_ball(1));
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_FALSE(engine.status().failure);
+  EXPECT_EQ(engine.snapshot()->revision, 3u);
+}
+
+TEST(Engine, AFirstEditThatIsRefusedFails) {
+  Engine engine(engine_settings(2));
+  EXPECT_THROW(engine.start(), std::logic_error);
+  engine.edit(room_with_ball(0.5, 24, "<shape type=\"spehre\"/>"));
+  engine.start();
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_EQ(engine.status().state, EngineState::failed);
+  EXPECT_TRUE(engine.status().failure);
+  EXPECT_EQ(engine.snapshot(), nullptr);
+}
+
+/// A pause costs nothing but time, and pictures may be looked at meanwhile.
+TEST(Engine, Rests) {
+  Engine engine(engine_settings(200));
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  ASSERT_TRUE(engine.wait_for_snapshot(0, long_enough));
+  engine.pause();
+  ASSERT_EQ(engine.status().state, EngineState::paused);
+  EXPECT_FALSE(engine.wait_until_done(20ms));
+  const uint32_t passes = engine.status().progress.passes_done;
+  EXPECT_LT(passes, 200u);
+  // One that was being finished may still come.
+  std::this_thread::sleep_for(50ms);
+  EXPECT_LE(engine.status().progress.passes_done, passes + 1);
+  engine.resume();
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_TRUE(same_bits(engine.snapshot()->picture, by_job(room_with_ball(0.5), 200)));
+}
+
+TEST(Engine, IsEditedAndStoppedWhileItRests) {
+  Engine engine(engine_settings(200));
+  engine.pause();
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  while (engine.status().state != EngineState::paused) std::this_thread::sleep_for(1ms);
+  engine.edit(room_with_ball(1));
+  while (engine.status().revision != 2) std::this_thread::sleep_for(1ms);
+  engine.stop();
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_EQ(engine.status().state, EngineState::idle);
+  engine.resume();
+  engine.start();
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_EQ(engine.snapshot()->passes, 200u);
+}
+
+TEST(Engine, StopsAndBeginsAnew) {
+  Engine engine(engine_settings(1'000'000));
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  ASSERT_TRUE(engine.wait_for_snapshot(2, long_enough));
+  engine.stop();
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  const auto last = engine.snapshot();
+  EXPECT_EQ(engine.wait_for_snapshot(last->number, 20ms), nullptr);
+  engine.start();
+  EXPECT_TRUE(engine.wait_for_snapshot(last->number, long_enough));
+  // Its destruction ends what goes on.
+}
+
+TEST(Engine, IsCommandedByManyThreads) {
+  Engine engine(engine_settings(30));
+  engine.edit(room_with_ball(0.5, 12));
+  engine.start();
+  std::vector<std::thread> threads;
+  for (int k = 0; k < 4; ++k)
+    threads.emplace_back([&engine, k] {
+      for (int i = 0; i < 30; ++i) {
+        if (k == 0) engine.edit(room_with_ball(0.5 + 0.01 * i, 12));
+        if (k == 1) i % 2 ? engine.pause() : engine.resume();
+        if (k == 2) i % 7 ? engine.start() : engine.stop();
+        engine.status();
+        engine.snapshot();
+        engine.wait_for_snapshot(uint64_t(i), 1ms);
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  engine.resume();
+  engine.start();
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_EQ(engine.status().state, EngineState::finished);
+  EXPECT_EQ(engine.snapshot()->passes, 30u);
+}
+
+}  // namespace
+}  // namespace kaustik
