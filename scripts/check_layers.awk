@@ -138,7 +138,6 @@ BEGIN {
   own("pugixml", "^pugi", "loader", not_in_word "pugi::")
   own("zlib", "^zlib", "base", not_in_word "z_stream")
   own("CLI11", "^CLI/", "apps", not_in_word "CLI::")
-  own("spdlog", "^spdlog/", "apps", not_in_word "spdlog::")
   own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")
   own("nanoflann", "^nanoflann", "", not_in_word "nanoflann::")
   own("nlohmann-json", "^nlohmann/", "", not_in_word "nlohmann::")
