@@ -108,7 +108,10 @@ std::string man_page(const CommandText& command) {
 
 std::string man_page_of_program(const CLI::App& program) {
   const CommandText own = text_of(program);
-  std::string text = title("kaustik", own.sentence);
+  // The name stands before it already.
+  const std::string name = "Kaustik: ";
+  std::string text = title(
+      "kaustik", own.sentence.starts_with(name) ? own.sentence.substr(name.size()) : own.sentence);
   text += heading("SYNOPSIS") + ".B kaustik\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n";
   // The table of exit codes has a section of its own.
   std::string footer = own.footer;

@@ -22,12 +22,17 @@ std::string zsh_text(const std::string& text) {
   return result;
 }
 
+/// "*.(exr|png)". Parentheses around one alone would be glob qualifiers.
+std::string zsh_pattern(const std::vector<std::string>& extensions) {
+  const std::string list = fmt::format("{}", fmt::join(extensions, "|"));
+  return extensions.size() == 1 ? "*." + list : "*.(" + list + ")";
+}
+
 std::string zsh_action(const OptionValues& values) {
   switch (values.kind) {
     case OptionValues::Kind::files:
-      return values.names.empty()
-                 ? "_files"
-                 : fmt::format("_files -g \"*.({})\"", fmt::join(values.names, "|"));
+      return values.names.empty() ? "_files"
+                                  : fmt::format("_files -g \"{}\"", zsh_pattern(values.names));
     case OptionValues::Kind::words:
       return fmt::format("({})", fmt::join(values.names, " "));
     default:

@@ -144,6 +144,8 @@ TEST_F(Manual, CompletionsOfOtherShellsHaveEveryOption) {
                   contains(fish, " -l " + option.substr(2) + " "))
           << command << " " << option;
     }
+  EXPECT_TRUE(contains(zsh, ":checkpoint:_files -g \"*.kpt\"'")) << zsh;
+  EXPECT_TRUE(contains(zsh, ":scene:_files -g \"*.(xml|xml.gz)\"'")) << zsh;
   write("completions.zsh", zsh);
   write("completions.fish", fish);
   if (is_installed("zsh")) {
