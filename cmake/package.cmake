@@ -1,5 +1,14 @@
 # `make install` and Debian packages by CPack. Component `program` is what users need; `development` is the library.
 install(TARGETS kaustik RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+# Man pages and completions, where shells of most distributions look, and for zsh those of Debian.
+set(made ${PROJECT_BINARY_DIR}/apps/kaustik/made)
+install(DIRECTORY ${made}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
+install(FILES ${made}/kaustik.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+        RENAME kaustik COMPONENT program)
+install(FILES ${made}/_kaustik DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT program)
+install(FILES ${made}/_kaustik DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+install(FILES ${made}/kaustik.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+        COMPONENT program)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kaustik COMPONENT program
         PATTERN generator EXCLUDE)
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

@@ -89,6 +89,7 @@ function check_names(line,    i) {
 BEGIN {
   allow("base", "")
   allow("image", "base")
+  allow("display", "base image")
   allow("volume", "base")
   allow("geometry", "base image volume")
   allow("material", "base image volume")
@@ -109,7 +110,7 @@ BEGIN {
         "base image geometry volume material medium light scene transport photon irradiance vcm photonmap integrator render")
   allow("loader", "base scene")
   # The front ends get at the lower rooms through render; these are what its interface speaks of.
-  allow("apps", "base image scene integrator render loader")
+  allow("apps", "base image display scene integrator render loader")
   # Tests of whole pictures and benchmarks may look everywhere.
   sees_all["vcm"]; sees_all["photonmap"]; sees_all["integrator"]; sees_all["render"]; sees_all["apps"]; sees_all["benchmarks"]
   sees_all["support"]; sees_all["fuzz"]; sees_all["agreement"]; sees_all["scene"]; sees_all["transport"]
@@ -128,7 +129,7 @@ BEGIN {
   own("Imath", "^Imath/", "base", "")
   own("oneTBB", "^(tbb|oneapi)/", "base", not_in_word "tbb::")
   own("fmt", "^fmt/", "base image geometry volume material medium light scene transport photon irradiance " \
-    "vcm photonmap integrator render loader apps", "")
+    "vcm photonmap integrator render loader display apps", "")
   own("OpenEXR", "^(OpenEXR/)?(Imf|Iex)", "image", not_in_word "(Imf|OPENEXR_IMF_NAMESPACE)::")
   own("libtiff", "^tiff", "image", not_in_word "TIFF[A-Z]?[a-z]*[ (*]")
   own("libpng", "^png", "image", not_in_word "png_(structp?|infop?|bytep?)" not_in_word)
@@ -139,11 +140,10 @@ BEGIN {
   own("pugixml", "^pugi", "loader", not_in_word "pugi::")
   own("zlib", "^zlib", "base", not_in_word "z_stream")
   own("CLI11", "^CLI/", "apps", not_in_word "CLI::")
-  own("spdlog", "^spdlog/", "apps", not_in_word "spdlog::")
   own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")
   own("nanoflann", "^nanoflann", "", not_in_word "nanoflann::")
   own("nlohmann-json", "^nlohmann/", "", not_in_word "nlohmann::")
-  system_headers = "^(sys/[a-z]+|sanitizer/tsan_interface|unistd|fcntl|signal|sched|stdlib|malloc|immintrin|poll)\\.h$"
+  system_headers = "^(sys/[a-z]+|sanitizer/tsan_interface|unistd|fcntl|signal|sched|stdlib|malloc|immintrin|poll|netdb)\\.h$"
 }
 
 FILENAME == "CMakeLists.txt" {

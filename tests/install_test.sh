@@ -24,6 +24,18 @@ check_program_alone() {
   [[ -z $library_parts ]] || fail "component program has parts of the library: $library_parts"
   "$work/program/bin/kaustik" info "$work/program/share/kaustik/scenes/cornell_spheres/cornell_spheres.xml" >/dev/null ||
     fail "the installed program cannot read the installed scene"
+  check_manual "$work/program/share"
+}
+
+# Man pages and completions are those of the installed program.
+check_manual() {
+  local program=$work/program/bin/kaustik
+  "$program" man render | cmp -s - "$1/man/man1/kaustik-render.1" || fail "man1/kaustik-render.1 is not what the program prints"
+  [[ -s $1/man/man1/kaustik.1 ]] || fail "component program has no man1/kaustik.1"
+  "$program" completion bash | cmp -s - "$1/bash-completion/completions/kaustik" || fail "no completions for bash"
+  "$program" completion zsh | cmp -s - "$1/zsh/site-functions/_kaustik" || fail "no completions for zsh"
+  cmp -s "$1/zsh/site-functions/_kaustik" "$1/zsh/vendor-completions/_kaustik" || fail "no completions for zsh on Debian"
+  "$program" completion fish | cmp -s - "$1/fish/vendor_completions.d/kaustik.fish" || fail "no completions for fish"
 }
 
 # What headers include is installed, or belongs to the packages that find_package(kaustik) finds.

@@ -6,6 +6,7 @@
 #include "kaustik/image/image_io.h"
 #include "kaustik/image/metrics.h"
 #include "numbers.h"
+#include "option_values.h"
 #include "standard_streams.h"
 
 namespace kaustik::app {
@@ -57,13 +58,17 @@ void add_compare(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("compare", "Print how an image differs from a reference.");
   auto o = std::make_shared<CompareOptions>();
-  command->add_option("image", o->image, "Image to judge")->required();
-  command->add_option("reference", o->reference, "Image that it should be")->required();
-  command->add_option("-o,--output", o->difference,
-                      "Picture of the relative difference to write: red brighter, blue darker");
+  takes_files(command->add_option("image", o->image, "Image to judge")->required(),
+              picture_extensions());
+  takes_files(command->add_option("reference", o->reference, "Image that it should be")->required(),
+              picture_extensions());
+  takes_files(
+      command->add_option("-o,--output", o->difference,
+                          "Picture of the relative difference to write: red brighter, blue darker"),
+      written_extensions());
   command->add_option("--scale", o->scale, "Relative difference that is fully red or blue [1]")
       ->check(number_between(0, std::numeric_limits<double>::infinity()));
-  command->add_option("--layer", o->layer, "Layer to compare [the picture itself]");
+  takes(command->add_option("--layer", o->layer, "Layer to compare [the picture itself]"), "LAYER");
   command->callback([o] { compare(*o); });
 }
 

@@ -8,8 +8,10 @@
 #include "kaustik/integrator/description_types.h"
 #include "kaustik/loader/mitsuba_writer.h"
 #include "kaustik/loader/scene_format.h"
+#include "option_values.h"
 #include "render_job.h"
 #include "scene_options.h"
+#include "screen.h"
 #include "standard_streams.h"
 
 namespace kaustik::app {
@@ -52,7 +54,9 @@ void add_convert(CLI::App& program) {
       "  kaustik convert scene.xml -o mitsuba3.xml");
   auto o = std::make_shared<ConvertOptions>();
   add_scene(*command, o->scene);
-  command->add_option("-o,--output", o->output, "Scene file to write, .xml")->required();
+  takes_files(
+      command->add_option("-o,--output", o->output, "Scene file to write, .xml")->required(),
+      {"xml"});
   add_definitions(*command, o->definitions);
   add_strict(*command, o->is_strict);
   command->add_flag("--force", o->force, "Replace a file that is there");

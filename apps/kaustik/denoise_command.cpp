@@ -5,6 +5,7 @@
 #include "kaustik/base/error.h"
 #include "kaustik/image/denoise.h"
 #include "kaustik/image/image_io.h"
+#include "option_values.h"
 #include "picture_file.h"
 
 namespace kaustik::app {
@@ -38,13 +39,16 @@ void add_denoise(CLI::App& program) {
     bool full_float = false, force = false;
   };
   auto o = std::make_shared<Options>();
-  command->add_option("image", o->input, "EXR that kaustik rendered, with all its layers")
-      ->required();
-  command
-      ->add_option("-o,--output", o->output,
-                   "EXR, HDR, PFM or LogLuv tif to write, - for standard output; for displays: "
-                   "kaustik tonemap")
-      ->required();
+  takes_files(
+      command->add_option("image", o->input, "EXR that kaustik rendered, with all its layers")
+          ->required(),
+      {"exr"});
+  takes_files(command
+                  ->add_option("-o,--output", o->output,
+                               "EXR, HDR, PFM or LogLuv tif to write, - for standard output; for "
+                               "displays: kaustik tonemap")
+                  ->required(),
+              {"exr", "hdr", "pfm", "tif"});
   command->add_flag("--float", o->full_float, "EXR with 32-bit instead of 16-bit floats");
   command->add_flag("--force", o->force, "Replace the image that is read");
   command->callback([o] {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "kaustik/base/file.h"
@@ -90,6 +91,18 @@ void FileRoles::writes(const std::string& path, const FileKind& kind, Replacing 
       ErrorKind::input,
       fmt::format("'{}' is there already, and is {}{}", path, is_of_kind ? "" : "not ", kind.name),
       (is_of_kind ? if_of_kind : "choose another name") + ", or replace it: --force");
+}
+
+void FileRoles::writes_stream(const std::string& path, const FileKind& kind) {
+  std::error_code unknown;
+  const fs::file_status status = fs::status(path, unknown);
+  if (!fs::exists(status) || fs::is_regular_file(status) || fs::is_directory(status))
+    return writes(path, kind, Replacing::own_kind, "");
+  writes(path);
+}
+
+bool FileRoles::writes_standard_output() const {
+  return std::any_of(outputs_.begin(), outputs_.end(), is_standard_stream);
 }
 
 void FileRoles::check() const {

@@ -36,6 +36,10 @@ class FileRoles {
   /// of that kind. Empty files may be replaced.
   void writes(const std::string& path, const FileKind& kind, Replacing replacing,
               const std::string& if_of_kind);
+  /// The same of what may replace its own kind, and may be something else than a file, a pipe.
+  void writes_stream(const std::string& path, const FileKind& kind);
+  /// Whether a picture goes to standard output.
+  bool writes_standard_output() const;
   /// Throws as writes() does, for each of the outputs.
   void check() const;
 

@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "commands.h"
+#include "exit_codes.h"
 #include "kaustik/base/limits.h"
 #include "kaustik/image/tone_mapping.h"
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/scene/type_tables.h"
+#include "option_values.h"
 #include "thesis_settings.h"
 
 namespace kaustik::app {
@@ -52,8 +56,20 @@ void print_table(const TypeInfo& info) {
   if (!ignored.empty()) fmt::print("\n  Accepted, no effect: {}\n", fmt::join(ignored, ", "));
 }
 
+/// All that there is help for.
+std::vector<std::string> topics() {
+  std::vector<std::string> names{"exit", "thesis"};
+  const auto add = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const TypeInfo* info : all_types()) add(info->family);
+  for (const TypeInfo* info : all_types()) add(info->name);
+  return names;
+}
+
 void help(const std::string& name) {
   if (name == "thesis") return print_thesis_variables();
+  if (name == "exit") return fmt::print("{}\n", exit_code_text());
   std::vector<std::string> names;
   bool found = false;
   const ForeignIntegrator* foreign = find_foreign_integrator(name);
@@ -68,7 +84,9 @@ void help(const std::string& name) {
   if (found) return;
   if (!name.empty())
     throw Error(ErrorKind::input, fmt::format("there is no type '{}'", name), suggest(name, names));
-  fmt::print("kaustik help TYPE prints the parameters of a type. Types:\n");
+  fmt::print(
+      "kaustik help TYPE prints the parameters of a type, kaustik help exit what exit codes mean. "
+      "Types:\n");
   std::string family;
   for (const TypeInfo* info : all_types()) {
     if (info->family != family) fmt::print("\n{}\n", family = info->family);
@@ -82,10 +100,10 @@ void add_help(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("help", "Print the parameters of a type, or list all types.");
   auto name = std::make_shared<std::string>();
-  command->add_option(
-      "type", *name,
-      "Type or family, such as photonmap, bsdf, film; or \"thesis\": variables of the "
-      "environment");
+  takes_words(command->add_option("type", *name,
+                                  "Type or family, such as photonmap, bsdf, film; or \"thesis\": "
+                                  "variables of the environment; or \"exit\": exit codes"),
+              topics(), "TYPE");
   command->callback([name] { help(*name); });
 }
 

@@ -2,13 +2,16 @@
 
 #include "commands.h"
 #include "console.h"
+#include "events.h"
 #include "exit_codes.h"
 #include "file_roles.h"
 #include "kaustik/base/version.h"
 #include "numbers.h"
+#include "option_values.h"
+#include "progress_options.h"
 #include "render_job.h"
 #include "scene_options.h"
-#include "standard_streams.h"
+#include "screen.h"
 #include "texture_memory.h"
 #include "thesis_settings.h"
 
@@ -23,7 +26,8 @@ struct LearnOptions {
   std::optional<uint32_t> spp;
   BuildOptions build;
   int threads = 0;
-  bool force = false, quiet = false;
+  bool force = false;
+  ProgressOptions progress;
 };
 
 SessionSettings session_settings(const LearnOptions& options) {
@@ -42,9 +46,11 @@ void learn_scene(LearnOptions options) {
   roles.writes(options.output, {"a file of lessons", is_lessons_file},
                options.force ? Replacing::anything : Replacing::own_kind, "");
   recipe.definitions = parse_definitions(options.definitions);
+  begin_events(options.progress, roles, "learn", recipe.scene);
   Description description = load_description(recipe);
   roles.reads(description);
   roles.check();
+  begin_event_file(options.progress, roles, "learn", recipe.scene);
   recipe.settings = collected_settings(integrator_of(description, recipe), {}, options.settings);
   JobSettings settings;
   settings.task = JobTask::learn;
@@ -54,14 +60,18 @@ void learn_scene(LearnOptions options) {
   settings.build = options.build;
   Job job(std::move(description), std::move(settings), {terminal_messages(), {}, {}});
   Learned result;
-  run_to_the_end(job, options.quiet,
+  const bool is_quiet = options.progress.quiet;
+  run_to_the_end(job, {progress_style(options.progress), is_quiet, {}},
                  [&](const ProgressFunction& progress) { result = job.learn(progress); });
   const StoredLessons& stored = result.stored;
   write_lessons(options.output, stored);
-  if (!options.quiet)
+  events().written(options.output, JsonObject()
+                                       .add("passes", stored.lessons.passes)
+                                       .add("samples_per_pass", stored.samples_per_pass));
+  if (!is_quiet)
     for (const std::string& decision : result.report.decisions) note(decision);
   for (const std::string& warning : result.report.warnings) warn(warning);
-  if (!options.quiet)
+  if (!is_quiet)
     say("wrote {}: what {} passes of {} samples a pixel taught {}", options.output,
         stored.lessons.passes, stored.samples_per_pass, stored.integrator);
   if (!result.cancelled) return;
@@ -85,13 +95,17 @@ void add_learn(CLI::App& program) {
       "Give both the same -D, --set and --integrator.");
   auto o = std::make_shared<LearnOptions>();
   add_scene(*command, o->recipe.scene);
-  command->add_option("-o,--output", o->output, "File of lessons to write, .kln")->required();
+  takes_files(
+      command->add_option("-o,--output", o->output, "File of lessons to write, .kln")->required(),
+      {"kln"});
   add_definitions(*command, o->definitions);
   add_strict(*command, o->recipe.is_strict);
   add_camera(*command, o->recipe.camera);
   add_settings(*command, o->settings, "integrator.max_depth=8, film.width=400, ID.radius=2");
-  command->add_option("--integrator", o->recipe.integrator,
-                      "Use this method instead of the file's: auto, vcm, ppm, bdpt learn");
+  takes_words(
+      command->add_option("--integrator", o->recipe.integrator,
+                          "Use this method instead of the file's: auto, vcm, ppm, bdpt learn"),
+      {"auto", "vcm", "ppm", "bdpt"}, "METHOD");
   command->add_option("--passes", o->passes, "Number of passes to learn from, up to 256 [16]")
       ->check(whole_number(1, 256));
   command
@@ -103,8 +117,8 @@ void add_learn(CLI::App& program) {
   command->add_option("--seed", o->recipe.seed,
                       "Seed of all random numbers; renders of the same seed draw others [0]");
   add_texture_memory(*command, o->build);
-  command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
-  command->add_flag("-q,--quiet", o->quiet, "No progress, no decisions");
+  add_threads(*command, o->threads);
+  add_progress(*command, o->progress, "No progress, no decisions");
   command->callback([o] { learn_scene(*o); });
 }
 

@@ -1,19 +1,23 @@
+#include <fmt/format.h>
 #include <malloc.h>
 
-#include <fmt/format.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <memory>
 #include <new>
+#include <string>
 #include <string_view>
 
 #include "commands.h"
+#include "events.h"
 #include "exit_codes.h"
 #include "kaustik/base/error.h"
 #include "kaustik/base/version.h"
+#include "screen.h"
+#include "signals.h"
 #include "standard_streams.h"
+#include "version_json.h"
 
 namespace {
 
@@ -52,13 +56,19 @@ void check_command(const std::string& name, const CLI::App& program) {
 
 int run(int argc, char** argv) {
   CLI::App program{"Kaustik: a photon mapping renderer in physical units.", "kaustik"};
-  program.set_version_flag("--version", KAUSTIK_VERSION);
+  auto as_json = std::make_shared<bool>(false);
+  auto* json =
+      program.add_flag("--json", *as_json, "Of --version: as JSON, with what it was built with");
+  json->needs(program.set_version_flag(
+      "--version",
+      [as_json] { return *as_json ? kaustik::app::version_json() : std::string(KAUSTIK_VERSION); },
+      "Print the version"));
   program.require_subcommand(1);
   program.footer(
       "Start with: kaustik render scenes/cornell_box/cornell_box.xml -o cornell.exr -o "
       "cornell.png\n"
       "Every parameter of every object: kaustik help\n\n" +
-      std::string(kaustik::app::exit_code_table));
+      kaustik::app::exit_code_text());
   kaustik::app::add_render(program);
   kaustik::app::add_resume(program);
   kaustik::app::add_tonemap(program);
@@ -71,6 +81,8 @@ int run(int argc, char** argv) {
   kaustik::app::add_stitch(program);
   kaustik::app::add_convert(program);
   kaustik::app::add_help(program);
+  kaustik::app::add_man(program);
+  kaustik::app::add_completion(program);
   if (argc > 1) check_command(argv[1], program);
   try {
     program.parse(argc, argv);
@@ -81,57 +93,68 @@ int run(int argc, char** argv) {
   return 0;
 }
 
-/// What ended the program before its time, in words and as its exit code; called where it is
-/// caught.
-int told() {
+/// What ended the program before its time, in words, which `message` keeps, and as its exit code;
+/// called where it is caught.
+int told(std::string& message) {
   using namespace kaustik::app;
   try {
     throw;
   } catch (const EndedEarly&) {
     return exit_ended_early;
   } catch (const ReaderGone&) {
+    events().end(128 + SIGPIPE, "nobody reads standard output");
     end_by_broken_pipe();
   } catch (const kaustik::Error& error) {
-    say("{}", error.what());
+    screen().tell(Level::error, message = error.what());
     return error.kind() == kaustik::ErrorKind::input ? exit_input : exit_system;
   } catch (const std::bad_alloc&) {
-    say("not enough memory\n  remedy: free some, or ask for less: smaller pictures, fewer photons");
+    message =
+        "not enough memory\n  remedy: free some, or ask for less: smaller pictures, fewer photons";
+    screen().tell(Level::error, message);
   } catch (const std::exception& error) {
-    say("{}", error.what());
+    screen().tell(Level::error, message = error.what());
   }
   return exit_system;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  spdlog::set_default_logger(spdlog::stderr_color_mt("kaustik"));
-  spdlog::set_pattern("%^%l%$: %v");
-  keep_memory();
-  // A file that grows over the limit is then an error of the write, not the program's end.
-  std::signal(SIGXFSZ, SIG_IGN);
-  kaustik::app::prepare_standard_streams();
+/// Runs the command to its end, whichever that is; returns the exit code, and what went wrong in
+/// `message`.
+int run_and_tell(int argc, char** argv, std::string& message) {
   int exit_code = kaustik::app::exit_system;
   bool is_told = true, is_output_told = false;
   try {
     return run(argc, argv);
   } catch (const kaustik::app::EndedEarly&) {
-    exit_code = told();
+    exit_code = told(message);
   } catch (const kaustik::Error& error) {
-    exit_code = told();
+    exit_code = told(message);
     is_output_told = std::string_view(error.what()).find("standard output") != std::string::npos;
   } catch (...) {
     // Printing throws, too, but knows no reason.
-    if (!kaustik::app::standard_output_failed()) return told();
+    if (!kaustik::app::standard_output_failed()) return told(message);
     is_told = false;
   }
   if (!kaustik::app::standard_output_failed()) return exit_code;
   try {
     kaustik::app::finish_standard_output();
   } catch (const kaustik::app::ReaderGone&) {
-    if (!is_told) told();
+    if (!is_told) told(message);
   } catch (...) {
-    if (!is_output_told) told();
+    if (!is_output_told) told(message);
   }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  keep_memory();
+  // A file that grows over the limit is then an error of the write, not the program's end.
+  std::signal(SIGXFSZ, SIG_IGN);
+  kaustik::app::listen_for_requests();
+  kaustik::app::prepare_standard_streams();
+  std::string message;
+  const int exit_code = run_and_tell(argc, argv, message);
+  kaustik::app::events().end(exit_code, message);
   return exit_code;
 }

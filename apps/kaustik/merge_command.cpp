@@ -7,8 +7,9 @@
 #include "kaustik/render/checkpoint.h"
 #include "kaustik/render/photon_tracing.h"
 #include "kaustik/render/program_version.h"
+#include "option_values.h"
 #include "picture_output.h"
-#include "standard_streams.h"
+#include "screen.h"
 
 namespace kaustik::app {
 namespace {
@@ -77,7 +78,8 @@ void merge_passes(const MergeOptions& options, FileRoles& roles) {
         say("wrote {}: passes {}", output, whole.film.passes().text());
       });
   whole.record.outputs.files = images.files;
-  write_pictures(whole.film, whole.record, {}, failures);
+  write_pictures(whole.film, whole.record, {PictureFacts::of(whole.film)}, failures,
+                 PictureState::finished);
   print_errors(whole.film);
   failures.throw_if_any();
 }
@@ -105,18 +107,21 @@ void add_merge(CLI::App& program) {
       "The result has the same bits as if it had been computed at once, whatever the order of the "
       "parts.");
   auto o = std::make_shared<MergeOptions>();
-  command
-      ->add_option("parts", o->inputs,
-                   "Checkpoints (.kpt) of different passes, or photon maps (.kpm), all parts of "
-                   "one pass")
-      ->required();
-  command
-      ->add_option("-o,--output", o->outputs,
-                   "Image or checkpoint (.kpt) to write, may be repeated; of photon maps a photon "
-                   "map (.kpm)")
-      ->take_all()
-      ->allow_extra_args(false)
-      ->required();
+  takes_files(command
+                  ->add_option("parts", o->inputs,
+                               "Checkpoints (.kpt) of different passes, or photon maps (.kpm), all "
+                               "parts of one pass")
+                  ->required(),
+              {"kpt", "kpm"});
+  takes_files(
+      command
+          ->add_option("-o,--output", o->outputs,
+                       "Image or checkpoint (.kpt) to write, may be repeated; of photon maps a "
+                       "photon map (.kpm)")
+          ->take_all()
+          ->allow_extra_args(false)
+          ->required(),
+      {"kpt", "kpm", "exr", "hdr", "pfm", "tif", "png", "jpg", "ppm"});
   command->add_flag("--force", o->force,
                     "Replace a checkpoint or photon map that is there already");
   command->callback([o] { merge(*o); });

@@ -4,12 +4,14 @@
 
 #include "commands.h"
 #include "console.h"
+#include "events.h"
 #include "file_roles.h"
 #include "kaustik/scene/scene.h"
-#include "numbers.h"
+#include "option_values.h"
+#include "progress_options.h"
 #include "render_job.h"
 #include "scene_options.h"
-#include "standard_streams.h"
+#include "screen.h"
 #include "texture_memory.h"
 #include "thesis_settings.h"
 
@@ -25,6 +27,7 @@ struct PhotonsOptions {
   BuildOptions build;
   int threads = 0;
   bool force = false;
+  ProgressOptions progress;
 };
 
 /// "2/4": part 2 of 4.
@@ -82,9 +85,11 @@ void trace_photons(PhotonsOptions options) {
   roles.writes(options.output, {"a photon map", is_photon_file},
                options.force ? Replacing::anything : Replacing::own_kind, "");
   recipe.definitions = parse_definitions(options.definitions);
+  begin_events(options.progress, roles, "photons", recipe.scene);
   Description description = load_description(recipe);
   roles.reads(description);
   roles.check();
+  begin_event_file(options.progress, roles, "photons", recipe.scene);
   recipe.integrator = "photonmap";
   recipe.settings =
       collected_settings(integrator_of(description, recipe), options.levels, options.settings);
@@ -96,10 +101,11 @@ void trace_photons(PhotonsOptions options) {
   settings.build = options.build;
   Job job(std::move(description), std::move(settings), {terminal_messages(), {}, {}});
   TracedPhotons traced;
-  run_to_the_end(job, false, [&](const ProgressFunction& progress) {
-    say("tracing photons of {}", recipe.scene);
-    traced = job.trace_photons(part, progress);
-  });
+  run_to_the_end(job, {progress_style(options.progress), options.progress.quiet, {}},
+                 [&](const ProgressFunction& progress) {
+                   if (!options.progress.quiet) say("tracing photons of {}", recipe.scene);
+                   traced = job.trace_photons(part, progress);
+                 });
   const StoredPhotons& stored = traced.photons;
   write_photon_file(options.output, stored);
 
@@ -109,7 +115,10 @@ void trace_photons(PhotonsOptions options) {
   fmt::print("traced in {}, trees built in {}\n", duration_text(stored.maps.trace_seconds),
              duration_text(stored.maps.build_seconds));
   for (const std::string& warning : traced.warnings) warn(warning);
-  say("wrote {}", options.output);
+  events().written(options.output, JsonObject()
+                                       .add("global", uint64_t(stored.maps.global.size()))
+                                       .add("caustic", uint64_t(stored.maps.caustic.size())));
+  if (!options.progress.quiet) say("wrote {}", options.output);
 }
 
 }  // namespace
@@ -120,7 +129,9 @@ void add_photons(CLI::App& program) {
       "Trace the photon maps of a scene, store them for other views, print their statistics.");
   auto o = std::make_shared<PhotonsOptions>();
   add_scene(*command, o->recipe.scene);
-  command->add_option("-o,--output", o->output, "Photon map to write, .kpm")->required();
+  takes_files(
+      command->add_option("-o,--output", o->output, "Photon map to write, .kpm")->required(),
+      {"kpm"});
   add_definitions(*command, o->definitions);
   add_strict(*command, o->recipe.is_strict);
   add_camera(*command, o->recipe.camera);
@@ -133,7 +144,8 @@ void add_photons(CLI::App& program) {
   command->add_flag("--force", o->force, "Replace a file that is there and is no photon map");
   command->add_option("--seed", o->recipe.seed, "Seed of all random numbers [0]");
   add_texture_memory(*command, o->build);
-  command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
+  add_threads(*command, o->threads);
+  add_progress(*command, o->progress, "No progress");
   command->callback([o] { trace_photons(*o); });
 }
 

@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <variant>
 
-#include "console.h"
+#include "events.h"
+#include "kaustik/render/part_picture.h"
 #include "picture_file.h"
+#include "screen.h"
 #include "standard_streams.h"
 
 namespace kaustik::app {
+
 void check_outputs(const OutputPlan& outputs, FileRoles& roles) {
   for (const std::string& file : outputs.files) {
     check_picture_writable(file);
@@ -23,24 +28,75 @@ bool needs_layers(const OutputPlan& outputs) {
          std::any_of(outputs.files.begin(), outputs.files.end(), picture_holds_layers);
 }
 
-void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,
-                    Failures& failures, const std::function<Image()>& picture) {
+namespace {
+
+WriteOptions write_options(const OutputPlan& outputs) {
   WriteOptions write;
-  write.exr_half = !record.outputs.full_float;
+  write.exr_half = !outputs.full_float;
+  write.tone = make_tone_operator(outputs.tone, outputs.tone_settings);
+  return write;
+}
+
+std::string state_name(PictureState state) {
+  return state == PictureState::finished      ? "finished"
+         : state == PictureState::ended_early ? "ended early"
+                                              : "so far";
+}
+
+/// What events tell of a picture, from its metadata.
+JsonObject picture_facts(const Image& image, PictureState state) {
+  JsonObject facts;
+  facts.add("state", state_name(state));
+  for (const char* key : {"passes", "samples_per_pixel"})
+    if (const MetadataValue* value = image.find_metadata(key))
+      facts.add(key, std::get<int64_t>(*value));
+  if (const MetadataValue* value = image.find_metadata(incomplete_key))
+    facts.add("incomplete", std::get<std::string>(*value));
+  facts.add("width", image.width()).add("height", image.height());
+  return facts;
+}
+
+}  // namespace
+
+void write_pictures(const Film& film, const RenderRecord& record, const OutputOptions& options,
+                    Failures& failures, PictureState state, const std::function<Image()>& picture) {
+  WriteOptions write;
   Image image;
   bool is_made = false;
   failures.attempt_to("make the picture", [&] {
-    write.tone = make_tone_operator(record.outputs.tone, record.outputs.tone_settings);
-    image = finished_picture(picture ? picture() : film.image(), film, record, options.facts,
-                             {note, warn});
+    write = write_options(record.outputs);
+    image =
+        finished_picture(picture ? picture() : film.image(), record, options.facts, {note, warn});
     is_made = true;
   });
   if (!is_made) return;
   for (const std::string& file : record.outputs.files)
     failures.attempt(file, [&] {
       write_picture(image, file, write);
+      events().written(picture_name(file), picture_facts(image, state));
       if (!options.quiet) say("wrote {}", picture_name(file));
     });
+}
+
+bool write_snapshot(const Job& job, const OutputPlan& outputs) {
+  const std::optional<Image> image = job.finished_snapshot({note, warn});
+  if (!image) return false;
+  const WriteOptions write = write_options(outputs);
+  for (const std::string& file : outputs.files) {
+    if (is_standard_stream(file)) {
+      note("standard output gets the last picture only");
+      continue;
+    }
+    try {
+      write_picture(*image, file, write);
+      const JsonObject facts = picture_facts(*image, PictureState::so_far);
+      events().written(file, facts);
+      note(fmt::format("wrote {} as it is now; the render goes on", file));
+    } catch (const std::exception& error) {
+      warn(fmt::format("cannot write '{}' as it is now: {}", file, error.what()));
+    }
+  }
+  return true;
 }
 
 void print_errors(const Film& film) {

@@ -15,7 +15,9 @@
 #include "kaustik/integrator/registry.h"
 #include "kaustik/render/program_version.h"
 #include "numbers.h"
+#include "option_values.h"
 #include "picture_output.h"
+#include "progress_options.h"
 #include "render_job.h"
 #include "scene_options.h"
 #include "standard_streams.h"
@@ -37,7 +39,9 @@ struct RenderOptions {
   BuildOptions build;
   int threads = 0;
   std::optional<double> exposure;
-  bool quiet = false, force = false;
+  bool force = false;
+  ProgressOptions progress;
+  ViewOptions views;
 };
 
 /// "tonemap.key=0.3" is for the tone mapping operator, everything else for the scene.
@@ -56,6 +60,7 @@ void sort_settings(RenderOptions& options) {
 void render(RenderOptions options) {
   JobSettings job;
   RenderRecipe& recipe = options.recipe;
+  check_views(options.views);
   FileRoles roles;
   roles.reads_scene(recipe.scene);
   if (options.learned) {
@@ -91,9 +96,11 @@ void render(RenderOptions options) {
 
   recipe.folder = std::filesystem::current_path().string();
   recipe.definitions = parse_definitions(options.definitions);
+  begin_events(options.progress, roles, "render", recipe.scene);
   Description description = load_description(recipe);
   roles.reads(description);
   roles.check();
+  begin_event_file(options.progress, roles, "render", recipe.scene);
   // What the thesis sets is a photon map's.
   if (!integrator_of(description, recipe) && sets_thesis_photon_map(options.levels))
     recipe.integrator = "photonmap";
@@ -104,14 +111,14 @@ void render(RenderOptions options) {
   record.recipe = recipe;
   record.plan = {options.first_pass, 0, settings.seconds, settings.error};
   record.outputs = options.outputs;
-  run_job(std::move(description), std::move(job), options.quiet);
+  run_job(std::move(description), std::move(job),
+          {progress_style(options.progress), options.progress.quiet, options.views});
 }
 
-std::string integrator_names() {
-  std::string names;
-  for (const IntegratorType& type : integrator_types())
-    names += (names.empty() ? "" : ", ") + type.info.name;
-  return names + " (and other renderers' names: kaustik help integrator)";
+std::vector<std::string> integrator_names() {
+  std::vector<std::string> names;
+  for (const IntegratorType& type : integrator_types()) names.push_back(type.info.name);
+  return names;
 }
 
 }  // namespace
@@ -173,24 +180,35 @@ void add_render(CLI::App& program) {
   command->footer(
       "Ctrl-C, SIGTERM and SIGHUP end the render, write what is finished, and the exit code is 75; "
       "a second one ends the program at once. In the first pass a picture of fewer samples is "
-      "written, or nothing as long as not every pixel has one.\n"
+      "written, or nothing as long as not every pixel has one. SIGUSR1 writes the picture as it "
+      "is, "
+      "and the render goes on.\n"
+      "Lines of JSON have an \"event\": start, progress, written, message, end. By --progress json "
+      "they go to standard error, and all messages with them; by --progress-file elsewhere, and "
+      "messages stay text.\n"
       "Variables photonMap.… of the environment set integrator photonmap as in Schregle's thesis: "
       "kaustik help thesis.");
   auto options = std::make_shared<RenderOptions>();
   add_scene(*command, options->recipe.scene);
-  command
-      ->add_option("-o,--output", options->outputs.files,
-                   "Image to write, by extension: exr, hdr, pfm, tif (LogLuv), png, jpg, ppm; - or "
-                   "png:- for standard output; may be repeated [SCENE.exr]")
-      ->take_all()
-      ->allow_extra_args(false);
+  takes_files(
+      command
+          ->add_option("-o,--output", options->outputs.files,
+                       "Image to write, by extension: exr, hdr, pfm, tif (LogLuv), png, jpg, "
+                       "ppm; - or png:- for standard output; may be repeated [SCENE.exr]")
+          ->take_all()
+          ->allow_extra_args(false),
+      written_extensions());
   add_definitions(*command, options->definitions);
   add_strict(*command, options->recipe.is_strict);
   add_camera(*command, options->recipe.camera);
   add_settings(*command, options->settings,
                "integrator.caustic_neighbors=200, film.width=400, ID.radius=2");
-  command->add_option("--integrator", options->recipe.integrator,
-                      "Use this method instead of the file's: " + integrator_names());
+  takes_words(
+      command->add_option("--integrator", options->recipe.integrator,
+                          fmt::format("Use this method instead of the file's: {} (and other "
+                                      "renderers' names: kaustik help integrator)",
+                                      fmt::join(integrator_names(), ", "))),
+      integrator_names(), "METHOD");
   add_light_level(*command, options->levels);
   add_eye_level(*command, options->levels);
   command->add_option("--passes", options->passes, "Number of passes")
@@ -199,31 +217,39 @@ void add_render(CLI::App& program) {
       ->add_option("--spp", options->spp,
                    "Samples per pixel over all passes (many make many passes)")
       ->check(whole_number(1, 1 << 30));
-  command->add_option("--error", options->error,
-                      "Stop when the picture's relative error is at most this: 2% (looked at after "
-                      "16, 32, 64, … passes)");
+  takes(command->add_option("--error", options->error,
+                            "Stop when the picture's relative error is at most this: 2% (looked at "
+                            "after 16, 32, 64, … passes)"),
+        "PERCENT");
   command
       ->add_option("--first-pass", options->first_pass,
                    "Number of the first pass; --passes and --spp count from it [0]")
       ->check(whole_number(0, 1 << 30));
-  command->add_option("--time", options->time,
-                      "Stop then: 60s, 5m, 1h30m; a first look if pixels lack samples then");
-  auto* checkpoint = command->add_option(
-      "--checkpoint", options->checkpoint,
-      "Keep the finished passes in this file, .kpt: kaustik resume, kaustik merge");
+  takes(command->add_option("--time", options->time,
+                            "Stop then: 60s, 5m, 1h30m; a first look if pixels lack samples then"),
+        "TIME");
+  auto* checkpoint =
+      takes_files(command->add_option(
+                      "--checkpoint", options->checkpoint,
+                      "Keep the finished passes in this file, .kpt: kaustik resume, kaustik merge"),
+                  {"kpt"});
   command->add_flag("--force", options->force, "Replace a checkpoint that is there already")
       ->needs(checkpoint);
-  command->add_option("--every", options->every, "Time between checkpoints: 30s, 5m, 1h [30s]")
-      ->needs(checkpoint);
-  command->add_option("--learned", options->learned, "Lessons for all passes, .kln: kaustik learn");
+  takes(
+      command->add_option("--every", options->every, "Time between checkpoints: 30s, 5m, 1h [30s]")
+          ->needs(checkpoint),
+      "TIME");
+  takes_files(command->add_option("--learned", options->learned,
+                                  "Lessons for all passes, .kln: kaustik learn"),
+              {"kln"});
   command->add_option("--seed", options->recipe.seed, "Seed of all random numbers [0]");
   add_texture_memory(*command, options->build);
-  command->add_option("--threads", options->threads, "Threads; 0: all [0]")
-      ->check(whole_number(0, 4096));
-  command->add_option(
-      "--tonemap", options->outputs.tone,
-      fmt::format("For 8-bit images: {} [histogram]; its parameters: --set tonemap.key=0.3",
-                  fmt::join(tone_operator_names(), ", ")));
+  add_threads(*command, options->threads);
+  takes_words(
+      command->add_option("--tonemap", options->outputs.tone,
+                          "For 8-bit images and previews [histogram]; its parameters: --set "
+                          "tonemap.key=0.3"),
+      tone_operator_names());
   command->add_option("--exposure", options->exposure, "The same as --set tonemap.exposure=…");
   command->add_flag("--float", options->outputs.full_float,
                     "EXR with 32-bit instead of 16-bit floats");
@@ -231,7 +257,8 @@ void add_render(CLI::App& program) {
                     "Smooth the picture's noise (the EXR's layers keep it): kaustik denoise");
   command->add_flag("--reproducible", options->outputs.reproducible,
                     "Write no times, so that equal renders are equal files");
-  command->add_flag("-q,--quiet", options->quiet, "No progress");
+  add_progress(*command, options->progress, "No progress");
+  add_views(*command, options->views);
   command->callback([options] { render(*options); });
 }
 

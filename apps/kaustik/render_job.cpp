@@ -3,13 +3,20 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
+#include <stop_token>
+#include <utility>
+#include <variant>
 
-#include "console.h"
+#include "events.h"
 #include "exit_codes.h"
 #include "failures.h"
 #include "kaustik/render/part_picture.h"
 #include "kaustik/scene/scene.h"
 #include "picture_output.h"
+#include "picture_watch.h"
+#include "screen.h"
+#include "signals.h"
 #include "standard_streams.h"
 
 namespace kaustik::app {
@@ -47,6 +54,42 @@ void tell_of_result(const JobResult& result, const Job& job, const SessionSettin
   for (const std::string& warning : report.warnings) warn(warning);
 }
 
+/// What viewers call the picture: as its first file.
+std::string viewer_name(const RenderRecord& record) {
+  for (const std::string& file : record.outputs.files)
+    if (!is_standard_stream(file)) return file;
+  return record.recipe.scene;
+}
+
+PictureFacts facts_of(const Job& job, const SessionReport& report, const SessionSettings& session) {
+  PictureFacts facts = PictureFacts::of(job.film());
+  facts.threads = session.threads;
+  facts.incomplete_pass = report.incomplete_pass;
+  facts.part = report.part;
+  return facts;
+}
+
+/// Which of the goals a render has reached.
+std::string end_reason(const SessionReport& report, const SessionSettings& session) {
+  if (session.error && report.picture_error <= *session.error) return "error";
+  const bool is_cut = report.passes == 0 || report.incomplete_pass || report.part > 0;
+  if (session.seconds && (is_cut || report.seconds >= *session.seconds)) return "time";
+  return session.samples_per_pixel && !session.passes ? "samples" : "passes";
+}
+
+JsonObject result_facts(const JobResult& result, const Job& job) {
+  const SessionReport& report = result.report;
+  JsonObject facts;
+  facts.add("integrator", result.record.view.integrator)
+      .add("passes", report.passes)
+      .add("samples_per_pixel", job.film().samples_per_pixel())
+      .add("elapsed_s", report.seconds)
+      .add("error", report.picture_error)
+      .add("mean_error", report.mean_error)
+      .add("rays", report.rays);
+  return facts;
+}
+
 }  // namespace
 
 Description read_scene(const std::string& path, const LoadOptions& options) {
@@ -69,43 +112,59 @@ std::optional<Object> integrator_of(const Description& description, const Render
   return own ? std::optional(*own) : std::nullopt;
 }
 
-void run_to_the_end(Job& job, bool quiet,
+void run_to_the_end(Job& job, const JobDisplay& display,
                     const std::function<void(const ProgressFunction&)>& work) {
   job.prepare();
   const InterruptGuard interrupt;
   const std::stop_callback forward(interrupt.token(), [&] { job.cancel(); });
-  ProgressLine line(quiet);
+  ProgressDisplay progress(display.progress);
   const auto start = std::chrono::steady_clock::now();
   try {
     work([&](double share) {
-      line.show(share,
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      progress.show(
+          share, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     });
-    line.finish();
+    progress.finish();
   } catch (const Error& error) {
-    line.finish();
+    progress.finish();
     if (!interrupt.token().stop_requested()) throw;
     say("{}: nothing is written", error.what());
     throw EndedEarly{};
   }
 }
 
-void run_job(Description description, JobSettings settings, bool quiet,
+void run_job(Description description, JobSettings settings, const JobDisplay& display,
              const std::function<void()>& prepared) {
   const std::string checkpoint = settings.checkpoint;
   const SessionSettings session = settings.session;
-  ProgressLine line(quiet);
+  const OutputPlan outputs = settings.record.outputs;
+  auto viewers = make_viewers(display.views, viewer_name(settings.record),
+                              make_tone_operator(outputs.tone, outputs.tone_settings));
+  settings.previews = !viewers.empty();
+  ProgressDisplay progress(display.progress);
+  PictureWatch* watcher = nullptr;
   Job job(std::move(description), std::move(settings),
-          {terminal_messages(), [&](const Progress& p) { line.show(p); }, {}});
+          {terminal_messages(),
+           [&](const Progress& p) {
+             watcher->progress(p);
+             progress.show(p);
+           },
+           {}});
   job.prepare();
   if (prepared) prepared();
+  // It looks at the job until it is gone itself.
+  PictureWatch watch(job, std::move(viewers), [&] { return write_snapshot(job, outputs); });
+  watcher = &watch;
   // Large films take a while to be made.
   const InterruptGuard interrupt;
   const std::stop_callback forward(interrupt.token(), [&] { job.cancel(); });
   const JobResult& result = job.run();
-  line.finish();
-  tell_of_result(result, job, session, quiet);
+  watch.stop();
+  watch.show_last();
+  progress.finish();
+  tell_of_result(result, job, session, display.quiet);
   const SessionReport& report = result.report;
+  events().result(end_reason(report, session), result_facts(result, job));
   const bool is_first_look = report.passes == 0 && !report.cancelled;
   if (report.passes == 0 && !is_first_look) {
     warn("ended before every pixel had a sample: nothing is written, what was there before stays");
@@ -116,9 +175,10 @@ void run_job(Description description, JobSettings settings, bool quiet,
   Failures failures;
   if (result.checkpoint_failure)
     failures.attempt(checkpoint, [&] { std::rethrow_exception(result.checkpoint_failure); });
-  write_pictures(job.film(), result.record,
-                 {{session.threads, report.incomplete_pass, report.part}, quiet}, failures,
+  write_pictures(job.film(), result.record, {facts_of(job, report, session), display.quiet},
+                 failures, report.cancelled ? PictureState::ended_early : PictureState::finished,
                  [&] { return is_first_look ? first_look(job) : job.image(); });
+  watch.finish_viewers();
   failures.throw_if_any();
   if (report.cancelled) throw EndedEarly{};
 }

@@ -5,6 +5,8 @@
 
 #include "kaustik/loader/scene_format.h"
 #include "kaustik/render/job.h"
+#include "progress_display.h"
+#include "view_options.h"
 
 namespace kaustik::app {
 
@@ -20,14 +22,22 @@ std::optional<Object> integrator_of(const Description& description, const Render
 /// To the terminal.
 Messages terminal_messages();
 
+/// What is told and shown of a command's work.
+struct JobDisplay {
+  ProgressStyle progress = ProgressStyle::none;
+  bool quiet = false;  ///< no notes
+  ViewOptions views;
+};
+
 /// Prepares the job and calls work(progress), with progress of a share of the work; if a signal
 /// cancels it, and what was done so far is of no use (work() throws Error), throws EndedEarly.
-void run_to_the_end(Job& job, bool quiet, const std::function<void(const ProgressFunction&)>& work);
+void run_to_the_end(Job& job, const JobDisplay& display,
+                    const std::function<void(const ProgressFunction&)>& work);
 
-/// Renders with progress, keeps the checkpoint and writes the pictures of the settings' record.
-/// `prepared` is called when the scene is built. Throws Error, of all that could not be written,
-/// and EndedEarly.
-void run_job(Description description, JobSettings settings, bool quiet,
+/// Renders with progress, keeps the checkpoint and writes the pictures of the settings' record, on
+/// SIGUSR1 also as far as they are. `prepared` is called when the scene is built. Throws Error, of
+/// all that could not be written, and EndedEarly.
+void run_job(Description description, JobSettings settings, const JobDisplay& display,
              const std::function<void()>& prepared = {});
 
 }  // namespace kaustik::app

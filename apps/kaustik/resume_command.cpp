@@ -11,9 +11,13 @@
 #include "kaustik/render/program_version.h"
 #include "kaustik/render/resume.h"
 #include "numbers.h"
+#include "option_values.h"
 #include "picture_file.h"
 #include "picture_output.h"
+#include "progress_options.h"
 #include "render_job.h"
+#include "scene_options.h"
+#include "screen.h"
 #include "standard_streams.h"
 #include "texture_memory.h"
 
@@ -27,7 +31,8 @@ struct ResumeOptions {
   std::optional<uint32_t> passes, spp;
   BuildOptions build;
   int threads = 0;
-  bool quiet = false;
+  ProgressOptions progress;
+  ViewOptions views;
 };
 
 /// The scene is looked for where the render was told to look for it.
@@ -104,6 +109,7 @@ SessionSettings session_settings(const ResumeOptions& options, const Limits& lim
 void resume(const ResumeOptions& options) {
   JobSettings job;
   const Limits limits = limits_of(options);
+  check_views(options.views);
   FileRoles roles;
   roles.reads(options.checkpoint);
   check_output_path(options.checkpoint);
@@ -118,9 +124,11 @@ void resume(const ResumeOptions& options) {
   roles.reads_scene(record.recipe.scene);
   check_outputs(record.outputs, roles);
   if (options.scene.empty()) check_scene_is_there(record.recipe, options.checkpoint);
+  begin_events(options.progress, roles, "resume", record.recipe.scene);
   Description description = load_description(record.recipe);
   roles.reads(description);
   roles.check();
+  begin_event_file(options.progress, roles, "resume", record.recipe.scene);
   job.session = session_settings(options, limits, checkpoint);
   record.plan.error = job.session.error;
   if (!job.session.seconds)
@@ -136,9 +144,11 @@ void resume(const ResumeOptions& options) {
   const std::string text =
       fmt::format("{} goes on: passes {} are there; to be written: {}", job.record.recipe.scene,
                   job.begun->film.passes().text(), replacements(job.record.outputs.files));
-  run_job(std::move(description), std::move(job), options.quiet, [&] {
-    if (!options.quiet) say("{}", text);
-  });
+  const bool is_quiet = options.progress.quiet;
+  run_job(std::move(description), std::move(job),
+          {progress_style(options.progress), is_quiet, options.views}, [&] {
+            if (!is_quiet) say("{}", text);
+          });
 }
 
 }  // namespace
@@ -153,27 +163,35 @@ void add_resume(CLI::App& program) {
       "it only "
       "writes the picture.");
   auto o = std::make_shared<ResumeOptions>();
-  command->add_option("checkpoint", o->checkpoint, "Checkpoint, .kpt; kept up to date")->required();
-  command
-      ->add_option("-o,--output", o->outputs,
-                   "Image to write; may be repeated [as the render was told, in and below the "
-                   "checkpoint's folder]")
-      ->take_all()
-      ->allow_extra_args(false);
+  takes_files(command->add_option("checkpoint", o->checkpoint, "Checkpoint, .kpt; kept up to date")
+                  ->required(),
+              {"kpt"});
+  takes_files(
+      command
+          ->add_option("-o,--output", o->outputs,
+                       "Image to write; may be repeated [as the render was told, in and below "
+                       "the checkpoint's folder]")
+          ->take_all()
+          ->allow_extra_args(false),
+      written_extensions());
   auto* passes =
       command->add_option("--passes", o->passes, "Number of passes, those there included")
           ->check(whole_number(1, 1 << 30));
   command->add_option("--spp", o->spp, "Samples per pixel over all passes, those there included")
       ->check(whole_number(1, 1 << 30))
       ->excludes(passes);
-  command->add_option("--time", o->time, "Stop in time, from now: 60s, 5m, 1h30m");
-  command->add_option("--error", o->error,
-                      "Stop when the picture's relative error is at most this: 2%");
-  command->add_option("--scene", o->scene, "Where the scene file is now, if it was moved");
-  command->add_option("--every", o->every, "Time between checkpoints [30s]");
+  takes(command->add_option("--time", o->time, "Stop in time, from now: 60s, 5m, 1h30m"), "TIME");
+  takes(command->add_option("--error", o->error,
+                            "Stop when the picture's relative error is at most this: 2%"),
+        "PERCENT");
+  takes_files(
+      command->add_option("--scene", o->scene, "Where the scene file is now, if it was moved"),
+      scene_extensions());
+  takes(command->add_option("--every", o->every, "Time between checkpoints [30s]"), "TIME");
   add_texture_memory(*command, o->build);
-  command->add_option("--threads", o->threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
-  command->add_flag("-q,--quiet", o->quiet, "No progress");
+  add_threads(*command, o->threads);
+  add_progress(*command, o->progress, "No progress");
+  add_views(*command, o->views);
   command->callback([o] { resume(*o); });
 }
 

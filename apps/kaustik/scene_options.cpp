@@ -1,9 +1,18 @@
 #include "scene_options.h"
 
+#include "numbers.h"
+#include "option_values.h"
+
 namespace kaustik::app {
 
 void add_scene(CLI::App& command, std::string& scene) {
-  command.add_option("scene", scene, "Scene file (Mitsuba XML); - for standard input")->required();
+  takes_files(command.add_option("scene", scene, "Scene file (Mitsuba XML); - for standard input")
+                  ->required(),
+              scene_extensions());
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "Threads; 0: all [0]")->check(whole_number(0, 4096));
 }
 
 void add_definitions(CLI::App& command, std::vector<std::string>& definitions) {

@@ -9,6 +9,8 @@ namespace kaustik::app {
 
 /// The scene file itself, the first argument.
 void add_scene(CLI::App& command, std::string& scene);
+/// --threads; 0: all.
+void add_threads(CLI::App& command, int& threads);
 /// -D: "name=value" for parse_definitions().
 void add_definitions(CLI::App& command, std::vector<std::string>& definitions);
 /// --camera.

@@ -1,8 +1,5 @@
 #pragma once
-#include <fmt/format.h>
-
 #include <cstdint>
-#include <cstdio>
 #include <span>
 #include <string>
 
@@ -31,12 +28,5 @@ bool is_standard_stream(const std::string& name);
 std::string read_standard_input();
 /// Throws Error(system) if it cannot be written, ReaderGone if nobody reads it.
 void write_standard_output(std::span<const uint8_t> bytes);
-
-/// A line on standard error; that nobody may be reading it any more is no reason to stop.
-template <typename... Values>
-void say(fmt::format_string<Values...> text, Values&&... values) {
-  const std::string line = fmt::format(text, std::forward<Values>(values)...) + "\n";
-  std::fputs(line.c_str(), stderr);
-}
 
 }  // namespace kaustik::app

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "console.h"
 #include "failures.h"
 #include "file_roles.h"
 #include "kaustik/image/stitch.h"
+#include "option_values.h"
 #include "picture_file.h"
-#include "standard_streams.h"
+#include "screen.h"
 
 namespace kaustik::app {
 namespace {
@@ -49,14 +49,17 @@ void add_stitch(CLI::App& program) {
       "film.crop_offset_y=0 --set film.crop_height=540 -o top.exr\n"
       "They must cover the picture. Where they overlap they must be the same.");
   auto o = std::make_shared<StitchOptions>();
-  command->add_option("parts", o->parts, "EXR files, whose data windows tell where they lie")
-      ->required();
-  command
-      ->add_option("-o,--output", o->outputs,
-                   "Image to write, by extension as of kaustik render; may be repeated")
-      ->take_all()
-      ->allow_extra_args(false)
-      ->required();
+  takes_files(
+      command->add_option("parts", o->parts, "EXR files, whose data windows tell where they lie")
+          ->required(),
+      {"exr"});
+  takes_files(command
+                  ->add_option("-o,--output", o->outputs,
+                               "Image to write, by extension as of kaustik render; may be repeated")
+                  ->take_all()
+                  ->allow_extra_args(false)
+                  ->required(),
+              written_extensions());
   command->add_flag("--float", o->full_float, "EXR with 32-bit instead of 16-bit floats");
   command->add_flag("--force", o->force, "Replace an image that is read");
   command->callback([o] { stitch(*o); });

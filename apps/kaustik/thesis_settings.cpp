@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <charconv>
 
-#include "console.h"
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/scene/overrides.h"
 #include "numbers.h"
+#include "screen.h"
 
 namespace kaustik::app {
 namespace {

@@ -4,13 +4,14 @@
 #include <optional>
 
 #include "commands.h"
-#include "console.h"
 #include "failures.h"
 #include "file_roles.h"
 #include "kaustik/base/error.h"
 #include "kaustik/image/image_io.h"
 #include "numbers.h"
+#include "option_values.h"
 #include "picture_file.h"
+#include "screen.h"
 #include "standard_streams.h"
 
 namespace kaustik::app {
@@ -128,22 +129,26 @@ void add_tonemap(CLI::App& program) {
       "Every parameter of every operator: kaustik help tonemap\n"
       "Several images: kaustik tonemap a.exr b.exr -o pictures/");
   auto o = std::make_shared<TonemapOptions>();
-  command->add_option("inputs", o->inputs, "Images to read")->required();
-  command
-      ->add_option(
-          "-o,--output", o->outputs,
-          "png, jpg, ppm or tif (8 bits) to write, or a folder, or - (jpg:- …) for standard "
-          "output; may be repeated")
-      ->required()
-      ->take_all()
-      ->allow_extra_args(false);
-  command->add_option("--operator", o->tone,
-                      fmt::format("{} [histogram]", fmt::join(tone_operator_names(), ", ")));
+  takes_files(command->add_option("inputs", o->inputs, "Images to read")->required(),
+              picture_extensions());
+  takes_files(
+      command
+          ->add_option("-o,--output", o->outputs,
+                       "png, jpg, ppm or tif (8 bits) to write, or a folder, or - (jpg:- …) for "
+                       "standard output; may be repeated")
+          ->required()
+          ->take_all()
+          ->allow_extra_args(false),
+      shown_extensions());
+  takes_words(command->add_option("--operator", o->tone, "How luminances are shown [histogram]"),
+              tone_operator_names());
   command
       ->add_option("--set", o->settings, "Change a parameter of the operator: human=true, key=0.36")
       ->type_name("PARAMETER=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--layer", o->layer, "Layer of an EXR, such as caustic [the picture itself]");
+  takes(command->add_option("--layer", o->layer,
+                            "Layer of an EXR, such as caustic [the picture itself]"),
+        "LAYER");
   command->add_option("--exposure", o->exposure, "The same as --set exposure=…");
   command->add_option("--fov", o->fov, "Horizontal field of view, degrees [from the file, else 50]")
       ->check(number_between(0, 180));

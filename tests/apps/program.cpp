@@ -84,8 +84,12 @@ void limit(__rlimit_resource resource, std::optional<rlim_t> most) {
   ::dup2(err.writing_end(), STDERR_FILENO);
   ::dup2(input, STDIN_FILENO);
   // A background job of a shell has SIGINT ignored, and would hand that down.
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1})
     ::signal(signal, signal == options.ignored_signal ? SIG_IGN : SIG_DFL);
+  if (!options.descriptor_3.empty()) {
+    const int file = ::open(options.descriptor_3.c_str(), O_WRONLY | O_CREAT, 0666);
+    if (file != 3) ::dup2(file, 3);
+  }
   limit(RLIMIT_FSIZE, options.file_size_limit);
   limit(RLIMIT_AS, options.memory_limit);
   if (!options.folder.empty() && ::chdir(options.folder.c_str()) != 0) ::_exit(126);
@@ -118,7 +122,8 @@ RunResult run_kaustik(const std::vector<std::string>& arguments, const RunOption
 
   RunResult result;
   bool interrupted = options.interrupt_at.empty();
-  const std::regex interrupt_at(options.interrupt_at);
+  bool interrupted_again = options.interrupt_again_at.empty();
+  const std::regex interrupt_at(options.interrupt_at), again_at(options.interrupt_again_at);
   std::optional<Clock::time_point> interrupt_time;
   const auto end = Clock::now() + std::chrono::duration<double>(options.timeout_s);
   while (out.is_open() || err.is_open()) {
@@ -133,6 +138,10 @@ RunResult run_kaustik(const std::vector<std::string>& arguments, const RunOption
       err.read_some();
       if (resized < options.terminal_columns.size())
         err.resize(options.terminal_columns[resized++]);
+    }
+    if (interrupted && !interrupted_again && std::regex_search(err.text, again_at)) {
+      interrupted_again = true;
+      for (const int signal : options.later_signals) ::kill(child, signal);
     }
     if (interrupted) continue;
     if (!interrupt_time && std::regex_search(err.text, interrupt_at))

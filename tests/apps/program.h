@@ -30,10 +30,15 @@ struct RunOptions {
   std::string interrupt_at;
   double interrupt_delay_s = 0;
   std::vector<int> signals = {SIGINT};
+  /// Then these, after standard error holds this.
+  std::string interrupt_again_at;
+  std::vector<int> later_signals = {SIGINT};
   int ignored_signal = 0;  ///< that the program is started with; 0: none
   std::string input;       ///< standard input
   /// Whether standard output is a device that is always full, or a pipe that nobody reads.
   bool full_output = false, closed_output = false;
+  /// File that the program is started with as descriptor 3, for writing; "": none.
+  std::string descriptor_3;
   /// Standard error is a terminal of so many columns, from the second number on of so many after
   /// each read of its text; empty: a pipe.
   std::vector<int> terminal_columns;

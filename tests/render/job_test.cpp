@@ -9,6 +9,10 @@
 #include <chrono>
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <thread>
+#include <variant>
 
 #include "kaustik/loader/mitsuba_xml.h"
 #include "kaustik/render/finished_picture.h"
@@ -243,6 +247,51 @@ TEST(Job, SnapshotsAreThereWhileItRenders) {
   EXPECT_GT(early->at(32, 50, 0), 0);
 }
 
+int64_t integer_of(const Image& image, const char* key) {
+  return std::get<int64_t>(*image.find_metadata(key));
+}
+
+TEST(Job, FinishedSnapshotsTellWhatTheyShow) {
+  JobListener listener;
+  Job* here = nullptr;
+  uint32_t passes = 0;
+  listener.progress = [&](const Progress& progress) {
+    EXPECT_EQ(progress.samples_per_pixel, 2 * progress.passes_done);
+  };
+  listener.pass_done = [&](const Film& film) {
+    const Image image = here->finished_snapshot().value();
+    EXPECT_EQ(integer_of(image, "passes"), int64_t(++passes));
+    EXPECT_EQ(integer_of(image, "samples_per_pixel"), int64_t(2 * passes));
+    EXPECT_EQ(std::get<std::string>(*image.find_metadata("integrator")), "path");
+    EXPECT_TRUE(image.find_metadata("render_seconds"));
+    EXPECT_FALSE(image.find_metadata(incomplete_key));
+    EXPECT_TRUE(same_bits(image, film.image()));
+  };
+  Job job(room_with("path"), settings_for(3), listener);
+  here = &job;
+  EXPECT_FALSE(job.finished_snapshot());
+  job.run();
+  EXPECT_EQ(passes, 3u);
+}
+
+TEST(Job, FinishedSnapshotsOfAFirstPassCountItsSamples) {
+  constexpr uint32_t samples = 4096;
+  Job job(room_with("path", 64), settings_for(1, samples));
+  job.start();
+  std::optional<Image> early;
+  while (!(early = job.finished_snapshot())) std::this_thread::yield();
+  EXPECT_EQ(integer_of(*early, "passes"), 0);
+  EXPECT_LT(integer_of(*early, "samples_per_pixel"), int64_t(samples));
+  // The samples that are counted are those that are shown.
+  std::optional<Image> later;
+  while (!(later = job.finished_snapshot()) || integer_of(*later, "samples_per_pixel") < 4)
+    std::this_thread::yield();
+  EXPECT_EQ(integer_of(*later, "passes"), 0);
+  job.cancel();
+  job.wait();
+  EXPECT_LE(integer_of(*later, "samples_per_pixel"), int64_t(job.film().samples_per_pixel()));
+}
+
 /// Before the light pass of a method that begins with one; what is rendered stays the same.
 TEST(Job, PreviewsAreThereBeforeTheFirstLightPass) {
   for (const bool previews : {true, false}) {
@@ -296,7 +345,7 @@ TEST(Job, TimeThatIsTooShortLeavesAFirstLook) {
         return image.find_metadata(incomplete_key) != nullptr;
       };
       EXPECT_EQ(says_it(*picture), is_short);
-      EXPECT_EQ(says_it(finished_picture(*picture, job.film(), result.record, {}, {})), is_short);
+      EXPECT_EQ(says_it(finished_picture(*picture, result.record, {}, {})), is_short);
       if (!is_short) {
         EXPECT_TRUE(same_bits(job.image(), rendered(integrator, 2, 40)));
       }

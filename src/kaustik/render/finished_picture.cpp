@@ -12,16 +12,15 @@
 namespace kaustik {
 namespace {
 
-void set_metadata(Image& image, const Film& film, const RenderRecord& record,
-                  const PictureFacts& facts) {
+void set_metadata(Image& image, const RenderRecord& record, const PictureFacts& facts) {
   image.set_metadata("software", "Kaustik " + record.program);
   image.set_metadata("scene", record.recipe.scene);
   image.set_metadata("integrator", record.view.integrator);
   image.set_metadata("seed", int64_t(record.recipe.seed));
-  image.set_metadata("passes", int64_t(film.pass_count()));
-  image.set_metadata("samples_per_pixel",
-                     int64_t(film.samples_per_pixel()) +
-                         std::llround(facts.part * record.recipe.samples_per_pass));
+  image.set_metadata("passes", int64_t(facts.passes));
+  image.set_metadata(
+      "samples_per_pixel",
+      int64_t(facts.samples_per_pixel) + std::llround(facts.part * record.recipe.samples_per_pass));
   if (record.view.horizontal_fov > 0) {
     image.set_metadata("horizontal_fov", record.view.horizontal_fov);
     image.set_metadata("vertical_fov", record.view.vertical_fov);
@@ -56,10 +55,10 @@ void smooth_noise(Image& image, int threads, const Messages& messages) {
 
 }  // namespace
 
-Image finished_picture(Image image, const Film& film, const RenderRecord& record,
-                       const PictureFacts& facts, const Messages& messages) {
+Image finished_picture(Image image, const RenderRecord& record, const PictureFacts& facts,
+                       const Messages& messages) {
   if (record.view.frame.width > 0) image.set_frame(record.view.frame);
-  set_metadata(image, film, record, facts);
+  set_metadata(image, record, facts);
   if (record.outputs.denoise && !image.find_metadata("denoised"))
     smooth_noise(image, facts.threads, messages);
   return image;

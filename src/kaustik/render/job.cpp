@@ -168,6 +168,8 @@ void Job::make_session(Run& run) {
   record.plan.passes = session->planned_passes();
   record.view = prepared.view;
   const std::lock_guard lock(mutex_);
+  run.record = record;
+  run.begin = std::chrono::steady_clock::now();
   run.session = std::move(session);
 }
 
@@ -226,6 +228,24 @@ std::optional<Image> Job::snapshot() const {
   std::optional<Image> picture = session ? session->snapshot() : std::nullopt;
   if (!picture && preview) picture = *preview;
   return picture;
+}
+
+std::optional<Image> Job::finished_snapshot(const Messages& messages) const {
+  std::unique_lock lock(mutex_);
+  const std::shared_ptr<Run> run = run_;
+  if (!run || !run->session) return std::nullopt;
+  RenderRecord record = run->record;
+  const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - run->begin;
+  lock.unlock();
+  SnapshotFacts shown;
+  std::optional<Image> picture = run->session->snapshot(&shown);
+  if (!picture) return std::nullopt;
+  record.seconds += gone.count();
+  return finished_picture(std::move(*picture), record,
+                          {.passes = shown.passes,
+                           .samples_per_pixel = shown.samples_per_pixel,
+                           .threads = settings_.session.threads},
+                          messages);
 }
 
 void Job::edit(Description description) {

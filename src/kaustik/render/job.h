@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "kaustik/render/finished_picture.h"
 #include "kaustik/render/learning.h"
 #include "kaustik/render/photon_tracing.h"
 #include "kaustik/render/session.h"
@@ -104,6 +105,9 @@ class Job {
   /// the integrator's, with a sample of each pixel. After the end there is one unless the job was
   /// cancelled.
   std::optional<Image> snapshot() const;
+  /// The session's snapshot as a file would show it: finished_picture() of it. None where there is
+  /// not even a sample; a preview is none. From any thread, while the job runs.
+  std::optional<Image> finished_snapshot(const Messages& messages = {}) const;
   /// Cancels, waits, and takes another description in the place of the one before: scene,
   /// integrator and film are made anew, with the recipe's changes; the scene shares with the one
   /// before what is the same. Lessons of the one before are left out. Goes on as before: renders if
@@ -122,7 +126,9 @@ class Job {
   struct Run {
     PreparedScene prepared;
     std::unique_ptr<Session> session;
-    std::shared_ptr<const Image> preview;  ///< null: none
+    std::shared_ptr<const Image> preview;         ///< null: none
+    RenderRecord record;                          ///< once there is a session: that of its begin
+    std::chrono::steady_clock::time_point begin;  ///< of the session
   };
   std::shared_ptr<Run> current() const;
   std::shared_ptr<Run> prepared_run();

@@ -53,14 +53,21 @@ struct Progress {
   Stage stage = Stage::light;
   double fraction = 0;  ///< of the whole, 0 to 1
   double elapsed_s = 0;
-  double remaining_s = 0;     ///< estimated; negative: unknown
-  uint32_t passes_done = 0;   ///< those that the film began with included
-  uint32_t passes_total = 0;  ///< 0: limited by time or error
+  double remaining_s = 0;          ///< estimated; negative: unknown
+  uint32_t passes_done = 0;        ///< those that the film began with included
+  uint32_t passes_total = 0;       ///< 0: limited by time or error
+  uint64_t samples_per_pixel = 0;  ///< of the passes that are done
   double rays_per_s = 0;
   double photons_per_s = 0;   ///< stored or splatted, over the time of the light passes
   size_t memory_bytes = 0;    ///< resident, of the whole program
   double relative_error = 0;  ///< Film::picture_error(); infinite: not known yet
   bool has_picture = false;   ///< there is something for Session::snapshot()
+};
+
+/// What a snapshot shows.
+struct SnapshotFacts {
+  uint32_t passes = 0;             ///< that are finished; 0: samples of the first
+  uint64_t samples_per_pixel = 0;  ///< on average
 };
 
 /// What came out of a session.
@@ -111,8 +118,8 @@ class Session {
 
   /// From any thread, at any time, in callbacks too: a whole picture of what there is. Of finished
   /// passes; in the first one of the samples so far, and pixels without any show those of a pixel
-  /// near by: then incomplete_key says so. None: not even that is there.
-  std::optional<Image> snapshot() const;
+  /// near by: then incomplete_key says so. None: not even that is there. `facts` of it, if wanted.
+  std::optional<Image> snapshot(SnapshotFacts* facts = nullptr) const;
   bool has_picture() const { return has_picture_; }
   /// Not while run() goes on: the film's image, with the part of a pass at its end.
   Image image() const;
@@ -163,7 +170,7 @@ class Session {
   void note_memory();
   /// Share of the pass's samples that its pixels have.
   double share_taken(const Pass& pass, const PassState& state) const;
-  Image first_samples(std::unique_lock<std::mutex> lock) const;
+  Image first_samples(std::unique_lock<std::mutex> lock, SnapshotFacts& facts) const;
 
   const Scene& scene_;
   const Integrator& integrator_;

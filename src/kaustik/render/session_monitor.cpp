@@ -29,6 +29,7 @@ void Session::Monitor::tell(Progress::Stage stage, bool force) {
   p.elapsed_s = elapsed();
   p.passes_done = passes_at_start_ + passes_done_;
   p.passes_total = session_.pass_count_ == 0 ? 0 : passes_at_start_ + passes_to_do_;
+  p.samples_per_pixel = session_.film_.samples_per_pixel();
   p.fraction = stage == Progress::Stage::done ? 1 : fraction(p.elapsed_s);
   p.remaining_s = p.fraction > 1e-3 ? p.elapsed_s * (1 / p.fraction - 1) : -1;
   p.rays_per_s = double(rays) / std::max(1e-9, p.elapsed_s);

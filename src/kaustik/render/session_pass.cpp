@@ -313,13 +313,16 @@ void Session::finish_tiles() {
   });
 }
 
-std::optional<Image> Session::snapshot() const {
+std::optional<Image> Session::snapshot(SnapshotFacts* facts) const {
+  SnapshotFacts unwanted;
+  SnapshotFacts& shown = facts ? *facts : unwanted;
   std::unique_lock lock(picture_mutex_);
   if (!has_picture_) return std::nullopt;
+  shown = {film_.pass_count(), film_.samples_per_pixel()};
   // Callbacks come from within parallel work, of which nothing may be taken up meanwhile.
   return isolated([&]() -> std::optional<Image> {
     if (film_.pass_count() > 0) return image();
-    return first_samples(std::move(lock));
+    return first_samples(std::move(lock), shown);
   });
 }
 
@@ -336,23 +339,26 @@ Image Session::image() const {
   return image;
 }
 
-Image Session::first_samples(std::unique_lock<std::mutex> lock) const {
+Image Session::first_samples(std::unique_lock<std::mutex> lock, SnapshotFacts& facts) const {
   Image image = film_.image();
   PartPicture picture(image, 0, 1);
   std::vector<uint8_t> is_shown(film_.pixel_count());
   const auto index = [&](int x, int y) { return size_t(y) * size_t(film_.width()) + size_t(x); };
   const auto pixels = std::make_unique<PassTiles::Pixels>();
+  uint64_t samples = 0;
   // One lock at a time: who holds it waits for nothing.
   for (size_t tile = 0; tile < pass_.tiles().count(); ++tile) {
     const std::lock_guard of_tile(tile_mutexes_[tile]);
     pass_.load(tile, *pixels);
     pass_.tiles().for_pixels_of(tile, [&](int x, int y, size_t place) {
       if ((*pixels)[place].samples == 0) return;
+      samples += (*pixels)[place].samples;
       picture.put(x, y, finished((*pixels)[place], x, y));
       is_shown[index(x, y)] = 1;
     });
   }
   lock.unlock();
+  facts.samples_per_pixel = samples / film_.pixel_count();
   if (std::find(is_shown.begin(), is_shown.end(), uint8_t(0)) != is_shown.end())
     image.set_metadata(
         incomplete_key,
