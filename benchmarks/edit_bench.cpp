@@ -35,8 +35,7 @@ void measure_cancelling(const std::string& scene, const std::string& integrator)
     Job job(described(scene, integrator), std::move(settings));
     job.prepare();
     job.start();
-    std::this_thread::sleep_for(
-        std::chrono::duration<double>(longest_wait * (i + 0.5) / moments));
+    std::this_thread::sleep_for(std::chrono::duration<double>(longest_wait * (i + 0.5) / moments));
     seconds.push_back(bench::seconds_of([&] {
       job.cancel();
       job.wait();

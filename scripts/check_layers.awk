@@ -112,7 +112,7 @@ BEGIN {
   # The front ends get at the lower rooms through render; these are what its interface speaks of.
   allow("apps", "base image display scene integrator render loader")
   # Tests of whole pictures and benchmarks may look everywhere.
-  sees_all["vcm"]; sees_all["photonmap"]; sees_all["integrator"]; sees_all["render"]; sees_all["apps"]; sees_all["benchmarks"]
+  sees_all["vcm"]; sees_all["photonmap"]; sees_all["integrator"]; sees_all["render"]; sees_all["live"]; sees_all["apps"]; sees_all["benchmarks"]
   sees_all["support"]; sees_all["fuzz"]; sees_all["agreement"]; sees_all["scene"]; sees_all["transport"]
 
   allow_folder("photon/kd_tree", "")

@@ -83,8 +83,8 @@ TEST(heterogeneous, a_linear_density_has_its_closed_form) {
     EXPECT_NEAR(measured_left(*medium, across, length), expected, 2e-6);
     RunningStatistics rough;
     for (int i = 0; i < flight_count / 10; ++i)
-      rough.add(double(
-          medium->rough_transmittance(part, {}, Sampler(hash_mix(30, uint64_t(i)), 0))[1]));
+      rough.add(
+          double(medium->rough_transmittance(part, {}, Sampler(hash_mix(30, uint64_t(i)), 0))[1]));
     EXPECT_GT(z_test_p_value(rough, expected), flight_level) << length;
     EXPECT_LT(z_test_p_value(rough, expected * (1 + planted_flight_error)), flight_level);
   }

@@ -65,7 +65,9 @@ GridVolume::Line GridCrossing::part(const Piece& piece) const {
   return result;
 }
 
-float GridCrossing::integral(const Piece& piece) const { return grid_.integral(part(piece), infinity); }
+float GridCrossing::integral(const Piece& piece) const {
+  return grid_.integral(part(piece), infinity);
+}
 
 GridVolume::Reach GridCrossing::reach(const Piece& piece, float target) const {
   GridVolume::Reach result = grid_.reach(part(piece), target);

@@ -35,7 +35,7 @@ class GridCrossing {
 
   const GridVolume& grid_;
   GridVolume::Line line_{};
-  float at_ = 0;             ///< where the next piece begins
+  float at_ = 0;  ///< where the next piece begins
   bool is_over_ = true;
   int region_[3]{}, forward_[3]{};
   float cells_per_length_ = 0;
