@@ -102,7 +102,7 @@ TEST(Environment, DirectionsFollowTheirDensity) {
         return test.light->sample_toward(query, random.next_2d()).direction;
       };
       const auto pdf = [&](const Vec3f& d) { return double(test.light->pdf_toward(query, d)); };
-      const int count = 300'000 / sample_share;
+      const int count = 500'000 / sample_share;
       EXPECT_GT(direction_p_value({}, count, sample, pdf), failure_level);
       expect_twin_fails(direction_p_value({}, count, sample, with_planted_error({}, pdf)));
     }
