@@ -98,77 +98,130 @@ TEST(Engine, ShowsTheLastOfManyEdits) {
   EXPECT_TRUE(same_bits(engine.snapshot()->picture, by_job(room_with_ball(1.5), 3)));
 }
 
+/// Looks at the engine until it is so; fails after long_enough.
+template <typename Predicate>
+testing::AssertionResult comes_to(const Engine& engine, const Predicate& predicate) {
+  const auto end = std::chrono::steady_clock::now() + long_enough;
+  while (!predicate(engine.status())) {
+    if (std::chrono::steady_clock::now() > end) return testing::AssertionFailure() << "in vain";
+    std::this_thread::sleep_for(1ms);
+  }
+  return testing::AssertionSuccess();
+}
+bool is_paused(const EngineStatus& status) { return status.state == EngineState::paused; }
+
 /// The picture before goes on with all of its passes, as if nothing had been said.
 TEST(Engine, ARefusedEditHarmsNothing) {
   Engine engine(engine_settings(40));
+  engine.pause();
   engine.edit(room_with_ball(0.5));
   engine.start();
-  ASSERT_TRUE(engine.wait_for_snapshot(0, long_enough));
+  ASSERT_TRUE(comes_to(engine, is_paused));
   const uint64_t refused = engine.edit(room_with_ball(
       0.5, 24, "<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>"));
-  while (!engine.status().failure) std::this_thread::sleep_for(1ms);
-  EXPECT_LT(engine.status().revision, refused);
+  ASSERT_TRUE(comes_to(engine, [](const EngineStatus& status) { return bool(status.refusal); }));
+  ASSERT_TRUE(comes_to(engine, is_paused));
+  engine.resume();
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  const EngineStatus status = engine.status();
+  EXPECT_EQ(status.state, EngineState::finished);
+  EXPECT_EQ(status.revision, 1u);
+  EXPECT_EQ(status.refused_revision, refused);
+  EXPECT_FALSE(status.failure);
+  ASSERT_TRUE(status.refusal) << "it is still told";
   try {
-    std::rethrow_exception(engine.status().failure);
+    std::rethrow_exception(status.refusal);
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("radius"), std::string::npos) << error.what();
   }
-  ASSERT_TRUE(engine.wait_until_done(long_enough));
-  EXPECT_EQ(engine.status().state, EngineState::finished);
   EXPECT_EQ(engine.snapshot()->passes, 40u);
   EXPECT_TRUE(same_bits(engine.snapshot()->picture, by_job(room_with_ball(0.5), 40)));
-  // The next one is taken, and the failure is forgotten.
+  // The next one is taken, and the refusal is forgotten.
   engine.edit(room_with_ball(1));
   ASSERT_TRUE(engine.wait_until_done(long_enough));
-  EXPECT_FALSE(engine.status().failure);
+  EXPECT_FALSE(engine.status().refusal);
   EXPECT_EQ(engine.snapshot()->revision, 3u);
 }
 
 TEST(Engine, AFirstEditThatIsRefusedFails) {
   Engine engine(engine_settings(2));
   EXPECT_THROW(engine.start(), std::logic_error);
-  engine.edit(room_with_ball(0.5, 24, "<shape type=\"spehre\"/>"));
+  engine.edit(room_with_ball(
+      0.5, 24, "<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>"));
   engine.start();
   ASSERT_TRUE(engine.wait_until_done(long_enough));
   EXPECT_EQ(engine.status().state, EngineState::failed);
-  EXPECT_TRUE(engine.status().failure);
+  EXPECT_TRUE(engine.status().refusal);
   EXPECT_EQ(engine.snapshot(), nullptr);
+  engine.stop();
+  ASSERT_TRUE(comes_to(
+      engine, [](const EngineStatus& status) { return status.state == EngineState::idle; }));
 }
 
-/// A pause costs nothing but time, and pictures may be looked at meanwhile.
-TEST(Engine, Rests) {
-  Engine engine(engine_settings(200));
-  engine.edit(room_with_ball(0.5));
-  engine.start();
-  ASSERT_TRUE(engine.wait_for_snapshot(0, long_enough));
-  engine.pause();
-  ASSERT_EQ(engine.status().state, EngineState::paused);
-  EXPECT_FALSE(engine.wait_until_done(20ms));
-  const uint32_t passes = engine.status().progress.passes_done;
-  EXPECT_LT(passes, 200u);
-  // One that was being finished may still come.
-  std::this_thread::sleep_for(50ms);
-  EXPECT_LE(engine.status().progress.passes_done, passes + 1);
-  engine.resume();
-  ASSERT_TRUE(engine.wait_until_done(long_enough));
-  EXPECT_TRUE(same_bits(engine.snapshot()->picture, by_job(room_with_ball(0.5), 200)));
+/// Whoever reads the description while it is rendered sees it as it was.
+TEST(Engine, LeavesTheDescriptionAsItIs) {
+  EngineSettings settings = engine_settings(2);
+  settings.recipe.settings.push_back({"film", "width", "10", "test"});
+  Engine engine(settings);
+  const Description description = room_with_ball(0.5);
+  for (int i = 0; i < 2; ++i) {
+    engine.edit(description);
+    engine.start();
+    ASSERT_TRUE(engine.wait_until_done(long_enough));
+    EXPECT_EQ(engine.snapshot()->picture.width(), 10);
+  }
+  EXPECT_TRUE(same_bits(by_job(description, 2), by_job(room_with_ball(0.5), 2)));
+}
+
+/// Pauses cost nothing but time, wherever they come.
+TEST(Engine, RestsWithoutChangingBits) {
+  for (const char* integrator : {"path", "photonmap", "vcm", "lighttracer"}) {
+    EngineSettings settings = engine_settings(30);
+    settings.session.samples_per_pass = 3;
+    settings.recipe.integrator = integrator;
+    if (integrator == std::string("photonmap"))
+      for (const char* count : {"caustic_photons", "global_photons"})
+        settings.recipe.settings.push_back({"integrator", count, "3000", "test"});
+    JobSettings job_settings;
+    job_settings.session = settings.session;
+    job_settings.record.recipe = settings.recipe;
+    Job job(room_with_ball(0.5), std::move(job_settings));
+    job.run();
+    Engine engine(settings);
+    engine.pause();
+    engine.edit(room_with_ball(0.5));
+    engine.start();
+    ASSERT_TRUE(comes_to(engine, is_paused)) << integrator;
+    EXPECT_FALSE(engine.wait_until_done(5ms));
+    EXPECT_EQ(engine.status().progress.passes_done, 0u) << integrator;
+    for (int i = 0; i < 100 && !engine.wait_until_done(1ms); ++i) {
+      engine.resume();
+      engine.wait_until_done(1ms);
+      engine.pause();
+      engine.snapshot();
+    }
+    engine.resume();
+    ASSERT_TRUE(engine.wait_until_done(long_enough));
+    EXPECT_TRUE(same_bits(engine.snapshot()->picture, job.image())) << integrator;
+  }
 }
 
 TEST(Engine, IsEditedAndStoppedWhileItRests) {
-  Engine engine(engine_settings(200));
+  Engine engine(engine_settings(50));
   engine.pause();
   engine.edit(room_with_ball(0.5));
   engine.start();
-  while (engine.status().state != EngineState::paused) std::this_thread::sleep_for(1ms);
+  ASSERT_TRUE(comes_to(engine, is_paused));
   engine.edit(room_with_ball(1));
-  while (engine.status().revision != 2) std::this_thread::sleep_for(1ms);
+  ASSERT_TRUE(comes_to(engine, [](const EngineStatus& status) { return status.revision == 2; }));
   engine.stop();
   ASSERT_TRUE(engine.wait_until_done(long_enough));
   EXPECT_EQ(engine.status().state, EngineState::idle);
   engine.resume();
   engine.start();
   ASSERT_TRUE(engine.wait_until_done(long_enough));
-  EXPECT_EQ(engine.snapshot()->passes, 200u);
+  EXPECT_EQ(engine.snapshot()->passes, 50u);
+  EXPECT_EQ(engine.snapshot()->revision, 2u);
 }
 
 TEST(Engine, StopsAndBeginsAnew) {
@@ -183,6 +236,45 @@ TEST(Engine, StopsAndBeginsAnew) {
   engine.start();
   EXPECT_TRUE(engine.wait_for_snapshot(last->number, long_enough));
   // Its destruction ends what goes on.
+}
+
+/// Who starts what is rendered already loses nothing.
+TEST(Engine, IsStartedTwice) {
+  Engine engine(engine_settings(1'000'000));
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  ASSERT_TRUE(comes_to(
+      engine, [](const EngineStatus& status) { return status.progress.passes_done > 20; }));
+  engine.start();
+  EXPECT_FALSE(engine.wait_until_done(20ms));
+  EXPECT_GT(engine.status().progress.passes_done, 20u);
+}
+
+/// While edits keep coming there is something to be seen of them.
+TEST(Engine, ShowsSomethingWhileEditsKeepComing) {
+  Engine engine(engine_settings(1'000'000));
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  const auto end = std::chrono::steady_clock::now() + long_enough;
+  std::shared_ptr<const Snapshot> shown;
+  for (int i = 0; !(shown && shown->revision > 3) && std::chrono::steady_clock::now() < end; ++i) {
+    engine.edit(room_with_ball(0.5 + 0.001 * i));
+    std::this_thread::sleep_for(1ms);
+    shown = engine.snapshot();
+  }
+  ASSERT_TRUE(shown);
+  EXPECT_GT(shown->revision, 3u);
+}
+
+TEST(Engine, IsDestroyedWhileItBuildsAndRests) {
+  for (int i = 0; i < 10; ++i) {
+    Engine engine(engine_settings(1'000'000));
+    if (i % 2) engine.pause();
+    engine.edit(room_with_ball(0.5));
+    engine.start();
+    if (i > 5) engine.wait_for_snapshot(0, 2ms);
+    if (i % 3 == 0) engine.edit(room_with_ball(1));
+  }
 }
 
 TEST(Engine, IsCommandedByManyThreads) {

@@ -289,7 +289,8 @@ TEST(Job, FinishedSnapshotsOfAFirstPassCountItsSamples) {
   EXPECT_EQ(integer_of(*later, "passes"), 0);
   job.cancel();
   job.wait();
-  EXPECT_LE(integer_of(*later, "samples_per_pixel"), int64_t(job.film().samples_per_pixel()));
+  // In the midst of a round some pixels have twice the samples of others.
+  EXPECT_LE(integer_of(*later, "samples_per_pixel"), 2 * int64_t(job.film().samples_per_pixel()));
 }
 
 /// Before the light pass of a method that begins with one; what is rendered stays the same.

@@ -17,9 +17,10 @@ Engine::~Engine() {
   thread_.join();
 }
 
-uint64_t Engine::edit(Description description) {
+uint64_t Engine::edit(const Description& description) {
+  auto copy = std::make_shared<const Description>(copy_of(description));
   const std::lock_guard lock(mutex_);
-  wanted_.description = std::make_shared<const Description>(std::move(description));
+  wanted_.description.swap(copy);
   changed_.notify_all();
   return ++wanted_.revision;
 }
@@ -27,8 +28,10 @@ uint64_t Engine::edit(Description description) {
 void Engine::start() {
   const std::lock_guard lock(mutex_);
   if (!wanted_.description) throw std::logic_error("Engine::start: there is no description");
+  const bool is_over =
+      status_.state == EngineState::finished || status_.state == EngineState::failed;
+  if (wanted_.runs && is_over && !is_building_) ++wanted_.starts;
   wanted_.runs = true;
-  ++wanted_.start;
   changed_.notify_all();
 }
 
@@ -42,21 +45,27 @@ void Engine::pause() {
   const std::lock_guard lock(mutex_);
   wanted_.is_paused = true;
   if (gate_) gate_->close();
-  if (status_.state == EngineState::rendering) status_.state = EngineState::paused;
   changed_.notify_all();
 }
 
 void Engine::resume() {
   const std::lock_guard lock(mutex_);
   wanted_.is_paused = false;
-  if (gate_) gate_->open();
-  if (status_.state == EngineState::paused) status_.state = EngineState::rendering;
+  if (gate_ && !is_building_) gate_->open();
   changed_.notify_all();
+}
+
+EngineState Engine::state() const {
+  if (is_building_) return EngineState::building;
+  if (status_.state == EngineState::rendering && wanted_.is_paused) return EngineState::paused;
+  return status_.state;
 }
 
 EngineStatus Engine::status() const {
   const std::lock_guard lock(mutex_);
-  return status_;
+  EngineStatus status = status_;
+  status.state = state();
+  return status;
 }
 
 std::shared_ptr<const Snapshot> Engine::snapshot() const {
@@ -65,36 +74,35 @@ std::shared_ptr<const Snapshot> Engine::snapshot() const {
 }
 
 std::shared_ptr<const Snapshot> Engine::wait_for_snapshot(uint64_t after,
-                                                          std::chrono::milliseconds most) const {
+                                                          std::chrono::milliseconds timeout) const {
   std::unique_lock lock(mutex_);
   const bool is_there =
-      changed_.wait_for(lock, most, [&] { return snapshot_ && snapshot_->number > after; });
+      changed_.wait_for(lock, timeout, [&] { return snapshot_ && snapshot_->number > after; });
   return is_there ? snapshot_ : nullptr;
 }
 
-bool Engine::wait_until_done(std::chrono::milliseconds most) const {
+bool Engine::wait_until_done(std::chrono::milliseconds timeout) const {
   std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, most, [&] {
-    const EngineState state = status_.state;
-    return !is_busy_ && !has_work() && state != EngineState::building &&
-           state != EngineState::rendering && state != EngineState::paused;
+  return changed_.wait_for(lock, timeout, [&] {
+    return !is_busy_ && !has_work() && !is_building_ && status_.state != EngineState::rendering;
   });
 }
 
 bool Engine::has_work() const {
-  if (!wanted_.runs) return shown_ != nullptr;
-  return taken_revision_ != wanted_.revision || taken_start_ != wanted_.start;
+  return taken_.runs != wanted_.runs ||
+         (wanted_.runs && (taken_.revision != wanted_.revision || taken_.starts != wanted_.starts));
 }
 
 void Engine::work() {
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] { return wanted_.ends || has_work(); });
+    let_show(lock);
     if (wanted_.ends) break;
-    const Wanted wanted = wanted_;
-    taken_revision_ = wanted.revision;
-    taken_start_ = wanted.start;
+    if (!has_work()) continue;
+    taken_ = wanted_;
     is_busy_ = true;
+    const Wanted wanted = wanted_;
     lock.unlock();
     take(wanted);
     lock.lock();
@@ -105,6 +113,15 @@ void Engine::work() {
   end_run();
 }
 
+void Engine::let_show(std::unique_lock<std::mutex>& lock) {
+  constexpr std::chrono::milliseconds longest(100);
+  changed_.wait_for(lock, longest, [&] {
+    const bool has_shown = snapshot_ && snapshot_->revision == status_.revision;
+    return wanted_.ends || !wanted_.runs || wanted_.is_paused || has_shown ||
+           status_.state != EngineState::rendering;
+  });
+}
+
 void Engine::take(const Wanted& wanted) {
   if (!wanted.runs) {
     end_run();
@@ -112,33 +129,35 @@ void Engine::take(const Wanted& wanted) {
     status_.state = EngineState::idle;
     return;
   }
-  EngineState before;
   {
     const std::lock_guard lock(mutex_);
-    before = std::exchange(status_.state, EngineState::building);
+    is_building_ = true;
     // All cores are for the new scene.
     if (gate_) gate_->close();
   }
   std::unique_ptr<Run> run;
+  std::exception_ptr refusal;
   try {
     run = prepared(wanted);
   } catch (...) {
-    const std::lock_guard lock(mutex_);
-    status_.failure = std::current_exception();
-    if (gate_ && !wanted_.is_paused) gate_->open();
-    // The run before may have ended meanwhile.
-    if (status_.state == EngineState::building) status_.state = state_after_refusal(before);
-    changed_.notify_all();
-    return;
+    refusal = std::current_exception();
   }
+  bool is_wanted;
+  {
+    const std::lock_guard lock(mutex_);
+    is_building_ = false;
+    is_wanted = run && wanted_.runs && !wanted_.ends;
+    if (refusal) {
+      status_.refusal = refusal;
+      status_.refused_revision = wanted.revision;
+      if (!shown_) status_.state = EngineState::failed;
+    }
+    if (!is_wanted && gate_ && !wanted_.is_paused) gate_->open();
+    changed_.notify_all();
+  }
+  if (!is_wanted) return;
   end_run();
   begin(std::move(run));
-}
-
-EngineState Engine::state_after_refusal(EngineState before) const {
-  if (!shown_) return EngineState::failed;
-  if (before == EngineState::finished || before == EngineState::failed) return before;
-  return wanted_.is_paused ? EngineState::paused : EngineState::rendering;
 }
 
 std::unique_ptr<Engine::Run> Engine::prepared(const Wanted& wanted) {
@@ -151,14 +170,15 @@ std::unique_ptr<Engine::Run> Engine::prepared(const Wanted& wanted) {
   settings.session.gate = run->gate;
   settings.build = settings_.build;
   settings.previews = true;
-  if (run_) settings.previous = run_->job->shared_scene();
+  settings.previous = run_ ? run_->job->shared_scene() : last_scene_;
   const Run& of = *run;
   JobListener listener;
   listener.messages = messages_;
   listener.progress = [this, &of](const Progress& progress) { progressed(of, progress); };
   listener.pass_done = [this, &of](const Film& film) { pass_done(of, film.pass_count()); };
   listener.ended = [this, &of](const std::exception_ptr& failure) { ended(of, failure); };
-  run->job = std::make_unique<Job>(*wanted.description, std::move(settings), std::move(listener));
+  run->job =
+      std::make_unique<Job>(copy_of(*wanted.description), std::move(settings), std::move(listener));
   run->job->prepare();
   return run;
 }
@@ -170,13 +190,21 @@ void Engine::begin(std::unique_ptr<Run> run) {
     shown_ = run_.get();
     gate_ = run_->gate;
     if (wanted_.is_paused) gate_->close();
-    status_.state = wanted_.is_paused ? EngineState::paused : EngineState::rendering;
+    status_ = {};
+    status_.state = EngineState::rendering;
     status_.revision = run_->revision;
-    status_.progress = {};
-    status_.failure = nullptr;
     changed_.notify_all();
   }
-  run_->job->start();
+  try {
+    run_->job->start();
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    shown_ = nullptr;
+    gate_ = nullptr;
+    status_.state = EngineState::failed;
+    status_.failure = std::current_exception();
+    changed_.notify_all();
+  }
 }
 
 void Engine::end_run() {
@@ -192,6 +220,7 @@ void Engine::end_run() {
   } catch (...) {
     // ended() has told.
   }
+  last_scene_ = run_->job->shared_scene();
   run_ = nullptr;
 }
 
@@ -216,11 +245,16 @@ void Engine::pass_done(const Run& run, uint32_t passes) {
 }
 
 void Engine::ended(const Run& run, const std::exception_ptr& failure) {
-  if (!failure) publish(run, true);
+  std::exception_ptr why = failure;
+  try {
+    if (!failure) publish(run, true);
+  } catch (...) {
+    why = std::current_exception();
+  }
   const std::lock_guard lock(mutex_);
   if (shown_ != &run) return;
-  status_.failure = failure;
-  status_.state = failure ? EngineState::failed : EngineState::finished;
+  status_.failure = why;
+  status_.state = why ? EngineState::failed : EngineState::finished;
   changed_.notify_all();
 }
 

@@ -23,26 +23,31 @@ struct EngineSettings {
 enum class EngineState : uint8_t {
   idle,       ///< nothing was started yet, or it was stopped
   building,   ///< a scene is built
-  rendering,  ///<
-  paused,     ///< rendering, but for its threads resting
+  rendering,  ///< passes are taken
+  paused,     ///< passes are to be taken, but threads rest
   finished,   ///< all that was asked for is done
-  failed      ///< see EngineStatus::failure
+  failed      ///< see EngineStatus::failure and refusal
 };
 
 struct EngineStatus {
   EngineState state = EngineState::idle;
-  uint64_t revision = 0;  ///< of what is rendered
-  Progress progress;      ///< of rendering it, the last that was told
-  /// Why the last description was refused, or what ended rendering; null: nothing.
-  std::exception_ptr failure;
+  uint64_t revision = 0;       ///< of what is rendered
+  Progress progress;           ///< of rendering it, the last that was told
+  std::exception_ptr failure;  ///< what ended rendering otherwise than it should; null: nothing
+  /// Why a description was refused, and its revision; null once a later one is rendered.
+  std::exception_ptr refusal;
+  uint64_t refused_revision = 0;
 };
 
 /// Renders a scene that changes, for those who watch: descriptions go in, snapshots come out. All
-/// functions may be called from any thread and return at once, but for those that wait. Commands
-/// are done in their order, in a thread of the engine's; of several edits that wait only the last
-/// counts.
+/// functions may be called from any thread and return at once, but for those that wait. A thread of
+/// the engine's builds scenes; of several edits that come meanwhile only the last counts. While
+/// edits keep coming, each that is taken gets a picture, or a tenth of a second.
 ///
 /// An edit that is refused harms nothing: rendering of the one before goes on, with all its passes.
+///
+/// Messages come from threads of the engine's and of its jobs, and must not destroy the engine;
+/// what they throw counts as a refusal or ends rendering.
 class Engine {
  public:
   explicit Engine(EngineSettings settings = {}, Messages messages = {});
@@ -51,12 +56,13 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// Renders this from now on, once it was started. The objects must not change from here on.
+  /// Renders this from now on, once it was started. Takes a copy of its objects when it is called.
   /// Returns the revision, from 1 on.
-  uint64_t edit(Description description);
-  /// Begins to render. Where it was stopped, or has finished, it begins anew. Throws
-  /// std::logic_error if there was no edit.
+  uint64_t edit(const Description& description);
+  /// Begins to render. Where it was stopped, or has finished, it begins anew; else nothing changes.
+  /// Throws std::logic_error if there was no edit.
   void start();
+  /// Lasts until resume(), whatever is started, stopped and edited. A light pass is finished first.
   void pause();
   void resume();
   /// Ends rendering; the last snapshot stays.
@@ -68,16 +74,16 @@ class Engine {
   /// The newest, once there is one with a larger number than that, or when the time is over: then
   /// null.
   std::shared_ptr<const Snapshot> wait_for_snapshot(uint64_t after,
-                                                    std::chrono::milliseconds most) const;
+                                                    std::chrono::milliseconds timeout) const;
   /// Until it neither builds nor renders, and no command waits. False when the time was over
   /// before.
-  bool wait_until_done(std::chrono::milliseconds most) const;
+  bool wait_until_done(std::chrono::milliseconds timeout) const;
 
  private:
   /// What is wanted: commands write it, the engine's thread makes it so.
   struct Wanted {
     std::shared_ptr<const Description> description;
-    uint64_t revision = 0, start = 0;
+    uint64_t revision = 0, starts = 0;
     bool runs = false, is_paused = false, ends = false;
   };
   /// One description that is rendered.
@@ -94,8 +100,9 @@ class Engine {
   void begin(std::unique_ptr<Run> run);
   void end_run();
   bool has_work() const;
-  /// Of the run before, which goes on as it was.
-  EngineState state_after_refusal(EngineState before) const;
+  EngineState state() const;
+  /// Until the run has shown something, or a tenth of a second.
+  void let_show(std::unique_lock<std::mutex>& lock);
   // Called by the job's threads:
   void progressed(const Run& run, const Progress& progress);
   void pass_done(const Run& run, uint32_t passes);
@@ -108,16 +115,18 @@ class Engine {
 
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;  ///< anything below
-  Wanted wanted_;
-  EngineStatus status_;
-  uint64_t taken_revision_ = 0, taken_start_ = 0;
+  Wanted wanted_, taken_;
+  EngineStatus status_;  ///< the state is the run's: neither building nor paused
+  bool is_building_ = false;
   bool is_busy_ = false;        ///< the thread is doing what was wanted
   const Run* shown_ = nullptr;  ///< whose pictures and progress count
   std::shared_ptr<Gate> gate_;  ///< of the run
   std::shared_ptr<const Snapshot> snapshot_;
   std::chrono::steady_clock::time_point published_;
 
-  std::unique_ptr<Run> run_;  ///< of the thread
+  // Of the thread:
+  std::unique_ptr<Run> run_;
+  std::shared_ptr<const Scene> last_scene_;  ///< of the run before, to share with
   std::thread thread_;
 };
 

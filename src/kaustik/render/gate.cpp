@@ -13,7 +13,7 @@ void Gate::open() {
   {
     const std::lock_guard lock(mutex_);
     if (!is_closed_) return;
-    before_ += Clock::now() - since_;
+    before_s_ = before_s_ + std::chrono::duration<double>(Clock::now() - since_).count();
     is_closed_ = false;
   }
   opened_.notify_all();
@@ -25,10 +25,11 @@ void Gate::wait(const std::stop_token& stop) {
 }
 
 double Gate::closed_s() const {
+  // Threads ask that often.
+  if (!is_closed_) return before_s_;
   const std::lock_guard lock(mutex_);
-  std::chrono::duration<double> all = before_;
-  if (is_closed_) all += Clock::now() - since_;
-  return all.count();
+  const std::chrono::duration<double> now = Clock::now() - since_;
+  return is_closed_ ? before_s_ + now.count() : before_s_.load();
 }
 
 }  // namespace kaustik

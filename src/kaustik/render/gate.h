@@ -31,8 +31,8 @@ class Gate {
   std::atomic<bool> is_closed_ = false;
   mutable std::mutex mutex_;
   std::condition_variable_any opened_;
-  Clock::time_point since_;                  ///< when it was closed, if it is
-  std::chrono::duration<double> before_{0};  ///< how long it was closed before
+  Clock::time_point since_;           ///< when it was closed, if it is
+  std::atomic<double> before_s_ = 0;  ///< how long it was closed before
 };
 
 }  // namespace kaustik

@@ -24,7 +24,8 @@ struct JobListener {
   std::function<void(const Progress&)> progress;  ///< Session::run()
   /// After every finished pass, when no thread works.
   std::function<void(const Film&)> pass_done;
-  /// Last of all, when rendering has ended; what wait() is going to throw, or null. Must not throw.
+  /// Last of all, when rendering has ended, cancelled or not: what wait() is going to throw, or
+  /// null. Must not throw.
   std::function<void(const std::exception_ptr&)> ended = {};
 };
 
@@ -117,7 +118,7 @@ class Job {
 
   /// After prepare().
   const Scene& scene() const;
-  std::shared_ptr<const Scene> shared_scene() const;
+  std::shared_ptr<const Scene> shared_scene() const;  ///< to share with others
   // Only while it does not run, after the session was made.
   const Film& film() const;
   Image image() const;  ///< Session::image()

@@ -51,6 +51,8 @@ void add_new(const std::vector<std::string>& sentences, std::vector<std::string>
 }  // namespace
 
 Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Monitor& monitor) {
+  if (settings_.gate) settings_.gate->pass(stop);
+  if (stop.stop_requested()) return PassEnd::discarded;
   monitor.start_pass();
   const Pass pass{settings_.seed, index, samples_per_pass_, {}};
   clear_pixels(monitor);

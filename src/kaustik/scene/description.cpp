@@ -1,5 +1,7 @@
 #include "kaustik/scene/description.h"
 
+#include <map>
+
 namespace kaustik {
 namespace {
 
@@ -12,7 +14,26 @@ void collect_files(const Object& object, const TypeTables& types, std::set<const
   for (const Child& child : object.children) collect_files(*child.object, types, seen, files);
 }
 
+using Copies = std::map<const Object*, std::shared_ptr<Object>>;
+
+std::shared_ptr<Object> copied(const std::shared_ptr<Object>& object, Copies& copies) {
+  if (!object) return nullptr;
+  std::shared_ptr<Object>& copy = copies[object.get()];
+  if (copy) return copy;
+  copy = std::make_shared<Object>(*object);
+  const std::shared_ptr<Object> result = copy;
+  for (Child& child : result->children) child.object = copied(child.object, copies);
+  return result;
+}
+
 }  // namespace
+
+Description copy_of(const Description& description) {
+  Copies copies;
+  Description copy = description;
+  copy.scene = copied(description.scene, copies);
+  return copy;
+}
 
 std::string file_of(const Property& property, const TypeInfo* info) {
   const Parameter* row = info ? info->find(property.name) : nullptr;

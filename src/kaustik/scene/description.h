@@ -43,6 +43,9 @@ struct Description {
   bool is_strict = false;
 };
 
+/// The same with objects of its own, shared where they were; numbers in buffers are not copied.
+Description copy_of(const Description& description);
+
 /// The path of the file that a property names where the table of its object's type says that it
 /// names one; "" for all others, and where the table is null.
 std::string file_of(const Property& property, const TypeInfo* info);
