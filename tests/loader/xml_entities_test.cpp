@@ -49,6 +49,14 @@ TEST(XmlEntities, StayWhereTheyMeanNothing) {
   EXPECT_EQ(value<double>(first_shape(parse(declared)), "x"), 1);
 }
 
+TEST(XmlEntities, WithoutADeclarationAreTold) {
+  const std::vector<std::string> warnings =
+      parse(in_scene("&header;<shape type='sphere'/>")).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("an entity that no DOCTYPE declares is left out"), std::string::npos)
+      << warnings[0];
+}
+
 TEST(XmlEntities, FilesBesideTheScene) {
   const TemporaryFolder folder;
   folder.write("parts/header.xml",

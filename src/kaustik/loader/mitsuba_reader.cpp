@@ -107,12 +107,18 @@ std::optional<Element> Reader::ready(const pugi::xml_node& node, const Source& s
 }
 
 bool Reader::is_element(const pugi::xml_node& node, const Source& source) {
-  if (node.type() == pugi::node_pcdata && !is_strict_)
-    leave_out("text", "text between the elements is left out", source.document.place(node));
-  else if (node.type() == pugi::node_pcdata)
+  if (node.type() == pugi::node_pcdata && !is_strict_) {
+    const std::string_view text = trimmed(node.value());
+    if (text.starts_with('&') && text.ends_with(';'))
+      leave_out("entity", "an entity that no DOCTYPE declares is left out",
+                source.document.place(node));
+    else
+      leave_out("text", "text between the elements is left out", source.document.place(node));
+  } else if (node.type() == pugi::node_pcdata) {
     problems_.add(fmt::format("text between the elements: {}", in_quotes(trimmed(node.value()))),
                   "values stand in attributes, as in <float name=\"radius\" value=\"1\"/>",
                   source.document.place(node));
+  }
   return node.type() == pugi::node_element;
 }
 
