@@ -6,6 +6,7 @@
 #include "file_roles.h"
 #include "kaustik/base/file.h"
 #include "kaustik/integrator/description_types.h"
+#include "kaustik/loader/mitsuba3_terms.h"
 #include "kaustik/loader/mitsuba_writer.h"
 #include "kaustik/loader/scene_format.h"
 #include "option_values.h"
@@ -37,7 +38,10 @@ void convert(const ConvertOptions& options) {
   roles.reads(description);
   roles.check();
   const std::string folder = std::filesystem::path(options.output).parent_path().string();
-  const std::string text = mitsuba_xml(description, description_types(), folder);
+  const Mitsuba3Scene scene = in_terms_of_mitsuba3(description, description_types());
+  const std::string text =
+      mitsuba_xml(scene.description, description_types(), folder, scene.version);
+  for (const std::string& remark : scene.remarks) warn(remark);
   write_file_atomically(options.output,
                         {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
   say("wrote {}: {} in Mitsuba 3's XML; it names the same mesh and picture files", options.output,

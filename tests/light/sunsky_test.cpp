@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "kaustik/base/color.h"
+#include "kaustik/base/daylight_units.h"
 #include "kaustik/base/warp.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/light/clear_sky.h"
@@ -112,6 +114,29 @@ TEST(SunSky, GivesTheLightOfAClearDay) {
     const double sky = illuminance(*make_day("sky", elevation, 2.5), {0, 0, 1}).mean();
     EXPECT_GT(sky, 10e3);
     EXPECT_LT(sky, 20e3);
+  }
+}
+
+// Radiance per nanometre that is the same at all wavelengths is 1 in Mitsuba: a mean.
+TEST(SunSky, UnitsOfMitsuba) {
+  double integral = 0;
+  for (int nm = 360; nm <= 830; ++nm) integral += cie_xyz_at(nm).y;
+  // 1 W/(sr·m²·nm) is so many W/(sr·m²) of 179 lm/W.
+  EXPECT_NEAR(integral * 683 / 179 * mitsuba_daylight, 1, 2e-3);
+
+  const Vec3d to_sun(std::cos(40 * degree), 0, std::sin(40 * degree));
+  const auto day = [&](const std::string& units) {
+    return make_light("sunsky",
+                      {{"units", Value(units), {}}, {"sun_direction", Value(to_sun), {}}});
+  };
+  const auto physical = day("physical"), mitsuba = day("mitsuba"),
+             usual = make_light("sunsky", {{"sun_direction", Value(to_sun), {}}});
+  for (const Vec3f& d : {Vec3f(to_sun), Vec3f(0, 0, 1), normalize(Vec3f(-1, 2, 1))}) {
+    const Spectrum whole = physical->distant().background(d, {});
+    const Spectrum part = mitsuba->distant().background(d, {});
+    EXPECT_EQ(usual->distant().background(d, {}), whole);
+    for (int lane = 0; lane < 3; ++lane)
+      EXPECT_NEAR(part[lane] * 683 * 106.857 / 179, whole[lane], 1e-5 * whole[lane]);
   }
 }
 

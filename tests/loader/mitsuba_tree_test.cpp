@@ -506,6 +506,114 @@ TEST(MitsubaTree, OldMedia) {
               1e-12);
 }
 
+// Before 0.4 the left of a <camera>'s picture was the right, and before 0.3 a lookAt by numbers
+// exchanged them once more.
+TEST(MitsubaTree, OldCamerasAreMirrored) {
+  const auto left_of = [](const std::string& tag, const std::string& look_at,
+                          const std::string& version) {
+    const std::string name = version < "2" ? "toWorld" : "to_world";
+    const auto scene = parse(in_scene("<" + tag + " type='perspective'><transform name='" + name +
+                                          "'>" + look_at + "</transform></" + tag + ">",
+                                      version))
+                           .scene;
+    const Transform to_world = value<Transform>(*scene->children.at(0).object, "to_world");
+    EXPECT_LT(length(to_world.point({0, 0, 0}) - Vec3f(0, 0, 4)), 1e-6f);
+    EXPECT_LT(length(to_world.vector({0, 0, 1}) - Vec3f(0, 0, -1)), 1e-6f);
+    EXPECT_LT(length(to_world.vector({0, 1, 0}) - Vec3f(0, 1, 0)), 1e-6f);
+    return to_world.vector({1, 0, 0}).x;
+  };
+  const std::string texts = "<lookAt origin='0,0,4' target='0,0,0' up='0,1,0'/>";
+  const std::string numbers =
+      "<lookAt ox='0' oy='0' oz='4' tx='0' ty='0' tz='0' ux='0' uy='1' uz='0'/>";
+  const float left = left_of("sensor", texts, "0.6.0");
+  EXPECT_NEAR(std::abs(left), 1, 1e-6);
+  EXPECT_NEAR(left_of("camera", texts, "0.4.0"), left, 1e-6);
+  EXPECT_NEAR(left_of("sensor", texts, "0.3.0"), left, 1e-6);
+  EXPECT_NEAR(left_of("camera", texts, "0.3.0"), -left, 1e-6);
+  EXPECT_NEAR(left_of("camera", texts, "0.2.0"), -left, 1e-6);
+  EXPECT_NEAR(left_of("camera", numbers, "0.2.0"), left, 1e-6);
+  EXPECT_NEAR(left_of("sensor", numbers, "0.2.0"), -left, 1e-6);
+  // Later versions do not know it.
+  EXPECT_FALSE(problems_in(in_scene("<sensor type='perspective'><transform name='toWorld'>" +
+                                        numbers + "</transform></sensor>",
+                                    "0.3.0"))
+                   .empty());
+}
+
+// Before 0.3 amounts multiplied reflectances.
+TEST(MitsubaTree, AmountsOfOldBsdfs) {
+  const auto bsdf_of = [](const std::string& type, const std::string& inside,
+                          const std::string& version = "0.2.0") {
+    return parse(in_scene("<texture type='bitmap' id='t'/><bsdf type='" + type + "'>" + inside +
+                              "</bsdf>",
+                          version))
+        .scene->children.at(1)
+        .object;
+  };
+  const std::string half = "<float name='diffuseAmount' value='0.5'/>";
+  const auto plain = bsdf_of("phong", "");
+  EXPECT_EQ(value<double>(*plain, "diffuse_reflectance"), 0.5);
+  EXPECT_EQ(value<double>(*plain, "specular_reflectance"), 0.2);
+  EXPECT_EQ(value<double>(*bsdf_of("ward", half), "diffuse_reflectance"), 0.25);
+  const auto microfacet = bsdf_of("microfacet", half);
+  EXPECT_EQ(microfacet->type, "roughplastic");
+  EXPECT_EQ(value<double>(*microfacet, "diffuse_reflectance"), 0);
+  EXPECT_EQ(value<double>(*microfacet, "specular_reflectance"), 1);
+  const auto coloured =
+      bsdf_of("phong", half + "<rgb name='diffuseReflectance' value='.2 .4 .6'/>");
+  EXPECT_EQ(value<Rgb>(*coloured, "diffuse_reflectance"), (Rgb{0.1, 0.2, 0.3}));
+  EXPECT_EQ(coloured->properties.size(), 2u);
+  const auto expect_scaled = [](const Object& bsdf) {
+    const Child& child = bsdf.children.at(0);
+    EXPECT_EQ(child.name, "diffuse_reflectance");
+    EXPECT_EQ(child.object->type, "scale");
+    EXPECT_EQ(value<double>(*child.object, "scale"), 0.5);
+    EXPECT_EQ(child.object->children.at(0).object->type, "bitmap");
+    for (const Property& property : bsdf.properties)
+      EXPECT_EQ(property.name, "specular_reflectance");
+  };
+  expect_scaled(*bsdf_of("phong", half + "<texture type='bitmap' name='diffuseReflectance'/>"));
+  expect_scaled(*bsdf_of("phong", half + "<ref id='t' name='diffuseReflectance'/>"));
+  // Without an amount a texture is what it is.
+  EXPECT_EQ(
+      bsdf_of("phong", "<ref id='t' name='diffuseReflectance'/>")->children.at(0).object->type,
+      "bitmap");
+  EXPECT_TRUE(bsdf_of("phong", "", "0.3.0")->properties.empty());
+}
+
+TEST(MitsubaTree, WhatShapesAndMirrorsWereBefore03) {
+  const auto first = [](const std::string& inside, const std::string& version) {
+    return parse(in_scene(inside + "<emitter type='point'/>", version))
+        .scene->children.at(0)
+        .object;
+  };
+  const std::string lamp = "<shape type='s'><luminaire type='area'/></shape>";
+  EXPECT_EQ(first(lamp, "0.2.0")->children.at(1).object->type, "diffuse");
+  EXPECT_EQ(first(lamp, "0.3.0")->children.size(), 1u);
+  EXPECT_EQ(first("<shape type='s'><bsdf type='b'/></shape>", "0.2.0")->children.size(), 1u);
+  EXPECT_EQ(value<std::string>(*first("<bsdf type='mirror'/>", "0.2.0"), "material"), "cr");
+  EXPECT_TRUE(first("<bsdf type='mirror'/>", "0.3.0")->properties.empty());
+  EXPECT_EQ(
+      value<double>(*first("<bsdf type='roughmetal'><float name='ior' value='2'/></bsdf>", "0.2.0"),
+                    "eta"),
+      2);
+}
+
+// In 0.6 nested bsdfs count in the order of the file, later by their names.
+TEST(MitsubaTree, NamesOfBsdfsInOldBlends) {
+  const std::string blend =
+      "<bsdf type='d' id='x'/><bsdf type='blendbsdf'><ref name='b' id='x'/><bsdf name='a' "
+      "type='d'/></bsdf>";
+  const auto names = [&](const std::string& version) {
+    const auto scene = parse(in_scene(blend, version)).scene;
+    std::string result;
+    for (const Child& child : scene->children.at(1).object->children) result += child.name + ",";
+    return result;
+  };
+  EXPECT_EQ(names("0.6.0"), ",,");
+  EXPECT_EQ(names("3.0.0"), "b,a,");
+}
+
 TEST(MitsubaTree, FileNamesMayHaveBackslashes) {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("meshes/a.obj", "");

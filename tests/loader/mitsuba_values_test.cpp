@@ -115,6 +115,56 @@ TEST(MitsubaValues, OldSkies) {
   EXPECT_TRUE(sky("constant", "")->properties.empty());
 }
 
+// Mitsuba's daylight is per nanometre. It had none from 2.0 to 3.6: such scenes are Kaustik's,
+// whose daylight is in W/(sr·m²).
+TEST(MitsubaValues, UnitsOfDaylight) {
+  const auto scene_with = [](const std::string& inside, const std::string& version) {
+    return parse(in_scene("<emitter type='sunsky'>" + inside + "</emitter>", version));
+  };
+  const auto units_of = [](const Description& scene) {
+    for (const Property& property : scene.scene->children.at(0).object->properties)
+      if (property.name == "units") return std::get<std::string>(property.value);
+    return std::string();
+  };
+  for (const std::string version : {"0.6.0", "0.4.0", "3.7.0", "3.8.1", "4.0.0"}) {
+    SCOPED_TRACE(version);
+    const Description scene = scene_with("", version);
+    EXPECT_EQ(units_of(scene), "mitsuba");
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("test.xml:2:1: 'sunsky' is per nanometre"), std::string::npos)
+        << scene.warnings[0];
+  }
+  const std::string own = "<string name='units' value='physical'/>";
+  for (const std::string version : {"0.6.0", "3.7.0"}) {
+    EXPECT_EQ(units_of(scene_with(own, version)), "physical");
+    EXPECT_TRUE(scene_with(own, version).warnings.empty());
+  }
+  const std::string lamp = "</emitter><emitter type='point'>";
+  for (const std::string version : {"2.0.0", "3.0.0", "3.6.4"}) {
+    SCOPED_TRACE(version);
+    EXPECT_EQ(units_of(scene_with("", version)), "");
+    EXPECT_TRUE(scene_with("", version).warnings.empty());
+    // What the sky is compared with makes the difference.
+    const Description two = scene_with(lamp, version);
+    ASSERT_EQ(two.warnings.size(), 1u);
+    EXPECT_NE(two.warnings[0].find("408 times as bright"), std::string::npos) << two.warnings[0];
+    EXPECT_TRUE(scene_with(own + lamp, version).warnings.empty());
+  }
+}
+
+TEST(MitsubaValues, BlackbodiesHadAMultiplier) {
+  const auto scale_of = [](const std::string& attribute, const std::string& version) {
+    const auto scene =
+        parse(in_scene("<emitter type='point'><blackbody name='intensity' temperature='4000' " +
+                           attribute + "='0.25'/></emitter>",
+                       version))
+            .scene;
+    return value<double>(*scene->children.at(0).object->children.at(0).object, "scale");
+  };
+  EXPECT_EQ(scale_of("multiplier", "0.3.0"), 0.25);
+  EXPECT_EQ(scale_of("scale", "0.4.0"), 0.25);
+}
+
 TEST(MitsubaValues, SpectrumFromFile) {
   const TemporaryFolder folder;
   folder.write("spectra/lamp.spd", "# nm  value\n400 0.25\r\n\n500\t0.5 # green\n600, 1");

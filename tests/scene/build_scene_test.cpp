@@ -185,6 +185,16 @@ TEST(BuildScene, WhatIsThereTwice) {
       "type=\"hdrfilm\"/></sensor>" +
           sphere,
       "3:1", "second film", "the first is here: test.xml:2:");
+  expect_problem(
+      "<sensor type=\"perspective\"><sampler type=\"independent\"/>\n<sampler "
+      "type=\"stratified\"/></sensor>" +
+          sphere,
+      "3:1", "the camera has a second sampler", "the first is here: test.xml:2:");
+  expect_problem(
+      "<sensor type=\"perspective\"><film type=\"hdrfilm\"><rfilter type=\"box\"/>\n<rfilter "
+      "type=\"tent\"/></film></sensor>" +
+          sphere,
+      "3:1", "the film has a second rfilter", "the first is here: test.xml:2:");
   expect_problem(camera +
                      "<shape type=\"disk\"><bsdf type=\"diffuse\"/>\n<bsdf "
                      "type=\"diffuse\"/></shape>",
@@ -196,6 +206,43 @@ TEST(BuildScene, WhatIsThereTwice) {
   const Description two =
       description_of(camera + sphere + "<integrator type=\"path\"/>\n<integrator type=\"path\"/>");
   EXPECT_THROW(find_integrator(two), Error);
+}
+
+TEST(BuildScene, TellsOfLobesThatAreCut) {
+  const auto warnings = [](const std::string& filter) {
+    return scene_of("<sensor type=\"perspective\">" + film(8, 8, "\n" + filter) + "</sensor>" +
+                    sphere)
+        ->warnings();
+  };
+  const auto told = warnings("<rfilter type=\"mitchell\"/>");
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].find("test.xml:3:1: of filter 'mitchell'"), 0u) << told[0];
+  EXPECT_TRUE(warnings("<rfilter type=\"gaussian\"/>").empty());
+}
+
+// Nested bsdfs count by their names, as in Mitsuba 3.
+TEST(BuildScene, OrderOfNestedBsdfs) {
+  const auto first_of = [](const std::string& name_a, const std::string& name_b) {
+    const auto nested = [](const std::string& name, const std::string& reflectance) {
+      return "<bsdf type=\"diffuse\"" + (name.empty() ? "" : " name=\"" + name + "\"") +
+             "><float name=\"reflectance\" value=\"" + reflectance + "\"/></bsdf>";
+    };
+    const auto scene = scene_of(camera +
+                                "<shape type=\"sphere\"><bsdf type=\"blendbsdf\"><float "
+                                "name=\"weight\" value=\"0.25\"/>" +
+                                nested(name_a, "0.4") + nested(name_b, "0.8") + "</bsdf></shape>");
+    const float albedo =
+        scene->surface(0).bsdf->albedo(BsdfContext(), Vec3f(0, 0, 1), Lobes::all)[0];
+    // Three quarters of the first, one quarter of the second.
+    if (std::fabs(albedo - 0.5f) < 1e-5f) return "a";
+    return std::fabs(albedo - 0.7f) < 1e-5f ? "b" : "neither";
+  };
+  EXPECT_STREQ(first_of("", ""), "a");
+  EXPECT_STREQ(first_of("bsdf_0", "bsdf_1"), "a");
+  EXPECT_STREQ(first_of("bsdf_1", "bsdf_0"), "b");
+  EXPECT_STREQ(first_of("b10", "b9"), "b");
+  EXPECT_STREQ(first_of("b9", "b10"), "a");
+  EXPECT_STREQ(first_of("coat", "base"), "b");
 }
 
 TEST(BuildScene, ScenesWithoutShapes) {

@@ -219,6 +219,14 @@ TEST(Camera, FocalLength) {
       "3:1", "'focal_length' is 'wide'", "35mm");
 }
 
+TEST(Camera, TwoFieldsOfView) {
+  expect_problem(
+      "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>\n<string "
+      "name=\"focal_length\" value=\"50mm\"/></sensor>" +
+          std::string(any_shape),
+      "3:1", "has both 'focal_length' and 'fov'", "give one of them");
+}
+
 TEST(Camera, LooksAlongZWithXToTheLeft) {
   const auto scene = seen_by("<float name=\"fov\" value=\"90\"/>" + film(32, 32));
   const Camera& camera = scene->camera();

@@ -138,6 +138,12 @@ TEST(PixelFilter, WithNegativeLobesKeepsTheOneInTheMiddle) {
   EXPECT_GT(mitchell.radius(), 1);
   EXPECT_LT(mitchell.radius(), 1.2);
   EXPECT_NEAR(mitchell.eval({0.5f, 0}) / mitchell.eval({0, 0}), 77.0 / 144 / (8.0 / 9), 1e-4);
+  for (const char* name : {"mitchell", "catmullrom", "lanczos"})
+    EXPECT_TRUE(filter_named(name).is_cut()) << name;
+  for (const char* name : {"box", "tent", "gaussian"})
+    EXPECT_FALSE(filter_named(name).is_cut()) << name;
+  EXPECT_FALSE(spline.is_cut());
+  EXPECT_FALSE(filter_named("lanczos", {{"lobes", int64_t(1), {}}}).is_cut());
 }
 
 }  // namespace

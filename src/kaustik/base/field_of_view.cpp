@@ -22,14 +22,14 @@ double tan_half_x(double fov_degrees, const std::string& axis, double aspect) {
 }  // namespace
 
 std::vector<Parameter> field_of_view_parameters() {
-  return {
-      optional(number_parameter("fov", 50, "Field of view along fov_axis.")
-                   .range(1e-4, 179.9)
-                   .in("degrees")),
-      optional(text_parameter("focal_length", "50mm",
-                              "Focal length for 35 mm film, instead of fov (a number and mm).")),
-      choice_parameter("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"},
-                       "What fov is measured along.")};
+  return {optional(number_parameter("fov", 50, "Field of view along fov_axis.")
+                       .range(1e-4, 179.9)
+                       .in("degrees")),
+          optional(text_parameter("focal_length", "50mm",
+                                  "Focal length for 35 mm film, instead of fov (a number and mm)."))
+              .instead_of("fov"),
+          choice_parameter("fov_axis", "x", {"x", "y", "diagonal", "smaller", "larger"},
+                           "What fov is measured along.")};
 }
 
 Vec2f tan_half_fov(const Arguments& arguments, double aspect) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "kaustik/base/color.h"
+#include "kaustik/base/daylight_units.h"
 #include "kaustik/base/warp.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/light/clear_sky.h"
@@ -270,8 +271,9 @@ SunSkySettings read_settings(const LightInputs& inputs) {
     throw Error(ErrorKind::input, "'albedo' is above 1",
                 "give what share of light the ground reflects", arguments.place_of("albedo"));
   settings.ground_albedo = double(photopic({albedo[0], albedo[1], albedo[2]}));
-  settings.sun_scale = number("sun_scale", 0);
-  settings.sky_scale = number("sky_scale", 0);
+  const double unit = arguments.text("units") == "mitsuba" ? mitsuba_daylight : 1;
+  settings.sun_scale = unit * number("sun_scale", 0);
+  settings.sky_scale = unit * number("sky_scale", 0);
   settings.sun_aperture = number("sun_aperture", 0.5358) * std::numbers::pi / 180;
   return settings;
 }
@@ -323,6 +325,10 @@ std::vector<Parameter> parameters(Parts parts) {
   if (parts != Parts::sun)
     table.push_back(
         number_parameter("sky_scale", 1, "Factor on the sky's radiance.").range(0, 1e30));
+  table.push_back(choice_parameter(
+      "units", "physical", {"physical", "mitsuba"},
+      "Of radiance: W/(sr·m²), or as in Mitsuba, per nanometre, which is 1/408 of that. Scenes of "
+      "Mitsuba before 2.0 and since 3.7 mean the latter."));
   table.push_back(
       to_world_parameter("World from the sky, whose +z is the zenith, +x south and +y west."));
   table.push_back(visible_parameter());

@@ -79,7 +79,9 @@ Value Reader::light_of(const Value& spectrum, const Source& source) {
 /// Mitsuba 0.6 has an element for what is now a spectrum of this type.
 void Reader::read_blackbody(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"name", "temperature"}, {"scale"}}, problems_)) return;
+  const char* factor =
+      element.find("multiplier") && source.version < first_of_mitsuba_0_4 ? "multiplier" : "scale";
+  if (!check_attributes(element, {{"name", "temperature"}, {factor}}, problems_)) return;
   const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   if (!take_name(parent, name, element.place)) return;
   const auto object = std::make_shared<Object>();
@@ -90,7 +92,7 @@ void Reader::read_blackbody(const Element& element, Unfinished& parent, Source& 
     const Attribute& temperature = *element.find("temperature");
     object->properties.push_back(
         {"temperature", parse_attribute(temperature, parse_kelvin), temperature.place});
-    if (const Attribute* scale = element.find("scale"))
+    if (const Attribute* scale = element.find(factor))
       object->properties.push_back({"scale", parse_attribute(*scale, parse_float), scale->place});
     parent.object->children.push_back({name, object});
   } catch (const BadValue& bad) {
@@ -145,7 +147,12 @@ const SpectralCurve& Reader::curve_of(const std::string& path, const Place& plac
 
 void Reader::read_transform(const Element& element, Unfinished& parent, Source& source) {
   if (!check_attributes(element, {{"name"}, {}}, problems_)) return;
-  add_transform(element, transform_of(element, source), parent, source);
+  Transform transform = transform_of(element, source);
+  const bool is_of_camera = std::string_view(element.node.parent().name()) == "camera" &&
+                            parent.object->family == "sensor" && element.value("name") == "toWorld";
+  if (source.version < first_of_mitsuba_0_4 && is_of_camera)
+    transform = transform * mirrored_camera();
+  add_transform(element, transform, parent, source);
 }
 
 Transform Reader::transform_of(const Element& element, const Source& source) {
@@ -160,7 +167,8 @@ Transform Reader::transform_of(const Element& element, const Source& source) {
                     suggestion(operation->tag, transform_tags()), operation->place);
       continue;
     }
-    if (!check_attributes(*operation, transform_rule(operation->tag), problems_)) continue;
+    if (!check_attributes(*operation, transform_rule(*operation, source.version), problems_))
+      continue;
     try {
       transform = followed_by(transform, parse_transform_operation(*operation));
     } catch (const BadValue& bad) {

@@ -64,6 +64,8 @@ Description Reader::finish(const std::shared_ptr<Object>& scene) {
   if (scene && !incomplete_) {
     references_.resolve(scene, problems_);
     if (problems_.empty()) open_old_shapes();
+    if (problems_.empty()) finish_old_bsdfs();
+    if (problems_.empty()) tell_units_of_daylight(*scene);
     const bool is_old = version_ < first_with_snake_case;
     if (problems_.empty() && is_old) put_last_sensor_first(*scene);
     // What is left out may have used them.
@@ -211,12 +213,6 @@ Rgb colour_of(const Value& value) {
   return number ? Rgb{*number, *number, *number} : Rgb{0, 0, 0};
 }
 double largest_lane(const Rgb& colour) { return std::max({colour.r, colour.g, colour.b}); }
-void scale(Value& value, double factor) {
-  if (auto* colour = std::get_if<Rgb>(&value))
-    *colour = {colour->r * factor, colour->g * factor, colour->b * factor};
-  else if (auto* number = std::get_if<double>(&value))
-    *number *= factor;
-}
 
 }  // namespace
 
@@ -231,7 +227,8 @@ void Reader::scale_sum_of_reflectances(Object& object) {
     sum = {sum.r + share.r, sum.g + share.g, sum.b + share.b};
   }
   if (!(largest_lane(sum) > 1)) return;
-  for (Property* share : shares) scale(share->value, largest_reflectance / largest_lane(sum));
+  for (Property* share : shares)
+    multiply_value(share->value, largest_reflectance / largest_lane(sum));
   leave_out("sum of reflectances",
             fmt::format("the reflectances of '{}' add up to {:.4g}, which makes light: they are "
                         "scaled to {}",
@@ -258,7 +255,7 @@ void Reader::scale_reflectances(Object& object) {
       continue;
     const double most = largest_lane(colour_of(property.value));
     if (!(most > 1)) continue;
-    scale(property.value, largest_reflectance / most);
+    multiply_value(property.value, largest_reflectance / most);
     leave_out("reflectance",
               fmt::format("'{}' is above 1, which makes light: it is scaled to {}", property.name,
                           largest_reflectance),
@@ -281,6 +278,14 @@ void Reader::open_old_shapes() {
   }
 }
 
+void Reader::finish_old_bsdfs() {
+  for (const OldBsdf& old : old_bsdfs_) {
+    if (old.version < first_of_mitsuba_0_3) use_amounts(*old.bsdf, old.written_type);
+    for (Child& child : old.bsdf->children)
+      if (child.object->family == "bsdf") child.name.clear();
+  }
+}
+
 void Reader::put_last_sensor_first(Object& scene) {
   const auto is_sensor = [](const Child& child) { return child.object->family == "sensor"; };
   const auto first = std::find_if(scene.children.begin(), scene.children.end(), is_sensor);
@@ -291,9 +296,10 @@ void Reader::put_last_sensor_first(Object& scene) {
 
 namespace {
 
+/// One that is not among `visited`.
 bool holds_emitter(const Object& object, std::set<const Object*>& visited) {
-  if (object.family == "emitter") return true;
-  return visited.insert(&object).second &&
+  if (!visited.insert(&object).second) return false;
+  return object.family == "emitter" ||
          std::any_of(object.children.begin(), object.children.end(),
                      [&](const Child& child) { return holds_emitter(*child.object, visited); });
 }
@@ -314,6 +320,26 @@ void Reader::light_dark_scene(Object& scene) {
             fmt::format("the scene has no emitter: a '{}' lights it, as in Mitsuba of that version",
                         emitter->type),
             scene.place);
+}
+
+void Reader::tell_units_of_daylight(const Object& scene) {
+  if (daylights_.empty()) return;
+  const Object& first = *daylights_.front();
+  if (!lacks_units(first)) {
+    leave_out("units of daylight",
+              fmt::format("'{}' is per nanometre, as in Mitsuba: 1/408 of W/(sr·m²)", first.type),
+              first.place);
+    return;
+  }
+  // Alone it makes a picture that is brighter, and no other one.
+  std::set<const Object*> visited(daylights_.begin(), daylights_.end());
+  if (!holds_emitter(scene, visited)) return;
+  leave_out("units of daylight",
+            fmt::format("'{}' is in W/(sr·m²), beside other lamps 408 times as bright as in "
+                        "Mitsuba; give it <string name=\"units\" value=\"mitsuba\"/> for that, or "
+                        "\"physical\"",
+                        first.type),
+            first.place);
 }
 
 bool Reader::take_name(Unfinished& parent, const std::string& name, const Place& place) {
@@ -356,6 +382,9 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   if (!is_strict_ && source.version < first_with_snake_case) scale_sum_of_reflectances(object);
   if (source.version < first_with_snake_case && object.family == "shape")
     old_shapes_.push_back(unfinished.object);
+  if (object.family == "bsdf" && source.version < first_with_snake_case)
+    old_bsdfs_.push_back({unfinished.object, element.value("type"), source.version});
+  if (lacks_units(object)) daylights_.push_back(&object);
   upgrade_sky(object, source.version);
   upgrade_medium(object, source.version);
   if (loads_materials(object, source.version)) old_obj_shapes_.insert(&object);

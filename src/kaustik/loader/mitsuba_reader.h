@@ -85,10 +85,15 @@ class Reader {
   void scale_sum_of_reflectances(Object& object);
   /// Before Mitsuba 2 a shape with a medium and no bsdf was a boundary of media alone.
   void open_old_shapes();
+  /// What waits for references to be followed; and nested bsdfs counted in the order of the file,
+  /// not by their names.
+  void finish_old_bsdfs();
   /// Of several sensors Mitsuba 0.6 rendered the last one, and later versions the first.
   static void put_last_sensor_first(Object& scene);
   /// Scenes without an emitter were not dark before Mitsuba 2.
   void light_dark_scene(Object& scene);
+  /// That light of the sky is physical here and not in Mitsuba, where that makes a difference.
+  void tell_units_of_daylight(const Object& scene);
   /// `what` is told once, with how many there were.
   void leave_out(const std::string& what, const std::string& sentence, const Place& place);
 
@@ -113,6 +118,12 @@ class Reader {
     int count = 0;
   };
 
+  struct OldBsdf {
+    std::shared_ptr<Object> bsdf;
+    std::string written_type;
+    Version version;
+  };
+
   bool is_strict_;
   Problems problems_;
   Definitions definitions_;
@@ -128,6 +139,8 @@ class Reader {
   size_t read_bytes_ = 0;
   size_t entity_bytes_left_ = EntityRules::most_bytes;
   std::vector<std::shared_ptr<Object>> old_shapes_;  ///< of files before Mitsuba 2
+  std::vector<OldBsdf> old_bsdfs_;                   ///< of files before Mitsuba 2
+  std::vector<const Object*> daylights_;             ///< whose units the file does not tell
   int depth_ = 0;
   Version version_ = {0, 0, 0};  ///< of the scene
   bool incomplete_ = false;      ///< a part of the scene could not be read at all

@@ -1,5 +1,6 @@
 #include "kaustik/loader/mitsuba_sky.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -7,6 +8,9 @@
 
 namespace kaustik::mitsuba {
 namespace {
+
+/// Since Mitsuba 2.0.
+constexpr Version first_with_daylight = {3, 7, 0};
 
 /// Angle across the sun's disk, degrees, that 0.6 scales.
 constexpr double sun_aperture_degrees = 0.5358;
@@ -34,6 +38,11 @@ void multiply(Object& object, const std::string& name, const Property& factor) {
     *number *= std::get<double>(factor.value);
 }
 
+bool is_daylight(const Object& object) {
+  return object.family == "emitter" &&
+         (object.type == "sun" || object.type == "sky" || object.type == "sunsky");
+}
+
 /// The space of a sky of 0.6 from that of one of today, whose +z is the zenith, +x south and +y
 /// west. It mirrors: seen from above, today's south, west and north follow one another the wrong
 /// way round, as in Mitsuba 3.
@@ -44,12 +53,21 @@ Transform old_from_new() {
 
 }  // namespace
 
+bool lacks_units(const Object& object) {
+  const auto is_units = [](const Property& property) { return property.name == "units"; };
+  return is_daylight(object) &&
+         std::none_of(object.properties.begin(), object.properties.end(), is_units);
+}
+
+bool means_units_of_mitsuba(Version version) {
+  return version < first_with_snake_case || version >= first_with_daylight;
+}
+
 void upgrade_sky(Object& object, Version version) {
+  if (lacks_units(object) && means_units_of_mitsuba(version))
+    object.properties.push_back({"units", std::string("mitsuba"), object.place});
   const bool is_sun = object.type == "sun", is_sky = object.type == "sky";
-  const bool has_both = object.type == "sunsky";
-  if (version >= first_with_snake_case || object.family != "emitter" ||
-      !(is_sun || is_sky || has_both))
-    return;
+  if (version >= first_with_snake_case || !is_daylight(object)) return;
   if (const auto scale = without_number(object, "scale")) {
     if (!is_sky) multiply(object, "sun_scale", *scale);
     if (!is_sun) multiply(object, "sky_scale", *scale);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 
 namespace kaustik::mitsuba {
 namespace {
@@ -34,6 +35,21 @@ Transform parse_look_at(const Element& element) {
   return Transform::look_at(origin, target, up);
 }
 
+/// As before 0.3: a number in each attribute, and the picture's sides are exchanged.
+Transform parse_look_at_by_numbers(const Element& element) {
+  const auto vector_of = [&](char prefix, const Vec3d& otherwise) {
+    Vec3d result = otherwise;
+    for (const int i : {0, 1, 2})
+      if (const Attribute* number = element.find(std::string{prefix, "xyz"[i]}))
+        result[i] = parse_attribute(*number, parse_float);
+    return result;
+  };
+  const Vec3d origin = vector_of('o', {0, 0, 0}), target = vector_of('t', {0, 0, 0});
+  Vec3d up = vector_of('u', {0, 0, 0});
+  if (up == Vec3d(0, 0, 0)) up = default_up(origin, target);
+  return Transform::look_at(origin, target, up) * mirrored_camera();
+}
+
 Transform parse_matrix(std::string_view text) {
   const auto parts = split_list(text);
   if (parts.size() != 16 && parts.size() != 9)
@@ -49,6 +65,7 @@ Transform parse_matrix(std::string_view text) {
 Transform parse_operation(const Element& element) {
   if (element.tag == "translate") return Transform::translate(required_components(element, 0));
   if (element.tag == "scale") return Transform::scale(required_components(element, 1));
+  if (element.tag == "lookat" && element.find("ox")) return parse_look_at_by_numbers(element);
   if (element.tag == "lookat") return parse_look_at(element);
   if (element.tag == "matrix") return parse_attribute(*element.find("value"), parse_matrix);
   const Vec3d axis = required_components(element, 0);
@@ -64,12 +81,17 @@ bool is_finite(const Transform& transform) {
 
 }  // namespace
 
-AttributeRule transform_rule(const std::string& operation) {
+AttributeRule transform_rule(const Element& element, Version version) {
+  const std::string& operation = element.tag;
+  if (operation == "lookat" && element.find("ox") && version < first_of_mitsuba_0_3)
+    return {{"ox", "oy", "oz", "tx", "ty", "tz"}, {"ux", "uy", "uz"}};
   if (operation == "lookat") return {{"origin", "target"}, {"up"}};
   if (operation == "matrix") return {{"value"}, {}};
   if (operation == "rotate") return {{"angle"}, components_rule.optional};
   return components_rule;
 }
+
+Transform mirrored_camera() { return Transform::scale({-1, 1, 1}); }
 
 Transform parse_transform_operation(const Element& element) {
   try {

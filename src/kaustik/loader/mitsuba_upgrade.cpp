@@ -13,8 +13,7 @@
 namespace kaustik::mitsuba {
 namespace {
 
-constexpr Version first_of_mitsuba_0_3 = {0, 3, 0}, first_of_mitsuba_0_4 = {0, 4, 0},
-                  first_of_mitsuba_0_5 = {0, 5, 0};
+constexpr Version first_of_mitsuba_0_5 = {0, 5, 0};
 
 /// In files of versions before `until` a type or a name was called `old_name`. A type may imply a
 /// distribution of facets.
@@ -69,6 +68,10 @@ constexpr PropertyName property_names[] = {
     {first_of_mitsuba_0_3, "bsdf", "", "alpha_y", "alpha_v"},
     {first_of_mitsuba_0_3, "texture", "checkerboard", "bright_color", "color0"},
     {first_of_mitsuba_0_3, "texture", "checkerboard", "dark_color", "color1"},
+    {first_of_mitsuba_0_3, "texture", "gridtexture", "bright_color", "color0"},
+    {first_of_mitsuba_0_3, "texture", "gridtexture", "dark_color", "color1"},
+    {first_of_mitsuba_0_3, "bsdf", "roughconductor", "ior", "eta"},
+    {first_of_mitsuba_0_3, "medium", "", "size_multiplier", "scale"},
     {first_of_mitsuba_0_3, "shape", "sphere", "inverted", "flip_normals"},
     {first_of_mitsuba_0_3, "shape", "cylinder", "p1", "p0"},
     {first_of_mitsuba_0_3, "shape", "cylinder", "p2", "p1"}};
@@ -156,7 +159,7 @@ void upgrade_texture(Object& object, Problems& problems) {
 /// Cameras of Mitsuba 0.3 gave the field of view of the picture's smaller side, or of the larger
 /// one.
 void upgrade_field_of_view(Object& object) {
-  if (object.family != "sensor" || has(object, "fov_axis")) return;
+  if (object.family != "sensor" || object.type != "perspective" || has(object, "fov_axis")) return;
   const auto smaller = take<bool>(object, "map_smaller_side");
   const bool is_smaller = !smaller || std::get<bool>(smaller->value);
   object.properties.push_back({"fov_axis", std::string(is_smaller ? "smaller" : "larger"),
@@ -181,6 +184,58 @@ void upgrade_conductor(Object& object) {
       std::any_of(object.children.begin(), object.children.end(), tells_metal))
     return;
   object.properties.push_back({"material", std::string("cu"), object.place});
+}
+
+/// Of a bsdf before 0.3, whose two reflectances are multiplied by amounts.
+struct Amounts {
+  std::string_view written_type;
+  double diffuse, specular;  ///< reflectances where none is given
+};
+constexpr Amounts bsdfs_with_amounts[] = {
+    {"phong", 0.5, 0.2}, {"ward", 0.5, 0.2}, {"microfacet", 0, 1}};
+
+/// A texture that multiplies another one.
+std::shared_ptr<Object> scaled_texture(const std::shared_ptr<Object>& texture, double factor) {
+  const auto result = std::make_shared<Object>();
+  result->family = "texture";
+  result->type = "scale";
+  result->place = texture->place;
+  result->properties = {{"scale", factor, texture->place}};
+  result->children = {{"value", texture}};
+  return result;
+}
+
+void use_amount(Object& object, const std::string& share, double usual) {
+  const std::string reflectance = share + "_reflectance", amount_name = share + "_amount";
+  const auto is_it = [&](const auto& part) { return part.name == reflectance; };
+  const auto child = std::find_if(object.children.begin(), object.children.end(), is_it);
+  const bool is_child = child != object.children.end();
+  if (is_child && !child->object) return;  // a reference that is still to be followed
+  const auto given = take<double>(object, amount_name);
+  const double amount = given ? std::get<double>(given->value) : 1;
+  const auto value = std::find_if(object.properties.begin(), object.properties.end(), is_it);
+  if (value != object.properties.end())
+    multiply_value(value->value, amount);
+  else if (!is_child)
+    object.properties.push_back({reflectance, usual * amount, object.place});
+  else if (amount != 1)
+    child->object = scaled_texture(child->object, amount);
+}
+
+/// Before 0.3 a shape of which nothing else was said was matt, also one that is a lamp.
+void give_bsdf(Object& object) {
+  const auto tells = [](const Child& child) {
+    return !child.object || child.object->family == "bsdf" || child.object->family == "medium" ||
+           child.object->family == "shape";
+  };
+  if (object.family != "shape" ||
+      std::any_of(object.children.begin(), object.children.end(), tells))
+    return;
+  const auto matt = std::make_shared<Object>();
+  matt->family = "bsdf";
+  matt->type = "diffuse";
+  matt->place = object.place;
+  object.children.push_back({"", matt});
 }
 
 /// Of lajolla, where metal and glass are types.
@@ -245,6 +300,28 @@ void upgrade_object(Object& object, const std::string& written_type, Version ver
     if (written_type != "mirror") upgrade_conductor(object);
   }
   if (version < first_of_mitsuba_0_4) upgrade_field_of_view(object);
+  if (version >= first_of_mitsuba_0_3) return;
+  use_amounts(object, written_type);
+  give_bsdf(object);
+  if (object.family == "bsdf" && written_type == "mirror" && !has(object, "material"))
+    object.properties.push_back({"material", std::string("cr"), object.place});
+}
+
+void use_amounts(Object& object, const std::string& written_type) {
+  if (object.family != "bsdf") return;
+  for (const Amounts& row : bsdfs_with_amounts)
+    if (lower_case(written_type) == row.written_type) {
+      use_amount(object, "diffuse", row.diffuse);
+      use_amount(object, "specular", row.specular);
+    }
+}
+
+void multiply_value(Value& value, double factor) {
+  if (auto* number = std::get_if<double>(&value)) *number *= factor;
+  if (auto* colour = std::get_if<Rgb>(&value))
+    *colour = {colour->r * factor, colour->g * factor, colour->b * factor};
+  if (auto* curve = std::get_if<SpectralCurve>(&value))
+    for (auto& sample : curve->samples) sample.second *= factor;
 }
 
 bool loads_materials(const Object& object, Version version) {

@@ -16,6 +16,7 @@ struct Version {
   friend auto operator<=>(const Version&, const Version&) = default;
 };
 
+inline constexpr Version first_of_mitsuba_0_3 = {0, 3, 0}, first_of_mitsuba_0_4 = {0, 4, 0};
 /// Names are camelCase before it.
 inline constexpr Version first_with_snake_case = {2, 0, 0};
 
@@ -37,6 +38,14 @@ std::string upgraded_name(const std::string& name, const Object& parent, Version
 /// a grid lies, and conductors without material, eta and k, which were of copper before version 2.
 void upgrade_object(Object& object, const std::string& written_type, Version version,
                     Problems& problems);
+
+/// Before 0.3 'diffuseAmount' and 'specularAmount' multiplied the reflectances of the bsdfs
+/// 'phong', 'ward' and 'microfacet', which were others where none was given. A part of
+/// upgrade_object(), which leaves what is a reference to those who have followed it.
+void use_amounts(Object& object, const std::string& written_type);
+
+/// What is a number, a colour or a curve; else nothing.
+void multiply_value(Value& value, double factor);
 
 /// Whether a shape takes materials from its mesh file: see use_obj_materials().
 bool loads_materials(const Object& object, Version version);

@@ -13,8 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* version = "3.0.0";
-
 /// Digits by which a number is read back to the last bit.
 std::string text_of(double number) { return fmt::format("{}", number); }
 
@@ -37,12 +35,12 @@ class Writer {
  public:
   Writer(const TypeTables& types, fs::path folder) : types_(types), folder_(std::move(folder)) {}
 
-  std::string text(const Object& scene) {
+  std::string text(const Object& scene, const std::string& version) {
     count(scene);
     for (const Child& child : scene.children) top_level_.insert(child.object.get());
     pugi::xml_document document;
     pugi::xml_node root = document.append_child("scene");
-    root.append_attribute("version") = version;
+    root.append_attribute("version") = version.c_str();
     if (!scene.id.empty()) root.append_attribute("id") = scene.id.c_str();
     for (const Property& property : scene.properties) write(property, nullptr, root);
     for (const Child& child : scene.children) write(child, root, true);
@@ -154,8 +152,8 @@ class Writer {
 }  // namespace
 
 std::string mitsuba_xml(const Description& description, const TypeTables& types,
-                        const std::string& folder) {
-  return Writer(types, folder).text(*description.scene);
+                        const std::string& folder, const std::string& version) {
+  return Writer(types, folder).text(*description.scene, version);
 }
 
 }  // namespace kaustik

@@ -1,9 +1,29 @@
 #include "kaustik/scene/description.h"
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 
 namespace kaustik {
 namespace {
+
+size_t length_without_number(const std::string& name) {
+  size_t length = name.size();
+  while (length > 0 && std::isdigit(static_cast<unsigned char>(name[length - 1]))) --length;
+  return length;
+}
+
+/// "b2" before "b10".
+bool comes_before(const std::string& a, const std::string& b) {
+  const size_t text_a = length_without_number(a), text_b = length_without_number(b);
+  const int order = a.substr(0, text_a).compare(b.substr(0, text_b));
+  if (order != 0 || text_a == a.size() || text_b == b.size()) return a < b;
+  // Of digits without zeros before them the longer ones are more.
+  const std::string digits_a = a.substr(std::min(a.find_first_not_of('0', text_a), a.size()));
+  const std::string digits_b = b.substr(std::min(b.find_first_not_of('0', text_b), b.size()));
+  if (digits_a.size() != digits_b.size()) return digits_a.size() < digits_b.size();
+  return digits_a < digits_b;
+}
 
 void collect_files(const Object& object, const TypeTables& types, std::set<const Object*>& seen,
                    std::set<std::string>& files) {
@@ -33,6 +53,15 @@ Description copy_of(const Description& description) {
   Description copy = description;
   copy.scene = copied(description.scene, copies);
   return copy;
+}
+
+std::vector<const Child*> ordered_children(const Object& object, const std::string& family) {
+  std::vector<const Child*> children;
+  for (const Child& child : object.children)
+    if (child.object->family == family) children.push_back(&child);
+  std::stable_sort(children.begin(), children.end(),
+                   [](const Child* a, const Child* b) { return comes_before(a->name, b->name); });
+  return children;
 }
 
 std::string file_of(const Property& property, const TypeInfo* info) {

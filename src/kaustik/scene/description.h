@@ -31,6 +31,10 @@ struct Object {
   Place place;
 };
 
+/// The children of that family in the order in which Mitsuba 3 counts them: by their names, where
+/// numbers at the end count as numbers. Those without a name come first, in the order of the file.
+std::vector<const Child*> ordered_children(const Object& object, const std::string& family);
+
 /// A whole scene as it was described; file names in it are already relative to the working folder
 /// or absolute.
 struct Description {

@@ -20,16 +20,6 @@ std::vector<std::string> volume_parameters(const TypeInfo& info) {
   return names;
 }
 
-/// The children of that family, in the order of their names as far as they have some.
-std::vector<const Child*> ordered_children(const Object& object, const std::string& family) {
-  std::vector<const Child*> children;
-  for (const Child& child : object.children)
-    if (child.object->family == family) children.push_back(&child);
-  std::stable_sort(children.begin(), children.end(),
-                   [](const Child* a, const Child* b) { return a->name < b->name; });
-  return children;
-}
-
 }  // namespace
 
 std::shared_ptr<const PhaseFunction> SceneBuilder::make_phase_function(const Object& object,

@@ -17,6 +17,8 @@ class FilterProfile {
   virtual float density(float distance) const = 0;
   /// An offset with that density, made of u in [0, 1); rises with u.
   virtual float sample(float u) const = 0;
+  /// Whether it stands for one with more lobes, some of them negative.
+  virtual bool is_cut() const { return false; }
 };
 
 /// The pixel filter, normalised to integral 1 over the raster plane. Camera rays are drawn from it,
@@ -34,6 +36,7 @@ class PixelFilter {
   /// Density of that offset; zero beyond radius().
   float eval(const Vec2f& offset) const { return eval_1d(offset.x) * eval_1d(offset.y); }
   float radius() const { return radius_; }
+  bool is_cut() const { return profile_->is_cut(); }
 
  private:
   float eval_1d(float x) const {

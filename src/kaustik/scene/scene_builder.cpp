@@ -556,9 +556,8 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, cons
   }
   refuse_children(object, {"bsdf", "texture"});
   std::vector<std::shared_ptr<const Bsdf>> nested;
-  for (const Child& child : object.children) {
-    if (child.object->family != "bsdf") continue;
-    nested.push_back(make_bsdf(child.object, on));
+  for (const Child* child : ordered_children(object, "bsdf")) {
+    nested.push_back(make_bsdf(child->object, on));
     if (!nested.back()) return nullptr;
   }
   const std::optional<Textures> textures = textures_of(object, type->info, on);

@@ -86,6 +86,8 @@ class SceneBuilder {
   /// The first one is the scene's camera; `shape`: that it belongs to, −1: none.
   void add_sensor(const Object& object, int shape);
   void make_sensor(const Object& object);
+  /// Null: there is none. A second one is told.
+  const Object* only_child(const Object& object, const std::string& family);
   /// What the camera belongs to, or looks at; null: nothing, or what is wrong with it was told.
   std::shared_ptr<const Shape> shape_of_sensor(const Object& object, const CameraType& type);
   Bounds3f bounds_of_shapes() const;

@@ -28,17 +28,10 @@ void SceneBuilder::make_sensor(const Object& object) {
   camera_medium_ = medium_of(object);
   const Surface* own = type->needs_shape ? &shapes_[size_t(sensor_shape_)].surface : nullptr;
   if (own && !camera_medium_) camera_medium_ = own->exterior;
-  const Object* film = nullptr;
-  for (const Child& child : object.children) {
-    if (child.object->family != "film") continue;
-    if (film)
-      problems_.add("the camera has a second film", keep_one(film->place), child.object->place);
-    film = child.object.get();
-  }
+  const Object* film = only_child(object, "film");
   static const Object default_film{"film", "hdrfilm", "", {}, {}, {}};
   read_film(film ? *film : default_film);
-  for (const Child& child : object.children)
-    if (child.object->family == "sampler") read_sampler(*child.object);
+  if (const Object* sampler = only_child(object, "sampler")) read_sampler(*sampler);
   const Arguments arguments = arguments_of(type->info, object);
   const Bounds3f bounds = type->takes_shape ? bounds_of_shapes() : Bounds3f();
   camera_ = type->create({arguments, film_, shape, own && own->traits.is_null, bounds});
@@ -46,6 +39,20 @@ void SceneBuilder::make_sensor(const Object& object) {
   if (own)
     film_.quantity =
         camera_->traits().measures_irradiance ? Quantity::radiance : Quantity::irradiance;
+}
+
+const Object* SceneBuilder::only_child(const Object& object, const std::string& family) {
+  const Object* first = nullptr;
+  for (const Child& child : object.children) {
+    if (child.object->family != family) continue;
+    if (first)
+      problems_.add(fmt::format("the {} has a second {}",
+                                object.family == "sensor" ? "camera" : object.family, family),
+                    keep_one(first->place), child.object->place);
+    else
+      first = child.object.get();
+  }
+  return first;
 }
 
 std::shared_ptr<const Shape> SceneBuilder::shape_of_sensor(const Object& object,
@@ -126,8 +133,7 @@ void SceneBuilder::read_film(const Object& object) {
   collecting(object.place, [&] { film_ = type->create(arguments); });
   refuse_children(object, {"rfilter"});
   film_.filter = gaussian_filter(0.5f, 2.0f);
-  for (const Child& child : object.children)
-    if (child.object->family == "rfilter") read_filter(*child.object);
+  if (const Object* filter = only_child(object, "rfilter")) read_filter(*filter);
 }
 
 void SceneBuilder::read_filter(const Object& object) {
@@ -138,6 +144,11 @@ void SceneBuilder::read_filter(const Object& object) {
   }
   refuse_children(object, {});
   film_.filter = type->create(arguments_of(type->info, object));
+  if (film_.filter.is_cut())
+    warnings_.push_back(fmt::format(
+        "{}: of filter '{}' the lobe in the middle is kept, since negative ones would be noise; "
+        "the picture is a little softer",
+        text_of(object.place), object.type));
 }
 
 void SceneBuilder::read_sampler(const Object& object) {

@@ -32,8 +32,10 @@ double first_zero(const Lobe& lobe, double radius) {
 
 class MiddleLobe final : public FilterProfile {
  public:
-  MiddleLobe(Lobe lobe, double radius)
+  /// `is_cut`: the lobe has neighbours.
+  MiddleLobe(Lobe lobe, double radius, bool is_cut)
       : lobe_(std::move(lobe)),
+        is_cut_(is_cut),
         sums_(sums_of(lobe_, radius)),
         offsets_(float(radius), [&](float x) { return share_below(double(x) / radius); }) {
     norm_ = 1 / (2 * sums_.back() * radius);
@@ -42,6 +44,7 @@ class MiddleLobe final : public FilterProfile {
     return float(std::max(0.0, lobe_(double(distance))) * norm_);
   }
   float sample(float u) const override { return offsets_.sample(u); }
+  bool is_cut() const override { return is_cut_; }
 
  private:
   static constexpr size_t steps = 4096;
@@ -64,6 +67,7 @@ class MiddleLobe final : public FilterProfile {
   }
 
   Lobe lobe_;
+  bool is_cut_;
   std::vector<double> sums_;
   OffsetTable offsets_;
   double norm_ = 1;
@@ -71,7 +75,8 @@ class MiddleLobe final : public FilterProfile {
 
 PixelFilter middle_lobe(const Lobe& lobe, double radius) {
   const double zero = first_zero(lobe, radius);
-  return {float(zero), std::make_shared<const MiddleLobe>(lobe, zero)};
+  const bool is_cut = zero < 0.999 * radius;  // it may end in a zero
+  return {float(zero), std::make_shared<const MiddleLobe>(lobe, zero, is_cut)};
 }
 
 /// Mitchell and Netravali, "Reconstruction Filters in Computer Graphics", SIGGRAPH 1988,

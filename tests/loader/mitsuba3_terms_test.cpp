@@ -1,0 +1,151 @@
+// What Mitsuba 3 lacks becomes what it has.
+
+#include "kaustik/loader/mitsuba3_terms.h"
+
+#include "kaustik/base/daylight_units.h"
+#include "kaustik/loader/mitsuba_writer.h"
+#include "kaustik/scene/description_digest.h"
+#include "kaustik/scene/type_tables.h"
+#include "tests/loader/loader_support.h"
+
+namespace kaustik {
+namespace {
+
+Mitsuba3Scene translated(const std::string& inside, const std::string& version = "3.0.0") {
+  return in_terms_of_mitsuba3(parse(in_scene(inside, version)), scene_types());
+}
+
+const Object& first_of(const Mitsuba3Scene& scene) {
+  return *scene.description.scene->children.at(0).object;
+}
+
+bool has_property(const Object& object, const std::string& name) {
+  for (const Property& p : object.properties)
+    if (p.name == name) return true;
+  return false;
+}
+
+bool tells(const Mitsuba3Scene& scene, const std::string& text) {
+  for (const std::string& remark : scene.remarks)
+    if (remark.find(text) != std::string::npos) return true;
+  return false;
+}
+
+TEST(Mitsuba3Terms, WhatMitsuba3HasStays) {
+  const std::string text = in_scene(
+      "<sensor type='perspective'><film type='hdrfilm'><integer name='width' value='8'/><rfilter "
+      "type='mitchell'/></film><sampler type='stratified'/></sensor><integrator type='path'>"
+      "<integer name='max_depth' value='5'/></integrator><bsdf type='roughconductor' id='metal'>"
+      "<float name='alpha' value='0.2'/><boolean name='sample_visible' value='true'/></bsdf>"
+      "<shape type='sphere'><ref id='metal'/></shape><shape type='disk'><ref id='metal'/></shape>");
+  const Description scene = parse(text);
+  const Mitsuba3Scene same = in_terms_of_mitsuba3(scene, scene_types());
+  EXPECT_EQ(description_digest(same.description, scene_types()),
+            description_digest(scene, scene_types()));
+  EXPECT_EQ(same.version, "3.0.0");
+  EXPECT_TRUE(same.remarks.empty()) << same.remarks[0];
+  // Shared as before, and none of the original.
+  const auto& children = same.description.scene->children;
+  EXPECT_EQ(children.at(3).object->children.at(0).object,
+            children.at(4).object->children.at(0).object);
+  EXPECT_NE(children.at(2).object, scene.scene->children.at(2).object);
+}
+
+TEST(Mitsuba3Terms, FilmsSamplersAndIntegrators) {
+  const Mitsuba3Scene scene = translated(
+      "<sensor type='perspective'><film type='ldrfilm'><integer name='width' value='8'/><float "
+      "name='exposure' value='2'/></film><sampler type='halton'><integer name='sample_count' "
+      "value='4'/></sampler></sensor><integrator type='mlt'><integer name='max_depth' value='5'/>"
+      "<boolean name='bidirectional' value='true'/></integrator>");
+  const Object& sensor = first_of(scene);
+  const Object& film = *sensor.children.at(0).object;
+  EXPECT_EQ(film.type, "hdrfilm");
+  EXPECT_EQ(value<int64_t>(film, "width"), 8);
+  EXPECT_FALSE(has_property(film, "exposure"));
+  EXPECT_EQ(sensor.children.at(1).object->type, "independent");
+  EXPECT_EQ(value<int64_t>(*sensor.children.at(1).object, "sample_count"), 4);
+  const Object& integrator = *scene.description.scene->children.at(1).object;
+  EXPECT_EQ(integrator.type, "path");
+  EXPECT_EQ(value<int64_t>(integrator, "max_depth"), 5);
+  EXPECT_FALSE(has_property(integrator, "bidirectional"));
+  EXPECT_TRUE(tells(scene, "film 'ldrfilm' becomes 'hdrfilm'"));
+  EXPECT_TRUE(tells(scene, "'exposure' of film 'hdrfilm' is left out"));
+  EXPECT_TRUE(tells(scene, "test.xml:2:1"));
+  const Mitsuba3Scene foggy =
+      translated("<integrator type='bdpt'/><medium type='homogeneous' id='fog'/>");
+  EXPECT_EQ(first_of(foggy).type, "volpath");
+}
+
+/// Share of light that the nested grey bsdfs reflect in all.
+double reflectance_of(const Object& bsdf) {
+  if (bsdf.type == "diffuse") return value<double>(bsdf, "reflectance");
+  EXPECT_EQ(bsdf.type, "blendbsdf");
+  const double weight = value<double>(bsdf, "weight");
+  return (1 - weight) * reflectance_of(*bsdf.children.at(0).object) +
+         weight * reflectance_of(*bsdf.children.at(1).object);
+}
+
+TEST(Mitsuba3Terms, MixturesAreBlends) {
+  const auto mixed = [](const std::string& weights, int count) {
+    std::string inside =
+        "<bsdf type='mixturebsdf' id='m'><string name='weights' value='" + weights + "'/>";
+    for (const char* grey : {"0.8", "0.4", "0.1"})
+      if (count-- > 0)
+        inside += std::string("<bsdf type='diffuse'><float name='reflectance' value='") + grey +
+                  "'/></bsdf>";
+    return translated(inside + "</bsdf>");
+  };
+  EXPECT_EQ(first_of(mixed("0.25, 0.75", 2)).type, "blendbsdf");
+  EXPECT_EQ(first_of(mixed("0.25, 0.75", 2)).id, "m");
+  EXPECT_NEAR(reflectance_of(first_of(mixed("0.25, 0.75", 2))), 0.25 * 0.8 + 0.75 * 0.4, 1e-12);
+  EXPECT_NEAR(reflectance_of(first_of(mixed("0.2 0.3 0.5", 3))), 0.16 + 0.12 + 0.05, 1e-12);
+  // What weights lack of 1 is absorbed; what they are above it they are divided by.
+  EXPECT_NEAR(reflectance_of(first_of(mixed("0.2 0.3", 2))), 0.16 + 0.12, 1e-12);
+  EXPECT_NEAR(reflectance_of(first_of(mixed("1 3", 2))), 0.2 + 0.3, 1e-12);
+  EXPECT_NEAR(reflectance_of(first_of(mixed("1", 1))), 0.8, 1e-12);
+  // What is wrong stays, for those who tell.
+  EXPECT_EQ(first_of(mixed("1", 2)).type, "mixturebsdf");
+  EXPECT_TRUE(tells(mixed("1", 2), "Mitsuba 3 has no bsdf 'mixturebsdf'"));
+}
+
+TEST(Mitsuba3Terms, MediaHaveExtinctionAndAlbedo) {
+  const Mitsuba3Scene scene = translated(
+      "<medium type='homogeneous'><rgb name='sigma_s' value='1 2 0'/><float name='sigma_a' "
+      "value='1'/></medium>");
+  const Object& medium = first_of(scene);
+  EXPECT_EQ(value<Rgb>(medium, "sigma_t"), (Rgb{2, 3, 1}));
+  EXPECT_EQ(value<Rgb>(medium, "albedo"), (Rgb{0.5, 2.0 / 3, 0}));
+  EXPECT_EQ(medium.properties.size(), 2u);
+}
+
+// The scale stays, whatever units it was given in.
+TEST(Mitsuba3Terms, DaylightIsPerNanometre) {
+  const std::string scale = "<float name='sky_scale' value='0.5'/>";
+  const Mitsuba3Scene physical = translated("<emitter type='sky'>" + scale + "</emitter>");
+  EXPECT_EQ(physical.version, "3.7.0");
+  EXPECT_EQ(first_of(physical).type, "sunsky");
+  EXPECT_FALSE(has_property(first_of(physical), "units"));
+  EXPECT_EQ(value<double>(first_of(physical), "sun_scale"), 0);
+  EXPECT_NEAR(value<double>(first_of(physical), "sky_scale") * mitsuba_daylight, 0.5, 1e-12);
+  const Mitsuba3Scene old = translated("<emitter type='sunsky'/>", "0.6.0");
+  EXPECT_FALSE(has_property(first_of(old), "units"));
+  EXPECT_FALSE(has_property(first_of(old), "sun_scale"));
+  const std::string text = mitsuba_xml(old.description, scene_types(), "", old.version);
+  EXPECT_EQ(value<std::string>(*parse(text).scene->children.at(0).object, "units"), "mitsuba");
+}
+
+TEST(Mitsuba3Terms, WhatIsUnknownThereIsNamed) {
+  const Mitsuba3Scene scene = translated(
+      "<bsdf type='phong'><float name='exponent' value='5'/></bsdf><bsdf type='dielectric'>"
+      "<integer name='priority' value='1'/></bsdf><bsdf type='diffuse'><float name='shine' "
+      "value='5'/></bsdf>");
+  EXPECT_EQ(first_of(scene).type, "phong");
+  EXPECT_TRUE(has_property(first_of(scene), "exponent"));
+  EXPECT_TRUE(tells(scene, "Mitsuba 3 has no bsdf 'phong'"));
+  EXPECT_TRUE(tells(scene, "Mitsuba 3 has no 'priority' in bsdf 'dielectric'"));
+  EXPECT_TRUE(tells(scene, "'shine' of bsdf 'diffuse' is left out"));
+  EXPECT_FALSE(has_property(*scene.description.scene->children.at(2).object, "shine"));
+}
+
+}  // namespace
+}  // namespace kaustik
