@@ -111,7 +111,7 @@ Value Reader::value_of(const Element& element, const std::string& name, const So
   if (element.tag == "srgb") return parse_attribute(value, parse_srgb);
   if (!is_in(file_property_names(), name)) return value.value;
   if (value.value.empty()) throw BadValue("the file name is empty", "name a file", value.place);
-  return found(value.value, source).string();
+  return found_or_like(value, source).string();
 }
 
 Value Reader::spectrum_of(const Element& element, const Source& source) {
@@ -121,7 +121,7 @@ Value Reader::spectrum_of(const Element& element, const Source& source) {
     throw BadValue("<spectrum> takes either 'value' or 'filename'", "give one of the two");
   const bool is_old = source.version < Version{2, 0, 0};
   const Value result = value ? parse_attribute(*value, is_old ? parse_old_spectrum : parse_spectrum)
-                             : Value(curve_of(found(file->value, source).string(), file->place));
+                             : Value(curve_of(found_or_like(*file, source).string(), file->place));
   if (const auto* curve = std::get_if<SpectralCurve>(&result))
     budget_.spend(bytes_of(*curve), element.place);
   return result;

@@ -18,9 +18,17 @@ constexpr size_t bytes_per_element = 500, bytes_per_attribute = 50;
 
 }  // namespace
 
-bool Reader::read_version(Source& source) {
+bool Reader::read_version(Source& source, const Version* includer) {
   const pugi::xml_node root = source.document.root();
   const pugi::xml_attribute version = root.attribute("version");
+  if (!version && !is_strict_ && includer) {
+    source.version = *includer;
+    leave_out("version of a part",
+              fmt::format("<{}> lacks its version: it is read as one of the file that includes it",
+                          root.name()),
+              source.document.place(root));
+    return true;
+  }
   if (!version && !is_strict_ && std::string_view(root.name()) == "scene") {
     // As Mitsuba 0.6 took it.
     source.version = {0, 2, 0};
@@ -160,9 +168,21 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
     report_unknown(element);
 }
 
+void Reader::leave_out_ids(const pugi::xml_node& node) {
+  std::vector<pugi::xml_node> pending = {node};
+  while (!pending.empty()) {
+    const pugi::xml_node at = pending.back();
+    pending.pop_back();
+    if (const pugi::xml_attribute id = at.attribute("id"); id && *id.value() != '\0')
+      references_.leave_out(id.value());
+    for (const pugi::xml_node& child : at.children()) pending.push_back(child);
+  }
+}
+
 void Reader::report_unknown(const Element& element) {
   // Other renderers have elements of their own. What looks like one of ours was meant to be one.
   if (element.tag == "subsurface" && !is_strict_) {
+    leave_out_ids(element.node);
     leave_out("subsurface",
               "subsurface scattering comes later: <subsurface> is left out, the surface is what "
               "its bsdf says",
@@ -173,6 +193,7 @@ void Reader::report_unknown(const Element& element) {
                        upgraded_tag(element.tag, {0, 0, 0}) != element.tag ||
                        suggestion(element.tag, part_tags()).starts_with("did you mean");
   if (!is_strict_ && !is_ours) {
+    leave_out_ids(element.node);
     leave_out(element.tag, fmt::format("Kaustik does not know <{}>: it is left out", element.tag),
               element.place);
     return;

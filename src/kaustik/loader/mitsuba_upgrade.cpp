@@ -69,6 +69,8 @@ constexpr PropertyName property_names[] = {
     {first_of_mitsuba_0_3, "bsdf", "", "alpha_y", "alpha_v"},
     {first_of_mitsuba_0_3, "texture", "checkerboard", "bright_color", "color0"},
     {first_of_mitsuba_0_3, "texture", "checkerboard", "dark_color", "color1"},
+    {any_version, "texture", "", "lambda_min", "wavelength_min"},
+    {any_version, "texture", "", "lambda_max", "wavelength_max"},
     {first_of_mitsuba_0_3, "shape", "sphere", "inverted", "flip_normals"},
     {first_of_mitsuba_0_3, "shape", "cylinder", "p1", "p0"},
     {first_of_mitsuba_0_3, "shape", "cylinder", "p2", "p1"}};
@@ -224,8 +226,8 @@ std::string upgraded_type(const std::string& family, const std::string& type, Ve
 }
 
 std::string upgraded_name(const std::string& name, const Object& parent, Version version) {
-  if (version >= first_with_snake_case) return name;
-  const std::string snake = snake_case_from_camel_case(name);
+  const std::string snake =
+      version < first_with_snake_case ? snake_case_from_camel_case(name) : name;
   for (const PropertyName& row : property_names)
     if (version < row.until && parent.family == row.family &&
         (row.type.empty() || parent.type == row.type) && snake == row.old_name)
