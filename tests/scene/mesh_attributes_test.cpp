@@ -60,14 +60,28 @@ TEST_F(MeshAttributes, AreThoseOfTheShape) {
 }
 
 TEST_F(MeshAttributes, ThatAreMissingAreToldWithThoseThatAreThere) {
-  expect_problem(painted + mesh("plain", "<ref id=\"paint\"/>"), "2:133",
-                 "the mesh of plain has no attribute 'vertex_color'", "none at all");
+  const auto expect_told = [](const std::string& text, const std::string& message,
+                              const std::string& remedy) {
+    Description description = description_of(text);
+    const auto scene = build_scene(description);
+    ASSERT_EQ(scene->warnings().size(), 1u);
+    const std::string& told = scene->warnings()[0];
+    EXPECT_TRUE(told.starts_with("test.xml:2:133: ")) << told;
+    EXPECT_NE(told.find(message), std::string::npos) << told;
+    EXPECT_NE(told.find(remedy), std::string::npos) << told;
+    // As in Mitsuba.
+    EXPECT_EQ(albedo_at(*scene, 0, {0.1f, 0.1f, 0})[0], 0);
+    description.is_strict = true;
+    EXPECT_THROW(build_scene(description), Error);
+  };
+  expect_told(painted + mesh("plain", "<ref id=\"paint\"/>"),
+              "the mesh of plain has no attribute 'vertex_color'", "none at all");
   std::string misspelt = painted;
   misspelt.replace(misspelt.find("vertex_color"), 12, "vertex_paint");
-  expect_problem(misspelt + mesh("red", "<ref id=\"paint\"/>"), "2:133",
-                 "the mesh of red has no attribute 'vertex_paint'", "Valid: vertex_color");
-  expect_problem(painted + "<shape type=\"sphere\"><ref id=\"paint\"/></shape>", "2:133",
-                 "is no mesh", "another texture");
+  expect_told(misspelt + mesh("red", "<ref id=\"paint\"/>"),
+              "the mesh of red has no attribute 'vertex_paint'", "Valid: vertex_color");
+  expect_told(painted + "<shape type=\"sphere\"><ref id=\"paint\"/></shape>", "is no mesh",
+              "another texture");
   // Where no shape has it nothing is missing.
   EXPECT_NO_THROW(scene_of(painted + any_shape));
 }
