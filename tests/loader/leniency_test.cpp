@@ -34,6 +34,16 @@ TEST(LoaderLeniency, ReferencesToWhatIsLeftOut) {
                  "test.xml:2:36", "no object has the id 'b'", "");
 }
 
+TEST(LoaderLeniency, AttributesOfOtherPrograms) {
+  const std::string text = in_scene("<bsdf type='diffuse' shader='x'/>");
+  const Description description = parse(text);
+  EXPECT_EQ(description.scene->children.size(), 1u);
+  EXPECT_EQ(description.warnings,
+            std::vector<std::string>{"test.xml:2:22: Kaustik does not know the attribute 'shader' "
+                                     "of <bsdf>: it is left out"});
+  expect_problem(problems_in(text, strict()), "test.xml:2:22", "no attribute 'shader'", "");
+}
+
 // Names of Mitsuba 2.
 TEST(LoaderLeniency, LimitsOfCurvesByTheirOldNames) {
   const Description description =

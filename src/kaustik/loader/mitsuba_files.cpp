@@ -166,7 +166,7 @@ EntityFile Reader::entity_file(const std::string& name, const fs::path& folder,
 
 void Reader::read_search_folder(const Element& element, Unfinished&, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"value"}, {}}, problems_)) return;
+  if (!check_attributes(element, {{"value"}, {}})) return;
   const Attribute& value = *element.find("value");
   const fs::path folder = found(value.value, source).lexically_normal();
   std::error_code ignored;
@@ -188,7 +188,7 @@ void Reader::read_search_folder(const Element& element, Unfinished&, Source& sou
 
 void Reader::read_include(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"filename"}, {"name"}}, problems_)) {
+  if (!check_attributes(element, {{"filename"}, {"name"}})) {
     incomplete_ = true;
     return;
   }
@@ -245,7 +245,7 @@ void Reader::read_included(const fs::path& path, const Element& element, Unfinis
   if (!root) {
     incomplete_ = true;
   } else if (root->tag == "scene") {
-    check_attributes(*root, {{}, {"version", "type", "id", "name"}}, problems_);
+    check_attributes(*root, {{}, {"version", "type", "id", "name"}});
     read_parts(root->node, parent, source);
   } else {
     read_included_object(*root, element.value("name"), parent, source);

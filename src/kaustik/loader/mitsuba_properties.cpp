@@ -45,7 +45,7 @@ size_t bytes_of(const SpectralCurve& curve) {
 void Reader::read_property(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
   const AttributeRule rule = with_intent(property_rule(element.tag), element.tag, source.version);
-  if (!check_attributes(element, rule, problems_)) return;
+  if (!check_attributes(element, rule)) return;
   const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   try {
     if (name.empty()) throw BadValue("a property without a name", "give its name");
@@ -79,7 +79,7 @@ Value Reader::light_of(const Value& spectrum, const Source& source) {
 /// Mitsuba 0.6 has an element for what is now a spectrum of this type.
 void Reader::read_blackbody(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"name", "temperature"}, {"scale"}}, problems_)) return;
+  if (!check_attributes(element, {{"name", "temperature"}, {"scale"}})) return;
   const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   if (!take_name(parent, name, element.place)) return;
   const auto object = std::make_shared<Object>();
@@ -144,7 +144,7 @@ const SpectralCurve& Reader::curve_of(const std::string& path, const Place& plac
 }
 
 void Reader::read_transform(const Element& element, Unfinished& parent, Source& source) {
-  if (!check_attributes(element, {{"name"}, {}}, problems_)) return;
+  if (!check_attributes(element, {{"name"}, {}})) return;
   add_transform(element, transform_of(element, source), parent, source);
 }
 
@@ -160,7 +160,7 @@ Transform Reader::transform_of(const Element& element, const Source& source) {
                     suggestion(operation->tag, transform_tags()), operation->place);
       continue;
     }
-    if (!check_attributes(*operation, transform_rule(operation->tag), problems_)) continue;
+    if (!check_attributes(*operation, transform_rule(operation->tag))) continue;
     try {
       transform = followed_by(transform, parse_transform_operation(*operation));
     } catch (const BadValue& bad) {
@@ -178,7 +178,7 @@ void Reader::add_transform(const Element& element, const Transform& transform, U
 }
 
 void Reader::read_animation(const Element& element, Unfinished& parent, Source& source) {
-  if (!check_attributes(element, {{"name"}, {}}, problems_)) return;
+  if (!check_attributes(element, {{"name"}, {}})) return;
   std::optional<Transform> first;
   bool is_sound = true;
   for (const pugi::xml_node& node : element.node.children()) {
@@ -191,7 +191,7 @@ void Reader::read_animation(const Element& element, Unfinished& parent, Source& 
       is_sound = false;
       continue;
     }
-    if (!check_attributes(*moment, {{"time"}, {}}, problems_)) {
+    if (!check_attributes(*moment, {{"time"}, {}})) {
       is_sound = false;
       continue;
     }

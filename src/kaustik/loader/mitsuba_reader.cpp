@@ -131,6 +131,17 @@ void Reader::refuse_children(const Element& element, const Source& source) {
                     fmt::format("end <{}> with '/>'", element.tag), source.document.place(child));
 }
 
+bool Reader::check_attributes(const Element& element, const AttributeRule& rule) {
+  return mitsuba::check_attributes(element, rule, problems_, [&](const Attribute& attribute) {
+    if (is_strict_) return false;
+    leave_out("attribute " + element.tag + " " + attribute.name,
+              fmt::format("Kaustik does not know the attribute {} of <{}>: it is left out",
+                          in_quotes(attribute.name), element.tag),
+              attribute.name_place);
+    return true;
+  });
+}
+
 void Reader::read_parts(const pugi::xml_node& node, Unfinished& parent, Source& source) {
   for (const pugi::xml_node& child : node.children())
     if (is_element(child, source)) {
@@ -348,7 +359,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   AttributeRule rule = {{"type"}, {"id", "name", "version"}};
   if (is_scene) rule = {{}, {"type", "id", "name", "version"}};
   if (is_root && is_strict_) rule.required.emplace_back("version");
-  check_attributes(element, rule, problems_);
+  check_attributes(element, rule);
 
   Unfinished unfinished = {std::make_shared<Object>(), {}};
   Object& object = *unfinished.object;
@@ -390,7 +401,7 @@ void Reader::read_nested_object(const Element& element, Unfinished& parent, Sour
 
 void Reader::read_reference(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"id"}, {"name"}}, problems_)) return;
+  if (!check_attributes(element, {{"id"}, {"name"}})) return;
   const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   take_name(parent, name, element.place);
   references_.refer(parent.object, name, element.value("id"), element.place);
@@ -398,13 +409,13 @@ void Reader::read_reference(const Element& element, Unfinished& parent, Source& 
 
 void Reader::read_alias(const Element& element, Unfinished&, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"id", "as"}, {}}, problems_)) return;
+  if (!check_attributes(element, {{"id", "as"}, {}})) return;
   references_.declare_alias(element.value("id"), element.value("as"), element.place, problems_);
 }
 
 void Reader::read_default(const Element& element, Unfinished&, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"name", "value"}, {}}, problems_)) return;
+  if (!check_attributes(element, {{"name", "value"}, {}})) return;
   const Attribute& name = *element.find("name");
   try {
     definitions_.set_default(name.value, element.value("value"));

@@ -52,6 +52,8 @@ class Reader {
   std::optional<Element> ready(const pugi::xml_node& node, const Source& source);
   bool is_element(const pugi::xml_node& node, const Source& source);
   void refuse_children(const Element& element, const Source& source);
+  /// Attributes of other programs are left out; all else as mitsuba::check_attributes().
+  bool check_attributes(const Element& element, const AttributeRule& rule);
 
   void read_parts(const pugi::xml_node& node, Unfinished& parent, Source& source);
   void read_part(const Element& element, Unfinished& parent, Source& source);
