@@ -103,6 +103,16 @@ TEST(Leniency, ReliefsOfForeignTexturesAreLeftOut) {
   EXPECT_FLOAT_EQ(reflected(*scaled), 0.5f);
 }
 
+// Mitsuba applies both.
+TEST(Leniency, OfTwoReliefsTheInnerOneHolds) {
+  const std::string bumped = "<bsdf type=\"bumpmap\"><texture type=\"noise\"/>" + white + "</bsdf>";
+  const auto scene = told(ball("<bsdf type=\"normalmap\"><texture name=\"normalmap\" "
+                               "type=\"noise\"/>" +
+                               bumped + "</bsdf>"),
+                          "holds another bump or normal map: the inner one holds");
+  EXPECT_NE(scene->surface(0).bsdf->relief(true), nullptr);
+}
+
 TEST(Leniency, NumbersBeyondTheirRangesAreTakenToItsEnds) {
   const std::string mask = "<bsdf type=\"mask\"><float name=\"opacity\" value=\"";
   EXPECT_FLOAT_EQ(reflected(*told(ball(mask + "1.5\"/>" + black + "</bsdf>"),

@@ -700,8 +700,8 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, cons
   };
   std::shared_ptr<const Bsdf> bsdf;
   collecting(object.place, [&] {
-    bsdf =
-        bsdf_of(object, *type, {arguments, nested, textures_for(arguments, *textures), warn}, on);
+    bsdf = bsdf_of(object, *type,
+                   {arguments, nested, textures_for(arguments, *textures), warn, is_strict_}, on);
   });
   if (bsdf && bsdf->traits().size > maximum_bsdf_size) {
     problems_.add(fmt::format("bsdf '{}' nests {} bsdfs, each counted for every place it is used "
