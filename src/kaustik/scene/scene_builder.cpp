@@ -101,6 +101,14 @@ bool is_needed(const Parameter& row) {
   return row.accepts_texture && std::holds_alternative<std::monostate>(row.default_value);
 }
 
+/// How many bsdfs one of the type may hold.
+std::string remedy_for_nested(const BsdfType& type) {
+  if (type.maximum_nested == 0) return "take them out: it holds none";
+  if (type.minimum_nested == type.maximum_nested)
+    return fmt::format("give it {}", type.minimum_nested);
+  return fmt::format("give it {} to {}", type.minimum_nested, type.maximum_nested);
+}
+
 /// See TextureOfParameter; valid as long as the two are.
 TextureOfParameter textures_for(
     const Arguments& arguments,
@@ -634,7 +642,7 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
     if (!parameter) {
       problems_.add(
           fmt::format("{} '{}' takes no texture '{}'", object.family, object.type, child.name),
-          suggest(child.name, valid), child.object->place);
+          valid.empty() ? "remove it" : suggest(child.name, valid), child.object->place);
       continue;
     }
     const std::shared_ptr<Object>& given = texture_within(child.object);
@@ -690,8 +698,7 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, cons
   if (!textures) return nullptr;
   if (int(nested.size()) < type->minimum_nested || int(nested.size()) > type->maximum_nested) {
     problems_.add(fmt::format("bsdf '{}' holds {} bsdfs", object.type, nested.size()),
-                  fmt::format("give it {} to {}", type->minimum_nested, type->maximum_nested),
-                  object.place);
+                  remedy_for_nested(*type), object.place);
     return nullptr;
   }
   const Arguments arguments = arguments_of(type->info, object);
