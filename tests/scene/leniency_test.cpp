@@ -153,6 +153,21 @@ TEST(Leniency, PhaseFunctionsThatNobodyKnowsAreIsotropic) {
               0);
 }
 
+// Of Mitsuba, and of no effect on the picture: also where a scene is read strictly.
+TEST(Leniency, WhatChangesNoLightIsTaken) {
+  Description description = description_of(fog("<string name=\"strategy\" value=\"balance\"/>"));
+  description.is_strict = true;
+  EXPECT_EQ(build_scene(description)->warnings(),
+            std::vector<std::string>{"without effect here: 'strategy' of medium 'homogeneous'"});
+}
+
+TEST(Leniency, AnInstanceWithABsdfIsOneProblem) {
+  expect_problem(camera +
+                     "<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\"/></shape>\n"
+                     "<shape type=\"instance\"><ref id=\"g\"/><bsdf type=\"diffuse\"/></shape>",
+                 "3:38", "cannot hold a bsdf");
+}
+
 TEST(Leniency, MixturesOfPhaseFunctions) {
   const std::string parts =
       "<phase type=\"hg\"><float name=\"g\" value=\"0.8\"/></phase>"

@@ -522,13 +522,16 @@ uint32_t SceneBuilder::group_index(const std::shared_ptr<Object>& group) {
 void SceneBuilder::add_instance(const Object& object) {
   const Arguments arguments = arguments_of(instance_info(), object);
   refuse_children(object, {"shape"});
-  if (object.children.size() != 1 || object.children[0].object->type != "shapegroup") {
+  std::vector<std::shared_ptr<Object>> shapes;
+  for (const Child& child : object.children)
+    if (child.object->family == "shape") shapes.push_back(child.object);
+  if (shapes.size() != 1 || shapes[0]->type != "shapegroup") {
     problems_.add("an instance needs exactly one shape group",
                   "put one into it, a shape of type 'shapegroup', or refer to it", object.place);
     return;
   }
   const Transform& to_world = arguments.transform("to_world");
-  const uint32_t group = group_index(object.children[0].object);
+  const uint32_t group = group_index(shapes[0]);
   instances_.push_back({group, to_world});
   Bounds3f bounds;
   for (const BuiltShape& built : groups_[group]) {
