@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t most_folders_listed = 1000, most_names_of_folder = 20000;
+constexpr size_t most_folders_listed = 200, most_names_of_folder = 20000, most_searches = 5000;
 
 /// Of pictures that Kaustik reads, in the order in which they are taken …
 constexpr std::string_view readable_pictures[] = {".exr",  ".hdr", ".pfm", ".png",  ".tif",
@@ -72,37 +72,36 @@ std::vector<Candidate> candidates_for(const std::string& name,
 
 }  // namespace
 
-const FileSearch::Names& FileSearch::names_in(const fs::path& folder) {
-  static const Names none;
+const FileSearch::Listing& FileSearch::listing_of(const fs::path& folder) {
+  static const Listing none;
   const auto known = listed_.find(folder);
   if (known != listed_.end()) return known->second;
   if (listed_.size() >= most_folders_listed) return none;
-  Names& names = listed_[folder];
+  Listing& listing = listed_[folder];
   std::error_code failure;
   fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, failure);
-  for (; !failure && entry != fs::directory_iterator() && names.size() < most_names_of_folder;
+  for (;
+       !failure && entry != fs::directory_iterator() && listing.names.size() < most_names_of_folder;
        entry.increment(failure))
-    names.push_back(entry->path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
+    listing.names.insert(entry->path().filename().string());
+  for (const std::string& name : listing.names)
+    listing.by_small_letters.try_emplace(lower_case(name), name);
+  return listing;
 }
 
 std::optional<fs::path> FileSearch::find_in_any_case(const fs::path& folder,
                                                      const fs::path& relative) {
   fs::path at = folder;
   for (const fs::path& part : relative) {
-    std::error_code ignored;
-    if (fs::exists(at / part, ignored)) {
+    const std::string name = part.string();
+    const Listing& listing = listing_of(at);
+    if (name == "." || name == ".." || listing.names.contains(name)) {
       at /= part;
       continue;
     }
-    const Names& names = names_in(at);
-    const std::string wanted = lower_case(part.string());
-    const auto like = std::find_if(names.begin(), names.end(), [&](const std::string& other) {
-      return lower_case(other) == wanted;
-    });
-    if (like == names.end()) return std::nullopt;
-    at /= *like;
+    const auto like = listing.by_small_letters.find(lower_case(name));
+    if (like == listing.by_small_letters.end()) return std::nullopt;
+    at /= like->second;
   }
   return is_file(at) ? std::optional(at) : std::nullopt;
 }
@@ -119,6 +118,7 @@ std::optional<fs::path> FileSearch::find_other_picture(const fs::path& folder,
 
 std::optional<fs::path> FileSearch::find_like(const std::string& name,
                                               const std::vector<fs::path>& folders) {
+  if (++searches_ > most_searches) return std::nullopt;
   const std::vector<Candidate> candidates = candidates_for(name, folders);
   for (const Candidate& candidate : candidates)
     if (is_file(candidate.folder / candidate.relative))

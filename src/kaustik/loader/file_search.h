@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,8 @@ namespace kaustik {
 
 /// Looks for files that are not where a scene says, as scenes are moved from one computer to
 /// another. Looks only into folders that it is given and those that the name leads to from there,
-/// and reads none of their files. Folders are listed once, and only their first entries.
+/// and reads none of their files. Folders are listed once, and only their first entries; after many
+/// searches it finds nothing any more.
 class FileSearch {
  public:
   /// The first that there is of, in each of the folders in order: the name without the blanks
@@ -20,16 +22,21 @@ class FileSearch {
                                                  const std::vector<std::filesystem::path>& folders);
 
  private:
-  using Names = std::vector<std::string>;  ///< of files and folders, in order
+  /// What a folder holds: files and folders.
+  struct Listing {
+    std::set<std::string> names;
+    std::map<std::string, std::string> by_small_letters;  ///< the first of those that are alike
+  };
 
-  const Names& names_in(const std::filesystem::path& folder);
+  const Listing& listing_of(const std::filesystem::path& folder);
   /// The path in the folder, each part as it is written or else without regard to case.
   std::optional<std::filesystem::path> find_in_any_case(const std::filesystem::path& folder,
                                                         const std::filesystem::path& relative);
   std::optional<std::filesystem::path> find_other_picture(const std::filesystem::path& folder,
                                                           const std::filesystem::path& relative);
 
-  std::map<std::filesystem::path, Names> listed_;
+  std::map<std::filesystem::path, Listing> listed_;
+  size_t searches_ = 0;
 };
 
 }  // namespace kaustik

@@ -120,8 +120,7 @@ fs::path Reader::found_or_like(const Attribute& file, const Source& source) {
   const auto like = file_search_.find_like(file.value, source.folders);
   if (!like) return path;
   leave_out("file " + file.value,
-            fmt::format("there is no file {}: {} stands for it", in_quotes(file.value),
-                        in_quotes(like->string())),
+            fmt::format("there is no file '{}': '{}' stands for it", file.value, like->string()),
             file.place);
   return *like;
 }

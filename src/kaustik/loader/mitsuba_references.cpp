@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <unordered_map>
 
 #include "kaustik/loader/mitsuba_values.h"
@@ -156,9 +157,11 @@ void References::resolve(const std::shared_ptr<Object>& scene, Problems& problem
   if (!problems.empty()) return;
   for (const Reference& reference : references_)
     reference.parent->children[reference.child_index].object = reference.target;
+  std::set<Object*> with_gaps;
   for (const Reference& reference : references_)
-    if (!reference.target)
-      std::erase_if(reference.parent->children, [](const Child& child) { return !child.object; });
+    if (!reference.target) with_gaps.insert(reference.parent.get());
+  for (Object* parent : with_gaps)
+    std::erase_if(parent->children, [](const Child& child) { return !child.object; });
 }
 
 }  // namespace kaustik::mitsuba
