@@ -179,6 +179,12 @@ TEST(Leniency, MixturesOfPhaseFunctions) {
   EXPECT_NEAR(mean_cosine(*scene_of(mixture("0.5, 0.25, 0.25"))), 0.3, 1e-6);
   EXPECT_NEAR(mean_cosine(*scene_of(mixture("0, 0, 2"))), -0.4, 1e-6);
   expect_problem(mixture("0.5, 0.5"), "3:65", "3 phase functions and 2 weights");
+  // Each is made as often as it is held.
+  std::string nested = "<phase type=\"isotropic\"/>";
+  for (int i = 0; i < 4; ++i)
+    nested =
+        "<phase type=\"mixturephase\"><string name=\"weights\" value=\"1\"/>" + nested + "</phase>";
+  EXPECT_EQ(problems_of(fog(nested))[0].message, "phase functions nest too deep");
 }
 
 TEST(Leniency, VolumesAndMediaThatNobodyKnows) {

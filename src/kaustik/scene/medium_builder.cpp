@@ -14,6 +14,9 @@ namespace {
 
 /// Phase functions hold phase functions, each of which is made as often as it is held.
 constexpr int maximum_phase_levels = 6;
+/// A mixture holds more of them than a blend, and counts for as many levels.
+constexpr int levels_of_mixture = 3;
+constexpr size_t most_phases_of_mixture = 16;
 
 std::vector<std::string> volume_parameters(const TypeInfo& info) {
   std::vector<std::string> names;
@@ -97,8 +100,16 @@ std::shared_ptr<const PhaseFunction> SceneBuilder::mixture_of_phases(const Objec
   std::vector<const Child*> children;
   for (const Child& child : mixture.children)
     if (child.object->family == "phase") children.push_back(&child);
+  if (children.size() > most_phases_of_mixture || level > maximum_phase_levels) {
+    problems_.add(children.size() > most_phases_of_mixture
+                      ? fmt::format("phase 'mixturephase' holds {} phase functions, more than {}",
+                                    children.size(), most_phases_of_mixture)
+                      : "phase functions nest too deep",
+                  "hold fewer in one another", mixture.place);
+    return nullptr;
+  }
   const bool is_sound =
-      !children.empty() && children.size() == weights.size() && level <= maximum_phase_levels &&
+      !children.empty() && children.size() == weights.size() &&
       std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0; });
   if (!is_sound) {
     problems_.add(fmt::format("phase 'mixturephase' holds {} phase functions and {} weights",
@@ -111,7 +122,7 @@ std::shared_ptr<const PhaseFunction> SceneBuilder::mixture_of_phases(const Objec
   std::shared_ptr<const PhaseFunction> blend;
   double sum = 0;
   for (size_t i = 0; i < children.size(); ++i) {
-    const auto part = make_phase_function(*children[i]->object, level + 1);
+    const auto part = make_phase_function(*children[i]->object, level + levels_of_mixture);
     if (!part) return nullptr;
     sum += weights[i];
     const double share = sum > 0 ? weights[i] / sum : 0;
