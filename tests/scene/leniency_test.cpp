@@ -8,10 +8,10 @@ namespace {
 
 using namespace test;
 
-const std::string camera = any_camera;
+const std::string a_camera = any_camera;
 
-std::string ball(const std::string& inside) {
-  return camera + "\n<shape type=\"sphere\">" + inside + "</shape>";
+std::string a_ball(const std::string& inside) {
+  return a_camera + "\n<shape type=\"sphere\">" + inside + "</shape>";
 }
 
 /// The scene, which is an error where it is read strictly. Expects one warning with this part.
@@ -47,8 +47,8 @@ std::string checkers(const std::string& name, double a, double b) {
 // Where Mitsuba takes a texture for a number, it takes a colour, and asks it for its luminance.
 TEST(Leniency, ColoursCountByTheirLuminanceWhereOneNumberIsAsked) {
   const auto share = [](const std::string& colour) {
-    const auto scene = scene_of(ball("<bsdf type=\"blendbsdf\"><rgb name=\"weight\" value=\"" +
-                                     colour + "\"/>" + black + white + "</bsdf>"));
+    const auto scene = scene_of(a_ball("<bsdf type=\"blendbsdf\"><rgb name=\"weight\" value=\"" +
+                                       colour + "\"/>" + black + white + "</bsdf>"));
     EXPECT_TRUE(scene->warnings().empty());
     return reflected(*scene);
   };
@@ -57,48 +57,48 @@ TEST(Leniency, ColoursCountByTheirLuminanceWhereOneNumberIsAsked) {
   EXPECT_NEAR(share("1, 0, 0"), 0.2126f, 1e-3f);
   EXPECT_NEAR(share("0, 1, 0"), 0.7152f, 1e-3f);
   EXPECT_NO_THROW(
-      scene_of(ball("<bsdf type=\"roughconductor\"><rgb name=\"alpha\" value=\"0.2, "
-                    "0.3, 0.1\"/></bsdf>")));
+      scene_of(a_ball("<bsdf type=\"roughconductor\"><rgb name=\"alpha\" value=\"0.2, "
+                      "0.3, 0.1\"/></bsdf>")));
   // Where no texture may stand there is no colour either.
-  expect_problem(camera + "\n<shape type=\"sphere\"><rgb name=\"radius\" value=\"1\"/></shape>",
+  expect_problem(a_camera + "\n<shape type=\"sphere\"><rgb name=\"radius\" value=\"1\"/></shape>",
                  "3:22", "'radius' has the wrong type");
 }
 
 TEST(Leniency, TheMeanOfATextureStandsWhereNoneIsTaken) {
   const auto scene = told(
-      camera + "\n<emitter type=\"point\">" + checkers("intensity", 1, 3) + "</emitter>" +
+      a_camera + "\n<emitter type=\"point\">" + checkers("intensity", 1, 3) + "</emitter>" +
           any_shape,
       "'intensity' of emitter 'point' takes no texture: the mean of the texture stands for it");
-  const auto same = scene_of(camera +
+  const auto same = scene_of(a_camera +
                              "<emitter type=\"point\"><rgb name=\"intensity\" value=\"2\"/>"
                              "</emitter>" +
                              any_shape);
   EXPECT_NEAR(scene->lights()[0]->traits().power[1], same->lights()[0]->traits().power[1], 1e-4f);
-  told(ball("<bsdf type=\"conductor\">" + checkers("eta", 0.2, 1.5) +
-            "<float name=\"k\" value=\"7\"/></bsdf>"),
+  told(a_ball("<bsdf type=\"conductor\">" + checkers("eta", 0.2, 1.5) +
+              "<float name=\"k\" value=\"7\"/></bsdf>"),
        "'eta' of bsdf 'conductor' takes no texture");
-  told(ball("<bsdf type=\"coating\">" + checkers("sigma_a", 0.2, 1.5) + white + "</bsdf>"),
+  told(a_ball("<bsdf type=\"coating\">" + checkers("sigma_a", 0.2, 1.5) + white + "</bsdf>"),
        "'sigma_a' of bsdf 'coating' takes no texture");
 }
 
 TEST(Leniency, TexturesOfOtherProgramsAreLeftOut) {
-  const auto scene = told(ball("<bsdf type=\"plastic\">" + checkers("bumpMap", 0, 1) + "</bsdf>"),
+  const auto scene = told(a_ball("<bsdf type=\"plastic\">" + checkers("bumpMap", 0, 1) + "</bsdf>"),
                           "bsdf 'plastic' takes no texture 'bumpMap': it is left out");
-  EXPECT_FLOAT_EQ(reflected(*scene), reflected(*scene_of(ball("<bsdf type=\"plastic\"/>"))));
-  told(ball("<bsdf type=\"diffuse\">" + checkers("glitter", 0, 1) + "</bsdf>"), "'glitter'");
+  EXPECT_FLOAT_EQ(reflected(*scene), reflected(*scene_of(a_ball("<bsdf type=\"plastic\"/>"))));
+  told(a_ball("<bsdf type=\"diffuse\">" + checkers("glitter", 0, 1) + "</bsdf>"), "'glitter'");
 }
 
 TEST(Leniency, ReliefsOfForeignTexturesAreLeftOut) {
   for (const char* inside : {"<texture type=\"wireframe\"/>",
                              "<texture type=\"scale\"><texture type=\"wireframe\"/></texture>"}) {
     const auto scene =
-        told(ball(std::string("<bsdf type=\"bumpmap\">") + inside + white + "</bsdf>"),
+        told(a_ball(std::string("<bsdf type=\"bumpmap\">") + inside + white + "</bsdf>"),
              "texture 'wireframe': the bsdf in 'bumpmap' stands for it");
     EXPECT_FLOAT_EQ(reflected(*scene), 1);
   }
-  const auto scaled = told(ball("<bsdf type=\"diffuse\"><texture type=\"scale\" "
-                                "name=\"reflectance\"><texture type=\"curvature\"/></texture>"
-                                "</bsdf>"),
+  const auto scaled = told(a_ball("<bsdf type=\"diffuse\"><texture type=\"scale\" "
+                                  "name=\"reflectance\"><texture type=\"curvature\"/></texture>"
+                                  "</bsdf>"),
                            "texture 'curvature': it is left out");
   EXPECT_FLOAT_EQ(reflected(*scaled), 0.5f);
 }
@@ -106,43 +106,50 @@ TEST(Leniency, ReliefsOfForeignTexturesAreLeftOut) {
 // Mitsuba applies both.
 TEST(Leniency, OfTwoReliefsTheInnerOneHolds) {
   const std::string bumped = "<bsdf type=\"bumpmap\"><texture type=\"noise\"/>" + white + "</bsdf>";
-  const auto scene = told(ball("<bsdf type=\"normalmap\"><texture name=\"normalmap\" "
-                               "type=\"noise\"/>" +
-                               bumped + "</bsdf>"),
+  const auto scene = told(a_ball("<bsdf type=\"normalmap\"><texture name=\"normalmap\" "
+                                 "type=\"noise\"/>" +
+                                 bumped + "</bsdf>"),
                           "holds another bump or normal map: the inner one holds");
   EXPECT_NE(scene->surface(0).bsdf->relief(true), nullptr);
 }
 
 TEST(Leniency, NumbersBeyondTheirRangesAreTakenToItsEnds) {
   const std::string mask = "<bsdf type=\"mask\"><float name=\"opacity\" value=\"";
-  EXPECT_FLOAT_EQ(reflected(*told(ball(mask + "1.5\"/>" + black + "</bsdf>"),
+  EXPECT_FLOAT_EQ(reflected(*told(a_ball(mask + "1.5\"/>" + black + "</bsdf>"),
                                   "'opacity' of bsdf 'mask' is beyond its range: 1 is taken")),
                   0);
-  EXPECT_FLOAT_EQ(reflected(*told(ball(mask + "-1\"/>" + black + "</bsdf>"), "0 is taken")), 1);
-  told(ball("<bsdf type=\"principled\"><float name=\"roughness\" value=\"1.2\"/></bsdf>"),
+  EXPECT_FLOAT_EQ(reflected(*told(a_ball(mask + "-1\"/>" + black + "</bsdf>"), "0 is taken")), 1);
+  told(a_ball("<bsdf type=\"principled\"><float name=\"roughness\" value=\"1.2\"/></bsdf>"),
        "'roughness'");
-  told(ball("<bsdf type=\"phong\"><float name=\"exponent\" value=\"1e9\"/></bsdf>"), "'exponent'");
+  told(a_ball("<bsdf type=\"phong\"><float name=\"exponent\" value=\"1e9\"/></bsdf>"),
+       "'exponent'");
   // A radius is what it is.
-  expect_problem(camera + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>",
-                 "3:22", "outside its range");
+  expect_problem(
+      a_camera + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>", "3:22",
+      "outside its range");
 }
 
 TEST(Leniency, SheetsThatTransmitHaveTwoSidesAlready) {
   const std::string inside = white + "</bsdf>";
-  EXPECT_FLOAT_EQ(reflected(*scene_of(ball("<bsdf type=\"twosided\"><boolean "
-                                           "name=\"allow_transmission\" value=\"true\"/>" +
-                                           inside))),
+  EXPECT_FLOAT_EQ(reflected(*scene_of(a_ball("<bsdf type=\"twosided\"><boolean "
+                                             "name=\"allow_transmission\" value=\"true\"/>" +
+                                             inside))),
                   1);
   const std::string glass = "<bsdf type=\"dielectric\"/></bsdf>";
-  const auto scene = scene_of(ball(
+  const auto scene = scene_of(a_ball(
       "<bsdf type=\"twosided\"><boolean name=\"allow_transmission\" value=\"true\"/>" + glass));
   EXPECT_TRUE(scene->surface(0).bsdf->traits().transmits);
-  expect_problem(camera + "\n<shape type=\"sphere\"><bsdf type=\"twosided\">" + glass + "</shape>",
-                 "3:22", "transmits light");
+  expect_problem(
+      a_camera + "\n<shape type=\"sphere\"><bsdf type=\"twosided\">" + glass + "</shape>", "3:22",
+      "transmits light");
 }
 
+/// Before the camera.
 std::string fog(const std::string& inside, const std::string& type = "homogeneous") {
-  return ball("<medium name=\"interior\" type=\"" + type + "\">" + inside + "</medium>");
+  return a_camera +
+         "<shape type=\"sphere\"><point name=\"center\" value=\"0, 0, 9\"/>\n<medium "
+         "name=\"interior\" type=\"" +
+         type + "\">" + inside + "</medium></shape>";
 }
 double mean_cosine(const Scene& scene) { return scene.surface(0).interior->phase().mean_cosine(); }
 
@@ -162,7 +169,7 @@ TEST(Leniency, WhatChangesNoLightIsTaken) {
 }
 
 TEST(Leniency, AnInstanceWithABsdfIsOneProblem) {
-  expect_problem(camera +
+  expect_problem(a_camera +
                      "<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\"/></shape>\n"
                      "<shape type=\"instance\"><ref id=\"g\"/><bsdf type=\"diffuse\"/></shape>",
                  "3:37", "cannot hold a bsdf");
@@ -178,7 +185,7 @@ TEST(Leniency, MixturesOfPhaseFunctions) {
   };
   EXPECT_NEAR(mean_cosine(*scene_of(mixture("0.5, 0.25, 0.25"))), 0.3, 1e-6);
   EXPECT_NEAR(mean_cosine(*scene_of(mixture("0, 0, 2"))), -0.4, 1e-6);
-  expect_problem(mixture("0.5, 0.5"), "3:65", "3 phase functions and 2 weights");
+  expect_problem(mixture("0.5, 0.5"), "3:44", "3 phase functions and 2 weights");
   // Each is made as often as it is held.
   std::string nested = "<phase type=\"isotropic\"/>";
   for (int i = 0; i < 4; ++i)

@@ -104,13 +104,17 @@ TEST_F(MeshAttributes, ShineOnLamps) {
 }
 
 TEST_F(MeshAttributes, AreOfNoUseToLampsWithoutAMesh) {
-  const auto problems =
-      problems_of(any_camera + std::string("<shape type=\"sphere\"><emitter type=\"area\">"
-                                           "<texture type=\"mesh_attribute\" name=\"radiance\">"
-                                           "<string name=\"name\" value=\"vertex_color\"/>"
-                                           "</texture></emitter></shape>"));
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_NE(problems[0].message.find("is no mesh"), std::string::npos) << problems[0].message;
+  Description description =
+      description_of(any_camera + std::string("<shape type=\"sphere\"><emitter type=\"area\">"
+                                              "<texture type=\"mesh_attribute\" name=\"radiance\">"
+                                              "<string name=\"name\" value=\"vertex_color\"/>"
+                                              "</texture></emitter></shape>"));
+  const auto scene = build_scene(description);
+  ASSERT_FALSE(scene->warnings().empty());
+  EXPECT_NE(scene->warnings()[0].find("is no mesh"), std::string::npos) << scene->warnings()[0];
+  EXPECT_EQ(scene->lights()[0]->traits().power[1], 0);
+  description.is_strict = true;
+  EXPECT_THROW(build_scene(description), Error);
 }
 
 /// Two meshes with one bsdf; the second is moved.

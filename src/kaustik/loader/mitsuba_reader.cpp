@@ -21,7 +21,9 @@ constexpr size_t bytes_per_element = 500, bytes_per_attribute = 50;
 bool Reader::read_version(Source& source, const Version* includer) {
   const pugi::xml_node root = source.document.root();
   const pugi::xml_attribute version = root.attribute("version");
-  if (!version && !is_strict_ && includer) {
+  // Any file may be named, and one that is no part of a scene is not to be quoted.
+  const bool looks_like_part = std::string_view(root.name()) == "scene" || root.attribute("type");
+  if (!version && !is_strict_ && includer && looks_like_part) {
     source.version = *includer;
     leave_out("version of a part",
               fmt::format("<{}> lacks its version: it is read as one of the file that includes it",
