@@ -207,6 +207,7 @@ TEST(Leniency, VolumesAndMediaThatNobodyKnows) {
     return "<volume name=\"" + name + "\" type=\"constvolume\"><float name=\"value\" value=\"" +
            value + "\"/></volume>";
   };
+  told(fog(constant("orientation", "1")), "takes no volume 'orientation': it is left out");
   const auto cached =
       told(fog("<volume name=\"albedo\" type=\"volcache\">" + constant("x", "0.25") + "</volume>"),
            "the volume in it stands for it");

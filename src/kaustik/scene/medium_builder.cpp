@@ -188,7 +188,17 @@ std::optional<SceneBuilder::Volumes> SceneBuilder::volumes_of(const Object& obje
   for (const Child& child : object.children) {
     if (child.object->family != "volume") continue;
     const Place& place = child.object->place;
-    if (std::find(valid.begin(), valid.end(), child.name) == valid.end()) {
+    const bool is_taken = std::find(valid.begin(), valid.end(), child.name) != valid.end();
+    // What glows is missed.
+    if (!is_taken && !is_strict_ && child.name != "emission" &&
+        nearest_name(child.name, valid).empty()) {
+      if (left_out_.insert(child.object.get()).second)
+        unknown_.add(fmt::format("{} '{}' takes no volume '{}': it is left out", object.family,
+                                 object.type, child.name),
+                     place);
+      continue;
+    }
+    if (!is_taken) {
       problems_.add(
           fmt::format("{} '{}' takes no volume '{}'", object.family, object.type, child.name),
           child.name == "emission" ? "remove it: media do not glow yet"
