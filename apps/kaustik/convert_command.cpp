@@ -30,7 +30,7 @@ bool is_any_file(const std::string&) { return true; }
 void convert(const ConvertOptions& options) {
   FileRoles roles;
   roles.reads_scene(options.scene);
-  roles.writes(options.output, {"not empty", is_any_file},
+  roles.writes(options.output, {"a file with contents", is_any_file},
                options.force ? Replacing::anything : Replacing::nothing, "choose another name");
   const Description description = read_scene(
       options.scene,

@@ -330,9 +330,6 @@ TEST_F(BadInput, BumpMapsAndMixtures) {
   refuse("<bsdf type=\"bumpmap\"><texture type=\"noise\"/></bsdf>", "holds 0 bsdfs", "1");
   const std::string bumped =
       "<bsdf type=\"bumpmap\"><texture type=\"noise\"/>" + diffuse + "</bsdf>";
-  refuse(
-      "<bsdf type=\"normalmap\"><texture name=\"normalmap\" type=\"noise\"/>" + bumped + "</bsdf>",
-      "holds another bump or normal map", "keep one");
   refuse("<bsdf type=\"blendbsdf\">" + bumped + diffuse + "</bsdf>", "bump or normal map",
          "around the 'blendbsdf'");
   refuse("<bsdf type=\"twosided\"><bsdf type=\"mask\">" + diffuse + "</bsdf></bsdf>",

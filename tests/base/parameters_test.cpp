@@ -128,6 +128,31 @@ TEST(arguments, wrong_type) {
             "What it is made of.");
 }
 
+TEST(arguments, of_a_type_without_parameters) {
+  static const TypeInfo bare{"bsdf", "bare", "Takes nothing.", {}};
+  Problems problems;
+  const Arguments arguments(bare, {{"tint", 1.0, {}}}, {}, problems);
+  try {
+    problems.throw_if_any();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.problems()[0].remedy, "remove it: it takes none");
+  }
+}
+
+TEST(arguments, ranges_without_an_end) {
+  static const TypeInfo info{
+      "light", "lamp", "Shines.", {color_parameter("intensity", 1, "Its light.")}};
+  Problems problems;
+  const Arguments arguments(info, {{"intensity", -1.0, {}}}, {}, problems);
+  try {
+    problems.throw_if_any();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.problems()[0].remedy, "give a value of at least 0");
+  }
+}
+
 TEST(arguments, out_of_range) {
   const Checked c = check({given("radius", 12.0)});
   EXPECT_EQ(c.text,

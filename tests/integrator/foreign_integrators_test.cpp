@@ -200,6 +200,16 @@ TEST(ForeignIntegrators, OfDialectsTheDefaultStandsForThem) {
   EXPECT_EQ(native_integrator(typed, notes, false).type, "restirgi");
 }
 
+TEST(ForeignIntegrators, SamplersInIntegratorsHaveNoEffect) {
+  const TestScene scene(camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 12) + flat("rectangle", "", ""));
+  const Object object = described("path", "<sampler type=\"independent\"/>");
+  std::vector<std::string> warnings;
+  make_integrator(object, scene.scene(), warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0], "the sampler in integrator 'path' has no effect: put it into the sensor");
+  EXPECT_THROW(make_integrator(object, scene.scene(), warnings, true), Error);
+}
+
 TEST(ForeignIntegrators, WhatHoldsNoneLeavesItOut) {
   const TestScene scene(camera("0, -2.2, 1.3", "0, 0.2, 0.35", 48, 12) + flat("rectangle", "", ""));
   const Object object = described("path", "<integrator type=\"direct\"/>");

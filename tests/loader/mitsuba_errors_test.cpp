@@ -358,7 +358,14 @@ TEST(MitsubaErrors, Includes) {
     expect_problem(problems_of([&] { load_mitsuba_xml(path); }), folder / place, message, remedy);
   };
   expect("<include filename='broken.xml'/>", "broken.xml:2:6", "mismatch", "<a> of line 2");
-  expect("<include filename='unversioned.xml'/>", "unversioned.xml:1", "lacks its version", "3.0");
+  const std::string path = folder.write("s.xml", in_scene("<include filename='unversioned.xml'/>"));
+  const Description description = load_mitsuba_xml(path);
+  ASSERT_EQ(description.warnings.size(), 1u);
+  EXPECT_NE(description.warnings[0].find("as one of the file that includes it"), std::string::npos);
+  LoadOptions strict;
+  strict.is_strict = true;
+  expect_problem(problems_of([&] { load_mitsuba_xml(path, strict); }), folder / "unversioned.xml:1",
+                 "lacks its version", "3.0");
   expect("<include filename='float.xml'/>", "scene.xml:2:20", "float.xml' is no part of a scene",
          "root is <scene");
   expect("<include filename='bad.xml'/>", "bad.xml:3:24", "'y' is not a number", "");

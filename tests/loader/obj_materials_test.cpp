@@ -185,5 +185,23 @@ TEST_F(Mtl, OfAnyBytes) {
     }
 }
 
+// Each shape of a file has the materials of its own faces.
+TEST_F(ObjMaterials, OfOneShapeOfTheFile) {
+  folder_.write("scene.obj",
+                "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng a\nusemtl RedWall\n"
+                "f 1 2 3\ng b\nusemtl Glass\nf 1 2 4\ng c\nf 1 3 4\nusemtl RedWall\nf 2 3 4\n");
+  const auto parts = [&](int index) {
+    return load("<integer name=\"shapeIndex\" value=\"" + std::to_string(index) + "\"/>")
+        .scene->children;
+  };
+  const char* types[] = {"diffuse", "dielectric", "dielectric", "diffuse"};
+  for (int i = 0; i < 4; ++i) {
+    const auto shapes = parts(i);
+    ASSERT_EQ(shapes.size(), 1u);
+    EXPECT_EQ(bsdf_of(*shapes[0].object)->type, types[i]) << i;
+    EXPECT_THROW(property(*shapes[0].object, "material"), std::runtime_error);
+  }
+}
+
 }  // namespace
 }  // namespace kaustik

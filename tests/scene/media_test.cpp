@@ -269,9 +269,11 @@ TEST_F(GridsInScenes, SayWhatIsWrong) {
   problem(cloud(grid("sigma_t", file(vol_file({1, 1, 1}, {1}, {.box = {0, 0, 0, 1, 0, 1}})) +
                                     "<boolean name=\"use_grid_bbox\" value=\"true\"/>")),
           "box");
-  problem(cloud("<volume name=\"sigma_t\" type=\"cloud\"/>"), "unknown volume type 'cloud'");
+  problem(cloud("<volume name=\"sigma_t\" type=\"gridvolum\"/>"),
+          "unknown volume type 'gridvolum'");
   problem(with_medium(grid("sigma_t", file(two_cells_))), "homogeneous");
-  problem(media_camera + "<volume type=\"sea\"/>" + media_sphere, "unknown volume type 'sea'");
+  problem(media_camera + "<volume type=\"constvolum\"/>" + media_sphere,
+          "unknown volume type 'constvolum'");
 }
 
 TEST(PhaseFunctionsInScenes, NestAndHaveTables) {
@@ -331,7 +333,7 @@ TEST(MediaErrors, OfCoefficients) {
     problem("<phase type=\"hg\"><float name=\"g\" value=\"" + g + "\"/></phase>",
             "scatters nowhere");
   problem("<phase type=\"hg\"><float name=\"g\" value=\"1.5\"/></phase>", "'g'");
-  problem("<phase type=\"mie\"/>", "unknown phase type 'mie'");
+  problem("<phase type=\"raleigh\"/>", "unknown phase type 'raleigh'");
   problem("<phase type=\"hg\"/><phase type=\"isotropic\"/>", "second phase");
   problem("<bsdf type=\"diffuse\"/>", "cannot hold a bsdf");
 }
@@ -345,8 +347,8 @@ TEST(MediaErrors, OfReferences) {
   const auto message_of = [](const std::string& objects) {
     return problems_of(objects)[0].message;
   };
-  EXPECT_EQ(message_of(media_camera + "<medium type=\"fog\"/>" + media_sphere),
-            "unknown medium type 'fog'");
+  EXPECT_EQ(message_of(media_camera + "<medium type=\"homogenous\"/>" + media_sphere),
+            "unknown medium type 'homogenous'");
   EXPECT_NE(
       message_of(media_camera + "<shape type=\"sphere\"><medium type=\"homogeneous\"/></shape>")
           .find("on which side"),

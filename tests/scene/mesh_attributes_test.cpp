@@ -60,14 +60,28 @@ TEST_F(MeshAttributes, AreThoseOfTheShape) {
 }
 
 TEST_F(MeshAttributes, ThatAreMissingAreToldWithThoseThatAreThere) {
-  expect_problem(painted + mesh("plain", "<ref id=\"paint\"/>"), "2:133",
-                 "the mesh of plain has no attribute 'vertex_color'", "none at all");
+  const auto expect_told = [](const std::string& text, const std::string& message,
+                              const std::string& remedy) {
+    Description description = description_of(text);
+    const auto scene = build_scene(description);
+    ASSERT_EQ(scene->warnings().size(), 1u);
+    const std::string& told = scene->warnings()[0];
+    EXPECT_TRUE(told.starts_with("test.xml:2:133: ")) << told;
+    EXPECT_NE(told.find(message), std::string::npos) << told;
+    EXPECT_NE(told.find(remedy), std::string::npos) << told;
+    // As in Mitsuba.
+    EXPECT_EQ(albedo_at(*scene, 0, {0.1f, 0.1f, 0})[0], 0);
+    description.is_strict = true;
+    EXPECT_THROW(build_scene(description), Error);
+  };
+  expect_told(painted + mesh("plain", "<ref id=\"paint\"/>"),
+              "the mesh of plain has no attribute 'vertex_color'", "none at all");
   std::string misspelt = painted;
   misspelt.replace(misspelt.find("vertex_color"), 12, "vertex_paint");
-  expect_problem(misspelt + mesh("red", "<ref id=\"paint\"/>"), "2:133",
-                 "the mesh of red has no attribute 'vertex_paint'", "Valid: vertex_color");
-  expect_problem(painted + "<shape type=\"sphere\"><ref id=\"paint\"/></shape>", "2:133",
-                 "is no mesh", "another texture");
+  expect_told(misspelt + mesh("red", "<ref id=\"paint\"/>"),
+              "the mesh of red has no attribute 'vertex_paint'", "Valid: vertex_color");
+  expect_told(painted + "<shape type=\"sphere\"><ref id=\"paint\"/></shape>", "is no mesh",
+              "another texture");
   // Where no shape has it nothing is missing.
   EXPECT_NO_THROW(scene_of(painted + any_shape));
 }
@@ -90,13 +104,17 @@ TEST_F(MeshAttributes, ShineOnLamps) {
 }
 
 TEST_F(MeshAttributes, AreOfNoUseToLampsWithoutAMesh) {
-  const auto problems =
-      problems_of(any_camera + std::string("<shape type=\"sphere\"><emitter type=\"area\">"
-                                           "<texture type=\"mesh_attribute\" name=\"radiance\">"
-                                           "<string name=\"name\" value=\"vertex_color\"/>"
-                                           "</texture></emitter></shape>"));
-  ASSERT_EQ(problems.size(), 1u);
-  EXPECT_NE(problems[0].message.find("is no mesh"), std::string::npos) << problems[0].message;
+  Description description =
+      description_of(any_camera + std::string("<shape type=\"sphere\"><emitter type=\"area\">"
+                                              "<texture type=\"mesh_attribute\" name=\"radiance\">"
+                                              "<string name=\"name\" value=\"vertex_color\"/>"
+                                              "</texture></emitter></shape>"));
+  const auto scene = build_scene(description);
+  ASSERT_FALSE(scene->warnings().empty());
+  EXPECT_NE(scene->warnings()[0].find("is no mesh"), std::string::npos) << scene->warnings()[0];
+  EXPECT_EQ(scene->lights()[0]->traits().power[1], 0);
+  description.is_strict = true;
+  EXPECT_THROW(build_scene(description), Error);
 }
 
 /// Two meshes with one bsdf; the second is moved.

@@ -227,7 +227,7 @@ TEST(Spectra, WhatIsWrong) {
                      spectrum("uniform", "intensity", number("value", 1)) + "</emitter>",
                  "3:92", "given twice");
   expect_problem(begin + spectrum("blakbody", "intensity", "") + "</emitter>", "3:1",
-                 "cannot hold a texture");
+                 "unknown texture type 'blakbody'");
 }
 
 /// Each holds the one before twice: looked at once each.

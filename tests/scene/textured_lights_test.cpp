@@ -57,10 +57,6 @@ TEST(TexturedLights, MayBeShared) {
 }
 
 TEST(TexturedLights, RefuseWhatMakesNoSense) {
-  expect_problem(any_camera + std::string(any_shape) +
-                     "\n<emitter type=\"point\"><texture name=\"intensity\" type=\"checkerboard\"/>"
-                     "</emitter>",
-                 "3:23", "emitter 'point' cannot hold a texture", "it may hold: medium");
   expect_problem(lamp(R"(<texture name="radiant" type="checkerboard"/>)"), "3:22",
                  "emitter 'area' takes no texture 'radiant'", "did you mean 'radiance'?");
   expect_problem(lamp(R"(<texture name="radiance" type="bitmap"/>)"), "3:22", "filename");

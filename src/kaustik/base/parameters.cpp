@@ -185,6 +185,14 @@ std::string complaint(const Parameter& parameter, const Value& value) {
   return {};
 }
 
+/// "from 0 to 1"; an end that no scene gets near to is left out.
+std::string range_text(double minimum, double maximum) {
+  constexpr double endless = 1e300;
+  if (!(maximum < endless)) return fmt::format("of at least {}", minimum);
+  if (!(minimum > -endless)) return fmt::format("of at most {}", maximum);
+  return fmt::format("from {} to {}", minimum, maximum);
+}
+
 std::string remedy_for(const Parameter& parameter, const Value& value) {
   if (const std::string* name = name_out_of_choices(parameter, value))
     return suggest(*name, parameter.choices);
@@ -193,7 +201,7 @@ std::string remedy_for(const Parameter& parameter, const Value& value) {
                        smallest_length, largest_length, largest_length);
   if (parameter.kind == ParameterKind::array)
     return fmt::format("give an array {}", extents_text(parameter));
-  return fmt::format("give a value from {} to {}{}{}", parameter.minimum, parameter.maximum,
+  return fmt::format("give a value {}{}{}", range_text(parameter.minimum, parameter.maximum),
                      parameter.unit.empty() ? "" : " ", parameter.unit);
 }
 
@@ -408,7 +416,9 @@ void Arguments::accept(const Property& property, Problems& problems) {
   if (!parameter) {
     problems.add(
         fmt::format("{} '{}' has no parameter '{}'", info_->family, info_->name, property.name),
-        suggest(property.name, info_->parameter_names()), property.place);
+        info_->parameters.empty() ? "remove it: it takes none"
+                                  : suggest(property.name, info_->parameter_names()),
+        property.place);
     return;
   }
   Slot& slot = slots_[size_t(parameter - info_->parameters.data())];

@@ -79,6 +79,9 @@ struct Parameter {
   std::string unit;      ///< "" for none
   std::string sentence;  ///< one sentence of help
   std::vector<std::string> choices;
+  /// What a file gives beyond the range is taken to its nearer end, with a warning: Mitsuba has no
+  /// such bound, or draws it in silence.
+  bool is_clamped = false;
   bool no_effect = false;        ///< accepted because Mitsuba has it; reported once
   bool accepts_texture = false;  ///< a nested texture object may stand instead of the value
   bool accepts_volume = false;   ///< a nested volume may
@@ -90,6 +93,7 @@ struct Parameter {
   bool of_integers = false;     ///< of arrays: no floats
 
   Parameter& range(double low, double high) { return minimum = low, maximum = high, *this; }
+  Parameter& clamped() { return is_clamped = true, *this; }
   Parameter& in(std::string unit_name) { return unit = std::move(unit_name), *this; }
   Parameter& textured() { return accepts_texture = true, *this; }
   Parameter& or_volume() { return accepts_volume = true, *this; }

@@ -36,7 +36,7 @@ void set_property(Object& object, Property property) {
 Object unwrapped(const Object& object, const ForeignIntegrator& foreign,
                  std::vector<std::string>& notes) {
   for (const Child& child : object.children)
-    if (child.object->family != "integrator")
+    if (child.object->family != "integrator" && child.object->family != "sampler")
       throw Error(
           ErrorKind::input,
           fmt::format("integrator '{}' cannot hold a {}", object.type, child.object->family),

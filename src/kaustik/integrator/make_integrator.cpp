@@ -59,6 +59,12 @@ std::unique_ptr<Integrator> create(const Object& given, const Scene& scene, bool
                 warnings);
       continue;
     }
+    if (child.object->family == "sampler" && !is_strict) {
+      tell_once(fmt::format("the sampler in integrator '{}' has no effect: put it into the sensor",
+                            given.type),
+                warnings);
+      continue;
+    }
     problems.add(fmt::format("integrator '{}' cannot hold a {}", object.type, child.object->family),
                  "remove it", child.object->place);
   }

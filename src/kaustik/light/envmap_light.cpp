@@ -183,7 +183,7 @@ LightType envmap_light_type() {
           {number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
            to_world_parameter("World from the picture, whose upper edge is +y."),
            visible_parameter(), ignored_parameter("mis_compensation", ParameterKind::boolean),
-           ignored_sampling_weight()})};
+           ignored_parameter("cache", ParameterKind::boolean), ignored_sampling_weight()})};
   return {info, false, create_envmap};
 }
 

@@ -26,7 +26,8 @@ std::string Element::value(std::string_view name) const {
   return attribute ? attribute->value : std::string();
 }
 
-bool check_attributes(const Element& element, const AttributeRule& rule, Problems& problems) {
+bool check_attributes(const Element& element, const AttributeRule& rule, Problems& problems,
+                      const std::function<bool(const Attribute&)>& leaves_out) {
   bool sound = true;
   const auto complain = [&](const std::string& message, const std::string& remedy,
                             const Place& place) {
@@ -38,7 +39,9 @@ bool check_attributes(const Element& element, const AttributeRule& rule, Problem
   std::vector<std::string> misspelt;
   for (const Attribute& attribute : element.attributes) {
     if (!is_in(valid, attribute.name)) {
-      misspelt.push_back(nearest_name(attribute.name.substr(0, 20), valid));
+      const std::string nearest = nearest_name(attribute.name.substr(0, 20), valid);
+      if (nearest.empty() && leaves_out(attribute)) continue;
+      misspelt.push_back(nearest);
       complain(fmt::format("<{}> has no attribute {}", element.tag, in_quotes(attribute.name)),
                suggestion(attribute.name, valid), attribute.name_place);
     } else if (element.find(attribute.name) != &attribute) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,7 +37,9 @@ struct AttributeRule {
 };
 
 /// False, with the reasons added to `problems`, if an attribute is missing, unknown or given twice.
-bool check_attributes(const Element& element, const AttributeRule& rule, Problems& problems);
+/// `leaves_out` is asked about unknown ones that look like no slip of the pen: true lets them pass.
+bool check_attributes(const Element& element, const AttributeRule& rule, Problems& problems,
+                      const std::function<bool(const Attribute&)>& leaves_out);
 
 void add(Problems& problems, const BadValue& bad, const Place& where_unknown);
 

@@ -114,6 +114,17 @@ fs::path Reader::found(const std::string& file, const Source& source) const {
   return find_file(file, source.folders, source.own_folder);
 }
 
+fs::path Reader::found_or_like(const Attribute& file, const Source& source) {
+  fs::path path = found(file.value, source);
+  if (is_strict_ || is_there(path)) return path;
+  const auto like = file_search_.find_like(file.value, source.folders);
+  if (!like) return path;
+  leave_out("file " + file.value,
+            fmt::format("there is no file '{}': '{}' stands for it", file.value, like->string()),
+            file.place);
+  return *like;
+}
+
 bool Reader::is_open(const fs::path& path) const {
   return std::any_of(open_files_.begin(), open_files_.end(),
                      [&](const auto& other) { return identity(other) == identity(path); });
@@ -154,7 +165,7 @@ EntityFile Reader::entity_file(const std::string& name, const fs::path& folder,
 
 void Reader::read_search_folder(const Element& element, Unfinished&, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"value"}, {}}, problems_)) return;
+  if (!check_attributes(element, {{"value"}, {}})) return;
   const Attribute& value = *element.find("value");
   const fs::path folder = found(value.value, source).lexically_normal();
   std::error_code ignored;
@@ -176,12 +187,12 @@ void Reader::read_search_folder(const Element& element, Unfinished&, Source& sou
 
 void Reader::read_include(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"filename"}, {"name"}}, problems_)) {
+  if (!check_attributes(element, {{"filename"}, {"name"}})) {
     incomplete_ = true;
     return;
   }
   const Attribute& file = *element.find("filename");
-  const fs::path path = found(file.value, source);
+  const fs::path path = found_or_like(file, source);
   const bool is_circular = is_open(path);
   open_files_.push_back(path);
   try {
@@ -228,11 +239,12 @@ void Reader::read_included(const fs::path& path, const Element& element, Unfinis
                    element.find("filename")->place);
   Source source = {document, {}, includer.folders, path.parent_path()};
   source.folders.insert(source.folders.begin(), source.own_folder);
-  const auto root = read_version(source) ? ready(document.root(), source) : std::nullopt;
+  const auto root =
+      read_version(source, &includer.version) ? ready(document.root(), source) : std::nullopt;
   if (!root) {
     incomplete_ = true;
   } else if (root->tag == "scene") {
-    check_attributes(*root, {{}, {"version", "type", "id", "name"}}, problems_);
+    check_attributes(*root, {{}, {"version", "type", "id", "name"}});
     read_parts(root->node, parent, source);
   } else {
     read_included_object(*root, element.value("name"), parent, source);

@@ -45,7 +45,7 @@ size_t bytes_of(const SpectralCurve& curve) {
 void Reader::read_property(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
   const AttributeRule rule = with_intent(property_rule(element.tag), element.tag, source.version);
-  if (!check_attributes(element, rule, problems_)) return;
+  if (!check_attributes(element, rule)) return;
   const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   try {
     if (name.empty()) throw BadValue("a property without a name", "give its name");
@@ -81,7 +81,7 @@ void Reader::read_blackbody(const Element& element, Unfinished& parent, Source& 
   refuse_children(element, source);
   const char* factor =
       element.find("multiplier") && source.version < first_of_mitsuba_0_4 ? "multiplier" : "scale";
-  if (!check_attributes(element, {{"name", "temperature"}, {factor}}, problems_)) return;
+  if (!check_attributes(element, {{"name", "temperature"}, {factor}})) return;
   const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   if (!take_name(parent, name, element.place)) return;
   const auto object = std::make_shared<Object>();
@@ -113,7 +113,7 @@ Value Reader::value_of(const Element& element, const std::string& name, const So
   if (element.tag == "srgb") return parse_attribute(value, parse_srgb);
   if (!is_in(file_property_names(), name)) return value.value;
   if (value.value.empty()) throw BadValue("the file name is empty", "name a file", value.place);
-  return found(value.value, source).string();
+  return found_or_like(value, source).string();
 }
 
 Value Reader::spectrum_of(const Element& element, const Source& source) {
@@ -123,7 +123,7 @@ Value Reader::spectrum_of(const Element& element, const Source& source) {
     throw BadValue("<spectrum> takes either 'value' or 'filename'", "give one of the two");
   const bool is_old = source.version < Version{2, 0, 0};
   const Value result = value ? parse_attribute(*value, is_old ? parse_old_spectrum : parse_spectrum)
-                             : Value(curve_of(found(file->value, source).string(), file->place));
+                             : Value(curve_of(found_or_like(*file, source).string(), file->place));
   if (const auto* curve = std::get_if<SpectralCurve>(&result))
     budget_.spend(bytes_of(*curve), element.place);
   return result;
@@ -146,7 +146,7 @@ const SpectralCurve& Reader::curve_of(const std::string& path, const Place& plac
 }
 
 void Reader::read_transform(const Element& element, Unfinished& parent, Source& source) {
-  if (!check_attributes(element, {{"name"}, {}}, problems_)) return;
+  if (!check_attributes(element, {{"name"}, {}})) return;
   Transform transform = transform_of(element, source);
   const bool is_of_camera = std::string_view(element.node.parent().name()) == "camera" &&
                             parent.object->family == "sensor" && element.value("name") == "toWorld";
@@ -167,8 +167,7 @@ Transform Reader::transform_of(const Element& element, const Source& source) {
                     suggestion(operation->tag, transform_tags()), operation->place);
       continue;
     }
-    if (!check_attributes(*operation, transform_rule(*operation, source.version), problems_))
-      continue;
+    if (!check_attributes(*operation, transform_rule(*operation, source.version))) continue;
     try {
       transform = followed_by(transform, parse_transform_operation(*operation));
     } catch (const BadValue& bad) {
@@ -186,7 +185,7 @@ void Reader::add_transform(const Element& element, const Transform& transform, U
 }
 
 void Reader::read_animation(const Element& element, Unfinished& parent, Source& source) {
-  if (!check_attributes(element, {{"name"}, {}}, problems_)) return;
+  if (!check_attributes(element, {{"name"}, {}})) return;
   std::optional<Transform> first;
   bool is_sound = true;
   for (const pugi::xml_node& node : element.node.children()) {
@@ -199,7 +198,7 @@ void Reader::read_animation(const Element& element, Unfinished& parent, Source& 
       is_sound = false;
       continue;
     }
-    if (!check_attributes(*moment, {{"time"}, {}}, problems_)) {
+    if (!check_attributes(*moment, {{"time"}, {}})) {
       is_sound = false;
       continue;
     }

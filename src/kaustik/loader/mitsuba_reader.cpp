@@ -18,9 +18,19 @@ constexpr size_t bytes_per_element = 500, bytes_per_attribute = 50;
 
 }  // namespace
 
-bool Reader::read_version(Source& source) {
+bool Reader::read_version(Source& source, const Version* includer) {
   const pugi::xml_node root = source.document.root();
   const pugi::xml_attribute version = root.attribute("version");
+  // Any file may be named, and one that is no part of a scene is not to be quoted.
+  const bool looks_like_part = std::string_view(root.name()) == "scene" || root.attribute("type");
+  if (!version && !is_strict_ && includer && looks_like_part) {
+    source.version = *includer;
+    leave_out("version of a part",
+              fmt::format("<{}> lacks its version: it is read as one of the file that includes it",
+                          root.name()),
+              source.document.place(root));
+    return true;
+  }
   if (!version && !is_strict_ && std::string_view(root.name()) == "scene") {
     // As Mitsuba 0.6 took it.
     source.version = {0, 2, 0};
@@ -131,6 +141,17 @@ void Reader::refuse_children(const Element& element, const Source& source) {
                     fmt::format("end <{}> with '/>'", element.tag), source.document.place(child));
 }
 
+bool Reader::check_attributes(const Element& element, const AttributeRule& rule) {
+  return mitsuba::check_attributes(element, rule, problems_, [&](const Attribute& attribute) {
+    if (is_strict_) return false;
+    leave_out("attribute " + element.tag + " " + attribute.name,
+              fmt::format("Kaustik does not know the attribute {} of <{}>: it is left out",
+                          in_quotes(attribute.name), element.tag),
+              attribute.name_place);
+    return true;
+  });
+}
+
 void Reader::read_parts(const pugi::xml_node& node, Unfinished& parent, Source& source) {
   for (const pugi::xml_node& child : node.children())
     if (is_element(child, source)) {
@@ -168,9 +189,21 @@ void Reader::read_part(const Element& element, Unfinished& parent, Source& sourc
     report_unknown(element);
 }
 
+void Reader::leave_out_ids(const pugi::xml_node& node) {
+  std::vector<pugi::xml_node> pending = {node};
+  while (!pending.empty()) {
+    const pugi::xml_node at = pending.back();
+    pending.pop_back();
+    if (const pugi::xml_attribute id = at.attribute("id"); id && *id.value() != '\0')
+      references_.leave_out(id.value());
+    for (const pugi::xml_node& child : at.children()) pending.push_back(child);
+  }
+}
+
 void Reader::report_unknown(const Element& element) {
   // Other renderers have elements of their own. What looks like one of ours was meant to be one.
   if (element.tag == "subsurface" && !is_strict_) {
+    leave_out_ids(element.node);
     leave_out("subsurface",
               "subsurface scattering comes later: <subsurface> is left out, the surface is what "
               "its bsdf says",
@@ -181,6 +214,7 @@ void Reader::report_unknown(const Element& element) {
                        upgraded_tag(element.tag, {0, 0, 0}) != element.tag ||
                        suggestion(element.tag, part_tags()).starts_with("did you mean");
   if (!is_strict_ && !is_ours) {
+    leave_out_ids(element.node);
     leave_out(element.tag, fmt::format("Kaustik does not know <{}>: it is left out", element.tag),
               element.place);
     return;
@@ -359,7 +393,7 @@ std::shared_ptr<Object> Reader::read_object(const Element& element, Source& sour
   AttributeRule rule = {{"type"}, {"id", "name", "version"}};
   if (is_scene) rule = {{}, {"type", "id", "name", "version"}};
   if (is_root && is_strict_) rule.required.emplace_back("version");
-  check_attributes(element, rule, problems_);
+  check_attributes(element, rule);
 
   Unfinished unfinished = {std::make_shared<Object>(), {}};
   Object& object = *unfinished.object;
@@ -404,7 +438,7 @@ void Reader::read_nested_object(const Element& element, Unfinished& parent, Sour
 
 void Reader::read_reference(const Element& element, Unfinished& parent, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"id"}, {"name"}}, problems_)) return;
+  if (!check_attributes(element, {{"id"}, {"name"}})) return;
   const std::string name = upgraded_name(element.value("name"), *parent.object, source.version);
   take_name(parent, name, element.place);
   references_.refer(parent.object, name, element.value("id"), element.place);
@@ -412,13 +446,13 @@ void Reader::read_reference(const Element& element, Unfinished& parent, Source& 
 
 void Reader::read_alias(const Element& element, Unfinished&, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"id", "as"}, {}}, problems_)) return;
+  if (!check_attributes(element, {{"id", "as"}, {}})) return;
   references_.declare_alias(element.value("id"), element.value("as"), element.place, problems_);
 }
 
 void Reader::read_default(const Element& element, Unfinished&, Source& source) {
   refuse_children(element, source);
-  if (!check_attributes(element, {{"name", "value"}, {}}, problems_)) return;
+  if (!check_attributes(element, {{"name", "value"}, {}})) return;
   const Attribute& name = *element.find("name");
   try {
     definitions_.set_default(name.value, element.value("value"));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kaustik/loader/file_search.h"
 #include "kaustik/loader/load_budget.h"
 #include "kaustik/loader/mitsuba_definitions.h"
 #include "kaustik/loader/mitsuba_element.h"
@@ -43,13 +44,16 @@ class Reader {
 
   /// Contents of a file that the scene is made of; counts against all limits.
   std::string text_of(const std::filesystem::path& path, const Place& where);
-  bool read_version(Source& source);
+  /// A file without one has that of the file that includes it; `includer` is null for the scene.
+  bool read_version(Source& source, const Version* includer = nullptr);
   Description finish(const std::shared_ptr<Object>& scene);
   std::shared_ptr<Object> read_scene(Source& source);
 
   std::optional<Element> ready(const pugi::xml_node& node, const Source& source);
   bool is_element(const pugi::xml_node& node, const Source& source);
   void refuse_children(const Element& element, const Source& source);
+  /// Attributes of other programs are left out; all else as mitsuba::check_attributes().
+  bool check_attributes(const Element& element, const AttributeRule& rule);
 
   void read_parts(const pugi::xml_node& node, Unfinished& parent, Source& source);
   void read_part(const Element& element, Unfinished& parent, Source& source);
@@ -77,6 +81,8 @@ class Reader {
   /// Of a file that a <spectrum> names at that place; each is read once.
   const SpectralCurve& curve_of(const std::string& path, const Place& place);
   void report_unknown(const Element& element);
+  /// Of an element that is left out, and of all that are in it.
+  void leave_out_ids(const pugi::xml_node& node);
   /// Of a principled bsdf that has 'eta' as well, as lajolla's have.
   void leave_out_specular(Object& object);
   /// Reflectances and transmittances above 1.
@@ -104,6 +110,8 @@ class Reader {
   /// False, with the reason told, if the parent has such a part already.
   bool take_name(Unfinished& parent, const std::string& name, const Place& place);
   std::filesystem::path found(const std::string& file, const Source& source) const;
+  /// The same; a file that is not there gives way to one with nearly that name, which is told.
+  std::filesystem::path found_or_like(const Attribute& file, const Source& source);
   /// For the entities of a file in that folder: they are files beside it.
   EntityRules entity_rules(const std::filesystem::path& folder);
   /// Throws Error, as all that entity_rules() makes does.
@@ -128,6 +136,7 @@ class Reader {
   Problems problems_;
   Definitions definitions_;
   References references_;
+  FileSearch file_search_;
   LoadBudget budget_;
   std::map<std::filesystem::path, std::unique_ptr<XmlDocument>> documents_;  ///< by identity
   std::map<std::string, SpectralCurve> curves_;                              ///< by path

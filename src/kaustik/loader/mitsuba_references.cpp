@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <unordered_map>
 
 #include "kaustik/loader/mitsuba_values.h"
@@ -15,7 +16,7 @@ class References::DepthCheck {
  public:
   DepthCheck(const std::vector<Reference>& references, Problems& problems) : problems_(problems) {
     for (const Reference& reference : references)
-      references_of_[reference.parent.get()].push_back(&reference);
+      if (reference.target) references_of_[reference.parent.get()].push_back(&reference);
   }
 
   /// Levels below and including `object`, or `failed`. `place` is that of the last reference on the
@@ -106,6 +107,8 @@ void References::refer(const std::shared_ptr<Object>& parent, const std::string&
   parent->children.push_back({child_name, nullptr});
 }
 
+void References::leave_out(const std::string& id) { left_out_.insert(id); }
+
 void References::follow(Declarations::iterator alias, Problems& problems) {
   std::vector<Declarations::iterator> chain;
   auto at = alias;
@@ -114,7 +117,9 @@ void References::follow(Declarations::iterator alias, Problems& problems) {
     chain.push_back(at);
     at = declarations_.find(at->second.alias_of);
   }
-  if (at == declarations_.end())
+  if (at == declarations_.end() && left_out_.contains(chain.back()->second.alias_of))
+    for (const auto& on_the_way : chain) left_out_.insert(on_the_way->first);
+  else if (at == declarations_.end())
     report_unknown(chain.back()->second.alias_of, chain.back()->second.place, problems);
   else if (at->second.object)
     for (const auto& on_the_way : chain) on_the_way->second.object = at->second.object;
@@ -140,6 +145,8 @@ void References::resolve(const std::shared_ptr<Object>& scene, Problems& problem
     if (!at->second.object && !at->second.followed) follow(at, problems);
   for (Reference& reference : references_) {
     const auto found = declarations_.find(reference.id);
+    if (left_out_.contains(reference.id) && (found == declarations_.end() || !found->second.object))
+      continue;
     if (found == declarations_.end())
       report_unknown(reference.id, reference.place, problems);
     else
@@ -150,6 +157,11 @@ void References::resolve(const std::shared_ptr<Object>& scene, Problems& problem
   if (!problems.empty()) return;
   for (const Reference& reference : references_)
     reference.parent->children[reference.child_index].object = reference.target;
+  std::set<Object*> with_gaps;
+  for (const Reference& reference : references_)
+    if (!reference.target) with_gaps.insert(reference.parent.get());
+  for (Object* parent : with_gaps)
+    std::erase_if(parent->children, [](const Child& child) { return !child.object; });
 }
 
 }  // namespace kaustik::mitsuba

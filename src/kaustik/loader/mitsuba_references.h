@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include <vector>
@@ -21,6 +22,8 @@ class References {
                Problems& problems);
   void declare_alias(const std::string& id, const std::string& alias, const Place& place,
                      Problems& problems);
+  /// Of something that is left out of the scene: who refers to it does without it.
+  void leave_out(const std::string& id);
   /// Adds a child to `parent` that holds nothing until resolve().
   void refer(const std::shared_ptr<Object>& parent, const std::string& child_name,
              const std::string& id, const Place& place);
@@ -51,6 +54,7 @@ class References {
   void report_unknown(const std::string& id, const Place& place, Problems& problems);
 
   Declarations declarations_;
+  std::set<std::string> left_out_;  ///< ids
   std::vector<Reference> references_;
   std::vector<std::string> known_ids_;  ///< that lead to an object; for messages
 };

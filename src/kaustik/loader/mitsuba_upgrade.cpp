@@ -72,6 +72,8 @@ constexpr PropertyName property_names[] = {
     {first_of_mitsuba_0_3, "texture", "gridtexture", "dark_color", "color1"},
     {first_of_mitsuba_0_3, "bsdf", "roughconductor", "ior", "eta"},
     {first_of_mitsuba_0_3, "medium", "", "size_multiplier", "scale"},
+    {any_version, "texture", "", "lambda_min", "wavelength_min"},
+    {any_version, "texture", "", "lambda_max", "wavelength_max"},
     {first_of_mitsuba_0_3, "shape", "sphere", "inverted", "flip_normals"},
     {first_of_mitsuba_0_3, "shape", "cylinder", "p1", "p0"},
     {first_of_mitsuba_0_3, "shape", "cylinder", "p2", "p1"}};
@@ -279,8 +281,8 @@ std::string upgraded_type(const std::string& family, const std::string& type, Ve
 }
 
 std::string upgraded_name(const std::string& name, const Object& parent, Version version) {
-  if (version >= first_with_snake_case) return name;
-  const std::string snake = snake_case_from_camel_case(name);
+  const std::string snake =
+      version < first_with_snake_case ? snake_case_from_camel_case(name) : name;
   for (const PropertyName& row : property_names)
     if (version < row.until && parent.family == row.family &&
         (row.type.empty() || parent.type == row.type) && snake == row.old_name)

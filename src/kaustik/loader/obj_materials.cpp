@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 /// What an OBJ file says of materials.
 struct ObjMaterials {
   std::vector<std::string> used;  ///< those that faces have, in order; "": none
+  std::vector<uint32_t> of_part;  ///< of the shapes in the file: indices of `used`
   std::set<std::string> libraries;
   uint64_t file_size = 0;
 };
@@ -52,19 +54,38 @@ ObjMaterials materials_of(const std::string& path) {
   TextLines lines(path);
   found.file_size = lines.file_size();
   std::string material;
+  std::map<std::string, uint32_t> numbers;
+  bool has_faces = false;  // the shape in the file, which ends before the next group or material
   for (std::string_view line; lines.next(line);) {
     const std::string_view keyword = next_word(line);
-    if (keyword == "usemtl") {
-      material = trimmed(line);
+    if (keyword == "usemtl" || keyword == "g") {
+      if (keyword == "usemtl") material = trimmed(line);
+      has_faces = false;
     } else if (keyword == "mtllib") {
       if (found.libraries.size() < most_libraries) found.libraries.emplace(trimmed(line));
-    } else if (keyword == "f" && (found.used.empty() || found.used.back() != material)) {
-      found.used.push_back(material);
+    } else if (keyword == "f" && !has_faces) {
+      found.of_part.push_back(
+          numbers.try_emplace(material, uint32_t(numbers.size())).first->second);
+      has_faces = true;
     }
   }
-  std::sort(found.used.begin(), found.used.end());
-  found.used.erase(std::unique(found.used.begin(), found.used.end()), found.used.end());
+  std::vector<uint32_t> in_order(numbers.size());
+  for (const auto& [name, number] : numbers) {
+    in_order[number] = uint32_t(found.used.size());
+    found.used.push_back(name);
+  }
+  for (uint32_t& number : found.of_part) number = in_order[number];
   return found;
+}
+
+/// Of the shape in the file that is asked for, or of all.
+ObjMaterials materials_for(const Object& shape, const ObjMaterials& of_file) {
+  const auto* part = value_in<int64_t>(shape, "shape_index");
+  if (!part) return of_file;
+  ObjMaterials selected = {{}, {}, of_file.libraries, of_file.file_size};
+  if (*part >= 0 && uint64_t(*part) < of_file.of_part.size())
+    selected.used = {of_file.used[of_file.of_part[size_t(*part)]]};
+  return selected;
 }
 
 class MaterialUser {
@@ -203,26 +224,26 @@ std::vector<std::shared_ptr<Object>> MaterialUser::parts_of(const std::shared_pt
   std::erase_if(shape->properties, [](const Property& p) { return p.name == "load_materials"; });
   const auto* file = value_in<std::string>(*shape, "filename");
   if (!file || (has_bsdf(*shape, false) && !has_bsdf(*shape, true))) return {shape};
-  const ObjMaterials* materials = known_materials(*file);
-  if (!materials) return {shape};
-  const Bsdfs bsdfs = bsdfs_for(*shape, *materials, loads_materials);
+  const ObjMaterials* of_file = known_materials(*file);
+  if (!of_file) return {shape};
+  const ObjMaterials materials = materials_for(*shape, *of_file);
+  const Bsdfs bsdfs = bsdfs_for(*shape, materials, loads_materials);
   if (bsdfs.empty()) return {shape};
-  if (materials->used.size() > most_bytes / std::max<uint64_t>(1, materials->file_size)) {
+  if (materials.used.size() > most_bytes / std::max<uint64_t>(1, materials.file_size)) {
     description_.warnings.push_back(
         fmt::format("{}: its {} materials take too long to be told apart: they are left out", *file,
-                    materials->used.size()));
+                    materials.used.size()));
     return {shape};
   }
 
   std::vector<std::shared_ptr<Object>> parts;
-  for (const std::string& material : materials->used) {
+  for (const std::string& material : materials.used) {
     auto part = std::make_shared<Object>(*shape);
     if (!parts.empty() && !part->id.empty()) part->id += ":" + material;
     std::erase_if(part->children, [](const Child& c) { return c.object->family == "bsdf"; });
     if (const auto found = bsdfs.find(material); found != bsdfs.end())
       part->children.push_back({"", found->second});
-    if (materials->used.size() > 1)
-      part->properties.push_back({"material", material, shape->place});
+    if (materials.used.size() > 1) part->properties.push_back({"material", material, shape->place});
     parts.push_back(std::move(part));
   }
   return parts;

@@ -45,7 +45,13 @@ class BentBsdf final : public Bsdf {
 std::shared_ptr<const Bsdf> make_bent_bsdf(const BsdfInputs& inputs,
                                            std::unique_ptr<const Relief> relief) {
   const std::shared_ptr<const Bsdf>& nested = inputs.nested.front();
-  if (nested->relief(true) || nested->relief(false))
+  const bool has_relief = nested->relief(true) || nested->relief(false);
+  if (has_relief && !inputs.is_strict) {
+    inputs.warn("bsdf '" + inputs.arguments.info().name +
+                "' holds another bump or normal map: the inner one holds");
+    return nested;
+  }
+  if (has_relief)
     throw Error(ErrorKind::input,
                 "bsdf '" + inputs.arguments.info().name + "' holds another bump or normal map",
                 "keep one of the two", inputs.arguments.place());

@@ -130,6 +130,7 @@ const TypeInfo& blend_info() {
       "Mixes two nested bsdfs, by a texture for example.",
       {number_parameter("weight", 0.5, "0: the first one alone, 1: the second one.")
            .range(0, 1)
+           .clamped()
            .textured()}};
   return info;
 }

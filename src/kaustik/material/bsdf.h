@@ -212,6 +212,7 @@ struct BsdfInputs {
   TextureOfParameter texture;
   /// Tells the user, once per message, what is not quite as the scene asks for.
   std::function<void(const std::string&)> warn = [](const std::string&) {};
+  bool is_strict = false;  ///< what could do with a warning is an error
 };
 
 struct BsdfType {

@@ -81,6 +81,7 @@ const TypeInfo& mask_info() {
       "Puts holes into the nested bsdf; light that passes them counts as through clear glass.",
       {number_parameter("opacity", 0.5, "Share of the surface that is there.")
            .range(0, 1)
+           .clamped()
            .textured()}};
   return info;
 }

@@ -204,6 +204,7 @@ class Phong final : public Bsdf {
 Parameter exponent_parameter() {
   return number_parameter("exponent", 30, "Sharpness of the highlight.")
       .range(0, double(largest_exponent))
+      .clamped()
       .textured();
 }
 

@@ -382,6 +382,7 @@ const TypeInfo& principled_info() {
                                  "Reflection of glass at normal incidence, 0.08 times this, "
                                  "instead of eta."))
            .range(0, 1)
+           .clamped()
            .instead_of("eta"),
        share_parameter("spec_tint", 0, "How much the reflection of glass has the base's colour."),
        share_parameter("sheen", 0, "Shine of cloth at grazing angles."),

@@ -5,7 +5,10 @@
 namespace kaustik {
 
 Parameter alpha_parameter(const std::string& name, const std::string& sentence) {
-  return number_parameter(name, 0.1, sentence).range(0, RoughFacets::largest_alpha).textured();
+  return number_parameter(name, 0.1, sentence)
+      .range(0, RoughFacets::largest_alpha)
+      .clamped()
+      .textured();
 }
 
 Parameter distribution_parameter() {

@@ -10,7 +10,7 @@ namespace kaustik {
 /// The row of what a Share reads.
 inline Parameter share_parameter(const std::string& name, double usual,
                                  const std::string& sentence) {
-  return number_parameter(name, usual, sentence).range(0, 1).textured();
+  return number_parameter(name, usual, sentence).range(0, 1).clamped().textured();
 }
 
 /// A parameter that is one number from 0 to `largest`; a texture is asked only if it varies, and

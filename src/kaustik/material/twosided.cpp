@@ -77,16 +77,23 @@ const TypeInfo& twosided_info() {
       "bsdf",
       "twosided",
       "Makes a one-sided bsdf visible from behind; a second nested one is for the back.",
-      {}};
+      {boolean_parameter(
+          "allow_transmission", false,
+          "A nested bsdf that transmits light is used as it is: it has two sides.")}};
   return info;
 }
 
 std::shared_ptr<const Bsdf> create_twosided(const BsdfInputs& inputs) {
-  for (const auto& nested : inputs.nested)
-    if (nested->traits().transmits)
-      throw Error(ErrorKind::input, "bsdf 'twosided' holds one that transmits light",
-                  "use that one without 'twosided'; it has two sides already",
-                  inputs.arguments.place());
+  const auto& nested = inputs.nested;
+  const bool transmits = nested.front()->traits().transmits || nested.back()->traits().transmits;
+  if (transmits && nested.size() == 1 && inputs.arguments.boolean("allow_transmission")) {
+    inputs.warn("bsdf 'twosided' holds one that transmits light: it is used as it is");
+    return nested.front();
+  }
+  if (transmits)
+    throw Error(ErrorKind::input, "bsdf 'twosided' holds one that transmits light",
+                "use that one without 'twosided'; it has two sides already",
+                inputs.arguments.place());
   return std::make_shared<Twosided>(inputs.nested.front(), inputs.nested.back());
 }
 

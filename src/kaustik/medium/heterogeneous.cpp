@@ -31,7 +31,8 @@ const TypeInfo& heterogeneous_info() {
       {albedo_parameter(), sigma_t_parameter(), medium_scale_parameter(),
        ignored_parameter("sample_emitters", ParameterKind::boolean),
        ignored_parameter("has_spectral_extinction", ParameterKind::boolean),
-       ignored_parameter("method", ParameterKind::text)}};
+       ignored_parameter("method", ParameterKind::text),
+       ignored_parameter("step_size", ParameterKind::number)}};
   return info;
 }
 

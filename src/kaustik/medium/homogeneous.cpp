@@ -64,7 +64,8 @@ const TypeInfo& homogeneous_info() {
                         "so that 'scale' is 1000 in a scene of metres. It scatters evenly, by its "
                         "reduced coefficient."),
        medium_scale_parameter(), ignored_parameter("sample_emitters", ParameterKind::boolean),
-       ignored_parameter("has_spectral_extinction", ParameterKind::boolean)}};
+       ignored_parameter("has_spectral_extinction", ParameterKind::boolean),
+       ignored_parameter("strategy", ParameterKind::text)}};
   return info;
 }
 

@@ -36,7 +36,10 @@ bool SceneBuilder::is_for_shapes(const Object& emitter) {
 
 std::shared_ptr<const EmissionPattern> SceneBuilder::emission_pattern_of(
     const LightType& type, const PendingLight& pending, const Arguments& arguments) {
-  if (!takes_texture(arguments.info())) return nullptr;  // refused already
+  if (!takes_texture(arguments.info())) {
+    textures_of(*pending.object, arguments.info(), nullptr);  // tells what becomes of them
+    return nullptr;
+  }
   const Object& emitter = *pending.object;
   const BuiltShape* on = pending.shape_index < 0 ? nullptr : &shapes_[size_t(pending.shape_index)];
   if (!on && asks_surface(emitter)) {
@@ -64,7 +67,7 @@ void SceneBuilder::make_lights() {
       type = find_row(light_types(), pending.object->type);
     }
     std::vector<std::string> families = {"medium"};
-    if (takes_texture(type->info)) families.emplace_back("texture");
+    if (takes_texture(type->info) || !is_strict_) families.emplace_back("texture");
     refuse_children(*pending.object, families);
     if (type->needs_shape != (pending.shape != nullptr)) {
       problems_.add(

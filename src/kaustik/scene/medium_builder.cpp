@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
+#include "kaustik/base/number_list.h"
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/scene_builder.h"
 
@@ -12,6 +14,9 @@ namespace {
 
 /// Phase functions hold phase functions, each of which is made as often as it is held.
 constexpr int maximum_phase_levels = 6;
+/// A mixture holds more of them than a blend, and counts for as many levels.
+constexpr int levels_of_mixture = 3;
+constexpr size_t most_phases_of_mixture = 16;
 
 std::vector<std::string> volume_parameters(const TypeInfo& info) {
   std::vector<std::string> names;
@@ -20,15 +25,27 @@ std::vector<std::string> volume_parameters(const TypeInfo& info) {
   return names;
 }
 
+/// Of Mitsuba and not here, and of dialects.
+bool is_type_to_come(const std::string& type) {
+  constexpr const char* types[] = {"sggx",     "microflake",    "kkay",        "mixturephase",
+                                   "nanovdb",  "nanovdbvolume", "vdb",         "vdbvolume",
+                                   "volcache", "orientation",   "hgridvolume", "fibervolume"};
+  return std::find(std::begin(types), std::end(types), type) != std::end(types);
+}
+
 }  // namespace
 
-std::shared_ptr<const PhaseFunction> SceneBuilder::make_phase_function(const Object& object,
+std::shared_ptr<const PhaseFunction> SceneBuilder::make_phase_function(const Object& given,
                                                                        int level) {
-  const PhaseFunctionType* type = find_row(phase_function_types(), object.type);
+  const PhaseFunctionType* type = find_row(phase_function_types(), given.type);
+  const std::vector<std::string> valid = names_of(phase_function_types());
+  if (!type && !is_strict_ && (is_foreign(given, valid) || is_type_to_come(given.type)))
+    return phase_instead_of(given, level);
   if (!type) {
-    unknown_type(object, names_of(phase_function_types()));
+    unknown_type(given, valid);
     return nullptr;
   }
+  const Object object = is_strict_ || type->nested == 0 ? given : with_constant_weight(given);
   refuse_children(
       object, type->nested > 0 ? std::vector<std::string>{"phase"} : std::vector<std::string>{});
   const std::vector<const Child*> children = ordered_children(object, "phase");
@@ -54,6 +71,90 @@ std::shared_ptr<const PhaseFunction> SceneBuilder::make_phase_function(const Obj
   return phase;
 }
 
+std::shared_ptr<const PhaseFunction> SceneBuilder::phase_instead_of(const Object& object,
+                                                                    int level) {
+  if (object.type == "mixturephase") return mixture_of_phases(object, level);
+  leave_out(object, "an isotropic one stands for it");
+  return isotropic_phase_function();
+}
+
+std::shared_ptr<const PhaseFunction> SceneBuilder::mixture_of_phases(const Object& mixture,
+                                                                     int level) {
+  std::vector<double> weights;
+  for (const Property& property : mixture.properties) {
+    const auto* text = std::get_if<std::string>(&property.value);
+    if (property.name == "weights" && text) weights = parse_number_list(*text).numbers;
+    const auto* number = std::get_if<double>(&property.value);
+    if (property.name == "weights" && number) weights = {*number};
+  }
+  std::vector<const Child*> children;
+  for (const Child& child : mixture.children)
+    if (child.object->family == "phase") children.push_back(&child);
+  if (children.size() > most_phases_of_mixture || level > maximum_phase_levels) {
+    problems_.add(children.size() > most_phases_of_mixture
+                      ? fmt::format("phase 'mixturephase' holds {} phase functions, more than {}",
+                                    children.size(), most_phases_of_mixture)
+                      : "phase functions nest too deep",
+                  "hold fewer in one another", mixture.place);
+    return nullptr;
+  }
+  const bool is_sound =
+      !children.empty() && children.size() == weights.size() &&
+      std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0; });
+  if (!is_sound) {
+    problems_.add(fmt::format("phase 'mixturephase' holds {} phase functions and {} weights",
+                              children.size(), weights.size()),
+                  "give it a 'weights' with one number, not below 0, for each phase function",
+                  mixture.place);
+    return nullptr;
+  }
+  // The weights count by their shares.
+  std::shared_ptr<const PhaseFunction> blend;
+  double sum = 0;
+  for (size_t i = 0; i < children.size(); ++i) {
+    const auto part = make_phase_function(*children[i]->object, level + levels_of_mixture);
+    if (!part) return nullptr;
+    sum += weights[i];
+    const double share = sum > 0 ? weights[i] / sum : 0;
+    blend = blend ? blended_phase_function(blend, part, float(share)) : part;
+  }
+  return blend;
+}
+
+Object SceneBuilder::with_constant_weight(const Object& phase) {
+  Object plain = phase;
+  const auto at =
+      std::find_if(plain.children.begin(), plain.children.end(), [](const Child& child) {
+        return child.object->family == "volume" && child.name == "weight";
+      });
+  if (at == plain.children.end()) return plain;
+  const std::shared_ptr<Object> given = at->object;
+  plain.children.erase(at);
+  const std::shared_ptr<const Volume> volume = make_volume(given);
+  const Rgb* color = volume && !volume->grid() ? std::get_if<Rgb>(&volume->color()) : nullptr;
+  if (color)
+    plain.properties.push_back({"weight", (color->r + color->g + color->b) / 3, given->place});
+  else if (volume && left_out_.insert(given.get()).second)
+    unknown_.add(fmt::format("'weight' of phase '{}' takes no volume: it is left out", phase.type),
+                 given->place);
+  return plain;
+}
+
+const std::shared_ptr<Object>* SceneBuilder::volume_instead_of(
+    const std::shared_ptr<Object>& volume) {
+  const std::vector<std::string> valid = names_of(volume_types());
+  if (is_strict_ || find_row(volume_types(), volume->type) ||
+      !(is_foreign(*volume, valid) || is_type_to_come(volume->type)))
+    return &volume;
+  for (const Child& child : volume->children)
+    if (child.object->family == "volume") {
+      leave_out(*volume, "the volume in it stands for it");
+      return volume_instead_of(child.object);
+    }
+  leave_out(*volume, "it is left out");
+  return nullptr;
+}
+
 std::shared_ptr<const Volume> SceneBuilder::make_volume(const std::shared_ptr<Object>& object) {
   const auto known = volumes_.find(object.get());
   if (known != volumes_.end()) return known->second;
@@ -77,7 +178,17 @@ std::optional<SceneBuilder::Volumes> SceneBuilder::volumes_of(const Object& obje
   for (const Child& child : object.children) {
     if (child.object->family != "volume") continue;
     const Place& place = child.object->place;
-    if (std::find(valid.begin(), valid.end(), child.name) == valid.end()) {
+    const bool is_taken = std::find(valid.begin(), valid.end(), child.name) != valid.end();
+    // What glows is missed.
+    if (!is_taken && !is_strict_ && child.name != "emission" &&
+        nearest_name(child.name, valid).empty()) {
+      if (left_out_.insert(child.object.get()).second)
+        unknown_.add(fmt::format("{} '{}' takes no volume '{}': it is left out", object.family,
+                                 object.type, child.name),
+                     place);
+      continue;
+    }
+    if (!is_taken) {
       problems_.add(
           fmt::format("{} '{}' takes no volume '{}'", object.family, object.type, child.name),
           child.name == "emission" ? "remove it: media do not glow yet"
@@ -85,7 +196,9 @@ std::optional<SceneBuilder::Volumes> SceneBuilder::volumes_of(const Object& obje
           place);
       continue;
     }
-    const std::shared_ptr<const Volume> volume = make_volume(child.object);
+    const std::shared_ptr<Object>* known = volume_instead_of(child.object);
+    if (!known) continue;
+    const std::shared_ptr<const Volume> volume = make_volume(*known);
     if (!volume) return std::nullopt;
     if (!volumes.try_emplace(child.name, MediumInputs::GivenVolume{volume, place}).second)
       problems_.add(
@@ -100,6 +213,22 @@ std::shared_ptr<const Medium> SceneBuilder::make_medium(const std::shared_ptr<Ob
   if (known != media_.end()) return known->second;
   std::shared_ptr<const Medium>& medium = media_[object.get()];
   const MediumType* type = find_row(medium_types(), object->type);
+  if (!type && is_foreign(*object, names_of(medium_types()))) {
+    leave_out(*object, "it is left out, and space is empty there");
+    return nullptr;
+  }
+  const auto is_density_left_out = [&](const Child& child) {
+    return child.object->family == "volume" && child.name == "sigma_t" &&
+           !volume_instead_of(child.object);
+  };
+  if (type && std::any_of(object->children.begin(), object->children.end(), is_density_left_out)) {
+    if (left_out_.insert(object.get()).second)
+      unknown_.add(fmt::format("medium '{}' has no density that Kaustik can read: it is left out, "
+                               "and space is empty there",
+                               object->type),
+                   object->place);
+    return nullptr;
+  }
   if (!type) {
     unknown_type(*object, names_of(medium_types()));
     return nullptr;

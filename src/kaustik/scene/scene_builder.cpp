@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "kaustik/base/color.h"
 #include "kaustik/base/limits.h"
+#include "kaustik/base/spectral_value.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/foreign_shapes.h"
@@ -66,6 +68,45 @@ const Parameter* spectrum_parameter(const TypeInfo& info, const std::string& nam
     for (const Parameter& row : info.parameters)
       if (row.kind == ParameterKind::color) return &row;
   return texture_parameter(info, name);
+}
+
+/// A colour where a texture could give one number: its luminance, as textures give it.
+Value as_taken_by(const Parameter* row, const Value& value) {
+  if (!row || row->kind != ParameterKind::number || !row->accepts_texture) return value;
+  if (const auto* curve = std::get_if<SpectralCurve>(&value))
+    return double(luminance_of(SpectralValue::reflectance(*curve).rgb()));
+  const auto* rgb = std::get_if<Rgb>(&value);
+  if (!rgb) return value;
+  if (rgb->r == rgb->g && rgb->g == rgb->b) return rgb->r;
+  const double luminance =
+      double(luminance_of(spectrum_from_rgb(float(rgb->r), float(rgb->g), float(rgb->b))));
+  return std::clamp(luminance, std::min({rgb->r, rgb->g, rgb->b}),
+                    std::max({rgb->r, rgb->g, rgb->b}));
+}
+
+/// A mean as the row takes it; nothing if it takes no numbers.
+std::optional<Value> mean_for(const Parameter& row, const Spectrum& mean) {
+  const auto bounded = [&](float value) {
+    return std::clamp(double(value), row.minimum, row.maximum);
+  };
+  if (row.kind == ParameterKind::number || row.kind == ParameterKind::number_or_name)
+    return Value(bounded(luminance_of(mean)));
+  if (row.kind == ParameterKind::color)
+    return Value(Rgb{bounded(mean[0]), bounded(mean[1]), bounded(mean[2])});
+  return std::nullopt;
+}
+
+/// Whether a bsdf or another texture can not do without it.
+bool is_needed(const Parameter& row) {
+  return row.accepts_texture && std::holds_alternative<std::monostate>(row.default_value);
+}
+
+/// How many bsdfs one of the type may hold.
+std::string remedy_for_nested(const BsdfType& type) {
+  if (type.maximum_nested == 0) return "take them out: it holds none";
+  if (type.minimum_nested == type.maximum_nested)
+    return fmt::format("give it {}", type.minimum_nested);
+  return fmt::format("give it {} to {}", type.minimum_nested, type.maximum_nested);
 }
 
 /// See TextureOfParameter; valid as long as the two are.
@@ -145,13 +186,92 @@ std::vector<Property> SceneBuilder::properties_of(const TypeInfo& info, const Ob
     if (const std::optional<Value>& value = value_of_spectrum(*child.object))
       properties.push_back({row ? row->name : child.name, *value, child.object->place});
   }
+  for (Property& property : properties)
+    property.value = as_taken_by(info.find(property.name), property.value);
+  for (const Child& child : object.children)
+    if (const std::optional<Value> mean = mean_instead_of(info, child))
+      properties.push_back({child.name, *mean, child.object->place});
+  return properties;
+}
+
+std::optional<Value> SceneBuilder::mean_instead_of(const TypeInfo& info, const Child& child) {
+  const bool is_texture = child.object->family == "texture" && !spectrum_type_of(*child.object);
+  if (!is_texture || is_strict_ || (info.family != "bsdf" && info.family != "emitter"))
+    return std::nullopt;
+  const Parameter* row = info.find(child.name);
+  if (!row || row->no_effect || texture_parameter(info, child.name)) return std::nullopt;
+  const std::shared_ptr<Object>& given = texture_within(child.object);
+  if (foreign_texture_in(*given) || asks_surface(*given)) return std::nullopt;
+  const std::shared_ptr<const Texture> texture = make_texture(given, nullptr);
+  const std::optional<Value> mean = texture ? mean_for(*row, texture->mean()) : std::nullopt;
+  if (mean && left_out_.insert(given.get()).second)
+    unknown_.add(fmt::format("'{}' of {} '{}' takes no texture: the mean of the texture stands "
+                             "for it",
+                             child.name, info.family, info.name),
+                 child.object->place);
+  return mean;
+}
+
+bool SceneBuilder::leaves_out_texture(const Object& object, const TypeInfo& info,
+                                      const Child& child) {
+  if (is_strict_) return false;
+  const Parameter* row = info.find(child.name);
+  if (row && row->no_effect) {
+    ignored_.insert(fmt::format("'{}' of {} '{}'", child.name, object.family, object.type));
+    return true;
+  }
+  if (row && mean_instead_of(info, child)) return true;
+  if (!row && !nearest_name(child.name, texture_parameters(info)).empty()) return false;
+  if (left_out_.insert(child.object.get()).second)
+    unknown_.add(
+        fmt::format("{} '{}' takes no texture {}: it is left out", object.family, object.type,
+                    child.name.empty() ? "without a name" : fmt::format("'{}'", child.name)),
+        child.object->place);
+  return true;
+}
+
+const Object* SceneBuilder::foreign_texture_in(const Object& texture) const {
+  if (is_foreign(texture, texture_names())) return &texture;
+  const TextureType* type = find_row(texture_types(), texture.type);
+  return type ? foreign_texture_of(texture, type->info) : nullptr;
+}
+
+const Object* SceneBuilder::foreign_texture_of(const Object& holder, const TypeInfo& info) const {
+  for (const Child& child : holder.children) {
+    if (child.object->family != "texture" || spectrum_type_of(*child.object)) continue;
+    const Parameter* row = texture_parameter(info, child.name);
+    if (!row || !is_needed(*row)) continue;
+    if (const Object* foreign = foreign_texture_in(*texture_within(child.object))) return foreign;
+  }
+  return nullptr;
+}
+
+std::vector<Property> SceneBuilder::within_ranges(const TypeInfo& info,
+                                                  std::vector<Property> properties) {
+  for (Property& property : properties) {
+    const Parameter* row = info.find(property.name);
+    const bool is_of_file = property.place.file && property.place.line > 0;
+    if (!row || !row->is_clamped || !is_of_file) continue;
+    const auto* integer = std::get_if<int64_t>(&property.value);
+    const auto* number = std::get_if<double>(&property.value);
+    if (!integer && !number) continue;
+    const double given = integer ? double(*integer) : *number;
+    const double taken = std::clamp(given, row->minimum, row->maximum);
+    if (taken == given || !std::isfinite(given)) continue;
+    property.value = taken;
+    unknown_.add(fmt::format("'{}' of {} '{}' is beyond its range: {:g} is taken", property.name,
+                             info.family, info.name, taken),
+                 property.place);
+  }
   return properties;
 }
 
 Arguments SceneBuilder::arguments_of(const TypeInfo& info, const Object& object) {
   const std::vector<Property> properties = properties_of(info, object);
-  Arguments arguments(info, is_strict_ ? properties : unknown_.without_unknown(info, properties),
-                      object.place, problems_);
+  Arguments arguments(
+      info,
+      is_strict_ ? properties : within_ranges(info, unknown_.without_unknown(info, properties)),
+      object.place, problems_);
   for (const std::string& name : arguments.ignored())
     ignored_.insert(fmt::format("'{}' of {} '{}'", name, info.family, info.name));
   return arguments;
@@ -264,14 +384,14 @@ void SceneBuilder::add_top_level(const Object& object) {
       make_bsdf(alias, nullptr);
     else if (object.family == "medium")
       make_medium(alias);
-    else if (object.family == "volume")
-      make_volume(alias);
-    else if (spectrum_type_of(object))
+    else if (object.family == "volume") {
+      if (const std::shared_ptr<Object>* known = volume_instead_of(alias)) make_volume(*known);
+    } else if (spectrum_type_of(object))
       value_of_spectrum(object);
-    else if (const auto& texture = texture_within(alias); is_foreign(*texture, texture_names()))
-      leave_out(*texture, "it is left out");
+    else if (const Object* foreign = foreign_texture_in(*texture_within(alias)))
+      leave_out(*foreign, "it is left out");
     else
-      make_texture(texture, nullptr);
+      make_texture(texture_within(alias), nullptr);
   } else if (object.family != "integrator" && object.id.empty()) {
     // One with an id may be referred to.
     const bool is_of_sensor = object.family == "film" || object.family == "sampler";
@@ -402,13 +522,16 @@ uint32_t SceneBuilder::group_index(const std::shared_ptr<Object>& group) {
 void SceneBuilder::add_instance(const Object& object) {
   const Arguments arguments = arguments_of(instance_info(), object);
   refuse_children(object, {"shape"});
-  if (object.children.size() != 1 || object.children[0].object->type != "shapegroup") {
+  std::vector<std::shared_ptr<Object>> shapes;
+  for (const Child& child : object.children)
+    if (child.object->family == "shape") shapes.push_back(child.object);
+  if (shapes.size() != 1 || shapes[0]->type != "shapegroup") {
     problems_.add("an instance needs exactly one shape group",
                   "put one into it, a shape of type 'shapegroup', or refer to it", object.place);
     return;
   }
   const Transform& to_world = arguments.transform("to_world");
-  const uint32_t group = group_index(object.children[0].object);
+  const uint32_t group = group_index(shapes[0]);
   instances_.push_back({group, to_world});
   Bounds3f bounds;
   for (const BuiltShape& built : groups_[group]) {
@@ -442,8 +565,16 @@ std::shared_ptr<const SurfaceAttribute> SceneBuilder::attribute_of(const BuiltSh
                                                                    const std::string& name,
                                                                    const Place& place) {
   if (!on || !on->shape) return nullptr;
-  return std::make_shared<ShapeAttribute>(
-      on->shape, attribute_named(*on->shape, on->surface.name, name, place));
+  try {
+    return std::make_shared<ShapeAttribute>(
+        on->shape, attribute_named(*on->shape, on->surface.name, name, place));
+  } catch (const Error& error) {
+    if (is_strict_ || error.kind() != ErrorKind::input) throw;
+    const Problem& problem = error.problems().front();
+    warnings_.push_back(fmt::format("{}: {}: it is black there; {}", text_of(place),
+                                    problem.message, problem.remedy));
+    return std::make_shared<NoAttribute>();
+  }
 }
 
 std::shared_ptr<const Texture> SceneBuilder::make_texture(const std::shared_ptr<Object>& object,
@@ -504,22 +635,22 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
     const Parameter* parameter = texture_parameter(info, child.name);
     const std::vector<std::string> valid = texture_parameters(info);
     if (!parameter && object.family == "emitter" && valid.size() == 1 && !is_strict_ &&
-        nearest_name(child.name, valid).empty()) {
+        !info.find(child.name) && nearest_name(child.name, valid).empty()) {
       parameter = info.find(valid.front());
       unknown_.add(fmt::format("the texture '{}' of emitter '{}' is taken as '{}'", child.name,
                                object.type, parameter->name),
                    child.object->place);
     }
+    if (!parameter && leaves_out_texture(object, info, child)) continue;
     if (!parameter) {
       problems_.add(
           fmt::format("{} '{}' takes no texture '{}'", object.family, object.type, child.name),
-          suggest(child.name, valid), child.object->place);
+          valid.empty() ? "remove it" : suggest(child.name, valid), child.object->place);
       continue;
     }
     const std::shared_ptr<Object>& given = texture_within(child.object);
-    const bool has_default = std::holds_alternative<Value>(parameter->default_value);
-    if (has_default && is_foreign(*given, texture_names())) {
-      leave_out(*given, "it is left out");
+    if (const Object* foreign = foreign_texture_in(*given)) {
+      leave_out(*foreign, "it is left out");
       continue;
     }
     auto& texture = textures[parameter->name];
@@ -560,12 +691,16 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, cons
     nested.push_back(make_bsdf(child->object, on));
     if (!nested.back()) return nullptr;
   }
+  if (const Object* foreign = foreign_texture_of(object, type->info);
+      foreign && nested.size() == 1) {
+    leave_out(*foreign, fmt::format("the bsdf in '{}' stands for it", object.type));
+    return nested.front();
+  }
   const std::optional<Textures> textures = textures_of(object, type->info, on);
   if (!textures) return nullptr;
   if (int(nested.size()) < type->minimum_nested || int(nested.size()) > type->maximum_nested) {
     problems_.add(fmt::format("bsdf '{}' holds {} bsdfs", object.type, nested.size()),
-                  fmt::format("give it {} to {}", type->minimum_nested, type->maximum_nested),
-                  object.place);
+                  remedy_for_nested(*type), object.place);
     return nullptr;
   }
   const Arguments arguments = arguments_of(type->info, object);
@@ -574,8 +709,8 @@ std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, cons
   };
   std::shared_ptr<const Bsdf> bsdf;
   collecting(object.place, [&] {
-    bsdf =
-        bsdf_of(object, *type, {arguments, nested, textures_for(arguments, *textures), warn}, on);
+    bsdf = bsdf_of(object, *type,
+                   {arguments, nested, textures_for(arguments, *textures), warn, is_strict_}, on);
   });
   if (bsdf && bsdf->traits().size > maximum_bsdf_size) {
     problems_.add(fmt::format("bsdf '{}' nests {} bsdfs, each counted for every place it is used "

@@ -65,16 +65,25 @@ class SceneBuilder {
   using MadeOn = std::pair<const Object*, const Shape*>;
   MadeOn made_on(const Object& object, const BuiltShape* on);
   uint64_t key_on(const Object& object, const BuiltShape* on);
-  /// Null where there is no shape. Throws Error(input) at `place` where it has no such attribute.
-  static std::shared_ptr<const SurfaceAttribute> attribute_of(const BuiltShape* on,
-                                                              const std::string& name,
-                                                              const Place& place);
+  /// Null where there is no shape. Where it has no such attribute, zero, with a warning; in a scene
+  /// that is read strictly throws Error(input) at `place`.
+  std::shared_ptr<const SurfaceAttribute> attribute_of(const BuiltShape* on,
+                                                       const std::string& name, const Place& place);
   using Textures = std::map<std::string, std::shared_ptr<const Texture>, std::less<>>;
   /// The textures in an object, by the parameters that they stand for; none if one is wrong.
   std::optional<Textures> textures_of(const Object& object, const TypeInfo& info,
                                       const BuiltShape* on);
   std::shared_ptr<const Medium> make_medium(const std::shared_ptr<Object>& object);
   std::shared_ptr<const PhaseFunction> make_phase_function(const Object& object, int level = 0);
+  /// An isotropic phase function, or those in it, for one that nobody knows; warns.
+  std::shared_ptr<const PhaseFunction> phase_instead_of(const Object& object, int level);
+  /// Of `mixturephase` of Mitsuba 0.6; null, with a problem told: the weights or a phase function
+  /// are wrong.
+  std::shared_ptr<const PhaseFunction> mixture_of_phases(const Object& mixture, int level);
+  /// With the value of a constant volume as `weight`; a grid is left out.
+  Object with_constant_weight(const Object& phase);
+  /// The volume that will do for one that nobody knows: the one in it. Null: none, which is told.
+  const std::shared_ptr<Object>* volume_instead_of(const std::shared_ptr<Object>& volume);
   std::shared_ptr<const Volume> make_volume(const std::shared_ptr<Object>& object);
   using Volumes = std::map<std::string, MediumInputs::GivenVolume, std::less<>>;
   /// The volumes in an object, by the parameters that they stand for; none if one is wrong.
@@ -128,6 +137,18 @@ class SceneBuilder {
   const std::optional<Value>& value_of_spectrum(const Object& spectrum);
   /// The properties of an object, and the spectra that it holds.
   std::vector<Property> properties_of(const TypeInfo& info, const Object& object);
+  /// Of a texture at a parameter that takes none: nothing if it is no number and no colour, or if
+  /// the texture is wrong or left out, which is told.
+  std::optional<Value> mean_instead_of(const TypeInfo& info, const Child& texture);
+  /// A texture for which no parameter is, in an object of a scene that is not read strictly: what
+  /// becomes of it is told here or by mean_instead_of(). False for a slip of the pen.
+  bool leaves_out_texture(const Object& object, const TypeInfo& info, const Child& texture);
+  /// The texture in it, or it itself, that nobody knows and that it cannot do without; null: none.
+  const Object* foreign_texture_in(const Object& texture) const;
+  /// The same of a texture that a bsdf is made for, such as the heights of a relief.
+  const Object* foreign_texture_of(const Object& bsdf, const TypeInfo& info) const;
+  /// With numbers beyond their ranges taken to the ends, where the table allows it.
+  std::vector<Property> within_ranges(const TypeInfo& info, std::vector<Property> properties);
   /// Arguments of an object, with warnings for what is accepted without effect.
   Arguments arguments_of(const TypeInfo& info, const Object& object);
   void refuse_children(const Object& object, const std::vector<std::string>& allowed_families);

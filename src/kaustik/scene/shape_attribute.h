@@ -28,4 +28,13 @@ class ShapeAttribute final : public SurfaceAttribute {
   const MeshAttribute& attribute_;
 };
 
+/// Of a shape that has none of the name.
+class NoAttribute final : public SurfaceAttribute {
+ public:
+  Vec3f at(uint32_t, const Vec3f&) const override { return {0, 0, 0}; }
+  Vec3f gradient(uint32_t, const Vec3f&) const override { return {0, 0, 0}; }
+  Vec3f mean() const override { return {0, 0, 0}; }
+  float maximum() const override { return 0; }
+};
+
 }  // namespace kaustik

@@ -28,7 +28,8 @@ const TypeInfo& gridvolume_info() {
        to_world_parameter("Places the cube, or the file's box, in the world."),
        ignored_parameter("raw", ParameterKind::boolean),
        ignored_parameter("accel", ParameterKind::boolean),
-       ignored_parameter("max_value", ParameterKind::number)}};
+       ignored_parameter("max_value", ParameterKind::number),
+       ignored_parameter("send_data", ParameterKind::boolean)}};
   return info;
 }
 

@@ -1,0 +1,134 @@
+#include "kaustik/loader/file_search.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <system_error>
+
+namespace kaustik {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t most_folders_listed = 200, most_names_of_folder = 20000, most_searches = 5000;
+
+/// Of pictures that Kaustik reads, in the order in which they are taken …
+constexpr std::string_view readable_pictures[] = {".exr",  ".hdr", ".pfm", ".png",  ".tif",
+                                                  ".tiff", ".tga", ".bmp", ".webp", ".jpg",
+                                                  ".jpeg", ".ppm", ".pgm"};
+/// … and of others.
+constexpr std::string_view other_pictures[] = {".dds", ".gif", ".psd", ".rgbe", ".tx", ".ktx"};
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string without_blanks(const std::string& text) {
+  constexpr const char* blanks = " \t\r\n";
+  const size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+bool is_absolute_anywhere(const std::string& name) {
+  const bool has_drive =
+      name.size() > 2 && name[1] == ':' && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
+  return has_drive || name.starts_with('/') || name.starts_with('\\');
+}
+
+bool is_picture(const fs::path& path) {
+  const std::string suffix = lower_case(path.extension().string());
+  const auto has = [&](const auto& suffixes) {
+    return std::find(std::begin(suffixes), std::end(suffixes), suffix) != std::end(suffixes);
+  };
+  return has(readable_pictures) || has(other_pictures);
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+/// A folder and what is looked for in it.
+struct Candidate {
+  fs::path folder, relative;
+};
+
+/// Where a file of that name may be.
+std::vector<Candidate> candidates_for(const std::string& name,
+                                      const std::vector<fs::path>& folders) {
+  std::string clean = without_blanks(name);
+  std::replace(clean.begin(), clean.end(), '\\', '/');
+  std::vector<Candidate> candidates;
+  if (clean.empty() || clean.ends_with('/')) return candidates;
+  const fs::path path(clean);
+  const bool is_absolute = is_absolute_anywhere(without_blanks(name));
+  if (path.is_absolute()) candidates.push_back({path.parent_path(), path.filename()});
+  for (const fs::path& folder : folders)
+    candidates.push_back({folder, is_absolute ? path.filename() : path});
+  return candidates;
+}
+
+}  // namespace
+
+const FileSearch::Listing& FileSearch::listing_of(const fs::path& folder) {
+  static const Listing none;
+  const auto known = listed_.find(folder);
+  if (known != listed_.end()) return known->second;
+  if (listed_.size() >= most_folders_listed) return none;
+  Listing& listing = listed_[folder];
+  std::error_code failure;
+  fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, failure);
+  for (;
+       !failure && entry != fs::directory_iterator() && listing.names.size() < most_names_of_folder;
+       entry.increment(failure))
+    listing.names.insert(entry->path().filename().string());
+  for (const std::string& name : listing.names)
+    listing.by_small_letters.try_emplace(lower_case(name), name);
+  return listing;
+}
+
+std::optional<fs::path> FileSearch::find_in_any_case(const fs::path& folder,
+                                                     const fs::path& relative) {
+  fs::path at = folder;
+  for (const fs::path& part : relative) {
+    const std::string name = part.string();
+    const Listing& listing = listing_of(at);
+    if (name == "." || name == ".." || listing.names.contains(name)) {
+      at /= part;
+      continue;
+    }
+    const auto like = listing.by_small_letters.find(lower_case(name));
+    if (like == listing.by_small_letters.end()) return std::nullopt;
+    at /= like->second;
+  }
+  return is_file(at) ? std::optional(at) : std::nullopt;
+}
+
+std::optional<fs::path> FileSearch::find_other_picture(const fs::path& folder,
+                                                       const fs::path& relative) {
+  for (const std::string_view suffix : readable_pictures) {
+    fs::path other = relative;
+    other.replace_extension(fs::path(suffix));
+    if (auto found = find_in_any_case(folder, other)) return found;
+  }
+  return std::nullopt;
+}
+
+std::optional<fs::path> FileSearch::find_like(const std::string& name,
+                                              const std::vector<fs::path>& folders) {
+  if (++searches_ > most_searches) return std::nullopt;
+  const std::vector<Candidate> candidates = candidates_for(name, folders);
+  for (const Candidate& candidate : candidates)
+    if (is_file(candidate.folder / candidate.relative))
+      return candidate.folder / candidate.relative;
+  for (const Candidate& candidate : candidates)
+    if (auto found = find_in_any_case(candidate.folder, candidate.relative)) return found;
+  for (const Candidate& candidate : candidates)
+    if (is_picture(candidate.relative))
+      if (auto found = find_other_picture(candidate.folder, candidate.relative)) return found;
+  return std::nullopt;
+}
+
+}  // namespace kaustik
