@@ -71,9 +71,8 @@ PictureFacts facts_of(const Job& job, const SessionReport& report, const Session
 
 /// Which of the goals a render has reached.
 std::string end_reason(const SessionReport& report, const SessionSettings& session) {
-  if (session.error && report.picture_error <= *session.error) return "error";
-  const bool is_cut = report.passes == 0 || report.incomplete_pass || report.part > 0;
-  if (session.seconds && (is_cut || report.seconds >= *session.seconds)) return "time";
+  if (report.end == SessionEnd::error) return "error";
+  if (report.end == SessionEnd::time) return "time";
   return session.samples_per_pixel && !session.passes ? "samples" : "passes";
 }
 
@@ -165,22 +164,22 @@ void run_job(Description description, JobSettings settings, const JobDisplay& di
   tell_of_result(result, job, session, display.quiet);
   const SessionReport& report = result.report;
   events().result(end_reason(report, session), result_facts(result, job));
-  const bool is_first_look = report.passes == 0 && !report.cancelled;
+  const bool is_first_look = report.passes == 0 && !report.cancelled();
   if (report.passes == 0 && !is_first_look) {
     warn("ended before every pixel had a sample: nothing is written, what was there before stays");
     throw EndedEarly{};
   }
-  if (report.cancelled) warn("cancelled: writing what is finished");
+  if (report.cancelled()) warn("cancelled: writing what is finished");
   // A failure must not cost what can still be written.
   Failures failures;
   if (result.checkpoint_failure)
     failures.attempt(checkpoint, [&] { std::rethrow_exception(result.checkpoint_failure); });
   write_pictures(job.film(), result.record, {facts_of(job, report, session), display.quiet},
-                 failures, report.cancelled ? PictureState::ended_early : PictureState::finished,
+                 failures, report.cancelled() ? PictureState::ended_early : PictureState::finished,
                  [&] { return is_first_look ? first_look(job) : job.image(); });
   watch.finish_viewers();
   failures.throw_if_any();
-  if (report.cancelled) throw EndedEarly{};
+  if (report.cancelled()) throw EndedEarly{};
 }
 
 }  // namespace kaustik::app

@@ -54,14 +54,15 @@ TEST(Mitsuba3Terms, WhatMitsuba3HasStays) {
 TEST(Mitsuba3Terms, FilmsSamplersAndIntegrators) {
   const Mitsuba3Scene scene = translated(
       "<sensor type='perspective'><film type='ldrfilm'><integer name='width' value='8'/><float "
-      "name='exposure' value='2'/></film><sampler type='halton'><integer name='sample_count' "
+      "name='exposure' value='2'/><boolean name='banner' value='false'/></film><sampler "
+      "type='halton'><integer name='sample_count' "
       "value='4'/></sampler></sensor><integrator type='mlt'><integer name='max_depth' value='5'/>"
       "<boolean name='bidirectional' value='true'/></integrator>");
   const Object& sensor = first_of(scene);
   const Object& film = *sensor.children.at(0).object;
   EXPECT_EQ(film.type, "hdrfilm");
   EXPECT_EQ(value<int64_t>(film, "width"), 8);
-  EXPECT_FALSE(has_property(film, "exposure"));
+  EXPECT_FALSE(has_property(film, "banner"));
   EXPECT_EQ(sensor.children.at(1).object->type, "independent");
   EXPECT_EQ(value<int64_t>(*sensor.children.at(1).object, "sample_count"), 4);
   const Object& integrator = *scene.description.scene->children.at(1).object;
@@ -69,7 +70,7 @@ TEST(Mitsuba3Terms, FilmsSamplersAndIntegrators) {
   EXPECT_EQ(value<int64_t>(integrator, "max_depth"), 5);
   EXPECT_FALSE(has_property(integrator, "bidirectional"));
   EXPECT_TRUE(tells(scene, "film 'ldrfilm' becomes 'hdrfilm'"));
-  EXPECT_TRUE(tells(scene, "'exposure' of film 'hdrfilm' is left out"));
+  EXPECT_TRUE(tells(scene, "'banner' of film 'hdrfilm' is left out"));
   EXPECT_TRUE(tells(scene, "test.xml:2:1"));
   const Mitsuba3Scene foggy =
       translated("<integrator type='bdpt'/><medium type='homogeneous' id='fog'/>");

@@ -214,13 +214,13 @@ TEST(Job, CancelEndsItSoon) {
     job.start();
     while (!begun) std::this_thread::yield();
     job.cancel();
-    EXPECT_TRUE(job.wait().report.cancelled);
+    EXPECT_TRUE(job.wait().report.cancelled());
   }
   // Before it begins, and by its destructor.
   Job unborn(room_with("path"), settings_for(100000));
   unborn.cancel();
   unborn.start();
-  EXPECT_TRUE(unborn.wait().report.cancelled);
+  EXPECT_TRUE(unborn.wait().report.cancelled());
   Job forgotten(room_with("path"), settings_for(1000000));
   forgotten.start();
 }
@@ -336,7 +336,7 @@ TEST(Job, TimeThatIsTooShortLeavesAFirstLook) {
       settings.session.clock = [&] { return asked++ > 0 && is_short ? 1000.0 : 0.0; };
       Job job(room_with(integrator, 40), settings);
       const JobResult& result = job.run();
-      EXPECT_FALSE(result.report.cancelled);
+      EXPECT_FALSE(result.report.cancelled());
       EXPECT_EQ(result.report.passes, is_short ? 0u : 2u);
       EXPECT_EQ(job.film().pass_count(), result.report.passes);
       const std::optional<Image> picture = job.snapshot();
@@ -374,7 +374,7 @@ TEST(Job, EditsMakeAllAnew) {
   job.edit(edited());
   while (!job.snapshot()) std::this_thread::yield();
   job.cancel();
-  EXPECT_TRUE(job.wait().report.cancelled);
+  EXPECT_TRUE(job.wait().report.cancelled());
   Job wrong(room_with("pathh"), settings);
   wrong.start();
   EXPECT_THROW(wrong.wait(), Error);

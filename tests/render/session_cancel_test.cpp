@@ -29,7 +29,7 @@ TEST(SessionCancel, CancellingKeepsTheFinishedPasses) {
   settings.samples_per_pixel = 20;
   Session session(*scene, integrator, settings);
   const SessionReport report = session.run(source.get_token());
-  EXPECT_TRUE(report.cancelled);
+  EXPECT_TRUE(report.cancelled());
   EXPECT_FALSE(report.incomplete_pass);
   EXPECT_EQ(report.passes, 3u);
 
@@ -88,7 +88,7 @@ TEST(SessionCancel, CancellingTheFirstPassLeavesARightPictureOrNone) {
     settings.samples_per_pixel = 10;
     Session session(*scene, integrator, settings);
     const SessionReport report = session.run(source.get_token());
-    EXPECT_TRUE(report.cancelled);
+    EXPECT_TRUE(report.cancelled());
     EXPECT_EQ(report.passes, c.picture ? 1u : 0u);
     EXPECT_EQ(report.incomplete_pass, c.picture && !c.complete);
     EXPECT_EQ(session.film().samples_per_pixel(), uint64_t(c.picture ? c.at / pixels : 0));

@@ -62,7 +62,7 @@ TEST(Session, PlansPassesAndSamples) {
     EXPECT_EQ(report.passes, c.expected_passes);
     EXPECT_EQ(report.samples_per_pass, c.expected_samples);
     EXPECT_EQ(session.film().pass_count(), c.expected_passes);
-    EXPECT_FALSE(report.cancelled);
+    EXPECT_FALSE(report.cancelled());
   }
 }
 
@@ -247,7 +247,7 @@ TEST(Session, ALargeFirstPassEndsInTime) {
     settings.seconds = seconds;
     Session session(*scene, integrator, settings);
     const SessionReport report = session.run();
-    EXPECT_FALSE(report.cancelled);
+    EXPECT_FALSE(report.cancelled());
     EXPECT_TRUE(report.incomplete_pass);
     EXPECT_EQ(report.passes, 1u);
     // 2 ms for each of 4 pixels; of the last round, as long as all before, not all pixels have had
@@ -271,7 +271,7 @@ TEST(Session, StopsInTime) {
   const SessionReport report = session.run();
   EXPECT_GE(report.passes, 14u);  // 20 ms each
   EXPECT_LE(report.passes, 15u);
-  EXPECT_FALSE(report.cancelled);
+  EXPECT_FALSE(report.cancelled());
 
   settings.seconds = 1e-6;
   Session hasty(*scene, integrator, settings);

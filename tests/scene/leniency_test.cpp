@@ -31,9 +31,6 @@ std::shared_ptr<const Scene> told(const std::string& objects, const std::string&
 float reflected(const Scene& scene) {
   return scene.surface(0).bsdf->albedo({}, {0, 0, 1}, Lobes::all)[1];
 }
-float diffuse_share(const Scene& scene) {
-  return scene.surface(0).bsdf->albedo({}, {0, 0, 1}, Lobes::diffuse)[1];
-}
 
 const std::string white = "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1\"/></bsdf>";
 const std::string black = "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0\"/></bsdf>";

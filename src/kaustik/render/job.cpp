@@ -203,9 +203,9 @@ void Job::render() {
   });
   const SessionReport& report = result_.report;
   result_.record.seconds += report.seconds;
-  if (report.passes == 0 && !report.cancelled && !session.has_picture()) {
+  if (report.passes == 0 && !report.cancelled() && !session.has_picture()) {
     make_preview(*run);
-    result_.report.cancelled = stop_.stop_requested();
+    if (stop_.stop_requested()) result_.report.end = SessionEnd::cancelled;
   }
   if (!keeps || report.passes == 0) return;
   if (report.incomplete_pass)

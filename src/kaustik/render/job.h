@@ -90,7 +90,7 @@ class Job {
   const JobResult& wait();
   /// start() and wait() in this thread.
   const JobResult& run();
-  /// Ends it soon, as SessionReport::cancelled says; a scene that is being built is built.
+  /// Ends it soon, as SessionEnd::cancelled says; a scene that is being built is built.
   void cancel();
 
   /// What `session.passes` passes (16 unless it says so) of the session's seed teach; complete, for

@@ -108,12 +108,14 @@ bool Session::is_good_enough(double error) const {
   return settings_.error && looks && error <= *settings_.error;
 }
 
-bool Session::goes_on(uint32_t index, const Monitor& monitor) const {
-  if (pass_count_ > 0 && index >= planned().end) return false;
-  if (is_good_enough(monitor.error())) return false;
+std::optional<SessionEnd> Session::end_before(uint32_t index, const Monitor& monitor) const {
+  if (is_good_enough(monitor.error())) return SessionEnd::error;
+  if (pass_count_ > 0 && index >= planned().end) return SessionEnd::passes;
   // A part of it will do, with a sample of each pixel.
-  return !settings_.seconds || monitor.passes_done() == 0 ||
-         monitor.elapsed() + monitor.least_pass_seconds() <= *settings_.seconds;
+  if (settings_.seconds && monitor.passes_done() > 0 &&
+      monitor.elapsed() + monitor.least_pass_seconds() > *settings_.seconds)
+    return SessionEnd::time;
+  return std::nullopt;
 }
 
 SessionReport Session::run(std::stop_token stop,
@@ -127,15 +129,19 @@ SessionReport Session::run(std::stop_token stop,
   const uint64_t refused_before = scene_.tracer().refused_rays();
   Monitor monitor(*this, progress);
   with_threads(settings_.threads, [&] {
-    for (uint32_t next = film_.passes().first_missing(settings_.first_pass); goes_on(next, monitor);
-         next = film_.passes().first_missing(next)) {
+    uint32_t next = film_.passes().first_missing(settings_.first_pass);
+    std::optional<SessionEnd> end = end_before(next, monitor);
+    while (!end) {
       if (stop.stop_requested() || render_pass(next, stop, monitor) != PassEnd::complete) {
-        report_.cancelled = stop.stop_requested();
+        end = stop.stop_requested() ? SessionEnd::cancelled : SessionEnd::time;
         break;
       }
       monitor.pass_done();
       if (pass_done) pass_done();
+      next = film_.passes().first_missing(next);
+      end = end_before(next, monitor);
     }
+    report_.end = *end;
   });
   report_.passes = film_.pass_count();
   report_.mean_error = film_.mean_error();

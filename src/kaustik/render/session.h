@@ -70,6 +70,9 @@ struct SnapshotFacts {
   uint64_t samples_per_pixel = 0;  ///< on average
 };
 
+/// What ended a session: a goal of its settings, or a stop request before one was reached.
+enum class SessionEnd { passes, time, error, cancelled };
+
 /// What came out of a session.
 struct SessionReport {
   uint32_t passes = 0;  ///< that the film holds
@@ -83,13 +86,15 @@ struct SessionReport {
   size_t film_bytes = 0;     ///< at the end
   /// Most that film, pass in progress and its splats took at a time.
   size_t rendering_bytes = 0;
-  bool cancelled = false;  ///< a stop request came before what was asked for was done
+  SessionEnd end = SessionEnd::passes;
   /// The film holds fewer samples than its one pass was to have: each pixel at least one.
   bool incomplete_pass = false;
   /// Share of a pass that was taken after those of the film: Session::image() has it, too.
   double part = 0;
   std::vector<std::string> warnings;
   std::vector<std::string> decisions;  ///< PassReport::decisions of the last pass
+
+  bool cancelled() const { return end == SessionEnd::cancelled; }
 };
 
 /// Runs passes of an integrator over tiles of the picture on all threads, and sums them on the
@@ -142,8 +147,8 @@ class Session {
   PassRange planned() const;  ///< empty: limited by time or error
   /// Whether the error is small enough, where it is looked at.
   bool is_good_enough(double error) const;
-  /// Whether pass `index`, the next one, is to be rendered.
-  bool goes_on(uint32_t index, const Monitor& monitor) const;
+  /// What ends the session before pass `index`, the next one; none: it is to be rendered.
+  std::optional<SessionEnd> end_before(uint32_t index, const Monitor& monitor) const;
   /// Whether the next pass is to be rendered whole however late that is.
   bool must_be_finished(const Monitor& monitor) const;
   /// When the next pass is given up if it is no picture yet, in seconds of the session; absent:
