@@ -11,12 +11,21 @@
 #include "kaustik/render/checkpoint_keeper.h"
 #include "kaustik/render/preview.h"
 #include "kaustik/render/resume.h"
+#include "kaustik/scene/part_keys.h"
 
 namespace kaustik {
 namespace {
 
 std::string scene_name(const RenderRecipe& recipe) {
   return std::filesystem::path(recipe.scene).lexically_normal().string();
+}
+
+/// Of all that KeptLight depends on.
+uint64_t light_key(const Description& description, const Scene& scene) {
+  uint64_t key = hash_mix(scene.built().world, uint64_t(scene.quantity()));
+  if (const auto integrator = find_integrator(description))
+    key = hash_mix(key, PartKeys().whole(*integrator));
+  return key;
 }
 
 }  // namespace
@@ -55,6 +64,12 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
                           settings_.begun || settings_.learned,
                       listener_.messages, previous_);
   previous_ = nullptr;
+  if (settings_.keeps_light && run->prepared.integrator) {
+    run->light_key = light_key(description_, *run->prepared.scene);
+    const bool is_same = settings_.light.key == run->light_key;
+    run->prepared.integrator->keep_light(is_same ? settings_.light.light : nullptr);
+    settings_.light = {};
+  }
   if (settings_.begun) check_same_scene(run->prepared, *settings_.begun, settings_.begun_path);
   with_threads(settings_.session.threads, [&] { teach(run->prepared); });
   const std::lock_guard lock(mutex_);
@@ -175,7 +190,8 @@ void Job::make_session(Run& run) {
 
 bool Job::begins_with_light(const Run& run) const {
   const IntegratorType* type = find_integrator_type(run.prepared.view.integrator);
-  return !settings_.begun && !(type && type->is_from_camera_alone);
+  const bool has_light = run.prepared.integrator->kept_light() != nullptr;
+  return !settings_.begun && !has_light && !(type && type->is_from_camera_alone);
 }
 
 void Job::make_preview(Run& run) {
@@ -271,6 +287,11 @@ void Job::edit(Description description) {
 const Scene& Job::scene() const { return *current()->prepared.scene; }
 
 std::shared_ptr<const Scene> Job::shared_scene() const { return current()->prepared.scene; }
+
+JobLight Job::kept_light() const {
+  const std::shared_ptr<Run> run = current();
+  return {run->light_key, run->prepared.integrator->kept_light()};
+}
 
 const Film& Job::film() const { return current()->session->film(); }
 
