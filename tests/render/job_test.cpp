@@ -274,6 +274,28 @@ TEST(Job, FinishedSnapshotsTellWhatTheyShow) {
   EXPECT_EQ(passes, 3u);
 }
 
+TEST(Job, FinishedSnapshotsCountNoPauses) {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds_since = [](Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  };
+  JobSettings settings = settings_for(1, 100'000);
+  settings.session.gate = std::make_shared<Gate>();
+  Gate& gate = *settings.session.gate;
+  Job job(room_with("path", 64), std::move(settings));
+  const Clock::time_point begin = Clock::now();
+  job.start();
+  while (!job.finished_snapshot()) std::this_thread::yield();
+  gate.close();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const std::optional<Image> paused = job.finished_snapshot();
+  gate.open();
+  const double most = seconds_since(begin) - 0.3;
+  EXPECT_LE(std::get<double>(*paused->find_metadata("render_seconds")), most);
+  job.cancel();
+  job.wait();
+}
+
 TEST(Job, FinishedSnapshotsOfAFirstPassCountItsSamples) {
   constexpr uint32_t samples = 4096;
   Job job(room_with("path", 64), settings_for(1, samples));

@@ -185,6 +185,7 @@ void Job::make_session(Run& run) {
   const std::lock_guard lock(mutex_);
   run.record = record;
   run.begin = std::chrono::steady_clock::now();
+  run.rested_s = rested_s();
   run.session = std::move(session);
 }
 
@@ -246,17 +247,22 @@ std::optional<Image> Job::snapshot() const {
   return picture;
 }
 
+double Job::rested_s() const {
+  return settings_.session.gate ? settings_.session.gate->closed_s() : 0;
+}
+
 std::optional<Image> Job::finished_snapshot(const Messages& messages) const {
   std::unique_lock lock(mutex_);
   const std::shared_ptr<Run> run = run_;
   if (!run || !run->session) return std::nullopt;
   RenderRecord record = run->record;
   const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - run->begin;
+  const double seconds = gone.count() - (rested_s() - run->rested_s);
   lock.unlock();
   SnapshotFacts shown;
   std::optional<Image> picture = run->session->snapshot(&shown);
   if (!picture) return std::nullopt;
-  record.seconds += gone.count();
+  record.seconds += seconds;
   return finished_picture(std::move(*picture), record,
                           {.passes = shown.passes,
                            .samples_per_pixel = shown.samples_per_pixel,

@@ -142,9 +142,12 @@ class Job {
     std::shared_ptr<const Image> preview;         ///< null: none
     RenderRecord record;                          ///< once there is a session: that of its begin
     std::chrono::steady_clock::time_point begin;  ///< of the session
+    double rested_s = 0;                          ///< how long the gate had been closed then
     uint64_t light_key = 0;                       ///< of what it keeps of light
   };
   std::shared_ptr<Run> current() const;
+  /// How long the gate has been closed, s.
+  double rested_s() const;
   std::shared_ptr<Run> prepared_run();
   void begin(JobTask task, const char* function);
   void work();
