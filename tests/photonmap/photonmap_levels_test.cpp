@@ -58,9 +58,13 @@ TEST(PhotonMapLevels, TheFirstSurfaceIsNeverApproximated) {
 }
 /// Unless nothing is gathered: then the map is shown there, too, with its light of one bounce.
 TEST(PhotonMapLevels, WithoutGatheringTheFirstSurfaceShowsTheMap) {
-  const TestScene scene(furnace(false, 12));
-  const std::string parameters = one_bounce(1, false) + set("gather", false);
-  expect_mean("gather = false", render(scene, "photonmap", parameters, {1}).mean({"indirect"}),
+  RenderOptions options;
+  options.samples = 1;
+  options.passes = 3 * measured_passes;
+  expect_mean("gather = false",
+              render(TestScene(furnace(false, 12)), "photonmap",
+                     one_bounce(1, false) + set("gather", false), options)
+                  .mean({"indirect"}),
               1 / 4.0);
 }
 /// Through the shell the wall is at the second level.
