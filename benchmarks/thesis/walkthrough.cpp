@@ -96,7 +96,11 @@ Image picture_of_records(const SceneRun& run, const Image& first_hits, const Pho
   Problems problems;
   const Arguments arguments(PhotonMapSettings::info(), {}, {}, problems);
   const PhotonMapSettings settings(arguments);
-  const PhotonLight light(run.scene(), settings, maps, GatherRadii{}, nullptr, {}, Pass{});
+  const GatherRadii radii;
+  const IrradianceMap precomputed = precomputed_irradiance(run.scene(), settings, maps, radii);
+  const ShadowSettings shadows;
+  const PhotonLight light(run.scene(), settings, maps, radii, precomputed, nullptr, shadows,
+                          Pass{});
   IrradianceCache cache(settings.cache_settings);
   uint32_t round = 0;
   for (const int stride : {8, 4, 2, 1}) {

@@ -66,6 +66,60 @@ TEST(Engine, RendersWhatAJobDoes) {
   EXPECT_TRUE(same_bits(last->picture, by_job(room_with_ball(0.5), 4)));
 }
 
+/// Seen from there, by `auto`.
+Description room_seen_from(const std::string& origin) {
+  return parse_mitsuba_xml(
+      "<scene version=\"3.0.0\"><integrator type=\"path\"/><sensor type=\"perspective\">"
+      "<transform name=\"to_world\"><lookat origin=\"" +
+          origin + "\" target=\"0,0,0.5\" up=\"0,0,1\"/></transform>" + film_of(24, 24) +
+          "</sensor>" + room + "</scene>",
+      "test.xml", "");
+}
+
+// While the camera moves another recipe holds; once it rests the picture is what it always is.
+TEST(Engine, ShowsViewsThatMoveByAnotherRecipe) {
+  EngineSettings settings = engine_settings(4);
+  settings.moving = recipe_of_moving_views();
+  settings.rest_s = 0.3;
+  Engine engine(settings);
+  uint64_t number = 0;
+  for (const char* origin : {"0,-4,2", "0.2,-4,2", "0.4,-4,2"}) {
+    const uint64_t revision = engine.edit(room_seen_from(origin));
+    engine.start();
+    while (const auto next = engine.wait_for_snapshot(number, long_enough)) {
+      number = next->number;
+      if (next->revision == revision) break;
+    }
+    EXPECT_TRUE(engine.snapshot()->is_moving);
+  }
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  const auto last = engine.snapshot();
+  EXPECT_FALSE(last->is_moving);
+  EXPECT_EQ(last->revision, 3u);
+  EXPECT_TRUE(same_bits(last->picture, by_job(room_seen_from("0.4,-4,2"), 4)));
+}
+
+// What is shown of a camera at rest is never less than what was seen while it moved.
+TEST(Engine, GoesFromMovingToRestByWholePasses) {
+  EngineSettings settings = engine_settings(2);
+  settings.moving = recipe_of_moving_views();
+  settings.rest_s = 0.1;
+  Engine engine(settings);
+  engine.edit(room_seen_from("0,-4,2"));
+  engine.start();
+  uint64_t number = 0;
+  bool has_rested = false;
+  while (!has_rested) {
+    const auto next = engine.wait_for_snapshot(number, long_enough);
+    ASSERT_TRUE(next);
+    number = next->number;
+    has_rested = !next->is_moving;
+    if (has_rested) {
+      EXPECT_EQ(next->kind, Snapshot::Kind::passes);
+    }
+  }
+}
+
 TEST(Engine, NumbersItsSnapshots) {
   Engine engine(engine_settings(6));
   EXPECT_EQ(engine.wait_for_snapshot(0, 1ms), nullptr);

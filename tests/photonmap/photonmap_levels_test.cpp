@@ -56,6 +56,18 @@ TEST(PhotonMapLevels, TheFirstSurfaceIsNeverApproximated) {
   expect_mean("max_eye_level = 0",
               render(scene, "photonmap", one_bounce(0, true), {4}).mean({"indirect"}), 3 / 8.0);
 }
+/// Unless nothing is gathered: then the map is shown there, too, with its light of one bounce.
+TEST(PhotonMapLevels, WithoutGatheringTheFirstSurfaceShowsTheMap) {
+  // All of the sphere, for the map's noise.
+  const std::string all_around =
+      "<sensor type=\"spherical\"><film type=\"hdrfilm\"><integer name=\"width\" value=\"24\"/>"
+      "<integer name=\"height\" value=\"12\"/><rfilter type=\"box\"/></film></sensor>";
+  const std::string inside = furnace(false);
+  const TestScene scene(all_around + inside.substr(inside.find("<shape")));
+  const std::string parameters = one_bounce(1, false) + set("gather", false);
+  expect_mean("gather = false", render(scene, "photonmap", parameters, {1}).mean({"indirect"}),
+              1 / 4.0);
+}
 /// Through the shell the wall is at the second level.
 TEST(PhotonMapLevels, AtTheLimitTheGlobalMapIsShown) {
   const TestScene scene(furnace(true));

@@ -274,6 +274,28 @@ TEST(Job, FinishedSnapshotsTellWhatTheyShow) {
   EXPECT_EQ(passes, 3u);
 }
 
+TEST(Job, FinishedSnapshotsCountNoPauses) {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds_since = [](Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  };
+  JobSettings settings = settings_for(1, 100'000);
+  settings.session.gate = std::make_shared<Gate>();
+  Gate& gate = *settings.session.gate;
+  Job job(room_with("path", 64), std::move(settings));
+  const Clock::time_point begin = Clock::now();
+  job.start();
+  while (!job.finished_snapshot()) std::this_thread::yield();
+  gate.close();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const std::optional<Image> paused = job.finished_snapshot();
+  gate.open();
+  const double most = seconds_since(begin) - 0.3;
+  EXPECT_LE(std::get<double>(*paused->find_metadata("render_seconds")), most);
+  job.cancel();
+  job.wait();
+}
+
 TEST(Job, FinishedSnapshotsOfAFirstPassCountItsSamples) {
   constexpr uint32_t samples = 4096;
   Job job(room_with("path", 64), settings_for(1, samples));
@@ -381,6 +403,50 @@ TEST(Job, EditsMakeAllAnew) {
   wrong.edit(room_with("path"));
   EXPECT_EQ(wrong.wait().report.passes, 3u);
   EXPECT_TRUE(same_bits(wrong.image(), before));
+}
+
+/// Of a room with a glass ball, by `photonmap`; `radiance` of its lamp.
+Description glass_room_seen_from(const std::string& origin, const std::string& radiance = "5") {
+  return parse_mitsuba_xml(
+      "<scene version=\"3.0.0\"><integrator type=\"photonmap\"><integer name=\"global_photons\" "
+      "value=\"2000\"/><integer name=\"caustic_photons\" value=\"2000\"/></integrator>"
+      "<sensor type=\"perspective\"><transform name=\"to_world\"><lookat origin=\"" +
+          origin + "\" target=\"0,0,0.5\" up=\"0,0,1\"/></transform>" + film_of(16, 16) +
+          "</sensor>" + "<shape type=\"rectangle\"><bsdf type=\"diffuse\"/></shape>" +
+          "<shape type=\"sphere\"><float name=\"radius\" value=\"0.3\"/><point name=\"center\" "
+          "x=\"0\" y=\"0\" z=\"0.5\"/><bsdf type=\"dielectric\"/></shape>"
+          "<emitter type=\"point\"><point name=\"position\" x=\"1\" y=\"1\" z=\"3\"/><rgb "
+          "name=\"intensity\" value=\"" +
+          radiance + "\"/></emitter></scene>",
+      "test.xml", "");
+}
+
+// Photons that are kept while the camera moves are those that the picture would trace itself.
+TEST(Job, LightThatIsKeptLeavesPicturesAsTheyAre) {
+  const auto rendered = [](Description description, const JobLight* light, uint64_t seed = 7) {
+    JobSettings settings;
+    settings.session.seed = seed;
+    settings.session.passes = 2;
+    settings.session.samples_per_pass = 1;
+    settings.keeps_light = light != nullptr;
+    if (light) settings.light = *light;
+    auto job = std::make_unique<Job>(std::move(description), std::move(settings));
+    job->run();
+    return job;
+  };
+  const JobLight none;
+  const JobLight kept = rendered(glass_room_seen_from("0,-4,2"), &none)->kept_light();
+  ASSERT_TRUE(kept.light);
+  const auto moved = rendered(glass_room_seen_from("1,-4,2"), &kept);
+  EXPECT_EQ(moved->kept_light().light, kept.light);
+  EXPECT_TRUE(
+      same_bits(moved->image(), rendered(glass_room_seen_from("1,-4,2"), nullptr)->image()));
+  // Other light, and another seed, have photons of their own.
+  const auto brighter = rendered(glass_room_seen_from("1,-4,2", "6"), &kept);
+  EXPECT_NE(brighter->kept_light().light, kept.light);
+  EXPECT_TRUE(same_bits(brighter->image(),
+                        rendered(glass_room_seen_from("1,-4,2", "6"), nullptr)->image()));
+  EXPECT_NE(rendered(glass_room_seen_from("1,-4,2"), &kept, 8)->kept_light().light, kept.light);
 }
 
 TEST(Job, GoesOnWithACheckpoint) {

@@ -5,6 +5,15 @@
 
 namespace kaustik {
 
+RenderRecipe recipe_of_moving_views() {
+  RenderRecipe recipe;
+  recipe.integrator = "photonmap";
+  // Enough photons to see shapes by.
+  for (const char* setting : {"integrator.gather=false", "integrator.global_neighbors=40"})
+    recipe.settings.push_back(setting_from(setting, "a view whose camera moves"));
+  return recipe;
+}
+
 Engine::Engine(EngineSettings settings, Messages messages)
     : settings_(std::move(settings)), messages_(std::move(messages)), thread_([this] { work(); }) {}
 
@@ -21,6 +30,7 @@ uint64_t Engine::edit(const Description& description) {
   auto copy = std::make_shared<const Description>(copy_of(description));
   const std::lock_guard lock(mutex_);
   wanted_.description.swap(copy);
+  wanted_.touched = Clock::now();
   changed_.notify_all();
   return ++wanted_.revision;
 }
@@ -31,6 +41,7 @@ void Engine::start() {
   const bool is_over =
       status_.state == EngineState::finished || status_.state == EngineState::failed;
   if (wanted_.runs && is_over && !is_building_) ++wanted_.starts;
+  if (!wanted_.runs) wanted_.touched = Clock::now();
   wanted_.runs = true;
   changed_.notify_all();
 }
@@ -84,27 +95,42 @@ std::shared_ptr<const Snapshot> Engine::wait_for_snapshot(uint64_t after,
 bool Engine::wait_until_done(std::chrono::milliseconds timeout) const {
   std::unique_lock lock(mutex_);
   return changed_.wait_for(lock, timeout, [&] {
-    return !is_busy_ && !has_work() && !is_building_ && status_.state != EngineState::rendering;
+    const bool will_rest = taken_.is_moving && taken_.runs;
+    return !is_busy_ && !has_work() && !will_rest && !is_building_ &&
+           status_.state != EngineState::rendering;
   });
 }
 
+bool Engine::moves() const {
+  return settings_.moving &&
+         Clock::now() < wanted_.touched + std::chrono::duration<double>(settings_.rest_s);
+}
+
 bool Engine::has_work() const {
-  return taken_.runs != wanted_.runs ||
-         (wanted_.runs && (taken_.revision != wanted_.revision || taken_.starts != wanted_.starts));
+  if (taken_.runs != wanted_.runs) return true;
+  if (!wanted_.runs) return false;
+  const bool rests = taken_.is_moving && !wanted_.is_paused && !moves();
+  return rests || taken_.revision != wanted_.revision || taken_.starts != wanted_.starts;
 }
 
 void Engine::work() {
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [&] { return wanted_.ends || has_work(); });
+    const auto is_asked = [&] { return wanted_.ends || has_work(); };
+    if (taken_.is_moving && taken_.runs && !wanted_.is_paused)
+      changed_.wait_for(lock, std::chrono::duration<double>(settings_.rest_s), is_asked);
+    else
+      changed_.wait(lock, is_asked);
     let_show(lock);
     if (wanted_.ends) break;
     if (!has_work()) continue;
+    const bool goes_on = taken_.is_moving && taken_.revision == wanted_.revision;
     taken_ = wanted_;
+    taken_.is_moving = moves();
     is_busy_ = true;
-    const Wanted wanted = wanted_;
+    const Wanted wanted = taken_;
     lock.unlock();
-    take(wanted);
+    take(wanted, goes_on);
     lock.lock();
     is_busy_ = false;
     changed_.notify_all();
@@ -122,7 +148,7 @@ void Engine::let_show(std::unique_lock<std::mutex>& lock) {
   });
 }
 
-void Engine::take(const Wanted& wanted) {
+void Engine::take(const Wanted& wanted, bool goes_on) {
   if (!wanted.runs) {
     end_run();
     const std::lock_guard lock(mutex_);
@@ -138,7 +164,7 @@ void Engine::take(const Wanted& wanted) {
   std::unique_ptr<Run> run;
   std::exception_ptr refusal;
   try {
-    run = prepared(wanted);
+    run = prepared(wanted, goes_on);
   } catch (...) {
     refusal = std::current_exception();
   }
@@ -160,17 +186,22 @@ void Engine::take(const Wanted& wanted) {
   begin(std::move(run));
 }
 
-std::unique_ptr<Engine::Run> Engine::prepared(const Wanted& wanted) {
+std::unique_ptr<Engine::Run> Engine::prepared(const Wanted& wanted, bool goes_on) {
   auto run = std::make_unique<Run>();
   run->revision = wanted.revision;
+  run->is_moving = wanted.is_moving;
+  run->goes_on = goes_on;
   run->gate = std::make_shared<Gate>();
   JobSettings settings;
-  settings.record.recipe = settings_.recipe;
+  settings.record.recipe = wanted.is_moving ? *settings_.moving : settings_.recipe;
   settings.session = settings_.session;
   settings.session.gate = run->gate;
   settings.build = settings_.build;
-  settings.previews = true;
+  settings.previews = !goes_on;
   settings.previous = run_ ? run_->job->shared_scene() : last_scene_;
+  settings.keeps_light = true;
+  take_light();
+  settings.light = light_;
   const Run& of = *run;
   JobListener listener;
   listener.messages = messages_;
@@ -214,6 +245,7 @@ void Engine::end_run() {
     shown_ = nullptr;
     gate_ = nullptr;
   }
+  take_light();
   run_->job->cancel();
   try {
     run_->job->wait();
@@ -222,6 +254,11 @@ void Engine::end_run() {
   }
   last_scene_ = run_->job->shared_scene();
   run_ = nullptr;
+}
+
+void Engine::take_light() {
+  if (!run_) return;
+  if (JobLight kept = run_->job->kept_light(); kept.light) light_ = std::move(kept);
 }
 
 void Engine::progressed(const Run& run, const Progress& progress) {
@@ -259,7 +296,6 @@ void Engine::ended(const Run& run, const std::exception_ptr& failure) {
 }
 
 void Engine::publish(const Run& run, bool is_last) {
-  using Clock = std::chrono::steady_clock;
   Snapshot::Kind kind;
   uint32_t passes;
   double elapsed_s;
@@ -272,6 +308,7 @@ void Engine::publish(const Run& run, bool is_last) {
     kind = passes > 0             ? Snapshot::Kind::passes
            : progress.has_picture ? Snapshot::Kind::samples
                                   : Snapshot::Kind::preview;
+    if (run.goes_on && kind != Snapshot::Kind::passes && !is_last) return;
     const bool is_like_last =
         snapshot_ && snapshot_->revision == run.revision && snapshot_->kind == kind;
     const std::chrono::duration<double> since = Clock::now() - published_;
@@ -284,6 +321,7 @@ void Engine::publish(const Run& run, bool is_last) {
   auto snapshot = std::make_shared<Snapshot>();
   snapshot->revision = run.revision;
   snapshot->kind = kind;
+  snapshot->is_moving = run.is_moving;
   snapshot->passes = passes;
   snapshot->elapsed_s = elapsed_s;
   snapshot->picture = std::move(*picture);

@@ -4,6 +4,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "kaustik/live/snapshot.h"
@@ -11,11 +12,19 @@
 
 namespace kaustik {
 
+/// By photons, which are kept while only the camera moves, without gathering: caustics stay, and
+/// diffuse indirect light is blotchy.
+RenderRecipe recipe_of_moving_views();
+
 struct EngineSettings {
   /// As of a render; the gate is the engine's own. Views need no layers.
   SessionSettings session;
   BuildOptions build;
   RenderRecipe recipe;  ///< changes that are made to every description
+  /// Those that are made in their place until nothing was edited for `rest_s`: for integrators that
+  /// have a picture sooner (recipe_of_moving_views()). Absent: `recipe`.
+  std::optional<RenderRecipe> moving;
+  double rest_s = 1;
   /// Least time between two snapshots of the same kind, s. Those of another kind come at once.
   double snapshot_interval_s = 0.1;
 };
@@ -80,26 +89,36 @@ class Engine {
   bool wait_until_done(std::chrono::milliseconds timeout) const;
 
  private:
+  using Clock = std::chrono::steady_clock;
   /// What is wanted: commands write it, the engine's thread makes it so.
   struct Wanted {
     std::shared_ptr<const Description> description;
     uint64_t revision = 0, starts = 0;
     bool runs = false, is_paused = false, ends = false;
+    Clock::time_point touched;  ///< when it was last edited or started
+    bool is_moving = false;     ///< of what was taken: whether it is by EngineSettings::moving
   };
   /// One description that is rendered.
   struct Run {
     uint64_t revision = 0;
     std::shared_ptr<Gate> gate;
+    bool is_moving = false;
+    bool goes_on = false;  ///< from a moving run of the same: nothing worse than that is shown
     std::unique_ptr<Job> job;
   };
 
   void work();
-  /// Builds what is wanted and, if that went well, renders it in the place of the run before.
-  void take(const Wanted& wanted);
-  std::unique_ptr<Run> prepared(const Wanted& wanted);
+  /// Builds what is wanted and, if that went well, renders it in the place of the run before;
+  /// `goes_on`: which moved, and was of the same.
+  void take(const Wanted& wanted, bool goes_on);
+  /// What the run has kept of light, for the next one.
+  void take_light();
+  std::unique_ptr<Run> prepared(const Wanted& wanted, bool goes_on);
   void begin(std::unique_ptr<Run> run);
   void end_run();
   bool has_work() const;
+  /// Whether a description that is taken now is rendered by EngineSettings::moving.
+  bool moves() const;
   EngineState state() const;
   /// Until the run has shown something, or a tenth of a second.
   void let_show(std::unique_lock<std::mutex>& lock);
@@ -122,11 +141,12 @@ class Engine {
   const Run* shown_ = nullptr;  ///< whose pictures and progress count
   std::shared_ptr<Gate> gate_;  ///< of the run
   std::shared_ptr<const Snapshot> snapshot_;
-  std::chrono::steady_clock::time_point published_;
+  Clock::time_point published_;
 
   // Of the thread:
   std::unique_ptr<Run> run_;
   std::shared_ptr<const Scene> last_scene_;  ///< of the run before, to share with
+  JobLight light_;                           ///< the last that a run has kept
   std::thread thread_;
 };
 

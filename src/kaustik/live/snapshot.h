@@ -17,6 +17,7 @@ struct Snapshot {
   uint64_t number = 0;    ///< of the engine's snapshots, from 1 on
   uint64_t revision = 0;  ///< of the description: how many edits it has seen
   Kind kind = Kind::preview;
+  bool is_moving = false;  ///< by EngineSettings::moving
   uint32_t passes = 0;
   double elapsed_s = 0;  ///< of rendering
   Image picture;

@@ -21,22 +21,37 @@ constexpr size_t coarse_volume_stride = 8;
 /// a small hole.
 constexpr float asked_where_whole = 0.125f;
 
+/// `estimate` as surfaces at a recursion level make it.
+EstimateSettings at_level(const PhotonMapSettings& settings, const EstimateSettings& estimate,
+                          float radius, int recursion) {
+  EstimateSettings result = estimate;
+  result.maximum_radius = radius;
+  if (estimate.neighbors > 0)
+    result.neighbors = settings.count_at(estimate.neighbors, recursion, 2);
+  return result;
+}
+
 }  // namespace
 
+IrradianceMap precomputed_irradiance(const Scene& scene, const PhotonMapSettings& settings,
+                                     const PhotonMaps& maps, const GatherRadii& radii) {
+  return IrradianceMap(maps.global, maps.places,
+                       at_level(settings, settings.global, radii.global, precomputed_level),
+                       settings.visibility ? &scene : nullptr);
+}
+
 PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
-                         const PhotonMaps& maps, const GatherRadii& radii, const ShadowMap* shadows,
+                         const PhotonMaps& maps, const GatherRadii& radii,
+                         const IrradianceMap& precomputed, const ShadowMap* shadows,
                          const ShadowSettings& shadow_settings, const Pass& pass)
     : scene_(scene),
       wavelengths_(pass.wavelengths),
       settings_(settings),
       maps_(maps),
       radii_(radii),
+      precomputed_(precomputed),
       shadows_(shadows),
       shadow_settings_(shadow_settings) {
-  precomputed_ = IrradianceMap(maps.global, maps.places,
-                               at_level(settings.global, radii.global, precomputed_level),
-                               settings.visibility ? &scene : nullptr);
-  rays_ = precomputed_.rays();
   if (!maps.volume.empty()) make_volume_maps(pass.index);
   for (uint32_t shape = 0; shape < scene.surface_count(); ++shape) {
     const Lobes lobes = scene.surface(shape).traits.lobes;
@@ -60,15 +75,6 @@ void PhotonLight::make_volume_maps(uint32_t pass) {
   coarse_volume_ = VolumePhotonMap(std::move(few), settings_.volume_neighbors, shrinkage, hides);
 }
 
-EstimateSettings PhotonLight::at_level(const EstimateSettings& settings, float radius,
-                                       int recursion) const {
-  EstimateSettings result = settings;
-  result.maximum_radius = radius;
-  if (settings.neighbors > 0)
-    result.neighbors = settings_.count_at(settings.neighbors, recursion, 2);
-  return result;
-}
-
 DensityEstimate PhotonLight::estimate(const PhotonMap& map, const SurfaceVertex& vertex,
                                       Lobes lobes, const EstimateSettings& settings,
                                       const Sampler& numbers, const ClearDisk& clear,
@@ -83,7 +89,7 @@ DensityEstimate PhotonLight::caustic_estimate(const SurfaceVertex& vertex, Lobes
                                               int recursion, const Sampler& sampler,
                                               const ClearDisk& clear, const Work& work) const {
   return estimate(maps_.caustic, vertex, lobes,
-                  at_level(settings_.caustic, radii_.caustic, recursion),
+                  at_level(settings_, settings_.caustic, radii_.caustic, recursion),
                   sampler.fork(Fork::caustic_sight), clear, work);
 }
 
@@ -107,7 +113,8 @@ Lobes PhotonLight::keeping() const {
 
 Spectrum PhotonLight::global(const SurfaceVertex& vertex, Lobes lobes, int recursion,
                              const Sampler& sampler, const Work& work) const {
-  return estimate(maps_.global, vertex, lobes, at_level(settings_.global, radii_.global, recursion),
+  return estimate(maps_.global, vertex, lobes,
+                  at_level(settings_, settings_.global, radii_.global, recursion),
                   sampler.fork(Fork::global_sight), {}, work)
       .value;
 }

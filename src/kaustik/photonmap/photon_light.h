@@ -13,15 +13,19 @@ struct GatherRadii {
   float caustic = infinity, global = infinity;
 };
 
+/// What gather rays look up: irradiance by global photons, at the places that `maps` has for it.
+IrradianceMap precomputed_irradiance(const Scene& scene, const PhotonMapSettings& settings,
+                                     const PhotonMaps& maps, const GatherRadii& radii);
+
 /// What photons know of the light in a scene: estimates at surfaces, and the radiance that arrives
 /// along gather rays. Immutable during the visualisation pass.
 class PhotonLight final : public RadianceSource {
  public:
-  /// `shadows` may be null: shadow rays alone tell what light arrives. `pass`: whose wavelengths
-  /// all light has; its index tells how far the discs of volume photons have shrunk. All but that
-  /// must outlive this.
+  /// `precomputed`: of the same. `shadows` may be null: shadow rays alone tell what light arrives.
+  /// `pass`: whose wavelengths all light has; its index tells how far the discs of volume photons
+  /// have shrunk. All but that must outlive this.
   PhotonLight(const Scene& scene, const PhotonMapSettings& settings, const PhotonMaps& maps,
-              const GatherRadii& radii, const ShadowMap* shadows,
+              const GatherRadii& radii, const IrradianceMap& precomputed, const ShadowMap* shadows,
               const ShadowSettings& shadow_settings, const Pass& pass);
 
   /// Radiance by caustic photons [L G⁺ → x] that `lobes` send back at a recursion level.
@@ -75,7 +79,6 @@ class PhotonLight final : public RadianceSource {
   DensityEstimate caustic_estimate(const SurfaceVertex& vertex, Lobes lobes, int recursion,
                                    const Sampler& sampler, const ClearDisk& clear,
                                    const Work& work) const;
-  EstimateSettings at_level(const EstimateSettings& settings, float radius, int recursion) const;
   /// What a gather ray finds at its end: all that is sent back by lobes that are not traced.
   Spectrum sent_by(const SurfaceVertex& vertex, const Medium* medium, Sampler& sampler,
                    const EyeLevel& level, const Work& work) const;
@@ -100,9 +103,9 @@ class PhotonLight final : public RadianceSource {
   const PhotonMapSettings& settings_;
   const PhotonMaps& maps_;
   GatherRadii radii_;
+  const IrradianceMap& precomputed_;
   const ShadowMap* shadows_;
   const ShadowSettings& shadow_settings_;
-  IrradianceMap precomputed_;
   /// Whether all surfaces keep photons beyond which SurfaceEdges sees no end.
   bool edges_tell_what_keeps_ = true;
   VolumePhotonMap volume_;                 ///< for the camera's rays …

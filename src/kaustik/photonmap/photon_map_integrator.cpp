@@ -57,8 +57,17 @@ EyeLevel level_of(const CameraWalk& walk) { return {walk.events(), 0}; }
 
 }  // namespace
 
-struct PhotonMapIntegrator::State final : PassState {
+struct PhotonMapIntegrator::Light final : KeptLight {
+  uint64_t seed = 0;
+  Wavelengths wavelengths;
   std::shared_ptr<const PhotonMaps> maps;
+  GatherRadii radii;
+  IrradianceMap precomputed;
+  PassReport report;  ///< of the photons alone
+};
+
+struct PhotonMapIntegrator::State final : PassState {
+  std::shared_ptr<const Light> photons;
   std::unique_ptr<ShadowMap> shadows;  ///< null: shadow rays alone
   ShadowReport shadow_report;
   ShadowSettings shadow_settings;
@@ -164,27 +173,68 @@ std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
   return maps;
 }
 
+void PhotonMapIntegrator::keep_light(const std::shared_ptr<const KeptLight>& light) {
+  const std::lock_guard lock(light_mutex_);
+  keeps_light_ = true;
+  first_light_ = std::dynamic_pointer_cast<const Light>(light);
+}
+
+std::shared_ptr<const KeptLight> PhotonMapIntegrator::kept_light() const {
+  const std::lock_guard lock(light_mutex_);
+  return first_light_;
+}
+
+std::shared_ptr<const PhotonMapIntegrator::Light> PhotonMapIntegrator::light_of(
+    const Pass& pass, PassReport& report, std::stop_token stop,
+    const ProgressFunction& progress) const {
+  const bool is_kept = keeps_light_ && pass.index == 0;
+  if (is_kept) {
+    const std::lock_guard lock(light_mutex_);
+    if (first_light_ && first_light_->seed == pass.seed &&
+        first_light_->wavelengths == pass.wavelengths) {
+      report.photons = first_light_->report.photons;
+      report.warnings = first_light_->report.warnings;
+      return first_light_;
+    }
+  }
+  const auto light = std::make_shared<Light>();
+  light->seed = pass.seed;
+  light->wavelengths = pass.wavelengths;
+  light->maps = maps_of(pass, light->report, stop, progress);
+  // Stored maps are the same in every pass: shrinking their radii would trade bias for noise that
+  // no number of passes removes.
+  light->radii = pass_radii(*light->maps, stored_maps_ ? 0 : pass.index);
+  light->precomputed = precomputed_irradiance(scene(), settings_, *light->maps, light->radii);
+  light->report.rays += light->precomputed.rays();
+  report = light->report;
+  if (is_kept && !stop.stop_requested()) {
+    const std::lock_guard lock(light_mutex_);
+    first_light_ = light;
+  }
+  return light;
+}
+
 std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatBuffer&,
                                                         std::stop_token stop,
                                                         const ProgressFunction& progress) const {
   auto state = std::make_unique<State>();
   // The light pass counts as one half, the cache as the other.
-  state->maps = maps_of(pass, state->report, stop, [&](double share) {
+  state->photons = light_of(pass, state->report, stop, [&](double share) {
     if (progress) progress(0.5 * share);
   });
+  const Light& photons = *state->photons;
   add_shadow_photons(*state, pass, stop);
-  // Stored maps are the same in every pass: shrinking their radii would trade bias for noise that
-  // no number of passes removes.
-  state->light = std::make_unique<PhotonLight>(
-      scene(), settings_, *state->maps, pass_radii(*state->maps, stored_maps_ ? 0 : pass.index),
-      state->shadows.get(), state->shadow_settings, pass);
+  state->light = std::make_unique<PhotonLight>(scene(), settings_, *photons.maps, photons.radii,
+                                               photons.precomputed, state->shadows.get(),
+                                               state->shadow_settings, pass);
   const bool wants_indirect = settings_.components.has(Component::indirect) ||
                               settings_.components.has(Component::specular);
-  if (settings_.cache && wants_indirect && settings_.global.neighbors > 0)
+  if (settings_.gathers && settings_.cache && wants_indirect && settings_.global.neighbors > 0)
     fill_cache(*state, pass, stop, [&](double share) {
       if (progress) progress(0.5 + 0.5 * share);
     });
-  if (settings_.visibility && !state->maps->caustic.empty())
+  // They spare rays, and take more time than the first samples do.
+  if (settings_.gathers && settings_.visibility && !photons.maps->caustic.empty())
     state->seen_edges = seen_edges(state->report.rays, stop);
   state->report.rays += state->light->rays();
   if (!stop.stop_requested()) add_warnings(*state);

@@ -1,4 +1,6 @@
 #pragma once
+#include <mutex>
+
 #include "kaustik/photon/coverage/seen_surfaces.h"
 #include "kaustik/photonmap/kept.h"
 #include "kaustik/photonmap/photon_light.h"
@@ -19,9 +21,16 @@ class PhotonMapIntegrator final : public IlluminationModel {
   bool reflect(const PassState& state, CameraWalk& walk,
                const RadianceTracer& tracer) const override;
   Lobes traced() const override { return settings_.traced(); }
+  /// The maps of pass 0, and what gather rays look up.
+  void keep_light(const std::shared_ptr<const KeptLight>& light) override;
+  std::shared_ptr<const KeptLight> kept_light() const override;
 
  private:
   struct State;
+  struct Light;
+  /// What a pass has of photons: traced, or kept.
+  std::shared_ptr<const Light> light_of(const Pass& pass, PassReport& report, std::stop_token stop,
+                                        const ProgressFunction& progress) const;
   /// The maps of a pass: traced, or the stored ones.
   std::shared_ptr<const PhotonMaps> maps_of(const Pass& pass, PassReport& report,
                                             std::stop_token stop,
@@ -55,6 +64,9 @@ class PhotonMapIntegrator final : public IlluminationModel {
   Wavelengths stored_wavelengths_;                 ///< of those
   mutable Kept<LightPass> light_pass_;             ///< by the seed
   mutable Kept<SeenSurfaces> seen_edges_;
+  bool keeps_light_ = false;
+  mutable std::mutex light_mutex_;
+  mutable std::shared_ptr<const Light> first_light_;  ///< of pass 0, if it is kept; null: none yet
 };
 
 }  // namespace kaustik

@@ -94,6 +94,9 @@ const std::vector<PhotonMapParameter>& photon_map_parameters() {
                          "estimated from the global map, but never at what the camera itself sees "
                          "[-e].")
            .range(0, 64)},
+      {boolean_parameter("gather", true,
+                         "Diffuse indirect light is gathered at what the camera sees; if false, it "
+                         "is estimated from the global map there, too: blotchy, but soon there.")},
       {boolean_parameter("count_specular_levels", false,
                          "Mirrors and refractions count as levels too, and at max_eye_level "
                          "specular light is left out, as in the thesis: light is lost."),

@@ -112,6 +112,7 @@ PhotonMapSettings::PhotonMapSettings(const Arguments& arguments)
                                          : LevelOfDetail::exponential;
   level_factor = read.number("level_factor");
   maximum_eye_level = int(read.integer("max_eye_level"));
+  gathers = read.boolean("gather");
   count_specular_levels = read.boolean("count_specular_levels");
   samples_per_pass = uint32_t(read.integer("samples_per_pass"));
   cache = read.boolean("irradiance_cache");

@@ -55,6 +55,7 @@ struct PhotonMapSettings {
   LevelOfDetail level_of_detail;
   float level_factor;
   int maximum_eye_level;
+  bool gathers;  ///< diffuse indirect light, at what the camera sees
   bool count_specular_levels;
   uint32_t samples_per_pass;
   std::vector<std::string> notes;  ///< sentences about what is given without effect
@@ -75,8 +76,10 @@ struct PhotonMapSettings {
   /// How much larger an error of the irradiance cache is allowed at a recursion level.
   float cache_tolerance(int recursion) const { return 1 / level_scale(recursion); }
   /// Whether diffuse indirect light is estimated from the global map alone: at max_eye_level and
-  /// beyond, but never at what the camera itself sees.
-  bool approximates(const EyeLevel& level) const { return level.recursion > 0 && at_limit(level); }
+  /// beyond, but, where it is gathered at all, never at what the camera itself sees.
+  bool approximates(const EyeLevel& level) const {
+    return !gathers || (level.recursion > 0 && at_limit(level));
+  }
   /// Whether specular light is followed from there.
   bool traces_specular(const EyeLevel& level) const {
     return specular_sampling != SpecularSampling::none &&

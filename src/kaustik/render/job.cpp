@@ -11,12 +11,21 @@
 #include "kaustik/render/checkpoint_keeper.h"
 #include "kaustik/render/preview.h"
 #include "kaustik/render/resume.h"
+#include "kaustik/scene/part_keys.h"
 
 namespace kaustik {
 namespace {
 
 std::string scene_name(const RenderRecipe& recipe) {
   return std::filesystem::path(recipe.scene).lexically_normal().string();
+}
+
+/// Of all that KeptLight depends on.
+uint64_t light_key(const Description& description, const Scene& scene) {
+  uint64_t key = hash_mix(scene.built().world, uint64_t(scene.quantity()));
+  if (const auto integrator = find_integrator(description))
+    key = hash_mix(key, PartKeys().whole(*integrator));
+  return key;
 }
 
 }  // namespace
@@ -55,6 +64,12 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
                           settings_.begun || settings_.learned,
                       listener_.messages, previous_);
   previous_ = nullptr;
+  if (settings_.keeps_light && run->prepared.integrator) {
+    run->light_key = light_key(description_, *run->prepared.scene);
+    const bool is_same = settings_.light.key == run->light_key;
+    run->prepared.integrator->keep_light(is_same ? settings_.light.light : nullptr);
+    settings_.light = {};
+  }
   if (settings_.begun) check_same_scene(run->prepared, *settings_.begun, settings_.begun_path);
   with_threads(settings_.session.threads, [&] { teach(run->prepared); });
   const std::lock_guard lock(mutex_);
@@ -170,12 +185,14 @@ void Job::make_session(Run& run) {
   const std::lock_guard lock(mutex_);
   run.record = record;
   run.begin = std::chrono::steady_clock::now();
+  run.rested_s = rested_s();
   run.session = std::move(session);
 }
 
 bool Job::begins_with_light(const Run& run) const {
   const IntegratorType* type = find_integrator_type(run.prepared.view.integrator);
-  return !settings_.begun && !(type && type->is_from_camera_alone);
+  const bool has_light = run.prepared.integrator->kept_light() != nullptr;
+  return !settings_.begun && !has_light && !(type && type->is_from_camera_alone);
 }
 
 void Job::make_preview(Run& run) {
@@ -230,17 +247,22 @@ std::optional<Image> Job::snapshot() const {
   return picture;
 }
 
+double Job::rested_s() const {
+  return settings_.session.gate ? settings_.session.gate->closed_s() : 0;
+}
+
 std::optional<Image> Job::finished_snapshot(const Messages& messages) const {
   std::unique_lock lock(mutex_);
   const std::shared_ptr<Run> run = run_;
   if (!run || !run->session) return std::nullopt;
   RenderRecord record = run->record;
   const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - run->begin;
+  const double seconds = gone.count() - (rested_s() - run->rested_s);
   lock.unlock();
   SnapshotFacts shown;
   std::optional<Image> picture = run->session->snapshot(&shown);
   if (!picture) return std::nullopt;
-  record.seconds += gone.count();
+  record.seconds += seconds;
   return finished_picture(std::move(*picture), record,
                           {.passes = shown.passes,
                            .samples_per_pixel = shown.samples_per_pixel,
@@ -271,6 +293,11 @@ void Job::edit(Description description) {
 const Scene& Job::scene() const { return *current()->prepared.scene; }
 
 std::shared_ptr<const Scene> Job::shared_scene() const { return current()->prepared.scene; }
+
+JobLight Job::kept_light() const {
+  const std::shared_ptr<Run> run = current();
+  return {run->light_key, run->prepared.integrator->kept_light()};
+}
 
 const Film& Job::film() const { return current()->session->film(); }
 

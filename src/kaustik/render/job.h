@@ -33,6 +33,12 @@ struct JobListener {
 /// trace_photons().
 enum class JobTask : uint8_t { render, learn, trace_photons };
 
+/// What an integrator has kept of light, and what of scene and integrator it belongs to.
+struct JobLight {
+  uint64_t key = 0;
+  std::shared_ptr<const KeptLight> light;
+};
+
 /// What a job is to do.
 struct JobSettings {
   JobTask task = JobTask::render;
@@ -55,6 +61,10 @@ struct JobSettings {
   bool previews = false;
   /// A scene to share with what is the same; null: none.
   std::shared_ptr<const Scene> previous;
+  /// Whether the integrator keeps light for jobs whose camera is another: Integrator::keep_light().
+  bool keeps_light = false;
+  /// Of such a job: it is used if all but the camera is the same.
+  JobLight light;
   std::chrono::steady_clock::time_point clock_start = std::chrono::steady_clock::now();
 };
 
@@ -119,6 +129,8 @@ class Job {
   /// After prepare().
   const Scene& scene() const;
   std::shared_ptr<const Scene> shared_scene() const;  ///< to share with others
+  /// After prepare(), from any thread: for a job that comes after this one.
+  JobLight kept_light() const;
   // Only while it does not run, after the session was made.
   const Film& film() const;
   Image image() const;  ///< Session::image()
@@ -130,8 +142,12 @@ class Job {
     std::shared_ptr<const Image> preview;         ///< null: none
     RenderRecord record;                          ///< once there is a session: that of its begin
     std::chrono::steady_clock::time_point begin;  ///< of the session
+    double rested_s = 0;                          ///< how long the gate had been closed then
+    uint64_t light_key = 0;                       ///< of what it keeps of light
   };
   std::shared_ptr<Run> current() const;
+  /// How long the gate has been closed, s.
+  double rested_s() const;
   std::shared_ptr<Run> prepared_run();
   void begin(JobTask task, const char* function);
   void work();

@@ -220,7 +220,11 @@ bool Session::render_camera(const Pass& pass, const PassState& state, const std:
       parallel_blocks(pass_.tiles().count(), 1,
                       [&](size_t tile, size_t, size_t) { render_tile(camera, tile, round); });
     } while (camera.rests && !camera.halts());
-    if (is_first && !camera.halted) has_picture_ = true;
+    if (is_first && !camera.halted) {
+      has_picture_ = true;
+      // Who watches need not wait for it.
+      if (round.stride > 1) monitor.tell(Progress::Stage::picture, true);
+    }
     more = camera.more || round.stride > 1;
   }
   return !camera.halted;

@@ -51,6 +51,7 @@ struct BuiltParts {
   ByKey<std::shared_ptr<const Volume>> volumes;
   ByKey<MadeLight> lights;
   uint64_t sensor = 0;  ///< the key of the camera with its film
+  uint64_t world = 0;   ///< the key of all else that light meets, the camera's medium included
 };
 
 /// The part of that key; null if there is none.

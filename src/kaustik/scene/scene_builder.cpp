@@ -348,6 +348,7 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   built_.sensor = keys_.whole(*sensor_);
   if (sensor_shape_ >= 0)
     built_.sensor = hash_mix(built_.sensor, keys_.whole(*shapes_[size_t(sensor_shape_)].object));
+  built_.world = world_key(scene);
   parts.built = std::move(built_);
   parts.counts = counts_;
   parts.film = film_;

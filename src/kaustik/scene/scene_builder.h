@@ -115,6 +115,8 @@ class SceneBuilder {
   std::shared_ptr<const Shape> shape_of(const Object& object, const ShapeType& type,
                                         const Arguments& arguments);
   uint64_t shape_key(const Object& object, const ShapeType& type);
+  /// BuiltParts::world.
+  uint64_t world_key(const Object& scene);
   std::shared_ptr<const Texture> texture_of(const Object& object, const TextureType& type,
                                             const TextureInputs& inputs, const BuiltShape* on);
   std::shared_ptr<const Bsdf> bsdf_of(const Object& object, const BsdfType& type,

@@ -65,6 +65,16 @@ uint64_t SceneBuilder::shape_key(const Object& object, const ShapeType& type) {
   return takes_heights(type.info) ? keys_.whole(object) : keys_.own(object);
 }
 
+uint64_t SceneBuilder::world_key(const Object& scene) {
+  uint64_t key = 0;
+  for (const Child& child : scene.children)
+    if (child.object->family != "sensor" && child.object->family != "integrator")
+      key = hash_mix(key, keys_.whole(*child.object));
+  for (const Child& child : sensor_->children)
+    if (child.object->family == "medium") key = hash_mix(key, keys_.whole(*child.object));
+  return key;
+}
+
 std::shared_ptr<const Shape> SceneBuilder::shape_of(const Object& object, const ShapeType& type,
                                                     const Arguments& arguments) {
   const uint64_t key = shape_key(object, type);

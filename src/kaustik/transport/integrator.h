@@ -11,6 +11,7 @@
 #include "kaustik/base/scratch.h"
 #include "kaustik/scene/scene.h"
 #include "kaustik/transport/component.h"
+#include "kaustik/transport/kept_light.h"
 #include "kaustik/transport/splat_buffer.h"
 
 namespace kaustik {
@@ -163,6 +164,13 @@ class Integrator {
   /// Goes on with lessons() of another one. Throws Error(input) if they are damaged or of another
   /// picture. Before the first prepare() and learn().
   virtual void go_on_with(const Lessons& /*lessons*/, LessonUse) {}
+  /// Keeps from now on the light of pass 0 for kept_light(), and begins with `light`, null: none,
+  /// which an integrator of the same parameters has kept in a scene that differs by its camera and
+  /// film alone. Pictures have the same bits. Before the first prepare(). Integrators whose light
+  /// passes depend on the camera keep nothing.
+  virtual void keep_light(const std::shared_ptr<const KeptLight>& /*light*/) {}
+  /// Null: none, or none yet. At any time.
+  virtual std::shared_ptr<const KeptLight> kept_light() const { return nullptr; }
   /// Learns from all passes before `pass` what that would be prepared with; fewer if `stop` is
   /// requested. An integrator that learns nothing does nothing.
   virtual PassReport learn(const Pass& /*pass*/, std::stop_token, const ProgressFunction&) const {
