@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "commands.h"
 #include "file_roles.h"
@@ -9,6 +13,8 @@
 #include "kaustik/loader/mitsuba3_terms.h"
 #include "kaustik/loader/mitsuba_writer.h"
 #include "kaustik/loader/scene_format.h"
+#include "kaustik/scene/picture_as_exr.h"
+#include "kaustik/scene/shape_as_ply.h"
 #include "option_values.h"
 #include "render_job.h"
 #include "scene_options.h"
@@ -27,25 +33,71 @@ struct ConvertOptions {
 /// A scene is somebody's work: without --force it is not replaced.
 bool is_any_file(const std::string&) { return true; }
 
+/// Removes again what it has put where nothing was, unless all is done.
+class NewFiles {
+ public:
+  NewFiles() = default;
+  ~NewFiles() {
+    std::error_code ignored;
+    for (const std::string& path : paths_) std::filesystem::remove(path, ignored);
+  }
+  NewFiles(const NewFiles&) = delete;
+  NewFiles& operator=(const NewFiles&) = delete;
+
+  void write(const std::string& path, std::span<const uint8_t> bytes) {
+    std::error_code unknown;
+    const bool is_new = !std::filesystem::exists(path, unknown);
+    write_file_atomically(path, bytes);
+    if (is_new) paths_.push_back(path);
+  }
+  void keep() { paths_.clear(); }
+
+ private:
+  std::vector<std::string> paths_;
+};
+
+std::vector<uint8_t> contents_of(const FileToWrite& file) {
+  if (!file.is_mesh()) return picture_as_exr(*file.source, file.factor);
+  ShapeAsPly mesh = shape_as_ply(*file.source);
+  if (mesh.is_flat)
+    for (const std::shared_ptr<Object>& shape : file.users) {
+      std::erase_if(shape->properties, [](const Property& p) { return p.name == "face_normals"; });
+      shape->properties.push_back({"face_normals", true, shape->place});
+    }
+  return std::move(mesh.file);
+}
+
 void convert(const ConvertOptions& options) {
   FileRoles roles;
+  const auto writes = [&](const std::string& path) {
+    roles.writes(path, {"a file with contents", is_any_file},
+                 options.force ? Replacing::anything : Replacing::nothing, "choose another name");
+  };
   roles.reads_scene(options.scene);
-  roles.writes(options.output, {"a file with contents", is_any_file},
-               options.force ? Replacing::anything : Replacing::nothing, "choose another name");
+  writes(options.output);
   const Description description = read_scene(
       options.scene,
       {.definitions = parse_definitions(options.definitions), .is_strict = options.is_strict});
   roles.reads(description);
   roles.check();
   const std::string folder = std::filesystem::path(options.output).parent_path().string();
-  const Mitsuba3Scene scene = in_terms_of_mitsuba3(description, description_types());
+  const Mitsuba3Scene scene =
+      in_terms_of_mitsuba3(description, description_types(), options.output);
+  for (const FileToWrite& file : scene.files) writes(file.path);
+  // Refuses what XML cannot hold, before anything is written.
+  mitsuba_xml(scene.description, description_types(), folder, scene.version);
+  for (const std::string& remark : scene.remarks) warn(remark);
+  NewFiles written;
+  for (const FileToWrite& file : scene.files) written.write(file.path, contents_of(file));
   const std::string text =
       mitsuba_xml(scene.description, description_types(), folder, scene.version);
-  for (const std::string& remark : scene.remarks) warn(remark);
-  write_file_atomically(options.output,
-                        {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
-  say("wrote {}: {} in Mitsuba 3's XML; it names the same mesh and picture files", options.output,
-      options.scene);
+  written.write(options.output, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+  written.keep();
+  for (const FileToWrite& file : scene.files)
+    say("wrote {}: {} that Mitsuba 3 reads otherwise", file.path,
+        file.is_mesh() ? "a mesh" : "a picture");
+  say("wrote {}: {} in Mitsuba 3's XML; it names the same {}mesh and picture files", options.output,
+      options.scene, scene.files.empty() ? "" : "other ");
 }
 
 }  // namespace
@@ -54,7 +106,9 @@ void add_convert(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "convert", "Write a scene of any format as XML of Mitsuba 3, with old spellings upgraded.");
   command->footer(
-      "Meshes and pictures stay where they are: the new file names them from its own folder.\n"
+      "Meshes and pictures stay where they are: the new file names them from its own folder. Those "
+      "that Mitsuba 3 would read otherwise (parts of OBJ files, height fields, scaled textures …) "
+      "are written anew beside it, as PLY and EXR files with its name before theirs.\n"
       "  kaustik convert scene.xml -o mitsuba3.xml");
   auto o = std::make_shared<ConvertOptions>();
   add_scene(*command, o->scene);

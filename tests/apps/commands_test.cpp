@@ -262,24 +262,5 @@ TEST_F(Commands, RenderNamesEveryIntegrator) {
   EXPECT_FALSE(contains(help, "volpath"));
 }
 
-TEST_F(Commands, ConvertWritesTheSameScene) {
-  write("old.xml",
-        "<scene version=\"0.6.0\"><sensor type=\"perspective\"><film type=\"hdrfilm\"><integer "
-        "name=\"width\" value=\"8\"/><integer name=\"height\" value=\"8\"/></film></sensor>"
-        "<shape type=\"sphere\"><transform name=\"toWorld\"><translate z=\"4\"/></transform>"
-        "<emitter type=\"area\"/></shape></scene>");
-  const RunResult converted = run_well({"convert", "old.xml", "-o", "new.xml"});
-  EXPECT_TRUE(contains(converted.err, "wrote new.xml")) << converted.err;
-  EXPECT_TRUE(contains(contents("new.xml"), "<scene version=\"3.0.0\">"));
-  run_well({"render", "old.xml", "--spp", "4", "-o", "old.exr"});
-  run_well({"render", "new.xml", "--spp", "4", "-o", "new.exr"});
-  EXPECT_TRUE(same_pixels("old.exr", "new.exr"));
-  // A scene is not replaced by mistake, and never by itself.
-  EXPECT_TRUE(contains(run({"convert", "old.xml", "-o", "new.xml"}).err, "--force"));
-  run_well({"convert", "old.xml", "-o", "new.xml", "--force"});
-  EXPECT_TRUE(contains(run({"convert", "old.xml", "-o", "old.xml", "--force"}).err,
-                       "read by this command"));
-}
-
 }  // namespace
 }  // namespace kaustik::test

@@ -2,6 +2,8 @@
 
 #include "kaustik/loader/mitsuba3_terms.h"
 
+#include <map>
+
 #include "kaustik/base/daylight_units.h"
 #include "kaustik/loader/mitsuba_writer.h"
 #include "kaustik/scene/description_digest.h"
@@ -107,6 +109,94 @@ TEST(Mitsuba3Terms, MixturesAreBlends) {
   // What is wrong stays, for those who tell.
   EXPECT_EQ(first_of(mixed("1", 2)).type, "mixturebsdf");
   EXPECT_TRUE(tells(mixed("1", 2), "Mitsuba 3 has no bsdf 'mixturebsdf'"));
+}
+
+/// How much of each g the nested phase functions have.
+void add_shares(const Object& phase, double share, std::map<double, double>& shares) {
+  if (phase.type == "hg") {
+    shares[value<double>(phase, "g")] += share;
+    return;
+  }
+  ASSERT_EQ(phase.type, "blendphase");
+  const double weight = value<double>(phase, "weight");
+  add_shares(*phase.children.at(0).object, (1 - weight) * share, shares);
+  add_shares(*phase.children.at(1).object, weight * share, shares);
+}
+
+TEST(Mitsuba3Terms, MixturesOfPhaseFunctionsAreBlends) {
+  const Mitsuba3Scene scene = translated(
+      "<medium type='homogeneous'><phase type='mixturephase'><string name='weights' value='1, 3, "
+      "4'/><phase type='hg'><float name='g' value='0.1'/></phase><phase type='hg'><float name='g' "
+      "value='0.2'/></phase><phase type='hg'><float name='g' value='0.3'/></phase></phase>"
+      "</medium>");
+  std::map<double, double> shares;
+  add_shares(*first_of(scene).children.at(0).object, 1, shares);
+  EXPECT_NEAR(shares[0.1], 0.125, 1e-12);
+  EXPECT_NEAR(shares[0.2], 0.375, 1e-12);
+  EXPECT_NEAR(shares[0.3], 0.5, 1e-12);
+  EXPECT_TRUE(scene.remarks.empty());
+}
+
+TEST(Mitsuba3Terms, WhatDoesNotShineIsMatt) {
+  const std::string zero = "<rgb name='specular_reflectance' value='0'/>",
+                    green = "<rgb name='diffuse_reflectance' value='0.1, 0.5, 0.1'/>";
+  for (const char* type : {"phong", "ward"}) {
+    const auto bsdf = [&](const std::string& inside) {
+      return translated("<bsdf type='" + std::string(type) + "'>" + inside + "</bsdf>");
+    };
+    EXPECT_EQ(first_of(bsdf(zero + green)).type, "diffuse");
+    EXPECT_EQ(value<Rgb>(first_of(bsdf(zero + green)), "reflectance"), (Rgb{0.1, 0.5, 0.1}));
+    EXPECT_EQ(first_of(bsdf(zero + green)).properties.size(), 1u);
+    EXPECT_EQ(first_of(bsdf(green)).type, type);
+    EXPECT_EQ(first_of(bsdf("<rgb name='specular_reflectance' value='0, 0, 0.1'/>")).type, type);
+    EXPECT_EQ(first_of(bsdf(zero + "<texture type='checkerboard' name='diffuse_reflectance'/>"))
+                  .children.at(0)
+                  .name,
+              "reflectance");
+    EXPECT_EQ(first_of(bsdf("<texture type='checkerboard' name='specular_reflectance'/>")).type,
+              type);
+  }
+  const std::string smooth = "<float name='alpha' value='0'/>";
+  EXPECT_EQ(first_of(translated("<bsdf type='roughdiffuse'>" + smooth + "</bsdf>")).type,
+            "diffuse");
+  EXPECT_EQ(first_of(translated("<bsdf type='roughdiffuse'/>")).type, "roughdiffuse");
+}
+
+TEST(Mitsuba3Terms, SheetsAndMetals) {
+  const Object sheet = first_of(translated(
+      "<bsdf type='difftrans'><rgb name='transmittance' value='0.1, 0.5, 0.1'/></bsdf>"));
+  EXPECT_EQ(sheet.type, "principledthin");
+  EXPECT_EQ(value<Rgb>(sheet, "base_color"), (Rgb{0.1, 0.5, 0.1}));
+  EXPECT_EQ(value<double>(sheet, "diff_trans"), 2);
+  const auto metal = [](const std::string& outside) {
+    return translated(
+        "<bsdf type='conductor'><rgb name='eta' value='1, 2, 3'/><float name='k' value='4'/>" +
+        outside + "</bsdf>");
+  };
+  const Mitsuba3Scene wet = metal("<float name='ext_eta' value='1.25'/>");
+  EXPECT_EQ(value<Rgb>(first_of(wet), "eta"), (Rgb{0.8, 1.6, 2.4}));
+  EXPECT_EQ(value<double>(first_of(wet), "k"), 3.2);
+  EXPECT_FALSE(has_property(first_of(wet), "ext_eta"));
+  EXPECT_EQ(value<double>(first_of(metal("<string name='ext_eta' value='air'/>")), "k"),
+            4 / 1.000277);
+  EXPECT_TRUE(tells(metal("<string name='ext_eta' value='water'/>"), "'ext_eta'"));
+  EXPECT_TRUE(tells(translated("<bsdf type='conductor'><string name='material' value='Au'/><float "
+                               "name='ext_eta' value='1.25'/></bsdf>"),
+                    "'ext_eta'"));
+  EXPECT_EQ(value<std::string>(first_of(translated("<bsdf type='roughconductor'><string "
+                                                   "name='distribution' value='as'/></bsdf>")),
+                               "distribution"),
+            "beckmann");
+}
+
+TEST(Mitsuba3Terms, LensesOfNoWidthArePinholes) {
+  const auto sensor = [](const std::string& inside) {
+    return translated("<sensor type='telecentric'>" + inside + "</sensor>");
+  };
+  EXPECT_EQ(first_of(sensor("")).type, "orthographic");
+  EXPECT_EQ(first_of(sensor("<float name='aperture_radius' value='0'/>")).type, "orthographic");
+  EXPECT_EQ(first_of(sensor("<float name='aperture_radius' value='0.1'/>")).type, "telecentric");
+  EXPECT_EQ(first_of(translated("<sensor type='perspective_rdist'/>")).type, "perspective");
 }
 
 TEST(Mitsuba3Terms, MediaHaveExtinctionAndAlbedo) {

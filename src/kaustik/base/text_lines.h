@@ -19,7 +19,7 @@ size_t length_of_byte_order_mark(std::span<const uint8_t> bytes, const std::stri
 
 /// Between words of a line.
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-/// Without blanks at its ends.
+/// Without blanks and ends of lines at its own ends.
 std::string_view trimmed(std::string_view text);
 /// Takes the first word off a line; "" where there is none.
 std::string_view next_word(std::string_view& line);

@@ -38,6 +38,15 @@ MeshFile read_obj(const std::string& path, const ObjSelection& selection = {});
 /// skipped.
 MeshFile read_serialized(const std::string& path, uint64_t shape_index);
 
+/// Reads the file of a shape of type `obj`, `ply` or `serialized`, as much of it as the arguments
+/// select; nothing for other types.
+std::optional<MeshFile> read_mesh_file(const Arguments& arguments);
+/// The same with all done to it that other programs cannot: `flip_tex_coords` has been applied, and
+/// vertices without a normal have one if others do. With `max_smooth_angle` it has the normals of
+/// that and is placed by `to_world`, which then must not be applied again. Flat meshes have no
+/// normals. `to_world` otherwise, `face_normals` and `flip_normals` are still to be applied.
+MeshFile unplaced_mesh(const Arguments& arguments);
+
 /// The remark on faces with fewer than three corners.
 std::string remark_on_small_faces(size_t count, const std::string& file);
 

@@ -1,5 +1,7 @@
 // The shapes that are meshes: `obj` and `ply` files, `mesh` buffers, `rectangle` and `cube`.
 
+#include <algorithm>
+
 #include "kaustik/geometry/mesh_buffers.h"
 #include "kaustik/geometry/mesh_reader.h"
 #include "kaustik/geometry/mesh_shape.h"
@@ -46,14 +48,21 @@ std::vector<Parameter> file_mesh_parameters(bool flip_tex_coords) {
   return with_options({file_parameter("filename", "Mesh file.")}, flip_tex_coords);
 }
 
-template <typename Read>
-std::unique_ptr<Shape> create_from_file(const Arguments& arguments, const Read& read) {
-  const std::string& path = arguments.text("filename");
+MeshFile read_selected_obj(const Arguments& arguments) {
+  ObjSelection selection;
+  if (const int64_t index = arguments.integer("shape_index"); index >= 0)
+    selection.shape_index = uint64_t(index);
+  if (arguments.given("material")) selection.material = arguments.text("material");
+  return read_obj(arguments.text("filename"), selection);
+}
+
+std::unique_ptr<Shape> create_from_file(const Arguments& arguments) {
   MeshOptions options = mesh_options(arguments);
-  MeshFile file = read(path);
+  MeshFile file = *read_mesh_file(arguments);
   options.face_normals = options.face_normals || file.has_face_normals;
-  return std::make_unique<MeshShape>(prepare_mesh(std::move(file.mesh), options, place_in(path)),
-                                     std::move(file.remarks));
+  return std::make_unique<MeshShape>(
+      prepare_mesh(std::move(file.mesh), options, place_in(arguments.text("filename"))),
+      std::move(file.remarks));
 }
 
 std::unique_ptr<Shape> create_built_in(const Arguments& arguments, TriangleMesh mesh) {
@@ -99,12 +108,7 @@ const TypeInfo& obj_info() {
   return info;
 }
 std::unique_ptr<Shape> create_obj(const Arguments& arguments) {
-  ObjSelection selection;
-  if (const int64_t index = arguments.integer("shape_index"); index >= 0)
-    selection.shape_index = uint64_t(index);
-  if (arguments.given("material")) selection.material = arguments.text("material");
-  return create_from_file(arguments,
-                          [&](const std::string& path) { return read_obj(path, selection); });
+  return create_from_file(arguments);
 }
 
 const TypeInfo& ply_info() {
@@ -114,7 +118,7 @@ const TypeInfo& ply_info() {
   return info;
 }
 std::unique_ptr<Shape> create_ply(const Arguments& arguments) {
-  return create_from_file(arguments, read_ply);
+  return create_from_file(arguments);
 }
 
 const TypeInfo& serialized_info() {
@@ -130,9 +134,41 @@ const TypeInfo& serialized_info() {
   return info;
 }
 std::unique_ptr<Shape> create_serialized(const Arguments& arguments) {
-  return create_from_file(arguments, [&](const std::string& path) {
-    return read_serialized(path, uint64_t(arguments.integer("shape_index")));
-  });
+  return create_from_file(arguments);
+}
+
+std::optional<MeshFile> read_mesh_file(const Arguments& arguments) {
+  const std::string& type = arguments.info().name;
+  if (type == "obj") return read_selected_obj(arguments);
+  if (type == "ply") return read_ply(arguments.text("filename"));
+  if (type == "serialized")
+    return read_serialized(arguments.text("filename"), uint64_t(arguments.integer("shape_index")));
+  return std::nullopt;
+}
+
+MeshFile unplaced_mesh(const Arguments& arguments) {
+  MeshFile file = *read_mesh_file(arguments);
+  TriangleMesh& mesh = file.mesh;
+  const auto is_missing = [](const Vec3f& n) { return n == Vec3f(0, 0, 0); };
+  const auto missing = std::count_if(mesh.normals.begin(), mesh.normals.end(), is_missing);
+  if (size_t(missing) == mesh.normals.size()) mesh.normals.clear();
+  // Zero is no direction to other programs.
+  if (!mesh.normals.empty() && missing > 0) {
+    const std::vector<Vec3f> smooth = smooth_normals(mesh);
+    for (size_t i = 0; i < smooth.size(); ++i)
+      if (is_missing(mesh.normals[i])) mesh.normals[i] = smooth[i];
+  }
+  MeshOptions options = mesh_options(arguments);
+  if (options.face_normals || file.has_face_normals) {
+    mesh.normals.clear();
+    options.max_smooth_angle.reset();
+  }
+  if (options.flip_tex_coords)
+    for (Vec2f& uv : mesh.uvs) uv.y = 1.0f - uv.y;
+  options.flip_normals = options.flip_tex_coords = false;
+  if (options.max_smooth_angle)
+    mesh = prepare_mesh(std::move(mesh), options, place_in(arguments.text("filename")));
+  return file;
 }
 
 const TypeInfo& mesh_info() {

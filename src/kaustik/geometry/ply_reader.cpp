@@ -5,28 +5,22 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <charconv>
-#include <cstring>
 #include <memory>
-#include <set>
 #include <span>
 #include <string_view>
 
 #include "kaustik/base/parallel.h"
-#include "kaustik/base/text_lines.h"
-#include "kaustik/geometry/attribute_groups.h"
 #include "kaustik/geometry/file_window.h"
-#include "kaustik/geometry/mesh_attribute.h"
 #include "kaustik/geometry/mesh_checks.h"
 #include "kaustik/geometry/mesh_reader.h"
+#include "kaustik/geometry/ply_attributes.h"
+#include "kaustik/geometry/ply_header.h"
 #include "kaustik/geometry/ply_values.h"
 #include "kaustik/geometry/polygon_cutter.h"
 
 namespace kaustik {
 namespace {
-
-enum class Format { text, little_endian, big_endian };
 
 /// Of the file, that are read at a time: they and what they become stay in a core's cache.
 constexpr size_t bytes_at_once = size_t{1} << 18;
@@ -34,26 +28,6 @@ constexpr size_t bytes_at_once = size_t{1} << 18;
 /// Attributes of faces take more than their bytes in the file, once for each triangle: a dozen
 /// times as much where polygons have dozens of corners.
 constexpr uint64_t usual_attribute_growth = 20, always_allowed_attribute_bytes = uint64_t{64} << 20;
-
-struct PlyProperty {
-  std::string name;
-  bool is_list = false;
-  PlyType count_type = PlyType::uint8;  ///< of lists
-  PlyType type = PlyType::float32;
-};
-
-struct PlyElement {
-  std::string name;
-  uint64_t count = 0;
-  std::vector<PlyProperty> properties;
-
-  int find(std::initializer_list<std::string_view> names) const {
-    for (const std::string_view wanted : names)
-      for (size_t i = 0; i < properties.size(); ++i)
-        if (properties[i].name == wanted) return int(i);
-    return -1;
-  }
-};
 
 /// Those with the given numbers.
 template <size_t count>
@@ -64,88 +38,18 @@ std::array<PlyField, count> fields_at(const std::vector<PlyField>& fields,
   return some;
 }
 
-/// Attributes that are read from the properties of an element.
-class AttributeReader {
- public:
-  /// `whose`: "vertex_" or "face_".
-  AttributeReader(const PlyElement& element, const std::string& whose) {
-    std::vector<std::string> names;
-    for (const PlyProperty& property : element.properties)
-      names.push_back(property.is_list ? std::string() : property.name);
-    for (const AttributeGroup& group : attribute_groups(names)) {
-      attributes_.push_back({whose + group.name, int(group.members.size())});
-      for (const size_t i : group.members)
-        members_.push_back({i, largest_of(element.properties[i].type)});
-    }
-  }
-
-  bool empty() const { return attributes_.empty(); }
-  size_t values_of_element() const { return members_.size(); }
-  /// For so many elements.
-  void reserve(size_t elements) {
-    for (MeshAttribute& attribute : attributes_)
-      reserve_large(attribute.values, elements * size_t(attribute.components));
-  }
-  /// Makes them those of so many elements, to be set in any order.
-  void resize(size_t elements) {
-    for (MeshAttribute& attribute : attributes_)
-      attribute.values.resize(elements * size_t(attribute.components));
-    elements_ = elements;
-  }
-  /// Sets those of one element: `number(property)` is the number of each property.
-  template <typename Number>
-  void set(size_t element, const Number& number) {
-    auto member = members_.begin();
-    for (MeshAttribute& attribute : attributes_) {
-      const auto components = size_t(attribute.components);
-      for (size_t i = 0; i < components; ++i, ++member)
-        attribute.values[element * components + i] =
-            attribute_value(number(member->property), member->largest);
-    }
-  }
-  /// Sets those of elements from `first` on, whose properties are `fields` of records.
-  void set_all(size_t first, const PlyRecords& records, const std::vector<PlyField>& fields) {
-    if (empty()) return;
-    for (size_t i = 0; i < records.size(); ++i)
-      set(first + i, [&](size_t property) {
-        const PlyField& field = fields[property];
-        return value_at(records[i] + field.offset, field.type, records.big_endian);
-      });
-  }
-  /// Sets those of one element more.
-  template <typename Number>
-  void add(const Number& number) {
-    resize(elements_ + 1);
-    set(elements_ - 1, number);
-  }
-  /// Moves them into the mesh; tells what is not finite.
-  void finish(MeshFile& file, const std::string& path) {
-    for (MeshAttribute& attribute : attributes_) {
-      if (const size_t count = make_finite(attribute); count > 0)
-        file.remarks.push_back(remark_on_attribute(attribute.name, count, path));
-      file.mesh.attributes.push_back(std::move(attribute));
-    }
-    attributes_.clear();
-  }
-
- private:
-  struct Member {
-    size_t property;
-    double largest;  ///< see attribute_value()
-  };
-  std::vector<MeshAttribute> attributes_;
-  std::vector<Member> members_;  ///< of all attributes in turn
-  size_t elements_ = 0;
-};
-
 class PlyReader {
  public:
   explicit PlyReader(const std::string& path)
-      : path_(path), file_(path), window_(file_), cutter_(size_t(file_.size())) {}
+      : path_(path),
+        file_(path),
+        window_(file_),
+        header_(read_ply_header(path, window_)),
+        line_(is_text() ? header_.lines + 1 : 0),
+        cutter_(size_t(file_.size())) {}
 
   MeshFile read() {
-    read_header();
-    for (const PlyElement& element : elements_) {
+    for (const PlyElement& element : header_.elements) {
       check_count(element);
       if (element.name == "vertex")
         read_vertices(element);
@@ -157,14 +61,16 @@ class PlyReader {
     if (mesh_.triangles.empty()) check(fault_of_no_faces());
     MeshFile file{std::move(mesh_), {}};
     if (small_faces_ > 0) file.remarks.push_back(remark_on_small_faces(small_faces_, path_));
-    for (AttributeReader& attributes : attributes_) attributes.finish(file, path_);
+    for (PlyAttributes& attributes : attributes_) attributes.finish(file, path_);
     return file;
   }
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& remedy) const {
-    throw Error(ErrorKind::input, "PLY: " + what, remedy, place_in(path_, line_));
+    fail_in_ply(path_, line_, what, remedy);
   }
+  bool is_text() const { return header_.format == PlyFormat::text; }
+  bool is_big_endian() const { return header_.format == PlyFormat::big_endian; }
   void check(const std::optional<MeshFault>& fault) const {
     if (fault) fail(fault->message, fault->remedy);
   }
@@ -172,15 +78,9 @@ class PlyReader {
     fail("the file ends too early", "it is truncated: export or copy it again");
   }
 
-  // Header -------------------------------------------------------------------------------------
-  std::vector<std::string_view> header_line();
-  void read_header();
-  void header_element(const std::vector<std::string_view>& words);
-  void header_property(const std::vector<std::string_view>& words);
-  void check_count(const PlyElement& element) const;
-
   // Values -------------------------------------------------------------------------------------
-  double value(PlyType type) { return format_ == Format::text ? text_value() : binary_value(type); }
+  void check_count(const PlyElement& element) const;
+  double value(PlyType type) { return is_text() ? text_value() : binary_value(type); }
   double text_value();
   double binary_value(PlyType type);
   uint64_t list_size(const PlyProperty& property);
@@ -201,15 +101,15 @@ class PlyReader {
   void read_vertex(const PlyElement& element, const VertexLayout& layout, uint64_t vertex,
                    std::vector<double>& values);
   bool read_vertex_block(const PlyElement& element, const VertexLayout& layout,
-                         AttributeReader& attributes);
+                         PlyAttributes& attributes);
   void check_vertex(uint64_t vertex) const;
 
   // Faces --------------------------------------------------------------------------------------
   void read_faces(const PlyElement& element);
-  bool read_triangle_block(const PlyElement& element, size_t indices, AttributeReader& attributes);
-  void read_polygons(const PlyElement& element, size_t indices, AttributeReader& attributes);
+  bool read_triangle_block(const PlyElement& element, size_t indices, PlyAttributes& attributes);
+  void read_polygons(const PlyElement& element, size_t indices, PlyAttributes& attributes);
   void read_polygon(const PlyProperty& property, uint64_t face);
-  void check_growth(const AttributeReader& attributes, uint64_t face) const;
+  void check_growth(const PlyAttributes& attributes, uint64_t face) const;
 
   /// Calls body(first, bytes) for all records of an element with so many bytes each, in parallel
   /// and in pieces; `first` is the number of the piece's first record. False if the file is too
@@ -228,120 +128,21 @@ class PlyReader {
   std::string path_;
   InputFile file_;
   FileWindow window_;
-  int line_ = 0;  ///< 0 in binary data
-  Format format_ = Format::text;
-  std::vector<PlyElement> elements_;
-  std::set<std::string> element_names_;
-  char line_end_ = '\n';  ///< '\r' where no '\n' follows
-  std::string header_line_;
+  PlyHeader header_;
+  int line_;  ///< 0 in binary data
   TriangleMesh mesh_;
-  std::vector<AttributeReader> attributes_;  ///< of the elements so far
+  std::vector<PlyAttributes> attributes_;  ///< of the elements so far
   uint64_t vertex_count_ = 0;
   PolygonCutter cutter_;
   std::vector<uint32_t> corners_;  ///< of the face that is read
   size_t small_faces_ = 0;
 };
 
-std::vector<std::string_view> PlyReader::header_line() {
-  constexpr size_t longest = 1 << 16;
-  const std::span<const uint8_t> ahead = window_.ahead(longest);
-  const auto end = std::find(ahead.begin(), ahead.end(), uint8_t(line_end_));
-  if (end == ahead.end())
-    fail("the header has no end", "it is truncated or no PLY file: export it again");
-  header_line_.assign(ahead.begin(), end);
-  window_.advance(header_line_.size() + 1);
-  ++line_;
-  const std::string_view line = header_line_;
-  std::vector<std::string_view> words;
-  constexpr std::string_view blanks = " \t\r";
-  for (size_t i = line.find_first_not_of(blanks); i != line.npos;
-       i = line.find_first_not_of(blanks, i)) {
-    const size_t stop = std::min(line.find_first_of(blanks, i), line.size());
-    words.push_back(line.substr(i, stop - i));
-    i = stop;
-  }
-  return words;
-}
-
-void PlyReader::read_header() {
-  window_.advance(length_of_byte_order_mark(window_.ahead(3), path_));
-  const std::span<const uint8_t> ahead = window_.ahead(5);
-  const std::string start(ahead.begin(),
-                          ahead.begin() + std::ptrdiff_t(std::min<size_t>(ahead.size(), 5)));
-  line_ = 1;
-  if (!start.starts_with("ply")) fail("the file does not start with 'ply'", "give a PLY file");
-  line_ = 0;
-  // How the first line ends tells how all of them do.
-  if (start.size() == 5 && start[3] == '\r' && start[4] != '\n') line_end_ = '\r';
-  header_line();
-  bool has_format = false;
-  while (true) {
-    const auto words = header_line();
-    if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
-    if (words[0] == "end_header") break;
-    if (words[0] == "format" && words.size() == 3) {
-      if (words[1] == "ascii")
-        format_ = Format::text;
-      else if (words[1] == "binary_little_endian")
-        format_ = Format::little_endian;
-      else if (words[1] == "binary_big_endian")
-        format_ = Format::big_endian;
-      else
-        fail(fmt::format("unknown format '{}'", words[1]),
-             "valid: ascii, binary_little_endian, binary_big_endian");
-      has_format = true;
-    } else if (words[0] == "element") {
-      header_element(words);
-    } else if (words[0] == "property") {
-      header_property(words);
-    } else {
-      fail(fmt::format("the header has an unknown line '{}'", words[0]), "export the file again");
-    }
-  }
-  if (!has_format) fail("the header has no 'format' line", "export the file again");
-  line_ = format_ == Format::text ? line_ + 1 : 0;
-}
-
-void PlyReader::header_element(const std::vector<std::string_view>& words) {
-  PlyElement element;
-  if (words.size() != 3) fail("'element' needs a name and a number", "export the file again");
-  element.name = words[1];
-  const auto [end, error] =
-      std::from_chars(words[2].data(), words[2].data() + words[2].size(), element.count);
-  if (error != std::errc() || end != words[2].data() + words[2].size())
-    fail(fmt::format("'{}' is no number of elements", words[2]), "export the file again");
-  if (!element_names_.insert(element.name).second)
-    fail(fmt::format("element '{}' is there twice", element.name.substr(0, 40)),
-         "export the file again");
-  elements_.push_back(std::move(element));
-}
-
-void PlyReader::header_property(const std::vector<std::string_view>& words) {
-  if (elements_.empty()) fail("a property comes before any element", "export the file again");
-  PlyProperty property;
-  property.is_list = words.size() == 5 && words[1] == "list";
-  if (!property.is_list && words.size() != 3)
-    fail("a property needs a type and a name", "export the file again");
-  const auto type = [&](std::string_view name) {
-    const auto found = ply_type_named(name);
-    if (!found)
-      fail(fmt::format("unknown type '{}'", name),
-           "valid: char, uchar, short, ushort, int, uint, float, double");
-    return *found;
-  };
-  if (property.is_list) property.count_type = type(words[2]);
-  property.type = type(words[words.size() - 2]);
-  property.name = words.back();
-  elements_.back().properties.push_back(std::move(property));
-}
-
 /// Nothing is allocated by what a header says before the rest of the file could hold it.
 void PlyReader::check_count(const PlyElement& element) const {
   uint64_t smallest = 0;  // bytes of one element
   for (const PlyProperty& property : element.properties)
-    smallest += format_ == Format::text
-                    ? 2
-                    : size_of(property.is_list ? property.count_type : property.type);
+    smallest += is_text() ? 2 : size_of(property.is_list ? property.count_type : property.type);
   if (smallest == 0 && element.count > 0)
     fail(fmt::format("element '{}' has no properties", element.name), "export the file again");
   // The last value of a text file needs no blank behind it.
@@ -358,7 +159,7 @@ double PlyReader::text_value() {
   while (!ahead.empty() && ahead[0] <= ' ') {
     size_t blanks = 0;
     for (; blanks < ahead.size() && ahead[blanks] <= ' '; ++blanks)
-      if (ahead[blanks] == uint8_t(line_end_)) ++line_;
+      if (ahead[blanks] == uint8_t(header_.line_end)) ++line_;
     window_.advance(blanks);
     ahead = window_.ahead(1);
   }
@@ -388,7 +189,7 @@ double PlyReader::binary_value(PlyType type) {
   const size_t size = size_of(type);
   const std::span<const uint8_t> ahead = window_.ahead(size);
   if (ahead.size() < size) fail_truncated();
-  const double result = value_at(ahead.data(), type, format_ == Format::big_endian);
+  const double result = value_at(ahead.data(), type, is_big_endian());
   window_.advance(size);
   return result;
 }
@@ -398,14 +199,14 @@ uint64_t PlyReader::list_size(const PlyProperty& property) {
   if (!(count >= 0) || count != std::floor(count))
     fail(fmt::format("a list '{}' has the length {}", property.name, count),
          "the file is damaged: export it again");
-  const double smallest = format_ == Format::text ? 2.0 : double(size_of(property.type));
+  const double smallest = is_text() ? 2.0 : double(size_of(property.type));
   if (count * smallest > double(left() + 1)) fail_truncated();
   return uint64_t(count);
 }
 
 void PlyReader::skip(const PlyProperty& property) {
   const uint64_t count = property.is_list ? list_size(property) : 1;
-  if (format_ == Format::text) {
+  if (is_text()) {
     for (uint64_t i = 0; i < count; ++i) text_value();
     return;
   }
@@ -430,7 +231,7 @@ bool PlyReader::each_piece(uint64_t count, size_t record_bytes, const Body& body
     if (file_.read(begin + first * record_bytes, {bytes.get(), size}) < size)
       is_short = true;
     else
-      body(first, PlyRecords{{bytes.get(), size}, record_bytes, format_ == Format::big_endian});
+      body(first, PlyRecords{{bytes.get(), size}, record_bytes, is_big_endian()});
   });
   if (is_short) return false;
   window_.move_to(begin + count * record_bytes);
@@ -442,7 +243,7 @@ bool PlyReader::each_piece(uint64_t count, size_t record_bytes, const Body& body
 /// by its length; −1: none.
 std::optional<std::vector<PlyField>> PlyReader::fields_of(const PlyElement& element,
                                                           int triangles) const {
-  if (format_ == Format::text || element.count == 0) return std::nullopt;
+  if (is_text() || element.count == 0) return std::nullopt;
   std::vector<PlyField> fields;
   size_t offset = 0;
   for (const PlyProperty& property : element.properties) {
@@ -483,7 +284,7 @@ void PlyReader::read_vertices(const PlyElement& element) {
   reserve_large(mesh_.positions, size_t(element.count) + 1);  // see MeshShape
   if (layout.has_normals) reserve_large(mesh_.normals, size_t(element.count));
   if (layout.has_uvs) reserve_large(mesh_.uvs, size_t(element.count));
-  AttributeReader attributes(element, "vertex_");
+  PlyAttributes attributes(element, "vertex_");
   if (!read_vertex_block(element, layout, attributes)) {
     attributes.reserve(size_t(element.count));
     std::vector<double> values(element.properties.size());
@@ -517,7 +318,7 @@ void PlyReader::read_vertex(const PlyElement& element, const VertexLayout& layou
 
 /// All at once and in parallel, if their records have the same size; false: they do not.
 bool PlyReader::read_vertex_block(const PlyElement& element, const VertexLayout& layout,
-                                  AttributeReader& attributes) {
+                                  PlyAttributes& attributes) {
   const auto fields = fields_of(element);
   if (!fields) return false;
   const auto count = size_t(element.count);
@@ -549,19 +350,19 @@ void PlyReader::read_faces(const PlyElement& element) {
   const int indices = element.find({"vertex_indices", "vertex_index"});
   if (indices < 0 || !element.properties[size_t(indices)].is_list)
     fail("the faces have no list 'vertex_indices'", "export the faces as well");
-  for (const PlyElement& other : elements_) {
+  for (const PlyElement& other : header_.elements) {
     if (other.name == "vertex") break;
     if (&other == &element) fail("the faces come before the vertices", "export the file again");
   }
   reserve_large(mesh_.triangles, size_t(element.count));
-  AttributeReader attributes(element, "face_");
+  PlyAttributes attributes(element, "face_");
   if (!read_triangle_block(element, size_t(indices), attributes))
     read_polygons(element, size_t(indices), attributes);
   attributes_.push_back(std::move(attributes));
 }
 
 void PlyReader::read_polygons(const PlyElement& element, size_t indices,
-                              AttributeReader& attributes) {
+                              PlyAttributes& attributes) {
   attributes.reserve(size_t(element.count));
   std::vector<double> values(element.properties.size());
   for (uint64_t face = 0; face < element.count; ++face) {
@@ -585,14 +386,13 @@ void PlyReader::read_polygons(const PlyElement& element, size_t indices,
 /// All at once and in parallel, if they are triangles and have no other lists; false, and nothing
 /// read: they are or have.
 bool PlyReader::read_triangle_block(const PlyElement& element, size_t indices,
-                                    AttributeReader& attributes) {
+                                    PlyAttributes& attributes) {
   const auto fields = fields_of(element, int(indices));
   if (!fields || element.count > left() / record_bytes_of(*fields)) return false;
   const PlyField& length = (*fields)[indices];
   // Other polygons are mostly told by the first one, before memory is taken.
   const std::span<const uint8_t> ahead = window_.ahead(length.offset + size_of(length.type));
-  if (value_at(ahead.data() + length.offset, length.type, format_ == Format::big_endian) != 3)
-    return false;
+  if (value_at(ahead.data() + length.offset, length.type, is_big_endian()) != 3) return false;
   mesh_.triangles.resize(size_t(element.count));
   attributes.resize(size_t(element.count));
   // What is wrong is told by reading face by face.
@@ -613,7 +413,7 @@ bool PlyReader::read_triangle_block(const PlyElement& element, size_t indices,
 
 /// A file that has many attributes and large polygons could ask for a number of values that goes
 /// with the square of its size.
-void PlyReader::check_growth(const AttributeReader& attributes, uint64_t face) const {
+void PlyReader::check_growth(const PlyAttributes& attributes, uint64_t face) const {
   const uint64_t values = attributes.values_of_element() * mesh_.triangles.size();
   if (values * sizeof(float) >
       always_allowed_attribute_bytes + usual_attribute_growth * file_.size())
@@ -630,14 +430,14 @@ void PlyReader::read_polygon(const PlyProperty& property, uint64_t face) {
     check(fault_of_index(face, index, vertex_count_, "the file is damaged: export it again"));
     corners_.push_back(uint32_t(index));
   };
-  if (format_ == Format::text) {
+  if (is_text()) {
     for (uint64_t i = 0; i < corners; ++i) add(text_value());
   } else {
     const size_t index_bytes = size_of(property.type), size = size_t(corners) * index_bytes;
     const std::span<const uint8_t> ahead = window_.ahead(size);
     if (ahead.size() < size) fail_truncated();
     for (size_t i = 0; i < size; i += index_bytes)
-      add(value_at(ahead.data() + i, property.type, format_ == Format::big_endian));
+      add(value_at(ahead.data() + i, property.type, is_big_endian()));
     window_.advance(size);
   }
   if (corners_.size() < 3)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kaustik/base/text_lines.h"
 #include "kaustik/loader/mitsuba_medium.h"
 #include "kaustik/loader/mitsuba_sky.h"
 #include "kaustik/loader/mitsuba_tags.h"

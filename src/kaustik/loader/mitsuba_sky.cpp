@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "kaustik/loader/object_parts.h"
+
 namespace kaustik::mitsuba {
 namespace {
 
@@ -14,12 +16,6 @@ constexpr Version first_with_daylight = {3, 7, 0};
 
 /// Angle across the sun's disk, degrees, that 0.6 scales.
 constexpr double sun_aperture_degrees = 0.5358;
-
-Property* find_property(Object& object, std::string_view name) {
-  for (Property& property : object.properties)
-    if (property.name == name) return &property;
-  return nullptr;
-}
 
 /// A number that the object gives no more; null where it gives none.
 std::optional<Property> without_number(Object& object, std::string_view name) {

@@ -6,10 +6,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "kaustik/base/text_lines.h"
+
 namespace kaustik::mitsuba {
 namespace {
 
-constexpr std::string_view white_space = " \t\r\n";
 constexpr std::string_view list_separators = ", \t\r\n";
 constexpr size_t longest_quote = 60;
 constexpr size_t longest_list = 40;
@@ -67,12 +68,6 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& ca
   const std::string nearest =
       name.size() <= longest_quote ? nearest_name(name, comparable) : std::string();
   return nearest.empty() ? std::string() : fmt::format("did you mean '{}'?", nearest);
-}
-
-std::string_view trimmed(std::string_view text) {
-  const size_t begin = text.find_first_not_of(white_space);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
 }
 
 std::vector<std::string_view> split_list(std::string_view text) {

@@ -25,8 +25,6 @@ std::string in_quotes(std::string_view text);
 /// "did you mean …? Valid: …", with short lists and without names that are too long to compare.
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 
-/// Without the white space around it.
-std::string_view trimmed(std::string_view text);
 /// Parts of a list: separated by commas and white space, none empty.
 std::vector<std::string_view> split_list(std::string_view text);
 

@@ -13,6 +13,7 @@
 #include "kaustik/loader/mitsuba_upgrade.h"
 #include "kaustik/loader/mitsuba_values.h"
 #include "kaustik/loader/mtl_file.h"
+#include "kaustik/loader/object_parts.h"
 
 namespace kaustik {
 namespace {
@@ -30,13 +31,6 @@ struct ObjMaterials {
 /// For each material the file is read once: all together may be so much.
 constexpr uint64_t most_bytes = uint64_t{8} << 30;
 constexpr size_t most_libraries = 100;
-
-template <typename T>
-const T* value_in(const Object& object, const char* name) {
-  for (const Property& property : object.properties)
-    if (property.name == name) return std::get_if<T>(&property.value);
-  return nullptr;
-}
 
 /// What the reader has made of a name, as it does with those of parameters.
 std::string name_in_scene(const std::string& material) {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "kaustik/image/picture_reader.h"
+#include "kaustik/material/bitmap_picture.h"
 #include "kaustik/material/bsdf_kinds.h"
 #include "kaustik/material/mip_pyramid.h"
 #include "kaustik/material/uv_transform.h"
@@ -147,8 +147,7 @@ double gamma_of(const Arguments& arguments) {
 
 std::shared_ptr<const Texture> create_bitmap(const TextureInputs& in) {
   const Arguments& arguments = in.arguments;
-  Texels texels = texels_of(in.pictures.read(arguments, bytes_per_pixel,
-                                             {gamma_of(arguments), arguments.text("channel")}));
+  Texels texels = texels_of(bitmap_picture(arguments, in.pictures, bytes_per_pixel));
   const Wraps wraps = wraps_of(arguments);
   if (wraps.u == Wrap::one || wraps.v == Wrap::one) texels.maximum = std::max(texels.maximum, 1.0f);
   return std::make_shared<Bitmap>(
@@ -157,6 +156,12 @@ std::shared_ptr<const Texture> create_bitmap(const TextureInputs& in) {
 }
 
 }  // namespace
+
+Image bitmap_picture(const Arguments& arguments, PictureReader& pictures,
+                     int64_t kept_bytes_per_pixel) {
+  return pictures.read(arguments, kept_bytes_per_pixel,
+                       {gamma_of(arguments), arguments.text("channel")});
+}
 
 TextureType bitmap_type() { return {bitmap_info(), create_bitmap}; }
 

@@ -29,8 +29,12 @@ Vec2f Aperture::at(const Vec2f& u) const {
   return (corner(side) * (root * (1 - rest)) + corner(side + 1) * (root * rest)) * radius_;
 }
 
-std::vector<Parameter> blade_parameters() {
-  return {integer_parameter("blades", 0, "Sides of the aperture; 0: round.").range(0, 100),
+std::vector<Parameter> lens_parameters(Parameter aperture_radius) {
+  return {aperture_radius.range(0, 1e6).in("m"),
+          number_parameter("focus_distance", 1e4, "How far away the picture is sharp.")
+              .range(1e-6, 1e12)
+              .in("m"),
+          integer_parameter("blades", 0, "Sides of the aperture; 0: round.").range(0, 100),
           number_parameter("blade_rotation", 0, "Turns an aperture with blades.")
               .range(-360, 360)
               .in("degrees")};

@@ -25,7 +25,8 @@ class Aperture {
   float blade_angle_ = 0;  ///< of the polygon's first corner, radians
 };
 
-/// The rows blades and blade_rotation.
-std::vector<Parameter> blade_parameters();
+/// The rows of a camera with a lens: `aperture_radius` by its default and sentence, focus_distance,
+/// blades and blade_rotation.
+std::vector<Parameter> lens_parameters(Parameter aperture_radius);
 
 }  // namespace kaustik

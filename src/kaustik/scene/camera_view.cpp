@@ -137,4 +137,13 @@ TypeInfo camera_info(const std::string& name, const std::string& sentence,
   return {"sensor", name, sentence, std::move(rows)};
 }
 
+TypeInfo placed_camera_info(const std::string& name, const std::string& sentence,
+                            std::vector<Parameter> own_rows, std::vector<Parameter> view_rows) {
+  std::vector<Parameter> rows = {to_world_parameter("From the camera's space to the world.")};
+  for (auto* some : {&own_rows, &view_rows})
+    rows.insert(rows.end(), std::make_move_iterator(some->begin()),
+                std::make_move_iterator(some->end()));
+  return camera_info(name, sentence, std::move(rows));
+}
+
 }  // namespace kaustik

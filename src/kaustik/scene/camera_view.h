@@ -188,5 +188,9 @@ std::vector<Parameter> ignored_camera_parameters();
 /// The table of a type of camera: its rows, and those that all have.
 TypeInfo camera_info(const std::string& name, const std::string& sentence,
                      std::vector<Parameter> rows);
+/// The same of one that `to_world` places: that row, its own, and those that say what it sees.
+TypeInfo placed_camera_info(const std::string& name, const std::string& sentence,
+                            std::vector<Parameter> own_rows,
+                            std::vector<Parameter> view_rows = clip_parameters());
 
 }  // namespace kaustik

@@ -142,23 +142,18 @@ class Fisheye final : public Camera {
 };
 
 const TypeInfo& fisheye_info() {
-  static const TypeInfo info = [] {
-    std::vector<Parameter> rows = {
-        to_world_parameter("From the camera's space to the world."),
-        choice_parameter("mapping", "equidistant",
-                         {"equidistant", "equisolid", "stereographic", "hemispherical"},
-                         "Where in the circle an angle from the direction of view is seen: "
-                         "proportional to the angle; so that equal areas are equal solid angles; "
-                         "so that shapes are kept; as the hemisphere is seen from afar."),
-        number_parameter("fov", 180, "Field of view, from rim to rim.")
-            .range(1e-2, 360)
-            .in("degrees")};
-    for (Parameter& row : clip_parameters()) rows.push_back(std::move(row));
-    return camera_info("fisheye",
-                       "Camera that shows all within an angle of its direction of view in a "
-                       "circle, as wide as the picture's shorter side; black outside.",
-                       std::move(rows));
-  }();
+  static const TypeInfo info = placed_camera_info(
+      "fisheye",
+      "Camera that shows all within an angle of its direction of view in a circle, as wide as the "
+      "picture's shorter side; black outside.",
+      {choice_parameter("mapping", "equidistant",
+                        {"equidistant", "equisolid", "stereographic", "hemispherical"},
+                        "Where in the circle an angle from the direction of view is seen: "
+                        "proportional to the angle; so that equal areas are equal solid angles; "
+                        "so that shapes are kept; as the hemisphere is seen from afar."),
+       number_parameter("fov", 180, "Field of view, from rim to rim.")
+           .range(1e-2, 360)
+           .in("degrees")});
   return info;
 }
 

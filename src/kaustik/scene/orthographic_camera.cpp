@@ -50,15 +50,11 @@ class Orthographic final : public Camera {
 };
 
 const TypeInfo& orthographic_info() {
-  static const TypeInfo info = [] {
-    std::vector<Parameter> rows = {to_world_parameter("From the camera's space to the world.")};
-    for (Parameter& row : clip_parameters()) rows.push_back(std::move(row));
-    rows.push_back(ignored_parameter("focus_distance", ParameterKind::number));
-    return camera_info("orthographic",
-                       "Camera that sees along parallel lines; the scale of to_world is half of "
-                       "the picture's width.",
-                       std::move(rows));
-  }();
+  static const TypeInfo info =
+      placed_camera_info("orthographic",
+                         "Camera that sees along parallel lines; the scale of to_world is half of "
+                         "the picture's width.",
+                         {ignored_parameter("focus_distance", ParameterKind::number)});
   return info;
 }
 

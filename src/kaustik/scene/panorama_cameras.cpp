@@ -139,31 +139,22 @@ class CylinderCamera final : public Panorama {
 };
 
 const TypeInfo& spherical_camera_info() {
-  static const TypeInfo info = [] {
-    std::vector<Parameter> rows = {to_world_parameter("From the camera's space to the world.")};
-    for (Parameter& row : clip_parameters()) rows.push_back(std::move(row));
-    return camera_info("spherical",
-                       "Camera that shows all directions by longitude and latitude, best in a "
-                       "picture twice as wide as high; the middle looks along +z, up is +y.",
-                       std::move(rows));
-  }();
+  static const TypeInfo info = placed_camera_info(
+      "spherical",
+      "Camera that shows all directions by longitude and latitude, best in a picture twice as wide "
+      "as high; the middle looks along +z, up is +y.",
+      {});
   return info;
 }
 
 const TypeInfo& cylinder_camera_info() {
-  static const TypeInfo info = [] {
-    std::vector<Parameter> rows = {
-        to_world_parameter("From the camera's space to the world."),
-        number_parameter("fov", 360, "Field of view along the picture's width.")
-            .range(1e-2, 360)
-            .in("degrees")};
-    for (Parameter& row : clip_parameters()) rows.push_back(std::move(row));
-    return camera_info("cylinder",
-                       "Camera that shows what is around an upright axis on a cylinder, unrolled; "
-                       "the middle looks along +z, up is +y, and pixels on the horizon are as "
-                       "wide as high.",
-                       std::move(rows));
-  }();
+  static const TypeInfo info = placed_camera_info(
+      "cylinder",
+      "Camera that shows what is around an upright axis on a cylinder, unrolled; the middle looks "
+      "along +z, up is +y, and pixels on the horizon are as wide as high.",
+      {number_parameter("fov", 360, "Field of view along the picture's width.")
+           .range(1e-2, 360)
+           .in("degrees")});
   return info;
 }
 

@@ -24,16 +24,10 @@ class Perspective final : public Camera {
 };
 
 const TypeInfo& perspective_info() {
-  static const TypeInfo info = [] {
-    std::vector<Parameter> rows = {to_world_parameter("From the camera's space to the world.")};
-    for (Parameter& row : straight_view_parameters()) rows.push_back(std::move(row));
-    rows.push_back(ignored_parameter("focus_distance", ParameterKind::number));
-    return camera_info(
-        "perspective",
-        "Pinhole camera that looks along +z of its own space; +x points to the left of the "
-        "picture.",
-        std::move(rows));
-  }();
+  static const TypeInfo info = placed_camera_info(
+      "perspective",
+      "Pinhole camera that looks along +z of its own space; +x points to the left of the picture.",
+      {ignored_parameter("focus_distance", ParameterKind::number)}, straight_view_parameters());
   return info;
 }
 

@@ -67,22 +67,10 @@ class Telecentric final : public Camera {
 };
 
 const TypeInfo& telecentric_info() {
-  static const TypeInfo info = [] {
-    std::vector<Parameter> rows = {
-        to_world_parameter("From the camera's space to the world."),
-        number_parameter("aperture_radius", 0, "Radius of the lens, in the world.")
-            .range(0, 1e6)
-            .in("m"),
-        number_parameter("focus_distance", 1e4, "How far away the picture is sharp.")
-            .range(1e-6, 1e12)
-            .in("m")};
-    for (Parameter& row : blade_parameters()) rows.push_back(std::move(row));
-    for (Parameter& row : clip_parameters()) rows.push_back(std::move(row));
-    return camera_info("telecentric",
-                       "Orthographic camera with a lens: what is nearer or farther than "
-                       "focus_distance is blurred.",
-                       std::move(rows));
-  }();
+  static const TypeInfo info = placed_camera_info(
+      "telecentric",
+      "Orthographic camera with a lens: what is nearer or farther than focus_distance is blurred.",
+      lens_parameters(number_parameter("aperture_radius", 0, "Radius of the lens, in the world.")));
   return info;
 }
 

@@ -47,21 +47,11 @@ CameraConnection ThinLens::connect(const Vec3f& point, const LensNumbers& number
 }
 
 const TypeInfo& thin_lens_info() {
-  static const TypeInfo info = [] {
-    std::vector<Parameter> rows = {
-        to_world_parameter("From the camera's space to the world."),
-        required(
-            number_parameter("aperture_radius", 0.01, "Radius of the lens.").range(0, 1e6).in("m")),
-        number_parameter("focus_distance", 1e4, "How far away the picture is sharp.")
-            .range(1e-6, 1e12)
-            .in("m")};
-    for (Parameter& row : blade_parameters()) rows.push_back(std::move(row));
-    for (Parameter& row : straight_view_parameters()) rows.push_back(std::move(row));
-    return camera_info(
-        "thinlens",
-        "Camera with a thin lens: what is nearer or farther than focus_distance is blurred.",
-        std::move(rows));
-  }();
+  static const TypeInfo info = placed_camera_info(
+      "thinlens",
+      "Camera with a thin lens: what is nearer or farther than focus_distance is blurred.",
+      lens_parameters(required(number_parameter("aperture_radius", 0.01, "Radius of the lens."))),
+      straight_view_parameters());
   return info;
 }
 
