@@ -133,6 +133,7 @@ const SpectralCurve& Reader::curve_of(const std::string& path, const Place& plac
   const auto known = curves_.find(path);
   if (known != curves_.end()) return known->second;
   try {
+    ++counts_.files;
     const SpectralCurve& curve = curves_[path] = read_spectrum_file(path);
     sources_.insert(path);
     budget_.allow(2 * bytes_of(curve));
