@@ -64,6 +64,7 @@ constexpr OwnParameter own_parameters[] = {{"bsdf", "dielectric", "priority"},
                                            {"emitter", "area", "scale"},
                                            {"emitter", "area", "two_sided"},
                                            {"emitter", "spot", "falloff"},
+                                           {"emitter", "envmap", "gamma"},
                                            {"emitter", "", "attenuation"},
                                            {"emitter", "", "visible"},
                                            {"sensor", "thinlens", "blades"},
@@ -159,6 +160,7 @@ class Translator {
     if (object.family == "integrator") change_integrator(object);
     if (object.family == "medium" && object.type == "homogeneous") use_extinction(object);
     if (object.family == "emitter") use_sunsky(object);
+    if (object.type == "rectangle" || object.type == "disk") give_depth(object);
     leave_out_parameters(object);
     name_what_is_unknown(object);
   }
@@ -240,6 +242,22 @@ class Translator {
     medium.properties.push_back(
         {"albedo",
          Rgb{share(s.r, extinction.r), share(s.g, extinction.g), share(s.b, extinction.b)}, place});
+  }
+
+  /// Mitsuba 3 inverts to_world, and what lies in z = 0 stays the same whatever becomes of z.
+  static void give_depth(Object& shape) {
+    Property* property = find_property(shape, "to_world");
+    auto* to_world = property ? std::get_if<Transform>(&property->value) : nullptr;
+    if (!to_world || to_world->dimensions() != 2) return;
+    const auto column = [&](int j) {
+      return Vec3d(to_world->at(0, j), to_world->at(1, j), to_world->at(2, j));
+    };
+    const Vec3d normal = column(0).cross(column(1));
+    double rows[4][4];
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) rows[i][j] = to_world->at(i, j);
+    for (int i = 0; i < 3; ++i) rows[i][2] = normal.length() > 0 ? normal[i] / normal.length() : 0;
+    *to_world = Transform::collapsing(rows);
   }
 
   void use_sunsky(Object& emitter) {

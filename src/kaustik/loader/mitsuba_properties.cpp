@@ -170,7 +170,12 @@ Transform Reader::transform_of(const Element& element, const Source& source) {
     }
     if (!check_attributes(*operation, transform_rule(*operation, source.version))) continue;
     try {
-      transform = followed_by(transform, parse_transform_operation(*operation));
+      if (!is_strict_ && turns_nothing(*operation)) {
+        leave_out("rotation", "a <rotate> without an axis turns nothing: it is left out",
+                  operation->place);
+        continue;
+      }
+      transform = followed_by(transform, parse_transform_operation(*operation, !is_strict_));
     } catch (const BadValue& bad) {
       add(problems_, bad, operation->place);
     }

@@ -91,11 +91,8 @@ const TypeInfo& bitmap_info() {
            boolean_parameter("raw", false,
                              "Take values as they are stored, as linear ones: for normals, "
                              "roughness and the like."),
-           number_parameter("gamma", 0,
-                            "How stored values become linear: by this power; 1: as with raw; -1: "
-                            "they are sRGB encoded; 0: as is usual for the kind of file.")
-               .range(-1, 10),
-           transform_parameter("to_uv", "Applied to the coordinates before the lookup."),
+           gamma_parameter(),
+           transform_parameter("to_uv", "Applied to the coordinates before the lookup.").leaving(0),
            ignored_parameter("format", ParameterKind::text),
            ignored_parameter("accel", ParameterKind::boolean),
            ignored_parameter("cache", ParameterKind::boolean),
@@ -133,11 +130,8 @@ Wraps wraps_of(const Arguments& arguments) {
 }
 
 /// See PictureWish::gamma.
-double gamma_of(const Arguments& arguments) {
-  const double gamma = arguments.number("gamma");
-  if (gamma < 0 && gamma != -1)
-    throw Error(ErrorKind::input, fmt::format("'gamma' is {}", gamma),
-                "give a power above 0, or -1 for sRGB", arguments.place_of("gamma"));
+double gamma_of_texels(const Arguments& arguments) {
+  const double gamma = gamma_of(arguments);
   if (!arguments.boolean("raw")) return gamma;
   if (gamma != 0 && gamma != 1)
     throw Error(ErrorKind::input, "the bitmap has 'gamma', and 'raw' says that it is linear",
@@ -147,8 +141,8 @@ double gamma_of(const Arguments& arguments) {
 
 std::shared_ptr<const Texture> create_bitmap(const TextureInputs& in) {
   const Arguments& arguments = in.arguments;
-  Texels texels = texels_of(in.pictures.read(arguments, bytes_per_pixel,
-                                             {gamma_of(arguments), arguments.text("channel")}));
+  Texels texels = texels_of(in.pictures.read(
+      arguments, bytes_per_pixel, {gamma_of_texels(arguments), arguments.text("channel")}));
   const Wraps wraps = wraps_of(arguments);
   if (wraps.u == Wrap::one || wraps.v == Wrap::one) texels.maximum = std::max(texels.maximum, 1.0f);
   return std::make_shared<Bitmap>(

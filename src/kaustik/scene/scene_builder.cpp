@@ -11,10 +11,10 @@
 #include "kaustik/base/spectral_value.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/find_row.h"
-#include "kaustik/scene/foreign_shapes.h"
 #include "kaustik/scene/shape_attribute.h"
 #include "kaustik/scene/spectrum_types.h"
 #include "kaustik/scene/type_tables.h"
+#include "kaustik/scene/types_to_come.h"
 
 namespace kaustik {
 namespace {
@@ -23,6 +23,23 @@ std::string display_name(const Object& object) {
   if (!object.id.empty()) return object.id;
   const std::string name = fmt::format("{} '{}'", object.family, object.type);
   return object.place.line > 0 ? fmt::format("{} on line {}", name, object.place.line) : name;
+}
+
+/// Of the row `to_world`, as far as it is one; 3 where there is none.
+int dimensions_left(const Object& object) {
+  for (const Property& property : object.properties)
+    if (const auto* to_world = std::get_if<Transform>(&property.value);
+        to_world && property.name == "to_world")
+      return to_world->dimensions();
+  return 3;
+}
+
+/// Whether nothing is left of a shape that has been flattened.
+bool is_line(const Shape& shape) {
+  constexpr double nothing = 1e-9;  // beside the square of its extent
+  const Bounds3f bounds = shape.bounds();
+  const Vec3f size = bounds.isEmpty() ? Vec3f(0, 0, 0) : bounds.max - bounds.min;
+  return !(double(shape.area()) > nothing * sqr(double(length(size))));
 }
 
 std::vector<std::string> texture_parameters(const TypeInfo& info) {
@@ -42,6 +59,11 @@ std::vector<std::string> texture_names() {
   std::vector<std::string> names = names_of(texture_types());
   for (const SpectrumType& spectrum : spectrum_types()) names.push_back(spectrum.info.name);
   return names;
+}
+
+std::string takes_no_texture(const Object& object, const std::string& name) {
+  return fmt::format("{} '{}' takes no texture {}", object.family, object.type,
+                     name.empty() ? "without a name" : fmt::format("'{}'", name));
 }
 
 /// The parameter that a texture `name` stands for; null if there is none. Where a texture is all
@@ -106,7 +128,9 @@ std::string remedy_for_nested(const BsdfType& type) {
   if (type.maximum_nested == 0) return "take them out: it holds none";
   if (type.minimum_nested == type.maximum_nested)
     return fmt::format("give it {}", type.minimum_nested);
-  return fmt::format("give it {} to {}", type.minimum_nested, type.maximum_nested);
+  return fmt::format("give it {} {} {}", type.minimum_nested,
+                     type.minimum_nested + 1 == type.maximum_nested ? "or" : "to",
+                     type.maximum_nested);
 }
 
 /// See TextureOfParameter; valid as long as the two are.
@@ -223,10 +247,7 @@ bool SceneBuilder::leaves_out_texture(const Object& object, const TypeInfo& info
   if (row && mean_instead_of(info, child)) return true;
   if (!row && !nearest_name(child.name, texture_parameters(info)).empty()) return false;
   if (left_out_.insert(child.object.get()).second)
-    unknown_.add(
-        fmt::format("{} '{}' takes no texture {}: it is left out", object.family, object.type,
-                    child.name.empty() ? "without a name" : fmt::format("'{}'", child.name)),
-        child.object->place);
+    unknown_.add(takes_no_texture(object, child.name) + ": it is left out", child.object->place);
   return true;
 }
 
@@ -282,15 +303,33 @@ void SceneBuilder::unknown_type(const Object& object, const std::vector<std::str
                 suggest(object.type, valid), object.place);
 }
 
+void SceneBuilder::not_here_yet(const Object& object) {
+  problems_.add(fmt::format("there is no {} '{}' here yet", object.family, object.type),
+                remedy_for_type_to_come(object).value_or(""), object.place);
+}
+
 bool SceneBuilder::is_foreign(const Object& object, const std::vector<std::string>& valid) const {
   return !is_strict_ && nearest_name(object.type, valid).empty();
 }
 
 void SceneBuilder::leave_out(const Object& object, const std::string& consequence) {
   if (!left_out_.insert(&object).second) return;
-  unknown_.add(
-      fmt::format("Kaustik does not know {} '{}': {}", object.family, object.type, consequence),
-      object.place);
+  const std::optional<std::string> remedy = remedy_for_type_to_come(object);
+  const std::string what = fmt::format("{} '{}'", object.family, object.type);
+  unknown_.add(fmt::format("{}: {}{}",
+                           remedy ? fmt::format("there is no {} here yet", what)
+                                  : fmt::format("Kaustik does not know {}", what),
+                           consequence, remedy && !remedy->empty() ? "; " + *remedy : ""),
+               object.place);
+}
+
+void SceneBuilder::leave_out_flat(const Object& shape) {
+  const std::string message =
+      fmt::format("'to_world' of shape '{}' leaves nothing of it", shape.type);
+  if (is_strict_)
+    problems_.add(message, "give no factor of 0", shape.place);
+  else if (left_out_.insert(&shape).second)
+    unknown_.add(message + ": it is left out", shape.place);
 }
 
 void SceneBuilder::told_unless_strict(const std::string& message, const std::string& remedy,
@@ -430,17 +469,22 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   if (!type) {
     std::vector<std::string> valid = names_of(shape_types());
     valid.insert(valid.end(), {shapegroup_info().name, instance_info().name, merge_info().name});
-    const std::string remedy = remedy_for_foreign_shape(object.type);
-    if (is_foreign(object, valid) || (!is_strict_ && !remedy.empty()))
-      leave_out(object, remedy.empty() ? "it is left out" : "it is left out; " + remedy);
-    else if (!remedy.empty())
-      problems_.add(fmt::format("there is no shape '{}' here yet", object.type), remedy,
-                    object.place);
+    const bool is_to_come = remedy_for_type_to_come(object).has_value();
+    if (is_foreign(object, valid) || (!is_strict_ && is_to_come))
+      leave_out(object, "it is left out");
+    else if (is_to_come)
+      not_here_yet(object);
     else
       unknown_type(object, valid);
     return std::nullopt;
   }
   refuse_children(object, {"bsdf", "emitter", "integrator", "medium", "sensor", "texture"});
+  const Parameter* placing = type->info.find("to_world");
+  const int dimensions = dimensions_left(object);
+  if (placing && dimensions < placing->least_dimensions) {
+    leave_out_flat(object);
+    return std::nullopt;
+  }
   const std::optional<Object> described = with_heights(object, type->info);
   if (!described) return std::nullopt;
   BuiltShape built;
@@ -450,8 +494,13 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   if (arguments.is_complete())
     collecting(source_place(arguments), [&] {
       built.shape = shape_of(object, *type, arguments);
-      check_size(*built.shape, source_place(arguments));
+      if (dimensions == 3 || !is_line(*built.shape))
+        check_size(*built.shape, source_place(arguments));
     });
+  if (built.shape && dimensions < 3 && is_line(*built.shape)) {
+    leave_out_flat(object);
+    return std::nullopt;
+  }
   int bsdf_count = 0;
   for (const Child& child : object.children) {
     if (child.object->family == "bsdf") {
@@ -520,8 +569,18 @@ uint32_t SceneBuilder::group_index(const std::shared_ptr<Object>& group) {
 }
 
 void SceneBuilder::add_instance(const Object& object) {
+  if (dimensions_left(object) < 3) return leave_out_flat(object);
   const Arguments arguments = arguments_of(instance_info(), object);
-  refuse_children(object, {"shape"});
+  std::vector<std::string> families = {"shape"};
+  const auto bsdf = std::find_if(object.children.begin(), object.children.end(),
+                                 [](const Child& child) { return child.object->family == "bsdf"; });
+  if (bsdf != object.children.end() && !is_strict_) {
+    families.emplace_back("bsdf");
+    if (left_out_.insert(&object).second)
+      unknown_.add("a bsdf in an instance has no effect: the shapes of its group have theirs",
+                   bsdf->object->place);
+  }
+  refuse_children(object, families);
   std::vector<std::shared_ptr<Object>> shapes;
   for (const Child& child : object.children)
     if (child.object->family == "shape") shapes.push_back(child.object);
@@ -643,9 +702,8 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
     }
     if (!parameter && leaves_out_texture(object, info, child)) continue;
     if (!parameter) {
-      problems_.add(
-          fmt::format("{} '{}' takes no texture '{}'", object.family, object.type, child.name),
-          valid.empty() ? "remove it" : suggest(child.name, valid), child.object->place);
+      problems_.add(takes_no_texture(object, child.name),
+                    valid.empty() ? "remove it" : suggest(child.name, valid), child.object->place);
       continue;
     }
     const std::shared_ptr<Object>& given = texture_within(child.object);
@@ -675,12 +733,12 @@ std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object
 std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, const BuiltShape* on) {
   const BsdfType* type = find_row(bsdf_types(), object.type);
   if (!type) {
-    const std::string remedy(remedy_for_bsdf_to_come(object.type));
-    if (!remedy.empty() && is_strict_) {
-      problems_.add(fmt::format("bsdf '{}' is not here yet", object.type), remedy, object.place);
+    const bool is_to_come = remedy_for_type_to_come(object).has_value();
+    if (is_to_come && is_strict_) {
+      not_here_yet(object);
       return nullptr;
     }
-    if (!remedy.empty() || is_foreign(object, names_of(bsdf_types())))
+    if (is_to_come || is_foreign(object, names_of(bsdf_types())))
       return bsdf_instead_of(object, on);
     unknown_type(object, names_of(bsdf_types()));
     return nullptr;
