@@ -27,7 +27,16 @@ struct ConvertOptions {
 /// A scene is somebody's work: without --force it is not replaced.
 bool is_any_file(const std::string&) { return true; }
 
+/// Another suffix promises another format.
+void check_suffix(const std::string& output) {
+  const std::string suffix = std::filesystem::path(output).extension().string();
+  if (suffix.empty() || suffix == ".xml") return;
+  throw Error(ErrorKind::input, fmt::format("'{}' is not the name of an XML file", output),
+              "scenes are written as Mitsuba 3's XML: let the name end in .xml");
+}
+
 void convert(const ConvertOptions& options) {
+  check_suffix(options.output);
   FileRoles roles;
   roles.reads_scene(options.scene);
   roles.writes(options.output, {"a file with contents", is_any_file},
