@@ -1,7 +1,11 @@
 // Scenes that Mitsuba takes, or that hold what a dialect adds: they are built, with one warning for
 // what is not quite as they say.
 
+#include <fstream>
+#include <vector>
+
 #include "tests/scene/scene_support.h"
+#include "tests/support/temporary_folder.h"
 
 namespace kaustik {
 namespace {
@@ -120,6 +124,21 @@ TEST(Leniency, NumbersBeyondTheirRangesAreTakenToItsEnds) {
        "'roughness'");
   told(a_ball("<bsdf type=\"phong\"><float name=\"exponent\" value=\"1e9\"/></bsdf>"),
        "'exponent'");
+  told(a_ball("<bsdf type=\"principled\"><float name=\"specular\" value=\"20\"/></bsdf>"),
+       "'specular' of bsdf 'principled' is beyond its range: 12 is taken");
+  EXPECT_TRUE(
+      scene_of(a_ball("<bsdf type=\"principled\"><float name=\"specular\" value=\"1.5\"/></bsdf>"))
+          ->warnings()
+          .empty());
+  told(a_ball("<bsdf type=\"principledthin\"><float name=\"diff_trans\" value=\"3\"/></bsdf>"),
+       "2 is taken");
+  told(a_ball("<bsdf type=\"roughplastic\"><float name=\"alpha\" value=\"-1\"/></bsdf>"),
+       "0 is taken");
+  told(a_ball("<bsdf type=\"roughdiffuse\"><float name=\"alpha\" value=\"20\"/></bsdf>"),
+       "10 is taken");
+  told(a_camera + std::string(any_shape) +
+           "<emitter type=\"sky\"><float name=\"turbidity\" value=\"20\"/></emitter>",
+       "'turbidity' of emitter 'sky' is beyond its range: 10 is taken");
   // A radius is what it is.
   expect_problem(
       a_camera + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>", "3:22",
@@ -269,11 +288,29 @@ TEST(Leniency, ParametersWithoutEffect) {
   }
 }
 
+// As in Mitsuba 0.6.
+TEST(Leniency, EnvironmentsWithAGamma) {
+  const TemporaryFolder folder;
+  std::ofstream picture(folder.path("sky.pfm"), std::ios::binary);
+  picture << "PF\n4 2\n-1.0\n";
+  const std::vector<float> values(4 * 2 * 3, 0.25f);
+  picture.write(reinterpret_cast<const char*>(values.data()),
+                std::streamsize(values.size() * sizeof(float)));
+  picture.close();
+  const auto power = [&](const std::string& gamma) {
+    const auto scene = scene_of(a_camera + any_shape +
+                                "<emitter type=\"envmap\"><string name=\"filename\" value=\"" +
+                                folder.path("sky.pfm") + "\"/>" + gamma + "</emitter>");
+    return scene->lights().at(0)->traits().power[1];
+  };
+  EXPECT_NEAR(power("<float name=\"gamma\" value=\"2\"/>") / power(""), 0.25f, 1e-5f);
+}
+
 TEST(Leniency, TypesOfMitsubaThatAreToCome) {
   told(a_ball("<bsdf type=\"hair\"/>"),
        "there is no bsdf 'hair' here yet: a matt surface stands for it; use 'principled'");
   told(a_camera + std::string(any_shape) + "<shape type=\"bsplinecurve\"/>",
-       "there is no shape 'bsplinecurve' here yet: it is left out; leave the curves out");
+       "there is no shape 'bsplinecurve' here yet: it is left out; export the curves");
   told(a_camera + std::string(any_shape) + "<emitter type=\"collimated\"/>",
        "there is no emitter 'collimated' here yet: it is left out; use a 'spot'");
 }

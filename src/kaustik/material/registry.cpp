@@ -19,7 +19,7 @@ std::string_view remedy_for_bsdf_to_come(std::string_view type) {
     std::string_view type, remedy;
   };
   static constexpr Row rows[] = {
-      {"hair", "use 'principled' or 'roughplastic', or leave the hair out"},
+      {"hair", "use 'principled' or 'roughplastic'"},
       {"measured", "use 'principled' or 'roughconductor' with a like colour"},
       {"measured_polarized", "light is not polarised; use 'principled' with a like colour"},
       {"bsdfdata", "use 'thinphong' with its mean reflectance and transmittance"},

@@ -19,6 +19,11 @@ constexpr int maximum_phase_levels = 6;
 constexpr int levels_of_mixture = 3;
 constexpr size_t most_phases_of_mixture = 16;
 
+std::string takes_no_volume(const Object& object, const std::string& name) {
+  return fmt::format("{} '{}' takes no volume {}", object.family, object.type,
+                     name.empty() ? "without a name" : fmt::format("'{}'", name));
+}
+
 std::vector<std::string> volume_parameters(const TypeInfo& info) {
   std::vector<std::string> names;
   for (const Parameter& row : info.parameters)
@@ -174,15 +179,11 @@ std::optional<SceneBuilder::Volumes> SceneBuilder::volumes_of(const Object& obje
     const bool is_taken = std::find(valid.begin(), valid.end(), child.name) != valid.end();
     if (!is_taken && !is_strict_ && nearest_name(child.name, valid).empty()) {
       if (left_out_.insert(child.object.get()).second)
-        unknown_.add(fmt::format("{} '{}' takes no volume '{}': it is left out", object.family,
-                                 object.type, child.name),
-                     place);
+        unknown_.add(takes_no_volume(object, child.name) + ": it is left out", place);
       continue;
     }
     if (!is_taken) {
-      problems_.add(
-          fmt::format("{} '{}' takes no volume '{}'", object.family, object.type, child.name),
-          suggest(child.name, valid), place);
+      problems_.add(takes_no_volume(object, child.name), suggest(child.name, valid), place);
       continue;
     }
     const std::shared_ptr<Object>* known = volume_instead_of(child.object);

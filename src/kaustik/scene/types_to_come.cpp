@@ -11,9 +11,8 @@ struct Row {
   std::string_view family, type, remedy;
 };
 
-constexpr std::string_view curves = "leave the curves out, or export them as a mesh of tubes (ply)";
-constexpr std::string_view ellipsoids =
-    "leave them out; some few can be spheres, each with a to_world of its own";
+constexpr std::string_view curves = "export the curves as a mesh of tubes (ply)";
+constexpr std::string_view ellipsoids = "some few can be spheres, each with a to_world of its own";
 constexpr Row rows[] = {
     {"shape", "bsplinecurve", curves},
     {"shape", "linearcurve", curves},
