@@ -67,7 +67,16 @@ std::vector<uint8_t> contents_of(const FileToWrite& file) {
   return std::move(mesh.file);
 }
 
+/// Another suffix promises another format.
+void check_suffix(const std::string& output) {
+  const std::string suffix = std::filesystem::path(output).extension().string();
+  if (suffix.empty() || suffix == ".xml") return;
+  throw Error(ErrorKind::input, fmt::format("'{}' is not the name of an XML file", output),
+              "scenes are written as Mitsuba 3's XML: let the name end in .xml");
+}
+
 void convert(const ConvertOptions& options) {
+  check_suffix(options.output);
   FileRoles roles;
   const auto writes = [&](const std::string& path) {
     roles.writes(path, {"a file with contents", is_any_file},

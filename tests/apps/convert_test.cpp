@@ -59,6 +59,9 @@ TEST_F(Convert, WritesTheSameScene) {
   run_well({"render", "old.xml", "--spp", "4", "-o", "old.exr"});
   run_well({"render", "new.xml", "--spp", "4", "-o", "new.exr"});
   EXPECT_TRUE(same_pixels("old.exr", "new.exr"));
+  const RunResult other = run({"convert", "old.xml", "-o", "new.obj"});
+  EXPECT_TRUE(contains(other.err, "'new.obj' is not the name of an XML file")) << other.err;
+  EXPECT_EQ(other.exit_code, 2);
   // A scene is not replaced by mistake, and never by itself.
   EXPECT_TRUE(contains(run({"convert", "old.xml", "-o", "new.xml"}).err, "--force"));
   run_well({"convert", "old.xml", "-o", "new.xml", "--force"});

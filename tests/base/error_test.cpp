@@ -86,6 +86,7 @@ TEST(nearest_name, becomes_a_remedy) {
   EXPECT_EQ(suggest("radios", {"radius", "center"}),
             "did you mean 'radius'? Valid: radius, center");
   EXPECT_EQ(suggest("zzzzzz", {"radius", "center"}), "Valid: radius, center");
+  EXPECT_EQ(suggest("radios", {}), "there are none to choose from");
 }
 
 }  // namespace

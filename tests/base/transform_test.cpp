@@ -101,5 +101,50 @@ TEST(vectors, reflect_about_a_normal) {
   expect_near(reflect(Vec3f(1, 2, 3), {0, 0, 1}), {-1, -2, 3});
 }
 
+// A factor of zero along some axis: points fall into a plane, and normals stand on it.
+TEST(transform, flattens) {
+  const Transform turn = Transform::rotate({1, 2, 3}, 40);
+  for (const Vec3d& factors : {Vec3d(2, 3, 0), Vec3d(-2, 0, 3), Vec3d(0, 0.01, 300)}) {
+    const Transform flat = Transform::collapsing(
+        {{factors.x, 0, 0, 0}, {0, factors.y, 0, 0}, {0, 0, factors.z, 5}, {0, 0, 0, 1}});
+    EXPECT_EQ(flat.dimensions(), 2);
+    EXPECT_EQ(flat.determinant3(), 0);
+    const Vec3f p(1, 2, 3);
+    expect_near(flat.point(p),
+                Vec3f(p.x * float(factors.x), p.y * float(factors.y), p.z * float(factors.z) + 5));
+    const Transform turned = Transform::translate({1, 1, 1}) * turn * flat * turn;
+    EXPECT_EQ(turned.dimensions(), 2);
+    const Vec3f s = turned.vector({1, 0, 0}), t = turned.vector({0, 1, 0}),
+                u = turned.vector({0, 0, 1});
+    const Vec3f n = normalize(turned.normal({0.5f, 0.7f, 0.3f}));
+    for (const Vec3f& along : {s, t, u}) EXPECT_NEAR(dot(n, along), 0, 1e-4f * length(along));
+  }
+}
+
+// The plane is seen from the side from which the flat thing was.
+TEST(transform, flattened_frames_stay_right_handed) {
+  for (const double x : {1.0, -1.0}) {
+    const Transform flat =
+        Transform::collapsing({{x, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}});
+    const Vec3f side = flat.vector({1, 0, 0}) % flat.vector({0, 1, 0});
+    expect_near(normalize(flat.normal({0, 0, 1})), side);
+  }
+}
+
+TEST(transform, dimensions_that_are_left) {
+  const auto of = [](double x, double y, double z) {
+    return Transform::collapsing({{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, z, 0}, {0, 0, 0, 1}});
+  };
+  EXPECT_EQ(of(0, 0, 0).dimensions(), 0);
+  EXPECT_EQ(of(1, 0, 0).dimensions(), 1);
+  EXPECT_EQ(of(1e-9, 2, 1e-12).dimensions(), 3);
+  EXPECT_EQ(of(1e-9, 2, 1e-12), Transform::scale({1e-9, 2, 1e-12}));
+  EXPECT_EQ((of(1, 1, 0) * Transform::rotate({1, 0, 0}, 90) * of(1, 1, 0)).dimensions(), 1);
+  EXPECT_EQ((of(1, 1, 0) * of(1, 1, 0)).dimensions(), 2);
+  EXPECT_THROW(Transform::collapsing({{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 1, 0}}),
+               std::invalid_argument);
+  EXPECT_THROW(Transform::scale({1, 1, 0}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace kaustik

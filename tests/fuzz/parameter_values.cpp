@@ -147,7 +147,8 @@ std::string ParameterValues::wild_transform_step() {
   switch (draw_.below(4)) {
     case 0: {
       const auto one = [&] {
-        return draw_.chance(0.1) ? wild_number() : draw_.one_of({0.5, 1.0, 2.0, -1.0, 0.001, 50.0});
+        return draw_.chance(0.1) ? wild_number()
+                                 : draw_.one_of({0.5, 1.0, 2.0, -1.0, 0.001, 50.0, 0.0});
       };
       const double x = one(), y = one(), z = one();
       return fmt::format("<scale value=\"{:.6g}, {:.6g}, {:.6g}\"/>", x, y, z);

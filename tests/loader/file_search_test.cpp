@@ -35,6 +35,10 @@ TEST_F(FilesLike, OfOtherComputers) {
   EXPECT_EQ(found("C:\\Users\\me\\Mesh.obj"), "scene/Mesh.obj");
   EXPECT_EQ(found("/home/me/scene/lamp.obj"), "more/lamp.obj");
   EXPECT_EQ(found("\\\\server\\share\\lamp.obj"), "more/lamp.obj");
+  // As deep as they lie there.
+  EXPECT_EQ(found("C:\\Users\\me\\textures\\wood.png"), "scene/Textures/Wood.PNG");
+  EXPECT_EQ(found("/home/me/scene/Textures/Wood.PNG"), "scene/Textures/Wood.PNG");
+  EXPECT_EQ(found("C:\\Users\\me\\..\\Mesh.obj"), "scene/Mesh.obj");
 }
 
 TEST_F(FilesLike, WithoutRegardToCase) {

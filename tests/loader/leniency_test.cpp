@@ -55,5 +55,29 @@ TEST(LoaderLeniency, LimitsOfCurvesByTheirOldNames) {
   EXPECT_EQ(value<double>(curve, "wavelength_max"), 700);
 }
 
+// Mitsuba 3 calls the parameters of the filter A and B.
+TEST(LoaderLeniency, NamesOfMitchellsParameters) {
+  const Description description =
+      parse(in_scene("<rfilter type='mitchell' id='a'><float name='B' value='0.1'/>"
+                     "<float name='A' value='0.2'/></rfilter>"
+                     "<rfilter type='mitchell' id='b'><float name='B' value='0.1'/></rfilter>"));
+  const Object& both = *description.scene->children.at(0).object;
+  EXPECT_EQ(value<double>(both, "B"), 0.2);
+  EXPECT_EQ(value<double>(both, "C"), 0.1);
+  EXPECT_EQ(value<double>(*description.scene->children.at(1).object, "B"), 0.1);
+}
+
+TEST(LoaderLeniency, RotationsWithoutAnAxis) {
+  const std::string text = in_scene(
+      "<shape type='sphere'><transform name='x'><rotate x='0' y='0' z='0' angle='30'/>"
+      "<translate x='1'/></transform></shape>");
+  const Description description = parse(text);
+  EXPECT_EQ(value<Transform>(*description.scene->children.at(0).object, "x"),
+            Transform::translate({1, 0, 0}));
+  ASSERT_EQ(description.warnings.size(), 1u);
+  EXPECT_NE(description.warnings[0].find("turns nothing"), std::string::npos);
+  EXPECT_FALSE(problems_in(text, strict()).empty());
+}
+
 }  // namespace
 }  // namespace kaustik

@@ -225,6 +225,17 @@ TEST(Mitsuba3Terms, DaylightIsPerNanometre) {
   EXPECT_EQ(value<std::string>(*parse(text).scene->children.at(0).object, "units"), "mitsuba");
 }
 
+TEST(Mitsuba3Terms, FlattenedSquaresHaveADepth) {
+  const Mitsuba3Scene scene = translated(
+      "<shape type='rectangle'><transform name='to_world'><scale value='2, 3, 0'/></transform>"
+      "</shape><shape type='cube'><transform name='to_world'><scale value='2, 3, 0'/></transform>"
+      "</shape>");
+  EXPECT_EQ(value<Transform>(first_of(scene), "to_world"), Transform::scale({2, 3, 1}));
+  EXPECT_EQ(
+      value<Transform>(*scene.description.scene->children.at(1).object, "to_world").dimensions(),
+      2);
+}
+
 TEST(Mitsuba3Terms, WhatIsUnknownThereIsNamed) {
   const Mitsuba3Scene scene = translated(
       "<bsdf type='phong'><float name='exponent' value='5'/></bsdf><bsdf type='dielectric'>"

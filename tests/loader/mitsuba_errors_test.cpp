@@ -109,17 +109,33 @@ TEST(MitsubaErrors, Colors) {
   expect_wrong({"<blackbody name='x' temperature='hot'/>", "2:34", "'hot' is not a number", "0.5"});
 }
 
+TEST(MitsubaErrors, TransformsThatCollapse) {
+  LoadOptions strict;
+  strict.is_strict = true;
+  for (const auto& [operation, message] :
+       {std::pair("<scale value='0'/>", "<scale>: matrix is singular"),
+        std::pair("<matrix value='1 0 0 0 1 0 0 0 0'/>", "matrix is singular"),
+        std::pair("<rotate x='0' angle='90'/>", "rotation axis is zero")})
+    expect_problem(problems_in(in_scene("<shape type='s'><transform name='t'>" +
+                                        std::string(operation) + "</transform></shape>"),
+                               strict),
+                   "test.xml:2:37", message, "invertible");
+  // A projection is no place to flatten things.
+  expect_wrong(
+      {"<shape type='s'><transform name='t'><scale value='1, 1, 0'/>\n<matrix value='1 0 0 0 "
+       "0 1 0 0 0 0 1 0 1 0 0 1'/></transform></shape>",
+       "3:1", "the transform cannot be", "beside a projection"});
+}
+
 TEST(MitsubaErrors, Transforms) {
   const auto expect = [](const std::string& operation, const std::string& column,
                          const std::string& message, const std::string& remedy) {
     expect_wrong(
         {"<transform name='t'>\n" + operation + "</transform>", "3:" + column, message, remedy});
   };
-  expect("<scale value='0'/>", "1", "<scale>: matrix is singular", "invertible");
   expect("<translate/>", "1", "<translate> lacks its numbers", "x=");
   expect("<rotate angle='90'/>", "1", "<rotate> lacks its numbers", "x=");
   expect("<rotate x='1'/>", "1", "<rotate> lacks the attribute 'angle'", "angle=");
-  expect("<rotate x='0' angle='90'/>", "1", "rotation axis is zero", "invertible");
   expect("<rotate x='1' angle='9o'/>", "22", "'9o' is not a number", "0.5");
   expect("<matrix value='1 2 3'/>", "16", "the matrix has 3 values", "16 values");
   expect("<lookat origin='1,1,1' target='1,1,1'/>", "1", "origin and target are equal",
@@ -143,9 +159,12 @@ TEST(MitsubaErrors, NamesGivenTwice) {
 }
 
 TEST(MitsubaErrors, OldTexturePlacementWithoutSize) {
-  const auto problems = problems_in(
-      in_scene("<texture type='bitmap'><float name='uscale' value='0'/></texture>", "0.6.0"));
-  expect_problem(problems, "test.xml:2:24", "uscale or vscale", "another scale");
+  const Description description =
+      parse(in_scene("<texture type='bitmap'><float name='uscale' value='0'/></texture>", "0.6.0"));
+  const auto& to_uv = value<Transform>(*description.scene->children.at(0).object, "to_uv");
+  EXPECT_EQ(to_uv.dimensions(), 2);
+  EXPECT_EQ(to_uv.at(0, 0), 0);
+  EXPECT_EQ(to_uv.at(1, 1), 1);
 }
 
 TEST(MitsubaErrors, Ids) {

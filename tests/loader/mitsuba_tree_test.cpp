@@ -251,7 +251,7 @@ TEST(MitsubaTree, OldTypesAndNamesAreUpgraded) {
     return parse(in_scene(inside, version)).scene->children.at(0).object;
   };
   EXPECT_EQ(old("<bsdf type='bump'/>", "0.4.4")->type, "bumpmap");
-  EXPECT_EQ(old("<bsdf type='bump'/>", "0.5.0")->type, "bump");
+  EXPECT_EQ(old("<bsdf type='bump'/>", "0.5.0")->type, "bumpmap");
   const auto glass =
       old("<bsdf type='roughglass'><float name='alphaX' value='1'/></bsdf>", "0.2.1");
   EXPECT_EQ(glass->type, "roughdielectric");

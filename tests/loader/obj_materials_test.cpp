@@ -22,14 +22,19 @@ class ObjMaterials : public testing::Test {
     folder_.write("scene.mtl", library);
   }
   /// The shape shines, or the scene would get a light of its own.
-  Description load(const std::string& given, const std::string& version = "0.6.0") {
+  Description load(const std::string& given, const std::string& version = "0.6.0",
+                   bool is_strict = false, const std::string& searched = "") {
     const std::string lamp = "<emitter type=\"area\"/>";
     const std::string inside = given.find(lamp) == std::string::npos ? given + lamp : given;
+    LoadOptions options;
+    options.is_strict = is_strict;
+    const std::string path = searched.empty() ? "" : "<path value=\"" + searched + "\"/>";
     return parse_mitsuba_xml(
-        in_scene("<shape type=\"obj\" id=\"o\"><string name=\"filename\" value=\"scene.obj\"/>" +
-                     inside + "</shape>",
-                 version),
-        "test.xml", folder_ / "");
+        in_scene(
+            path + "<shape type=\"obj\" id=\"o\"><string name=\"filename\" value=\"scene.obj\"/>" +
+                inside + "</shape>",
+            version),
+        "test.xml", folder_ / "", options);
   }
   TemporaryFolder folder_;
 };
@@ -111,10 +116,50 @@ TEST_F(ObjMaterials, ThatAreMissingAreTold) {
   EXPECT_EQ(load("").scene->children.size(), 1u);  // the reader of the mesh tells
 }
 
+// The search for files of a scene is that for the files that its files name.
+TEST_F(ObjMaterials, AreFoundByNamesOfOtherComputers) {
+  folder_.write("scene.obj",
+                "mtllib C:\\work\\SCENE.MTL\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+  folder_.write("scene.mtl", "newmtl a\nmap_Kd -s 2 2 /home/me/Maps/Wood.tga\n");
+  folder_.write("wood.PNG", "");
+  const Description description = load("");
+  ASSERT_EQ(description.scene->children.size(), 1u);
+  const Object* bsdf = bsdf_of(*description.scene->children[0].object);
+  ASSERT_TRUE(bsdf);
+  ASSERT_EQ(bsdf->children.size(), 1u);
+  EXPECT_EQ(value<std::string>(*bsdf->children[0].object, "filename"), folder_ / "wood.PNG");
+  EXPECT_EQ(
+      description.warnings,
+      (std::vector<std::string>{(folder_ / "scene.obj") + ":1: there is no file of that name: '" +
+                                    (folder_ / "scene.mtl") + "' stands for it",
+                                (folder_ / "scene.mtl") + ":2: there is no file of that name: '" +
+                                    (folder_ / "wood.PNG") + "' stands for it"}));
+  EXPECT_EQ(load("", "0.6.0", true).scene->children[0].object->children.size(), 1u);
+}
+
+/// Those beside the scene as well.
+TEST_F(ObjMaterials, AreLookedForBesideTheScene) {
+  folder_.write("scene.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+  folder_.write("mtl/a.mtl", "newmtl a\nKd 1 0 0\n");
+  const Description description = load("<emitter type=\"area\"/>", "0.6.0", false, "mtl");
+  EXPECT_TRUE(description.warnings.empty());
+  ASSERT_TRUE(bsdf_of(*description.scene->children[0].object));
+}
+
+/// Only the file of just that name, if there is one.
+std::optional<std::filesystem::path> as_it_is(const std::string& name,
+                                              const std::filesystem::path& folder, const Place&) {
+  std::string with_slashes = name;
+  std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
+  const std::filesystem::path path = folder / with_slashes;
+  return !name.empty() && std::filesystem::is_regular_file(path) ? std::optional(path)
+                                                                 : std::nullopt;
+}
+
 class Mtl : public testing::Test {
  protected:
   std::shared_ptr<Object> material(const std::string& lines) {
-    const MtlFile file = read_mtl(folder_.write("a.mtl", "newmtl a\n" + lines));
+    const MtlFile file = read_mtl(folder_.write("a.mtl", "newmtl a\n" + lines), as_it_is);
     remarks_ = file.remarks.size();
     return file.bsdfs.at("a");
   }
@@ -180,8 +225,8 @@ TEST_F(Mtl, OfAnyBytes) {
     for (const int bits : {0x01, 0x10, 0x80, 0xff}) {
       std::string flipped = good;
       flipped[at] = char(flipped[at] ^ bits);
-      EXPECT_LE(read_mtl(folder_.write("a.mtl", flipped)).bsdfs.size(), 4u);
-      if (bits == 1) read_mtl(folder_.write("a.mtl", good.substr(0, at)));
+      EXPECT_LE(read_mtl(folder_.write("a.mtl", flipped), as_it_is).bsdfs.size(), 4u);
+      if (bits == 1) read_mtl(folder_.write("a.mtl", good.substr(0, at)), as_it_is);
     }
 }
 

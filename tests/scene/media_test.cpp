@@ -264,7 +264,7 @@ TEST_F(GridsInScenes, SayWhatIsWrong) {
           "nothing.vol");
   problem(cloud(grid("sigma_t", file("VOL\x03"))), "header");
   problem(cloud(grid("sigma_t", "")), "filename");
-  problem(cloud(grid("emission", file(two_cells_))), "takes no volume 'emission'");
+  problem(cloud(grid("albeedo", file(two_cells_))), "takes no volume 'albeedo'");
   problem(cloud(grid("sigma_t", file(vol_file({1, 1, 1}, {-1})))), "density");
   problem(cloud(grid("sigma_t", file(vol_file({1, 1, 1}, {1}, {.box = {0, 0, 0, 1, 0, 1}})) +
                                     "<boolean name=\"use_grid_bbox\" value=\"true\"/>")),

@@ -219,7 +219,7 @@ TEST(Batch, HoldsCameras) {
   EXPECT_THROW(chosen("back"), Error);
   Description description = description_of(batch + any_shape);
   EXPECT_EQ(choose_camera(description, ""),
-            "the scene has 3 cameras: 'front' is used, the others are left out: plan, sensor2");
+            "the scene has 3 cameras: 'front' is used, the others are left out: 'plan', 'sensor2'");
 }
 
 // A shape of the scene that a batch refers to stays one shape.

@@ -121,7 +121,7 @@ TEST(NestedTextures, OfOtherProgramsAreLeftOut) {
   const auto scene = build_scene(description);
   EXPECT_EQ(scene->warnings(),
             std::vector<std::string>{
-                "t.xml:2:43: Kaustik does not know texture 'curvature': it is left out, and 1 more "
+                "t.xml:2:43: there is no texture 'curvature' here yet: it is left out, and 1 more "
                 "like it"});
   EXPECT_FLOAT_EQ(albedo_at(*scene, 0, 0)[0], 0.5f);
   description.is_strict = true;

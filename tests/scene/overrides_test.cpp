@@ -129,7 +129,7 @@ TEST(Overrides, OneOfSeveralCameras) {
   };
   EXPECT_EQ(types_with("",
                        "the scene has 3 cameras: 'front' is used, the others are left out: "
-                       "plan, one without a name"),
+                       "'plan', the one at t.xml:2:67"),
             "perspective ");
   EXPECT_EQ(types_with("plan", ""), "orthographic ");
   Description description = parse_mitsuba_xml(text, "t.xml", "");

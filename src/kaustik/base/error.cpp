@@ -123,6 +123,7 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 }
 
 std::string suggest(std::string_view name, const std::vector<std::string>& candidates) {
+  if (candidates.empty()) return "there are none to choose from";
   const std::string nearest = nearest_name(name, candidates);
   std::string text;
   if (!nearest.empty()) text = fmt::format("did you mean '{}'? ", nearest);

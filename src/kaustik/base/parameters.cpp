@@ -142,9 +142,9 @@ const std::string* name_out_of_choices(const Parameter& parameter, const Value& 
   return restricted ? std::get_if<std::string>(&value) : nullptr;
 }
 
-/// Moves and magnifies by numbers that lengths can bear; so does its inverse.
+/// Moves and magnifies by numbers that lengths can bear; so does its inverse, if there is one.
 bool is_within_lengths(const Transform& transform) {
-  const Transform inverse = transform.inverse();
+  const Transform inverse = transform.dimensions() == 3 ? transform.inverse() : Transform();
   double largest = 0;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
@@ -169,6 +169,8 @@ std::string complaint(const Parameter& parameter, const Value& value) {
   if (const auto* array = std::get_if<std::shared_ptr<const Array>>(&value))
     return complaint(parameter, **array);
   const auto* transform = std::get_if<Transform>(&value);
+  if (transform && transform->dimensions() < parameter.least_dimensions)
+    return fmt::format("'{}' flattens things", parameter.name);
   if (transform && !is_within_lengths(*transform))
     return fmt::format("'{}' moves, grows or shrinks things beyond what single floats carry",
                        parameter.name);
@@ -196,7 +198,10 @@ std::string range_text(double minimum, double maximum) {
 std::string remedy_for(const Parameter& parameter, const Value& value) {
   if (const std::string* name = name_out_of_choices(parameter, value))
     return suggest(*name, parameter.choices);
-  if (std::holds_alternative<Transform>(value))
+  const auto* transform = std::get_if<Transform>(&value);
+  if (transform && transform->dimensions() < parameter.least_dimensions)
+    return "give no factor of 0";
+  if (transform)
     return fmt::format("keep its factors between {:g} and {:g}, and its distances below {:g} m",
                        smallest_length, largest_length, largest_length);
   if (parameter.kind == ParameterKind::array)

@@ -89,6 +89,7 @@ struct Parameter {
   /// required this one will do. "" for none.
   std::string stands_for;
   WhenMoved when_moved = WhenMoved::stays;
+  int least_dimensions = 3;     ///< of transforms, see Transform::dimensions()
   std::vector<size_t> extents;  ///< of arrays, 0 for any number; none: any shape
   bool of_integers = false;     ///< of arrays: no floats
 
@@ -99,6 +100,8 @@ struct Parameter {
   Parameter& or_volume() { return accepts_volume = true, *this; }
   Parameter& instead_of(std::string other) { return stands_for = std::move(other), *this; }
   Parameter& moved(WhenMoved how) { return when_moved = how, *this; }
+  /// A transform need not leave all dimensions of space.
+  Parameter& leaving(int dimensions) { return least_dimensions = dimensions, *this; }
   Parameter& integers() { return of_integers = true, *this; }
 };
 

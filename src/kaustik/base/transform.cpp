@@ -1,5 +1,10 @@
 #include "kaustik/base/transform.h"
 
+#include <Imath/ImathMatrixAlgo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace kaustik {
@@ -28,6 +33,48 @@ Transform::Transform(const double (&rows)[4][4]) {
   }
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) inverse_[i][j] = inverse[i][j];
+}
+
+Transform Transform::collapsing(const double (&rows)[4][4]) {
+  Rows matrix;
+  for (size_t i = 0; i < 4; ++i) std::copy(rows[i], rows[i] + 4, matrix[i].begin());
+  return collapsed(matrix, 3);
+}
+
+Transform Transform::collapsed(const Rows& rows, int most_dimensions) {
+  if (rows[3] != identity_rows[3]) throw std::invalid_argument("matrix is singular");
+  Imath::M33d linear;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const double entry = rows[size_t(i)][size_t(j)];
+      if (!std::isfinite(entry)) throw std::invalid_argument("matrix is not finite");
+      if (j < 3) linear[i][j] = entry;
+    }
+  Imath::M33d u, v;
+  Imath::V3d factors;
+  Imath::jacobiSVD(linear, u, factors, v, std::numeric_limits<double>::epsilon(), true);
+  // Products of rotations and factors of zero are singular but for rounding.
+  constexpr double nothing = 1e-13;
+  Transform result;
+  result.matrix_ = rows;
+  result.dimensions_ = 0;
+  for (int i = 0; i < most_dimensions; ++i)
+    if (std::fabs(factors[i]) > nothing * std::fabs(factors[0])) ++result.dimensions_;
+  if (result.dimensions_ == 3) {
+    double matrix[4][4];
+    for (size_t i = 0; i < 4; ++i) std::copy(rows[i].begin(), rows[i].end(), matrix[i]);
+    return Transform(matrix);
+  }
+  result.inverse_ = {};
+  if (result.dimensions_ < 2) return result;
+  // As if a little were left of what is flattened, on the side that keeps frames right-handed.
+  constexpr double left = 1e-6;
+  factors.z = left * factors.y;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k)
+        result.inverse_[size_t(i)][size_t(j)] += v[i][k] * u[j][k] / factors[k];
+  return result;
 }
 
 Transform Transform::translate(const Vec3d& t) {
@@ -80,7 +127,9 @@ Transform operator*(const Transform& a, const Transform& b) {
         c.inverse_[i][j] += b.inverse_[i][k] * a.inverse_[k][j];
       }
     }
-  return c;
+  const int most = std::min(a.dimensions_, b.dimensions_);
+  if (most == 3) return c;
+  return Transform::collapsed(c.matrix_, most);
 }
 
 Vec3f Transform::point(const Vec3f& p) const {
@@ -123,6 +172,7 @@ Bounds3f Transform::bounds(const Bounds3f& b) const {
 }
 
 double Transform::determinant3() const {
+  if (dimensions_ < 3) return 0;
   const auto& m = matrix_;
   return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
          m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +

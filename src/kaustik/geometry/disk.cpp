@@ -139,7 +139,7 @@ const TypeInfo& disk_info() {
       "shape",
       "disk",
       "The unit disk in the xy plane, facing +z.",
-      {to_world_parameter("Places the disk in the world; may make it an ellipse."),
+      {to_world_parameter("Places the disk in the world; may make it an ellipse.").leaving(2),
        boolean_parameter("flip_normals", false, "Faces the other way.")}};
   return info;
 }

@@ -115,7 +115,7 @@ const TypeInfo& heightfield_info() {
        optional(integer_parameter("height", 2, "The same along v.").range(2, 8192)),
        boolean_parameter("shading_normals", true, "Smooth normals; else those of the faces."),
        boolean_parameter("flip_normals", false, "Turns the surface inside out."),
-       to_world_parameter("Places the square in the world.")}};
+       to_world_parameter("Places the square in the world.").leaving(2)}};
   return info;
 }
 

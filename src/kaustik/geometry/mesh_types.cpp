@@ -14,7 +14,7 @@ namespace {
 /// The rows that say what becomes of a mesh, wherever it comes from.
 std::vector<Parameter> mesh_option_parameters(bool flip_tex_coords) {
   return {
-      to_world_parameter("Places the mesh in the world."),
+      to_world_parameter("Places the mesh in the world.").leaving(2),
       boolean_parameter("face_normals", false,
                         "Flat faces: normals that are given are dropped. Otherwise a mesh without "
                         "normals gets smooth ones."),
@@ -75,7 +75,7 @@ std::unique_ptr<Shape> create_built_in(const Arguments& arguments, TriangleMesh 
 }
 
 std::vector<Parameter> built_in_parameters() {
-  return {to_world_parameter("Places the shape in the world."),
+  return {to_world_parameter("Places the shape in the world.").leaving(2),
           boolean_parameter("flip_normals", false, "Turns the surface inside out.")};
 }
 
@@ -112,9 +112,13 @@ std::unique_ptr<Shape> create_obj(const Arguments& arguments) {
 }
 
 const TypeInfo& ply_info() {
-  static const TypeInfo info{"shape", "ply",
-                             "Triangle mesh from a PLY file (text, binary of either byte order).",
-                             file_mesh_parameters(false)};
+  static const TypeInfo info = [] {
+    TypeInfo made{"shape", "ply",
+                  "Triangle mesh from a PLY file (text, binary of either byte order).",
+                  file_mesh_parameters(false)};
+    made.parameters.push_back(ignored_parameter("srgb", ParameterKind::boolean));
+    return made;
+  }();
   return info;
 }
 std::unique_ptr<Shape> create_ply(const Arguments& arguments) {

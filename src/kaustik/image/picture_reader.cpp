@@ -119,6 +119,21 @@ std::vector<Parameter> picture_parameters(const std::string& of_file,
   return rows;
 }
 
+Parameter gamma_parameter() {
+  return number_parameter("gamma", 0,
+                          "How stored values become linear: by this power; 1: they are; -1: they "
+                          "are sRGB encoded; 0: as is usual for the kind of file.")
+      .range(-1, 10);
+}
+
+double gamma_of(const Arguments& arguments) {
+  const double gamma = arguments.number("gamma");
+  if (gamma < 0 && gamma != -1)
+    throw Error(ErrorKind::input, fmt::format("'gamma' is {}", gamma),
+                "give a power above 0, or -1 for sRGB", arguments.place_of("gamma"));
+  return gamma;
+}
+
 std::string picture_name(const Arguments& arguments) {
   if (arguments.array("data")) return "picture 'data'";
   return fmt::format("picture '{}'", arguments.text("filename"));

@@ -20,6 +20,11 @@ struct PictureWish {
   std::string channels = {};  ///< see picture_channels()
 };
 
+/// The row `gamma`, and what it says: see PictureWish::gamma. Throws Error(input) for what is no
+/// power.
+Parameter gamma_parameter();
+double gamma_of(const Arguments& arguments);
+
 /// Reads the pictures that a scene names, whole and only their colours, within one budget of
 /// memory, and collects what is odd about them.
 class PictureReader {

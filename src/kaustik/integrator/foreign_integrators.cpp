@@ -46,9 +46,10 @@ Object unwrapped(const Object& object, const ForeignIntegrator& foreign,
   for (const Property& property : object.properties)
     if (!foreign.info.find(property.name)) set_property(result, property);
   notes.push_back(fmt::format(
-      "integrator '{}' is left out: the picture is that of {} '{}'; the layers of an EXR hold "
-      "depth, normals, albedo and errors anyway",
-      object.type, held ? "the integrator in it," : "the default,", result.type));
+      "integrator '{}' is left out: the picture is that of {} '{}'{}", object.type,
+      held ? "the integrator in it," : "the default,", result.type,
+      foreign.is_of_layers ? "; the layers of an EXR hold depth, normals, albedo and errors anyway"
+                           : ""));
   size_t others = 0;
   for (const Child& child : object.children)
     others += child.object->family == "integrator" && child.object.get() != held;

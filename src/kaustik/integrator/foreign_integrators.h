@@ -20,6 +20,7 @@ struct ForeignIntegrator {
   /// Their name, and ours that takes the value; one may stand for several.
   std::vector<std::pair<std::string, std::string>> renamed = {};
   std::vector<Property> implied = {};  ///< what it means where nothing else is given
+  bool is_of_layers = false;           ///< it makes layers beside the picture
   std::string refusal = {};            ///< not "": nothing here is near; what to do instead
 
   bool holds_another() const { return native.empty() && refusal.empty(); }

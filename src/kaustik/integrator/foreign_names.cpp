@@ -81,6 +81,11 @@ ForeignIntegrator holder(std::vector<std::string> names, const Rows& rows) {
   return row(std::move(names), "", "Left out: the integrator in it renders the picture.", rows);
 }
 
+ForeignIntegrator of_layers(ForeignIntegrator foreign) {
+  foreign.is_of_layers = true;
+  return foreign;
+}
+
 ForeignIntegrator refused(std::vector<std::string> names, const std::string& remedy) {
   ForeignIntegrator foreign =
       row(std::move(names), "", "Refused: shows no light, as layers of the EXR do.", {});
@@ -151,10 +156,10 @@ std::vector<ForeignIntegrator> all() {
       with_name(same({"sppm", "ppm"}, "ppm", photon_rows()), "initial_radius", "radius"),
       same({"BIDIRVMCPU"}, "vcm", sampling_rows()),
       nearest({"mlt", "pssmlt", "erpt", "vpl"}, default_integrator, markov_rows()),
-      holder({"aov", "moment", "stokes", "multichannel", "irrcache", "adaptive"},
-             ignored(text, {"aovs"}) +
-                 ignored(boolean, {"gradients", "clamp_neighbor", "clamp_screen", "overture",
-                                   "indirect_only", "debug"}) +
+      of_layers(holder({"aov", "moment", "stokes", "multichannel"}, ignored(text, {"aovs"}))),
+      holder({"irrcache", "adaptive"},
+             ignored(boolean, {"gradients", "clamp_neighbor", "clamp_screen", "overture",
+                               "indirect_only", "debug"}) +
                  ignored(integer, {"resolution", "max_sample_factor"}) +
                  ignored(number, {"quality", "quality_adjustment", "max_error", "p_value"})),
       refused({"depth"},

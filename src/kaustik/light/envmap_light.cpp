@@ -162,7 +162,8 @@ std::unique_ptr<Light> create_envmap(const LightInputs& inputs) {
   PictureReader& pictures = inputs.pictures ? *inputs.pictures : own_reader;
   const auto scale = float(arguments.number("scale"));
   const auto tables = shared_tables<EnvmapTables>(inputs, [&] {
-    return std::make_shared<EnvmapTables>(pictures.read(arguments, bytes_per_pixel), scale);
+    return std::make_shared<EnvmapTables>(
+        pictures.read(arguments, bytes_per_pixel, {.gamma = gamma_of(arguments)}), scale);
   });
   auto light =
       std::make_unique<EnvmapLight>(tables, scale, to_world, EmissionDisk(inputs.scene_bounds));
@@ -181,7 +182,7 @@ LightType envmap_light_type() {
       picture_parameters(
           ": radiance.",
           {number_parameter("scale", 1, "Factor on the radiance.").range(0, 1e30),
-           to_world_parameter("World from the picture, whose upper edge is +y."),
+           gamma_parameter(), to_world_parameter("World from the picture, whose upper edge is +y."),
            visible_parameter(), ignored_parameter("mis_compensation", ParameterKind::boolean),
            ignored_parameter("cache", ParameterKind::boolean), ignored_sampling_weight()})};
   return {info, false, create_envmap};

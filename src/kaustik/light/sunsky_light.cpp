@@ -293,7 +293,8 @@ std::vector<Parameter> parameters(Parts parts) {
       number_parameter("turbidity", 3,
                        "Haze of the air: 1 is air without any, 2 very clear, 3 clear, 6 warm and "
                        "moist, 10 hazy.")
-          .range(1, 10),
+          .range(1, 10)
+          .clamped(),
       color_parameter("albedo", 0.3,
                       "What the ground around reflects; part of it comes back from the sky."),
       number_parameter("latitude", 35.6894, "Of the place, north positive.")
@@ -333,6 +334,9 @@ std::vector<Parameter> parameters(Parts parts) {
       to_world_parameter("World from the sky, whose +z is the zenith, +x south and +y west."));
   table.push_back(visible_parameter());
   table.push_back(ignored_parameter("complex_sun", ParameterKind::boolean));
+  table.push_back(ignored_parameter("stretch", ParameterKind::number));
+  table.push_back(ignored_parameter("extend", ParameterKind::boolean));
+  table.push_back(ignored_parameter("resolution", ParameterKind::integer));
   table.push_back(ignored_sampling_weight());
   return table;
 }

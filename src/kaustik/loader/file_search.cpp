@@ -11,6 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t most_folders_listed = 200, most_names_of_folder = 20000, most_searches = 5000;
+constexpr size_t most_parts = 4;  ///< of the name of a file of another computer
 
 /// Of pictures that Kaustik reads, in the order in which they are taken …
 constexpr std::string_view readable_pictures[] = {".exr",  ".hdr", ".pfm", ".png",  ".tif",
@@ -55,6 +56,20 @@ struct Candidate {
   fs::path folder, relative;
 };
 
+/// Its last parts, the longest first.
+std::vector<fs::path> ends_of(const fs::path& path) {
+  std::vector<fs::path> ends;
+  fs::path end = path.filename();
+  for (fs::path before = path.parent_path(); ends.size() < most_parts;
+       before = before.parent_path()) {
+    ends.insert(ends.begin(), end);
+    const fs::path part = before.filename();
+    if (part.empty() || part == "." || part == ".." || part.string().ends_with(':')) break;
+    end = part / end;
+  }
+  return ends;
+}
+
 /// Where a file of that name may be.
 std::vector<Candidate> candidates_for(const std::string& name,
                                       const std::vector<fs::path>& folders) {
@@ -65,8 +80,8 @@ std::vector<Candidate> candidates_for(const std::string& name,
   const fs::path path(clean);
   const bool is_absolute = is_absolute_anywhere(without_blanks(name));
   if (path.is_absolute()) candidates.push_back({path.parent_path(), path.filename()});
-  for (const fs::path& folder : folders)
-    candidates.push_back({folder, is_absolute ? path.filename() : path});
+  for (const fs::path& relative : is_absolute ? ends_of(path) : std::vector<fs::path>{path})
+    for (const fs::path& folder : folders) candidates.push_back({folder, relative});
   return candidates;
 }
 
@@ -103,7 +118,7 @@ std::optional<fs::path> FileSearch::find_in_any_case(const fs::path& folder,
     if (like == listing.by_small_letters.end()) return std::nullopt;
     at /= like->second;
   }
-  return is_file(at) ? std::optional(at) : std::nullopt;
+  return is_file(at) ? std::optional(at.lexically_normal()) : std::nullopt;
 }
 
 std::optional<fs::path> FileSearch::find_other_picture(const fs::path& folder,
@@ -122,7 +137,7 @@ std::optional<fs::path> FileSearch::find_like(const std::string& name,
   const std::vector<Candidate> candidates = candidates_for(name, folders);
   for (const Candidate& candidate : candidates)
     if (is_file(candidate.folder / candidate.relative))
-      return candidate.folder / candidate.relative;
+      return (candidate.folder / candidate.relative).lexically_normal();
   for (const Candidate& candidate : candidates)
     if (auto found = find_in_any_case(candidate.folder, candidate.relative)) return found;
   for (const Candidate& candidate : candidates)

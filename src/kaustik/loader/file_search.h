@@ -1,12 +1,20 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "kaustik/base/place.h"
+
 namespace kaustik {
+
+/// For what a file names that belongs to the scene: the file of that name in the folder, or one
+/// that stands for it, which is told with the place. Nothing if there is none.
+using FindBeside = std::function<std::optional<std::filesystem::path>(
+    const std::string& name, const std::filesystem::path& folder, const Place& place)>;
 
 /// Looks for files that are not where a scene says, as scenes are moved from one computer to
 /// another. Looks only into folders that it is given and those that the name leads to from there,
@@ -15,9 +23,9 @@ namespace kaustik {
 class FileSearch {
  public:
   /// The first that there is of, in each of the folders in order: the name without the blanks
-  /// around it; the bare name, if the name is an absolute path, of Windows or not; the same names
-  /// without regard to case; and, if it is the name of a picture, a picture of another format that
-  /// Kaustik reads. Nothing if there is none.
+  /// around it; the last parts of the name, the longest first, if it is an absolute path, of
+  /// Windows or not; the same names without regard to case; and, if it is the name of a picture, a
+  /// picture of another format that Kaustik reads. Nothing if there is none.
   std::optional<std::filesystem::path> find_like(const std::string& name,
                                                  const std::vector<std::filesystem::path>& folders);
 

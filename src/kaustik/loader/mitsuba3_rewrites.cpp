@@ -192,6 +192,20 @@ void use_extinction(Object& medium) {
        place});
 }
 
+void give_depth(Object& flat_shape) {
+  auto* to_world = value_in<Transform>(flat_shape, "to_world");
+  if (!to_world || to_world->dimensions() != 2) return;
+  const auto column = [&](int j) {
+    return Vec3d(to_world->at(0, j), to_world->at(1, j), to_world->at(2, j));
+  };
+  const Vec3d normal = column(0).cross(column(1));
+  double rows[4][4];
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) rows[i][j] = to_world->at(i, j);
+  for (int i = 0; i < 3; ++i) rows[i][2] = normal.length() > 0 ? normal[i] / normal.length() : 0;
+  find_property(flat_shape, "to_world")->value = Transform::collapsing(rows);
+}
+
 void use_orthographic(Object& sensor) {
   if (sensor.type != "telecentric") return;
   const Property* aperture = find_property(sensor, "aperture_radius");

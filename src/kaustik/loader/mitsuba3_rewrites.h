@@ -27,6 +27,9 @@ void use_known_distribution(Object& bsdf);
 void use_bitmap_terms(Object& bitmap);
 /// `sigma_s` and `sigma_a`: `sigma_t` and `albedo`.
 void use_extinction(Object& medium);
+/// `to_world` of what lies in z = 0, where it makes all depths one: Mitsuba 3 inverts it, and the
+/// shape stays the same whatever becomes of z.
+void give_depth(Object& flat_shape);
 /// `telecentric` with a pinhole for its aperture: `orthographic`.
 void use_orthographic(Object& sensor);
 

@@ -59,6 +59,7 @@ class Translator {
     if (object.family == "sensor") change_sensor(object);
     if (object.family == "bsdf") change_bsdf(object);
     if (object.family == "texture" && object.type == "bitmap") use_bitmap_terms(object);
+    if (object.type == "rectangle" || object.type == "disk") give_depth(object);
     scaling_.apply_to(object);
     leave_out_parameters(object);
   }

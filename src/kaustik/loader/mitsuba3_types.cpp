@@ -59,6 +59,7 @@ const std::vector<LackingInMitsuba3>& lacking() {
       {"emitter", "area", "scale"},
       {"emitter", "area", "two_sided"},
       {"emitter", "spot", "falloff"},
+      {"emitter", "envmap", "gamma"},
       {"emitter", "", "attenuation"},
       {"emitter", "", "shadow_samples"},
       {"emitter", "", "visible"},

@@ -89,6 +89,7 @@ std::string Reader::text_of(const fs::path& path, const Place& where) {
   const size_t file_bytes = bytes.size();
   bytes = unpacked(std::move(bytes), allowed, where);
   if (bytes.size() > allowed) refuse();
+  ++counts_.files;
   sources_.insert(path.string());
   read_bytes_ += bytes.size();
   budget_.allow_file(std::min(bytes.size(), usual_growth * file_bytes));
@@ -107,7 +108,9 @@ Description Reader::read_text(std::string text, const std::string& name, const f
   Source source = {document, {}, {folder}, folder};
   const bool has_version = read_version(source);
   version_ = source.version;
-  return finish(has_version ? read_scene(source) : nullptr);
+  const std::shared_ptr<Object> scene = has_version ? read_scene(source) : nullptr;
+  scene_folders_ = source.folders;
+  return finish(scene);
 }
 
 fs::path Reader::found(const std::string& file, const Source& source) const {
@@ -123,6 +126,25 @@ fs::path Reader::found_or_like(const Attribute& file, const Source& source) {
             fmt::format("there is no file '{}': '{}' stands for it", file.value, like->string()),
             file.place);
   return *like;
+}
+
+std::optional<fs::path> Reader::found_beside(const std::string& name, const fs::path& folder,
+                                             const Place& place) {
+  if (name.empty()) return std::nullopt;
+  std::vector<fs::path> folders = {folder};
+  folders.insert(folders.end(), scene_folders_.begin(), scene_folders_.end());
+  const auto is_file = [](const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+  };
+  if (const fs::path path = find_file(name, folders, folder); is_file(path)) return path;
+  if (is_strict_) return std::nullopt;
+  const auto like = file_search_.find_like(name, folders);
+  if (like)
+    leave_out("file " + like->string(),
+              fmt::format("there is no file of that name: '{}' stands for it", like->string()),
+              place);
+  return like;
 }
 
 bool Reader::is_open(const fs::path& path) const {

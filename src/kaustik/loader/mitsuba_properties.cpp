@@ -133,6 +133,7 @@ const SpectralCurve& Reader::curve_of(const std::string& path, const Place& plac
   const auto known = curves_.find(path);
   if (known != curves_.end()) return known->second;
   try {
+    ++counts_.files;
     const SpectralCurve& curve = curves_[path] = read_spectrum_file(path);
     sources_.insert(path);
     budget_.allow(2 * bytes_of(curve));
@@ -169,7 +170,12 @@ Transform Reader::transform_of(const Element& element, const Source& source) {
     }
     if (!check_attributes(*operation, transform_rule(*operation, source.version))) continue;
     try {
-      transform = followed_by(transform, parse_transform_operation(*operation));
+      if (!is_strict_ && turns_nothing(*operation)) {
+        leave_out("rotation", "a <rotate> without an axis turns nothing: it is left out",
+                  operation->place);
+        continue;
+      }
+      transform = followed_by(transform, parse_transform_operation(*operation, !is_strict_));
     } catch (const BadValue& bad) {
       add(problems_, bad, operation->place);
     }

@@ -13,6 +13,8 @@
 namespace kaustik::mitsuba {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// What an element becomes takes at most so much, beside what its attributes hold: an object or a
 /// property, that its parent holds it, and who refers to it.
 constexpr size_t bytes_per_element = 500, bytes_per_attribute = 50;
@@ -86,15 +88,19 @@ Description Reader::finish(const std::shared_ptr<Object>& scene) {
   problems_.throw_if_any();
   Description description{.scene = scene, .sources = {sources_.begin(), sources_.end()}};
   description.is_strict = is_strict_;
+  use_obj_materials(description, old_obj_shapes_,
+                    [this](const std::string& name, const fs::path& folder, const Place& place) {
+                      return found_beside(name, folder, place);
+                    });
   for (const auto& [what, left_out] : left_out_)
     description.warnings.push_back(fmt::format(
         "{}: {}{}", kaustik::text_of(left_out.first), left_out.sentence,
         left_out.count > 1 ? fmt::format(", and {} more like it", left_out.count - 1) : ""));
-  use_obj_materials(description, old_obj_shapes_);
   return description;
 }
 
 std::optional<Element> Reader::ready(const pugi::xml_node& node, const Source& source) {
+  ++counts_.elements;
   const XmlDocument& document = source.document;
   Element element = {upgraded_tag(node.name(), source.version), node, document.place(node), {}};
   bool sound = true;
@@ -286,7 +292,8 @@ void Reader::leave_out_specular(Object& object) {
 
 void Reader::scale_reflectances(Object& object) {
   for (Property& property : object.properties) {
-    if (!property.name.ends_with("reflectance") && !property.name.ends_with("transmittance"))
+    const std::string& name = property.name;
+    if (!name.ends_with("reflectance") && !name.ends_with("transmittance") && name != "base_color")
       continue;
     const double most = largest_lane(colour_of(property.value));
     if (!(most > 1)) continue;

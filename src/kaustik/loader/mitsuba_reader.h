@@ -18,6 +18,12 @@
 
 namespace kaustik::mitsuba {
 
+/// What reading has cost.
+struct LoadCounts {
+  size_t files = 0;     ///< of the scene and of spectra, each as often as it was read
+  size_t elements = 0;  ///< as often as each was made something of
+};
+
 /// Reads one scene and what it includes; used once.
 class Reader {
  public:
@@ -27,6 +33,8 @@ class Reader {
   Description read_file(const std::string& path);
   Description read_text(std::string text, const std::string& name,
                         const std::filesystem::path& folder);
+  /// So far; also after an error.
+  const LoadCounts& counts() const { return counts_; }
 
  private:
   /// A file that is being read.
@@ -112,6 +120,10 @@ class Reader {
   std::filesystem::path found(const std::string& file, const Source& source) const;
   /// The same; a file that is not there gives way to one with nearly that name, which is told.
   std::filesystem::path found_or_like(const Attribute& file, const Source& source);
+  /// For files that are named in others than those of the scene; quotes nothing of them.
+  std::optional<std::filesystem::path> found_beside(const std::string& name,
+                                                    const std::filesystem::path& folder,
+                                                    const Place& place);
   /// For the entities of a file in that folder: they are files beside it.
   EntityRules entity_rules(const std::filesystem::path& folder);
   /// Throws Error, as all that entity_rules() makes does.
@@ -133,6 +145,7 @@ class Reader {
   };
 
   bool is_strict_;
+  LoadCounts counts_;
   Problems problems_;
   Definitions definitions_;
   References references_;
@@ -142,8 +155,9 @@ class Reader {
   std::map<std::string, SpectralCurve> curves_;                              ///< by path
   std::map<std::string, LeftOut> left_out_;                                  ///< by what it is
   std::set<std::string> sources_;                                            ///< see Description
-  std::set<const Object*> old_obj_shapes_;         ///< that take materials from their files
-  std::vector<std::filesystem::path> open_files_;  ///< the outermost first
+  std::set<const Object*> old_obj_shapes_;            ///< that take materials from their files
+  std::vector<std::filesystem::path> scene_folders_;  ///< where names in the scene are searched
+  std::vector<std::filesystem::path> open_files_;     ///< the outermost first
   size_t included_files_ = 0;
   size_t read_bytes_ = 0;
   size_t entity_bytes_left_ = EntityRules::most_bytes;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 namespace kaustik::mitsuba {
@@ -50,7 +51,14 @@ Transform parse_look_at_by_numbers(const Element& element) {
   return Transform::look_at(origin, target, up) * mirrored_camera();
 }
 
-Transform parse_matrix(std::string_view text) {
+/// Factors of zero collapse space.
+Transform parse_scale(const Element& element, bool may_collapse) {
+  const Vec3d s = required_components(element, 1);
+  if (!may_collapse || (s.x != 0 && s.y != 0 && s.z != 0)) return Transform::scale(s);
+  return Transform::collapsing({{s.x, 0, 0, 0}, {0, s.y, 0, 0}, {0, 0, s.z, 0}, {0, 0, 0, 1}});
+}
+
+Transform parse_matrix(std::string_view text, bool may_collapse) {
   const auto parts = split_list(text);
   if (parts.size() != 16 && parts.size() != 9)
     throw BadValue(fmt::format("the matrix has {} values", parts.size()),
@@ -59,15 +67,18 @@ Transform parse_matrix(std::string_view text) {
   double rows[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
   for (size_t i = 0; i < size; ++i)
     for (size_t j = 0; j < size; ++j) rows[i][j] = parse_float(parts[i * size + j]);
-  return Transform(rows);
+  const bool is_affine = rows[3][0] == 0 && rows[3][1] == 0 && rows[3][2] == 0 && rows[3][3] == 1;
+  return may_collapse && is_affine ? Transform::collapsing(rows) : Transform(rows);
 }
 
-Transform parse_operation(const Element& element) {
+Transform parse_operation(const Element& element, bool may_collapse) {
   if (element.tag == "translate") return Transform::translate(required_components(element, 0));
-  if (element.tag == "scale") return Transform::scale(required_components(element, 1));
+  if (element.tag == "scale") return parse_scale(element, may_collapse);
   if (element.tag == "lookat" && element.find("ox")) return parse_look_at_by_numbers(element);
   if (element.tag == "lookat") return parse_look_at(element);
-  if (element.tag == "matrix") return parse_attribute(*element.find("value"), parse_matrix);
+  if (element.tag == "matrix")
+    return parse_attribute(*element.find("value"),
+                           [&](std::string_view text) { return parse_matrix(text, may_collapse); });
   const Vec3d axis = required_components(element, 0);
   return Transform::rotate(axis, parse_attribute(*element.find("angle"), parse_float));
 }
@@ -93,9 +104,9 @@ AttributeRule transform_rule(const Element& element, Version version) {
 
 Transform mirrored_camera() { return Transform::scale({-1, 1, 1}); }
 
-Transform parse_transform_operation(const Element& element) {
+Transform parse_transform_operation(const Element& element, bool may_collapse) {
   try {
-    const Transform transform = parse_operation(element);
+    const Transform transform = parse_operation(element, may_collapse);
     return followed_by(Transform(), transform);
   } catch (const std::invalid_argument& wrong) {
     throw BadValue(
@@ -106,8 +117,20 @@ Transform parse_transform_operation(const Element& element) {
   }
 }
 
+bool turns_nothing(const Element& element) {
+  return element.tag == "rotate" && required_components(element, 0) == Vec3d(0, 0, 0);
+}
+
 Transform followed_by(const Transform& first, const Transform& next) {
-  const Transform both = next * first;
+  const auto product = [&] {
+    try {
+      return next * first;
+    } catch (const std::invalid_argument& wrong) {
+      throw BadValue(fmt::format("the transform cannot be: {}", wrong.what()),
+                     "use factors other than 0 beside a projection");
+    }
+  };
+  const Transform both = product();
   if (!is_finite(both) || !is_finite(both.inverse()))
     throw BadValue("the transform is not finite or has no finite inverse",
                    "use factors and distances of a usual size");

@@ -13,8 +13,6 @@
 namespace kaustik::mitsuba {
 namespace {
 
-constexpr Version first_of_mitsuba_0_5 = {0, 5, 0};
-
 /// In files of versions before `until` a type or a name was called `old_name`. A type may imply a
 /// distribution of facets.
 struct TypeName {
@@ -24,7 +22,7 @@ struct TypeName {
 /// Of dialects of any version.
 constexpr Version any_version = {1'000'000, 0, 0};
 constexpr TypeName type_names[] = {
-    {first_of_mitsuba_0_5, "bsdf", "bump", "bumpmap"},
+    {any_version, "bsdf", "bump", "bumpmap"},
     {first_of_mitsuba_0_3, "bsdf", "lambertian", "diffuse"},
     {first_of_mitsuba_0_3, "bsdf", "roughmetal", "roughconductor"},
     {first_of_mitsuba_0_3, "bsdf", "roughglass", "roughdielectric"},
@@ -126,7 +124,9 @@ void upgrade_placement(Object& object, Problems& problems) {
   take_into("vscale", scale.y);
   if (!place.file) return;
   try {
-    const Transform to_uv = Transform::translate(offset) * Transform::scale(scale);
+    const Transform to_uv =
+        Transform::translate(offset) *
+        Transform::collapsing({{scale.x, 0, 0, 0}, {0, scale.y, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}});
     object.properties.push_back({"to_uv", to_uv, place});
   } catch (const std::invalid_argument&) {
     problems.add("the texture's uscale or vscale is too near to 0", "give another scale", place);
@@ -240,6 +240,15 @@ void give_bsdf(Object& object) {
   object.children.push_back({"", matt});
 }
 
+/// Where Mitsuba 3 calls B and C of the paper A and B.
+void upgrade_mitchell(Object& object) {
+  if (object.family != "rfilter" || object.type != "mitchell" || !has(object, "A") ||
+      has(object, "C"))
+    return;
+  for (Property& property : object.properties)
+    if (property.name == "A" || property.name == "B") ++property.name[0];
+}
+
 /// Of lajolla, where metal and glass are types.
 void upgrade_disney(Object& object, const std::string& written_type) {
   if (object.family != "bsdf" || object.type != "principled") return;
@@ -296,6 +305,7 @@ void upgrade_object(Object& object, const std::string& written_type, Version ver
   if (row && !row->distribution.empty() && !has(object, "distribution"))
     object.properties.push_back({"distribution", std::string(row->distribution), object.place});
   upgrade_disney(object, written_type);
+  upgrade_mitchell(object);
   if (version < first_with_snake_case) {
     upgrade_texture(object, problems);
     upgrade_grid(object);

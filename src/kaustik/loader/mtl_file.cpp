@@ -46,7 +46,8 @@ std::string lower_case(std::string_view text) {
 
 class MtlReader {
  public:
-  explicit MtlReader(const std::string& path) : path_(path), lines_(path) {}
+  MtlReader(const std::string& path, const FindBeside& find)
+      : path_(path), find_(find), lines_(path) {}
 
   MtlFile read() {
     for (std::string_view line; lines_.next(line);) try {
@@ -83,6 +84,7 @@ class MtlReader {
   std::shared_ptr<Object> opaque_bsdf(const MtlMaterial& material) const;
 
   std::string path_;
+  const FindBeside& find_;
   TextLines lines_;
   std::map<std::string, MtlMaterial> materials_;
   MtlMaterial* current_ = nullptr;
@@ -145,18 +147,16 @@ std::optional<MtlMap> MtlReader::map(std::string_view line) {
   MtlMap map;
   for (std::string_view rest = line;; line = rest)
     if (!read_map_option(next_word(rest), rest, map)) break;
-  // The name is the rest of the line: it may hold blanks, and be one of Windows'.
-  std::string name(trimmed(line));
-  std::replace(name.begin(), name.end(), '\\', '/');
-  const fs::path file = fs::path(path_).parent_path() / name;
-  std::error_code unknown;
-  if (name.empty() || !fs::is_regular_file(file, unknown)) {
+  // The name is the rest of the line: it may hold blanks.
+  const std::optional<fs::path> file =
+      find_(std::string(trimmed(line)), fs::path(path_).parent_path(), here());
+  if (!file) {
     result_.remarks.push_back(
         fmt::format("{}:{}: there is no such picture: the material has its plain colour", path_,
                     lines_.number()));
     return std::nullopt;
   }
-  map.file = file.string();
+  map.file = file->string();
   return map;
 }
 
@@ -287,6 +287,8 @@ std::shared_ptr<Object> MtlReader::bsdf_of(const MtlMaterial& material) const {
 
 }  // namespace
 
-MtlFile read_mtl(const std::string& path) { return MtlReader(path).read(); }
+MtlFile read_mtl(const std::string& path, const FindBeside& find) {
+  return MtlReader(path, find).read();
+}
 
 }  // namespace kaustik

@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 
 /// What an OBJ file says of materials.
 struct ObjMaterials {
-  std::vector<std::string> used;  ///< those that faces have, in order; "": none
-  std::vector<uint32_t> of_part;  ///< of the shapes in the file: indices of `used`
-  std::set<std::string> libraries;
+  std::vector<std::string> used;           ///< those that faces have, in order; "": none
+  std::vector<uint32_t> of_part;           ///< of the shapes in the file: indices of `used`
+  std::map<std::string, Place> libraries;  ///< the lines that name them
   uint64_t file_size = 0;
 };
 
@@ -56,7 +56,8 @@ ObjMaterials materials_of(const std::string& path) {
       if (keyword == "usemtl") material = trimmed(line);
       has_faces = false;
     } else if (keyword == "mtllib") {
-      if (found.libraries.size() < most_libraries) found.libraries.emplace(trimmed(line));
+      if (found.libraries.size() < most_libraries)
+        found.libraries.try_emplace(std::string(trimmed(line)), place_in(path, lines.number()));
     } else if (keyword == "f" && !has_faces) {
       found.of_part.push_back(
           numbers.try_emplace(material, uint32_t(numbers.size())).first->second);
@@ -84,8 +85,9 @@ ObjMaterials materials_for(const Object& shape, const ObjMaterials& of_file) {
 
 class MaterialUser {
  public:
-  MaterialUser(Description& description, const std::set<const Object*>& shapes)
-      : description_(description), shapes_(shapes) {}
+  MaterialUser(Description& description, const std::set<const Object*>& shapes,
+               const FindBeside& find)
+      : description_(description), shapes_(shapes), find_(find) {}
 
   void visit(Object& parent) {
     if (!seen_.insert(&parent).second) return;
@@ -107,12 +109,13 @@ class MaterialUser {
   void tell_of_missing(const std::string& path, const ObjMaterials& materials, const Bsdfs& bsdfs);
   std::vector<std::shared_ptr<Object>> parts_of(const std::shared_ptr<Object>& shape);
   Bsdfs bsdfs_for(const Object& shape, const ObjMaterials& materials, bool loads_materials);
-  Bsdfs library_bsdfs(const std::string& obj_path, const std::set<std::string>& names);
+  Bsdfs library_bsdfs(const std::string& obj_path, const std::map<std::string, Place>& names);
   void add_library(const fs::path& path, Bsdfs& bsdfs);
   const ObjMaterials* known_materials(const std::string& path);
 
   Description& description_;
   const std::set<const Object*>& shapes_;
+  const FindBeside& find_;
   std::set<const Object*> seen_;
   std::map<std::string, std::optional<ObjMaterials>> materials_;  ///< by path; none: unreadable
   std::map<std::string, MtlFile> libraries_;                      ///< by path
@@ -135,7 +138,7 @@ const ObjMaterials* MaterialUser::known_materials(const std::string& path) {
 void MaterialUser::add_library(const fs::path& path, Bsdfs& bsdfs) {
   const auto [entry, is_new] = libraries_.try_emplace(path.string());
   if (is_new) {
-    entry->second = read_mtl(path.string());
+    entry->second = read_mtl(path.string(), find_);
     description_.sources.push_back(path.string());
     for (const std::string& remark : entry->second.remarks) description_.warnings.push_back(remark);
   }
@@ -143,22 +146,19 @@ void MaterialUser::add_library(const fs::path& path, Bsdfs& bsdfs) {
 }
 
 MaterialUser::Bsdfs MaterialUser::library_bsdfs(const std::string& obj_path,
-                                                const std::set<std::string>& names) {
+                                                const std::map<std::string, Place>& names) {
   Bsdfs bsdfs;
   const fs::path folder = fs::path(obj_path).parent_path();
-  std::error_code unknown;
-  const auto take = [&](std::string_view name) {
-    if (!fs::is_regular_file(folder / name, unknown)) return false;
-    add_library(folder / name, bsdfs);
-    return true;
-  };
   bool is_missing = false;
-  for (const std::string& line : names) {
-    std::string whole = line;
-    std::replace(whole.begin(), whole.end(), '\\', '/');
+  for (const auto& [line, place] : names) {
+    const auto take = [&](std::string_view name) {
+      const std::optional<fs::path> found = find_(std::string(name), folder, place);
+      if (found) add_library(*found, bsdfs);
+      return found.has_value();
+    };
     // One name with blanks, or several names.
-    bool any = take(whole);
-    std::string_view rest = any ? std::string_view() : whole;
+    bool any = take(line);
+    std::string_view rest = any ? std::string_view() : line;
     for (std::string_view name = next_word(rest); !name.empty(); name = next_word(rest))
       any |= take(name);
     is_missing |= !any;
@@ -245,8 +245,9 @@ std::vector<std::shared_ptr<Object>> MaterialUser::parts_of(const std::shared_pt
 
 }  // namespace
 
-void use_obj_materials(Description& description, const std::set<const Object*>& shapes) {
-  if (!shapes.empty()) MaterialUser(description, shapes).visit(*description.scene);
+void use_obj_materials(Description& description, const std::set<const Object*>& shapes,
+                       const FindBeside& find) {
+  if (!shapes.empty()) MaterialUser(description, shapes, find).visit(*description.scene);
 }
 
 }  // namespace kaustik

@@ -1,6 +1,7 @@
 #pragma once
 #include <set>
 
+#include "kaustik/loader/file_search.h"
 #include "kaustik/scene/description.h"
 
 namespace kaustik {
@@ -10,6 +11,7 @@ namespace kaustik {
 /// shape that bear the name of a material stand for it. Each of `shapes` becomes one shape for each
 /// material. Their parameter `load_materials` is done with. Files that cannot be read are left to
 /// those who read the mesh; MTL files count as sources, what is left out as warnings.
-void use_obj_materials(Description& description, const std::set<const Object*>& shapes);
+void use_obj_materials(Description& description, const std::set<const Object*>& shapes,
+                       const FindBeside& find);
 
 }  // namespace kaustik

@@ -91,11 +91,8 @@ const TypeInfo& bitmap_info() {
            boolean_parameter("raw", false,
                              "Take values as they are stored, as linear ones: for normals, "
                              "roughness and the like."),
-           number_parameter("gamma", 0,
-                            "How stored values become linear: by this power; 1: as with raw; -1: "
-                            "they are sRGB encoded; 0: as is usual for the kind of file.")
-               .range(-1, 10),
-           transform_parameter("to_uv", "Applied to the coordinates before the lookup."),
+           gamma_parameter(),
+           transform_parameter("to_uv", "Applied to the coordinates before the lookup.").leaving(0),
            ignored_parameter("format", ParameterKind::text),
            ignored_parameter("accel", ParameterKind::boolean),
            ignored_parameter("cache", ParameterKind::boolean),
@@ -133,11 +130,8 @@ Wraps wraps_of(const Arguments& arguments) {
 }
 
 /// See PictureWish::gamma.
-double gamma_of(const Arguments& arguments) {
-  const double gamma = arguments.number("gamma");
-  if (gamma < 0 && gamma != -1)
-    throw Error(ErrorKind::input, fmt::format("'gamma' is {}", gamma),
-                "give a power above 0, or -1 for sRGB", arguments.place_of("gamma"));
+double gamma_of_texels(const Arguments& arguments) {
+  const double gamma = gamma_of(arguments);
   if (!arguments.boolean("raw")) return gamma;
   if (gamma != 0 && gamma != 1)
     throw Error(ErrorKind::input, "the bitmap has 'gamma', and 'raw' says that it is linear",
@@ -160,7 +154,7 @@ std::shared_ptr<const Texture> create_bitmap(const TextureInputs& in) {
 Image bitmap_picture(const Arguments& arguments, PictureReader& pictures,
                      int64_t kept_bytes_per_pixel) {
   return pictures.read(arguments, kept_bytes_per_pixel,
-                       {gamma_of(arguments), arguments.text("channel")});
+                       {gamma_of_texels(arguments), arguments.text("channel")});
 }
 
 TextureType bitmap_type() { return {bitmap_info(), create_bitmap}; }

@@ -43,7 +43,7 @@ const TypeInfo& gridtexture_info() {
        color_parameter("color1", 0.4, "Colour of the lines.").range(0, 1e6).textured(),
        number_parameter("line_width", 0.01, "How far a line reaches to either side, in uv.")
            .range(0, 0.5),
-       transform_parameter("to_uv", "Applied to the coordinates before the lookup.")}};
+       transform_parameter("to_uv", "Applied to the coordinates before the lookup.").leaving(0)}};
   return info;
 }
 

@@ -364,6 +364,9 @@ class Principled final : public Bsdf {
   float constant_scale_ = 0;  ///< 0: it has to be found at each point
 };
 
+/// Of glass with an index of refraction near 100.
+constexpr double largest_specular = 12;
+
 const TypeInfo& principled_info() {
   static const TypeInfo info{
       "bsdf",
@@ -381,7 +384,7 @@ const TypeInfo& principled_info() {
        optional(number_parameter("specular", 0.5,
                                  "Reflection of glass at normal incidence, 0.08 times this, "
                                  "instead of eta."))
-           .range(0, 1)
+           .range(0, largest_specular)
            .clamped()
            .instead_of("eta"),
        share_parameter("spec_tint", 0, "How much the reflection of glass has the base's colour."),

@@ -298,6 +298,7 @@ const TypeInfo& principledthin_info() {
        number_parameter("diff_trans", 0,
                         "How much of what is matt goes through: 0 nothing, 2 all of it.")
            .range(0, 2)
+           .clamped()
            .textured(),
        ignored_parameter("diffuse_reflectance_sampling_rate", ParameterKind::number),
        ignored_parameter("diffuse_transmittance_sampling_rate", ParameterKind::number),

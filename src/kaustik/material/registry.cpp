@@ -19,15 +19,17 @@ std::string_view remedy_for_bsdf_to_come(std::string_view type) {
     std::string_view type, remedy;
   };
   static constexpr Row rows[] = {
-      {"hair", "it comes later; use 'principled' or 'roughplastic', or leave the hair out"},
-      {"measured", "it comes later; use 'principled' or 'roughconductor' with a like colour"},
+      {"hair", "use 'principled' or 'roughplastic'"},
+      {"measured", "use 'principled' or 'roughconductor' with a like colour"},
       {"measured_polarized", "light is not polarised; use 'principled' with a like colour"},
-      {"bsdfdata", "it comes later; use 'thinphong' with its mean reflectance and transmittance"},
-      {"polarizer", "light is not polarised; use 'mask' of opacity 0.5 around a black 'diffuse'"},
-      {"retarder", "light is not polarised; use 'null'"},
-      {"circular", "light is not polarised; use 'mask' of opacity 0.5 around a black 'diffuse'"},
-      {"hk", "it comes later; use 'difftrans' or 'thinphong' with a like colour"},
-      {"irawan", "it comes later; use 'principled' with sheen"}};
+      {"bsdfdata", "use 'thinphong' with its mean reflectance and transmittance"},
+      {"polarizer",
+       "light is not polarised; 'mask' of opacity 0.5 around a black 'diffuse' does that"},
+      {"retarder", "light is not polarised; 'null' does that"},
+      {"circular",
+       "light is not polarised; 'mask' of opacity 0.5 around a black 'diffuse' does that"},
+      {"hk", "use 'difftrans' or 'thinphong' with a like colour"},
+      {"irawan", "use 'principled' with sheen"}};
   for (const Row& row : rows)
     if (row.type == type) return row.remedy;
   return {};

@@ -61,11 +61,13 @@ const TypeInfo& roughdiffuse_info() {
            .textured(),
        number_parameter("roughness", 0.5, "0: as 'diffuse'; 1: as rough as can be.")
            .range(0, 1)
+           .clamped()
            .textured(),
        optional(number_parameter("alpha", 0.2,
                                  "Mitsuba 0.6: root mean square slope of the facets, instead of "
                                  "roughness.")
-                    .range(0, 10)),
+                    .range(0, 10)
+                    .clamped()),
        ignored_parameter("use_fast_approx", ParameterKind::boolean)}};
   return info;
 }

@@ -124,7 +124,8 @@ TypeInfo make_roughplastic_info() {
       "Matt base under a rough transparent coat; black seen from behind.",
       {distribution_parameter(),
        number_parameter("alpha", 0.1, "Roughness of the coat; about the root mean square slope.")
-           .range(0, RoughFacets::largest_alpha),
+           .range(0, RoughFacets::largest_alpha)
+           .clamped(),
        sample_visible_parameter()}};
   for (Parameter& parameter : plastic_parameters()) info.parameters.push_back(std::move(parameter));
   return info;
@@ -161,7 +162,8 @@ TypeInfo make_pplastic_info() {
         optional(number_parameter(name, 0.1,
                                   "Roughness in one direction; that of both, their geometric "
                                   "mean, is used."))
-            .range(0, RoughFacets::largest_alpha));
+            .range(0, RoughFacets::largest_alpha)
+            .clamped());
   return info;
 }
 

@@ -79,17 +79,27 @@ const TypeInfo& twosided_info() {
       "Makes a one-sided bsdf visible from behind; a second nested one is for the back.",
       {boolean_parameter(
           "allow_transmission", false,
-          "A nested bsdf that transmits light is used as it is: it has two sides.")}};
+          "A nested bsdf that transmits light is used as it is: it has two sides. Of two the "
+          "first one is.")}};
   return info;
 }
 
 std::shared_ptr<const Bsdf> create_twosided(const BsdfInputs& inputs) {
   const auto& nested = inputs.nested;
   const bool transmits = nested.front()->traits().transmits || nested.back()->traits().transmits;
-  if (transmits && nested.size() == 1 && inputs.arguments.boolean("allow_transmission")) {
+  const bool is_allowed = inputs.arguments.boolean("allow_transmission");
+  if (transmits && nested.size() == 1 && is_allowed) {
     inputs.warn("bsdf 'twosided' holds one that transmits light: it is used as it is");
     return nested.front();
   }
+  if (transmits && is_allowed && !inputs.is_strict) {
+    // What goes in by one of them would have to come out by the other.
+    inputs.warn("bsdf 'twosided' holds two, and light is transmitted: the first is used as it is");
+    return nested.front();
+  }
+  if (transmits && is_allowed)
+    throw Error(ErrorKind::input, "bsdf 'twosided' holds two, and light is transmitted",
+                "keep one of them", inputs.arguments.place());
   if (transmits)
     throw Error(ErrorKind::input, "bsdf 'twosided' holds one that transmits light",
                 "use that one without 'twosided'; it has two sides already",

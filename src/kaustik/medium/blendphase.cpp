@@ -34,7 +34,7 @@ const TypeInfo& blendphase_info() {
       "phase",
       "blendphase",
       "A mixture of the two phase functions in it, in the order of their names.",
-      {number_parameter("weight", 0.5, "Share of the second one.").range(0, 1)}};
+      {number_parameter("weight", 0.5, "Share of the second one.").range(0, 1).clamped()}};
   return info;
 }
 

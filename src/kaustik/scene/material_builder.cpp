@@ -10,6 +10,7 @@
 #include "kaustik/scene/shape_attribute.h"
 #include "kaustik/scene/spectrum_types.h"
 #include "kaustik/scene/texture_rows.h"
+#include "kaustik/scene/types_to_come.h"
 
 namespace kaustik {
 namespace {
@@ -31,12 +32,19 @@ bool is_needed(const Parameter& row) {
   return row.accepts_texture && std::holds_alternative<std::monostate>(row.default_value);
 }
 
+std::string takes_no_texture(const Object& object, const std::string& name) {
+  return fmt::format("{} '{}' takes no texture {}", object.family, object.type,
+                     name.empty() ? "without a name" : fmt::format("'{}'", name));
+}
+
 /// How many bsdfs one of the type may hold.
 std::string remedy_for_nested(const BsdfType& type) {
   if (type.maximum_nested == 0) return "take them out: it holds none";
   if (type.minimum_nested == type.maximum_nested)
     return fmt::format("give it {}", type.minimum_nested);
-  return fmt::format("give it {} to {}", type.minimum_nested, type.maximum_nested);
+  return fmt::format("give it {} {} {}", type.minimum_nested,
+                     type.minimum_nested + 1 == type.maximum_nested ? "or" : "to",
+                     type.maximum_nested);
 }
 
 /// See TextureOfParameter; valid as long as the two are.
@@ -62,10 +70,7 @@ bool SceneBuilder::leaves_out_texture(const Object& object, const TypeInfo& info
   if (row && mean_instead_of(info, child)) return true;
   if (!row && !nearest_name(child.name, texture_parameters(info)).empty()) return false;
   if (left_out_.insert(child.object.get()).second)
-    unknown_.add(
-        fmt::format("{} '{}' takes no texture {}: it is left out", object.family, object.type,
-                    child.name.empty() ? "without a name" : fmt::format("'{}'", child.name)),
-        child.object->place);
+    unknown_.add(takes_no_texture(object, child.name) + ": it is left out", child.object->place);
   return true;
 }
 
@@ -181,9 +186,8 @@ std::optional<SceneBuilder::Textures> SceneBuilder::textures_of(const Object& ob
     }
     if (!parameter && leaves_out_texture(object, info, child)) continue;
     if (!parameter) {
-      problems_.add(
-          fmt::format("{} '{}' takes no texture '{}'", object.family, object.type, child.name),
-          valid.empty() ? "remove it" : suggest(child.name, valid), child.object->place);
+      problems_.add(takes_no_texture(object, child.name),
+                    valid.empty() ? "remove it" : suggest(child.name, valid), child.object->place);
       continue;
     }
     const std::shared_ptr<Object>& given = texture_within(child.object);
@@ -213,12 +217,12 @@ std::shared_ptr<const Bsdf> SceneBuilder::make_bsdf(const std::shared_ptr<Object
 std::shared_ptr<const Bsdf> SceneBuilder::create_bsdf(const Object& object, const BuiltShape* on) {
   const BsdfType* type = find_row(bsdf_types(), object.type);
   if (!type) {
-    const std::string remedy(remedy_for_bsdf_to_come(object.type));
-    if (!remedy.empty() && is_strict_) {
-      problems_.add(fmt::format("bsdf '{}' is not here yet", object.type), remedy, object.place);
+    const bool is_to_come = remedy_for_type_to_come(object).has_value();
+    if (is_to_come && is_strict_) {
+      not_here_yet(object);
       return nullptr;
     }
-    if (!remedy.empty() || is_foreign(object, names_of(bsdf_types())))
+    if (is_to_come || is_foreign(object, names_of(bsdf_types())))
       return bsdf_instead_of(object, on);
     unknown_type(object, names_of(bsdf_types()));
     return nullptr;

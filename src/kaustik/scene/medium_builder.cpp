@@ -8,6 +8,7 @@
 #include "kaustik/base/number_list.h"
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/scene_builder.h"
+#include "kaustik/scene/types_to_come.h"
 
 namespace kaustik {
 namespace {
@@ -18,19 +19,16 @@ constexpr int maximum_phase_levels = 6;
 constexpr int levels_of_mixture = 3;
 constexpr size_t most_phases_of_mixture = 16;
 
+std::string takes_no_volume(const Object& object, const std::string& name) {
+  return fmt::format("{} '{}' takes no volume {}", object.family, object.type,
+                     name.empty() ? "without a name" : fmt::format("'{}'", name));
+}
+
 std::vector<std::string> volume_parameters(const TypeInfo& info) {
   std::vector<std::string> names;
   for (const Parameter& row : info.parameters)
     if (row.accepts_volume) names.push_back(row.name);
   return names;
-}
-
-/// Of Mitsuba and not here, and of dialects.
-bool is_type_to_come(const std::string& type) {
-  constexpr const char* types[] = {"sggx",     "microflake",    "kkay",        "mixturephase",
-                                   "nanovdb",  "nanovdbvolume", "vdb",         "vdbvolume",
-                                   "volcache", "orientation",   "hgridvolume", "fibervolume"};
-  return std::find(std::begin(types), std::end(types), type) != std::end(types);
 }
 
 }  // namespace
@@ -39,7 +37,7 @@ std::shared_ptr<const PhaseFunction> SceneBuilder::make_phase_function(const Obj
                                                                        int level) {
   const PhaseFunctionType* type = find_row(phase_function_types(), given.type);
   const std::vector<std::string> valid = names_of(phase_function_types());
-  if (!type && !is_strict_ && (is_foreign(given, valid) || is_type_to_come(given.type)))
+  if (!type && !is_strict_ && (is_foreign(given, valid) || remedy_for_type_to_come(given)))
     return phase_instead_of(given, level);
   if (!type) {
     unknown_type(given, valid);
@@ -144,7 +142,7 @@ const std::shared_ptr<Object>* SceneBuilder::volume_instead_of(
     const std::shared_ptr<Object>& volume) {
   const std::vector<std::string> valid = names_of(volume_types());
   if (is_strict_ || find_row(volume_types(), volume->type) ||
-      !(is_foreign(*volume, valid) || is_type_to_come(volume->type)))
+      !(is_foreign(*volume, valid) || remedy_for_type_to_come(*volume)))
     return &volume;
   for (const Child& child : volume->children)
     if (child.object->family == "volume") {
@@ -179,21 +177,13 @@ std::optional<SceneBuilder::Volumes> SceneBuilder::volumes_of(const Object& obje
     if (child.object->family != "volume") continue;
     const Place& place = child.object->place;
     const bool is_taken = std::find(valid.begin(), valid.end(), child.name) != valid.end();
-    // What glows is missed.
-    if (!is_taken && !is_strict_ && child.name != "emission" &&
-        nearest_name(child.name, valid).empty()) {
+    if (!is_taken && !is_strict_ && nearest_name(child.name, valid).empty()) {
       if (left_out_.insert(child.object.get()).second)
-        unknown_.add(fmt::format("{} '{}' takes no volume '{}': it is left out", object.family,
-                                 object.type, child.name),
-                     place);
+        unknown_.add(takes_no_volume(object, child.name) + ": it is left out", place);
       continue;
     }
     if (!is_taken) {
-      problems_.add(
-          fmt::format("{} '{}' takes no volume '{}'", object.family, object.type, child.name),
-          child.name == "emission" ? "remove it: media do not glow yet"
-                                   : suggest(child.name, valid),
-          place);
+      problems_.add(takes_no_volume(object, child.name), suggest(child.name, valid), place);
       continue;
     }
     const std::shared_ptr<Object>* known = volume_instead_of(child.object);
@@ -208,10 +198,33 @@ std::optional<SceneBuilder::Volumes> SceneBuilder::volumes_of(const Object& obje
   return volumes;
 }
 
-std::shared_ptr<const Medium> SceneBuilder::make_medium(const std::shared_ptr<Object>& object) {
-  const auto known = media_.find(object.get());
+std::shared_ptr<Object> SceneBuilder::without_emission(const std::shared_ptr<Object>& medium) {
+  const auto is_emission = [](const auto& part) { return part.name == "emission"; };
+  const auto property =
+      std::find_if(medium->properties.begin(), medium->properties.end(), is_emission);
+  const auto child = std::find_if(medium->children.begin(), medium->children.end(), is_emission);
+  const bool is_property = property != medium->properties.end();
+  if (!is_property && child == medium->children.end()) return medium;
+  const Place place = is_property ? property->place : child->object->place;
+  if (is_strict_)
+    problems_.add(
+        fmt::format("medium '{}' has 'emission', and media do not glow yet", medium->type),
+        "remove it", place);
+  else if (left_out_.insert(medium.get()).second)
+    unknown_.add(
+        fmt::format("media do not glow yet: 'emission' of medium '{}' is left out", medium->type),
+        place);
+  auto dark = std::make_shared<Object>(*medium);
+  std::erase_if(dark->properties, is_emission);
+  std::erase_if(dark->children, is_emission);
+  return dark;
+}
+
+std::shared_ptr<const Medium> SceneBuilder::make_medium(const std::shared_ptr<Object>& given) {
+  const auto known = media_.find(given.get());
   if (known != media_.end()) return known->second;
-  std::shared_ptr<const Medium>& medium = media_[object.get()];
+  std::shared_ptr<const Medium>& medium = media_[given.get()];
+  const std::shared_ptr<Object> object = without_emission(given);
   const MediumType* type = find_row(medium_types(), object->type);
   if (!type && is_foreign(*object, names_of(medium_types()))) {
     leave_out(*object, "it is left out, and space is empty there");

@@ -59,6 +59,10 @@ std::shared_ptr<Object> made_integrator(Description& description) {
 std::string choose_camera(Description& description, const std::string& name) {
   unfold_batches(*description.scene);
   const std::vector<std::shared_ptr<Object>> cameras = cameras_of(*description.scene);
+  const auto name_of = [&](const Object& camera) {
+    if (!camera.id.empty()) return fmt::format("'{}'", camera.id);
+    return camera.place.line > 0 ? "the one at " + text_of(camera.place) : "one without a name";
+  };
   std::vector<std::string> names, ids;
   std::shared_ptr<Object> chosen;
   for (const auto& camera : cameras) {
@@ -66,7 +70,7 @@ std::string choose_camera(Description& description, const std::string& name) {
     if (!chosen && (name.empty() || camera->id == name))
       chosen = camera;
     else
-      names.push_back(camera->id.empty() ? "one without a name" : camera->id);
+      names.push_back(name_of(*camera));
   }
   if (!chosen && !name.empty())
     throw Error(
@@ -75,9 +79,8 @@ std::string choose_camera(Description& description, const std::string& name) {
   if (names.empty()) return {};
   leave_camera(*description.scene, *chosen);
   if (!name.empty()) return {};
-  return fmt::format(
-      "the scene has {} cameras: {} is used, the others are left out: {}", cameras.size(),
-      chosen->id.empty() ? "the first" : fmt::format("'{}'", chosen->id), fmt::join(names, ", "));
+  return fmt::format("the scene has {} cameras: {} is used, the others are left out: {}",
+                     cameras.size(), name_of(*chosen), fmt::join(names, ", "));
 }
 
 Setting setting_from(const std::string& assignment, const std::string& origin) {

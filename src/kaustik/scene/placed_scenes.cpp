@@ -67,11 +67,12 @@ const Parameter* placing_row(const TypeInfo& info) {
 
 /// First `inner`, then `outer`.
 Transform compose(const Transform& outer, const Transform& inner, const Place& place) {
-  const Transform composed = outer * inner;
-  double rows[4][4];
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) rows[i][j] = composed.at(i, j);
   try {
+    const Transform composed = outer * inner;
+    if (composed.dimensions() < 3) return composed;
+    double rows[4][4];
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) rows[i][j] = composed.at(i, j);
     return Transform(rows);
   } catch (const std::invalid_argument&) {
     throw Error(ErrorKind::input, "the transforms of a placed scene shrink or grow it to nothing",

@@ -9,9 +9,9 @@
 #include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/find_row.h"
-#include "kaustik/scene/foreign_shapes.h"
 #include "kaustik/scene/spectrum_types.h"
 #include "kaustik/scene/type_tables.h"
+#include "kaustik/scene/types_to_come.h"
 
 namespace kaustik {
 namespace {
@@ -20,6 +20,23 @@ std::string display_name(const Object& object) {
   if (!object.id.empty()) return object.id;
   const std::string name = fmt::format("{} '{}'", object.family, object.type);
   return object.place.line > 0 ? fmt::format("{} on line {}", name, object.place.line) : name;
+}
+
+/// Of the row `to_world`, as far as it is one; 3 where there is none.
+int dimensions_left(const Object& object) {
+  for (const Property& property : object.properties)
+    if (const auto* to_world = std::get_if<Transform>(&property.value);
+        to_world && property.name == "to_world")
+      return to_world->dimensions();
+  return 3;
+}
+
+/// Whether nothing is left of a shape that has been flattened.
+bool is_line(const Shape& shape) {
+  constexpr double nothing = 1e-9;  // beside the square of its extent
+  const Bounds3f bounds = shape.bounds();
+  const Vec3f size = bounds.isEmpty() ? Vec3f(0, 0, 0) : bounds.max - bounds.min;
+  return !(double(shape.area()) > nothing * sqr(double(length(size))));
 }
 
 /// Refuses what floats cannot carry through ray tracing; `what` is the subject of the message.
@@ -74,15 +91,33 @@ void SceneBuilder::unknown_type(const Object& object, const std::vector<std::str
                 suggest(object.type, valid), object.place);
 }
 
+void SceneBuilder::not_here_yet(const Object& object) {
+  problems_.add(fmt::format("there is no {} '{}' here yet", object.family, object.type),
+                remedy_for_type_to_come(object).value_or(""), object.place);
+}
+
 bool SceneBuilder::is_foreign(const Object& object, const std::vector<std::string>& valid) const {
   return !is_strict_ && nearest_name(object.type, valid).empty();
 }
 
 void SceneBuilder::leave_out(const Object& object, const std::string& consequence) {
   if (!left_out_.insert(&object).second) return;
-  unknown_.add(
-      fmt::format("Kaustik does not know {} '{}': {}", object.family, object.type, consequence),
-      object.place);
+  const std::optional<std::string> remedy = remedy_for_type_to_come(object);
+  const std::string what = fmt::format("{} '{}'", object.family, object.type);
+  unknown_.add(fmt::format("{}: {}{}",
+                           remedy ? fmt::format("there is no {} here yet", what)
+                                  : fmt::format("Kaustik does not know {}", what),
+                           consequence, remedy && !remedy->empty() ? "; " + *remedy : ""),
+               object.place);
+}
+
+void SceneBuilder::leave_out_flat(const Object& shape) {
+  const std::string message =
+      fmt::format("'to_world' of shape '{}' leaves nothing of it", shape.type);
+  if (is_strict_)
+    problems_.add(message, "give no factor of 0", shape.place);
+  else if (left_out_.insert(&shape).second)
+    unknown_.add(message + ": it is left out", shape.place);
 }
 
 void SceneBuilder::told_unless_strict(const std::string& message, const std::string& remedy,
@@ -223,17 +258,22 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   if (!type) {
     std::vector<std::string> valid = names_of(shape_types());
     valid.insert(valid.end(), {shapegroup_info().name, instance_info().name, merge_info().name});
-    const std::string remedy = remedy_for_foreign_shape(object.type);
-    if (is_foreign(object, valid) || (!is_strict_ && !remedy.empty()))
-      leave_out(object, remedy.empty() ? "it is left out" : "it is left out; " + remedy);
-    else if (!remedy.empty())
-      problems_.add(fmt::format("there is no shape '{}' here yet", object.type), remedy,
-                    object.place);
+    const bool is_to_come = remedy_for_type_to_come(object).has_value();
+    if (is_foreign(object, valid) || (!is_strict_ && is_to_come))
+      leave_out(object, "it is left out");
+    else if (is_to_come)
+      not_here_yet(object);
     else
       unknown_type(object, valid);
     return std::nullopt;
   }
   refuse_children(object, {"bsdf", "emitter", "integrator", "medium", "sensor", "texture"});
+  const Parameter* placing = type->info.find("to_world");
+  const int dimensions = dimensions_left(object);
+  if (placing && dimensions < placing->least_dimensions) {
+    leave_out_flat(object);
+    return std::nullopt;
+  }
   const std::optional<Object> described = with_heights(object, type->info);
   if (!described) return std::nullopt;
   BuiltShape built;
@@ -243,8 +283,13 @@ std::optional<SceneBuilder::BuiltShape> SceneBuilder::make_shape(const Object& o
   if (arguments.is_complete())
     collecting(source_place(arguments), [&] {
       built.shape = shape_of(object, *type, arguments);
-      check_size(*built.shape, source_place(arguments));
+      if (dimensions == 3 || !is_line(*built.shape))
+        check_size(*built.shape, source_place(arguments));
     });
+  if (built.shape && dimensions < 3 && is_line(*built.shape)) {
+    leave_out_flat(object);
+    return std::nullopt;
+  }
   int bsdf_count = 0;
   for (const Child& child : object.children) {
     if (child.object->family == "bsdf") {
@@ -313,8 +358,18 @@ uint32_t SceneBuilder::group_index(const std::shared_ptr<Object>& group) {
 }
 
 void SceneBuilder::add_instance(const Object& object) {
+  if (dimensions_left(object) < 3) return leave_out_flat(object);
   const Arguments arguments = arguments_of(instance_info(), object);
-  refuse_children(object, {"shape"});
+  std::vector<std::string> families = {"shape"};
+  const auto bsdf = std::find_if(object.children.begin(), object.children.end(),
+                                 [](const Child& child) { return child.object->family == "bsdf"; });
+  if (bsdf != object.children.end() && !is_strict_) {
+    families.emplace_back("bsdf");
+    if (left_out_.insert(&object).second)
+      unknown_.add("a bsdf in an instance has no effect: the shapes of its group have theirs",
+                   bsdf->object->place);
+  }
+  refuse_children(object, families);
   std::vector<std::shared_ptr<Object>> shapes;
   for (const Child& child : object.children)
     if (child.object->family == "shape") shapes.push_back(child.object);

@@ -73,7 +73,9 @@ class SceneBuilder {
   /// The textures in an object, by the parameters that they stand for; none if one is wrong.
   std::optional<Textures> textures_of(const Object& object, const TypeInfo& info,
                                       const BuiltShape* on);
-  std::shared_ptr<const Medium> make_medium(const std::shared_ptr<Object>& object);
+  std::shared_ptr<const Medium> make_medium(const std::shared_ptr<Object>& given);
+  /// The medium as one that does not glow, which is told.
+  std::shared_ptr<Object> without_emission(const std::shared_ptr<Object>& medium);
   std::shared_ptr<const PhaseFunction> make_phase_function(const Object& object, int level = 0);
   /// An isotropic phase function, or those in it, for one that nobody knows; warns.
   std::shared_ptr<const PhaseFunction> phase_instead_of(const Object& object, int level);
@@ -102,6 +104,8 @@ class SceneBuilder {
   Bounds3f bounds_of_shapes() const;
   /// Whether its only texture is a spectral response, which means nothing here.
   bool leaves_out_response(const Object& sensor);
+  /// A specfilm without the bands of wavelengths that it names.
+  Object without_bands(const Object& film, const TypeInfo& info);
   void read_film(const Object& object);
   void read_filter(const Object& object);
   void read_sampler(const Object& object);
@@ -158,8 +162,12 @@ class SceneBuilder {
   /// Whether a type that no table has is another program's, rather than a slip of the pen; none is
   /// where the scene is read strictly.
   bool is_foreign(const Object& object, const std::vector<std::string>& valid) const;
-  /// Warns, once for each object, that nobody knows its type, and what follows.
+  /// A problem: remedy_for_type_to_come() says what to do.
+  void not_here_yet(const Object& object);
+  /// Warns, once for each object, that Kaustik does not know its type, and what follows.
   void leave_out(const Object& object, const std::string& consequence);
+  /// A shape of which to_world leaves nothing; an error where the scene is read strictly.
+  void leave_out_flat(const Object& shape);
   /// A problem where the scene is read strictly, else a warning.
   void told_unless_strict(const std::string& message, const std::string& remedy,
                           const Place& place);

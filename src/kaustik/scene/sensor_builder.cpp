@@ -4,6 +4,7 @@
 #include "kaustik/scene/filter_kinds.h"
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/scene_builder.h"
+#include "kaustik/scene/spectrum_types.h"
 
 namespace kaustik {
 
@@ -122,6 +123,21 @@ void SceneBuilder::use_instead(const Object& object, const std::vector<std::stri
                                   suggest(object.type, valid)));
 }
 
+Object SceneBuilder::without_bands(const Object& film, const TypeInfo& info) {
+  Object plain = film;
+  if (film.type != "specfilm") return plain;
+  const size_t bands = std::erase_if(plain.properties, [&](const Property& property) {
+    return !info.find(property.name) && (std::holds_alternative<SpectralCurve>(property.value) ||
+                                         std::holds_alternative<Rgb>(property.value) ||
+                                         std::holds_alternative<double>(property.value));
+  });
+  const size_t objects = std::erase_if(plain.children, [](const Child& child) {
+    return spectrum_type_of(*child.object) != nullptr;
+  });
+  if (bands + objects > 0) ignored_.insert("the bands of film 'specfilm'");
+  return plain;
+}
+
 void SceneBuilder::read_film(const Object& object) {
   const FilmType* type = find_row(film_types(), object.type);
   if (!type) {
@@ -129,7 +145,7 @@ void SceneBuilder::read_film(const Object& object) {
     read_film({"film", "hdrfilm", "", object.properties, object.children, object.place});
     return;
   }
-  const Arguments arguments = arguments_of(type->info, object);
+  const Arguments arguments = arguments_of(type->info, without_bands(object, type->info));
   collecting(object.place, [&] { film_ = type->create(arguments); });
   refuse_children(object, {"rfilter"});
   film_.filter = gaussian_filter(0.5f, 2.0f);

@@ -8,6 +8,7 @@
 
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/scene_builder.h"
+#include "kaustik/scene/types_to_come.h"
 
 namespace kaustik {
 namespace {
@@ -29,13 +30,6 @@ std::shared_ptr<const Object> sheet_instead_of(const Object& filter) {
       {"", std::make_shared<Object>(Object{
                "bsdf", "diffuse", "", {{"reflectance", 0.0, filter.place}}, {}, filter.place})});
   return sheet;
-}
-
-/// What will do in place of a light of Mitsuba that is not here yet; empty for all others.
-std::string remedy_for_light_to_come(const std::string& type) {
-  if (type == "collimated") return "use a 'spot' with a small 'cutoff_angle'";
-  if (type == "timed_sunsky") return "use 'sunsky' with the hour that matters most";
-  return {};
 }
 
 bool has(const Object& object, const std::string& name) {
@@ -65,9 +59,7 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_instead_of(const Object& object,
       return make_bsdf(child.object, on);
     }
   if (const auto sheet = sheet_instead_of(object)) {
-    leave_out(object,
-              "light is not polarised: " +
-                  std::string(sheet->type == "null" ? "light passes" : "half of the light passes"));
+    leave_out(object, sheet->type == "null" ? "light passes" : "half of the light passes");
     stand_ins_.push_back(sheet);
     return create_bsdf(*sheet, on);
   }
@@ -81,8 +73,7 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_instead_of(const Object& object,
   for (const Child& child : object.children)
     if (is_colour(child.name) && matt->properties.empty() && matt->children.empty())
       matt->children.push_back({"reflectance", child.object});
-  const std::string remedy(remedy_for_bsdf_to_come(object.type));
-  leave_out(object, "a matt surface stands for it" + (remedy.empty() ? "" : "; " + remedy));
+  leave_out(object, "a matt surface stands for it");
   stand_ins_.push_back(matt);
   return create_bsdf(*matt, on);
 }
@@ -90,13 +81,13 @@ std::shared_ptr<const Bsdf> SceneBuilder::bsdf_instead_of(const Object& object,
 const Object* SceneBuilder::emitter_instead_of(const PendingLight& pending) {
   const Object& emitter = *pending.object;
   const std::vector<std::string> valid = names_of(light_types());
-  const std::string later = remedy_for_light_to_come(emitter.type);
-  if (later.empty() && !is_foreign(emitter, valid)) {
+  const bool is_to_come = remedy_for_type_to_come(emitter).has_value();
+  if (!is_to_come && !is_foreign(emitter, valid)) {
     unknown_type(emitter, valid);
     return nullptr;
   }
   if (is_strict_) {
-    problems_.add(fmt::format("emitter '{}' comes later", emitter.type), later, emitter.place);
+    not_here_yet(emitter);
     return nullptr;
   }
   const char* instead = pending.shape                ? "area"
@@ -105,7 +96,7 @@ const Object* SceneBuilder::emitter_instead_of(const PendingLight& pending) {
                         : has(emitter, "radiance")   ? "constant"
                                                      : "";
   if (*instead == '\0' || (pending.shape && !has(emitter, "radiance"))) {
-    leave_out(emitter, later.empty() ? "it is left out" : "it is left out; " + later);
+    leave_out(emitter, "it is left out");
     return nullptr;
   }
   leave_out(emitter, fmt::format("'{}' stands for it", instead));
