@@ -19,6 +19,12 @@ add_compile_options(-ffp-contract=off -fno-math-errno)
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
 if(KAUSTIK_SANITIZE STREQUAL "address")
   set(kaustik_sanitizers -fsanitize=address,undefined -fno-sanitize-recover=all)
+  # Where memory behind a null pointer or beyond an object is used, the address sanitizer stops, too. Only null
+  # pointers that become references and are never used go unseen. Without these two checks programs take a fifth
+  # less time to build and a quarter less to run.
+  if(NOT KAUSTIK_SANITIZE_ALL)
+    list(APPEND kaustik_sanitizers -fno-sanitize=null,object-size)
+  endif()
 elseif(KAUSTIK_SANITIZE STREQUAL "thread")
   set(kaustik_sanitizers -fsanitize=thread)
   add_compile_definitions(KAUSTIK_THREAD_SANITIZER=1)

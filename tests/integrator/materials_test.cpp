@@ -110,7 +110,7 @@ class Materials : public testing::TestWithParam<Material> {
   }
   void expect_bdpt_agrees() const {
     const TestScene scene = ball_of(GetParam().bsdf);
-    const double samples = GetParam().samples;
+    const double samples = GetParam().samples * (slow_build ? 0.25 : 1);
     expect_agreement(scene, picture_of(scene, "path", "", samples), "bdpt", "", 0.01, samples);
   }
 };

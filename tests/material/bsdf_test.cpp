@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "kaustik/base/sampler.h"
@@ -44,13 +45,16 @@ constexpr bool is_slow_build = true;
 constexpr bool is_slow_build = false;
 #endif
 
-/// On the outside and on the inside, where something comes back from there. What takes long is
-/// asked at half of the angles, a steep and a grazing one.
-std::vector<Case> cases_of(const Bsdf& bsdf) {
+/// On the outside and on the inside, where something comes back from there. At length at every
+/// angle. Else what takes long is asked at half of the angles, a steep and a grazing one; and where
+/// programs run slowly, at the one from the outside, at the other from the inside.
+std::vector<Case> cases_of(const Bsdf& bsdf, const Effort& effort) {
   std::vector<Case> cases;
-  const size_t step = is_slow_build || is_mixed(bsdf) ? 2 : 1;
+  const bool is_quick = effort.samples < at_length.samples;
+  const size_t step = is_quick && (is_slow_build || is_mixed(bsdf)) ? 2 : 1;
   for (size_t i = step - 1; i < outgoing_directions().size(); i += step)
-    for (const float side : {1.0f, -1.0f})
+    for (const float side : {1.0f, -1.0f}) {
+      if (is_quick && is_slow_build && (side > 0) != (i == step - 1)) continue;
       for (const Lobes lobes : lobe_sets(bsdf)) {
         const Vec3f& outside = outgoing_directions()[i];
         const Vec3f wo(outside.x, outside.y, side * outside.z);
@@ -58,20 +62,22 @@ std::vector<Case> cases_of(const Bsdf& bsdf) {
         cases.push_back(
             {wo, lobes, "wo.z " + std::to_string(wo.z) + ", lobes " + std::to_string(int(lobes))});
       }
+    }
   return cases;
 }
 
-int count_of_cases() {
+int count_of_cases(const Effort& effort) {
   int count = 0;
-  for (const BsdfInstance& i : bsdf_instances()) count += int(cases_of(*i.bsdf).size());
+  for (const BsdfInstance& i : bsdf_instances()) count += int(cases_of(*i.bsdf, effort).size());
   return count;
 }
 
 /// The level of one test out of the `tests_per_case` for every case, such that all of them together
 /// fail with a chance of 1 % where everything is right.
-double level(int tests_per_case) {
-  static const int cases = count_of_cases();
-  return sidak_level(0.01, cases * tests_per_case);
+double level(const Effort& effort, int tests_per_case) {
+  static const int quick_cases = count_of_cases(quick), cases = count_of_cases(at_length);
+  return sidak_level(0.01,
+                     (effort.samples < at_length.samples ? quick_cases : cases) * tests_per_case);
 }
 
 /// Independent points: the tests below assume that.
@@ -84,6 +90,9 @@ BsdfSample draw(const Bsdf& bsdf, const BsdfContext& context, const Case& c, Sam
 
 class EveryBsdf : public testing::TestWithParam<BsdfInstance> {
  protected:
+  void expect_samples_as_the_density_says(const Effort& effort) const;
+  void expect_mean_weights_that_are_integrals(const Effort& effort) const;
+  void expect_albedos_that_are_mean_weights(const Effort& effort) const;
   const Bsdf& bsdf() const { return *GetParam().bsdf; }
   bool has_density() const { return any(bsdf().traits().lobes & (Lobes::diffuse | Lobes::glossy)); }
 };
@@ -103,13 +112,15 @@ struct Drawn {
 constexpr std::array<Lobes, 3> single_lobes = {Lobes::diffuse, Lobes::glossy, Lobes::delta};
 
 /// Of many lobes each gets its share of the samples only.
-int samples_for(const Bsdf& bsdf) { return is_mixed(bsdf) ? 3 * sample_count : sample_count; }
+int samples_for(const Bsdf& bsdf, const Effort& effort) {
+  return is_mixed(bsdf) ? 3 * effort.samples : effort.samples;
+}
 
-Drawn draw_many(const Bsdf& bsdf, const Case& c) {
+Drawn draw_many(const Bsdf& bsdf, const Case& c, int samples) {
   const DirectionGrid grid(c.wo);
   Drawn result;
   result.cells.resize(grid.size() + 1);
-  for (int i = 0; i < samples_for(bsdf); ++i) {
+  for (int i = 0; i < samples; ++i) {
     const BsdfSample s = draw(bsdf, flux(), c, sampler_of(1, i));
     const bool has_density = s.event == Lobes::diffuse || s.event == Lobes::glossy;
     result.cells[has_density ? grid.cell_of(s.wi) : grid.size()] += 1;
@@ -124,58 +135,66 @@ Drawn draw_many(const Bsdf& bsdf, const Case& c) {
 }
 
 /// The same for every test that asks.
-const Drawn& drawn(const Bsdf& bsdf, const Case& c) {
-  static std::map<std::pair<const Bsdf*, std::string>, Drawn> memory;
-  const auto key = std::make_pair(&bsdf, c.text);
+const Drawn& drawn(const Bsdf& bsdf, const Case& c, const Effort& effort) {
+  static std::map<std::tuple<const Bsdf*, std::string, int>, Drawn> memory;
+  const int samples = samples_for(bsdf, effort);
+  const auto key = std::make_tuple(&bsdf, c.text, samples);
   const auto found = memory.find(key);
   return found != memory.end() ? found->second
-                               : memory.emplace(key, draw_many(bsdf, c)).first->second;
+                               : memory.emplace(key, draw_many(bsdf, c, samples)).first->second;
 }
 
-Cells expected_cells(const Bsdf& bsdf, const Case& c) {
+Cells expected_cells(const Bsdf& bsdf, const Case& c, int samples) {
   const DirectionGrid grid(c.wo);
   Cells cells;
   double total = 0;
   for (size_t cell = 0; cell < grid.size(); ++cell) {
     const Vec3d share = grid.integrate(
         cell, [&](const Vec3f& wi) { return Vec3d(bsdf.pdf({}, c.wo, wi, c.lobes), 0, 0); });
-    cells.push_back(share.x * samples_for(bsdf));
+    cells.push_back(share.x * samples);
     total += share.x;
   }
   EXPECT_LT(total, 1 + 2e-4) << "the density is more than 1";
   // The quadrature is not exact enough to tell a smaller share from none.
   const double absorbed = 1 - total < 3e-4 ? 0 : 1 - total;
-  cells.push_back(absorbed * samples_for(bsdf));
+  cells.push_back(absorbed * samples);
   return cells;
 }
 
-/// Every other cell has two percent more, the others two percent less.
-Cells with_planted_error(Cells cells) {
-  for (size_t i = 0; i < cells.size(); ++i)
-    cells[i] *= i % 2 ? 1 + planted_error : 1 - planted_error;
+/// Every other cell has some percent more, the others as much less.
+Cells with_planted_error(Cells cells, double error) {
+  for (size_t i = 0; i < cells.size(); ++i) cells[i] *= i % 2 ? 1 + error : 1 - error;
   return cells;
 }
 
-TEST_P(EveryBsdf, samples_as_its_density_says) {
+void EveryBsdf::expect_samples_as_the_density_says(const Effort& effort) const {
   if (!has_density()) return;  // delta lobes have none
-  for (const Case& c : cases_of(bsdf())) {
+  const int samples = samples_for(bsdf(), effort);
+  for (const Case& c : cases_of(bsdf(), effort)) {
     SCOPED_TRACE(c.text);
-    Cells observed = drawn(bsdf(), c).cells;
-    const Cells expected = expected_cells(bsdf(), c);
-    if (expected.back() > 0.999 * samples_for(bsdf())) continue;  // by delta lobes alone
+    Cells observed = drawn(bsdf(), c, effort).cells;
+    const Cells expected = expected_cells(bsdf(), c, samples);
+    if (expected.back() > 0.999 * samples) continue;  // by delta lobes alone
     if (expected.back() == 0) {
-      EXPECT_LE(observed.back(), 1e-3 * samples_for(bsdf()));
+      EXPECT_LE(observed.back(), 1e-3 * samples);
       observed.back() = 0;
     }
-    EXPECT_GT(chi_square_p_value(observed, expected), level(1));
-    EXPECT_LT(chi_square_p_value(observed, with_planted_error(expected)), level(1));
+    const Cells wrong = with_planted_error(expected, effort.planted_error);
+    EXPECT_GT(chi_square_p_value(observed, expected), level(effort, 1));
+    EXPECT_LT(chi_square_p_value(observed, wrong), level(effort, 1));
   }
+}
+
+TEST_P(EveryBsdf, samples_as_its_density_says) { expect_samples_as_the_density_says(quick); }
+
+TEST_P(EveryBsdf, samples_as_its_density_saysLong) {
+  expect_samples_as_the_density_says(at_length);
 }
 
 // ---- weights ----
 
 TEST_P(EveryBsdf, weight_is_value_times_cosine_over_density) {
-  for (const Case& c : cases_of(bsdf())) {
+  for (const Case& c : cases_of(bsdf(), quick)) {
     SCOPED_TRACE(c.text);
     const Lobes asked = c.lobes & bsdf().traits().lobes;
     const bool one_lobe =
@@ -209,7 +228,7 @@ TEST_P(EveryBsdf, weight_is_value_times_cosine_over_density) {
   }
 }
 
-Vec3d integral_of_value(const Bsdf& bsdf, const Vec3f& wo, Lobes lobes) {
+Vec3d integrate_value(const Bsdf& bsdf, const Vec3f& wo, Lobes lobes) {
   const DirectionGrid grid(wo);
   Vec3d sum(0, 0, 0);
   for (size_t cell = 0; cell < grid.size(); ++cell)
@@ -220,46 +239,72 @@ Vec3d integral_of_value(const Bsdf& bsdf, const Vec3f& wo, Lobes lobes) {
   return sum;
 }
 
-TEST_P(EveryBsdf, mean_weight_of_each_event_is_the_integral_of_its_lobe) {
+/// The same whether the lobe is asked for alone or with others.
+const Vec3d& integral_of_value(const Bsdf& bsdf, const Vec3f& wo, Lobes lobes) {
+  static std::map<std::tuple<const Bsdf*, float, float, float, Lobes>, Vec3d> memory;
+  const auto key = std::make_tuple(&bsdf, wo.x, wo.y, wo.z, lobes);
+  const auto found = memory.find(key);
+  return found != memory.end()
+             ? found->second
+             : memory.emplace(key, integrate_value(bsdf, wo, lobes)).first->second;
+}
+
+void EveryBsdf::expect_mean_weights_that_are_integrals(const Effort& effort) const {
   if (!has_density()) return;  // delta lobes have none
-  for (const Case& c : cases_of(bsdf()))
+  for (const Case& c : cases_of(bsdf(), effort))
     for (size_t event = 0; event < 2; ++event) {
       if (!any(single_lobes[event] & c.lobes & bsdf().traits().lobes)) continue;
       SCOPED_TRACE(c.text + ", event " + std::to_string(event));
-      const Vec3d expected = integral_of_value(bsdf(), c.wo, single_lobes[event]);
+      const Vec3d& expected = integral_of_value(bsdf(), c.wo, single_lobes[event]);
       // Of a lobe that few samples meet only a larger error shows.
       const Spectrum lobe = bsdf().albedo({}, c.wo, single_lobes[event]),
                      all = bsdf().albedo({}, c.wo, c.lobes);
-      const double error_found = planted_error * std::sqrt(double(all.sum() / lobe.sum()));
+      const double error_found = effort.planted_error * std::sqrt(double(all.sum() / lobe.sum()));
       for (int lane = 0; lane < 3; ++lane) {
         SCOPED_TRACE(lane);
-        const RunningStatistics& weight = drawn(bsdf(), c).weights[event][size_t(lane)];
+        const RunningStatistics& weight = drawn(bsdf(), c, effort).weights[event][size_t(lane)];
         // The quadrature is good to 1e-4; without variance that is all there is to see.
         const double error = std::hypot(weight.standard_error(), 5e-5 * expected[lane]);
         const double wrong = expected[lane] * (1 + error_found);
-        EXPECT_GT(z_test_p_value(weight.mean(), error, expected[lane]), level(6));
+        EXPECT_GT(z_test_p_value(weight.mean(), error, expected[lane]), level(effort, 6));
         if (expected[lane] > 0) {
-          EXPECT_LT(z_test_p_value(weight.mean(), error, wrong), level(6));
+          EXPECT_LT(z_test_p_value(weight.mean(), error, wrong), level(effort, 6));
         }
       }
     }
 }
 
-TEST_P(EveryBsdf, albedo_is_the_mean_weight_and_at_most_one) {
-  for (const Case& c : cases_of(bsdf())) {
+TEST_P(EveryBsdf, mean_weight_of_each_event_is_the_integral_of_its_lobe) {
+  expect_mean_weights_that_are_integrals(quick);
+}
+
+TEST_P(EveryBsdf, mean_weight_of_each_event_is_the_integral_of_its_lobeLong) {
+  expect_mean_weights_that_are_integrals(at_length);
+}
+
+void EveryBsdf::expect_albedos_that_are_mean_weights(const Effort& effort) const {
+  for (const Case& c : cases_of(bsdf(), effort)) {
     SCOPED_TRACE(c.text);
     const Spectrum albedo = bsdf().albedo({}, c.wo, c.lobes);
     EXPECT_LE(albedo.max_lane(), 1.0f + 1e-5f);
     EXPECT_EQ(albedo[3], 0);
     const bool estimated = any(c.lobes & bsdf().traits().lobes & Lobes::glossy);
     for (size_t lane = 0; lane < 3; ++lane) {
-      const RunningStatistics& weight = drawn(bsdf(), c).all_weights[lane];
+      const RunningStatistics& weight = drawn(bsdf(), c, effort).all_weights[lane];
       const double noise = 5 * weight.standard_error() + 2e-6;
       const double error = estimated ? GetParam().albedo_error * weight.mean() : 0;
       EXPECT_NEAR(albedo[int(lane)], weight.mean(), error + noise);
       EXPECT_LE(weight.mean(), 1 + noise);
     }
   }
+}
+
+TEST_P(EveryBsdf, albedo_is_the_mean_weight_and_at_most_one) {
+  expect_albedos_that_are_mean_weights(quick);
+}
+
+TEST_P(EveryBsdf, albedo_is_the_mean_weight_and_at_most_oneLong) {
+  expect_albedos_that_are_mean_weights(at_length);
 }
 
 // ---- symmetry and restrictions ----

@@ -60,14 +60,14 @@ TEST(dielectric, reflects_as_often_as_fresnel_says) {
   const Vec3f wo = outgoing_directions()[2];
   const double expected = fresnel_dielectric(wo.z, 1.5f).reflectance;
   RunningStatistics reflected;
-  for (int i = 0; i < 4 * sample_count; ++i) {
+  for (int i = 0; i < 4 * quick.samples; ++i) {
     const float u = Sampler(hash_mix(9, uint64_t(i)), 0).next_1d();
     const BsdfSample s = glass()->sample(flux(), wo, u, {}, Lobes::all);
     reflected.add(s.transmission ? 0 : 1);
     ASSERT_NEAR(s.pdf_solid_angle, s.transmission ? 1 - expected : expected, 1e-6);
   }
   EXPECT_GT(z_test_p_value(reflected, expected), 1e-3);
-  EXPECT_LT(z_test_p_value(reflected, expected * (1 + planted_error)), 1e-3);
+  EXPECT_LT(z_test_p_value(reflected, expected * (1 + quick.planted_error)), 1e-3);
 }
 
 TEST(dielectric, of_equal_indices_lets_everything_through) {

@@ -82,7 +82,7 @@ TEST(dispersive_interface, samples_as_its_density_says) {
   const RoughInterface boundary = dispersive();
   for (const Vec3f& wo : {outgoing_directions()[1], -outgoing_directions()[1]}) {
     const DirectionGrid grid({wo.x, wo.y, std::fabs(wo.z)});
-    const int count = sample_count / 4;
+    const int count = quick.samples / 4;
     std::vector<double> observed(grid.size() + 1), expected, wrong;
     for (int i = 0; i < count; ++i) {
       Sampler sampler(hash_mix(17, uint64_t(i)), 0);
@@ -100,7 +100,8 @@ TEST(dispersive_interface, samples_as_its_density_says) {
                          })
               .x;
       expected.push_back(share * count);
-      wrong.push_back(share * count * (cell % 2 ? 1 + 2 * planted_error : 1 - 2 * planted_error));
+      wrong.push_back(share * count *
+                      (cell % 2 ? 1 + 2 * quick.planted_error : 1 - 2 * quick.planted_error));
       total += share;
     }
     expected.push_back(std::max(0.0, 1 - total) * count);
@@ -115,7 +116,7 @@ TEST(dispersive_interface, no_lane_gains_or_loses) {
   const RoughInterface boundary = dispersive();
   for (const Vec3f& wo : {outgoing_directions()[0], -outgoing_directions()[1]}) {
     RunningStatistics sums[4];
-    for (int i = 0; i < sample_count / 4; ++i) {
+    for (int i = 0; i < quick.samples / 4; ++i) {
       Sampler sampler(hash_mix(19, uint64_t(i)), 0);
       const float u_lobe = sampler.next_1d();
       const BsdfSample s = boundary.sample(about(lanes_nm), factors, wo, u_lobe, sampler.next_2d());
