@@ -150,9 +150,10 @@ MaterialUser::Bsdfs MaterialUser::library_bsdfs(const std::string& obj_path,
   Bsdfs bsdfs;
   const fs::path folder = fs::path(obj_path).parent_path();
   bool is_missing = false;
-  for (const auto& [line, place] : names) {
+  for (const auto& entry : names) {
+    const std::string& line = entry.first;
     const auto take = [&](std::string_view name) {
-      const std::optional<fs::path> found = find_(std::string(name), folder, place);
+      const std::optional<fs::path> found = find_(std::string(name), folder, entry.second);
       if (found) add_library(*found, bsdfs);
       return found.has_value();
     };
