@@ -22,10 +22,9 @@ const std::set<std::string>& shown_families() {
   return families;
 }
 
-/// Types without a scene of their own: they hold what others show, are made by programs, or need a
-/// file that is large.
+/// Types without a scene of their own: programs make them.
 const std::set<std::string>& types_without_scene() {
-  static const std::set<std::string> types = {"shape_shapegroup", "shape_mesh", "shape_serialized"};
+  static const std::set<std::string> types = {"shape_mesh"};
   return types;
 }
 

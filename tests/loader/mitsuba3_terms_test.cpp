@@ -162,6 +162,16 @@ TEST(Mitsuba3Terms, WhatDoesNotShineIsMatt) {
   EXPECT_EQ(first_of(translated("<bsdf type='roughdiffuse'/>")).type, "roughdiffuse");
 }
 
+// What Kaustik takes for a parameter that it knows stays one.
+TEST(Mitsuba3Terms, CamelCaseBecomesSnakeCase) {
+  const Mitsuba3Scene scene = translated(
+      "<bsdf type='plastic'><rgb name='diffuseReflectance' value='0.3'/><float name='intIor' "
+      "value='1.4'/><float name='int_ior' value='1.6'/></bsdf>");
+  EXPECT_EQ(value<Rgb>(first_of(scene), "diffuse_reflectance"), (Rgb{0.3, 0.3, 0.3}));
+  EXPECT_EQ(value<double>(first_of(scene), "int_ior"), 1.6);
+  EXPECT_EQ(first_of(scene).properties.size(), 2u);
+}
+
 TEST(Mitsuba3Terms, SheetsAndMetals) {
   const Object sheet = first_of(translated(
       "<bsdf type='difftrans'><rgb name='transmittance' value='0.1, 0.5, 0.1'/></bsdf>"));

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "kaustik/base/daylight_units.h"
+#include "kaustik/base/snake_case.h"
 #include "kaustik/loader/mitsuba3_rewrites.h"
 #include "kaustik/loader/mitsuba3_textures.h"
 #include "kaustik/loader/mitsuba3_types.h"
@@ -50,7 +51,19 @@ class Translator {
     return copies_[&object] = copy;
   }
 
+  /// Parameters in camelCase, which Kaustik takes for those in snake_case that it knows.
+  void spell_in_snake_case(Object& object) const {
+    const TypeInfo* info = types_.find(object.family, object.type);
+    if (!info) return;
+    for (Property& property : object.properties) {
+      const std::string snake = snake_case_from_camel_case(property.name);
+      if (!info->find(property.name) && info->find(snake) && !find_property(object, snake))
+        property.name = snake;
+    }
+  }
+
   void change(Object& object) {
+    spell_in_snake_case(object);
     if (object.family == "film") change_type(object, "hdrfilm");
     if (object.family == "sampler") change_type(object, "independent");
     if (object.family == "integrator") change_integrator(object);
