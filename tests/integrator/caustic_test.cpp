@@ -100,7 +100,7 @@ TEST_F(BallLens, PhotonMap) {
 /// where the light is even there.
 TEST_F(BallLens, Bdpt) { check("bdpt", render(scene_, "bdpt", of_techniques(0.01, 16), {4})); }
 TEST_F(BallLens, Vcm) { check("vcm", render(scene_, "vcm", of_techniques(0.01, 16), {4})); }
-TEST_F(BallLens, Ppm) { check("ppm", render(scene_, "ppm", of_techniques(0.05, 1), {48})); }
+TEST_F(BallLens, Ppm) { check("ppm", render(scene_, "ppm", of_techniques(0.05, 1), {24})); }
 /// Its radii differ from place to place: what a wide disk takes from the bright spot none gives
 /// back there. So the mean has a bias, and the bound is 1 %.
 TEST_F(BallLens, AutoLong) {

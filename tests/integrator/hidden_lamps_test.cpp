@@ -38,10 +38,10 @@ TEST(HiddenLamps, AreLookedThroughByEveryMethod) {
     EXPECT_EQ(passes.mean({"emission"}).mean(), 0) << integrator;
     expect_equal_means(integrator, passes.mean({""}), by_path);
   };
-  check("lighttracer", 800);
-  check("bdpt", 300);
+  check("lighttracer", 400);
+  check("bdpt", 150);
   for (const char* integrator : {"vcm", "auto"})
-    expect_near_means(integrator, render(scene, integrator, "", {200, 3}).mean({""}), by_path,
+    expect_near_means(integrator, render(scene, integrator, "", {100, 3}).mean({""}), by_path,
                       0.01);
 }
 
