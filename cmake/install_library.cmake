@@ -2,7 +2,7 @@
 # and what find_package(kaustik) and pkg-config read.
 include(CMakePackageConfigHelpers)
 set(KAUSTIK_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/kaustik)
-install(TARGETS kaustik_library EXPORT kaustikTargets
+install(TARGETS libkaustik EXPORT kaustikTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
 install(DIRECTORY include/kaustik DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.h")

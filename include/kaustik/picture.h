@@ -45,6 +45,8 @@ struct Region {
 /// the session.
 class KAUSTIK_EXPORT Picture {
  public:
+  Picture(const Picture&) = default;  // and nothing is moved: what one is taken from stays whole
+  Picture& operator=(const Picture&) = default;
   int width() const noexcept;
   int height() const noexcept;
   /// That it is the mean of; 0: samples of a first pass, or a first look.

@@ -21,6 +21,8 @@ class KAUSTIK_EXPORT Object {
  public:
   /// Such as ("bsdf", "diffuse"). The id is what edits and messages call it.
   Object(std::string family, std::string type, std::string id = {});
+  Object(const Object&) = default;  // and nothing is moved: what one is taken from stays whole
+  Object& operator=(const Object&) = default;
 
   /// Gives a parameter a value, in the place of one before.
   Object& set(std::string name, Value value);
@@ -57,6 +59,8 @@ class KAUSTIK_EXPORT Scene {
                            const std::string& folder = {});
   /// Of objects at its top: sensor, emitters, shapes, integrator.
   explicit Scene(const std::vector<Object>& objects);
+  Scene(const Scene&) = default;  // and nothing is moved
+  Scene& operator=(const Scene&) = default;
 
   /// The scene with these changes. It shares objects' buffers with this one, and sessions build
   /// anew only what is different. Throws Error for an object that is not there; whether the

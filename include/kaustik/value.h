@@ -55,6 +55,8 @@ struct ValueState;
 /// numbers.
 class KAUSTIK_EXPORT Array {
  public:
+  Array(const Array&) = default;  // and nothing is moved: what one is taken from stays whole
+  Array& operator=(const Array&) = default;
   /// Copies `rows` rows of `columns` numbers; from one row to the next are `stride_bytes` (0:
   /// packed, negative: backward). Element types: uint8_t, uint16_t, uint32_t, int32_t, int64_t,
   /// float, double. Throws Error for a null pointer to rows.
@@ -85,6 +87,8 @@ class KAUSTIK_EXPORT Array {
 /// whole number does for a number.
 class KAUSTIK_EXPORT Value {
  public:
+  Value(const Value&) = default;  // and nothing is moved
+  Value& operator=(const Value&) = default;
   Value(std::same_as<bool> auto value) : Value(of_boolean(value)) {}
   Value(double value);
   template <std::integral T>

@@ -87,6 +87,18 @@ TEST(LibraryScene, ObjectsAreValues) {
           .check());
 }
 
+TEST(LibraryScene, WhatWasMovedStaysWhole) {
+  Object grey("bsdf", "diffuse");
+  const Object taken = std::move(grey);
+  grey.set("reflectance", 0.5);
+  Scene scene({camera(4, 4), Object("emitter", "constant"), square_mesh().shape().add(grey)});
+  const Scene other = std::move(scene);
+  EXPECT_NO_THROW(scene.check());
+  Picture picture = rendered(other, passes(1, 1));
+  const Picture kept = std::move(picture);
+  EXPECT_EQ(picture.width(), kept.width());
+}
+
 TEST(LibraryScene, EditsLeaveTheFirstAsItWas) {
   const Scene dark = half_sky();
   const Scene bright = dark.edit({{"sky.radiance", 2}, {"film.width", 8}});

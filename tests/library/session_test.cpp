@@ -437,6 +437,33 @@ TEST(LibrarySession, ACallbackMayDestroyItsSession) {
   }
 }
 
+TEST(LibrarySession, AFirstLookIsNoPictureYet) {
+  SessionSettings settings = passes(1, 1u << 20);
+  settings.previews = true;
+  Session session(room("auto", 64, 48), settings);
+  session.start();
+  ASSERT_TRUE(eventually([&] { return session.snapshot().has_value(); }));
+  const Picture look = session.snapshot().value();
+  EXPECT_TRUE(look.is_incomplete());
+  EXPECT_EQ(look.passes(), 0u);
+  EXPECT_EQ(look.width(), 64);
+  session.stop();
+  session.wait();
+}
+
+TEST(LibrarySession, TakesTheCameraThatItIsTold) {
+  std::vector<Object> objects = room_objects("path");
+  Object second("sensor", "perspective", "second");
+  second.set("to_world", Transform::look_at({0, -3, 1}, {0, 0, 0}, {0, 0, 1})).add(film(10, 6));
+  objects.push_back(second);
+  SessionSettings settings = passes(1, 1);
+  EXPECT_EQ(rendered(Scene(objects), settings).width(), 24);
+  settings.camera = "second";
+  EXPECT_EQ(rendered(Scene(objects), settings).width(), 10);
+  settings.camera = "third";
+  EXPECT_THROW(rendered(Scene(objects), settings), Error);
+}
+
 TEST(LibrarySession, TimeEndsIt) {
   SessionSettings settings;
   settings.seconds = 0.2;
