@@ -102,7 +102,7 @@ install: configure
 
 package: configure
 	@scripts/install_packages.sh package
-	@cmake --build --preset release --target kaustik
+	@cmake --build --preset release --target kaustik libkaustik
 	cd $(BUILD) && cpack
 
 # docs/parameters.md, from the tables in the program.

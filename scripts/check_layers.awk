@@ -32,7 +32,7 @@ function complain(text) {
   ++complaints
 }
 
-# The room that a file belongs to: src/kaustik/ROOM/…, tests/ROOM/…, apps/…, benchmarks/….
+# The room that a file belongs to: src/kaustik/ROOM/…, tests/ROOM/…, apps/…, benchmarks/…, include/kaustik/….
 function room_of(path,    parts) {
   split(path, parts, "/")
   if (parts[1] == "src") return parts[3]
@@ -47,12 +47,22 @@ function folder_of(path,    parts, n) {
   return n > 2 ? parts[1] "/" parts[2] : ""
 }
 
-function is_product_code() { return area == "src" || area == "apps" }
+function is_product_code() { return area == "src" || area == "apps" || area == "include" }
+
+# What hosts see, kaustik/NAME.h: for itself, for the room that makes it, and for what is written as hosts are.
+function check_public_include(header) {
+  if (!(room in sees_public)) complain("room '" room "' must not include what is for hosts, '" header "'")
+}
 
 function check_room_include(header,    parts, other) {
-  split(header, parts, "/")
+  if (split(header, parts, "/") == 2) {
+    check_public_include(header)
+    return
+  }
   other = parts[2]
-  if (!(other in known)) {
+  if (room in sees_only_public) {
+    complain("hosts do not see '" header "'")
+  } else if (!(other in known)) {
     complain("there is no room '" other "'")
   } else if (is_product_code() && !((room, other) in may)) {
     complain("room '" room "' must not include '" header "'")
@@ -109,6 +119,9 @@ BEGIN {
   allow("live", \
         "base image geometry volume material medium light scene transport photon irradiance vcm photonmap integrator render")
   allow("loader", "base scene")
+  # libkaustik, above all that it shows to hosts; its tests see no more than hosts do.
+  allow("library", "base image scene render loader")
+  sees_public["include"]; sees_public["library"]; sees_only_public["include"]
   # The front ends get at the lower rooms through render; these are what its interface speaks of.
   allow("apps", "base image display scene integrator render loader")
   # Tests of whole pictures and benchmarks may look everywhere.
@@ -148,7 +161,7 @@ BEGIN {
 
 FILENAME == "CMakeLists.txt" {
   # What a room links must be among what it may include.
-  if ($0 !~ /^kaustik_room\(/) next
+  if ($0 !~ /^kaustik_(shared_)?room\(/) next
   room = $1
   sub(/.*\(/, "", room)
   for (i = 2; i <= NF; ++i) {
@@ -164,6 +177,7 @@ FNR == 1 {
   area = FILENAME
   sub(/\/.*/, "", area)
   room = room_of(FILENAME)
+  if (area == "tests" && room == "library") sees_only_public[room]; else delete sees_only_public["library"]
   if (area == "src" && !(room in known))
     complain("no table knows the room '" room "': give it a line allow(...) in scripts/check_layers.awk")
   folder = area == "src" ? folder_of(FILENAME) : ""

@@ -13,7 +13,7 @@ rm -rf $build/profiles
 ctest --preset coverage ${1:+-R "$1"} || echo "some tests failed; what they ran counts all the same"
 llvm-profdata-14 merge -sparse $build/profiles/*.profraw -o $build/all.profdata
 objects=()
-for program in $build/tests/test_* $build/tests/fuzz_scenes $build/make_scenes; do
+for program in $build/tests/test_* $build/tests/fuzz_scenes $build/make_scenes $build/libkaustik.so; do
   [[ -f $program && -x $program ]] && objects+=(-object "$program")
 done
 llvm-cov-14 report $build/kaustik "${objects[@]}" -instr-profile $build/all.profdata \

@@ -6,7 +6,7 @@ copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 expected=()
 
-(cd "$root" && find src apps tests benchmarks CMakeLists.txt \
+(cd "$root" && find include src apps tests benchmarks CMakeLists.txt \
   \( -name '*.h' -o -name '*.cpp' -o -name CMakeLists.txt \) -exec cp --parents -t "$copy" {} +)
 
 # plant FILE LINE MESSAGE: puts LINE at the end of FILE; the check must name the place and say MESSAGE.
@@ -43,6 +43,14 @@ plant src/kaustik/vcm/attic/thing.h '#include "kaustik/vcm/plan/plans.h"' "folde
 plant src/kaustik/attic/thing.h '#include "kaustik/base/vec.h"' "room 'attic'"
 plant src/kaustik/scene/scene.h '#include "camera.h"' 'write "kaustik/ROOM/camera.h"'
 plant apps/kaustik/main.cpp '#include "kaustik/photon/photon_map.h"' "room 'apps' must not include"
+# What hosts see is for hosts, and shows nothing else.
+plant include/kaustik/scene.h '#include "kaustik/scene/scene.h"' "hosts do not see"
+plant include/kaustik/value.h '#include <Imath/ImathVec.h>' "must not include Imath"
+plant src/kaustik/render/job.h '#include "kaustik/session.h"' "room 'render' must not include what is for hosts"
+plant apps/kaustik/main.cpp '#include "kaustik/kaustik.h"' "room 'apps' must not include what is for hosts"
+plant tests/library/scene_test.cpp '#include "kaustik/render/job.h"' "hosts do not see"
+plant src/kaustik/library/mesh.cpp '#include "kaustik/photon/photon.h"' "room 'library' must not include"
+plant CMakeLists.txt 'kaustik_shared_room(library kaustik_photon)' "room 'library' must not link 'photon'"
 plant tests/base/error_test.cpp '#include "kaustik/scene/scene.h"' "tests of room 'base'"
 plant src/kaustik/integrator/path.cpp '#include <embree3/rtcore.h>' "must not include Embree"
 plant src/kaustik/scene/scene.h '#include <pugixml.hpp>' "must not include pugixml"

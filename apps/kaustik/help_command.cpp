@@ -100,10 +100,11 @@ void add_help(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("help", "Print the parameters of a type, or list all types.");
   auto name = std::make_shared<std::string>();
-  takes_words(command->add_option("type", *name,
-                                  "Type or family, such as photonmap, bsdf, film; or \"thesis\": "
-                                  "variables of the environment; or \"exit\": exit codes"),
-              topics(), "TYPE");
+  takes_words_of(
+      command->add_option("type", *name,
+                          "Type or family, such as photonmap, bsdf, film; or \"thesis\": "
+                          "variables of the environment; or \"exit\": exit codes"),
+      topics, "TYPE");
   command->callback([name] { help(*name); });
 }
 

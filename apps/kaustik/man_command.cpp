@@ -18,7 +18,7 @@ struct ManOptions {
 
 std::vector<std::string> command_names(const CLI::App& program) {
   std::vector<std::string> names;
-  for (const CommandText& command : command_texts(program)) names.push_back(command.name);
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
   return names;
 }
 

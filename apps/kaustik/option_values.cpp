@@ -4,20 +4,23 @@
 #include <fmt/ranges.h>
 
 #include <map>
+#include <utility>
 
 namespace kaustik::app {
 namespace {
 
 /// CLI11 keeps no more than a name for the values of an option.
-std::map<const CLI::Option*, OptionValues>& told_values() {
-  static std::map<const CLI::Option*, OptionValues> values;
+std::map<const CLI::Option*, std::function<OptionValues()>>& told_values() {
+  static std::map<const CLI::Option*, std::function<OptionValues()>> values;
   return values;
 }
 
 }  // namespace
 
 CLI::Option* takes_files(CLI::Option* option, const std::vector<std::string>& extensions) {
-  told_values()[option] = {OptionValues::Kind::files, extensions};
+  told_values()[option] = [extensions] {
+    return OptionValues{OptionValues::Kind::files, extensions};
+  };
   return takes(option, "FILE");
 }
 
@@ -27,7 +30,15 @@ CLI::Option* takes_words(CLI::Option* option, const std::vector<std::string>& wo
 
 CLI::Option* takes_words(CLI::Option* option, const std::vector<std::string>& words,
                          const std::string& name) {
-  told_values()[option] = {OptionValues::Kind::words, words};
+  return takes_words_of(
+      option, [words] { return words; }, name);
+}
+
+CLI::Option* takes_words_of(CLI::Option* option, std::function<std::vector<std::string>()> words,
+                            const std::string& name) {
+  told_values()[option] = [words = std::move(words)] {
+    return OptionValues{OptionValues::Kind::words, words()};
+  };
   return takes(option, name);
 }
 
@@ -35,7 +46,7 @@ CLI::Option* takes(CLI::Option* option, const std::string& name) { return option
 
 OptionValues values_of(const CLI::Option* option) {
   const auto found = told_values().find(option);
-  return found == told_values().end() ? OptionValues{} : found->second;
+  return found == told_values().end() ? OptionValues{} : found->second();
 }
 
 const std::vector<std::string>& scene_extensions() {

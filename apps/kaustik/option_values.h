@@ -3,6 +3,7 @@
 // --help, man pages and the completions of shells.
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ CLI::Option* takes_words(CLI::Option* option, const std::vector<std::string>& wo
 /// The same of more words than a line holds, which --help calls `name`.
 CLI::Option* takes_words(CLI::Option* option, const std::vector<std::string>& words,
                          const std::string& name);
+/// The same of words that it takes a while to find: they are asked for where they are shown.
+CLI::Option* takes_words_of(CLI::Option* option, std::function<std::vector<std::string>()> words,
+                            const std::string& name);
 /// Other values are called `name`.
 CLI::Option* takes(CLI::Option* option, const std::string& name);
 

@@ -1,93 +1,85 @@
 // Renders a scene file, or without one a square of buffers below a sky, and prints the mean
-// radiance of the picture. docs/library.md explains it. Usage: mean_radiance [SCENE.xml]
+// radiance of the picture with its error. docs/embedding.md explains it.
+// Usage: mean_radiance [SCENE.xml [PICTURE]]
 
-#include <array>
+#include <kaustik/kaustik.h>
+
 #include <cstdint>
 #include <cstdio>
-#include <memory>
 #include <string>
-#include <utility>
-#include <vector>
-
-#include "kaustik/base/error.h"
-#include "kaustik/image/image.h"
-#include "kaustik/loader/scene_format.h"
-#include "kaustik/render/job.h"
-#include "kaustik/scene/description.h"
 
 namespace {
 
-using namespace kaustik;
-
-std::shared_ptr<Object> object(std::string family, std::string type,
-                               std::vector<Property> properties, std::vector<Child> children = {}) {
-  return std::make_shared<Object>(Object{.family = std::move(family),
-                                         .type = std::move(type),
-                                         .id = "",
-                                         .properties = std::move(properties),
-                                         .children = std::move(children),
-                                         .place = place_in("example")});
-}
-
-Property property(std::string name, Value value) {
-  return {std::move(name), std::move(value), place_in("example")};
-}
-
 /// Two metres wide at z = 0, reflecting half of the light that falls on it.
-std::shared_ptr<Object> square() {
-  const auto positions = Array::of<float>({4, 3}, {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});
-  const auto faces = Array::of<uint32_t>({2, 3}, {0, 1, 2, 0, 2, 3});
-  const auto grey = object("bsdf", "diffuse", {property("reflectance", 0.5)});
-  return object("shape", "mesh", {property("positions", positions), property("faces", faces)},
-                {{"", grey}});
+kaustik::Object square() {
+  const float positions[] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
+  const uint32_t faces[] = {0, 1, 2, 0, 2, 3};
+  kaustik::MeshBuffers buffers;
+  buffers.positions = {positions, 4};
+  buffers.faces = {faces, 2};
+  const auto grey = kaustik::Object("bsdf", "diffuse", "grey").set("reflectance", 0.5);
+  return kaustik::Mesh(buffers).shape("square").add(grey);
 }
 
 /// The square below a sky of radiance 1 W/(sr·m²), seen from above; it fills the picture.
-Description square_below_sky() {
-  const auto film =
-      object("film", "hdrfilm", {property("width", int64_t{32}), property("height", int64_t{32})});
-  const auto above = Transform::look_at({0, 0, 1}, {0, 0, 0}, {0, 1, 0});
-  const auto camera = object("sensor", "perspective",
-                             {property("fov", 60.0), property("to_world", above)}, {{"", film}});
-  const auto sky = object("emitter", "constant", {property("radiance", 1.0)});
-  return {object("scene", "", {}, {{"", camera}, {"", sky}, {"", square()}})};
+kaustik::Scene square_below_sky() {
+  const auto above = kaustik::Transform::look_at({0, 0, 1}, {0, 0, 0}, {0, 1, 0});
+  const auto film = kaustik::Object("film", "hdrfilm").set("width", 32).set("height", 32);
+  const auto camera =
+      kaustik::Object("sensor", "perspective").set("fov", 60).set("to_world", above).add(film);
+  const auto sky = kaustik::Object("emitter", "constant", "sky").set("radiance", 1);
+  return kaustik::Scene({camera, sky, square()});
 }
 
-/// Of all pixels, linear Rec. 709.
-std::array<double, 3> mean_radiance(const Image& image) {
-  const RgbView rgb = rgb_view(image);
-  std::array<double, 3> mean{};
-  for (size_t pixel = 0; pixel < image.pixel_count(); ++pixel)
-    for (int c = 0; c < 3; ++c) mean[size_t(c)] += rgb[pixel][c] / double(image.pixel_count());
-  return mean;
+void print_mean(const char* name, const kaustik::Picture& picture) {
+  const kaustik::Estimate mean = picture.mean();
+  const kaustik::Interval interval = mean.interval(0.95);
+  std::printf("%s: %d x %d pixels, %u passes, mean radiance %.4f (%.4f to %.4f)\n", name,
+              picture.width(), picture.height(), picture.passes(), mean.value, interval.low,
+              interval.high);
 }
 
-void render(Description description) {
-  JobSettings settings;
-  settings.record.recipe.integrator = "path";
-  settings.session.passes = 4;
-  settings.session.samples_per_pass = 16;
-  JobListener listener;
-  listener.messages.warning = [](const std::string& text) {
+void render(const kaustik::Scene& scene, const char* file) {
+  kaustik::SessionSettings settings;
+  settings.integrator = "path";
+  settings.passes = 4;
+  settings.samples_per_pass = 16;
+  kaustik::Callbacks callbacks;
+  callbacks.message = [](kaustik::Severity, const std::string& text) {
     std::fprintf(stderr, "%s\n", text.c_str());
   };
-  Job job(std::move(description), std::move(settings), std::move(listener));
-  job.start();
-  const JobResult& result = job.wait();  // snapshot() may be called meanwhile, from any thread
-  const Image picture = job.snapshot().value();
-  const auto [r, g, b] = mean_radiance(picture);
-  std::printf("%d x %d pixels, %u passes, mean radiance %.4f %.4f %.4f\n", picture.width(),
-              picture.height(), result.report.passes, r, g, b);
+  kaustik::Session session(scene, settings, callbacks);
+  session.start();
+  session.wait();  // snapshot(), progress() and stop() may be called meanwhile, from any thread
+  const kaustik::Picture picture = session.picture();
+  print_mean("scene", picture);
+  if (file) picture.write(file);
+}
+
+/// The same square under a sky that is twice as bright: only the sky is built again.
+void render_brighter(const kaustik::Scene& scene) {
+  kaustik::SessionSettings settings;
+  settings.integrator = "path";
+  settings.passes = 4;
+  kaustik::Session session(scene.edit("sky.radiance", 2), settings);
+  session.run();
+  print_mean("brighter", session.picture());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    render(argc > 1 ? load_scene(argv[1]) : square_below_sky());
+    if (argc > 1) {
+      render(kaustik::Scene::load_file(argv[1]), argc > 2 ? argv[2] : nullptr);
+    } else {
+      const kaustik::Scene scene = square_below_sky();
+      render(scene, nullptr);
+      render_brighter(scene);
+    }
     return 0;
-  } catch (const Error& error) {
+  } catch (const kaustik::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
-    return error.kind() == ErrorKind::input ? 2 : 1;
+    return error.kind() == kaustik::ErrorKind::input ? 2 : 1;
   }
 }

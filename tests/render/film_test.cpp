@@ -244,6 +244,57 @@ TEST(Film, ErrorsComeFromTheReplicates) {
               student_t_quantile(0.975, 2 * freedom_of_pool) * std::sqrt(variance), 1e-5);
 }
 
+/// Pixels that share their light have the noise of one: what is added up from pixels' errors as if
+/// they were independent would be too small by the root of their number.
+TEST(Film, ErrorsOfARegionComeFromItsOwnReplicates) {
+  Film shared(film_settings(), {ComponentSet::all()}),
+      apart(film_settings(), {ComponentSet::all()});
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<float> value(1, 3);
+  constexpr uint32_t passes = 2 * replicate_count;
+  constexpr int left = 1, top = 1, columns = 3, rows = 2;
+  std::array<double, replicate_count> sums{};
+  for (uint32_t pass = 0; pass < passes; ++pass) {
+    shared.add_pass(tiled(grey_pass(value(generator)), shared), pass);
+    std::vector<PassPixel> pixels = grey_pass(0);
+    for (size_t i = 0; i < pixels.size(); ++i) {
+      const float grey = value(generator);
+      pixels[i] = grey_pass(grey)[0];
+      const int x = int(i) % width, y = int(i) / width;
+      if (x >= left && x < left + columns && y >= top && y < top + rows)
+        sums[pass % replicate_count] += double(grey) / (columns * rows);
+    }
+    apart.add_pass(tiled(pixels, apart), pass);
+  }
+  const PixelRegion region{left, top, columns, rows};
+  const FilmErrors of_shared(shared);
+  EXPECT_NEAR(of_shared.known(region).deviation, of_shared.known(size_t{7}).deviation, 1e-6);
+  RunningStatistics means;
+  for (const double sum : sums) means.add(sum / 2);
+  const KnownLuminance known = FilmErrors(apart).known(region);
+  EXPECT_NEAR(known.mean, means.mean(), 1e-5);
+  EXPECT_NEAR(known.deviation, means.standard_error(), 1e-5);
+  EXPECT_EQ(known.freedom, replicate_count - 1);
+  EXPECT_NEAR(known.interval(0.9).half_width,
+              student_t_quantile(0.95, replicate_count - 1) * means.standard_error(), 1e-5);
+  // All of it is the picture.
+  const KnownLuminance all = FilmErrors(apart).known(PixelRegion{0, 0, width, height});
+  EXPECT_NEAR(all.interval().half_width / all.mean, apart.mean_error(), 1e-6);
+}
+
+TEST(Film, BiasOfARegionIsTheMeanOfItsPixels) {
+  Film film(film_settings(), {ComponentSet::all(), true});
+  for (uint32_t pass = 0; pass < 2; ++pass) {
+    std::vector<PassPixel> pixels = grey_pass(2);
+    for (size_t i = 0; i < pixels.size(); ++i)
+      pixels[i].bias = Spectrum(i % width < 2 ? 0.25f : -0.75f);
+    film.add_pass(tiled(pixels, film), pass);
+  }
+  EXPECT_NEAR(FilmErrors(film).known(PixelRegion{0, 0, 2, 3}).bias, 0.25, 1e-6);
+  EXPECT_NEAR(FilmErrors(film).known(PixelRegion{1, 1, 2, 2}).bias, 0.25, 1e-6);
+  EXPECT_NEAR(FilmErrors(film).known(PixelRegion{2, 0, 3, 1}).bias, 0.75, 1e-6);
+}
+
 TEST(Film, BlackPicturesHaveNoError) {
   Film film(film_settings(), {ComponentSet::all()});
   for (uint32_t pass = 0; pass < 2; ++pass) film.add_pass(tiled(grey_pass(0), film), pass);

@@ -1,5 +1,9 @@
 #include "kaustik/render/film_errors.h"
 
+#include <cmath>
+#include <limits>
+#include <numeric>
+
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/transport/block_means.h"
@@ -182,13 +186,18 @@ void FilmErrors::square_bias() {
 }
 
 double FilmErrors::variance_by_replicates(const Fixed* sums) const {
+  std::array<double, replicate_count> values;
+  for (size_t r = 0; r < replicate_count; ++r) values[r] = double_from(sums[r]);
+  return variance_by_replicates(values);
+}
+
+double FilmErrors::variance_by_replicates(const std::array<double, replicate_count>& sums) const {
   double total = 0;
-  for (size_t r = 0; r < replicate_count; ++r) total += double_from(sums[r]);
+  for (const double sum : sums) total += sum;
   const double mean = total / passes();
   double squares = 0;
-  for (size_t r = 0; r < replicate_count; ++r) {
-    squares += sqr(double_from(sums[r]) - replicate_passes_[r] * mean);
-  }
+  for (size_t r = 0; r < replicate_count; ++r)
+    squares += sqr(sums[r] - replicate_passes_[r] * mean);
   return squares / sqr(passes()) * replicates_ / (replicates_ - 1);
 }
 
@@ -233,12 +242,55 @@ Vec3f FilmErrors::of_pixel(size_t pixel, const ChannelSums& sums) const {
   return error;
 }
 
-ConfidenceInterval FilmErrors::luminance(size_t pixel, double confidence) const {
-  const double mean = luminance_sum(pixel) / std::max(1.0, passes());
-  if (!is_known()) return {mean, std::numeric_limits<double>::infinity()};
-  const double deviation = std::sqrt(pooled_variance(pixel));
-  const double bias = bias_sq_.empty() ? 0 : std::sqrt(std::max(0.0, double(bias_sq_[pixel][3])));
-  return {mean, half_width_with_bias(deviation, bias, confidence, freedom())};
+ConfidenceInterval KnownLuminance::interval(double confidence) const {
+  if (!std::isfinite(deviation)) return {mean, std::numeric_limits<double>::infinity()};
+  return {mean, half_width_with_bias(deviation, bias, confidence, freedom)};
+}
+
+KnownLuminance FilmErrors::known(size_t pixel) const {
+  KnownLuminance known;
+  known.mean = luminance_sum(pixel) / std::max(1.0, passes());
+  known.deviation =
+      is_known() ? std::sqrt(pooled_variance(pixel)) : std::numeric_limits<double>::infinity();
+  known.bias = bias_sq_.empty() ? 0 : std::sqrt(std::max(0.0, double(bias_sq_[pixel][3])));
+  if (is_known()) known.freedom = freedom();
+  return known;
+}
+
+KnownLuminance FilmErrors::known(const PixelRegion& region) const {
+  std::array<double, replicate_count> sums{};
+  double bias = 0;
+  const PictureTiles& tiles = film_.tiles();
+  std::array<Fixed, PictureTiles::pixels> line;
+  const auto is_in = [&](int x, int y) {
+    return x >= region.x && x < region.x + region.width && y >= region.y &&
+           y < region.y + region.height;
+  };
+  for (size_t tile = 0; tile < tiles.count(); ++tile) {
+    bool meets = false;
+    tiles.for_pixels_of(tile, [&](int x, int y, size_t) { meets = meets || is_in(x, y); });
+    if (!meets) continue;
+    for (size_t r = 0; r < replicate_count; ++r) {
+      film_.read(tile, film_.numbers().replicate_luminances + r, line);
+      tiles.for_pixels_of(tile, [&](int x, int y, size_t place) {
+        if (is_in(x, y)) sums[r] += double_from(line[place]);
+      });
+    }
+    if (!film_.holds_bias() || film_.pass_count() == 0) continue;
+    tiles.for_pixels_of(tile, [&](int x, int y, size_t) {
+      if (is_in(x, y))
+        bias += double(photopic(mean_bias(size_t(y) * size_t(film_.width()) + size_t(x))));
+    });
+  }
+  const double pixels = double(region.width) * region.height;
+  for (double& sum : sums) sum /= pixels;
+  KnownLuminance known;
+  known.mean = std::accumulate(sums.begin(), sums.end(), 0.0) / std::max(1.0, passes());
+  known.deviation = is_known() ? std::sqrt(variance_by_replicates(sums))
+                               : std::numeric_limits<double>::infinity();
+  known.bias = std::abs(bias) / pixels;
+  if (is_known()) known.freedom = replicates_ - 1;
+  return known;
 }
 
 double FilmErrors::freedom() const { return freedom_of_pool * (replicates_ - 1); }

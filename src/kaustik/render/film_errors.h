@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <mutex>
 #include <vector>
 
@@ -11,6 +12,23 @@ namespace kaustik {
 struct ChannelSums {
   std::array<double, 3> totals{}, squares{};
   double luminance_squares = 0;
+};
+
+/// A luminance as it is known, photopic, in the picture's unit.
+struct KnownLuminance {
+  double mean = 0;
+  /// Standard error of the mean by its noise; infinite: not known, with fewer than two replicates.
+  double deviation = 0;
+  double bias = 0;     ///< by how much the mean is expected to be off, on one side alone; 0: none
+  double freedom = 1;  ///< degrees of freedom of the deviation
+
+  /// That holds the truth with this chance, 0 to 1: by Student's t, widened by the bias.
+  ConfidenceInterval interval(double confidence = 0.95) const;
+};
+
+/// A rectangle of pixels.
+struct PixelRegion {
+  int x = 0, y = 0, width = 0, height = 0;
 };
 
 /// How well a film's picture is known: from the noise of its passes, and from the bias that the
@@ -38,9 +56,14 @@ class FilmErrors {
   /// Standard error of the pixel's mean per channel, √(noise² + bias²); the noise counts as zero
   /// with fewer than two passes.
   Vec3f of_pixel(size_t pixel, const ChannelSums& sums) const;
-  /// The interval of the pixel's luminance by Student's t, widened by the bias (which is on one
-  /// side of the truth alone); infinite with fewer than two replicates.
-  ConfidenceInterval luminance(size_t pixel, double confidence = 0.95) const;
+  KnownLuminance known(size_t pixel) const;
+  /// The mean over a region, which must not be empty and lie in the picture: its noise is that of
+  /// the region's own means by replicate, since pixels share photons; its bias the mean of theirs.
+  KnownLuminance known(const PixelRegion& region) const;
+  /// The interval of the pixel's luminance.
+  ConfidenceInterval luminance(size_t pixel, double confidence = 0.95) const {
+    return known(pixel).interval(confidence);
+  }
   /// Degrees of freedom of the noise that a pixel's interval has.
   double freedom() const;
   /// Square root of the mean over pixels of (e/(|L| + 0.01 M))², where e is the standard error of
@@ -62,6 +85,7 @@ class FilmErrors {
   double passes() const { return double(film_.pass_count()); }
   /// Of the mean of what was summed up by replicate.
   double variance_by_replicates(const Fixed* sums) const;
+  double variance_by_replicates(const std::array<double, replicate_count>& sums) const;
   double luminance_sum(size_t pixel) const { return luminances()[pixel].sum; }
   double luminance_variance(size_t pixel) const { return luminances()[pixel].variance; }
   /// The same, as neighbours tell of it too.

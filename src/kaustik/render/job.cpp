@@ -54,24 +54,25 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
     throw std::logic_error("Job: only a render goes on, or has lessons given");
   apply_changes(description_, settings_.record.recipe, listener_.messages);
   const auto run = std::make_shared<Run>();
-  if (settings_.task == JobTask::trace_photons)
-    run->prepared.scene =
-        build_scene_and_tell(description_, settings_.build, listener_.messages, previous_);
-  else
-    run->prepared =
-        prepare_scene(description_, settings_.build,
-                      settings_.task == JobTask::learn || !settings_.checkpoint.empty() ||
-                          settings_.begun || settings_.learned,
-                      listener_.messages, previous_);
-  previous_ = nullptr;
+  const bool needs_digest =
+      settings_.task == JobTask::learn || keeps_passes() || settings_.begun || settings_.learned;
+  with_threads(settings_.session.threads, [&] {
+    if (settings_.task == JobTask::trace_photons)
+      run->prepared.scene =
+          build_scene_and_tell(description_, settings_.build, listener_.messages, previous_);
+    else
+      run->prepared =
+          prepare_scene(description_, settings_.build, needs_digest, listener_.messages, previous_);
+    previous_ = nullptr;
+    if (settings_.begun) check_same_scene(run->prepared, *settings_.begun, settings_.begun_path);
+    teach(run->prepared);
+  });
   if (settings_.keeps_light && run->prepared.integrator) {
     run->light_key = light_key(description_, *run->prepared.scene);
     const bool is_same = settings_.light.key == run->light_key;
     run->prepared.integrator->keep_light(is_same ? settings_.light.light : nullptr);
     settings_.light = {};
   }
-  if (settings_.begun) check_same_scene(run->prepared, *settings_.begun, settings_.begun_path);
-  with_threads(settings_.session.threads, [&] { teach(run->prepared); });
   const std::lock_guard lock(mutex_);
   run_ = run;
   return run;
@@ -158,7 +159,7 @@ void Job::teach(const PreparedScene& prepared) const {
 
 void Job::make_session(Run& run) {
   SessionSettings settings = settings_.session;
-  settings.keeps_passes = !settings_.checkpoint.empty();
+  settings.keeps_passes = keeps_passes();
   if (settings_.learned && !settings.samples_per_pass &&
       !(settings.passes && settings.samples_per_pixel))
     settings.samples_per_pass = settings_.learned->samples_per_pass;
@@ -299,7 +300,31 @@ JobLight Job::kept_light() const {
   return {run->light_key, run->prepared.integrator->kept_light()};
 }
 
+std::optional<Film> Job::film_so_far() const {
+  std::unique_lock lock(mutex_);
+  const std::shared_ptr<Run> run = run_;
+  if (!run || !run->session) return std::nullopt;
+  lock.unlock();
+  return run->session->film_so_far();
+}
+
 const Film& Job::film() const { return current()->session->film(); }
+
+std::shared_ptr<const Film> Job::shared_film() const {
+  const std::shared_ptr<Run> run = current();
+  if (!run || !run->session) return nullptr;
+  return {run, &run->session->film()};
+}
+
+void Job::save(const std::string& path) const {
+  if (!keeps_passes()) throw std::logic_error("Job::save: the job keeps no passes");
+  const std::shared_ptr<Run> run = current();
+  if (!run || !run->session || run->session->film().pass_count() == 0 ||
+      result_.report.incomplete_pass)
+    throw Error(ErrorKind::input, "no pass is finished, so there is nothing to keep",
+                "let it render longer");
+  write_checkpoint(path, result_.record, run->session->film(), run->prepared.integrator->lessons());
+}
 
 Image Job::image() const { return current()->session->image(); }
 

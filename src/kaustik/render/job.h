@@ -47,7 +47,9 @@ struct JobSettings {
   RenderRecord record;
   SessionSettings session;  ///< time counts from `clock_start` on
   BuildOptions build;
-  std::string checkpoint;           ///< file that finished passes are kept in; "": none
+  std::string checkpoint;  ///< file that finished passes are kept in; "": none
+  /// Passes may be kept by Job::save(), too: all have their samples, and the scene its digest.
+  bool keeps_passes = false;
   double every_s = 30;              ///< between two checkpoints
   std::optional<Checkpoint> begun;  ///< to go on with; throws if it is of another scene
   std::string begun_path;           ///< its file, for messages
@@ -131,9 +133,16 @@ class Job {
   std::shared_ptr<const Scene> shared_scene() const;  ///< to share with others
   /// After prepare(), from any thread: for a job that comes after this one.
   JobLight kept_light() const;
+  /// Session::film_so_far(), from any thread, while the job runs.
+  std::optional<Film> film_so_far() const;
   // Only while it does not run, after the session was made.
   const Film& film() const;
+  /// Lives on after edits and the job; null: there was no session yet.
+  std::shared_ptr<const Film> shared_film() const;
   Image image() const;  ///< Session::image()
+  /// Writes the finished passes as a checkpoint. Throws as write_checkpoint() does, Error(input)
+  /// if no pass is finished, and std::logic_error unless the job keeps passes.
+  void save(const std::string& path) const;
 
  private:
   struct Run {
@@ -154,6 +163,7 @@ class Job {
   void render();
   /// Hands the integrator what was learned before.
   void teach(const PreparedScene& prepared) const;
+  bool keeps_passes() const { return settings_.keeps_passes || !settings_.checkpoint.empty(); }
   void make_session(Run& run);
   bool begins_with_light(const Run& run) const;
   void make_preview(Run& run);

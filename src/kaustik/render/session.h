@@ -125,6 +125,9 @@ class Session {
   /// passes; in the first one of the samples so far, and pixels without any show those of a pixel
   /// near by: then incomplete_key says so. None: not even that is there. `facts` of it, if wanted.
   std::optional<Image> snapshot(SnapshotFacts* facts = nullptr) const;
+  /// From any thread, at any time: a copy of the film with its finished passes; none before there
+  /// is one. It takes as much memory once more.
+  std::optional<Film> film_so_far() const;
   bool has_picture() const { return has_picture_; }
   /// Not while run() goes on: the film's image, with the part of a pass at its end.
   Image image() const;

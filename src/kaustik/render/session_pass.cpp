@@ -332,6 +332,12 @@ std::optional<Image> Session::snapshot(SnapshotFacts* facts) const {
   });
 }
 
+std::optional<Film> Session::film_so_far() const {
+  const std::lock_guard lock(picture_mutex_);
+  if (film_.pass_count() == 0) return std::nullopt;
+  return film_;
+}
+
 Image Session::image() const {
   Image image = film_.image();
   if (!(report_.part > 0)) return image;

@@ -107,11 +107,16 @@ void override_property(Description& description, const std::string& assignment) 
 }
 
 void override_property(Description& description, const Setting& setting) {
-  const auto object = find_object(description, setting.object);
-  const std::string& name = setting.parameter;
-  std::erase_if(object->properties, [&](const Property& p) { return p.name == name; });
-  std::erase_if(object->children, [&](const Child& c) { return c.name == name; });
-  object->properties.push_back({name, Untyped{setting.value}, place_in(setting.origin)});
+  override_property(description, setting.object,
+                    {setting.parameter, Untyped{setting.value}, place_in(setting.origin)});
+}
+
+void override_property(Description& description, const std::string& object, Property property) {
+  const auto changed = find_object(description, object);
+  const std::string& name = property.name;
+  std::erase_if(changed->properties, [&](const Property& p) { return p.name == name; });
+  std::erase_if(changed->children, [&](const Child& c) { return c.name == name; });
+  changed->properties.push_back(std::move(property));
 }
 
 }  // namespace kaustik

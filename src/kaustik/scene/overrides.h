@@ -24,6 +24,8 @@ std::string assignment_of(const Setting& setting);
 void override_property(Description& description, const Setting& setting);
 /// The same of an assignment that --set gives.
 void override_property(Description& description, const std::string& assignment);
+/// The same of a value whose type is known: the place is the property's.
+void override_property(Description& description, const std::string& object, Property property);
 /// As --set gives it.
 Setting setting_of_command_line(const std::string& assignment);
 
