@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -95,30 +96,32 @@ class Engine {
     std::shared_ptr<const Description> description;
     uint64_t revision = 0, starts = 0;
     bool runs = false, is_paused = false, ends = false;
-    Clock::time_point touched;  ///< when it was last edited or started
-    bool is_moving = false;     ///< of what was taken: whether it is by EngineSettings::moving
+    bool is_moving = false;  ///< of what was taken: whether it is by EngineSettings::moving
   };
   /// One description that is rendered.
   struct Run {
     uint64_t revision = 0;
     std::shared_ptr<Gate> gate;
     bool is_moving = false;
-    bool goes_on = false;  ///< from a moving run of the same: nothing worse than that is shown
     std::unique_ptr<Job> job;
   };
 
   void work();
-  /// Builds what is wanted and, if that went well, renders it in the place of the run before;
-  /// `goes_on`: which moved, and was of the same.
-  void take(const Wanted& wanted, bool goes_on);
+  /// Builds what is wanted and, if that went well, renders it in the place of the run before.
+  void take(const Wanted& wanted);
   /// What the run has kept of light, for the next one.
   void take_light();
-  std::unique_ptr<Run> prepared(const Wanted& wanted, bool goes_on);
+  std::unique_ptr<Run> prepared(const Wanted& wanted);
   void begin(std::unique_ptr<Run> run);
   void end_run();
   bool has_work() const;
+  /// When a view that moves comes to rest, if nothing is edited until then.
+  Clock::time_point end_of_motion() const;
   /// Whether a description that is taken now is rendered by EngineSettings::moving.
   bool moves() const;
+  /// Whether it is the view of that revision as it moved, with samples: of the same at rest nothing
+  /// is shown that has less.
+  bool shows_motion(uint64_t revision) const;
   EngineState state() const;
   /// Until the run has shown something, or a tenth of a second.
   void let_show(std::unique_lock<std::mutex>& lock);
@@ -135,7 +138,8 @@ class Engine {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;  ///< anything below
   Wanted wanted_, taken_;
-  EngineStatus status_;  ///< the state is the run's: neither building nor paused
+  EngineStatus status_;        ///< the state is the run's: neither building nor paused
+  Clock::time_point touched_;  ///< when it was last edited, or a view that moves began
   bool is_building_ = false;
   bool is_busy_ = false;        ///< the thread is doing what was wanted
   const Run* shown_ = nullptr;  ///< whose pictures and progress count
@@ -146,7 +150,7 @@ class Engine {
   // Of the thread:
   std::unique_ptr<Run> run_;
   std::shared_ptr<const Scene> last_scene_;  ///< of the run before, to share with
-  JobLight light_;                           ///< the last that a run has kept
+  std::array<JobLight, 2> light_;            ///< the last that runs have kept: at rest, moving
   std::thread thread_;
 };
 
