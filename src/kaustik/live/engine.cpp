@@ -108,7 +108,18 @@ Engine::Clock::time_point Engine::end_of_motion() const {
   return touched_ + std::chrono::duration_cast<Clock::duration>(rest);
 }
 
+Engine::Clock::time_point Engine::longest_motion() const {
+  return std::max(end_of_motion(), touched_ + std::chrono::seconds(10));
+}
+
 bool Engine::moves() const { return settings_.moving && Clock::now() < end_of_motion(); }
+
+bool Engine::rests() const {
+  if (!taken_.is_moving || wanted_.is_paused || moves()) return false;
+  // Light that is not traced to its end is lost, and the next move would begin anew.
+  return shows_motion(taken_.revision) || status_.state != EngineState::rendering ||
+         Clock::now() >= longest_motion();
+}
 
 bool Engine::shows_motion(uint64_t revision) const {
   return snapshot_ && snapshot_->revision == revision && snapshot_->is_moving &&
@@ -118,8 +129,7 @@ bool Engine::shows_motion(uint64_t revision) const {
 bool Engine::has_work() const {
   if (taken_.runs != wanted_.runs) return true;
   if (!wanted_.runs) return false;
-  const bool rests = taken_.is_moving && !wanted_.is_paused && !moves();
-  return rests || taken_.revision != wanted_.revision || taken_.starts != wanted_.starts;
+  return rests() || taken_.revision != wanted_.revision || taken_.starts != wanted_.starts;
 }
 
 void Engine::work() {
@@ -127,7 +137,7 @@ void Engine::work() {
   while (true) {
     const auto is_asked = [&] { return wanted_.ends || has_work(); };
     if (taken_.is_moving && taken_.runs && !wanted_.is_paused)
-      changed_.wait_until(lock, end_of_motion(), is_asked);
+      changed_.wait_until(lock, moves() ? end_of_motion() : longest_motion(), is_asked);
     else
       changed_.wait(lock, is_asked);
     let_show(lock);
@@ -148,7 +158,9 @@ void Engine::work() {
 }
 
 void Engine::let_show(std::unique_lock<std::mutex>& lock) {
-  constexpr std::chrono::milliseconds longest(100);
+  // Of views that move there is something to be seen after a round of samples, however long that
+  // takes.
+  const std::chrono::milliseconds longest(taken_.is_moving ? 1000 : 100);
   changed_.wait_for(lock, longest, [&] {
     const bool has_shown = snapshot_ && snapshot_->revision == status_.revision;
     return wanted_.ends || !wanted_.runs || wanted_.is_paused || has_shown ||

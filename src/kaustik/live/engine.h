@@ -22,8 +22,9 @@ struct EngineSettings {
   SessionSettings session;
   BuildOptions build;
   RenderRecipe recipe;  ///< changes that are made to every description
-  /// Those that are made in their place until nothing was edited for `rest_s`: for integrators that
-  /// have a picture sooner (recipe_of_moving_views()). Absent: `recipe`.
+  /// Those that are made in their place until nothing was edited for `rest_s`, for integrators that
+  /// have a picture sooner (recipe_of_moving_views()); and until that was seen, 10 s at most: what
+  /// they keep of light is for the next move. Absent: `recipe`.
   std::optional<RenderRecipe> moving;
   double rest_s = 1;
   /// Least time between two snapshots of the same kind, s. Those of another kind come at once.
@@ -52,7 +53,8 @@ struct EngineStatus {
 /// Renders a scene that changes, for those who watch: descriptions go in, snapshots come out. All
 /// functions may be called from any thread and return at once, but for those that wait. A thread of
 /// the engine's builds scenes; of several edits that come meanwhile only the last counts. While
-/// edits keep coming, each that is taken gets a picture, or a tenth of a second.
+/// edits keep coming, each that is taken gets a picture, or a tenth of a second (while views move,
+/// a second).
 ///
 /// An edit that is refused harms nothing: rendering of the one before goes on, with all its passes.
 ///
@@ -115,15 +117,19 @@ class Engine {
   void begin(std::unique_ptr<Run> run);
   void end_run();
   bool has_work() const;
-  /// When a view that moves comes to rest, if nothing is edited until then.
+  /// When a view that moves may come to rest, if nothing is edited until then.
   Clock::time_point end_of_motion() const;
+  /// When it does so in any case.
+  Clock::time_point longest_motion() const;
   /// Whether a description that is taken now is rendered by EngineSettings::moving.
   bool moves() const;
+  /// Whether what is rendered by it has had its time.
+  bool rests() const;
   /// Whether it is the view of that revision as it moved, with samples: of the same at rest nothing
   /// is shown that has less.
   bool shows_motion(uint64_t revision) const;
   EngineState state() const;
-  /// Until the run has shown something, or a tenth of a second.
+  /// Until the run has shown something, or a tenth of a second, a second where it moves.
   void let_show(std::unique_lock<std::mutex>& lock);
   // Called by the job's threads:
   void progressed(const Run& run, const Progress& progress);
