@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -69,7 +70,8 @@ std::vector<uint8_t> contents_of(const FileToWrite& file) {
 
 /// Another suffix promises another format.
 void check_suffix(const std::string& output) {
-  const std::string suffix = std::filesystem::path(output).extension().string();
+  std::string suffix = std::filesystem::path(output).extension().string();
+  for (char& c : suffix) c = char(std::tolower(static_cast<unsigned char>(c)));
   if (suffix.empty() || suffix == ".xml") return;
   throw Error(ErrorKind::input, fmt::format("'{}' is not the name of an XML file", output),
               "scenes are written as Mitsuba 3's XML: let the name end in .xml");
@@ -103,10 +105,10 @@ void convert(const ConvertOptions& options) {
   written.write(options.output, {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
   written.keep();
   for (const FileToWrite& file : scene.files)
-    say("wrote {}: {} that Mitsuba 3 reads otherwise", file.path,
+    say("wrote {}: {}, which Mitsuba 3 would read differently from its old file", file.path,
         file.is_mesh() ? "a mesh" : "a picture");
-  say("wrote {}: {} in Mitsuba 3's XML; it names the same {}mesh and picture files", options.output,
-      options.scene, scene.files.empty() ? "" : "other ");
+  say("wrote {}: {} in Mitsuba 3's XML; all {}meshes and pictures are named as before",
+      options.output, options.scene, scene.files.empty() ? "" : "other ");
 }
 
 }  // namespace

@@ -62,6 +62,8 @@ TEST_F(Convert, WritesTheSameScene) {
   const RunResult other = run({"convert", "old.xml", "-o", "new.obj"});
   EXPECT_TRUE(contains(other.err, "'new.obj' is not the name of an XML file")) << other.err;
   EXPECT_EQ(other.exit_code, 2);
+  EXPECT_TRUE(contains(run_well({"convert", "old.xml", "-o", "loud.XML"}).err,
+                       "all meshes and pictures are named as before"));
   // A scene is not replaced by mistake, and never by itself.
   EXPECT_TRUE(contains(run({"convert", "old.xml", "-o", "new.xml"}).err, "--force"));
   run_well({"convert", "old.xml", "-o", "new.xml", "--force"});
@@ -77,6 +79,7 @@ TEST_F(Convert, MeshesInPartsAreFiles) {
   std::filesystem::create_directory(path("out"));
   const RunResult converted = run_well({"convert", "old.xml", "-o", "out/new.xml"});
   EXPECT_TRUE(contains(converted.err, "wrote out/new_two_red.ply")) << converted.err;
+  EXPECT_TRUE(contains(converted.err, "all other meshes and pictures")) << converted.err;
   EXPECT_FALSE(contains(contents("out/new.xml"), "material"));
   EXPECT_TRUE(contains(contents("out/new.xml"), "value=\"new_two_.._blue.ply\""))
       << contents("out/new.xml");

@@ -66,7 +66,7 @@ TEST(Engine, RendersWhatAJobDoes) {
   EXPECT_TRUE(same_bits(last->picture, by_job(room_with_ball(0.5), 4)));
 }
 
-/// Seen from there, by `auto`.
+/// Seen from there, by `path`.
 Description room_seen_from(const std::string& origin) {
   return parse_mitsuba_xml(
       "<scene version=\"3.0.0\"><integrator type=\"path\"/><sensor type=\"perspective\">"
@@ -76,22 +76,37 @@ Description room_seen_from(const std::string& origin) {
       "test.xml", "");
 }
 
-// While the camera moves another recipe holds; once it rests the picture is what it always is.
-TEST(Engine, ShowsViewsThatMoveByAnotherRecipe) {
-  EngineSettings settings = engine_settings(4);
+EngineSettings moving_settings(uint32_t passes, double rest_s) {
+  EngineSettings settings = engine_settings(passes);
   settings.moving = recipe_of_moving_views();
-  settings.rest_s = 0.3;
-  Engine engine(settings);
+  settings.rest_s = rest_s;
+  return settings;
+}
+
+// While the camera moves another recipe holds.
+TEST(Engine, ShowsViewsThatMoveByAnotherRecipe) {
+  Engine engine(moving_settings(4, infinity));
   uint64_t number = 0;
   for (const char* origin : {"0,-4,2", "0.2,-4,2", "0.4,-4,2"}) {
     const uint64_t revision = engine.edit(room_seen_from(origin));
     engine.start();
     while (const auto next = engine.wait_for_snapshot(number, long_enough)) {
       number = next->number;
-      if (next->revision == revision) break;
+      EXPECT_TRUE(next->is_moving);
+      if (next->revision == revision && next->kind != Snapshot::Kind::preview) break;
     }
-    EXPECT_TRUE(engine.snapshot()->is_moving);
   }
+}
+
+// Once it rests the picture is what it always is, whatever came between.
+TEST(Engine, ViewsAtRestAreWhatTheyAlwaysAre) {
+  Engine engine(moving_settings(4, 0.05));
+  for (const char* origin : {"0,-4,2", "0.2,-4,2", "0.4,-4,2"}) {
+    engine.edit(room_seen_from(origin));
+    engine.start();
+  }
+  engine.stop();
+  engine.start();
   ASSERT_TRUE(engine.wait_until_done(long_enough));
   const auto last = engine.snapshot();
   EXPECT_FALSE(last->is_moving);
@@ -101,23 +116,27 @@ TEST(Engine, ShowsViewsThatMoveByAnotherRecipe) {
 
 // What is shown of a camera at rest is never less than what was seen while it moved.
 TEST(Engine, GoesFromMovingToRestByWholePasses) {
-  EngineSettings settings = engine_settings(2);
-  settings.moving = recipe_of_moving_views();
-  settings.rest_s = 0.1;
+  Engine engine(moving_settings(2, 0.3));
+  engine.edit(room_seen_from("0,-4,2"));
+  engine.start();
+  std::shared_ptr<const Snapshot> moving, next;
+  while ((next = engine.wait_for_snapshot(next ? next->number : 0, long_enough)) && next->is_moving)
+    moving = next;
+  ASSERT_TRUE(next);
+  if (moving && moving->kind != Snapshot::Kind::preview) {
+    EXPECT_EQ(next->kind, Snapshot::Kind::passes);
+  }
+}
+
+TEST(Engine, ARefusedRecipeOfMovingViewsLeavesTheViewAtRest) {
+  EngineSettings settings = moving_settings(2, 0.05);
+  settings.moving->settings.push_back(setting_from("integrator.nonsense=1", "test"));
   Engine engine(settings);
   engine.edit(room_seen_from("0,-4,2"));
   engine.start();
-  uint64_t number = 0;
-  bool has_rested = false;
-  while (!has_rested) {
-    const auto next = engine.wait_for_snapshot(number, long_enough);
-    ASSERT_TRUE(next);
-    number = next->number;
-    has_rested = !next->is_moving;
-    if (has_rested) {
-      EXPECT_EQ(next->kind, Snapshot::Kind::passes);
-    }
-  }
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_EQ(engine.status().state, EngineState::finished);
+  EXPECT_TRUE(same_bits(engine.snapshot()->picture, by_job(room_seen_from("0,-4,2"), 2)));
 }
 
 TEST(Engine, NumbersItsSnapshots) {

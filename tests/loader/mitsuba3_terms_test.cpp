@@ -3,6 +3,7 @@
 #include "kaustik/loader/mitsuba3_terms.h"
 
 #include <map>
+#include <string>
 
 #include "kaustik/base/daylight_units.h"
 #include "kaustik/loader/mitsuba_writer.h"
@@ -257,6 +258,150 @@ TEST(Mitsuba3Terms, WhatIsUnknownThereIsNamed) {
   EXPECT_TRUE(tells(scene, "Mitsuba 3 has no 'priority' in bsdf 'dielectric'"));
   EXPECT_TRUE(tells(scene, "'shine' of bsdf 'diffuse' is left out"));
   EXPECT_FALSE(has_property(*scene.description.scene->children.at(2).object, "shine"));
+}
+
+const Object& shape_in(const Mitsuba3Scene& scene, size_t i) {
+  return *scene.description.scene->children.at(i).object;
+}
+
+// Files are made of what parameters in camelCase say, too.
+TEST(Mitsuba3Terms, MeshesOfParametersInCamelCase) {
+  const auto part = [](int number) {
+    return "<shape type='obj'><string name='filename' value='two.obj'/><integer name='shapeIndex' "
+           "value='" +
+           std::to_string(number) + "'/></shape>";
+  };
+  const Mitsuba3Scene parts = translated(part(0) + part(1) + part(0));
+  ASSERT_EQ(parts.files.size(), 2u);
+  EXPECT_EQ(value<int64_t>(*parts.files[0].source, "shape_index"), 0);
+  EXPECT_EQ(value<int64_t>(*parts.files[1].source, "shape_index"), 1);
+  EXPECT_EQ(value<std::string>(shape_in(parts, 0), "filename"),
+            value<std::string>(shape_in(parts, 2), "filename"));
+  EXPECT_NE(value<std::string>(shape_in(parts, 0), "filename"),
+            value<std::string>(shape_in(parts, 1), "filename"));
+  const Mitsuba3Scene field = translated(
+      "<shape type='heightfield'><boolean name='shadingNormals' value='false'/><string "
+      "name='filename' value='p.ppm'/></shape>");
+  EXPECT_TRUE(value<bool>(first_of(field), "face_normals"));
+}
+
+TEST(Mitsuba3Terms, IntegersAreNumbers) {
+  const Mitsuba3Scene sky = translated(
+      "<emitter type='sky'><integer name='sky_scale' value='1'/><string name='units' "
+      "value='physical'/></emitter>");
+  EXPECT_NEAR(value<double>(first_of(sky), "sky_scale") * mitsuba_daylight, 1, 1e-12);
+  const Mitsuba3Scene metals = translated(
+      "<bsdf type='conductor'><integer name='ext_eta' value='2'/><integer name='eta' value='3'/>"
+      "<float name='k' value='3'/></bsdf>");
+  EXPECT_EQ(value<double>(first_of(metals), "eta"), 1.5);
+  EXPECT_FALSE(has_property(first_of(metals), "ext_eta"));
+  const Object attribute =
+      *first_of(translated("<bsdf type='diffuse'><texture name='reflectance' type='scale'>"
+                           "<float name='scale' value='0.5'/><texture type='mesh_attribute'>"
+                           "<string name='name' value='vertex_color'/><integer name='scale' "
+                           "value='1'/></texture></texture></bsdf>"))
+           .children.at(0)
+           .object;
+  EXPECT_EQ(attribute.type, "mesh_attribute");
+  EXPECT_EQ(value<double>(attribute, "scale"), 0.5);
+  const Mitsuba3Scene pictures = translated(
+      "<bsdf type='diffuse'><texture name='reflectance' type='bitmap'><string name='filename' "
+      "value='p.ppm'/><integer name='gamma' value='2'/></texture></bsdf>");
+  EXPECT_EQ(pictures.files.size(), 1u);
+  const Mitsuba3Scene lamp = translated(
+      "<emitter type='area'><integer name='radiance' value='2'/><integer name='scale' value='5'/>"
+      "</emitter>");
+  EXPECT_EQ(value<double>(first_of(lamp), "radiance"), 10);
+  EXPECT_FALSE(has_property(first_of(lamp), "scale"));
+  EXPECT_EQ(first_of(translated("<sensor type='telecentric'><integer name='aperture_radius' "
+                                "value='0'/></sensor>"))
+                .type,
+            "orthographic");
+}
+
+// Of several children without names the texture is the one that is meant.
+TEST(Mitsuba3Terms, ScalesStandWhereTheyStood) {
+  const Mitsuba3Scene scene = translated(
+      "<shape type='sphere'><bsdf type='diffuse'/><texture type='scale'><float name='scale' "
+      "value='2'/><texture type='checkerboard'/></texture></shape>");
+  ASSERT_EQ(first_of(scene).children.size(), 2u);
+  EXPECT_EQ(first_of(scene).children[0].object->type, "diffuse");
+  EXPECT_EQ(first_of(scene).children[1].object->type, "checkerboard");
+  EXPECT_EQ(value<double>(*first_of(scene).children[1].object, "color0"), 0.8);
+}
+
+TEST(Mitsuba3Terms, NestedTexturesAreScaledOnce) {
+  const auto nested = [](int levels) {
+    std::string inside = "<texture type='checkerboard' id='t0'/>";
+    for (int i = 1; i <= levels; ++i) {
+      const std::string before = "' id='t" + std::to_string(i - 1) + "'/>";
+      inside += "<texture type='checkerboard' id='t" + std::to_string(i) + "'><ref name='color0" +
+                before + "<ref name='color1" + before + "</texture>";
+    }
+    return translated(
+        "<bsdf type='diffuse'><texture type='scale' name='reflectance'><float "
+        "name='scale' value='0.5'/><ref id='t" +
+        std::to_string(levels) + "'/></texture></bsdf>" + inside);
+  };
+  const Mitsuba3Scene few = nested(3);
+  const Object& texture = *first_of(few).children.at(0).object;
+  EXPECT_EQ(texture.type, "checkerboard");
+  EXPECT_EQ(texture.children.at(0).object, texture.children.at(1).object);
+  const Object& within = *texture.children.at(0).object->children.at(1).object;
+  EXPECT_EQ(value<double>(*within.children.at(0).object, "color0"), 0.2);
+  // No scene is built of more than some hundreds: the scale stays.
+  EXPECT_EQ(first_of(nested(7)).children.at(0).object->type, "checkerboard");
+  const Mitsuba3Scene many = nested(40);
+  EXPECT_EQ(first_of(many).children.at(0).object->type, "scale");
+  EXPECT_TRUE(tells(many, "Mitsuba 3 has no texture 'scale'"));
+}
+
+TEST(Mitsuba3Terms, TexturesOfLampsAreTheirRadiance) {
+  const auto lamp = [](const std::string& inside) {
+    return first_of(
+        translated("<emitter type='area'><float name='scale' value='5'/>" + inside + "</emitter>"));
+  };
+  for (const char* name : {"", " name='emission'", " name='radiance'"}) {
+    const Object bright = lamp("<texture type='checkerboard'" + std::string(name) + "/>");
+    EXPECT_TRUE(bright.properties.empty());
+    ASSERT_EQ(bright.children.size(), 1u);
+    EXPECT_EQ(bright.children[0].name, "radiance");
+    EXPECT_EQ(value<double>(*bright.children[0].object, "color0"), 2);
+  }
+  EXPECT_EQ(value<double>(lamp("<texture type='scale' name='emission'><float name='value' "
+                               "value='2'/></texture>"),
+                          "radiance"),
+            10);
+}
+
+// A reflectance above 1 would be scaled to one below.
+TEST(Mitsuba3Terms, FactorsStayWithinRanges) {
+  const auto scaled = [](const std::string& colour, const std::string& type = "diffuse",
+                         const std::string& name = "reflectance") {
+    return translated("<bsdf type='" + type + "'><texture type='scale' name='" + name +
+                      "'><float name='scale' value='3'/><rgb name='value' value='" + colour +
+                      "'/></texture></bsdf>");
+  };
+  EXPECT_EQ(value<Rgb>(first_of(scaled("0.1, 0.2, 0.25")), "reflectance").b, 0.75);
+  const Mitsuba3Scene bright = scaled("0.5, 0.5, 0.2");
+  ASSERT_EQ(first_of(bright).children.size(), 1u);
+  EXPECT_EQ(first_of(bright).children[0].object->type, "scale");
+  EXPECT_TRUE(tells(bright, "Mitsuba 3 has no texture 'scale'"));
+  // What is one number is no colour.
+  EXPECT_EQ(first_of(scaled("0.1, 0.2, 0.1", "roughconductor", "alpha")).children.size(), 1u);
+}
+
+TEST(Mitsuba3Terms, MixturesOfWrongWeightsStay) {
+  for (const char* weights : {"0 0", "1e308 1e308", "1 -1", "1"})
+    EXPECT_EQ(first_of(translated("<medium type='homogeneous'><phase type='mixturephase'><string "
+                                  "name='weights' value='" +
+                                  std::string(weights) +
+                                  "'/><phase type='isotropic'/><phase type='hg'/></phase>"
+                                  "</medium>"))
+                  .children.at(0)
+                  .object->type,
+              "mixturephase")
+        << weights;
 }
 
 }  // namespace

@@ -405,19 +405,21 @@ TEST(Job, EditsMakeAllAnew) {
   EXPECT_TRUE(same_bits(wrong.image(), before));
 }
 
-/// Of a room with a glass ball, by `photonmap`; `radiance` of its lamp.
-Description glass_room_seen_from(const std::string& origin, const std::string& radiance = "5") {
+/// Of a room with a glass ball, by `photonmap`; `intensity` of its lamp, `more` in it.
+Description glass_room_seen_from(const std::string& origin, const std::string& intensity = "5",
+                                 const std::string& more = "") {
   return parse_mitsuba_xml(
       "<scene version=\"3.0.0\"><integrator type=\"photonmap\"><integer name=\"global_photons\" "
       "value=\"2000\"/><integer name=\"caustic_photons\" value=\"2000\"/></integrator>"
       "<sensor type=\"perspective\"><transform name=\"to_world\"><lookat origin=\"" +
           origin + "\" target=\"0,0,0.5\" up=\"0,0,1\"/></transform>" + film_of(16, 16) +
-          "</sensor>" + "<shape type=\"rectangle\"><bsdf type=\"diffuse\"/></shape>" +
+          "</sensor><shape type=\"rectangle\"><bsdf type=\"diffuse\"/></shape>"
           "<shape type=\"sphere\"><float name=\"radius\" value=\"0.3\"/><point name=\"center\" "
-          "x=\"0\" y=\"0\" z=\"0.5\"/><bsdf type=\"dielectric\"/></shape>"
-          "<emitter type=\"point\"><point name=\"position\" x=\"1\" y=\"1\" z=\"3\"/><rgb "
+          "x=\"0\" y=\"0\" z=\"0.5\"/><bsdf type=\"dielectric\"/>" +
+          more +
+          "</shape><emitter type=\"point\"><point name=\"position\" x=\"1\" y=\"1\" z=\"3\"/><rgb "
           "name=\"intensity\" value=\"" +
-          radiance + "\"/></emitter></scene>",
+          intensity + "\"/></emitter></scene>",
       "test.xml", "");
 }
 
@@ -447,6 +449,14 @@ TEST(Job, LightThatIsKeptLeavesPicturesAsTheyAre) {
   EXPECT_TRUE(same_bits(brighter->image(),
                         rendered(glass_room_seen_from("1,-4,2", "6"), nullptr)->image()));
   EXPECT_NE(rendered(glass_room_seen_from("1,-4,2"), &kept, 8)->kept_light().light, kept.light);
+  // So have media, whose light belongs to the media of one scene.
+  const std::string fog =
+      "<medium name=\"interior\" type=\"homogeneous\"><float name=\"sigma_t\" value=\"4\"/>"
+      "</medium>";
+  const JobLight foggy = rendered(glass_room_seen_from("0,-4,2", "5", fog), &none)->kept_light();
+  const auto moved_fog = rendered(glass_room_seen_from("1,-4,2", "5", fog), &foggy);
+  EXPECT_TRUE(same_bits(moved_fog->image(),
+                        rendered(glass_room_seen_from("1,-4,2", "5", fog), nullptr)->image()));
 }
 
 TEST(Job, GoesOnWithACheckpoint) {

@@ -194,7 +194,8 @@ TEST(Leniency, MixturesOfPhaseFunctions) {
   };
   EXPECT_NEAR(mean_cosine(*scene_of(mixture("0.5, 0.25, 0.25"))), 0.3, 1e-6);
   EXPECT_NEAR(mean_cosine(*scene_of(mixture("0, 0, 2"))), -0.4, 1e-6);
-  expect_problem(mixture("0.5, 0.5"), "3:44", "3 phase functions and 2 weights");
+  expect_problem(mixture("0.5, 0.5"), "3:71", "'weights' has 2 numbers, for 3 phase functions");
+  expect_problem(mixture("1, -1, 1"), "3:71", "'weights' holds -1, which is below 0");
   // Each is made as often as it is held.
   std::string nested = "<phase type=\"isotropic\"/>";
   for (int i = 0; i < 4; ++i)

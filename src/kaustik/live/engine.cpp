@@ -1,5 +1,6 @@
 #include "kaustik/live/engine.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -30,7 +31,7 @@ uint64_t Engine::edit(const Description& description) {
   auto copy = std::make_shared<const Description>(copy_of(description));
   const std::lock_guard lock(mutex_);
   wanted_.description.swap(copy);
-  wanted_.touched = Clock::now();
+  touched_ = Clock::now();
   changed_.notify_all();
   return ++wanted_.revision;
 }
@@ -41,7 +42,7 @@ void Engine::start() {
   const bool is_over =
       status_.state == EngineState::finished || status_.state == EngineState::failed;
   if (wanted_.runs && is_over && !is_building_) ++wanted_.starts;
-  if (!wanted_.runs) wanted_.touched = Clock::now();
+  if (!wanted_.runs) touched_ = Clock::now();
   wanted_.runs = true;
   changed_.notify_all();
 }
@@ -101,16 +102,34 @@ bool Engine::wait_until_done(std::chrono::milliseconds timeout) const {
   });
 }
 
-bool Engine::moves() const {
-  return settings_.moving &&
-         Clock::now() < wanted_.touched + std::chrono::duration<double>(settings_.rest_s);
+Engine::Clock::time_point Engine::end_of_motion() const {
+  constexpr double longest = 1e6;
+  const std::chrono::duration<double> rest(std::clamp(settings_.rest_s, 0.0, longest));
+  return touched_ + std::chrono::duration_cast<Clock::duration>(rest);
+}
+
+Engine::Clock::time_point Engine::longest_motion() const {
+  return std::max(end_of_motion(), touched_ + std::chrono::seconds(10));
+}
+
+bool Engine::moves() const { return settings_.moving && Clock::now() < end_of_motion(); }
+
+bool Engine::rests() const {
+  if (!taken_.is_moving || wanted_.is_paused || moves()) return false;
+  // Light that is not traced to its end is lost, and the next move would begin anew.
+  return shows_motion(taken_.revision) || status_.state != EngineState::rendering ||
+         Clock::now() >= longest_motion();
+}
+
+bool Engine::shows_motion(uint64_t revision) const {
+  return snapshot_ && snapshot_->revision == revision && snapshot_->is_moving &&
+         snapshot_->kind != Snapshot::Kind::preview;
 }
 
 bool Engine::has_work() const {
   if (taken_.runs != wanted_.runs) return true;
   if (!wanted_.runs) return false;
-  const bool rests = taken_.is_moving && !wanted_.is_paused && !moves();
-  return rests || taken_.revision != wanted_.revision || taken_.starts != wanted_.starts;
+  return rests() || taken_.revision != wanted_.revision || taken_.starts != wanted_.starts;
 }
 
 void Engine::work() {
@@ -118,19 +137,18 @@ void Engine::work() {
   while (true) {
     const auto is_asked = [&] { return wanted_.ends || has_work(); };
     if (taken_.is_moving && taken_.runs && !wanted_.is_paused)
-      changed_.wait_for(lock, std::chrono::duration<double>(settings_.rest_s), is_asked);
+      changed_.wait_until(lock, moves() ? end_of_motion() : longest_motion(), is_asked);
     else
       changed_.wait(lock, is_asked);
     let_show(lock);
     if (wanted_.ends) break;
     if (!has_work()) continue;
-    const bool goes_on = taken_.is_moving && taken_.revision == wanted_.revision;
     taken_ = wanted_;
     taken_.is_moving = moves();
     is_busy_ = true;
     const Wanted wanted = taken_;
     lock.unlock();
-    take(wanted, goes_on);
+    take(wanted);
     lock.lock();
     is_busy_ = false;
     changed_.notify_all();
@@ -140,7 +158,9 @@ void Engine::work() {
 }
 
 void Engine::let_show(std::unique_lock<std::mutex>& lock) {
-  constexpr std::chrono::milliseconds longest(100);
+  // Of views that move there is something to be seen after a round of samples, however long that
+  // takes.
+  const std::chrono::milliseconds longest(taken_.is_moving ? 1000 : 100);
   changed_.wait_for(lock, longest, [&] {
     const bool has_shown = snapshot_ && snapshot_->revision == status_.revision;
     return wanted_.ends || !wanted_.runs || wanted_.is_paused || has_shown ||
@@ -148,7 +168,7 @@ void Engine::let_show(std::unique_lock<std::mutex>& lock) {
   });
 }
 
-void Engine::take(const Wanted& wanted, bool goes_on) {
+void Engine::take(const Wanted& wanted) {
   if (!wanted.runs) {
     end_run();
     const std::lock_guard lock(mutex_);
@@ -164,7 +184,7 @@ void Engine::take(const Wanted& wanted, bool goes_on) {
   std::unique_ptr<Run> run;
   std::exception_ptr refusal;
   try {
-    run = prepared(wanted, goes_on);
+    run = prepared(wanted);
   } catch (...) {
     refusal = std::current_exception();
   }
@@ -186,22 +206,24 @@ void Engine::take(const Wanted& wanted, bool goes_on) {
   begin(std::move(run));
 }
 
-std::unique_ptr<Engine::Run> Engine::prepared(const Wanted& wanted, bool goes_on) {
+std::unique_ptr<Engine::Run> Engine::prepared(const Wanted& wanted) {
   auto run = std::make_unique<Run>();
   run->revision = wanted.revision;
   run->is_moving = wanted.is_moving;
-  run->goes_on = goes_on;
   run->gate = std::make_shared<Gate>();
   JobSettings settings;
   settings.record.recipe = wanted.is_moving ? *settings_.moving : settings_.recipe;
   settings.session = settings_.session;
   settings.session.gate = run->gate;
   settings.build = settings_.build;
-  settings.previews = !goes_on;
+  {
+    const std::lock_guard lock(mutex_);
+    settings.previews = !shows_motion(wanted.revision);
+  }
   settings.previous = run_ ? run_->job->shared_scene() : last_scene_;
   settings.keeps_light = true;
   take_light();
-  settings.light = light_;
+  settings.light = light_[wanted.is_moving ? 1 : 0];
   const Run& of = *run;
   JobListener listener;
   listener.messages = messages_;
@@ -221,6 +243,8 @@ void Engine::begin(std::unique_ptr<Run> run) {
     shown_ = run_.get();
     gate_ = run_->gate;
     if (wanted_.is_paused) gate_->close();
+    // What took long to build has its time, too.
+    if (run_->is_moving) touched_ = Clock::now();
     status_ = {};
     status_.state = EngineState::rendering;
     status_.revision = run_->revision;
@@ -258,7 +282,8 @@ void Engine::end_run() {
 
 void Engine::take_light() {
   if (!run_) return;
-  if (JobLight kept = run_->job->kept_light(); kept.light) light_ = std::move(kept);
+  if (JobLight kept = run_->job->kept_light(); kept.light)
+    light_[run_->is_moving ? 1 : 0] = std::move(kept);
 }
 
 void Engine::progressed(const Run& run, const Progress& progress) {
@@ -308,7 +333,8 @@ void Engine::publish(const Run& run, bool is_last) {
     kind = passes > 0             ? Snapshot::Kind::passes
            : progress.has_picture ? Snapshot::Kind::samples
                                   : Snapshot::Kind::preview;
-    if (run.goes_on && kind != Snapshot::Kind::passes && !is_last) return;
+    if (!run.is_moving && shows_motion(run.revision) && kind != Snapshot::Kind::passes && !is_last)
+      return;
     const bool is_like_last =
         snapshot_ && snapshot_->revision == run.revision && snapshot_->kind == kind;
     const std::chrono::duration<double> since = Clock::now() - published_;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -21,8 +22,9 @@ struct EngineSettings {
   SessionSettings session;
   BuildOptions build;
   RenderRecipe recipe;  ///< changes that are made to every description
-  /// Those that are made in their place until nothing was edited for `rest_s`: for integrators that
-  /// have a picture sooner (recipe_of_moving_views()). Absent: `recipe`.
+  /// Those that are made in their place until nothing was edited for `rest_s`, for integrators that
+  /// have a picture sooner (recipe_of_moving_views()); and until that was seen, 10 s at most: what
+  /// they keep of light is for the next move. Absent: `recipe`.
   std::optional<RenderRecipe> moving;
   double rest_s = 1;
   /// Least time between two snapshots of the same kind, s. Those of another kind come at once.
@@ -51,7 +53,8 @@ struct EngineStatus {
 /// Renders a scene that changes, for those who watch: descriptions go in, snapshots come out. All
 /// functions may be called from any thread and return at once, but for those that wait. A thread of
 /// the engine's builds scenes; of several edits that come meanwhile only the last counts. While
-/// edits keep coming, each that is taken gets a picture, or a tenth of a second.
+/// edits keep coming, each that is taken gets a picture, or a tenth of a second (while views move,
+/// a second).
 ///
 /// An edit that is refused harms nothing: rendering of the one before goes on, with all its passes.
 ///
@@ -95,32 +98,38 @@ class Engine {
     std::shared_ptr<const Description> description;
     uint64_t revision = 0, starts = 0;
     bool runs = false, is_paused = false, ends = false;
-    Clock::time_point touched;  ///< when it was last edited or started
-    bool is_moving = false;     ///< of what was taken: whether it is by EngineSettings::moving
+    bool is_moving = false;  ///< of what was taken: whether it is by EngineSettings::moving
   };
   /// One description that is rendered.
   struct Run {
     uint64_t revision = 0;
     std::shared_ptr<Gate> gate;
     bool is_moving = false;
-    bool goes_on = false;  ///< from a moving run of the same: nothing worse than that is shown
     std::unique_ptr<Job> job;
   };
 
   void work();
-  /// Builds what is wanted and, if that went well, renders it in the place of the run before;
-  /// `goes_on`: which moved, and was of the same.
-  void take(const Wanted& wanted, bool goes_on);
+  /// Builds what is wanted and, if that went well, renders it in the place of the run before.
+  void take(const Wanted& wanted);
   /// What the run has kept of light, for the next one.
   void take_light();
-  std::unique_ptr<Run> prepared(const Wanted& wanted, bool goes_on);
+  std::unique_ptr<Run> prepared(const Wanted& wanted);
   void begin(std::unique_ptr<Run> run);
   void end_run();
   bool has_work() const;
+  /// When a view that moves may come to rest, if nothing is edited until then.
+  Clock::time_point end_of_motion() const;
+  /// When it does so in any case.
+  Clock::time_point longest_motion() const;
   /// Whether a description that is taken now is rendered by EngineSettings::moving.
   bool moves() const;
+  /// Whether what is rendered by it has had its time.
+  bool rests() const;
+  /// Whether it is the view of that revision as it moved, with samples: of the same at rest nothing
+  /// is shown that has less.
+  bool shows_motion(uint64_t revision) const;
   EngineState state() const;
-  /// Until the run has shown something, or a tenth of a second.
+  /// Until the run has shown something, or a tenth of a second, a second where it moves.
   void let_show(std::unique_lock<std::mutex>& lock);
   // Called by the job's threads:
   void progressed(const Run& run, const Progress& progress);
@@ -135,7 +144,8 @@ class Engine {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;  ///< anything below
   Wanted wanted_, taken_;
-  EngineStatus status_;  ///< the state is the run's: neither building nor paused
+  EngineStatus status_;        ///< the state is the run's: neither building nor paused
+  Clock::time_point touched_;  ///< when it was last edited, or a view that moves began
   bool is_building_ = false;
   bool is_busy_ = false;        ///< the thread is doing what was wanted
   const Run* shown_ = nullptr;  ///< whose pictures and progress count
@@ -146,7 +156,7 @@ class Engine {
   // Of the thread:
   std::unique_ptr<Run> run_;
   std::shared_ptr<const Scene> last_scene_;  ///< of the run before, to share with
-  JobLight light_;                           ///< the last that a run has kept
+  std::array<JobLight, 2> light_;            ///< the last that runs have kept: at rest, moving
   std::thread thread_;
 };
 

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "kaustik/base/text_lines.h"
+
 namespace kaustik {
 namespace {
 
@@ -25,14 +27,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-std::string without_blanks(const std::string& text) {
-  constexpr const char* blanks = " \t\r\n";
-  const size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
-bool is_absolute_anywhere(const std::string& name) {
+bool is_absolute_anywhere(std::string_view name) {
   const bool has_drive =
       name.size() > 2 && name[1] == ':' && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
   return has_drive || name.starts_with('/') || name.starts_with('\\');
@@ -73,12 +68,12 @@ std::vector<fs::path> ends_of(const fs::path& path) {
 /// Where a file of that name may be.
 std::vector<Candidate> candidates_for(const std::string& name,
                                       const std::vector<fs::path>& folders) {
-  std::string clean = without_blanks(name);
+  std::string clean(trimmed(name));
   std::replace(clean.begin(), clean.end(), '\\', '/');
   std::vector<Candidate> candidates;
   if (clean.empty() || clean.ends_with('/')) return candidates;
   const fs::path path(clean);
-  const bool is_absolute = is_absolute_anywhere(without_blanks(name));
+  const bool is_absolute = is_absolute_anywhere(trimmed(name));
   if (path.is_absolute()) candidates.push_back({path.parent_path(), path.filename()});
   for (const fs::path& relative : is_absolute ? ends_of(path) : std::vector<fs::path>{path})
     for (const fs::path& folder : folders) candidates.push_back({folder, relative});

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "kaustik/base/number_list.h"
+#include "kaustik/base/mixture_weights.h"
 #include "kaustik/loader/object_parts.h"
 
 namespace kaustik {
@@ -14,19 +14,11 @@ std::shared_ptr<Object> make_object(const char* family, const char* type, const 
   return std::make_shared<Object>(Object{family, type, "", {}, {}, place});
 }
 
-/// Those of a mixture, each 0 at least and not all of them; nothing where they are wrong.
-std::optional<std::vector<double>> weights_of(const Object& mixture, std::vector<double> usual,
-                                              size_t count) {
-  std::vector<double> weights = std::move(usual);
-  if (const auto* text = value_in<std::string>(mixture, "weights"))
-    weights = parse_number_list(*text).numbers;
-  if (const auto* number = value_in<double>(mixture, "weights")) weights = {*number};
-  double sum = 0;
-  for (const double weight : weights) sum += weight;
-  const bool is_sound =
-      std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0; });
-  if (weights.size() != count || !is_sound || !(sum > 0)) return std::nullopt;
-  return weights;
+/// None where they are wrong. Without any, a mixture of bsdfs has 1.
+std::vector<double> weights_of(const Object& mixture, size_t count) {
+  const Property* given = find_property(mixture, "weights");
+  const std::string usual = mixture.family == "bsdf" ? "1" : "";
+  return mixture_weights(given ? given->value : Value(usual), count, "parts").numbers;
 }
 
 /// What stands for a mixture has its name.
@@ -61,21 +53,17 @@ void keep_only(Object& object, std::string_view name) {
 }
 
 void divide(Value& value, double by) {
-  if (auto* number = std::get_if<double>(&value)) *number /= by;
-  if (auto* colour = std::get_if<Rgb>(&value))
-    *colour = {colour->r / by, colour->g / by, colour->b / by};
-  if (auto* curve = std::get_if<SpectralCurve>(&value))
-    for (auto& sample : curve->samples) sample.second /= by;
+  change_numbers(value, [&](double number) { return number / by; });
 }
 
 }  // namespace
 
 std::shared_ptr<Object> mixture_as_blends(const std::shared_ptr<Object>& mixture) {
   const std::vector<const Child*> nested = ordered_children(*mixture, "bsdf");
-  const auto weights = weights_of(*mixture, {1}, nested.size());
-  if (!weights) return mixture;
+  const std::vector<double> weights = weights_of(*mixture, nested.size());
+  if (weights.empty()) return mixture;
   double sum = 0;
-  for (const double weight : *weights) sum += weight;
+  for (const double weight : weights) sum += weight;
   const double whole = std::max(sum, 1.0);
   std::shared_ptr<Object> mixed;
   double share = 1 - sum / whole;
@@ -86,7 +74,7 @@ std::shared_ptr<Object> mixture_as_blends(const std::shared_ptr<Object>& mixture
     share = 0;
   }
   for (size_t i = nested.size(); i-- > 0;) {
-    const double weight = (*weights)[i] / whole;
+    const double weight = weights[i] / whole;
     if (weight == 0) continue;
     share += weight;
     if (!mixed) {
@@ -106,14 +94,14 @@ std::shared_ptr<Object> mixture_as_phases(const std::shared_ptr<Object>& mixture
   std::vector<std::shared_ptr<Object>> nested;
   for (const Child& child : mixture->children)
     if (child.object->family == "phase") nested.push_back(child.object);
-  const auto weights = weights_of(*mixture, {}, nested.size());
-  if (!weights || nested.size() > most_nested) return mixture;
+  const std::vector<double> weights = weights_of(*mixture, nested.size());
+  if (weights.empty() || nested.size() > most_nested) return mixture;
   std::shared_ptr<Object> mixed = nested[0];
-  double sum = (*weights)[0];
+  double sum = weights[0];
   for (size_t i = 1; i < nested.size(); ++i) {
-    sum += (*weights)[i];
+    sum += weights[i];
     const auto blend = make_object("phase", "blendphase", mixture->place);
-    blend->properties = {{"weight", sum > 0 ? (*weights)[i] / sum : 0, mixture->place}};
+    blend->properties = {{"weight", sum > 0 ? weights[i] / sum : 0, mixture->place}};
     blend->children = {{"", mixed}, {"", nested[i]}};
     mixed = blend;
   }
@@ -141,8 +129,7 @@ void use_thin_sheet(Object& bsdf) {
 
 void use_relative_eta(Object& bsdf) {
   constexpr double air = 1.000277;
-  std::optional<double> outside;
-  if (const auto* number = value_in<double>(bsdf, "ext_eta")) outside = *number;
+  std::optional<double> outside = number_in(bsdf, "ext_eta");
   if (const auto* name = value_in<std::string>(bsdf, "ext_eta"))
     outside = *name == "air"      ? std::optional(air)
               : *name == "vacuum" ? std::optional(1.0)
@@ -162,7 +149,7 @@ void use_known_distribution(Object& bsdf) {
 }
 
 void use_bitmap_terms(Object& bitmap) {
-  if (const auto* gamma = value_in<double>(bitmap, "gamma"); gamma && *gamma == 1) {
+  if (number_in(bitmap, "gamma") == 1.0) {
     const Property before = *find_property(bitmap, "gamma");
     remove_property(bitmap, "gamma");
     remove_property(bitmap, "raw");
@@ -208,9 +195,8 @@ void give_depth(Object& flat_shape) {
 
 void use_orthographic(Object& sensor) {
   if (sensor.type != "telecentric") return;
-  const Property* aperture = find_property(sensor, "aperture_radius");
-  if (aperture && value_in<double>(sensor, "aperture_radius") == nullptr) return;
-  if (aperture && *value_in<double>(sensor, "aperture_radius") != 0) return;
+  if (find_property(sensor, "aperture_radius") && number_in(sensor, "aperture_radius") != 0.0)
+    return;
   sensor.type = "orthographic";
   for (const char* name : {"aperture_radius", "blades", "blade_rotation"})
     remove_property(sensor, name);

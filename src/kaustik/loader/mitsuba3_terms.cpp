@@ -43,11 +43,12 @@ class Translator {
   std::shared_ptr<Object> translated(const Object& object) {
     if (const auto known = copies_.find(&object); known != copies_.end()) return known->second;
     auto copy = std::make_shared<Object>(object);
+    spell_in_snake_case(*copy);
+    if (copy->family == "shape") sources_[copy.get()] = *copy;
     for (Child& child : copy->children) child.object = translated(*child.object);
     if (copy->type == "mixturebsdf") copy = mixture_as_blends(copy);
     if (copy->type == "mixturephase") copy = mixture_as_phases(copy);
     change(*copy);
-    originals_[copy.get()] = &object;
     return copies_[&object] = copy;
   }
 
@@ -63,7 +64,6 @@ class Translator {
   }
 
   void change(Object& object) {
-    spell_in_snake_case(object);
     if (object.family == "film") change_type(object, "hdrfilm");
     if (object.family == "sampler") change_type(object, "independent");
     if (object.family == "integrator") change_integrator(object);
@@ -78,7 +78,7 @@ class Translator {
   }
 
   void change_emitter(Object& emitter) {
-    if (emitter.type == "area") scaling_.use_scale_of_lamp(emitter);
+    if (emitter.type == "area") scaling_.use_radiance_of_lamp(emitter);
     use_sunsky(emitter);
   }
 
@@ -98,7 +98,7 @@ class Translator {
   void finish(const std::shared_ptr<Object>& object, std::set<const Object*>& seen) {
     if (!seen.insert(object.get()).second) return;
     if (object->family == "shape" && needs_ply(*object))
-      files_.use_ply(object, *originals_.at(object.get()));
+      files_.use_ply(object, sources_.at(object.get()));
     if (object->family == "texture" && object->type == "bitmap") {
       const Rgb factor = scaling_.factor_of(*object);
       if (factor != Rgb{1, 1, 1} || needs_exr(*object)) files_.use_exr(object, factor);
@@ -108,7 +108,7 @@ class Translator {
   }
 
   static bool needs_exr(const Object& bitmap) {
-    const auto* gamma = value_in<double>(bitmap, "gamma");
+    const auto gamma = number_in(bitmap, "gamma");
     const auto* channel = value_in<std::string>(bitmap, "channel");
     return value_in<std::string>(bitmap, "filename") &&
            ((gamma && *gamma != 0) || (channel && !channel->empty()));
@@ -207,7 +207,7 @@ class Translator {
   bool has_media_ = false;
   std::set<const Object*> visited_;
   std::map<const Object*, std::shared_ptr<Object>> copies_;
-  std::map<const Object*, const Object*> originals_;  ///< of copies
+  std::map<const Object*, Object> sources_;  ///< what shapes were, with names in snake_case
   std::map<const Object*, bool> asks_attribute_;
   std::set<std::string> told_;
   TextureScaling scaling_;

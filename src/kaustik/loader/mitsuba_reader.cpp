@@ -9,6 +9,7 @@
 #include "kaustik/loader/mitsuba_sky.h"
 #include "kaustik/loader/mitsuba_tags.h"
 #include "kaustik/loader/obj_materials.h"
+#include "kaustik/loader/object_parts.h"
 
 namespace kaustik::mitsuba {
 namespace {

@@ -18,20 +18,10 @@ constexpr Version first_with_daylight = {3, 7, 0};
 constexpr double sun_aperture_degrees = 0.5358;
 
 /// A number that the object gives no more; null where it gives none.
-std::optional<Property> without_number(Object& object, std::string_view name) {
-  const Property* found = find_property(object, name);
-  if (!found || !std::holds_alternative<double>(found->value)) return std::nullopt;
-  const Property taken = *found;
-  std::erase_if(object.properties, [&](const Property& p) { return p.name == name; });
-  return taken;
-}
-
-void multiply(Object& object, const std::string& name, const Property& factor) {
-  Property* known = find_property(object, name);
-  if (!known)
-    object.properties.push_back({name, factor.value, factor.place});
-  else if (auto* number = std::get_if<double>(&known->value))
-    *number *= std::get<double>(factor.value);
+std::optional<double> without_number(Object& object, std::string_view name) {
+  const std::optional<double> number = number_in(object, name);
+  if (number) remove_property(object, name);
+  return number;
 }
 
 bool is_daylight(const Object& object) {
@@ -65,13 +55,12 @@ void upgrade_sky(Object& object, Version version) {
   const bool is_sun = object.type == "sun", is_sky = object.type == "sky";
   if (version >= first_with_snake_case || !is_daylight(object)) return;
   if (const auto scale = without_number(object, "scale")) {
-    if (!is_sky) multiply(object, "sun_scale", *scale);
-    if (!is_sun) multiply(object, "sky_scale", *scale);
+    if (!is_sky) multiply_number(object, "sun_scale", *scale);
+    if (!is_sun) multiply_number(object, "sky_scale", *scale);
   }
-  if (auto wider = without_number(object, "sun_radius_scale")) {
-    std::get<double>(wider->value) *= sun_aperture_degrees;
-    if (!is_sky) object.properties.push_back({"sun_aperture", wider->value, wider->place});
-  }
+  const auto wider = without_number(object, "sun_radius_scale");
+  if (wider && !is_sky)
+    object.properties.push_back({"sun_aperture", *wider * sun_aperture_degrees, object.place});
   Property* to_world = find_property(object, "to_world");
   if (!to_world)
     object.properties.push_back({"to_world", old_from_new(), object.place});

@@ -9,6 +9,7 @@
 
 #include "kaustik/base/snake_case.h"
 #include "kaustik/loader/mitsuba_values.h"
+#include "kaustik/loader/object_parts.h"
 
 namespace kaustik::mitsuba {
 namespace {
@@ -326,14 +327,6 @@ void use_amounts(Object& object, const std::string& written_type) {
       use_amount(object, "diffuse", row.diffuse);
       use_amount(object, "specular", row.specular);
     }
-}
-
-void multiply_value(Value& value, double factor) {
-  if (auto* number = std::get_if<double>(&value)) *number *= factor;
-  if (auto* colour = std::get_if<Rgb>(&value))
-    *colour = {colour->r * factor, colour->g * factor, colour->b * factor};
-  if (auto* curve = std::get_if<SpectralCurve>(&value))
-    for (auto& sample : curve->samples) sample.second *= factor;
 }
 
 bool loads_materials(const Object& object, Version version) {

@@ -44,9 +44,6 @@ void upgrade_object(Object& object, const std::string& written_type, Version ver
 /// upgrade_object(), which leaves what is a reference to those who have followed it.
 void use_amounts(Object& object, const std::string& written_type);
 
-/// What is a number, a colour or a curve; else nothing.
-void multiply_value(Value& value, double factor);
-
 /// Whether a shape takes materials from its mesh file: see use_obj_materials().
 bool loads_materials(const Object& object, Version version);
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kaustik/base/number_list.h"
+#include "kaustik/base/mixture_weights.h"
 #include "kaustik/material/blend.h"
 #include "kaustik/material/bsdf_kinds.h"
 #include "kaustik/material/mask.h"
@@ -26,29 +26,14 @@ class Black final : public Bsdf {
   Spectrum albedo(const BsdfContext&, const Vec3f&, Lobes) const override { return Spectrum(); }
 };
 
-/// Throws Error(input) if one is no number, negative or far too large.
-std::vector<double> weights_of(const Arguments& arguments) {
-  auto [weights, wrong_word] = parse_number_list(arguments.text("weights"));
-  const bool fit = std::all_of(weights.begin(), weights.end(),
-                               [](double weight) { return weight >= 0 && weight <= 1e6; });
-  if (!wrong_word.empty() || !fit)
-    throw Error(ErrorKind::input,
-                wrong_word.empty() ? "'weights' holds a number below 0 or above a million"
-                                   : "'weights' holds '" + wrong_word + "', which is no number",
-                "give numbers from 0 to 1 with commas between, one for each nested bsdf",
-                arguments.place_of("weights"));
-  return weights;
-}
-
-void check_weights(const std::vector<double>& weights, const BsdfInputs& inputs, double sum) {
-  if (weights.size() != inputs.nested.size())
-    throw Error(ErrorKind::input,
-                fmt::format("'weights' has {} numbers, for {} nested bsdfs", weights.size(),
-                            inputs.nested.size()),
-                "give one for each, in their order", inputs.arguments.place_of("weights"));
-  if (!(sum > 0))
-    throw Error(ErrorKind::input, "'weights' are all 0", "give one of them a larger value",
+/// Throws Error(input) for weights that are wrong.
+std::vector<double> weights_of(const BsdfInputs& inputs) {
+  MixtureWeights weights =
+      mixture_weights(inputs.arguments.text("weights"), inputs.nested.size(), "nested bsdfs");
+  if (!weights.problem.empty())
+    throw Error(ErrorKind::input, weights.problem, weights.remedy,
                 inputs.arguments.place_of("weights"));
+  return std::move(weights.numbers);
 }
 
 const TypeInfo& mixturebsdf_info() {
@@ -63,10 +48,9 @@ const TypeInfo& mixturebsdf_info() {
 
 /// A chain of blends, from the last one backward.
 std::shared_ptr<const Bsdf> create_mixturebsdf(const BsdfInputs& inputs) {
-  const std::vector<double> weights = weights_of(inputs.arguments);
+  const std::vector<double> weights = weights_of(inputs);
   double sum = 0;
   for (const double weight : weights) sum += weight;
-  check_weights(weights, inputs, sum);
   refuse_reliefs_in_blend(inputs);
   // As in Mitsuba 0.6; rounded thirds are no reason to speak.
   if (sum > 1 + 1e-4)

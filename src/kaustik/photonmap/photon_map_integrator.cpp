@@ -187,7 +187,9 @@ std::shared_ptr<const KeptLight> PhotonMapIntegrator::kept_light() const {
 std::shared_ptr<const PhotonMapIntegrator::Light> PhotonMapIntegrator::light_of(
     const Pass& pass, PassReport& report, std::stop_token stop,
     const ProgressFunction& progress) const {
-  const bool is_kept = keeps_light_ && pass.index == 0;
+  // Files of maps may change, and what media scatter belongs to the media of one scene.
+  const bool is_kept =
+      keeps_light_ && pass.index == 0 && !stored_maps_ && !scene().has_scattering();
   if (is_kept) {
     const std::lock_guard lock(light_mutex_);
     if (first_light_ && first_light_->seed == pass.seed &&
@@ -204,7 +206,8 @@ std::shared_ptr<const PhotonMapIntegrator::Light> PhotonMapIntegrator::light_of(
   // Stored maps are the same in every pass: shrinking their radii would trade bias for noise that
   // no number of passes removes.
   light->radii = pass_radii(*light->maps, stored_maps_ ? 0 : pass.index);
-  light->precomputed = precomputed_irradiance(scene(), settings_, *light->maps, light->radii);
+  if (settings_.gathers)
+    light->precomputed = precomputed_irradiance(scene(), settings_, *light->maps, light->radii);
   light->report.rays += light->precomputed.rays();
   report = light->report;
   if (is_kept && !stop.stop_requested()) {

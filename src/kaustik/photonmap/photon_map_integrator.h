@@ -21,7 +21,7 @@ class PhotonMapIntegrator final : public IlluminationModel {
   bool reflect(const PassState& state, CameraWalk& walk,
                const RadianceTracer& tracer) const override;
   Lobes traced() const override { return settings_.traced(); }
-  /// The maps of pass 0, and what gather rays look up.
+  /// The maps of pass 0, and what gather rays look up, where no medium scatters light.
   void keep_light(const std::shared_ptr<const KeptLight>& light) override;
   std::shared_ptr<const KeptLight> kept_light() const override;
 

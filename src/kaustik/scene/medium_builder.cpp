@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "kaustik/base/number_list.h"
+#include "kaustik/base/mixture_weights.h"
 #include "kaustik/scene/find_row.h"
 #include "kaustik/scene/scene_builder.h"
 #include "kaustik/scene/types_to_come.h"
@@ -78,13 +78,6 @@ std::shared_ptr<const PhaseFunction> SceneBuilder::phase_instead_of(const Object
 
 std::shared_ptr<const PhaseFunction> SceneBuilder::mixture_of_phases(const Object& mixture,
                                                                      int level) {
-  std::vector<double> weights;
-  for (const Property& property : mixture.properties) {
-    const auto* text = std::get_if<std::string>(&property.value);
-    if (property.name == "weights" && text) weights = parse_number_list(*text).numbers;
-    const auto* number = std::get_if<double>(&property.value);
-    if (property.name == "weights" && number) weights = {*number};
-  }
   std::vector<const Child*> children;
   for (const Child& child : mixture.children)
     if (child.object->family == "phase") children.push_back(&child);
@@ -96,14 +89,18 @@ std::shared_ptr<const PhaseFunction> SceneBuilder::mixture_of_phases(const Objec
                   "hold fewer in one another", mixture.place);
     return nullptr;
   }
-  const bool is_sound =
-      !children.empty() && children.size() == weights.size() &&
-      std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0; });
-  if (!is_sound) {
-    problems_.add(fmt::format("phase 'mixturephase' holds {} phase functions and {} weights",
-                              children.size(), weights.size()),
-                  "give it a 'weights' with one number, not below 0, for each phase function",
+  if (children.empty()) {
+    problems_.add("phase 'mixturephase' holds 0 phase functions", "give it at least one",
                   mixture.place);
+    return nullptr;
+  }
+  const auto given = std::find_if(mixture.properties.begin(), mixture.properties.end(),
+                                  [](const Property& p) { return p.name == "weights"; });
+  const bool is_given = given != mixture.properties.end();
+  const MixtureWeights weights = mixture_weights(is_given ? given->value : Value(std::string()),
+                                                 children.size(), "phase functions");
+  if (!weights.problem.empty()) {
+    problems_.add(weights.problem, weights.remedy, is_given ? given->place : mixture.place);
     return nullptr;
   }
   // The weights count by their shares.
@@ -112,8 +109,8 @@ std::shared_ptr<const PhaseFunction> SceneBuilder::mixture_of_phases(const Objec
   for (size_t i = 0; i < children.size(); ++i) {
     const auto part = make_phase_function(*children[i]->object, level + levels_of_mixture);
     if (!part) return nullptr;
-    sum += weights[i];
-    const double share = sum > 0 ? weights[i] / sum : 0;
+    sum += weights.numbers[i];
+    const double share = sum > 0 ? weights.numbers[i] / sum : 0;
     blend = blend ? blended_phase_function(blend, part, float(share)) : part;
   }
   return blend;
@@ -235,7 +232,7 @@ std::shared_ptr<const Medium> SceneBuilder::make_medium(const std::shared_ptr<Ob
            !volume_instead_of(child.object);
   };
   if (type && std::any_of(object->children.begin(), object->children.end(), is_density_left_out)) {
-    if (left_out_.insert(object.get()).second)
+    if (left_out_.insert(given.get()).second)
       unknown_.add(fmt::format("medium '{}' has no density that Kaustik can read: it is left out, "
                                "and space is empty there",
                                object->type),

@@ -166,8 +166,9 @@ class Integrator {
   virtual void go_on_with(const Lessons& /*lessons*/, LessonUse) {}
   /// Keeps from now on the light of pass 0 for kept_light(), and begins with `light`, null: none,
   /// which an integrator of the same parameters has kept in a scene that differs by its camera and
-  /// film alone. Pictures have the same bits. Before the first prepare(). Integrators whose light
-  /// passes depend on the camera keep nothing.
+  /// film alone. Light of another seed or other wavelengths is not used. Pictures have the same
+  /// bits. Before the first prepare(). Integrators whose light passes depend on the camera keep
+  /// nothing.
   virtual void keep_light(const std::shared_ptr<const KeptLight>& /*light*/) {}
   /// Null: none, or none yet. At any time.
   virtual std::shared_ptr<const KeptLight> kept_light() const { return nullptr; }
