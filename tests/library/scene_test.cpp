@@ -206,11 +206,12 @@ TEST(LibraryScene, WrongBuffersAreTold) {
 }
 
 TEST(LibraryScene, ValuesOfAllTypes) {
-  EXPECT_THROW(Value(std::numeric_limits<uint64_t>::max()), Error);
-  EXPECT_THROW(Value(static_cast<const char*>(nullptr)), Error);
+  constexpr uint64_t most = std::numeric_limits<uint64_t>::max();
+  EXPECT_THROW(Value{most}, Error);
+  EXPECT_THROW(Value{static_cast<const char*>(nullptr)}, Error);
   EXPECT_THROW(Transform::scale({0, 1, 1}), Error);
   EXPECT_THROW(Transform::look_at({0, 0, 0}, {0, 0, 0}, {0, 1, 0}), Error);
-  EXPECT_THROW(Value(Transform{.matrix = {}}), Error);
+  EXPECT_THROW(Value{Transform{.matrix = {}}}, Error);
   const Transform moved = Transform::translate({1, 2, 3}) * Transform::scale({2, 2, 2});
   EXPECT_EQ(moved.matrix[0], 2);
   EXPECT_EQ(moved.matrix[3], 1);
