@@ -244,6 +244,49 @@ TEST(Film, ErrorsComeFromTheReplicates) {
               student_t_quantile(0.975, 2 * freedom_of_pool) * std::sqrt(variance), 1e-5);
 }
 
+/// Pixels of a region share photons: here all of a pass are too bright, or too dark, together.
+TEST(Film, ErrorOfARegionIsThatOfItsMeanInEachReplicate) {
+  std::mt19937 generator(4);
+  std::normal_distribution<float> normal;
+  Film film(film_settings(), {ComponentSet::all()});
+  RunningStatistics means, own;
+  const PixelRectangle region{.x = 1, .y = 1, .width = 3, .height = 2};
+  for (uint32_t pass = 0; pass < 16; ++pass) {
+    std::vector<PassPixel> pixels(width * height);
+    const float together = 1 + 0.1f * normal(generator);
+    double sum = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const float value = together * float(1 + x + y) + 0.01f * normal(generator);
+        PassPixel& pixel = pixels[size_t(y * width + x)];
+        pixel.radiance[0] = {value, value, value, 0};
+        const bool is_inside = x >= 1 && x < 4 && y >= 1 && y < 3;
+        if (is_inside) sum += double(value);
+        if (x == 2 && y == 1) own.add(double(value));
+      }
+    means.add(sum / 6);
+    film.add_pass(tiled(pixels, film), pass);
+  }
+  const FilmErrors errors(film);
+  const LuminanceEstimate estimate = errors.estimate(region);
+  EXPECT_NEAR(estimate.mean, means.mean(), 1e-6);
+  EXPECT_NEAR(estimate.standard_error, means.standard_error(), 1e-3 * means.standard_error());
+  EXPECT_EQ(estimate.freedom, 15);
+  EXPECT_EQ(estimate.bias, 0);
+  EXPECT_NEAR(estimate.interval(0.9).half_width, student_t_interval(means, 0.9).half_width,
+              1e-3 * means.standard_error());
+  // Were they independent it would be 2.4 times smaller.
+  EXPECT_GT(estimate.standard_error, 0.7 * own.standard_error());
+  const LuminanceEstimate all = errors.estimate(PixelRectangle{0, 0, width, height});
+  EXPECT_NEAR(all.interval().half_width / all.mean, errors.of_mean(), 1e-6);
+  // Of one pixel it is the mean that the pixel has.
+  EXPECT_NEAR(errors.estimate(PixelRectangle{2, 1, 1, 1}).mean, errors.luminance(7).mean, 1e-12);
+
+  Film single(film_settings(), {ComponentSet::all()});
+  single.add_pass(tiled(std::vector<PassPixel>(width * height), single), 0);
+  EXPECT_TRUE(std::isinf(FilmErrors(single).estimate(region).interval().half_width));
+}
+
 TEST(Film, BlackPicturesHaveNoError) {
   Film film(film_settings(), {ComponentSet::all()});
   for (uint32_t pass = 0; pass < 2; ++pass) film.add_pass(tiled(grey_pass(0), film), pass);

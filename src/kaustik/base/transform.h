@@ -13,6 +13,9 @@ class Transform {
   /// `rows[i][j]`: row i, column j of M. Throws std::invalid_argument when M is singular or not
   /// finite.
   explicit Transform(const double (&rows)[4][4]);
+  /// Of its matrix and its inverse, as another has them to the bit: of a copy elsewhere. Throws
+  /// std::invalid_argument when one is not finite, or they are not inverse of one another.
+  Transform(const double (&rows)[4][4], const double (&inverse)[4][4]);
 
   static Transform translate(const Vec3d& offset);
   /// No factor may be zero (throws as the constructor does).

@@ -233,12 +233,35 @@ Vec3f FilmErrors::of_pixel(size_t pixel, const ChannelSums& sums) const {
   return error;
 }
 
-ConfidenceInterval FilmErrors::luminance(size_t pixel, double confidence) const {
+ConfidenceInterval LuminanceEstimate::interval(double confidence) const {
+  if (!(freedom > 0)) return {mean, std::numeric_limits<double>::infinity()};
+  return {mean, half_width_with_bias(standard_error, bias, confidence, freedom)};
+}
+
+LuminanceEstimate FilmErrors::estimate(size_t pixel) const {
   const double mean = luminance_sum(pixel) / std::max(1.0, passes());
-  if (!is_known()) return {mean, std::numeric_limits<double>::infinity()};
-  const double deviation = std::sqrt(pooled_variance(pixel));
+  if (!is_known()) return {.mean = mean};
   const double bias = bias_sq_.empty() ? 0 : std::sqrt(std::max(0.0, double(bias_sq_[pixel][3])));
-  return {mean, half_width_with_bias(deviation, bias, confidence, freedom())};
+  return {mean, std::sqrt(pooled_variance(pixel)), bias, freedom()};
+}
+
+LuminanceEstimate FilmErrors::estimate(const PixelRectangle& pixels) const {
+  std::array<Fixed, replicate_count> sums{};
+  double bias = 0;
+  for (int y = pixels.y; y < pixels.y + pixels.height; ++y)
+    for (int x = pixels.x; x < pixels.x + pixels.width; ++x) {
+      const size_t pixel = size_t(y) * size_t(film_.width()) + size_t(x);
+      for (size_t r = 0; r < replicate_count; ++r)
+        add_to(sums[r], film_.sum(pixel, film_.numbers().replicate_luminances + r));
+      if (film_.holds_bias()) bias += double(photopic(mean_bias(pixel)));
+    }
+  const double count = double(pixels.width) * double(pixels.height);
+  double total = 0;
+  for (const Fixed sum : sums) total += double_from(sum);
+  const double mean = total / (std::max(1.0, passes()) * count);
+  if (!is_known()) return {.mean = mean};
+  return {mean, std::sqrt(variance_by_replicates(sums.data())) / count, std::abs(bias) / count,
+          double(replicates_ - 1)};
 }
 
 double FilmErrors::freedom() const { return freedom_of_pool * (replicates_ - 1); }

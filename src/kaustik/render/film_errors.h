@@ -7,6 +7,22 @@
 
 namespace kaustik {
 
+/// What is known of a mean luminance, of a pixel or of several, in the picture's unit.
+struct LuminanceEstimate {
+  double mean = 0;
+  double standard_error = 0;  ///< its noise; 0 where `freedom` is 0: not known
+  double bias = 0;            ///< that it may have, on one side of the truth alone; never negative
+  double freedom = 0;  ///< degrees of freedom of the standard error, 0: fewer than two replicates
+
+  /// By Student's t, widened by the bias; infinite where the standard error is not known.
+  ConfidenceInterval interval(double confidence = 0.95) const;
+};
+
+/// Pixels from (x, y) on, to the right and down; they must lie in the picture, and be some.
+struct PixelRectangle {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
 /// Sums over passes of a pixel's channels.
 struct ChannelSums {
   std::array<double, 3> totals{}, squares{};
@@ -38,9 +54,15 @@ class FilmErrors {
   /// Standard error of the pixel's mean per channel, √(noise² + bias²); the noise counts as zero
   /// with fewer than two passes.
   Vec3f of_pixel(size_t pixel, const ChannelSums& sums) const;
-  /// The interval of the pixel's luminance by Student's t, widened by the bias (which is on one
-  /// side of the truth alone); infinite with fewer than two replicates.
-  ConfidenceInterval luminance(size_t pixel, double confidence = 0.95) const;
+  /// Of the pixel's luminance; neighbours tell of its noise, too.
+  LuminanceEstimate estimate(size_t pixel) const;
+  /// Of the mean luminance of pixels, from their sums in each replicate: pixels share photons, so
+  /// their own errors do not add up to it.
+  LuminanceEstimate estimate(const PixelRectangle& pixels) const;
+  /// The interval of the pixel's estimate().
+  ConfidenceInterval luminance(size_t pixel, double confidence = 0.95) const {
+    return estimate(pixel).interval(confidence);
+  }
   /// Degrees of freedom of the noise that a pixel's interval has.
   double freedom() const;
   /// Square root of the mean over pixels of (e/(|L| + 0.01 M))², where e is the standard error of

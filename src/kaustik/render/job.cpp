@@ -51,8 +51,8 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
   else
     run->prepared =
         prepare_scene(description_, settings_.build,
-                      settings_.task == JobTask::learn || !settings_.checkpoint.empty() ||
-                          settings_.begun || settings_.learned,
+                      settings_.task == JobTask::learn || settings_.keeps_digest ||
+                          !settings_.checkpoint.empty() || settings_.begun || settings_.learned,
                       listener_.messages, previous_);
   previous_ = nullptr;
   if (settings_.begun) check_same_scene(run->prepared, *settings_.begun, settings_.begun_path);
@@ -275,5 +275,27 @@ std::shared_ptr<const Scene> Job::shared_scene() const { return current()->prepa
 const Film& Job::film() const { return current()->session->film(); }
 
 Image Job::image() const { return current()->session->image(); }
+
+PictureFacts Job::picture_facts() const {
+  PictureFacts facts = PictureFacts::of(film());
+  facts.threads = settings_.session.threads;
+  facts.incomplete_pass = result_.report.incomplete_pass;
+  facts.part = result_.report.part;
+  return facts;
+}
+
+Image Job::finished_image(const Messages& messages) const {
+  return finished_picture(image(), result_.record, picture_facts(), messages);
+}
+
+Checkpoint Job::checkpoint() const {
+  const std::shared_ptr<Run> run = current();
+  if (!run || !run->session || !run->prepared.digest)
+    throw std::logic_error("Job::checkpoint: the digest of its scene was not asked for");
+  if (result_.report.passes == 0 || result_.report.incomplete_pass)
+    throw Error(ErrorKind::input, "no pass was finished, so there is nothing to go on with",
+                "give it more time, or passes with fewer samples");
+  return {result_.record, run->session->film(), run->prepared.integrator->lessons()};
+}
 
 }  // namespace kaustik

@@ -53,6 +53,8 @@ struct JobSettings {
   /// begins with a light pass. It takes a fraction of a second of the render. Whatever is said
   /// here, they do so where time has ended the render before that.
   bool previews = false;
+  /// Somebody will ask for Job::checkpoint(): the scene's digest is found out.
+  bool keeps_digest = false;
   /// A scene to share with what is the same; null: none.
   std::shared_ptr<const Scene> previous;
   std::chrono::steady_clock::time_point clock_start = std::chrono::steady_clock::now();
@@ -122,6 +124,14 @@ class Job {
   // Only while it does not run, after the session was made.
   const Film& film() const;
   Image image() const;  ///< Session::image()
+  /// What image() shows, for finished_picture(). After wait().
+  PictureFacts picture_facts() const;
+  /// image() as it is to be written: finished_picture() of it. After wait().
+  Image finished_image(const Messages& messages = {}) const;
+  /// What a file of the finished passes would hold, to be kept in memory. After wait(). Throws
+  /// Error(input) if no pass was finished, std::logic_error unless `keeps_digest` or a file of them
+  /// was asked for.
+  Checkpoint checkpoint() const;
 
  private:
   struct Run {
