@@ -35,13 +35,18 @@ def _metadata() -> str:
         *(f'Requires-Dist: {name}; extra == "notebook"' for name in ("numpy", "matplotlib")), "", ""])
 
 
+def _interpreter() -> str:
+    """The one that the environment is made of: that is still there when the environment is not."""
+    return os.path.realpath(getattr(sys, "_base_executable", sys.executable))
+
+
 def _build() -> pathlib.Path:
     """The folder of the package, as CMake makes it."""
     folder = pathlib.Path(os.environ.get("KAUSTIK_BUILD", root / "build" / "release"))
     together = [] if (folder / "CMakeCache.txt").exists() else ["-D", "KAUSTIK_UNITY=ON", "-D",
                                                                "KAUSTIK_PRECOMPILED_HEADERS=ON"]
     subprocess.run(["cmake", "--preset", "release", "-B", str(folder), "-D", "KAUSTIK_PYTHON=ON",
-                    "-D", f"Python_EXECUTABLE={sys.executable}", *together], cwd=root, check=True)
+                    "-D", f"Python_EXECUTABLE={_interpreter()}", *together], cwd=root, check=True)
     subprocess.run(["cmake", "--build", str(folder), "--target", "kaustik_package"], cwd=root, check=True)
     return folder / "python" / "kaustik"
 

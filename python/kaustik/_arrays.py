@@ -108,7 +108,7 @@ def _as_int64(view: memoryview, name: str) -> memoryview:
     if flat and max(flat) >= 1 << 63:
         raise Error(f"{name}: it holds {max(flat)}, which is too large", "give indices from 0 on")
     numbers = memoryview(flat).cast("B").cast("q")
-    return numbers.cast("B").cast("q", shape=list(view.shape)) if view.ndim > 1 else numbers
+    return numbers.cast("B").cast("q", shape=list(view.shape or ())) if view.ndim > 1 else numbers
 
 
 def numbers_of(values: Any, name: str, shape: Sequence[Optional[int]], *, integers: bool = False) -> Buffer:

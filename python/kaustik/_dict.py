@@ -8,11 +8,13 @@ from . import _native
 from ._errors import Error, Problem, raise_all
 from ._mesh import Mesh
 from ._types import Type, types
-from ._values import colour_value, native_value
+from ._values import checked_text, colour_value, native_value
 
 _colours = ("rgb", "spectrum")
 #: Families whose objects have no name within what holds them.
 _nameless = ("film", "rfilter", "sampler", "sensor", "emitter", "integrator", "shape", "phase")
+#: Objects nest so deep at most.
+_maximum_depth = 100
 #: Mitsuba's names of what is a family here.
 _families = tuple(types)
 
@@ -42,8 +44,8 @@ class _Reader:
         for key, value in scene.items():
             if key in ("type", "id"):
                 continue
-            if not isinstance(key, str):
-                self.add(f"the key {key!r} is no text", "keys are the ids of objects", "scene")
+            if not _is_text(key):
+                self.add(f"the key {ascii(key)} is no text", "keys are the ids of objects", "scene")
             elif not isinstance(value, (dict, Mesh)):
                 self.add(f"{type(value).__name__} is no object of a scene",
                          'write a dict with a "type", or a kaustik.Mesh', key)
@@ -69,7 +71,10 @@ class _Reader:
         if isinstance(value, Mesh):
             value = {"type": "mesh", "mesh": value}
         name = value.get("type")
-        if not isinstance(name, str):
+        if place.count(".") > _maximum_depth:
+            self.add(f"objects nest more than {_maximum_depth} levels deep", "make the scene flatter", place[:80] + "…")
+            return None
+        if not _is_text(name):
             self.add("an object without a type", 'give it a "type", such as "sphere"', place)
             return None
         family = _family_of(name, key)
@@ -83,10 +88,12 @@ class _Reader:
             if part == "type":
                 continue
             if part == "id":
-                if isinstance(given, str) and given:
+                if _is_text(given):
                     self.take_id(made, given)
                 else:
-                    self.add(f"the id {given!r} is no text", "give a name", place)
+                    self.add("the id is no text", "give a name", place)
+            elif not _is_text(part):
+                self.add(f"the key {ascii(part)} is no text", "keys are names of parameters", place)
             else:
                 self.part(made, table, part, given, f"{place}.{part}")
         return made
@@ -113,7 +120,7 @@ class _Reader:
             self.problems += error.problems
 
     def reference(self, made: _Object, name: str, given: dict, place: str) -> None:
-        if not isinstance(given.get("id"), str):
+        if not _is_text(given.get("id")):
             self.add("a reference without an id", 'write {"type": "ref", "id": "white"}', place)
         else:
             made.children.append((name, (given["id"], place)))
@@ -166,6 +173,14 @@ def _at(place: str) -> tuple:
     return (place, 0, 0)
 
 
+def _is_text(given: Any) -> bool:
+    """Of one word or more, that a file could hold."""
+    try:
+        return isinstance(given, str) and checked_text(given, "") != ""
+    except Error:
+        return False
+
+
 def _family_of(name: str, key: str) -> Optional[str]:
     found = [family for family, members in types.items() if name in members and family != "tonemap"]
     if key in found or not found:
@@ -206,4 +221,4 @@ def objects_of_integrator(integrator: dict) -> list:
     if made is not None:
         reader.resolve(made)
     raise_all(reader.problems)
-    return _flattened(made)
+    return _flattened(made) if made is not None else []

@@ -8,7 +8,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 
 from . import _native, _threads
 from ._arrays import Buffer
-from ._errors import Error
+from ._errors import Error, Problem
 
 _units = {False: "W/(sr·m²)", True: "W/m²"}
 
@@ -22,14 +22,15 @@ class Estimate:
     """A luminance, as the photopic value of RGB radiances, and how well it is known."""
 
     __slots__ = ("value", "noise", "bias", "freedom", "unit")
+    value: float
+    noise: float  #: standard error of the mean; not known where `freedom` is 0
+    bias: float  #: that it may have, on one side
+    freedom: float  #: degrees of freedom of `noise`; 0: fewer than two replicates
+    unit: str
 
     def __init__(self, value: float, noise: float, bias: float = 0.0, freedom: float = 0.0,
                  unit: str = _units[False]):
-        self.value = value
-        self.noise = noise  #: standard error of the mean; not known where `freedom` is 0
-        self.bias = bias  #: that it may have, on one side
-        self.freedom = freedom  #: degrees of freedom of `noise`; 0: fewer than two replicates
-        self.unit = unit
+        self.value, self.noise, self.bias, self.freedom, self.unit = value, noise, bias, freedom, unit
 
     @property
     def standard_error(self) -> float:
@@ -89,6 +90,7 @@ class Film:
     film of all eight, whatever machine or process they come from. Pickles; a `.kpt` file is the same."""
 
     __slots__ = ("_native",)
+    _native: Any
 
     def __init__(self, *_: Any):
         raise TypeError("films come from pictures and sessions, or from kaustik.Film.load")
@@ -114,7 +116,9 @@ class Film:
 
     def __radd__(self, other: Any) -> "Film":
         # For sum().
-        return self if other == 0 else NotImplemented
+        if other == 0:
+            return self
+        return NotImplemented
 
     def __eq__(self, other: object) -> bool:
         """The same passes of the same scene, to the bit."""
@@ -169,6 +173,10 @@ class Picture:
     """A rendered picture. ``numpy.asarray(picture)`` is (rows, columns, 3) float32, linear Rec. 709."""
 
     __slots__ = ("_image", "_film", "_rgb", "_facts")
+    _image: Any
+    _film: Optional[Film]
+    _rgb: Optional[Buffer]
+    _facts: Dict[str, Any]
 
     def __init__(self, *_: Any):
         raise TypeError("pictures come from kaustik.render, sessions, films, or kaustik.read")
@@ -278,7 +286,7 @@ class Picture:
         if not (0 <= x < self.width and 0 <= y < self.height):
             raise Error(f"there is no pixel ({x}, {y})", f"the picture is {self.width} x {self.height}")
         _threads.begin()
-        return Estimate(*self.film._native.pixel(x, y), self.unit)
+        return self._estimate(self.film._native.pixel(x, y))
 
     def mean(self, region: Optional[Tuple[int, int, int, int]] = None) -> Estimate:
         """The mean luminance of a region (x, y, width, height), or of all. Its error is its own: pixels
@@ -289,7 +297,11 @@ class Picture:
             raise Error(f"region: {region} does not lie in the picture",
                         f"give (x, y, width, height) within {self.width} x {self.height}")
         _threads.begin()
-        return Estimate(*self.film._native.mean(x, y, width, height), self.unit)
+        return self._estimate(self.film._native.mean(x, y, width, height))
+
+    def _estimate(self, numbers: Tuple[float, float, float, float]) -> Estimate:
+        value, noise, bias, freedom = numbers
+        return Estimate(value, noise, bias, freedom, self.unit)
 
     def tonemap(self, operator: str = "histogram", *, layer: str = "", **parameters: Any) -> Buffer:
         """As a display shows it: (rows, columns, 3) uint8 in sRGB. `types["tonemap"]` lists operators."""
@@ -308,7 +320,7 @@ class Picture:
         if not paths:
             raise Error("write: there is no path", 'give one, such as "picture.exr"')
         _threads.begin()
-        failures = []
+        failures: List[Problem] = []
         for path in paths:
             try:
                 self._image.write(os.fspath(path), tonemap, _tone_settings(parameters), layer, half, quality)
@@ -331,7 +343,7 @@ class Picture:
         """A DataArray with the dimensions y, x, channel; needs xarray and NumPy."""
         try:
             import numpy
-            import xarray
+            import xarray  # type: ignore[import]
         except ImportError as error:
             raise ImportError(f"to_xarray needs {error.name}: pip install xarray") from None
         attributes = {**self.metadata}

@@ -62,7 +62,8 @@ class Parameters(Mapping):
     def slot(self, key: str) -> Tuple[int, str, Optional[Type]]:
         """Of what number the object is, and which of its parameters; its table."""
         if key not in self._slots:
-            raise Error(f"the scene has no parameter '{key}'", _native.suggest(key, list(self._slots)))
+            known = list(self._slots)
+            raise Error(f"the scene has no parameter {ascii(key)}", _native.suggest(ascii(key)[1:-1], known), str(key))
         return self._slots[key]
 
     def __repr__(self) -> str:
@@ -110,6 +111,12 @@ def _prefixes(objects: list) -> Dict[int, str]:
 
 class Scene:
     """A scene, which does not change. From `load_file`, `load_string` or `load_dict`."""
+
+    _native: Any
+    _source: str
+    _definitions: Tuple[Tuple[str, str], ...]
+    _parameters: Optional[Parameters]
+    _previous: Optional["Scene"]
 
     def __init__(self, *_: Any):
         raise TypeError("make scenes by kaustik.load_file, load_string or load_dict")
@@ -172,7 +179,7 @@ class Scene:
     def to_xml(self, folder: Union[str, os.PathLike] = "") -> str:
         """The scene as XML of Mitsuba 3, for a file in `folder`, which names of files are relative to.
         Raises Error for what XML cannot hold: arrays."""
-        return self._native.to_xml(os.fspath(folder))
+        return str(self._native.to_xml(os.fspath(folder)))
 
     def __reduce__(self):
         native = self._native

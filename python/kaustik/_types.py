@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import inspect
+import keyword
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Dict, Iterator, Optional, Tuple
 
 from . import _native
+from ._errors import Error
+from ._mesh import Mesh
+from ._values import python_value
 
 
 @dataclass(frozen=True)
@@ -43,13 +48,25 @@ class Parameter:
 
 
 class Type(Mapping):
-    """The table of one type: its parameters by their names."""
+    """The table of one type: its parameters by their names. Called it makes a dict of a scene:
+    ``kaustik.types.bsdf.dielectric(int_ior=1.5)``."""
 
     def __init__(self, facts: dict):
         self.family: str = facts["family"]
         self.name: str = facts["name"]
         self.sentence: str = facts["sentence"]
         self._rows: Dict[str, Parameter] = {row["name"]: _parameter(row) for row in facts["parameters"]}
+        self.__doc__ = repr(self)
+        self.__signature__ = _signature(self._rows.values())
+
+    def __call__(self, *, id: Optional[str] = None, **values: Any) -> Dict[str, Any]:
+        """An object for `load_dict`; objects within it have any name: ``bsdf={…}``. Raises Error for a
+        parameter that there is not."""
+        for name, value in values.items():
+            if name not in self._rows and not isinstance(value, (dict, Mesh)):
+                raise Error(f"{self.family} '{self.name}' has no parameter '{name}'",
+                            _native.suggest(name, list(self._rows)))
+        return {"type": self.name, **({} if id is None else {"id": id}), **values}
 
     def __getitem__(self, name: str) -> Parameter:
         return self._rows[name]
@@ -84,6 +101,12 @@ class Family(Mapping):
     def __len__(self) -> int:
         return len(self._types)
 
+    def __getattr__(self, name: str) -> Type:
+        return _attribute(self.__dict__.get("_types", {}), name, "kaustik.types." + self.__dict__.get("name", ""))
+
+    def __dir__(self) -> list:
+        return [*super().__dir__(), *self._types]
+
     def _ipython_key_completions_(self) -> list:
         return list(self._types)
 
@@ -109,6 +132,12 @@ class Types(Mapping):
     def __len__(self) -> int:
         return len(self._families)
 
+    def __getattr__(self, name: str) -> Family:
+        return _attribute(self.__dict__.get("_families", {}), name, "kaustik.types")
+
+    def __dir__(self) -> list:
+        return [*super().__dir__(), *self._families]
+
     def _ipython_key_completions_(self) -> list:
         return list(self._families)
 
@@ -120,9 +149,22 @@ class Types(Mapping):
         return "\n".join(f"{family}: {', '.join(types)}" for family, types in self._families.items())
 
 
-def _parameter(row: dict) -> Parameter:
-    from ._values import python_value
+def _attribute(known: dict, name: str, where: str) -> Any:
+    if name in known:
+        return known[name]
+    if name.startswith("_"):
+        raise AttributeError(name)
+    raise AttributeError(f"{where} has no '{name}': " + _native.suggest(name, list(known)))
 
+
+def _signature(rows: Any) -> inspect.Signature:
+    """For help() and editors."""
+    named = [inspect.Parameter(row.name, inspect.Parameter.KEYWORD_ONLY, default=row.default) for row in rows
+             if row.name.isidentifier() and not keyword.iskeyword(row.name) and not row.no_effect]
+    return inspect.Signature([*named, inspect.Parameter("nested", inspect.Parameter.VAR_KEYWORD)])
+
+
+def _parameter(row: dict) -> Parameter:
     default = row["default"]
     return Parameter(row["name"], row["kind"], None if default is None else python_value(default),
                      row["required"], row["minimum"], row["maximum"], row["unit"], row["sentence"],

@@ -41,13 +41,39 @@ def _numbers(value: Any, place: str) -> Optional[list]:
         items = list(value)
     except TypeError:
         return None
-    return [float(item) for item in items] if all(is_number(item) for item in items) else None
+    return [_float(item) for item in items] if all(is_number(item) for item in items) else None
+
+
+def _float(value: Any) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+
+
+def _cut(value: Any) -> str:
+    text = repr(value) if not isinstance(value, numbers.Integral) or abs(int(value)) < 2 ** 200 else "a huge integer"
+    return text if len(text) <= 80 else text[:77] + "…"
+
+
+def checked_text(value: Any, place: str) -> str:
+    """Of text or a path; Error for what no file has."""
+    text = os.fspath(value)
+    if isinstance(text, bytes):
+        text = os.fsdecode(text)
+    try:
+        text.encode("utf-8")
+    except UnicodeEncodeError:
+        raise Error(f"{ascii(text)[:80]} is no text that can be written as UTF-8", "give other text", place) from None
+    if "\0" in text:
+        raise Error(f"{ascii(text)[:80]} holds a zero byte", "give other text", place)
+    return text
 
 
 def _pairs(value: Any) -> Optional[list]:
     try:
         pairs = [(float(nm), float(number)) for nm, number in value]
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return None
     return pairs
 
@@ -64,14 +90,14 @@ def colour_value(value: dict, place: str, *, is_light: bool) -> Any:
     """Of Mitsuba's {"type": "rgb", "value": …} and {"type": "spectrum", "value": …}."""
     unknown = set(value) - {"type", "value"}
     if unknown or "value" not in value:
-        raise Error(f"a {value['type']} takes a 'value'" + (f", not '{sorted(unknown)[0]}'" if unknown else ""),
+        raise Error(f"a {value['type']} takes a 'value'" + (f", not '{sorted(map(str, unknown))[0]}'" if unknown else ""),
                     'write {"type": "rgb", "value": (0.5, 0.4, 0.3)} or '
                     '{"type": "spectrum", "value": [(400, 0.1), (700, 0.4)]}', place)
     given = value["value"]
     if is_number(given):
-        if not math.isfinite(given):
-            raise Error(f"the colour is {given}", "give a finite number", place)
-        number = float(given)
+        number = _float(given)
+        if not math.isfinite(number):
+            raise Error(f"the colour is {number}", "give a finite number", place)
         if value["type"] == "spectrum" and is_light and number > 0:
             # The same at every wavelength, which is not white.
             return ("spectrum", [(_native.first_nm, number), (_native.last_nm, number)])
@@ -82,7 +108,7 @@ def colour_value(value: dict, place: str, *, is_light: bool) -> Any:
     pairs = _pairs(given)
     if value["type"] == "spectrum" and pairs:
         return _curve(pairs, place)
-    raise Error(f"{given!r} is no {value['type']}",
+    raise Error(f"{_cut(given)} is no {value['type']}",
                 "give three numbers" if value["type"] == "rgb" else "give a number, or pairs of nm and value",
                 place)
 
@@ -103,13 +129,13 @@ def _native_value(value: Any, kind: Optional[str], place: str) -> Any:
     if is_boolean(value):
         return bool(value)
     if isinstance(value, numbers.Integral) and kind not in ("number", "number or name", "color"):
+        if not -(2 ** 63) <= int(value) < 2 ** 63:
+            raise Error(f"{_cut(value)} is too large", "give an integer of 64 bits", place)
         return int(value)
     if is_number(value):
-        return float(value)
-    if isinstance(value, str):
-        return value
-    if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        return _float(value)
+    if isinstance(value, (str, os.PathLike)):
+        return checked_text(value, place)
     if kind == "transform":
         return Transform(value)._native
     if kind == "array":
