@@ -203,8 +203,10 @@ def run_python(text, **more):
 
 def test_ctrl_c_keeps_what_is_finished():
     process = run_python("""
-        import kaustik
+        import signal, kaustik
         from conftest import square_under_sky
+        # Tests that run in the background may have inherited that it is ignored.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         session = kaustik.Session(kaustik.load_dict(square_under_sky()), integrator="path", passes=100000,
                                   samples_per_pass=1, progress=lambda now: print(now.passes, flush=True))
         try:
