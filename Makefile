@@ -13,7 +13,7 @@ bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--
 comma = ,
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery install package docs format clean
+.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python install package docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -95,6 +95,17 @@ comparisons: configure
 references: configure
 	@cmake --build --preset release --target kaustik add_images_tool
 	benchmarks/make_references.sh $(subst $(comma), ,$(SCENES))
+
+# `import kaustik` in .venv, its tests, and a picture by it: docs/python.md. PYTHON=… for another one than Debian's.
+PYTHON ?= /usr/bin/python3
+python: setup
+	@scripts/install_packages.sh python
+	@test -e .venv/bin/python || $(PYTHON) -m venv --system-site-packages .venv
+	.venv/bin/pip install --quiet --disable-pip-version-check --no-deps .
+	@cmake --build $(BUILD) --target kaustik kaustik_package
+	KAUSTIK_PROGRAM=$(program) .venv/bin/python -m pytest -q -p no:cacheprovider python/tests
+	@mkdir -p out
+	.venv/bin/python python/examples/first_caustic.py out/first_caustic.png
 
 install: configure
 	@cmake --build --preset release --target kaustik

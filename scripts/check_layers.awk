@@ -32,7 +32,7 @@ function complain(text) {
   ++complaints
 }
 
-# The room that a file belongs to: src/kaustik/ROOM/…, tests/ROOM/…, apps/…, benchmarks/…, include/kaustik/….
+# The room that a file belongs to: src/kaustik/ROOM/…, tests/ROOM/…, apps/…, python/…, benchmarks/…, include/kaustik/….
 function room_of(path,    parts) {
   split(path, parts, "/")
   if (parts[1] == "src") return parts[3]
@@ -47,7 +47,7 @@ function folder_of(path,    parts, n) {
   return n > 2 ? parts[1] "/" parts[2] : ""
 }
 
-function is_product_code() { return area == "src" || area == "apps" || area == "include" }
+function is_product_code() { return area == "src" || area == "apps" || area == "python" || area == "include" }
 
 # What hosts see, kaustik/NAME.h: for itself, for the room that makes it, and for what is written as hosts are.
 function check_public_include(header) {
@@ -124,6 +124,7 @@ BEGIN {
   sees_public["include"]; sees_public["library"]; sees_only_public["include"]
   # The front ends get at the lower rooms through render; these are what its interface speaks of.
   allow("apps", "base image display scene integrator render loader")
+  allow("python", "base image scene integrator render loader")
   # Tests of whole pictures and benchmarks may look everywhere.
   sees_all["vcm"]; sees_all["photonmap"]; sees_all["integrator"]; sees_all["render"]; sees_all["live"]; sees_all["apps"]; sees_all["benchmarks"]
   sees_all["support"]; sees_all["fuzz"]; sees_all["agreement"]; sees_all["scene"]; sees_all["transport"]
@@ -152,6 +153,7 @@ BEGIN {
   own("Highway", "^hwy/", "light photon vcm", not_in_word "hwy::")
   own("pugixml", "^pugi", "loader", not_in_word "pugi::")
   own("zlib", "^zlib", "base", not_in_word "z_stream")
+  own("pybind11", "^pybind11/", "python", not_in_word "pybind11::")
   own("CLI11", "^CLI/", "apps", not_in_word "CLI::")
   own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")
   own("nanoflann", "^nanoflann", "", not_in_word "nanoflann::")

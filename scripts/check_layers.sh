@@ -6,5 +6,5 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 cd "${1:-$here/..}"
 
-find include src apps tests benchmarks \( -name '*.h' -o -name '*.cpp' \) -print | LC_ALL=C sort |
+find include src apps python tests benchmarks \( -name '*.h' -o -name '*.cpp' \) -print | LC_ALL=C sort |
   xargs awk -f "$here"/check_layers.awk CMakeLists.txt

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of the named groups: build, check, coverage, package, bench. Asks nothing, and
+# Installs the Debian packages of the named groups: build, check, coverage, package, bench, python. Asks nothing, and
 # needs no network when everything is there already.
 set -euo pipefail
 
@@ -9,6 +9,7 @@ check=(clang clang-format libclang-rt-14-dev)
 coverage=(llvm-14)
 package=(dpkg-dev file)
 bench=(blender povray)
+python=(python3 python3-dev python3-venv python3-pytest python3-numpy pybind11-dev)
 
 wanted=()
 for group in "$@"; do
@@ -18,7 +19,8 @@ for group in "$@"; do
     coverage) wanted+=("${coverage[@]}") ;;
     package) wanted+=("${package[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
-    *) echo "$0: no group '$group'; there are build, check, coverage, package and bench" >&2; exit 2 ;;
+    python) wanted+=("${python[@]}") ;;
+    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench and python" >&2; exit 2 ;;
   esac
 done
 

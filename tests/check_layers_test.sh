@@ -6,7 +6,7 @@ copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 expected=()
 
-(cd "$root" && find include src apps tests benchmarks CMakeLists.txt \
+(cd "$root" && find include src apps python tests benchmarks CMakeLists.txt \
   \( -name '*.h' -o -name '*.cpp' -o -name CMakeLists.txt \) -exec cp --parents -t "$copy" {} +)
 
 # plant FILE LINE MESSAGE: puts LINE at the end of FILE; the check must name the place and say MESSAGE.
@@ -33,6 +33,8 @@ plant src/kaustik/photon/light_pass.cpp '#include "kaustik/photonmap/photon_ligh
 plant src/kaustik/irradiance/hemisphere.cpp '#include "kaustik/vcm/vcm.h"' "room 'irradiance' must not include"
 plant CMakeLists.txt 'kaustik_room(vcm kaustik_photon kaustik_photonmap)' "room 'vcm' must not link 'photonmap'"
 plant CMakeLists.txt 'kaustik_room(photonmap kaustik_photon kaustik_vcm)' "room 'photonmap' must not link 'vcm'"
+plant python/native/jobs.cpp '#include "kaustik/vcm/vcm.h"' "room 'python' must not include"
+plant apps/kaustik/main.cpp '#include <pybind11/pybind11.h>' "pybind11"
 # Subfolders.
 plant src/kaustik/vcm/lessons/lesson.h '#include "kaustik/vcm/camera_path/connect.h"' "folder 'vcm/lessons' must not include"
 plant src/kaustik/vcm/merging/matt_merging.h '#include "kaustik/vcm/plan/plans.h"' "folder 'vcm/merging' must not include"

@@ -61,14 +61,6 @@ std::string viewer_name(const RenderRecord& record) {
   return record.recipe.scene;
 }
 
-PictureFacts facts_of(const Job& job, const SessionReport& report, const SessionSettings& session) {
-  PictureFacts facts = PictureFacts::of(job.film());
-  facts.threads = session.threads;
-  facts.incomplete_pass = report.incomplete_pass;
-  facts.part = report.part;
-  return facts;
-}
-
 /// Which of the goals a render has reached.
 std::string end_reason(const SessionReport& report, const SessionSettings& session) {
   if (report.end == SessionEnd::error) return "error";
@@ -174,8 +166,8 @@ void run_job(Description description, JobSettings settings, const JobDisplay& di
   Failures failures;
   if (result.checkpoint_failure)
     failures.attempt(checkpoint, [&] { std::rethrow_exception(result.checkpoint_failure); });
-  write_pictures(job.film(), result.record, {facts_of(job, report, session), display.quiet},
-                 failures, report.cancelled() ? PictureState::ended_early : PictureState::finished,
+  write_pictures(job.film(), result.record, {job.picture_facts(), display.quiet}, failures,
+                 report.cancelled() ? PictureState::ended_early : PictureState::finished,
                  [&] { return is_first_look ? first_look(job) : job.image(); });
   watch.finish_viewers();
   failures.throw_if_any();

@@ -73,6 +73,23 @@ TEST(transform, divides_by_the_homogeneous_coordinate) {
   expect_near(Transform(m).point({2, 4, 1}), {1, 2, 0.5f});
 }
 
+TEST(transform, copies_have_the_bits_of_their_inverse) {
+  const Transform made = Transform::look_at({1, 2, 3}, {4, 4, 4}, {0, 0, 1}) *
+                         Transform::rotate({1, 2, 3}, 40) * Transform::scale({3, 0.1, 1e-5});
+  double rows[4][4], inverse[4][4];
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      rows[i][j] = made.at(i, j);
+      inverse[i][j] = made.inverse().at(i, j);
+    }
+  EXPECT_TRUE(Transform(rows, inverse) == made);
+  EXPECT_FALSE(Transform(rows) == made);  // an inverse of its own: other bits
+  inverse[2][1] += 1;
+  EXPECT_THROW(Transform(rows, inverse), std::invalid_argument);
+  inverse[2][1] = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(Transform(rows, inverse), std::invalid_argument);
+}
+
 TEST(transform, refuses_what_has_no_inverse) {
   EXPECT_THROW(Transform::scale({1, 0, 1}), std::invalid_argument);
   EXPECT_THROW(Transform::rotate({0, 0, 0}, 10), std::invalid_argument);

@@ -177,6 +177,19 @@ TEST_F(CheckpointFile, HoldsEverything) {
   expect_same_bits(read.film, film);
 }
 
+TEST_F(CheckpointFile, BytesInMemoryAreThoseOfTheFile) {
+  write_checkpoint(path(), little_record(), little_film());
+  const std::vector<uint8_t> made = checkpoint_bytes(little_record(), little_film());
+  EXPECT_EQ(made, bytes());
+  expect_same_bits(parse_checkpoint(made, "memory").film, little_film());
+  try {
+    parse_checkpoint({made.begin(), made.end() - 1}, "memory");
+    ADD_FAILURE() << "was read";
+  } catch (const Error& error) {
+    EXPECT_EQ(*error.problems()[0].place.file, "memory");
+  }
+}
+
 TEST_F(CheckpointFile, PassesInPartsAreThoseOfOneRun) {
   for (const char* type : {"path", "photonmap", "vcm", "auto"}) {
     SCOPED_TRACE(type);

@@ -459,6 +459,41 @@ TEST(Job, LightThatIsKeptLeavesPicturesAsTheyAre) {
                         rendered(glass_room_seen_from("1,-4,2", "5", fog), nullptr)->image()));
 }
 
+TEST(Job, GoesOnWithWhatItKeptInMemory) {
+  JobSettings settings = settings_for(2);
+  settings.record.recipe.integrator = "auto";
+  Job without(room_with("path"), settings);
+  without.run();
+  EXPECT_THROW(without.checkpoint(), std::logic_error);
+
+  settings.keeps_digest = true;
+  Job first(room_with("path"), settings);
+  first.run();
+  JobSettings more = settings_for(5);
+  more.begun = first.checkpoint();
+  more.record = more.begun->record;
+  Job second(room_with("path"), std::move(more));
+  EXPECT_EQ(second.run().report.passes, 5u);
+  EXPECT_TRUE(same_bits(second.image(), rendered("auto", 5)));
+
+  settings.session.seconds = 1e-3;
+  settings.session.passes.reset();
+  Job none(room_with("path"), settings);
+  none.run();
+  EXPECT_THROW(none.checkpoint(), Error);
+}
+
+TEST(Job, FinishedImagesTellWhatTheyShow) {
+  JobSettings settings = settings_for(3);
+  settings.record.program = "test";
+  Job job(room_with("path"), settings);
+  job.run();
+  const Image image = job.finished_image();
+  EXPECT_TRUE(same_bits(image, job.image()));
+  EXPECT_EQ(std::get<int64_t>(*image.find_metadata("passes")), 3);
+  EXPECT_EQ(std::get<int64_t>(*image.find_metadata("samples_per_pixel")), 6);
+}
+
 TEST(Job, GoesOnWithACheckpoint) {
   const std::string file = (std::filesystem::temp_directory_path() /
                             ("kaustik_job_" + std::to_string(::getpid()) + ".kpt"))

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "kaustik/base/checksum.h"
 #include "kaustik/base/error.h"
@@ -36,13 +37,19 @@ void BinaryWriter::put_text(const std::string& text) {
   put_bytes(text.data(), text.size());
 }
 
-void BinaryWriter::write_to(const std::string& path) {
+void BinaryWriter::write_to(const std::string& path) { write_file_atomically(path, finished()); }
+
+std::vector<uint8_t> BinaryWriter::finished() {
   put(checksum(bytes_));
-  write_file_atomically(path, bytes_);
+  return std::move(bytes_);
 }
 
 BinaryReader::BinaryReader(const BinaryFileKind& kind, const std::string& path)
-    : kind_(kind), path_(path), bytes_(read_file(path)), rest_(bytes_) {
+    : BinaryReader(kind, read_file(path), path) {}
+
+BinaryReader::BinaryReader(const BinaryFileKind& kind, std::vector<uint8_t> bytes,
+                           const std::string& name)
+    : kind_(kind), path_(name), bytes_(std::move(bytes)), rest_(bytes_) {
   check_frame();
 }
 

@@ -37,6 +37,8 @@ class BinaryWriter {
   void reserve(size_t more) { bytes_.reserve(bytes_.size() + more + sizeof(uint64_t)); }
   /// Adds the checksum and writes atomically; throws as write_file_atomically() does.
   void write_to(const std::string& path);
+  /// The same bytes, for memory or a connection. Nothing may be put after that.
+  std::vector<uint8_t> finished();
 
  private:
   std::vector<uint8_t> bytes_;
@@ -48,6 +50,8 @@ class BinaryReader {
  public:
   /// Throws if the file is missing, of another kind, version or byte order, truncated or damaged.
   BinaryReader(const BinaryFileKind& kind, const std::string& path);
+  /// The same of bytes from elsewhere, which messages call by `name`.
+  BinaryReader(const BinaryFileKind& kind, std::vector<uint8_t> bytes, const std::string& name);
   template <typename T>
   T get() {
     static_assert(std::is_trivially_copyable_v<T>);

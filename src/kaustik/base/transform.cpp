@@ -35,6 +35,28 @@ Transform::Transform(const double (&rows)[4][4]) {
     for (int j = 0; j < 4; ++j) inverse_[i][j] = inverse[i][j];
 }
 
+Transform::Transform(const double (&rows)[4][4], const double (&inverse)[4][4]) {
+  // Rounding of products may leave so much where the numbers of both are large.
+  constexpr double tolerance = 1e-6;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      if (!std::isfinite(rows[i][j]) || !std::isfinite(inverse[i][j]))
+        throw std::invalid_argument("matrix is not finite");
+      matrix_[i][j] = rows[i][j];
+      inverse_[i][j] = inverse[i][j];
+    }
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      double product = 0, size = 1;
+      for (int k = 0; k < 4; ++k) {
+        product += rows[i][k] * inverse[k][j];
+        size += std::abs(rows[i][k] * inverse[k][j]);
+      }
+      if (!(std::abs(product - (i == j ? 1 : 0)) <= tolerance * size))
+        throw std::invalid_argument("matrix and inverse do not belong together");
+    }
+}
+
 Transform Transform::collapsing(const double (&rows)[4][4]) {
   Rows matrix;
   for (size_t i = 0; i < 4; ++i) std::copy(rows[i], rows[i] + 4, matrix[i].begin());

@@ -13,6 +13,9 @@ class Transform {
   /// `rows[i][j]`: row i, column j of M. Throws std::invalid_argument when M is singular or not
   /// finite.
   explicit Transform(const double (&rows)[4][4]);
+  /// Of its matrix and its inverse, as another has them to the bit: of a copy elsewhere. Throws
+  /// std::invalid_argument when one is not finite, or they are not inverse of one another.
+  Transform(const double (&rows)[4][4], const double (&inverse)[4][4]);
 
   /// Affine, and may be singular: one that leaves less than three of the space's dimensions. Where
   /// it leaves two, everything lands in a plane, and normal() gives those of the plane for all that

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <new>
 #include <tuple>
+#include <utility>
 
 #include "kaustik/base/binary_file.h"
 #include "kaustik/render/lessons_file.h"
@@ -216,9 +217,10 @@ RenderRecord merged_record(RenderRecord first, const RenderRecord& other) {
 
 }  // namespace
 
-void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film,
-                      const Lessons& lessons) try {
-  BinaryWriter writer(checkpoint_kind);
+namespace {
+
+void put_checkpoint(BinaryWriter& writer, const RenderRecord& record, const Film& film,
+                    const Lessons& lessons) {
   writer.put_text(record.program);
   put_recipe(writer, record.recipe);
   put_plan(writer, record.plan);
@@ -227,14 +229,30 @@ void write_checkpoint(const std::string& path, const RenderRecord& record, const
   writer.put(record.seconds);
   put_lessons(writer, lessons);
   film.write(writer);
+}
+
+}  // namespace
+
+std::vector<uint8_t> checkpoint_bytes(const RenderRecord& record, const Film& film,
+                                      const Lessons& lessons) {
+  BinaryWriter writer(checkpoint_kind);
+  put_checkpoint(writer, record, film, lessons);
+  return writer.finished();
+}
+
+void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film,
+                      const Lessons& lessons) try {
+  BinaryWriter writer(checkpoint_kind);
+  put_checkpoint(writer, record, film, lessons);
   writer.write_to(path);
 } catch (const std::bad_alloc&) {
   throw Error(ErrorKind::system, fmt::format("cannot write '{}': not enough memory", path),
               "render the picture in parts by the film's crop window, or where there is more");
 }
 
-Checkpoint read_checkpoint(const std::string& path) {
-  BinaryReader reader(checkpoint_kind, path);
+namespace {
+
+Checkpoint get_checkpoint(BinaryReader& reader) {
   RenderRecord record = get_record(reader);
   Lessons lessons = get_lessons(reader);
   Checkpoint checkpoint{std::move(record), Film::read(reader), std::move(lessons)};
@@ -253,6 +271,18 @@ Checkpoint read_checkpoint(const std::string& path) {
   if (checkpoint.record.plan.first_pass >= passes.ranges().back().end)
     reader.damaged("its passes come before those that it was to have");
   return checkpoint;
+}
+
+}  // namespace
+
+Checkpoint read_checkpoint(const std::string& path) {
+  BinaryReader reader(checkpoint_kind, path);
+  return get_checkpoint(reader);
+}
+
+Checkpoint parse_checkpoint(std::vector<uint8_t> bytes, const std::string& name) {
+  BinaryReader reader(checkpoint_kind, std::move(bytes), name);
+  return get_checkpoint(reader);
 }
 
 bool is_checkpoint(const std::string& path) { return is_of_kind(checkpoint_kind, path); }

@@ -77,9 +77,15 @@ struct Checkpoint {
 void write_checkpoint(const std::string& path, const RenderRecord& record, const Film& film,
                       const Lessons& lessons = {});
 
+/// The bytes of that file, for memory or a connection.
+std::vector<uint8_t> checkpoint_bytes(const RenderRecord& record, const Film& film,
+                                      const Lessons& lessons = {});
+
 /// Throws Error(input) if the file is missing, no checkpoint, of another version or byte order,
 /// truncated or damaged (a checksum covers every byte). Allocates in proportion to the file's size.
 Checkpoint read_checkpoint(const std::string& path);
+/// The same of its bytes, which messages call by `name`.
+Checkpoint parse_checkpoint(std::vector<uint8_t> bytes, const std::string& name);
 
 /// Whether the file starts as checkpoints do. Throws Error(input) if it cannot be read.
 bool is_checkpoint(const std::string& path);

@@ -54,8 +54,8 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
     throw std::logic_error("Job: only a render goes on, or has lessons given");
   apply_changes(description_, settings_.record.recipe, listener_.messages);
   const auto run = std::make_shared<Run>();
-  const bool needs_digest =
-      settings_.task == JobTask::learn || keeps_passes() || settings_.begun || settings_.learned;
+  const bool needs_digest = settings_.task == JobTask::learn || settings_.keeps_digest ||
+                            keeps_passes() || settings_.begun || settings_.learned;
   with_threads(settings_.session.threads, [&] {
     if (settings_.task == JobTask::trace_photons)
       run->prepared.scene =
@@ -327,5 +327,27 @@ void Job::save(const std::string& path) const {
 }
 
 Image Job::image() const { return current()->session->image(); }
+
+PictureFacts Job::picture_facts() const {
+  PictureFacts facts = PictureFacts::of(film());
+  facts.threads = settings_.session.threads;
+  facts.incomplete_pass = result_.report.incomplete_pass;
+  facts.part = result_.report.part;
+  return facts;
+}
+
+Image Job::finished_image(const Messages& messages) const {
+  return finished_picture(image(), result_.record, picture_facts(), messages);
+}
+
+Checkpoint Job::checkpoint() const {
+  const std::shared_ptr<Run> run = current();
+  if (!run || !run->session || !run->prepared.digest)
+    throw std::logic_error("Job::checkpoint: the digest of its scene was not asked for");
+  if (result_.report.passes == 0 || result_.report.incomplete_pass)
+    throw Error(ErrorKind::input, "no pass was finished, so there is nothing to go on with",
+                "give it more time, or passes with fewer samples");
+  return {result_.record, run->session->film(), run->prepared.integrator->lessons()};
+}
 
 }  // namespace kaustik

@@ -61,6 +61,8 @@ struct JobSettings {
   /// begins with a light pass. It takes a fraction of a second of the render. Whatever is said
   /// here, they do so where time has ended the render before that.
   bool previews = false;
+  /// Somebody will ask for Job::checkpoint(): the scene's digest is found out.
+  bool keeps_digest = false;
   /// A scene to share with what is the same; null: none.
   std::shared_ptr<const Scene> previous;
   /// Whether the integrator keeps light for jobs whose camera is another: Integrator::keep_light().
@@ -143,6 +145,14 @@ class Job {
   /// Writes the finished passes as a checkpoint. Throws as write_checkpoint() does, Error(input)
   /// if no pass is finished, and std::logic_error unless the job keeps passes.
   void save(const std::string& path) const;
+  /// What image() shows, for finished_picture(). After wait().
+  PictureFacts picture_facts() const;
+  /// image() as it is to be written: finished_picture() of it. After wait().
+  Image finished_image(const Messages& messages = {}) const;
+  /// What a file of the finished passes would hold, to be kept in memory. After wait(). Throws
+  /// Error(input) if no pass was finished, std::logic_error unless `keeps_digest` or a file of them
+  /// was asked for.
+  Checkpoint checkpoint() const;
 
  private:
   struct Run {

@@ -1,0 +1,53 @@
+"""The code of docs/python.md runs as it stands, on small pictures; numbers are not compared."""
+
+import pathlib
+import re
+
+import kaustik
+from kaustik import _session
+
+page = pathlib.Path(__file__).parent.parent.parent / "docs" / "python.md"
+
+
+def shortened(monkeypatch):
+    """Pictures of 24 pixels' width, two passes of one sample."""
+    load = kaustik.load_dict
+    goals = _session._Goals
+
+    def small(scene, **more):
+        made = load(scene, **more)
+        sizes = {key: 24 for key in made.parameters if key.endswith((".film.width", ".film.height"))}
+        return made.edit(sizes) if sizes else made
+
+    class Few(goals):
+        def __init__(self, **given):
+            super().__init__(**given)
+            self.wishes.update(time=None, error=None, spp=None, samples_per_pass=1)
+            if not given.get("passes"):
+                self.wishes["passes"] = 2
+
+    monkeypatch.setattr(kaustik, "load_dict", small)
+    monkeypatch.setattr(_session, "_Goals", Few)
+
+
+def test_docs(monkeypatch, tmp_path, capsys):
+    text = page.read_text(encoding="utf-8")
+    blocks = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    assert len(blocks) >= 6
+    shortened(monkeypatch)
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    for block in blocks:
+        # Pixels that are there in small pictures, too.
+        block = block.replace("(312, 90, 20, 14)", "(12, 9, 2, 4)").replace("pixel(320, 97)", "pixel(12, 9)")
+        exec(compile(block, str(page), "exec"), names)
+    assert (tmp_path / "ring.png").exists() and (tmp_path / "ring.kpt").exists()
+    assert "did you mean" in capsys.readouterr().out
+    assert kaustik.render(names["with_lens"]).mean().value > 0
+    assert not any("closed" in warning for warning in names["with_lens"].warnings)
+
+
+def test_links():
+    text = page.read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)#]+)\)", text):
+        assert (page.parent / target).exists(), target
