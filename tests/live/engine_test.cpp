@@ -120,6 +120,47 @@ TEST(Engine, GoesFromMovingToRestByWholePasses) {
   }
 }
 
+TEST(Engine, TellsWhatItsFilmHolds) {
+  EngineSettings settings = engine_settings(4);
+  settings.layers_in_snapshots = false;
+  Engine engine(settings);
+  EXPECT_FALSE(engine.look_at_film([](const Film&) { FAIL(); }));
+  EXPECT_FALSE(engine.finished_snapshot());
+  EXPECT_EQ(engine.scene(), nullptr);
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  const Image whole = by_job(room_with_ball(0.5), 4);
+  EXPECT_TRUE(
+      engine.look_at_film([&](const Film& film) { EXPECT_TRUE(same_bits(film.image(), whole)); }));
+  EXPECT_TRUE(same_bits(*engine.finished_snapshot(), whole));
+  EXPECT_EQ(engine.scene()->film().crop_size.x, 24);
+  const Image& picture = engine.snapshot()->picture;
+  EXPECT_EQ(picture.find_channel("direct.R"), -1);
+  EXPECT_EQ(picture.at(5, 5, 1), whole.at(5, 5, 1));
+}
+
+// Films of views that move take less memory, and are sooner added to.
+TEST(Engine, KeepsNoLayersOfViewsThatMove) {
+  EngineSettings settings = engine_settings(2);
+  settings.moving = recipe_of_moving_views();
+  settings.rest_s = 0.5;
+  Engine engine(settings);
+  engine.edit(room_seen_from("0,-4,2"));
+  engine.start();
+  bool has_moved = false;
+  uint64_t number = 0;
+  while (const auto next = engine.wait_for_snapshot(number, long_enough)) {
+    number = next->number;
+    if (!next->is_moving) break;
+    has_moved = true;
+    EXPECT_EQ(next->picture.find_channel("direct.R"), -1);
+  }
+  EXPECT_TRUE(has_moved);
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_GE(engine.snapshot()->picture.find_channel("direct.R"), 0);
+}
+
 TEST(Engine, NumbersItsSnapshots) {
   Engine engine(engine_settings(6));
   EXPECT_EQ(engine.wait_for_snapshot(0, 1ms), nullptr);

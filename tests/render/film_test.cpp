@@ -244,6 +244,65 @@ TEST(Film, ErrorsComeFromTheReplicates) {
               student_t_quantile(0.975, 2 * freedom_of_pool) * std::sqrt(variance), 1e-5);
 }
 
+/// Noise that all pixels share does not average out over a region; what each has of its own does.
+TEST(Film, RegionsKnowWhatTheirPixelsShare) {
+  constexpr int side = 30;
+  const auto region_error = [&](float shared, float own) {
+    Film film(film_settings(side, side), {ComponentSet::all()});
+    std::mt19937 generator(3);
+    std::normal_distribution<float> normal;
+    for (uint32_t pass = 0; pass < 16; ++pass) {
+      std::vector<PassPixel> pixels(side * side);
+      const float common = 10 + shared * normal(generator);
+      for (PassPixel& pixel : pixels)
+        pixel.radiance[size_t(Component::direct)] = Spectrum(common + own * normal(generator));
+      film.add_pass(tiled(pixels, film), pass);
+    }
+    return FilmErrors(film).region({5, 5}, {20, 20}).standard_error;
+  };
+  // Of 16 passes, with 15 degrees of freedom: within a half, surely. Of 400 pixels.
+  EXPECT_NEAR(region_error(1, 0), 1 / 4.0, 0.12);
+  EXPECT_NEAR(region_error(0, 1), 1 / 4.0 / 20, 0.12 / 20);
+}
+
+TEST(Film, RegionsOfThePictureAndOfAPixel) {
+  const Film film = filmed(made_up_passes(6), counting(6));
+  const FilmErrors errors(film);
+  const RegionLuminance whole = errors.region({0, 0}, {width, height});
+  EXPECT_NEAR(whole.interval.half_width / whole.interval.mean, film.mean_error(),
+              1e-6 * film.mean_error());
+  const RegionLuminance single = errors.region({2, 1}, {1, 1});
+  EXPECT_NEAR(single.interval.mean, errors.luminance(2 + width).mean, 1e-9);
+  EXPECT_NEAR(single.interval.half_width, student_t_quantile(0.975, 5) * single.standard_error,
+              1e-6 * single.interval.half_width);
+  // With one replicate nothing is known but the mean.
+  const Film one = filmed(made_up_passes(1), counting(1));
+  EXPECT_TRUE(std::isinf(FilmErrors(one).region({0, 0}, {2, 2}).standard_error));
+  EXPECT_TRUE(std::isinf(FilmErrors(one).luminance_error(0)));
+}
+
+TEST(Film, RegionsAreAsFarOffAsTheirBias) {
+  Film film(film_settings(), {ComponentSet::all(), true});
+  PassPixel pixel;
+  pixel.radiance[size_t(Component::direct)] = Spectrum(5);
+  pixel.bias = Spectrum(0.25f);
+  for (uint32_t pass = 0; pass < 2; ++pass)
+    film.add_pass(tiled(std::vector<PassPixel>(width * height, pixel), film), pass);
+  const RegionLuminance region = FilmErrors(film).region({1, 1}, {3, 2});
+  EXPECT_NEAR(region.standard_error, 0.25, 1e-6);
+  EXPECT_NEAR(region.interval.half_width, 0.25, 1e-6);
+}
+
+TEST(Film, PicturesAreMadeWithoutTheirLayers) {
+  const Film film = filmed(made_up_passes(3), counting(3));
+  const Image whole = film.image(), picture = film.image(false);
+  EXPECT_EQ(picture.channel_count(), 7);
+  for (const std::string& name : picture.channel_names())
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        ASSERT_EQ(value_at(picture, x, y, name), value_at(whole, x, y, name)) << name;
+}
+
 TEST(Film, BlackPicturesHaveNoError) {
   Film film(film_settings(), {ComponentSet::all()});
   for (uint32_t pass = 0; pass < 2; ++pass) film.add_pass(tiled(grey_pass(0), film), pass);

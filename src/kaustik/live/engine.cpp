@@ -92,6 +92,26 @@ std::shared_ptr<const Snapshot> Engine::wait_for_snapshot(uint64_t after,
   return is_there ? snapshot_ : nullptr;
 }
 
+std::shared_ptr<const Job> Engine::shown_job() const {
+  const std::lock_guard lock(mutex_);
+  return shown_job_;
+}
+
+bool Engine::look_at_film(const std::function<void(const Film&)>& look) const {
+  const auto job = shown_job();
+  return job && job->look_at_film(look);
+}
+
+std::optional<Image> Engine::finished_snapshot(const Messages& messages) const {
+  const auto job = shown_job();
+  return job ? job->finished_snapshot(messages) : std::nullopt;
+}
+
+std::shared_ptr<const Scene> Engine::scene() const {
+  const auto job = shown_job();
+  return job ? job->shared_scene() : nullptr;
+}
+
 bool Engine::wait_until_done(std::chrono::milliseconds timeout) const {
   std::unique_lock lock(mutex_);
   return changed_.wait_for(lock, timeout, [&] {
@@ -196,6 +216,7 @@ std::unique_ptr<Engine::Run> Engine::prepared(const Wanted& wanted, bool goes_on
   settings.record.recipe = wanted.is_moving ? *settings_.moving : settings_.recipe;
   settings.session = settings_.session;
   settings.session.gate = run->gate;
+  if (run->is_moving) settings.session.layers = false;
   settings.build = settings_.build;
   settings.previews = !goes_on;
   settings.previous = run_ ? run_->job->shared_scene() : last_scene_;
@@ -209,7 +230,7 @@ std::unique_ptr<Engine::Run> Engine::prepared(const Wanted& wanted, bool goes_on
   listener.pass_done = [this, &of](const Film& film) { pass_done(of, film.pass_count()); };
   listener.ended = [this, &of](const std::exception_ptr& failure) { ended(of, failure); };
   run->job =
-      std::make_unique<Job>(copy_of(*wanted.description), std::move(settings), std::move(listener));
+      std::make_shared<Job>(copy_of(*wanted.description), std::move(settings), std::move(listener));
   run->job->prepare();
   return run;
 }
@@ -219,6 +240,7 @@ void Engine::begin(std::unique_ptr<Run> run) {
   {
     const std::lock_guard lock(mutex_);
     shown_ = run_.get();
+    shown_job_ = run_->job;
     gate_ = run_->gate;
     if (wanted_.is_paused) gate_->close();
     status_ = {};
@@ -231,6 +253,7 @@ void Engine::begin(std::unique_ptr<Run> run) {
   } catch (...) {
     const std::lock_guard lock(mutex_);
     shown_ = nullptr;
+    shown_job_ = nullptr;
     gate_ = nullptr;
     status_.state = EngineState::failed;
     status_.failure = std::current_exception();
@@ -243,6 +266,7 @@ void Engine::end_run() {
   {
     const std::lock_guard lock(mutex_);
     shown_ = nullptr;
+    shown_job_ = nullptr;
     gate_ = nullptr;
   }
   take_light();
@@ -316,7 +340,7 @@ void Engine::publish(const Run& run, bool is_last) {
         (kind == Snapshot::Kind::preview || since.count() < settings_.snapshot_interval_s))
       return;
   }
-  std::optional<Image> picture = run.job->snapshot();
+  std::optional<Image> picture = run.job->snapshot(settings_.layers_in_snapshots);
   if (!picture) return;
   auto snapshot = std::make_shared<Snapshot>();
   snapshot->revision = run.revision;

@@ -241,6 +241,35 @@ ConfidenceInterval FilmErrors::luminance(size_t pixel, double confidence) const 
   return {mean, half_width_with_bias(deviation, bias, confidence, freedom())};
 }
 
+double FilmErrors::luminance_error(size_t pixel) const {
+  if (!is_known()) return std::numeric_limits<double>::infinity();
+  const double bias_sq = bias_sq_.empty() ? 0 : std::max(0.0, double(bias_sq_[pixel][3]));
+  return std::sqrt(pooled_variance(pixel) + bias_sq);
+}
+
+RegionLuminance FilmErrors::region(Vec2i corner, Vec2i size, double confidence) const {
+  std::array<Fixed, replicate_count> sums{};
+  double bias = 0, total = 0;
+  for (int y = corner.y; y < corner.y + size.y; ++y)
+    for (int x = corner.x; x < corner.x + size.x; ++x) {
+      const size_t pixel = size_t(y) * size_t(film_.width()) + size_t(x);
+      for (size_t r = 0; r < replicate_count; ++r)
+        add_to(sums[r], film_.sum(pixel, film_.numbers().replicate_luminances + r));
+      if (film_.holds_bias()) bias += double(photopic(mean_bias(pixel)));
+    }
+  const double pixels = double(size.x) * double(size.y);
+  for (const Fixed sum : sums) total += double_from(sum);
+  RegionLuminance result;
+  result.interval.mean = total / pixels / std::max(1.0, passes());
+  result.standard_error = result.interval.half_width = std::numeric_limits<double>::infinity();
+  if (!is_known()) return result;
+  const double noise = std::sqrt(variance_by_replicates(sums.data())) / pixels;
+  bias = std::abs(bias) / pixels;
+  result.standard_error = std::hypot(noise, bias);
+  result.interval.half_width = half_width_with_bias(noise, bias, confidence, replicates_ - 1);
+  return result;
+}
+
 double FilmErrors::freedom() const { return freedom_of_pool * (replicates_ - 1); }
 
 double FilmErrors::of_picture() const {

@@ -13,6 +13,13 @@ struct ChannelSums {
   double luminance_squares = 0;
 };
 
+/// What is known of the mean luminance of a part of a picture.
+struct RegionLuminance {
+  double standard_error = 0;  ///< √(noise² + bias²); infinite with fewer than two replicates
+  /// By Student's t, widened by the mean bias; infinite with fewer than two replicates.
+  ConfidenceInterval interval;
+};
+
 /// How well a film's picture is known: from the noise of its passes, and from the bias that the
 /// integrator estimates, if it does.
 ///
@@ -41,6 +48,11 @@ class FilmErrors {
   /// The interval of the pixel's luminance by Student's t, widened by the bias (which is on one
   /// side of the truth alone); infinite with fewer than two replicates.
   ConfidenceInterval luminance(size_t pixel, double confidence = 0.95) const;
+  /// Standard error of that luminance, √(noise² + bias²); infinite with fewer than two replicates.
+  double luminance_error(size_t pixel) const;
+  /// Of the mean luminance of a rectangle of pixels, which lies in the picture and has some: by the
+  /// replicates' own means of it, since pixels share photons and their errors do not just add up.
+  RegionLuminance region(Vec2i corner, Vec2i size, double confidence = 0.95) const;
   /// Degrees of freedom of the noise that a pixel's interval has.
   double freedom() const;
   /// Square root of the mean over pixels of (e/(|L| + 0.01 M))², where e is the standard error of

@@ -124,10 +124,15 @@ class Session {
   /// From any thread, at any time, in callbacks too: a whole picture of what there is. Of finished
   /// passes; in the first one of the samples so far, and pixels without any show those of a pixel
   /// near by: then incomplete_key says so. None: not even that is there. `facts` of it, if wanted.
-  std::optional<Image> snapshot(SnapshotFacts* facts = nullptr) const;
+  /// `with_layers`: Film::image().
+  std::optional<Image> snapshot(SnapshotFacts* facts = nullptr, bool with_layers = true) const;
+  /// Calls look(film) with the finished passes while none is added; false, and no call, if there is
+  /// none. From any thread, at any time, but in callbacks of a look; rendering waits where it
+  /// lasts.
+  bool look_at_film(const std::function<void(const Film&)>& look) const;
   bool has_picture() const { return has_picture_; }
   /// Not while run() goes on: the film's image, with the part of a pass at its end.
-  Image image() const;
+  Image image(bool with_layers = true) const;
 
   const Film& film() const { return film_; }
   uint32_t samples_per_pass() const { return samples_per_pass_; }
@@ -175,7 +180,8 @@ class Session {
   void note_memory();
   /// Share of the pass's samples that its pixels have.
   double share_taken(const Pass& pass, const PassState& state) const;
-  Image first_samples(std::unique_lock<std::mutex> lock, SnapshotFacts& facts) const;
+  Image first_samples(std::unique_lock<std::mutex> lock, SnapshotFacts& facts,
+                      bool with_layers) const;
 
   const Scene& scene_;
   const Integrator& integrator_;
