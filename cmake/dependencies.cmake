@@ -17,3 +17,6 @@ if(DEFINED kaustik_FOUND AND NOT kaustik_FOUND)
   message(FATAL_ERROR "${kaustik_NOT_FOUND_MESSAGE}")
 endif()
 add_library(hwy ALIAS PkgConfig::HWY)
+# Of the room view: headers.
+find_package(Boost 1.75 REQUIRED)
+find_package(nlohmann_json REQUIRED)

@@ -4,10 +4,11 @@ set(KAUSTIK_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/kaustik)
 get_property(rooms GLOBAL PROPERTY KAUSTIK_ROOMS)
 install(TARGETS ${rooms} kaustik_library EXPORT kaustikTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-# Left out are the headers that show a library which the rooms hide: Embree, libtiff, pugixml.
+# Left out are the headers that show a library which the rooms hide: Embree, libtiff, pugixml, nlohmann-json.
 install(DIRECTORY src/kaustik DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.h"
         REGEX "/(geometry/(embree_scene|embree_rays|solid_bodies)|image/tiff_memory)\\.h$" EXCLUDE
+        REGEX "/view/(camera_pose|event_streams|json_text|parameter_list|probe|routes|scene_edits|view_report)\\.h$" EXCLUDE
         REGEX "/loader/(xml_document|mitsuba_(element|reader|transform))\\.h$" EXCLUDE)
 install(FILES ${PROJECT_BINARY_DIR}/include/kaustik/base/version.h
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kaustik/base COMPONENT development)

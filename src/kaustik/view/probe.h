@@ -1,0 +1,29 @@
+#pragma once
+#include <optional>
+
+#include "kaustik/base/statistics.h"
+#include "kaustik/base/vec.h"
+#include "kaustik/view/json_text.h"
+
+namespace kaustik {
+class Engine;
+class Film;
+}  // namespace kaustik
+
+namespace kaustik::view {
+
+struct PixelRectangle {
+  int x = 0, y = 0, width = 1, height = 1;
+};
+
+/// What a film knows of one of its pixels, and of the mean luminance of some of them (FilmErrors);
+/// the pixels must lie in it.
+Json pixel_facts(const Film& film, int x, int y);
+Json region_facts(const Film& film, const PixelRectangle& region);
+
+/// The same of what is shown; of a picture before its first pass the values alone. Throw
+/// RequestError for pixels that it has not, or while there is no picture.
+Json pixel_of(const Engine& engine, int x, int y);
+Json region_of(const Engine& engine, const PixelRectangle& region);
+
+}  // namespace kaustik::view
