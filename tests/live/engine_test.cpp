@@ -99,6 +99,26 @@ TEST(Engine, ShowsViewsThatMoveByAnotherRecipe) {
   EXPECT_TRUE(same_bits(last->picture, by_job(room_seen_from("0.4,-4,2"), 4)));
 }
 
+// However long the light takes: it is what the next move needs.
+TEST(Engine, ShowsWhatMovesBeforeItRests) {
+  EngineSettings settings = engine_settings(2);
+  settings.moving = recipe_of_moving_views();
+  settings.rest_s = 0.02;
+  Engine engine(settings);
+  engine.edit(room_seen_from("0,-4,2"));
+  engine.start();
+  uint64_t number = 0;
+  bool has_moved = false;
+  while (const auto next = engine.wait_for_snapshot(number, long_enough)) {
+    number = next->number;
+    if (next->kind == Snapshot::Kind::preview) continue;
+    if (!next->is_moving) break;
+    has_moved = true;
+  }
+  EXPECT_TRUE(has_moved);
+  EXPECT_TRUE(engine.wait_until_done(long_enough));
+}
+
 // What is shown of a camera at rest is never less than what was seen while it moved.
 TEST(Engine, GoesFromMovingToRestByWholePasses) {
   EngineSettings settings = engine_settings(2);

@@ -10,6 +10,7 @@
 #include "kaustik/live/engine.h"
 #include "kaustik/render/job.h"
 #include "kaustik/view/frames.h"
+#include "tests/support/same_bits.h"
 #include "tests/view/shown_scene.h"
 
 namespace kaustik::test {
@@ -213,6 +214,23 @@ TEST(ViewRoutes, CamerasMove) {
     ASSERT_NEAR(is[i].y, should[i].y, 1e-3f * (1 + should[i].y)) << i;
 }
 
+TEST(ViewRoutes, ResetIsTheSceneAsItWas) {
+  ShownScene shown;
+  ASSERT_TRUE(shown.wait_until_done());
+  const auto before = shown.server().engine().snapshot();
+  const json camera = shown.get("/state")["camera"];
+  ASSERT_EQ(shown.command({{"set", {{"ball.radius", 0.5}}}}).status, 200);
+  ASSERT_EQ(
+      shown.command({{"camera", {{"origin", {1, 1, 1}}, {"target", {0, 0, 0}}, {"up", {0, 0, 1}}}}})
+          .status,
+      200);
+  EXPECT_NE(shown.get("/state")["camera"], camera);
+  ASSERT_EQ(shown.command({{"do", "reset"}}).status, 200);
+  ASSERT_TRUE(shown.wait_until_done());
+  EXPECT_EQ(shown.get("/state")["camera"], camera);
+  EXPECT_TRUE(same_bits(shown.server().engine().snapshot()->picture, before->picture));
+}
+
 TEST(ViewRoutes, ParametersAreListedAndSet) {
   ShownScene shown;
   const json list = shown.get("/parameters");
@@ -304,7 +322,8 @@ TEST(ViewRoutes, FilesOfTheMachineCannotBeNamed) {
   ShownScene shown(shown_settings(), std::move(description));
   const ClientResponse response =
       shown.command({{"set", {{"integrator.photon_map", "/etc/passwd"}}}});
-  EXPECT_EQ(response.status, 403) << response.body;
+  EXPECT_EQ(response.status, 400) << response.body;
+  EXPECT_NE(response.body.find("names a file"), std::string::npos);
   EXPECT_EQ(shown.get("/parameters").dump().find("photon_map\""), std::string::npos);
 }
 

@@ -4,6 +4,12 @@
 #include <utility>
 
 namespace kaustik {
+namespace {
+
+/// How long a view that moves is waited for at most until it shows its light.
+constexpr std::chrono::seconds longest_move(10);
+
+}  // namespace
 
 RenderRecipe recipe_of_moving_views() {
   RenderRecipe recipe;
@@ -126,11 +132,19 @@ bool Engine::moves() const {
          Clock::now() < wanted_.touched + std::chrono::duration<double>(settings_.rest_s);
 }
 
+bool Engine::rests() const {
+  if (!taken_.is_moving || wanted_.is_paused || moves()) return false;
+  if (status_.state != EngineState::rendering || status_.revision != taken_.revision) return true;
+  // Light that is not traced to its end is lost, and the next move would begin anew.
+  const bool has_shown = snapshot_ && snapshot_->revision == taken_.revision &&
+                         snapshot_->kind != Snapshot::Kind::preview;
+  return has_shown || Clock::now() > wanted_.touched + longest_move;
+}
+
 bool Engine::has_work() const {
   if (taken_.runs != wanted_.runs) return true;
   if (!wanted_.runs) return false;
-  const bool rests = taken_.is_moving && !wanted_.is_paused && !moves();
-  return rests || taken_.revision != wanted_.revision || taken_.starts != wanted_.starts;
+  return rests() || taken_.revision != wanted_.revision || taken_.starts != wanted_.starts;
 }
 
 void Engine::work() {
@@ -160,7 +174,8 @@ void Engine::work() {
 }
 
 void Engine::let_show(std::unique_lock<std::mutex>& lock) {
-  constexpr std::chrono::milliseconds longest(100);
+  // Of views that move there is something to be seen after a pass, however long that takes.
+  const std::chrono::milliseconds longest(taken_.is_moving ? 1000 : 100);
   changed_.wait_for(lock, longest, [&] {
     const bool has_shown = snapshot_ && snapshot_->revision == status_.revision;
     return wanted_.ends || !wanted_.runs || wanted_.is_paused || has_shown ||

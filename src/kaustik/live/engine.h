@@ -23,7 +23,8 @@ struct EngineSettings {
   BuildOptions build;
   RenderRecipe recipe;  ///< changes that are made to every description
   /// Those that are made in their place until nothing was edited for `rest_s`: for integrators that
-  /// have a picture sooner (recipe_of_moving_views()). Absent: `recipe`.
+  /// have a picture sooner (recipe_of_moving_views()), and until that was seen, 10 s at most: what
+  /// they keep is for the next move. Absent: `recipe`.
   std::optional<RenderRecipe> moving;
   double rest_s = 1;
   /// Least time between two snapshots of the same kind, s. Those of another kind come at once.
@@ -55,7 +56,8 @@ struct EngineStatus {
 /// Renders a scene that changes, for those who watch: descriptions go in, snapshots come out. All
 /// functions may be called from any thread and return at once, but for those that wait. A thread of
 /// the engine's builds scenes; of several edits that come meanwhile only the last counts. While
-/// edits keep coming, each that is taken gets a picture, or a tenth of a second.
+/// edits keep coming, each that is taken gets a picture, or a tenth of a second (while views move,
+/// a second).
 ///
 /// An edit that is refused harms nothing: rendering of the one before goes on, with all its passes.
 ///
@@ -130,8 +132,10 @@ class Engine {
   bool has_work() const;
   /// Whether a description that is taken now is rendered by EngineSettings::moving.
   bool moves() const;
+  /// Whether what is rendered by them has had its time.
+  bool rests() const;
   EngineState state() const;
-  /// Until the run has shown something, or a tenth of a second.
+  /// Until the run has shown something, or a tenth of a second, a second where it moves.
   void let_show(std::unique_lock<std::mutex>& lock);
   // Called by the job's threads:
   void progressed(const Run& run, const Progress& progress);

@@ -65,7 +65,7 @@ Routes::Routes(Parts parts, Description description)
       edits_(std::move(description)),
       polls_(parts_.engine, parts_.worker),
       saver_(std::make_shared<PictureSaver>(parts_.output_folder)) {
-  edit(copy_of(edits_.current()), nullptr);
+  edit(copy_of(edits_.current()), std::nullopt);
   parts_.engine.start();
 }
 
@@ -178,11 +178,11 @@ void Routes::do_command(Call& call) {
   uint64_t revision = last_revision_;
   if (what == "camera") {
     const CameraPose pose = camera_pose_from(value);
-    revision = edit(edits_.with_camera(pose), &pose);
+    revision = edit(edits_.with_camera(pose), pose);
   } else if (what == "set") {
-    revision = edit(edits_.with_settings(value), nullptr);
+    revision = edit(edits_.with_settings(value), edits_.told_pose());
   } else if (what == "integrator") {
-    revision = edit(edits_.with_integrator(text_of(json, "integrator")), nullptr);
+    revision = edit(edits_.with_integrator(text_of(json, "integrator")), edits_.told_pose());
   } else if (what == "do") {
     command(text_of(json, "do"));
     revision = last_revision_;
@@ -195,7 +195,7 @@ void Routes::do_command(Call& call) {
   call.reply->send(json_response({{"revision", revision}}));
 }
 
-uint64_t Routes::edit(Description description, const CameraPose* pose) {
+uint64_t Routes::edit(Description description, const std::optional<CameraPose>& pose) {
   last_revision_ = parts_.engine.edit(description);
   edits_.taken(last_revision_, std::move(description), pose);
   return last_revision_;
@@ -212,7 +212,7 @@ void Routes::command(const std::string& what) {
   } else if (what == "stop") {
     engine.stop();
   } else if (what == "reset") {
-    edit(copy_of(edits_.current()), nullptr);
+    edit(edits_.original(), std::nullopt);
     engine.start();
   } else {
     throw RequestError(400, fmt::format("'{}' cannot be done", what),

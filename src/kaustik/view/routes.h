@@ -57,7 +57,7 @@ class Routes {
   void list_parameters(Call& call);
   void do_command(Call& call);
 
-  uint64_t edit(Description description, const CameraPose* pose);
+  uint64_t edit(Description description, const std::optional<CameraPose>& pose);
   void command(const std::string& what);
   void save(Call& call, const Json& what);
   /// Takes in what has become of the edits, and what the scene tells.

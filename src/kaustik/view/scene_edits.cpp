@@ -17,7 +17,7 @@
 namespace kaustik::view {
 namespace {
 
-constexpr size_t longest_text = 10'000, most_settings = 200;
+constexpr size_t longest_text = 10'000, most_settings = 200, most_edits = 64;
 constexpr const char* edit_origin = "the view's page";
 
 void collect_objects(const Object& object, std::vector<std::shared_ptr<Object>>& list,
@@ -78,7 +78,7 @@ void check_value(const Object& object, const Setting& setting) {
                        fmt::format("'{}' has no parameter '{}'", setting.object, setting.parameter),
                        suggest(setting.parameter, info->parameter_names()));
   if (row->kind == ParameterKind::file)
-    throw RequestError(403,
+    throw RequestError(400,
                        fmt::format("'{}' names a file, which pages may not", setting.parameter),
                        "edit the scene's file, or use --set on the command line");
   TypeInfo alone{info->family, info->name, info->sentence, {*row}};
@@ -139,17 +139,16 @@ void name_all_objects(Description& description) {
 
 SceneEdits::SceneEdits(Description description) : movable_(description) {
   name_all_objects(description);
+  original_ = copy_of(description);
   edits_.push_back({0, std::move(description), std::nullopt});
 }
 
 CameraPose SceneEdits::camera(const Scene* built) const {
   CameraPose pose = movable_.pose(current(), distance_, built);
-  for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit)
-    if (edit->pose) {
-      pose.target = edit->pose->target;
-      pose.up = edit->pose->up;
-      break;
-    }
+  if (const auto& told = told_pose()) {
+    pose.target = told->target;
+    pose.up = told->up;
+  }
   return pose;
 }
 
@@ -199,9 +198,11 @@ Description SceneEdits::with_integrator(const std::string& type) const {
   return next;
 }
 
-void SceneEdits::taken(uint64_t revision, Description description, const CameraPose* moved_to) {
-  edits_.push_back(
-      {revision, std::move(description), moved_to ? std::optional(*moved_to) : edits_.back().pose});
+void SceneEdits::taken(uint64_t revision, Description description,
+                       const std::optional<CameraPose>& pose) {
+  edits_.push_back({revision, std::move(description), pose});
+  // A camera may be moved often while a scene is built; of what is not rendered the last counts.
+  if (edits_.size() > most_edits) edits_.erase(edits_.begin() + 1);
 }
 
 void SceneEdits::note(uint64_t rendered, uint64_t refused) {

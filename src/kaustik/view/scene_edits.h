@@ -39,8 +39,13 @@ class SceneEdits {
   Description with_settings(const Json& settings) const;
   Description with_integrator(const std::string& type) const;
 
-  /// The description was given to be rendered; `moved_to`: by its camera, null: otherwise.
-  void taken(uint64_t revision, Description description, const CameraPose* moved_to = nullptr);
+  /// As it was before all edits.
+  Description original() const { return copy_of(original_); }
+  /// Where the camera was told to be, in `current`; none: it is as the scene has it.
+  const std::optional<CameraPose>& told_pose() const { return edits_.back().pose; }
+
+  /// The description was given to be rendered, with the camera where it was told to be.
+  void taken(uint64_t revision, Description description, const std::optional<CameraPose>& pose);
   /// What is known of the revisions: which is rendered, and which was refused last (0: none).
   void note(uint64_t rendered, uint64_t refused);
 
@@ -51,6 +56,7 @@ class SceneEdits {
     std::optional<CameraPose> pose;  ///< as it was told, if it was
   };
   MovableCamera movable_;
+  Description original_;
   double distance_ = 1;
   std::deque<Edit> edits_;  ///< never empty: the first is rendered, or was not refused yet
 };
