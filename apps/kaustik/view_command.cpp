@@ -12,6 +12,7 @@
 #include "console.h"
 #include "environment_variable.h"
 #include "file_roles.h"
+#include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/registry.h"
 #include "kaustik/view/view_server.h"
 #include "numbers.h"
@@ -65,6 +66,20 @@ void check_output_folder(const std::string& folder) {
                 "give one that is there: --output FOLDER");
 }
 
+/// A view that moves does without it, so that only the view at rest would find out.
+void check_method(const std::string& name, const std::vector<std::string>& names) {
+  const Object asked{"integrator", name, "", {}, {}, {}};
+  if (!name.empty() && !find_integrator_type(native_type(asked)))
+    throw Error(ErrorKind::input, fmt::format("there is no integrator '{}'", name),
+                suggest(name, names), place_in("command line: --integrator"));
+}
+
+std::vector<std::string> names_of_integrators() {
+  std::vector<std::string> names;
+  for (const IntegratorType& type : integrator_types()) names.push_back(type.info.name);
+  return names;
+}
+
 std::unique_ptr<view::ViewServer> started(const Description& description,
                                           view::ViewSettings settings,
                                           const std::optional<uint32_t>& port) {
@@ -106,6 +121,7 @@ void view_scene(ViewerOptions options) {
   FileRoles roles;
   roles.reads_scene(recipe.scene);
   check_output_folder(options.output);
+  check_method(recipe.integrator, names_of_integrators());
   recipe.folder = std::filesystem::current_path().string();
   recipe.definitions = parse_definitions(options.definitions);
   const Description description = load_description(recipe);
@@ -129,12 +145,6 @@ void view_scene(ViewerOptions options) {
     note("no browser could be started by xdg-open");
   serve(*server, interrupt);
   say("ended");
-}
-
-std::vector<std::string> names_of_integrators() {
-  std::vector<std::string> names;
-  for (const IntegratorType& type : integrator_types()) names.push_back(type.info.name);
-  return names;
 }
 
 }  // namespace
