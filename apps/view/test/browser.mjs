@@ -3,7 +3,8 @@ import { chromium } from 'playwright-core';
 
 const args = [
   '--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
-  '--disable-sync', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+  '--disable-sync', '--disable-renderer-backgrounding', '--disable-gpu-compositing', '--disable-gpu-rasterization',
+  '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
 ];
 
 export function launch() {

@@ -79,7 +79,7 @@ export class FakeServer {
     clearInterval(this.timer);
     for (const stop of this.waiting) stop();
     this.server.closeAllConnections();
-    await new Promise((done) => this.server.close(done));
+    await new Promise((done) => this.server.close(() => done()));
   }
 
   value(name) {
