@@ -67,17 +67,11 @@ void check_output_folder(const std::string& folder) {
 }
 
 /// A view that moves does without it, so that only the view at rest would find out.
-void check_method(const std::string& name, const std::vector<std::string>& names) {
+void check_method(const std::string& name) {
   const Object asked{"integrator", name, "", {}, {}, {}};
   if (!name.empty() && !find_integrator_type(native_type(asked)))
     throw Error(ErrorKind::input, fmt::format("there is no integrator '{}'", name),
-                suggest(name, names), place_in("command line: --integrator"));
-}
-
-std::vector<std::string> names_of_integrators() {
-  std::vector<std::string> names;
-  for (const IntegratorType& type : integrator_types()) names.push_back(type.info.name);
-  return names;
+                suggest(name, integrator_names()), place_in("command line: --integrator"));
 }
 
 std::unique_ptr<view::ViewServer> started(const Description& description,
@@ -121,7 +115,7 @@ void view_scene(ViewerOptions options) {
   FileRoles roles;
   roles.reads_scene(recipe.scene);
   check_output_folder(options.output);
-  check_method(recipe.integrator, names_of_integrators());
+  check_method(recipe.integrator);
   recipe.folder = std::filesystem::current_path().string();
   recipe.definitions = parse_definitions(options.definitions);
   const Description description = load_description(recipe);
@@ -182,7 +176,7 @@ void add_view(CLI::App& program) {
   add_settings(*command, options->settings, "film.width=640, integrator.max_depth=8, ID.radius=2");
   takes_words(command->add_option("--integrator", options->recipe.integrator,
                                   "Use this method instead of the file's while the camera rests"),
-              names_of_integrators(), "METHOD");
+              integrator_names(), "METHOD");
   add_texture_memory(*command, options->build);
   add_threads(*command, options->threads);
   command->callback([options] { view_scene(*options); });

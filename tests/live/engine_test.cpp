@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kaustik/integrator/override_integrator.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "tests/support/same_bits.h"
 #include "tests/support/scripted_integrator.h"
@@ -117,6 +118,33 @@ TEST(Engine, ShowsWhatMovesBeforeItRests) {
   }
   EXPECT_TRUE(has_moved);
   EXPECT_TRUE(engine.wait_until_done(long_enough));
+}
+
+// What views at rest keep of light is their own: the next move has that of the move before.
+TEST(Engine, MovesAgainWithTheSameLight) {
+  EngineSettings settings = engine_settings(1);
+  settings.moving = recipe_of_moving_views();
+  settings.rest_s = 0.05;
+  Engine engine(settings);
+  uint64_t number = 0;
+  for (const char* origin : {"0,-4,2", "0.2,-4,2"}) {
+    Description description = room_seen_from(origin);
+    override_integrator(description, "photonmap");
+    const uint64_t revision = engine.edit(description);
+    engine.start();
+    int previews = 0;
+    bool has_moved = false;
+    while (const auto next = engine.wait_for_snapshot(number, long_enough)) {
+      number = next->number;
+      if (next->revision != revision) continue;
+      previews += next->kind == Snapshot::Kind::preview ? 1 : 0;
+      has_moved |= next->is_moving;
+      if (!next->is_moving) break;
+    }
+    EXPECT_TRUE(has_moved);
+    EXPECT_EQ(previews > 0, revision == 1);
+    ASSERT_TRUE(engine.wait_until_done(long_enough));
+  }
 }
 
 // What is shown of a camera at rest is never less than what was seen while it moved.

@@ -159,8 +159,10 @@ void Engine::work() {
     if (wanted_.ends) break;
     if (!has_work()) continue;
     const bool goes_on = taken_.is_moving && taken_.revision == wanted_.revision;
+    // Every edit moves, however late it is taken.
+    const bool is_edited = taken_.revision != wanted_.revision;
     taken_ = wanted_;
-    taken_.is_moving = moves();
+    taken_.is_moving = is_edited ? settings_.moving && settings_.rest_s > 0 : moves();
     is_busy_ = true;
     const Wanted wanted = taken_;
     lock.unlock();
@@ -237,7 +239,7 @@ std::unique_ptr<Engine::Run> Engine::prepared(const Wanted& wanted, bool goes_on
   settings.previous = run_ ? run_->job->shared_scene() : last_scene_;
   settings.keeps_light = true;
   take_light();
-  settings.light = light_;
+  settings.light = wanted.is_moving ? moving_light_ : resting_light_;
   const Run& of = *run;
   JobListener listener;
   listener.messages = messages_;
@@ -297,7 +299,8 @@ void Engine::end_run() {
 
 void Engine::take_light() {
   if (!run_) return;
-  if (JobLight kept = run_->job->kept_light(); kept.light) light_ = std::move(kept);
+  if (JobLight kept = run_->job->kept_light(); kept.light)
+    (run_->is_moving ? moving_light_ : resting_light_) = std::move(kept);
 }
 
 void Engine::progressed(const Run& run, const Progress& progress) {

@@ -162,7 +162,8 @@ class Engine {
   // Of the thread:
   std::unique_ptr<Run> run_;
   std::shared_ptr<const Scene> last_scene_;  ///< of the run before, to share with
-  JobLight light_;                           ///< the last that a run has kept
+  /// The last that runs have kept: each kind has its own integrator.
+  JobLight moving_light_, resting_light_;
   std::thread thread_;
 };
 
