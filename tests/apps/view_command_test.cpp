@@ -51,7 +51,8 @@ TEST_F(ViewCommand, WarnsOfWhoElseMayCome) {
 }
 
 TEST_F(ViewCommand, WhatIsWrongIsToldAtOnce) {
-  write("broken.xml", "<scene version=\"3.0.0\"><shape type=\"sphere\"/></scene>");
+  write("broken.xml", scene_with({.inside = "<shape type=\"sphere\"><float name=\"radius\" "
+                                            "value=\"-1\"/></shape>"}));
   const std::vector<std::vector<std::string>> wrong = {
       {"view", "missing.xml"},
       {"view", "broken.xml"},

@@ -1,9 +1,12 @@
 // What may be asked for, and what comes back.
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
+#include <thread>
 
 #include "kaustik/image/image_io.h"
 #include "kaustik/image/photometry.h"
@@ -380,6 +383,40 @@ TEST(ViewRoutes, PausesAndStops) {
   EXPECT_EQ(shown.ask("GET", "/pixel?x=1&y=1").status, 200);
   EXPECT_EQ(shown.command({{"do", "start"}}).status, 200);
   EXPECT_TRUE(becomes("rendering"));
+}
+
+TEST(ViewRoutes, MessagesAreToldOnce) {
+  std::mutex mutex;
+  std::vector<std::string> warnings;
+  Description description =
+      parse_mitsuba_xml("<scene version=\"3.0.0\"><sensor type=\"perspective\">" + film_of(8, 6) +
+                            "</sensor><shape type=\"sphere\" id=\"ball\"/></scene>",
+                        "test.xml", "");
+  const view::ViewServer server(std::move(description), shown_settings(),
+                                {{}, [&](const std::string& text) {
+                                   const std::lock_guard lock(mutex);
+                                   warnings.push_back(text);
+                                 }});
+  ASSERT_TRUE(server.engine().wait_until_done(120s));
+  HttpClient client(server.port());
+  const std::string head = " HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n";
+  const auto post = [&](const std::string& path, const std::string& cookie,
+                        const std::string& body) {
+    client.send("POST " + path + head + cookie + "Content-Length: " + std::to_string(body.size()) +
+                "\r\n\r\n" + body);
+    return client.response();
+  };
+  const std::string cookie =
+      post("/session", "", "{\"token\":\"" + server.token() + "\"}").header("set-cookie");
+  const std::string set = "{\"set\":{\"ball.radius\":2}}";
+  ASSERT_EQ(post("/command", "Cookie: " + cookie.substr(0, cookie.find(';')) + "\r\n", set).status,
+            200);
+  ASSERT_TRUE(server.engine().wait_until_done(120s));
+  const std::lock_guard lock(mutex);
+  EXPECT_EQ(std::count_if(
+                warnings.begin(), warnings.end(),
+                [](const std::string& text) { return text.find("no light") != std::string::npos; }),
+            1);
 }
 
 TEST(ViewRoutes, PlacesThatAreNotThere) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <mutex>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -27,6 +29,21 @@ EngineSettings for_views(EngineSettings settings) {
   return settings;
 }
 
+/// Which messages were told: each scene that is built tells the same again.
+class ToldOnce {
+ public:
+  bool is_new(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    if (told_.size() >= most_) told_.clear();
+    return told_.insert(text).second;
+  }
+
+ private:
+  static constexpr size_t most_ = 1000;
+  std::mutex mutex_;
+  std::set<std::string> told_;
+};
+
 }  // namespace
 
 struct ViewServer::State {
@@ -44,6 +61,7 @@ struct ViewServer::State {
   HttpServer http;
   Access access;
   Worker worker;
+  ToldOnce told_once;
   Messages messages;
   Engine engine;
   std::unique_ptr<Routes> routes;
@@ -57,10 +75,12 @@ ViewServer::State::State(Description description, ViewSettings settings, const M
       access(settings.token.empty() ? random_token() : settings.token, settings.address,
              http.port()),
       messages{[this, told](const std::string& text) {
+                 if (!told_once.is_new(text)) return;
                  told.tell(text);
                  log("info", text);
                },
                [this, told](const std::string& text) {
+                 if (!told_once.is_new(text)) return;
                  told.warn(text);
                  log("warning", text);
                }},
