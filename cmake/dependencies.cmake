@@ -13,3 +13,6 @@ endforeach()
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 add_library(hwy ALIAS PkgConfig::HWY)
+# Of the room view: headers.
+find_package(Boost 1.75 REQUIRED)
+find_package(nlohmann_json REQUIRED)

@@ -122,11 +122,13 @@ BEGIN {
   # libkaustik, above all that it shows to hosts; its tests see no more than hosts do.
   allow("library", "base image scene render loader")
   sees_public["include"]; sees_public["library"]; sees_only_public["include"]
+  allow("view", \
+        "base image geometry volume material medium light scene transport photon irradiance vcm photonmap integrator render live")
   # The front ends get at the lower rooms through render; these are what its interface speaks of.
-  allow("apps", "base image display scene integrator render loader")
+  allow("apps", "base image display scene integrator render loader live view")
   allow("python", "base image scene integrator render loader")
   # Tests of whole pictures and benchmarks may look everywhere.
-  sees_all["vcm"]; sees_all["photonmap"]; sees_all["integrator"]; sees_all["render"]; sees_all["live"]; sees_all["apps"]; sees_all["benchmarks"]
+  sees_all["vcm"]; sees_all["photonmap"]; sees_all["integrator"]; sees_all["render"]; sees_all["live"]; sees_all["view"]; sees_all["apps"]; sees_all["benchmarks"]
   sees_all["support"]; sees_all["fuzz"]; sees_all["agreement"]; sees_all["scene"]; sees_all["transport"]
 
   allow_folder("photon/kd_tree", "")
@@ -143,7 +145,7 @@ BEGIN {
   own("Imath", "^Imath/", "base", "")
   own("oneTBB", "^(tbb|oneapi)/", "base", not_in_word "tbb::")
   own("fmt", "^fmt/", "base image geometry volume material medium light scene transport photon irradiance " \
-    "vcm photonmap integrator render loader display apps", "")
+    "vcm photonmap integrator render loader display view apps", "")
   own("OpenEXR", "^(OpenEXR/)?(Imf|Iex)", "image", not_in_word "(Imf|OPENEXR_IMF_NAMESPACE)::")
   own("libtiff", "^tiff", "image", not_in_word "TIFF[A-Z]?[a-z]*[ (*]")
   own("libpng", "^png", "image", not_in_word "png_(structp?|infop?|bytep?)" not_in_word)
@@ -157,7 +159,8 @@ BEGIN {
   own("CLI11", "^CLI/", "apps", not_in_word "CLI::")
   own("GoogleTest", "^g(test|mock)/", "", not_in_word "testing::")
   own("nanoflann", "^nanoflann", "", not_in_word "nanoflann::")
-  own("nlohmann-json", "^nlohmann/", "", not_in_word "nlohmann::")
+  own("Boost", "^boost/", "view", not_in_word "boost::")
+  own("nlohmann-json", "^nlohmann/", "view", not_in_word "nlohmann::")
   system_headers = "^(sys/[a-z]+|sanitizer/tsan_interface|unistd|fcntl|signal|sched|stdlib|malloc|immintrin|poll|netdb)\\.h$"
 }
 

@@ -16,6 +16,7 @@ void add_photons(CLI::App& program);
 void add_resume(CLI::App& program);
 void add_learn(CLI::App& program);
 void add_merge(CLI::App& program);
+void add_view(CLI::App& program);
 void add_stitch(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_help(CLI::App& program);

@@ -71,6 +71,7 @@ int run(int argc, char** argv) {
       kaustik::app::exit_code_text());
   kaustik::app::add_render(program);
   kaustik::app::add_resume(program);
+  kaustik::app::add_view(program);
   kaustik::app::add_tonemap(program);
   kaustik::app::add_info(program);
   kaustik::app::add_compare(program);

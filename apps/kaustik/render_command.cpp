@@ -115,12 +115,6 @@ void render(RenderOptions options) {
           {progress_style(options.progress), options.progress.quiet, options.views});
 }
 
-std::vector<std::string> integrator_names() {
-  std::vector<std::string> names;
-  for (const IntegratorType& type : integrator_types()) names.push_back(type.info.name);
-  return names;
-}
-
 }  // namespace
 
 double parse_duration(const std::string& text, const std::string& option) {

@@ -1,5 +1,6 @@
 #include "scene_options.h"
 
+#include "kaustik/integrator/registry.h"
 #include "numbers.h"
 #include "option_values.h"
 
@@ -37,6 +38,12 @@ void add_settings(CLI::App& command, std::vector<std::string>& settings,
   command.add_option("--set", settings, "Change a parameter: " + examples)
       ->type_name("OBJECT.PARAMETER=VALUE")
       ->allow_extra_args(false);
+}
+
+std::vector<std::string> integrator_names() {
+  std::vector<std::string> names;
+  for (const IntegratorType& type : integrator_types()) names.push_back(type.info.name);
+  return names;
 }
 
 }  // namespace kaustik::app

@@ -21,4 +21,7 @@ void add_strict(CLI::App& command, bool& is_strict);
 void add_settings(CLI::App& command, std::vector<std::string>& settings,
                   const std::string& examples);
 
+/// Kaustik's own, for --integrator.
+std::vector<std::string> integrator_names();
+
 }  // namespace kaustik::app

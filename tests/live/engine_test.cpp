@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kaustik/integrator/override_integrator.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "tests/support/same_bits.h"
 #include "tests/support/scripted_integrator.h"
@@ -114,6 +115,53 @@ TEST(Engine, ViewsAtRestAreWhatTheyAlwaysAre) {
   EXPECT_TRUE(same_bits(last->picture, by_job(room_seen_from("0.4,-4,2"), 4)));
 }
 
+// However long the light takes: it is what the next move needs.
+TEST(Engine, ShowsWhatMovesBeforeItRests) {
+  EngineSettings settings = engine_settings(2);
+  settings.moving = recipe_of_moving_views();
+  settings.rest_s = 0.02;
+  Engine engine(settings);
+  engine.edit(room_seen_from("0,-4,2"));
+  engine.start();
+  uint64_t number = 0;
+  bool has_moved = false;
+  while (const auto next = engine.wait_for_snapshot(number, long_enough)) {
+    number = next->number;
+    if (next->kind == Snapshot::Kind::preview) continue;
+    if (!next->is_moving) break;
+    has_moved = true;
+  }
+  EXPECT_TRUE(has_moved);
+  EXPECT_TRUE(engine.wait_until_done(long_enough));
+}
+
+// What views at rest keep of light is their own: the next move has that of the move before.
+TEST(Engine, MovesAgainWithTheSameLight) {
+  EngineSettings settings = engine_settings(1);
+  settings.moving = recipe_of_moving_views();
+  settings.rest_s = 0.05;
+  Engine engine(settings);
+  uint64_t number = 0;
+  for (const char* origin : {"0,-4,2", "0.2,-4,2"}) {
+    Description description = room_seen_from(origin);
+    override_integrator(description, "photonmap");
+    const uint64_t revision = engine.edit(description);
+    engine.start();
+    int previews = 0;
+    bool has_moved = false;
+    while (const auto next = engine.wait_for_snapshot(number, long_enough)) {
+      number = next->number;
+      if (next->revision != revision) continue;
+      previews += next->kind == Snapshot::Kind::preview ? 1 : 0;
+      has_moved |= next->is_moving;
+      if (!next->is_moving) break;
+    }
+    EXPECT_TRUE(has_moved);
+    EXPECT_EQ(previews > 0, revision == 1);
+    ASSERT_TRUE(engine.wait_until_done(long_enough));
+  }
+}
+
 // What is shown of a camera at rest is never less than what was seen while it moved.
 TEST(Engine, GoesFromMovingToRestByWholePasses) {
   Engine engine(moving_settings(2, 0.3));
@@ -137,6 +185,47 @@ TEST(Engine, ARefusedRecipeOfMovingViewsLeavesTheViewAtRest) {
   ASSERT_TRUE(engine.wait_until_done(long_enough));
   EXPECT_EQ(engine.status().state, EngineState::finished);
   EXPECT_TRUE(same_bits(engine.snapshot()->picture, by_job(room_seen_from("0,-4,2"), 2)));
+}
+
+TEST(Engine, TellsWhatItsFilmHolds) {
+  EngineSettings settings = engine_settings(4);
+  settings.layers_in_snapshots = false;
+  Engine engine(settings);
+  EXPECT_FALSE(engine.look_at_film([](const Film&) { FAIL(); }));
+  EXPECT_FALSE(engine.finished_snapshot());
+  EXPECT_EQ(engine.scene(), nullptr);
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  const Image whole = by_job(room_with_ball(0.5), 4);
+  EXPECT_TRUE(
+      engine.look_at_film([&](const Film& film) { EXPECT_TRUE(same_bits(film.image(), whole)); }));
+  EXPECT_TRUE(same_bits(*engine.finished_snapshot(), whole));
+  EXPECT_EQ(engine.scene()->film().crop_size.x, 24);
+  const Image& picture = engine.snapshot()->picture;
+  EXPECT_EQ(picture.find_channel("direct.R"), -1);
+  EXPECT_EQ(picture.at(5, 5, 1), whole.at(5, 5, 1));
+}
+
+// Films of views that move take less memory, and are sooner added to.
+TEST(Engine, KeepsNoLayersOfViewsThatMove) {
+  EngineSettings settings = engine_settings(2);
+  settings.moving = recipe_of_moving_views();
+  settings.rest_s = 0.5;
+  Engine engine(settings);
+  engine.edit(room_seen_from("0,-4,2"));
+  engine.start();
+  bool has_moved = false;
+  uint64_t number = 0;
+  while (const auto next = engine.wait_for_snapshot(number, long_enough)) {
+    number = next->number;
+    if (!next->is_moving) break;
+    has_moved = true;
+    EXPECT_EQ(next->picture.find_channel("direct.R"), -1);
+  }
+  EXPECT_TRUE(has_moved);
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_GE(engine.snapshot()->picture.find_channel("direct.R"), 0);
 }
 
 TEST(Engine, NumbersItsSnapshots) {

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <thread>
 
 #include "tests/support/counted_clock.h"
 #include "tests/support/scripted_integrator.h"
@@ -379,6 +380,33 @@ TEST(Session, ShowsItsFilmAfterEveryPass) {
   settings.passes = 2;
   settings.samples_per_pixel = 2;
   expect_same_bits(seen[1], rendered(*scene, *integrator, settings));
+}
+
+TEST(Session, LetsOthersLookAtItsFilm) {
+  const auto scene = plain_scene();
+  const auto integrator = integrator_for(*scene, "path");
+  SessionSettings settings;
+  settings.passes = 40;
+  settings.samples_per_pass = 1;
+  Session session(*scene, *integrator, settings);
+  EXPECT_FALSE(session.look_at_film([](const Film&) { FAIL(); }));
+  std::atomic<bool> has_ended = false;
+  uint32_t last = 0;
+  std::thread other([&] {
+    // Whole passes only, each time as many or more.
+    while (!has_ended)
+      session.look_at_film([&](const Film& film) {
+        EXPECT_GE(film.pass_count(), last);
+        last = film.pass_count();
+        EXPECT_EQ(film.samples_per_pixel(), last);
+        EXPECT_GT(film.total(0, 0) + film.total(film.pixel_count() / 2, 0), 0);
+      });
+  });
+  session.run();
+  has_ended = true;
+  other.join();
+  EXPECT_TRUE(session.look_at_film([](const Film& film) { EXPECT_EQ(film.pass_count(), 40u); }));
+  EXPECT_EQ(session.snapshot(nullptr, false)->channel_count(), 7);
 }
 
 TEST(Session, SamplesThatAreNotFiniteAreCountedAndLeftOut) {

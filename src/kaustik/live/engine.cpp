@@ -5,6 +5,12 @@
 #include <utility>
 
 namespace kaustik {
+namespace {
+
+/// How long a view that moves is waited for at most until it shows its light.
+constexpr std::chrono::seconds longest_wait(10);
+
+}  // namespace
 
 RenderRecipe recipe_of_moving_views() {
   RenderRecipe recipe;
@@ -93,6 +99,26 @@ std::shared_ptr<const Snapshot> Engine::wait_for_snapshot(uint64_t after,
   return is_there ? snapshot_ : nullptr;
 }
 
+std::shared_ptr<const Job> Engine::shown_job() const {
+  const std::lock_guard lock(mutex_);
+  return shown_job_;
+}
+
+bool Engine::look_at_film(const std::function<void(const Film&)>& look) const {
+  const auto job = shown_job();
+  return job && job->look_at_film(look);
+}
+
+std::optional<Image> Engine::finished_snapshot(const Messages& messages) const {
+  const auto job = shown_job();
+  return job ? job->finished_snapshot(messages) : std::nullopt;
+}
+
+std::shared_ptr<const Scene> Engine::scene() const {
+  const auto job = shown_job();
+  return job ? job->shared_scene() : nullptr;
+}
+
 bool Engine::wait_until_done(std::chrono::milliseconds timeout) const {
   std::unique_lock lock(mutex_);
   return changed_.wait_for(lock, timeout, [&] {
@@ -109,7 +135,7 @@ Engine::Clock::time_point Engine::end_of_motion() const {
 }
 
 Engine::Clock::time_point Engine::longest_motion() const {
-  return std::max(end_of_motion(), touched_ + std::chrono::seconds(10));
+  return std::max(end_of_motion(), touched_ + longest_wait);
 }
 
 bool Engine::moves() const { return settings_.moving && Clock::now() < end_of_motion(); }
@@ -143,8 +169,10 @@ void Engine::work() {
     let_show(lock);
     if (wanted_.ends) break;
     if (!has_work()) continue;
+    // Every edit moves, however late it is taken.
+    const bool is_edited = taken_.revision != wanted_.revision;
     taken_ = wanted_;
-    taken_.is_moving = moves();
+    taken_.is_moving = is_edited ? settings_.moving && settings_.rest_s > 0 : moves();
     is_busy_ = true;
     const Wanted wanted = taken_;
     lock.unlock();
@@ -215,6 +243,7 @@ std::unique_ptr<Engine::Run> Engine::prepared(const Wanted& wanted) {
   settings.record.recipe = wanted.is_moving ? *settings_.moving : settings_.recipe;
   settings.session = settings_.session;
   settings.session.gate = run->gate;
+  if (run->is_moving) settings.session.layers = false;
   settings.build = settings_.build;
   {
     const std::lock_guard lock(mutex_);
@@ -231,7 +260,7 @@ std::unique_ptr<Engine::Run> Engine::prepared(const Wanted& wanted) {
   listener.pass_done = [this, &of](const Film& film) { pass_done(of, film.pass_count()); };
   listener.ended = [this, &of](const std::exception_ptr& failure) { ended(of, failure); };
   run->job =
-      std::make_unique<Job>(copy_of(*wanted.description), std::move(settings), std::move(listener));
+      std::make_shared<Job>(copy_of(*wanted.description), std::move(settings), std::move(listener));
   run->job->prepare();
   return run;
 }
@@ -241,6 +270,7 @@ void Engine::begin(std::unique_ptr<Run> run) {
   {
     const std::lock_guard lock(mutex_);
     shown_ = run_.get();
+    shown_job_ = run_->job;
     gate_ = run_->gate;
     if (wanted_.is_paused) gate_->close();
     // What took long to build has its time, too.
@@ -255,6 +285,7 @@ void Engine::begin(std::unique_ptr<Run> run) {
   } catch (...) {
     const std::lock_guard lock(mutex_);
     shown_ = nullptr;
+    shown_job_ = nullptr;
     gate_ = nullptr;
     status_.state = EngineState::failed;
     status_.failure = std::current_exception();
@@ -267,6 +298,7 @@ void Engine::end_run() {
   {
     const std::lock_guard lock(mutex_);
     shown_ = nullptr;
+    shown_job_ = nullptr;
     gate_ = nullptr;
   }
   take_light();
@@ -342,7 +374,7 @@ void Engine::publish(const Run& run, bool is_last) {
         (kind == Snapshot::Kind::preview || since.count() < settings_.snapshot_interval_s))
       return;
   }
-  std::optional<Image> picture = run.job->snapshot();
+  std::optional<Image> picture = run.job->snapshot(settings_.layers_in_snapshots);
   if (!picture) return;
   auto snapshot = std::make_shared<Snapshot>();
   snapshot->revision = run.revision;

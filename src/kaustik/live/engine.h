@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,7 +19,7 @@ namespace kaustik {
 RenderRecipe recipe_of_moving_views();
 
 struct EngineSettings {
-  /// As of a render; the gate is the engine's own. Views need no layers.
+  /// As of a render; the gate is the engine's own. Films of views that move have no layers.
   SessionSettings session;
   BuildOptions build;
   RenderRecipe recipe;  ///< changes that are made to every description
@@ -29,6 +30,9 @@ struct EngineSettings {
   double rest_s = 1;
   /// Least time between two snapshots of the same kind, s. Those of another kind come at once.
   double snapshot_interval_s = 0.1;
+  /// Whether snapshots show all that images with layers do, if films hold it. Without they are made
+  /// much sooner; look_at_film() tells of the rest who asks.
+  bool layers_in_snapshots = true;
 };
 
 enum class EngineState : uint8_t {
@@ -87,6 +91,12 @@ class Engine {
   /// null.
   std::shared_ptr<const Snapshot> wait_for_snapshot(uint64_t after,
                                                     std::chrono::milliseconds timeout) const;
+  /// Job::look_at_film() of what is shown; false also if that is nothing.
+  bool look_at_film(const std::function<void(const Film&)>& look) const;
+  /// Job::finished_snapshot() of what is shown.
+  std::optional<Image> finished_snapshot(const Messages& messages = {}) const;
+  /// The scene of what is shown; null: nothing is.
+  std::shared_ptr<const Scene> scene() const;
   /// Until it neither builds nor renders, and no command waits. False when the time was over
   /// before.
   bool wait_until_done(std::chrono::milliseconds timeout) const;
@@ -105,7 +115,7 @@ class Engine {
     uint64_t revision = 0;
     std::shared_ptr<Gate> gate;
     bool is_moving = false;
-    std::unique_ptr<Job> job;
+    std::shared_ptr<Job> job;  ///< those who look at it keep it for so long
   };
 
   void work();
@@ -116,6 +126,7 @@ class Engine {
   std::unique_ptr<Run> prepared(const Wanted& wanted);
   void begin(std::unique_ptr<Run> run);
   void end_run();
+  std::shared_ptr<const Job> shown_job() const;
   bool has_work() const;
   /// When a view that moves may come to rest, if nothing is edited until then.
   Clock::time_point end_of_motion() const;
@@ -147,9 +158,10 @@ class Engine {
   EngineStatus status_;        ///< the state is the run's: neither building nor paused
   Clock::time_point touched_;  ///< when it was last edited, or a view that moves began
   bool is_building_ = false;
-  bool is_busy_ = false;        ///< the thread is doing what was wanted
-  const Run* shown_ = nullptr;  ///< whose pictures and progress count
-  std::shared_ptr<Gate> gate_;  ///< of the run
+  bool is_busy_ = false;                  ///< the thread is doing what was wanted
+  const Run* shown_ = nullptr;            ///< whose pictures and progress count
+  std::shared_ptr<const Job> shown_job_;  ///< of the same
+  std::shared_ptr<Gate> gate_;            ///< of the run
   std::shared_ptr<const Snapshot> snapshot_;
   Clock::time_point published_;
 

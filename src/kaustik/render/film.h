@@ -91,8 +91,9 @@ class Film {
   /// estimates it (how much the picture is expected to be too bright, per channel), and
   /// "noise.scattered" and "noise.mirrored" (of the photopic value, over all samples, as if they
   /// were independent: what denoising goes by; only from two samples per pixel on). All zero
-  /// without a pass. "R" "G" "B" and "emission" alone if images are to have no layers.
-  Image image() const;
+  /// without a pass. "R" "G" "B" and "emission" alone if images are to have no layers, or these are
+  /// not wanted: that is much sooner made.
+  Image image(bool with_layers = true) const;
   /// FilmErrors::of_mean()
   double mean_error() const;
   /// FilmErrors::of_picture()
@@ -126,7 +127,7 @@ class Film {
  private:
   class Addition;
   Film(Vec2i size, const FilmLayers& layers);
-  std::vector<std::string> channel_names() const;
+  std::vector<std::string> channel_names(bool with_layers) const;
   /// Calls body(sums) with all sums of each row of pixels, [x][number], from the top on.
   template <typename Body>
   void for_rows(const Body& body) const;

@@ -247,6 +247,8 @@ ConfidenceInterval KnownLuminance::interval(double confidence) const {
   return {mean, half_width_with_bias(deviation, bias, confidence, freedom)};
 }
 
+double KnownLuminance::error() const { return std::hypot(deviation, bias); }
+
 KnownLuminance FilmErrors::known(size_t pixel) const {
   KnownLuminance known;
   known.mean = luminance_sum(pixel) / std::max(1.0, passes());

@@ -22,6 +22,8 @@ struct KnownLuminance {
   double bias = 0;     ///< by how much the mean is expected to be off, on one side alone; 0: none
   double freedom = 1;  ///< degrees of freedom of the deviation
 
+  /// √(deviation² + bias²)
+  double error() const;
   /// That holds the truth with this chance, 0 to 1: by Student's t, widened by the bias.
   ConfidenceInterval interval(double confidence = 0.95) const;
 };

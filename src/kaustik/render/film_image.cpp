@@ -1,6 +1,8 @@
 // The image of a film.
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/render/film.h"
@@ -82,9 +84,9 @@ std::array<double, noise_kinds> PixelSums::noise() const {
 
 }  // namespace
 
-std::vector<std::string> Film::channel_names() const {
+std::vector<std::string> Film::channel_names(bool with_layers) const {
   std::vector<std::string> names = {"R", "G", "B"};
-  if (!layers_.in_images) {
+  if (!with_layers) {
     if (layers_.components.has(Component::emission))
       names.insert(names.end(), {"emission.R", "emission.G", "emission.B", "emission.A"});
     return names;
@@ -101,10 +103,12 @@ std::vector<std::string> Film::channel_names() const {
   return names;
 }
 
-Image Film::image() const {
-  Image image(size_.x, size_.y, channel_names());
+Image Film::image(bool with_layers) const {
+  with_layers = with_layers && layers_.in_images;
+  Image image(size_.x, size_.y, channel_names(with_layers));
   if (passes_.empty()) return image;
-  const FilmErrors errors(*this);
+  std::optional<FilmErrors> errors;
+  if (with_layers) errors.emplace(*this);
   const auto put = [&](int x, int y, const PixelSums& sums) {
     int channel = 0;
     const auto add = [&](float value) { image.at(x, y, channel++) = value; };
@@ -112,7 +116,7 @@ Image Film::image() const {
       for (int lane = 0; lane < int(lanes); ++lane) add(rgb[lane]);
     };
     add_rgb(sums.mean());
-    if (!layers_.in_images) {
+    if (!with_layers) {
       if (!layers_.components.has(Component::emission)) return;
       add_rgb(sums.mean_emission());
       return add(sums.mean_lamps());
@@ -121,8 +125,8 @@ Image Film::image() const {
       if (layers_.components.has(Component(c))) add_rgb(sums.mean(Component(c)));
     for (size_t k = 0; k < FilmNumbers::first_hit_lanes; ++k) add(sums.mean_first_hit(k));
     const size_t pixel = size_t(y) * size_t(size_.x) + size_t(x);
-    add_rgb(errors.of_pixel(pixel, sums.channels()));
-    if (layers_.bias) add_rgb(errors.mean_bias(pixel));
+    add_rgb(errors->of_pixel(pixel, sums.channels()));
+    if (layers_.bias) add_rgb(errors->mean_bias(pixel));
     if (knows_noise())
       for (const double deviation : sums.noise()) add(float(deviation));
   };

@@ -236,20 +236,28 @@ void Job::render() {
   }
 }
 
-std::optional<Image> Job::snapshot() const {
+std::optional<Image> Job::snapshot(bool with_layers) const {
   std::unique_lock lock(mutex_);
   const std::shared_ptr<Run> run = run_;
   if (!run) return std::nullopt;
   const Session* session = run->session.get();
   const std::shared_ptr<const Image> preview = run->preview;
   lock.unlock();
-  std::optional<Image> picture = session ? session->snapshot() : std::nullopt;
+  std::optional<Image> picture = session ? session->snapshot(nullptr, with_layers) : std::nullopt;
   if (!picture && preview) picture = *preview;
   return picture;
 }
 
 double Job::rested_s() const {
   return settings_.session.gate ? settings_.session.gate->closed_s() : 0;
+}
+
+bool Job::look_at_film(const std::function<void(const Film&)>& look) const {
+  std::unique_lock lock(mutex_);
+  const std::shared_ptr<Run> run = run_;
+  if (!run || !run->session) return false;
+  lock.unlock();
+  return run->session->look_at_film(look);
 }
 
 std::optional<Image> Job::finished_snapshot(const Messages& messages) const {

@@ -119,7 +119,9 @@ class Job {
   /// there is something to be seen of the new one. incomplete_key tells pictures that are not yet
   /// the integrator's, with a sample of each pixel. After the end there is one unless the job was
   /// cancelled.
-  std::optional<Image> snapshot() const;
+  std::optional<Image> snapshot(bool with_layers = true) const;
+  /// Session::look_at_film(); false also while there is no session.
+  bool look_at_film(const std::function<void(const Film&)>& look) const;
   /// The session's snapshot as a file would show it: finished_picture() of it. None where there is
   /// not even a sample; a preview is none. From any thread, while the job runs.
   std::optional<Image> finished_snapshot(const Messages& messages = {}) const;

@@ -124,13 +124,17 @@ class Session {
   /// From any thread, at any time, in callbacks too: a whole picture of what there is. Of finished
   /// passes; in the first one of the samples so far, and pixels without any show those of a pixel
   /// near by: then incomplete_key says so. None: not even that is there. `facts` of it, if wanted.
-  std::optional<Image> snapshot(SnapshotFacts* facts = nullptr) const;
-  /// From any thread, at any time: a copy of the film with its finished passes; none before there
-  /// is one. It takes as much memory once more.
+  /// `with_layers`: Film::image().
+  std::optional<Image> snapshot(SnapshotFacts* facts = nullptr, bool with_layers = true) const;
+  /// Calls look(film) with the finished passes while none is added; false, and no call, if there is
+  /// none. From any thread, at any time, but in callbacks of a look; rendering waits where it
+  /// lasts.
+  bool look_at_film(const std::function<void(const Film&)>& look) const;
+  /// A copy of it; none before there is a finished pass. It takes as much memory once more.
   std::optional<Film> film_so_far() const;
   bool has_picture() const { return has_picture_; }
   /// Not while run() goes on: the film's image, with the part of a pass at its end.
-  Image image() const;
+  Image image(bool with_layers = true) const;
 
   const Film& film() const { return film_; }
   uint32_t samples_per_pass() const { return samples_per_pass_; }
@@ -178,7 +182,8 @@ class Session {
   void note_memory();
   /// Share of the pass's samples that its pixels have.
   double share_taken(const Pass& pass, const PassState& state) const;
-  Image first_samples(std::unique_lock<std::mutex> lock, SnapshotFacts& facts) const;
+  Image first_samples(std::unique_lock<std::mutex> lock, SnapshotFacts& facts,
+                      bool with_layers) const;
 
   const Scene& scene_;
   const Integrator& integrator_;

@@ -319,7 +319,7 @@ void Session::finish_tiles() {
   });
 }
 
-std::optional<Image> Session::snapshot(SnapshotFacts* facts) const {
+std::optional<Image> Session::snapshot(SnapshotFacts* facts, bool with_layers) const {
   SnapshotFacts unwanted;
   SnapshotFacts& shown = facts ? *facts : unwanted;
   std::unique_lock lock(picture_mutex_);
@@ -327,19 +327,26 @@ std::optional<Image> Session::snapshot(SnapshotFacts* facts) const {
   shown = {film_.pass_count(), film_.samples_per_pixel()};
   // Callbacks come from within parallel work, of which nothing may be taken up meanwhile.
   return isolated([&]() -> std::optional<Image> {
-    if (film_.pass_count() > 0) return image();
-    return first_samples(std::move(lock), shown);
+    if (film_.pass_count() > 0) return image(with_layers);
+    return first_samples(std::move(lock), shown, with_layers);
   });
 }
 
-std::optional<Film> Session::film_so_far() const {
+bool Session::look_at_film(const std::function<void(const Film&)>& look) const {
   const std::lock_guard lock(picture_mutex_);
-  if (film_.pass_count() == 0) return std::nullopt;
-  return film_;
+  if (film_.pass_count() == 0) return false;
+  isolated([&] { look(film_); });
+  return true;
 }
 
-Image Session::image() const {
-  Image image = film_.image();
+std::optional<Film> Session::film_so_far() const {
+  std::optional<Film> copy;
+  look_at_film([&](const Film& film) { copy = film; });
+  return copy;
+}
+
+Image Session::image(bool with_layers) const {
+  Image image = film_.image(with_layers);
   if (!(report_.part > 0)) return image;
   PartPicture picture(image, film_.pass_count(), report_.part);
   parallel_blocks(pass_.tiles().count(), 1, [&](size_t tile, size_t, size_t) {
@@ -351,8 +358,9 @@ Image Session::image() const {
   return image;
 }
 
-Image Session::first_samples(std::unique_lock<std::mutex> lock, SnapshotFacts& facts) const {
-  Image image = film_.image();
+Image Session::first_samples(std::unique_lock<std::mutex> lock, SnapshotFacts& facts,
+                             bool with_layers) const {
+  Image image = film_.image(with_layers);
   PartPicture picture(image, 0, 1);
   std::vector<uint8_t> is_shown(film_.pixel_count());
   const auto index = [&](int x, int y) { return size_t(y) * size_t(film_.width()) + size_t(x); };

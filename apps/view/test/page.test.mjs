@@ -1,0 +1,371 @@
+// The page in a real browser, against a server that speaks the protocol.
+import assert from 'node:assert/strict';
+import { after, before, describe, test } from 'node:test';
+import { launch } from './browser.mjs';
+import { FakeServer } from './fake_server.mjs';
+import { patches } from './fake_scene.mjs';
+import { readPng } from './png.mjs';
+
+const patience = 120_000; // machines are busy
+let browser;
+
+before(async () => (browser = await launch()), { timeout: patience });
+after(() => browser?.close());
+
+/// A page on a server of its own. What the browser complains of fails the test.
+async function opened(settings = {}, view = {}, whenDone = null) {
+  const server = await new FakeServer(settings).listen();
+  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: 'dark', ...view });
+  const page = await context.newPage();
+  page.setDefaultTimeout(patience);
+  const complaints = [];
+  page.on('pageerror', (error) => complaints.push(String(error)));
+  page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  await page.goto(server.link);
+  await page.waitForFunction(() => document.getElementById('zoom-value').textContent !== '100 %' && document.getElementById('exposure').value !== '0');
+  const close = async () => {
+    await context.close();
+    await server.close();
+  };
+  whenDone?.after(close);
+  return { server, page, context, complaints, close };
+}
+
+async function until(check, what) {
+  const end = Date.now() + patience;
+  while (Date.now() < end) {
+    const result = await check();
+    if (result) return result;
+    await new Promise((done) => setTimeout(done, 50));
+  }
+  assert.fail(`waited in vain: ${what}`);
+}
+
+/// No camera comes any more.
+async function settled(server, page) {
+  let count = -1;
+  await until(async () => {
+    const before = count;
+    count = server.commands.filter((command) => command.camera).length;
+    await page.waitForTimeout(300);
+    return count > 0 && before === count;
+  }, 'cameras');
+}
+
+/// Where a place of the picture is on the page.
+async function placeOf(page, x, y, { width, height }) {
+  const box = await page.locator('#stage').boundingBox();
+  const zoom = Math.min(box.width / width, box.height / height);
+  return {
+    x: box.x + box.width / 2 + (x - width / 2) * zoom,
+    y: box.y + box.height / 2 + (y - height / 2) * zoom,
+  };
+}
+
+async function coloursAt(page, places) {
+  const picture = readPng(await page.screenshot());
+  return places.map(({ x, y }) => picture.at(Math.round(x), Math.round(y)));
+}
+
+const photopic = [0.212639, 0.7151687, 0.0721923];
+const luminance = (rgb) => rgb.reduce((sum, v, c) => sum + photopic[c] * v, 0);
+const encoded = (v) => 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
+
+function intoGamut(rgb) {
+  const y = luminance(rgb);
+  if (y >= 1) return [1, 1, 1];
+  const kept = Math.min(1, ...rgb.map((v) => (v > 1 ? (1 - y) / (v - y) : v < 0 ? y / (y - v) : 1)));
+  return rgb.map((v) => y + kept * (v - y));
+}
+
+/// The curve alone: for greys both matrices do nothing, since their rows add up to one.
+const filmicGrey = (v) => (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.432951) + 0.238081);
+const reinhard = (rgb) => rgb.map((v) => (v * (1 + luminance(rgb) / 2.88 ** 2)) / (1 + luminance(rgb)));
+
+const operators = {
+  linear: (rgb) => rgb,
+  filmic: (rgb) => (rgb[0] === rgb[1] && rgb[1] === rgb[2] ? rgb.map(filmicGrey) : null),
+  reinhard,
+};
+
+describe('page', { concurrency: false }, () => {
+  let shared; // a page that many tests use, one after the other
+  before(async () => (shared = await opened({ passes: 1e6, passMs: 400 })), { timeout: 3 * patience });
+  after(async () => shared?.close());
+
+  test('loads, enters with the token, and draws by WebGL2', { timeout: 3 * patience }, async () => {
+    const { page, complaints } = shared;
+    assert.ok(await page.evaluate(() => document.getElementById('picture').getContext('webgl2') instanceof WebGL2RenderingContext));
+    assert.equal(new URL(page.url()).hash, '', 'the token leaves the address');
+    assert.match(await page.title(), /spheres/);
+    assert.match(await page.textContent('#state'), /Rendering|Finished/);
+    assert.deepEqual(complaints, []);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollHeight <= 720), 'nothing to scroll at 1280 × 720');
+    await page.reload();
+    await page.waitForFunction(() => document.documentElement.dataset.connection === 'connected');
+  });
+
+  test('shows a radiance in the colour that exposure and operator make of it', { timeout: 3 * patience }, async (t) => {
+    const size = { width: 160, height: 120 };
+    const { page, complaints } = await opened({ scene: 'chart', ...size, passes: 2 }, {}, t);
+    const places = await Promise.all(patches.map((_, i) => placeOf(page, 40 * (i % 4) + 20, 40 * Math.floor(i / 4) + 20, size)));
+    const shown = async (operator, exposure) => {
+      await page.click(`[data-operator=${operator}]`);
+      await page.fill('#exposure-number', String(exposure));
+      await page.keyboard.press('Enter');
+      await page.mouse.move(640, 10);
+      await page.waitForTimeout(300);
+      return coloursAt(page, places);
+    };
+    const distance = (colours, operator, exposure) => Math.max(...patches.map((patch, i) => {
+      const made = operators[operator](patch.map((v) => v * 2 ** exposure));
+      return made ? Math.max(...intoGamut(made).map((v, c) => Math.abs(encoded(v) - colours[i][c]))) : 0;
+    }));
+    for (const [operator, exposure] of [['linear', -0.5], ['filmic', 1], ['reinhard', 0.5]]) {
+      const colours = await shown(operator, exposure);
+      assert.ok(distance(colours, operator, exposure) <= 2, `${operator} at ${exposure}: off by ${distance(colours, operator, exposure)}`);
+      assert.ok(distance(colours, operator, exposure + 0.2) > 3, 'a wrong exposure is noticed');
+    }
+    await page.click('[data-operator=falsecolor]');
+    await page.fill('#scale-maximum', '0.9');
+    await page.keyboard.press('Enter');
+    await page.waitForTimeout(300);
+    const [dark, , , bright] = await coloursAt(page, places);
+    assert.deepEqual(bright.map((v) => Math.round(v / 8)), [253, 231, 37].map((v) => Math.round(v / 8)), 'the end of viridis');
+    assert.ok(dark[2] > dark[1] && dark[0] > 60, 'the beginning of viridis');
+    assert.ok(await page.isVisible('#legend'));
+    assert.equal(await page.textContent('#legend-unit'), 'W/(sr·m²)');
+    assert.deepEqual(complaints, []);
+  });
+
+  test('orbits, pans, dollies and changes the angle; the newest camera, at most 30 a second', { timeout: 3 * patience }, async () => {
+    const { server, page } = shared;
+    const first = server.camera;
+    const away = (camera) => Math.hypot(...camera.origin.map((v, c) => v - camera.target[c]));
+    const cameras = () => server.commands.filter((command) => command.camera);
+    const pixels = server.layers[''].slice();
+    const drag = async (dx, dy) => {
+      await page.mouse.move(500, 400);
+      await page.mouse.down();
+      await page.mouse.move(500 + dx, 400 + dy, { steps: 40 });
+      await page.mouse.up();
+    };
+    await drag(150, 40);
+    await settled(server, page);
+    const orbited = server.camera;
+    assert.ok(Math.abs(away(orbited) - away(first)) < 1e-6, 'the distance stays');
+    assert.deepEqual(orbited.target, first.target);
+    assert.ok(orbited.origin[1] > first.origin[1] + 0.2, 'down lifts the camera');
+    const spans = cameras().map(({ at }) => at);
+    const inOneSecond = Math.max(...spans.map((t) => spans.filter((u) => u >= t && u < t + 1000).length));
+    assert.ok(inOneSecond <= 31, `${inOneSecond} cameras in a second`);
+    await until(() => server.layers[''].some((v, i) => v !== pixels[i]), 'another picture');
+
+    await page.keyboard.down('Shift');
+    await drag(100, 0);
+    await page.keyboard.up('Shift');
+    await settled(server, page);
+    const moved = server.camera;
+    assert.ok(Math.abs(away(moved) - away(first)) < 1e-6);
+    assert.notDeepEqual(moved.target, first.target);
+
+    await page.mouse.move(500, 400);
+    await page.mouse.wheel(0, -300);
+    await until(() => away(server.camera) < away(first) * 0.9, 'nearer');
+    await page.keyboard.down('Alt');
+    await page.mouse.wheel(0, 300);
+    await page.keyboard.up('Alt');
+    await until(() => server.camera.fov > first.fov * 1.1, 'a wider angle');
+    await page.keyboard.press('h');
+    await until(() => Math.abs(away(server.camera) - away(first)) < 1e-6 && server.camera.fov === first.fov, 'home');
+  });
+
+  test('two fingers dolly, one orbits', { timeout: 3 * patience }, async (t) => {
+    const { server, page, context } = await opened({}, { viewport: { width: 390, height: 844 }, hasTouch: true }, t);
+    const first = server.camera;
+    const away = (camera) => Math.hypot(...camera.origin.map((v, c) => v - camera.target[c]));
+    const box = await page.locator('#stage').boundingBox();
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    const devtools = await context.newCDPSession(page);
+    const touch = (type, ...points) => devtools.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([px, py], id) => ({ x: px, y: py, id })) });
+    await touch('touchStart', [x - 20, y], [x + 20, y]);
+    for (let d = 25; d <= 60; d += 5) await touch('touchMove', [x - d, y], [x + d, y]);
+    await touch('touchEnd');
+    await until(() => away(server.camera) < away(first) / 2, 'nearer');
+    await settled(server, page);
+    const near = server.camera;
+    await touch('touchStart', [x, y]);
+    for (let d = 0; d <= 60; d += 6) await touch('touchMove', [x + d, y]);
+    await touch('touchEnd');
+    await until(() => server.camera.origin[0] !== near.origin[0], 'orbit');
+    await settled(server, page);
+    assert.ok(Math.abs(away(server.camera) - away(near)) < 1e-6);
+  });
+
+  test('the probe tells value, interval, bias and layers; the region its mean', { timeout: 3 * patience }, async () => {
+    const size = { width: 160, height: 120 };
+    const { server, page } = shared;
+    server.state = 'paused';
+    const at = await placeOf(page, 80.5, 60.5, size);
+    await page.mouse.click(at.x, at.y);
+    await page.waitForFunction(() => document.getElementById('probe-x').value === '80' && document.getElementById('probe-y').value === '60');
+    const pixel = server.pixel(80, 60);
+    const shown = async () => Number((await page.textContent('#probe-luminance')).replace(/\(.*/, ''));
+    await until(async () => Math.abs((await shown()) - pixel.luminance) <= pixel.standard_error, 'the luminance');
+    const [low, high] = (await page.textContent('#probe-interval')).split(' to ').map(Number);
+    assert.ok(Math.abs(low - pixel.interval[0]) < 0.1 * (high - low) && Math.abs(high - pixel.interval[1]) < 0.1 * (high - low));
+    assert.notEqual(await page.textContent('#probe-bias'), 'none estimated');
+    assert.equal(await page.locator('#probe-layers .layer-row').count(), 4);
+    await page.keyboard.press('p');
+    await page.keyboard.press('ArrowRight');
+    await page.waitForFunction(() => document.getElementById('probe-x').value === '81');
+
+    await page.keyboard.press('r');
+    const from = await placeOf(page, 20.2, 30.2, size);
+    const to = await placeOf(page, 49.8, 49.8, size);
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(to.x, to.y, { steps: 5 });
+    await page.mouse.up();
+    await page.waitForFunction(() => document.getElementById('region-pixels').textContent === '600');
+    const mean = server.region(20, 30, 30, 20);
+    assert.ok(Math.abs(Number((await page.textContent('#region-mean')).replace(/\(.*/, '')) - mean.mean) <= mean.standard_error);
+    await page.click('.photometry [value=photometric]');
+    assert.equal(await page.textContent('#region-unit'), 'cd/m²');
+    assert.ok(Math.abs(parseFloat(await page.textContent('#region-mean')) / (179 * mean.mean) - 1) < 0.01);
+    await page.keyboard.press('Escape');
+    assert.ok(await page.isVisible('#region-none'));
+    server.state = 'rendering';
+  });
+
+  test('edits go to the server; a refused one is told at its row', { timeout: 3 * patience }, async () => {
+    const { server, page } = shared;
+    await page.click('#tab-scene');
+    const row = (name) => page.locator(`[data-parameter="${name}"]`);
+    await row('glass.int_ior').locator('input[type=range]').fill('0.5');
+    await until(() => server.value('glass.int_ior').value === 2, 'the slider');
+    assert.ok(await row('glass.int_ior').locator('.back').isVisible());
+    await row('glass.int_ior').locator('.back').click();
+    await until(() => server.value('glass.int_ior').value === 1.5, 'back');
+    await row('lamp.radiance').locator('input[type=text]').fill('80');
+    await page.keyboard.press('Enter');
+    await until(() => Math.abs(server.value('lamp.radiance').value[0] - 80) < 1e-3, 'the colour');
+    await row('film.filter').locator('select').selectOption('tent');
+    await row('glass.two_sided').locator('input').check();
+    await until(() => server.value('film.filter').value === 'tent' && server.value('glass.two_sided').value === true, 'choices');
+    await row('glass.roughness').locator('input[type=text]').fill('0.95');
+    await page.keyboard.press('Enter');
+    await row('glass.roughness').locator('.row-message').waitFor();
+    assert.match(await row('glass.roughness').locator('.row-message').textContent(), /out of range.*smaller/);
+    assert.equal(server.value('glass.roughness').value, 0);
+    assert.equal(await page.evaluate(() => document.documentElement.dataset.connection), 'connected');
+    await page.fill('#parameter-filter', 'ior');
+    assert.equal(await page.locator('.parameter:visible').count(), 1);
+    await page.selectOption('#integrator', 'vcm');
+    await until(() => server.integrator === 'vcm', 'the integrator');
+  });
+
+  test('starts, pauses, stops and saves', { timeout: 3 * patience }, async () => {
+    const { server, page } = shared;
+    server.act('start');
+    server.publish();
+    await page.waitForFunction(() => document.getElementById('state').textContent === 'Rendering');
+    await page.focus('#stage');
+    await page.keyboard.press('Space');
+    await until(() => server.state === 'paused', 'pause');
+    await page.waitForFunction(() => document.getElementById('state').textContent === 'Paused');
+    await page.keyboard.press('Space');
+    await until(() => server.state === 'rendering', 'resume');
+    await page.click('#stop');
+    await until(() => server.state === 'idle', 'stop');
+    await page.keyboard.press('s');
+    await page.fill('#save-name', '../picture.exr');
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('#save-message:visible');
+    assert.ok(!server.commands.some((command) => command.save), 'no folders');
+    await page.fill('#save-name', 'view one.exr');
+    await page.click('[data-ending=png]');
+    await page.click('#save-form [type=submit]');
+    await page.waitForSelector('.toast');
+    assert.deepEqual(server.commands.filter((command) => command.save).map(({ save }) => save.name), ['view one.png']);
+    assert.match(await page.textContent('.toast'), /out\/view one\.png/);
+  });
+
+  test('layers are asked for in a form that holds them', { timeout: 3 * patience }, async () => {
+    const { page } = shared;
+    const asked = [];
+    page.on('request', (request) => request.url().includes('/frame?') && asked.push(request.url()));
+    for (const [layer, format] of [['error', 'rgb9e5'], ['bias', 'f32'], ['N', 'f32'], ['', 'rgb9e5']]) {
+      await page.selectOption('#layer', layer);
+      await until(() => asked.some((url) => url.includes(`layer=${layer}&`) && url.includes(`format=${format}`)), `layer ${layer}`);
+      assert.equal(await page.isVisible('#legend'), ['error', 'bias'].includes(layer), layer);
+    }
+  });
+
+  test('comes back when the server was started again, and asks for a link if the token is new', { timeout: 3 * patience }, async (t) => {
+    const { server, page } = await opened({}, {}, t);
+    const { port, token } = server;
+    const connection = () => page.evaluate(() => document.documentElement.dataset.connection);
+    await server.close();
+    await until(async () => (await connection()) === 'lost', 'the loss');
+    assert.match(await page.textContent('#notice'), /does not answer/);
+
+    const same = await new FakeServer({ token, scene: 'chart' }).listen(port);
+    await until(async () => (await connection()) === 'connected', 'the same token');
+    await page.waitForFunction(() => document.title.startsWith('chart'));
+    await same.close();
+
+    const other = await new FakeServer({}).listen(port);
+    await until(async () => (await connection()) === 'locked', 'another token');
+    await page.fill('#token', 'http://127.0.0.1/#token=wrong');
+    await page.click('#unlock [type=submit]');
+    await page.waitForFunction(() => document.getElementById('unlock-message').textContent !== '');
+    await page.fill('#token', other.link);
+    await page.click('#unlock [type=submit]');
+    await until(async () => (await connection()) === 'connected', 'the new token');
+    await until(async () => !(await page.isVisible('#notice')), 'no notice');
+    await other.close();
+  });
+
+  test('fits a phone: nothing is wider than the screen', { timeout: 3 * patience }, async (t) => {
+    const { page } = await opened({}, { viewport: { width: 390, height: 844 } }, t);
+    for (const tab of ['#tab-measure', '#tab-scene', '#tab-log'])
+      for (const operator of ['filmic', 'falsecolor']) {
+        await page.click(`[data-operator=${operator}]`);
+        await page.click(tab);
+        const wide = await page.evaluate(() => [
+          document.documentElement.scrollWidth,
+          ...[...document.querySelectorAll('button, input, select')]
+            .filter((element) => element.offsetParent)
+            .map((element) => element.getBoundingClientRect().right),
+        ]);
+        assert.ok(Math.max(...wide) <= 390, `${tab}, ${operator}: ${Math.max(...wide)} px`);
+      }
+  });
+
+  test('keys, help, dark and light', { timeout: 3 * patience }, async () => {
+    const { page } = shared;
+    const colour = () => page.evaluate(() => getComputedStyle(document.querySelector('.top')).backgroundColor);
+    const dark = await colour();
+    await page.emulateMedia({ colorScheme: 'light' });
+    const light = await colour();
+    assert.notEqual(dark, light);
+    await page.keyboard.press('t');
+    assert.equal(await colour(), dark);
+    await page.keyboard.press('?');
+    assert.ok(await page.isVisible('#help-dialog'));
+    assert.ok((await page.locator('#help-text dt').count()) > 25);
+    await page.keyboard.press('Escape');
+    assert.ok(!(await page.isVisible('#help-dialog')));
+    for (const [key, tool] of [['v', 'picture'], ['p', 'probe'], ['r', 'region'], ['c', 'camera']]) {
+      await page.keyboard.press(key);
+      assert.equal(await page.getAttribute('#stage', 'data-tool'), tool);
+    }
+    const before = Number(await page.inputValue('#exposure-number'));
+    await page.keyboard.press('e');
+    assert.ok(Math.abs(Number(await page.inputValue('#exposure-number')) - before - 0.5) < 1e-6);
+    await page.keyboard.press('v');
+    await page.keyboard.press('z');
+    assert.equal(await page.textContent('#zoom-value'), '100 %');
+  });
+});
