@@ -22,10 +22,12 @@ const middleGrey = 0.18;
 /// How the picture is shown: layer, exposure, operator, scale of false colours. Each kind of layer
 /// keeps settings of its own.
 export class Display {
-  readonly layer = new Signal('');
+  readonly layer = new Signal(''); // that was chosen
+  readonly asked = new Signal(''); // that is asked for: while the camera moves only the picture is there
   readonly look: Signal<Look>;
   private readonly settings = new Map<string, Settings>();
   private frame: Frame | null = null;
+  private there: string[] = [''];
 
   private readonly layers = byId<HTMLSelectElement>('layer');
   private readonly slider = byId<HTMLInputElement>('exposure');
@@ -43,21 +45,23 @@ export class Display {
     this.slider.min = this.field.min = String(exposureRange.minimum);
     this.slider.max = this.field.max = String(exposureRange.maximum);
     this.listen();
-    this.layer.onChange(() => this.update());
+    this.layer.onChange(() => this.ask());
+    this.asked.onChange(() => this.update());
     photometry.onChange(() => this.update());
     this.update();
   }
 
   get kind(): LayerKind {
-    return kindOf(this.layer.value);
+    return kindOf(this.asked.value);
   }
 
   setLayers(names: string[]): void {
+    this.there = names;
     const shown = [...this.layers.options].map((option) => option.value);
-    if (shown.join('\n') === names.join('\n')) return;
-    this.layers.replaceChildren(...names.map((name) => new Option(titleOf(name), name)));
-    if (!names.includes(this.layer.value)) this.layer.value = '';
-    this.layers.value = this.layer.value;
+    // The list stays while the camera moves; only what is there is asked for.
+    if (names.some((name) => !shown.includes(name)))
+      this.layers.replaceChildren(...names.map((name) => new Option(titleOf(name), name)));
+    this.ask();
   }
 
   nextLayer(step: number): void {
@@ -88,7 +92,7 @@ export class Display {
 
   /// The mean of what is lit, on a scale of logarithms, becomes middle grey.
   exposeByItself(): void {
-    const lit = this.frame?.layer === this.layer.value ? this.frame.someLuminances().filter((v) => v > 0) : null;
+    const lit = this.frame?.layer === this.asked.value ? this.frame.someLuminances().filter((v) => v > 0) : null;
     if (!lit?.length) return;
     let sum = 0;
     for (const value of lit) sum += Math.log2(value);
@@ -98,6 +102,11 @@ export class Display {
   setOperator(operator: Operator): void {
     this.now().operator = operator;
     this.update();
+  }
+
+  private ask(): void {
+    this.layers.value = this.layer.value;
+    this.asked.value = this.there.includes(this.layer.value) ? this.layer.value : '';
   }
 
   private now(): Settings {
@@ -115,7 +124,7 @@ export class Display {
 
   private scale(): Scale {
     const { isLogarithmic, minimum, maximum } = this.now();
-    const values = this.frame?.layer === this.layer.value ? this.frame.someLuminances() : new Float64Array();
+    const values = this.frame?.layer === this.asked.value ? this.frame.someLuminances() : new Float64Array();
     const chosen = chosenScale(values, isLogarithmic && !this.kind.isSigned, this.kind.isSigned);
     return usable({
       minimum: minimum ?? chosen.minimum,
@@ -137,8 +146,8 @@ export class Display {
 
   private update(): void {
     const settings = this.now();
-    this.look.value = this.madeLook();
-    this.layers.value = this.layer.value;
+    // The frame before is shown as it was until there is one of the layer that was asked for.
+    if (!this.frame || this.frame.layer === this.asked.value) this.look.value = this.madeLook();
     this.slider.value = String(settings.exposure);
     this.slider.setAttribute('aria-valuetext', `${formatFixed(settings.exposure, 1)} stops`);
     if (document.activeElement !== this.field) this.field.value = settings.exposure.toFixed(1);

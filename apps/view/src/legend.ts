@@ -18,7 +18,7 @@ export class Legend {
     private readonly display: Display,
     private readonly state: Signal<State | null>,
   ) {
-    for (const signal of [display.look, display.layer, state, photometry] as Signal<unknown>[])
+    for (const signal of [display.look, display.asked, state, photometry] as Signal<unknown>[])
       signal.onChange(() => this.draw());
   }
 

@@ -38,6 +38,8 @@ function start(): void {
   const fail = (error: unknown) => {
     connection.suspect(error);
     if (!(error instanceof Refusal) || error.status === 403) return;
+    // Somebody asks for what is not there yet: the next frame asks again.
+    if (error.status === 409) return;
     const text = [error.message, error.remedy].filter(Boolean).join(' – ');
     log.add({ level: 'error', text });
     toast(text, 'error');
@@ -46,7 +48,7 @@ function start(): void {
   const frames = new FrameLoop(client, (error) => {
     fail(error);
     // A layer that is no more: the picture is there always.
-    if (error instanceof Refusal && error.status !== 403) display.layer.value = '';
+    if (error instanceof Refusal && error.status !== 403) display.setLayers(['']);
   });
   const display = new Display();
   const view = new View();
@@ -112,7 +114,9 @@ function start(): void {
     },
     drawRegion: (from, to, isDone) => {
       region.draw(from, to, isDone);
-      if (isDone) tabs.choose('tab-measure');
+      if (!isDone) return;
+      tabs.choose('tab-measure');
+      byId('region-end').scrollIntoView({ block: 'nearest' });
     },
   });
   const keyboard: Keyboard = new Keyboard(

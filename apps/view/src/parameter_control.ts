@@ -18,7 +18,7 @@ export function controlFor(parameter: Parameter, label: string, changed: Changed
   const isNumber = typeof parameter.value === 'number';
   if ((parameter.kind === 'number' || parameter.kind === 'integer') && isNumber)
     return numberControl(parameter, label, changed);
-  return textControl(label, changed);
+  return textControl(parameter.kind, label, changed);
 }
 
 function isColor(value: ParameterValue): value is number[] {
@@ -46,15 +46,20 @@ function choiceControl(parameter: Parameter, label: string, changed: Changed): C
   };
 }
 
-function textControl(label: string, changed: Changed): Control {
+/// Also for what has no value yet, and no default.
+function textControl(kind: Parameter['kind'], label: string, changed: Changed): Control {
   const field = make('input', { type: 'text', 'aria-label': label, spellcheck: 'false' });
   let isList = false;
   field.addEventListener('change', () => {
     const numbers = field.value.split(/[\s,]+/).filter(Boolean).map(Number);
-    changed(isList && numbers.every(Number.isFinite) ? numbers : field.value);
+    if (numbers.length === 0 && kind !== 'text') return;
+    const areNumbers = numbers.every(Number.isFinite);
+    if (areNumbers && (kind === 'number' || kind === 'integer') && numbers.length === 1) changed(numbers[0]!);
+    else changed(areNumbers && (isList || kind === 'color') ? numbers : field.value);
   });
   const show = (value: ParameterValue) => {
     isList = Array.isArray(value);
+    field.placeholder = value === null ? 'as in the scene' : '';
     field.value = Array.isArray(value) ? value.map(short).join(', ') : String(value ?? '');
   };
   return { element: make('div', { class: 'control' }, field), show, isBusy: () => has(field) };

@@ -13,6 +13,8 @@ interface Row {
   back: HTMLButtonElement;
 }
 
+/// Families in the order in which they are changed most; others follow.
+const families = ['emitter', 'bsdf', 'texture', 'medium', 'shape', 'sensor', 'film', 'integrator'];
 const sendMs = 100;
 const readMs = 800;
 
@@ -60,7 +62,8 @@ export class ParametersPanel {
     if (shape !== this.shape) {
       this.shape = shape;
       this.rows.clear();
-      this.list.replaceChildren(...objects.filter((o) => o.parameters.length > 0).map((o, i) => this.section(o, i < 4)));
+      const shown = ordered(objects.filter((o) => o.parameters.length > 0));
+      this.list.replaceChildren(...shown.map((o, i) => this.section(o, i < 4 && o.parameters.length <= 8)));
       byId('objects-none').hidden = this.rows.size > 0;
       this.applyFilter();
     }
@@ -156,6 +159,11 @@ export class ParametersPanel {
       if (words.length > 0 && shown > 0) section.open = true;
     }
   }
+}
+
+function ordered(objects: SceneObject[]): SceneObject[] {
+  const place = ({ family }: SceneObject) => (families.includes(family) ? families.indexOf(family) : families.length);
+  return [...objects].sort((a, b) => place(a) - place(b));
 }
 
 function isSame(a: ParameterValue, b: ParameterValue): boolean {

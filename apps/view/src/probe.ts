@@ -2,7 +2,7 @@ import type { Client, Pixel, State } from './protocol';
 import { luminance, srgbFromLinear } from './color';
 import { byId, make, setText } from './dom';
 import { Latest } from './latest';
-import { titleOf } from './layers';
+import { kindOf, titleOf } from './layers';
 import { formatInterval, formatNumber, formatWithError } from './numbers';
 import { Signal } from './signal';
 import { photometry, shownFactor, shownUnit } from './units';
@@ -103,9 +103,10 @@ export class Probe {
     this.showLayers(pixel, factor);
   }
 
-  /// Layers as bars: shares of the pixel's luminance.
+  /// Parts of the light as bars: shares of the pixel's luminance.
   private showLayers(pixel: Pixel, factor: number): void {
-    const rows = Object.entries(pixel.layers).map(([name, rgb]) => {
+    const parts = Object.entries(pixel.layers).filter(([name]) => kindOf(name).id === 'light');
+    const rows = parts.map(([name, rgb]) => {
       const value = luminance(rgb);
       const share = pixel.luminance > 0 ? Math.min(1, Math.max(0, value / pixel.luminance)) : 0;
       const fill = make('i');

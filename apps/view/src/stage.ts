@@ -1,6 +1,7 @@
 import type { Connection } from './connection';
 import type { Display } from './display';
 import { byId, fitCanvas, onNextFrame, setText } from './dom';
+import type { Frame } from './frame';
 import type { FrameLoop } from './frame_loop';
 import { luminance } from './color';
 import { titleOf } from './layers';
@@ -19,7 +20,7 @@ export class Stage {
   private readonly picture: PictureCanvas;
   private readonly overlay: Overlay;
   private readonly redraw = onNextFrame(() => this.draw());
-  private shownNumber = -1;
+  private shownFrame: Frame | null = null;
 
   /// Throws where the browser cannot draw.
   constructor(
@@ -38,7 +39,7 @@ export class Stage {
     connection.state.onChange((state) => state && view.setPicture(state.width, state.height));
     frames.frame.onChange((frame) => frame && this.display.see(frame));
     view.changed.onChange(() => this.askForSize());
-    display.layer.onChange(() => this.askForSize());
+    display.asked.onChange(() => this.askForSize());
     connection.state.onChange(() => this.askForSize());
     const shown = [view.changed, display.look, frames.frame, probe.pinned, probe.hovered, region.rectangle, region.text, photometry];
     for (const signal of shown) (signal as { onChange(f: () => void): void }).onChange(this.redraw);
@@ -54,9 +55,9 @@ export class Stage {
     if (!state) return;
     const shown = this.view.zoom * (window.devicePixelRatio || 1);
     const reduction = Math.max(1, Math.floor(1 / shown + 1e-6));
-    const { kind, layer } = this.display;
+    const { kind, asked } = this.display;
     this.frames.want({
-      layer: layer.value,
+      layer: asked.value,
       format: kind.format,
       width: reduction === 1 ? null : Math.ceil(state.width / reduction),
     });
@@ -65,9 +66,9 @@ export class Stage {
   private draw(): void {
     const frame = this.frames.frame.value;
     fitCanvas(this.canvas);
-    if (frame && frame.number !== this.shownNumber) {
+    if (frame && frame !== this.shownFrame) {
       this.picture.show(frame);
-      this.shownNumber = frame.number;
+      this.shownFrame = frame;
     }
     const ratio = this.canvas.width / Math.max(1, this.canvas.clientWidth);
     this.picture.draw(this.display.look.value, this.view.placement(ratio));
@@ -89,7 +90,7 @@ export class Stage {
     setText(byId('picture-size'), `${width} × ${height}`);
     const kind = frame?.kind === 'preview' ? 'preview' : frame?.isMoving ? 'moving' : '';
     setText(byId('picture-kind'), kind);
-    setText(byId('status-layer'), titleOf(this.display.layer.value));
+    setText(byId('status-layer'), titleOf(frame?.layer ?? this.display.layer.value));
     const at = this.probe.hovered.value ?? this.probe.pinned.value;
     const readout = byId('readout');
     readout.hidden = !at || !frame;

@@ -125,7 +125,7 @@ export class FakeServer {
       samples: this.passes * this.width * this.height, elapsed_s: this.elapsed,
       error: this.history.error.at(-1) ?? null, is_moving: Date.now() - this.movedAt < 400,
       integrator: this.integrator,
-      layers: ['', 'direct', 'caustic', 'indirect', 'emission', 'error', 'bias', 'albedo', 'N', 'depth'],
+      layers: this.layersThere ?? ['', 'direct', 'caustic', 'indirect', 'emission', 'error', 'bias', 'albedo', 'N', 'depth'],
       unit: 'W/(sr·m²)', camera: this.camera,
     };
   }

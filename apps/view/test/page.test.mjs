@@ -298,8 +298,28 @@ describe('page', { concurrency: false }, () => {
     for (const [layer, format] of [['error', 'rgb9e5'], ['bias', 'f32'], ['N', 'f32'], ['', 'rgb9e5']]) {
       await page.selectOption('#layer', layer);
       await until(() => asked.some((url) => url.includes(`layer=${layer}&`) && url.includes(`format=${format}`)), `layer ${layer}`);
-      assert.equal(await page.isVisible('#legend'), ['error', 'bias'].includes(layer), layer);
+      await page.waitForFunction((title) => document.getElementById('status-layer').textContent === title, { '': 'Picture', error: 'Error map', bias: 'Bias', N: 'Normals' }[layer]);
+      await until(async () => (await page.isVisible('#legend')) === ['error', 'bias'].includes(layer), `legend of layer ${layer}`);
     }
+  });
+
+  test('another layer of the same snapshot is drawn; while only the picture is there, it is asked for', { timeout: 3 * patience }, async () => {
+    const { server, page } = shared;
+    server.state = 'paused';
+    await page.waitForTimeout(600);
+    const middle = await placeOf(page, 30, 110, server);
+    const [floor] = await coloursAt(page, [middle]);
+    await page.selectOption('#layer', 'N');
+    await until(async () => (await coloursAt(page, [middle]))[0][1] > 240, 'a normal that looks up');
+    server.layersThere = [''];
+    server.publish();
+    await until(async () => (await coloursAt(page, [middle]))[0].every((v, c) => Math.abs(v - floor[c]) < 40), 'the picture');
+    assert.equal(await page.inputValue('#layer'), 'N', 'the choice stays');
+    server.layersThere = null;
+    server.publish();
+    await until(async () => (await coloursAt(page, [middle]))[0][1] > 240, 'the normal again');
+    await page.selectOption('#layer', '');
+    server.state = 'rendering';
   });
 
   test('comes back when the server was started again, and asks for a link if the token is new', { timeout: 3 * patience }, async (t) => {
