@@ -35,6 +35,7 @@ struct Subject {
   std::unique_ptr<PhotonMapSettings> settings;
   std::unique_ptr<PhotonMaps> maps;
   std::unique_ptr<ShadowSettings> no_shadows = std::make_unique<ShadowSettings>();
+  std::unique_ptr<IrradianceMap> precomputed;
   std::unique_ptr<PhotonLight> light;
   std::vector<CachePoint> probes;   ///< one at the centre of every pixel that sees a surface
   std::vector<size_t> pixels;       ///< of the probes
@@ -139,9 +140,11 @@ Subject make_subject(const std::string& name, const std::filesystem::path& direc
   subject.settings = std::make_unique<PhotonMapSettings>(arguments);
   subject.maps = std::make_unique<PhotonMaps>(
       LightPass(*subject.scene, subject.settings->light_pass, seed).trace(seed, 0));
+  subject.precomputed = std::make_unique<IrradianceMap>(
+      precomputed_irradiance(*subject.scene, *subject.settings, *subject.maps, GatherRadii{}));
   subject.light =
       std::make_unique<PhotonLight>(*subject.scene, *subject.settings, *subject.maps, GatherRadii{},
-                                    nullptr, *subject.no_shadows, Pass{});
+                                    *subject.precomputed, nullptr, *subject.no_shadows, Pass{});
   collect_probes(subject);
   provide_reference(subject, directory);
   return subject;
