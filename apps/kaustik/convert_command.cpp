@@ -14,6 +14,7 @@
 #include "kaustik/loader/mitsuba3_terms.h"
 #include "kaustik/loader/mitsuba_writer.h"
 #include "kaustik/loader/scene_format.h"
+#include "kaustik/scene/named_in.h"
 #include "kaustik/scene/picture_as_exr.h"
 #include "kaustik/scene/shape_as_ply.h"
 #include "option_values.h"
@@ -57,7 +58,14 @@ class NewFiles {
   std::vector<std::string> paths_;
 };
 
-std::vector<uint8_t> contents_of(const FileToWrite& file) {
+/// Of the name of the file, or of the object.
+Place source_place(const Object& object) {
+  for (const Property& property : object.properties)
+    if (property.name == "filename") return property.place;
+  return object.place;
+}
+
+std::vector<uint8_t> made_contents(const FileToWrite& file) {
   if (!file.is_mesh()) return picture_as_exr(*file.source, file.factor);
   ShapeAsPly mesh = shape_as_ply(*file.source);
   if (mesh.is_flat)
@@ -66,6 +74,17 @@ std::vector<uint8_t> contents_of(const FileToWrite& file) {
       shape->properties.push_back({"face_normals", true, shape->place});
     }
   return std::move(mesh.file);
+}
+
+std::vector<uint8_t> contents_of(const FileToWrite& file) {
+  try {
+    return made_contents(file);
+  } catch (const Error& error) {
+    std::vector<Problem> problems;
+    for (const Problem& problem : error.problems())
+      problems.push_back(named_in(problem, source_place(*file.source)));
+    throw Error(error.kind(), std::move(problems));
+  }
 }
 
 /// Another suffix promises another format.

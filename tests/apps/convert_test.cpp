@@ -118,7 +118,12 @@ TEST_F(Convert, LeavesNoPartsBehind) {
   const RunResult failed = run({"convert", "old.xml", "-o", "new.xml"});
   EXPECT_EQ(failed.exit_code, 2);
   EXPECT_TRUE(contains(failed.err, "broken.obj:2")) << failed.err;
+  EXPECT_TRUE(contains(failed.err, "(named in old.xml:1:")) << failed.err;
   EXPECT_EQ(files(), before);
+  // Of a file that is not there the scene's line is told.
+  std::filesystem::remove(path("broken.obj"));
+  const RunResult missing = run({"convert", "old.xml", "-o", "new.xml"});
+  EXPECT_TRUE(contains(missing.err, "old.xml:1:")) << missing.err;
 }
 
 /// All else that becomes a file, in one scene.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <functional>
 #include <thread>
 
 #include "kaustik/render/part_picture.h"
@@ -82,21 +83,24 @@ TEST(SessionTime, PartsCountAsTheShareOfTheirSamples) {
   EXPECT_TRUE(is_everywhere(session.film().image(), 1));
 }
 
-TEST(SessionTime, LightPassesThatWouldBeLateAreGivenUp) {
+/// A session of 0.3 s whose light passes take so many ms and whose samples take no time.
+SessionReport report_of_light_passes(const std::function<int(uint32_t index)>& milliseconds) {
   const auto scene = plain_scene();
   CountedClock clock;
   Script script;
-  script.prepare = [&](const Pass& pass, SplatBuffer&) {
-    clock.advance(pass.index == 2 ? 600 : 10);
-  };
+  script.prepare = [&](const Pass& pass, SplatBuffer&) { clock.advance(milliseconds(pass.index)); };
   const Scripted integrator(script);
   SessionSettings settings;
   settings.clock = clock.reader();
   settings.seconds = 0.3;
   settings.samples_per_pass = 1;
-  Session session(*scene, integrator, settings);
-  // The script can't be stopped, but what it has made is not used any more.
-  const SessionReport report = session.run();
+  return Session(*scene, integrator, settings).run();
+}
+
+// The script can't be stopped, but what it has made is not used any more.
+TEST(SessionTime, LightPassesThatWouldBeLateAreGivenUp) {
+  const SessionReport report =
+      report_of_light_passes([](uint32_t index) { return index == 2 ? 600 : 10; });
   EXPECT_EQ(report.passes, 2u);
   EXPECT_EQ(report.part, 0);
   EXPECT_EQ(report.end, SessionEnd::time);
@@ -104,17 +108,7 @@ TEST(SessionTime, LightPassesThatWouldBeLateAreGivenUp) {
 
 /// A third pass of 0.12 s would be late, so none begins: it is the time that ends the session.
 TEST(SessionTime, EndsEarlyWhereTheNextPassWouldBeLate) {
-  const auto scene = plain_scene();
-  CountedClock clock;
-  Script script;
-  script.prepare = [&](const Pass&, SplatBuffer&) { clock.advance(120); };
-  const Scripted integrator(script);
-  SessionSettings settings;
-  settings.clock = clock.reader();
-  settings.seconds = 0.3;
-  settings.samples_per_pass = 1;
-  Session session(*scene, integrator, settings);
-  const SessionReport report = session.run();
+  const SessionReport report = report_of_light_passes([](uint32_t) { return 120; });
   EXPECT_EQ(report.passes, 2u);
   EXPECT_LT(report.seconds, 0.3);
   EXPECT_EQ(report.end, SessionEnd::time);

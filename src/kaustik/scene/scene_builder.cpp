@@ -9,6 +9,7 @@
 #include "kaustik/base/limits.h"
 #include "kaustik/geometry/mesh_shape.h"
 #include "kaustik/scene/find_row.h"
+#include "kaustik/scene/named_in.h"
 #include "kaustik/scene/spectrum_types.h"
 #include "kaustik/scene/type_tables.h"
 #include "kaustik/scene/types_to_come.h"
@@ -75,13 +76,9 @@ void SceneBuilder::collecting(const Place& place, const std::function<void()>& b
     body();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input) throw;
-    for (const Problem& problem : error.problems()) {
-      const bool in_other_file =
-          problem.place.file && place.file && *problem.place.file != *place.file;
-      problems_.add(in_other_file ? fmt::format("{} (named in {}:{}:{})", problem.message,
-                                                *place.file, place.line, place.column)
-                                  : problem.message,
-                    problem.remedy, problem.place.file ? problem.place : place);
+    for (const Problem& given : error.problems()) {
+      const Problem problem = named_in(given, place);
+      problems_.add(problem.message, problem.remedy, problem.place);
     }
   }
 }
