@@ -104,8 +104,9 @@ TEST(LibrarySession, OneThreadIsOne) {
   // In a program of its own: others leave workers behind.
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(count_threads(1), testing::ExitedWithCode(1), "");
-  if (std::thread::hardware_concurrency() > 1)
+  if (std::thread::hardware_concurrency() > 1) {
     EXPECT_EXIT(count_threads(2), testing::ExitedWithCode(2), "");
+  }
 #endif
 }
 
