@@ -60,7 +60,7 @@ plant src/kaustik/render/film.h '#include <ImfHeader.h>' "must not include OpenE
 plant src/kaustik/render/film.cpp '#include <OpenEXR/ImfHeader.h>' "must not include OpenEXR"
 plant src/kaustik/base/file.cpp '#include <jpeglib.h>' "must not include libjpeg"
 plant src/kaustik/irradiance/hemisphere.h '#include <hwy/highway.h>' "must not include Highway"
-plant src/kaustik/base/vec.h '#include <boost/any.hpp>' "belongs to no library"
+plant src/kaustik/base/vec.h '#include <cairo/cairo.h>' "belongs to no library"
 plant src/kaustik/transport/vertex.h 'struct RTCSceneTy; RTCScene* scene;' "names of Embree"
 plant src/kaustik/scene/scene.h 'namespace pugi { class node; } pugi::node* n;' "names of pugixml"
 plant CMakeLists.txt 'kaustik_room(light kaustik_base kaustik_material)' "must not link 'material'"

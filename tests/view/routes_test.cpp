@@ -366,14 +366,18 @@ TEST(ViewRoutes, PausesAndStops) {
   view::ViewSettings settings = shown_settings();
   settings.engine.session.passes = 1'000'000;
   ShownScene shown(settings);
-  const auto becomes = [&](const std::string& state) {
+  const auto within_seconds = [](const auto& holds) {
     for (int i = 0; i < 600; ++i) {
-      if (shown.get("/state")["state"] == state) return true;
+      if (holds()) return true;
       std::this_thread::sleep_for(10ms);
     }
     return false;
   };
+  const auto becomes = [&](const std::string& state) {
+    return within_seconds([&] { return shown.get("/state")["state"] == state; });
+  };
   EXPECT_TRUE(becomes("rendering"));
+  EXPECT_TRUE(within_seconds([&] { return shown.ask("GET", "/pixel?x=1&y=1").status == 200; }));
   EXPECT_EQ(shown.command({{"do", "pause"}}).status, 200);
   EXPECT_TRUE(becomes("paused"));
   EXPECT_EQ(shown.command({{"do", "resume"}}).status, 200);
