@@ -206,7 +206,6 @@ void Connection::watch_for_end() {
       [self = shared_from_this(), request = requests_](beast::error_code error) {
         if (error || (self->requests_ != request)) return;
         if (self->is_answered_ && !self->is_stream_) return;
-        beast::error_code ignored;
         char byte = 0;
         const int handle = self->stream_.socket().native_handle();
         if (::recv(handle, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0) self->close();
