@@ -11,7 +11,8 @@ using namespace test;
 
 struct Material {
   std::string name, bsdf;
-  double samples = 4;  ///< for one percent of noise in each channel
+  double samples = 4;        ///< for half a percent of noise in each channel
+  double quick_samples = 1;  ///< for one percent
   /// Of photonmap: where it gathers, f is what it is on the mean over even light.
   double photonmap_tolerance = 0.03;
 };
@@ -27,10 +28,11 @@ std::string rgb(const std::string& name, const std::string& value) {
 const std::vector<Material>& materials() {
   static const std::vector<Material> all = {
       {"rough_matt",
-       bsdf("roughdiffuse", rgb("reflectance", "0.8, 0.7, 0.5") + set("roughness", 0.9)), 4, 0.05},
-      {"ground_glass", bsdf("roughdielectric", set("alpha", 0.3)), 40},
+       bsdf("roughdiffuse", rgb("reflectance", "0.8, 0.7, 0.5") + set("roughness", 0.9)), 4, 1,
+       0.05},
+      {"ground_glass", bsdf("roughdielectric", set("alpha", 0.3)), 40, 4},
       {"pane", bsdf("thindielectric", rgb("specular_transmittance", "0.7, 0.8, 0.9"))},
-      {"plastic", bsdf("plastic", rgb("diffuse_reflectance", "0.6, 0.7, 0.2")), 16},
+      {"plastic", bsdf("plastic", rgb("diffuse_reflectance", "0.6, 0.7, 0.2")), 16, 16},
       {"rough_plastic",
        bsdf("roughplastic", rgb("diffuse_reflectance", "0.6, 0.7, 0.2") + set("alpha", 0.3))},
       {"principled_metal", bsdf("principled", rgb("base_color", "0.9, 0.7, 0.3") +
@@ -40,11 +42,11 @@ const std::vector<Material>& materials() {
       {"principled_glass",
        bsdf("principled",
             rgb("base_color", "0.8, 0.9, 0.7") + set("spec_trans", 0.7) + set("roughness", 0.5)),
-       16},
+       16, 4},
       {"leaf",
        bsdf("principledthin",
             rgb("base_color", "0.4, 0.8, 0.3") + set("diff_trans", 1.0) + set("spec_trans", 0.3)),
-       16},
+       16, 4},
       {"ward", bsdf("ward", rgb("diffuse_reflectance", "0.4, 0.2, 0.3") +
                                 rgb("specular_reflectance", "0.3, 0.5, 0.4") + set("alpha_u", 0.2) +
                                 set("alpha_v", 0.5))},
@@ -121,7 +123,7 @@ TEST_P(Materials, BdptAgreesWithPathLong) { expect_bdpt_agrees(0.01, GetParam().
 /// Those with most lobes.
 class MixedMaterials : public Materials {};
 
-TEST_P(MixedMaterials, BdptAgreesWithPath) { expect_bdpt_agrees(0.02, GetParam().samples / 4); }
+TEST_P(MixedMaterials, BdptAgreesWithPath) { expect_bdpt_agrees(0.02, GetParam().quick_samples); }
 
 // What merges has a bias of its own.
 TEST_P(Materials, AllAgreeWithPathLong) {
