@@ -13,7 +13,7 @@ bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--
 comma = ,
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python install package docs format clean
+.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel install package docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -106,6 +106,15 @@ python: setup
 	KAUSTIK_PROGRAM=$(program) .venv/bin/python -m pytest -q -p no:cacheprovider python/tests
 	@mkdir -p out
 	.venv/bin/python python/examples/first_caustic.py out/first_caustic.png
+
+# A wheel in out/ with the libraries inside, for other distributions; tried here, and by scripts/try_wheel.sh where
+# there is nothing but Python.
+wheel: setup
+	@scripts/install_packages.sh python wheel
+	@rm -rf out/wheel && mkdir -p out/wheel
+	$(PYTHON) python/portable_wheel.py out/wheel
+	$(PYTHON) -m zipfile -e out/wheel/kaustik-*.whl out/wheel/tried
+	PYTHONPATH=out/wheel/tried PYTHONDONTWRITEBYTECODE=1 $(PYTHON) python/tests/wheel_trial.py
 
 install: configure
 	@cmake --build --preset release --target kaustik

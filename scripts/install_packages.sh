@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of the named groups: build, check, coverage, package, bench, python. Asks nothing, and
-# needs no network when everything is there already.
+# Installs the Debian packages of the named groups: build, check, coverage, package, bench, python, wheel. Asks nothing,
+# and needs no network when everything is there already.
 set -euo pipefail
 
 build=(cmake ninja-build pkg-config python3 libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
@@ -11,6 +11,7 @@ coverage=(llvm-14)
 package=(dpkg-dev file)
 bench=(blender povray)
 python=(python3 python3-dev python3-venv python3-pytest python3-numpy pybind11-dev)
+wheel=(patchelf mmdebstrap)
 
 wanted=()
 for group in "$@"; do
@@ -21,7 +22,8 @@ for group in "$@"; do
     package) wanted+=("${package[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     python) wanted+=("${python[@]}") ;;
-    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench and python" >&2; exit 2 ;;
+    wheel) wanted+=("${wheel[@]}") ;;
+    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench, python and wheel" >&2; exit 2 ;;
   esac
 done
 
