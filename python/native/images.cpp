@@ -79,8 +79,8 @@ WriteOptions write_options(const std::string& tone, const ToneSettings& settings
   return options;
 }
 
-void write(const Image& image, const std::string& path, const std::string& tone,
-           const ToneSettings& settings, const std::string& layer, bool half, int quality) {
+void write_picture(const Image& image, const std::string& path, const std::string& tone,
+                   const ToneSettings& settings, const std::string& layer, bool half, int quality) {
   const WriteOptions options = write_options(tone, settings, layer, half, quality);
   const py::gil_scoped_release released;
   check_writable(path);
@@ -99,8 +99,8 @@ py::bytes encode(const Image& image, const std::string& name, const std::string&
 }
 
 /// [row][column][r, g, b] in sRGB.
-Buffer shown(const Image& image, const std::string& tone, const ToneSettings& settings,
-             const std::string& layer) {
+Buffer tone_mapped(const Image& image, const std::string& tone, const ToneSettings& settings,
+                   const std::string& layer) {
   const auto tone_operator = make_tone_operator(tone, settings);
   const py::gil_scoped_release released;
   const Image displayed = tone_map(image, *tone_operator, layer);
@@ -114,7 +114,7 @@ Image denoised(const Image& image) {
   return denoise(image);
 }
 
-Image read(const std::string& path) {
+Image read_picture(const std::string& path) {
   const py::gil_scoped_release released;
   return read_image(path);
 }
@@ -129,9 +129,9 @@ void bind_images(py::module_& module) {
       .def_property_readonly("metadata", &metadata)
       .def("channel", &channel)
       .def("rgb", &rgb)
-      .def("write", &write)
+      .def("write", &write_picture)
       .def("encode", &encode)
-      .def("shown", &shown)
+      .def("shown", &tone_mapped)
       .def("denoised", &denoised)
       .def(py::pickle(
           [](const Image& i) {
@@ -144,7 +144,7 @@ void bind_images(py::module_& module) {
                               s[2].cast<std::vector<std::string>>(), s[3].cast<py::bytes>(),
                               s[4].cast<py::dict>(), s[5].cast<std::array<int, 4>>());
           }));
-  module.def("read_image", &read);
+  module.def("read_image", &read_picture);
   module.def("check_writable", &check_writable);
 }
 
