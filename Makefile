@@ -120,10 +120,13 @@ install: configure
 	@cmake --build --preset release --target kaustik
 	cmake --install $(BUILD) --prefix $(PREFIX) --component program
 
+# Debian packages in build/release: kaustik, libkaustik0, libkaustik-dev, python3-kaustik.
 package: configure
-	@scripts/install_packages.sh package
-	@cmake --build --preset release --target kaustik libkaustik
+	@scripts/install_packages.sh package python
+	@cmake --preset release -D KAUSTIK_PYTHON=ON
+	@cmake --build --preset release --target kaustik libkaustik kaustik_package
 	cd $(BUILD) && cpack
+	scripts/try_python_package.sh $(BUILD)/python3-kaustik_*.deb
 
 # docs/parameters.md, from the tables in the program.
 docs: configure
