@@ -5,6 +5,7 @@
 #include "bind.h"
 #include "kaustik/image/denoise.h"
 #include "kaustik/image/image_io.h"
+#include "kaustik/image/metrics.h"
 #include "kaustik/image/tone_mapping.h"
 
 namespace kaustik::python {
@@ -114,6 +115,40 @@ Image denoised(const Image& image) {
   return denoise(image);
 }
 
+py::dict compared(const Image& given, const Image& wanted, const std::string& layer) {
+  ImageComparison found;
+  py::object noise = py::none();
+  {
+    const py::gil_scoped_release released;
+    const auto [image, reference] = same_pixels(given, wanted);
+    found = compare_images(image, reference, layer);
+    if (layer.empty() && reference.find_channel("error.R") >= 0) {
+      const double own = own_relative_mse(reference);
+      const py::gil_scoped_acquire acquired;
+      noise = py::float_(own);
+    }
+  }
+  py::dict facts;
+  facts["mse"] = found.mse;
+  facts["relative_mse"] = found.relative_mse;
+  facts["relative_mse_trimmed"] = found.relative_mse_trimmed;
+  facts["mean_ratio"] = py::make_tuple(found.mean_ratio.x, found.mean_ratio.y, found.mean_ratio.z);
+  facts["reference_noise"] = noise;
+  facts["pixel_count"] = found.pixel_count;
+  facts["non_finite_pixels"] = found.non_finite_pixels;
+  return facts;
+}
+
+/// [row][column][r, g, b] in sRGB.
+Buffer difference(const Image& given, const Image& wanted, float scale, const std::string& layer) {
+  const py::gil_scoped_release released;
+  const auto [image, reference] = same_pixels(given, wanted);
+  const Image colours = difference_image(image, reference, scale, layer);
+  std::vector<uint8_t> bytes = srgb_bytes(colours);
+  return {
+      Array::of<uint8_t>({size_t(colours.height()), size_t(colours.width()), 3}, std::move(bytes))};
+}
+
 Image read_picture(const std::string& path) {
   const py::gil_scoped_release released;
   return read_image(path);
@@ -144,6 +179,8 @@ void bind_images(py::module_& module) {
                               s[2].cast<std::vector<std::string>>(), s[3].cast<py::bytes>(),
                               s[4].cast<py::dict>(), s[5].cast<std::array<int, 4>>());
           }));
+  module.def("compared", &compared);
+  module.def("difference", &difference);
   module.def("read_image", &read_picture);
   module.def("check_writable", &check_writable);
 }
