@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of the named groups: build, check, coverage, package, bench, python, wheel. Asks nothing,
-# and needs no network when everything is there already.
+# Installs the Debian packages of the named groups: build, check, coverage, package, bench, python, wheel, notebooks.
+# Asks nothing, and needs no network when everything is there already.
 set -euo pipefail
 
 build=(cmake ninja-build pkg-config python3 libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
@@ -12,6 +12,7 @@ package=(dpkg-dev file)
 bench=(blender povray)
 python=(python3 python3-dev python3-venv python3-pytest python3-numpy pybind11-dev)
 wheel=(patchelf mmdebstrap)
+notebooks=(python3-nbclient python3-nbformat python3-ipykernel python3-matplotlib)
 
 wanted=()
 for group in "$@"; do
@@ -23,7 +24,8 @@ for group in "$@"; do
     bench) wanted+=("${bench[@]}") ;;
     python) wanted+=("${python[@]}") ;;
     wheel) wanted+=("${wheel[@]}") ;;
-    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench, python and wheel" >&2; exit 2 ;;
+    notebooks) wanted+=("${notebooks[@]}") ;;
+    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench, python, wheel and notebooks" >&2; exit 2 ;;
   esac
 done
 
