@@ -33,6 +33,11 @@ licences = {
     "libpng16-16": "libpng-2.0", "zlib1g": "Zlib", "libdeflate0": "MIT", "libfmt9": "MIT", "libpugixml1v5": "MIT",
     "liblzma5": "LicenseRef-PublicDomain",
 }
+#: Of libraries that are compiled in: a header of each tells the package.
+compiled_in = {"/usr/include/boost/version.hpp": "BSL-1.0", "/usr/include/nlohmann/json.hpp": "MIT",
+               "/usr/include/pybind11/pybind11.h": "BSD-3-Clause"}
+#: Bytes that a wheel may have.
+largest = 25_000_000
 #: Versions that a wheel may ask for: glibc 2.34 and GCC 11, as of 2021.
 bounds = {"GLIBC": (2, 34), "GLIBCXX": (3, 4, 29), "CXXABI": (1, 3, 13)}
 
@@ -130,10 +135,12 @@ def carried_libraries(module: pathlib.Path, no_jbig: pathlib.Path, folder: pathl
 
 def licence_texts(carried: Carried) -> dict:
     """The files of the wheel that tell the licences."""
-    packages = sorted(set(carried.packages.values()) - {""})
-    table = "".join(f"{package}: {licence_of(package)}\n" for package in packages)
-    head = "The libraries in this folder are Debian's, by package, under these licences; their texts are beside this.\n" \
-           "libjbig is a part of Kaustik that stands in for the library of that name.\n\n"
+    listed = {package: licence_of(package) for package in set(carried.packages.values()) - {""}}
+    listed.update({package_of(pathlib.Path(header)): licence for header, licence in compiled_in.items()})
+    packages = sorted(listed)
+    table = "".join(f"{package}: {listed[package]}\n" for package in packages)
+    head = "The libraries in this folder and what is compiled in are Debian's, by package, under these licences; their\n" \
+           "texts are beside this. libjbig is a part of Kaustik that stands in for the library of that name.\n\n"
     texts = {"kaustik.libs/LICENSES/README": (head + table).encode()}
     for package in packages:
         texts[f"kaustik.libs/LICENSES/{package}"] = pathlib.Path(f"/usr/share/doc/{package}/copyright").read_bytes()
@@ -183,6 +190,8 @@ def main() -> None:
     if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
         raise SystemExit(__doc__)
     wheel = make(sys.argv[1])
+    if wheel.stat().st_size > largest:
+        raise SystemExit(f"{wheel} has {wheel.stat().st_size} bytes, more than {largest}")
     print(f"{wheel}: {wheel.stat().st_size / 1e6:.1f} MB")
 
 

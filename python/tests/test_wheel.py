@@ -68,6 +68,8 @@ def test_licences(maker, libraries):
         else:
             assert "GPL" not in maker.licence_of(package)
             assert pathlib.Path(f"/usr/share/doc/{package}/copyright").exists()
+    for header in maker.compiled_in:
+        assert pathlib.Path(f"/usr/share/doc/{maker.package_of(pathlib.Path(header))}/copyright").exists()
     assert "libembree3.so.3" in libraries or "libembree4.so.4" in libraries
     assert not any(name in libraries for name in ("libc.so.6", "libstdc++.so.6"))
     with pytest.raises(SystemExit, match="no package"):
