@@ -13,7 +13,7 @@ bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--
 comma = ,
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python install package docs format clean
+.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel notebooks install package docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -107,14 +107,34 @@ python: setup
 	@mkdir -p out
 	.venv/bin/python python/examples/first_caustic.py out/first_caustic.png
 
+# A wheel in out/ with the libraries inside, for other distributions; tried here, and by scripts/try_wheel.sh where
+# there is nothing but Python.
+wheel: setup
+	@scripts/install_packages.sh python wheel
+	@rm -rf out/wheel && mkdir -p out/wheel
+	$(PYTHON) python/portable_wheel.py out/wheel
+	$(PYTHON) -m zipfile -e out/wheel/kaustik-*.whl out/wheel/tried
+	PYTHONPATH=out/wheel/tried PYTHONDONTWRITEBYTECODE=1 $(PYTHON) python/tests/wheel_trial.py
+
+# Runs docs/notebooks and writes them with what they show; NOTEBOOKS="docs/notebooks/first_caustic.ipynb" only one.
+NOTEBOOKS ?= $(wildcard docs/notebooks/*.ipynb)
+notebooks: configure
+	@scripts/install_packages.sh python notebooks
+	@cmake --preset release -D KAUSTIK_PYTHON=ON
+	@cmake --build --preset release --target kaustik_package
+	PYTHONPATH=$(CURDIR)/$(BUILD)/python $(PYTHON) scripts/make_notebooks.py $(NOTEBOOKS)
+
 install: configure
 	@cmake --build --preset release --target kaustik
 	cmake --install $(BUILD) --prefix $(PREFIX) --component program
 
+# Debian packages in build/release: kaustik, libkaustik0, libkaustik-dev, python3-kaustik.
 package: configure
-	@scripts/install_packages.sh package
-	@cmake --build --preset release --target kaustik libkaustik
+	@scripts/install_packages.sh package python
+	@cmake --preset release -D KAUSTIK_PYTHON=ON
+	@cmake --build --preset release --target kaustik libkaustik kaustik_package
 	cd $(BUILD) && cpack
+	scripts/try_python_package.sh $(BUILD)/python3-kaustik_*.deb
 
 # docs/parameters.md, from the tables in the program.
 docs: configure

@@ -1,5 +1,5 @@
 # `make install` and Debian packages by CPack. Component `program` is what users need; `library` is what
-# other programs run with, `development` what they are built with.
+# other programs run with, `development` what they are built with; `python` is `import kaustik` for Debian's Python.
 install(TARGETS kaustik RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 # Man pages and completions, where shells of most distributions look, and for zsh those of Debian.
 set(made ${PROJECT_BINARY_DIR}/apps/kaustik/made)
@@ -13,10 +13,19 @@ install(FILES ${made}/kaustik.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/ven
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kaustik COMPONENT program
         PATTERN generator EXCLUDE)
 install(FILES README.md LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+if(KAUSTIK_PYTHON)
+  set(dist_packages lib/python3/dist-packages/kaustik)
+  install(TARGETS kaustik_python LIBRARY DESTINATION ${dist_packages} COMPONENT python)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/python/kaustik/ DESTINATION ${dist_packages} COMPONENT python
+          FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
+endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME kaustik)
 set(CPACK_PACKAGE_CONTACT "The Kaustik authors")
 set(CPACK_COMPONENTS_ALL program library development)
+if(KAUSTIK_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kaustik)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
@@ -30,6 +39,16 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Photon mapping renderer, headers of the library")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "${CPACK_DEBIAN_LIBRARY_PACKAGE_NAME} (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-kaustik)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Photon mapping renderer, package for Python")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+# The compiled part is for one version of Python; KAUSTIK_PYTHON_VERSION is that, such as 3.11.
+if(KAUSTIK_PYTHON)
+  string(REGEX REPLACE "^3\\.([0-9]+)$" "\\1" minor "${KAUSTIK_PYTHON_VERSION}")
+  math(EXPR next "${minor} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${minor}), python3 (<< 3.${next})")
+endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)

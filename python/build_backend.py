@@ -64,29 +64,29 @@ def _files(package: pathlib.Path) -> dict:
     return files
 
 
-def _write_wheel(folder: str, files: dict) -> str:
+def _write_wheel(folder: str, files: dict, tag: str) -> str:
     info = f"kaustik-{_version()}.dist-info"
     files = {**files, f"{info}/METADATA": _metadata().encode(),
-             f"{info}/WHEEL": f"Wheel-Version: 1.0\nGenerator: kaustik\nRoot-Is-Purelib: false\nTag: {_tag()}\n".encode(),
+             f"{info}/WHEEL": f"Wheel-Version: 1.0\nGenerator: kaustik\nRoot-Is-Purelib: false\nTag: {tag}\n".encode(),
              f"{info}/LICENSE": (root / "LICENSE").read_bytes()}
     record = []
     for name, content in files.items():
         digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
         record.append(f"{name},sha256={digest},{len(content)}")
     files[f"{info}/RECORD"] = "\n".join([*record, f"{info}/RECORD,,", ""]).encode()
-    wheel = f"kaustik-{_version()}-{_tag()}.whl"
+    wheel = f"kaustik-{_version()}-{tag}.whl"
     with zipfile.ZipFile(os.path.join(folder, wheel), "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():
             # Alike whenever it is made.
             entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
-            entry.external_attr = (0o755 if name.endswith(".so") else 0o644) << 16
+            entry.external_attr = (0o755 if ".so" in name else 0o644) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(entry, content)
     return wheel
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    return _write_wheel(wheel_directory, _files(_build()))
+    return _write_wheel(wheel_directory, _files(_build()), _tag())
 
 
 def build_sdist(sdist_directory, config_settings=None):

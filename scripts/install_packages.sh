@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of the named groups: build, check, coverage, package, bench, python. Asks nothing, and
-# needs no network when everything is there already.
+# Installs the Debian packages of the named groups: build, check, coverage, package, bench, python, wheel, notebooks.
+# Asks nothing, and needs no network when everything is there already.
 set -euo pipefail
 
 build=(cmake ninja-build pkg-config python3 libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
@@ -11,6 +11,8 @@ coverage=(llvm-14)
 package=(dpkg-dev file)
 bench=(blender povray)
 python=(python3 python3-dev python3-venv python3-pytest python3-numpy pybind11-dev)
+wheel=(patchelf mmdebstrap)
+notebooks=(python3-nbclient python3-nbformat python3-ipykernel python3-matplotlib)
 
 wanted=()
 for group in "$@"; do
@@ -21,7 +23,9 @@ for group in "$@"; do
     package) wanted+=("${package[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     python) wanted+=("${python[@]}") ;;
-    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench and python" >&2; exit 2 ;;
+    wheel) wanted+=("${wheel[@]}") ;;
+    notebooks) wanted+=("${notebooks[@]}") ;;
+    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench, python, wheel and notebooks" >&2; exit 2 ;;
   esac
 done
 

@@ -9,6 +9,7 @@ from typing import Any, Dict, Iterator, List, Optional, Tuple, Union
 from . import _native, _threads
 from ._dict import objects_of_integrator, objects_of_scene
 from ._errors import Error, Problem, raise_all
+from ._to_dict import dict_of
 from ._types import Type, types
 from ._values import native_value, python_value
 
@@ -180,6 +181,11 @@ class Scene:
         """The scene as XML of Mitsuba 3, for a file in `folder`, which names of files are relative to.
         Raises Error for what XML cannot hold: arrays."""
         return str(self._native.to_xml(os.fspath(folder)))
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The scene as a dict for `load_dict`, with all that it holds; arrays and transforms are not copied.
+        ``load_dict(scene.to_dict(), strict=False)`` renders the same."""
+        return dict_of(self._native.objects)
 
     def __reduce__(self):
         native = self._native

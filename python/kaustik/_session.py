@@ -13,6 +13,7 @@ from ._picture import Film, Picture
 from ._progress import Progress, ProgressWish, listener
 from ._scene import Scene, load_file
 from ._values import is_number
+from ._view import View
 
 #: Between two looks at signals and progress, s.
 _slice = 0.05
@@ -158,11 +159,11 @@ class Session:
         try:
             while not self._job.wait(max(0.0, min(_slice, until - clock.monotonic()))):
                 if shown:
-                    shown.tell(self._job.progress())
+                    shown.tell(self._job.progress(), self._job.snapshot)
                 if clock.monotonic() >= until:
                     return False
             if shown:
-                shown.tell(self._job.progress())
+                shown.tell(self._job.progress(), None)
         except BaseException:
             self.stop()
             raise
@@ -276,6 +277,11 @@ class Session:
         session._film = film
         session._picture = film.picture()
         return session
+
+    def view(self, **settings: Any) -> "View":
+        """`kaustik.view` of its scene as it is now. The view renders by itself: pause this session meanwhile."""
+        settings.setdefault("integrator", self._goals.integrator)
+        return View(self._scene, **settings)
 
     def __enter__(self) -> "Session":
         return self

@@ -27,6 +27,8 @@ void bind_scenes(py::module_& module);
 void bind_images(py::module_& module);
 void bind_films(py::module_& module);
 void bind_jobs(py::module_& module);
+void bind_photons(py::module_& module);
+void bind_views(py::module_& module);
 
 /// Numbers for Python, which it sees by the buffer protocol; Python's `Buffer`.
 struct Buffer {

@@ -30,18 +30,18 @@ KeptFilm checked(Checkpoint checkpoint, const std::string& name) {
   return {std::make_shared<const Checkpoint>(std::move(checkpoint))};
 }
 
-KeptFilm from_bytes(const py::bytes& bytes) {
+KeptFilm parsed_film(const py::bytes& bytes) {
   const std::string_view view = bytes;
   const py::gil_scoped_release released;
   return checked(parse_checkpoint({view.begin(), view.end()}, from_memory), from_memory);
 }
 
-KeptFilm read(const std::string& path) {
+KeptFilm read_film(const std::string& path) {
   const py::gil_scoped_release released;
   return checked(read_checkpoint(path), path);
 }
 
-void write(const KeptFilm& film, const std::string& path) {
+void write_film(const KeptFilm& film, const std::string& path) {
   const py::gil_scoped_release released;
   write_checkpoint(path, film.checkpoint->record, film.checkpoint->film, film.checkpoint->lessons);
 }
@@ -119,8 +119,8 @@ std::vector<uint8_t> KeptFilm::sums() const {
 void bind_films(py::module_& module) {
   const auto film_of = [](const KeptFilm& f) -> const Film& { return f.checkpoint->film; };
   py::class_<KeptFilm>(module, "Film")
-      .def_static("read", &read)
-      .def("write", &write)
+      .def_static("read", &read_film)
+      .def("write", &write_film)
       .def("image", &image)
       .def("__add__", &sum)
       .def("equals", &equal)
@@ -182,7 +182,7 @@ void bind_films(py::module_& module) {
            })
       .def("intervals", &intervals)
       .def(py::pickle([](const KeptFilm& f) { return py::make_tuple(bytes_of(f)); },
-                      [](const py::tuple& s) { return from_bytes(s[0].cast<py::bytes>()); }));
+                      [](const py::tuple& s) { return parsed_film(s[0].cast<py::bytes>()); }));
   module.def("half_width", [](double standard_error, double bias, double freedom,
                               double confidence) {
     const double deviation = freedom > 0 ? standard_error : std::numeric_limits<double>::infinity();

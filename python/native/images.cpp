@@ -5,6 +5,7 @@
 #include "bind.h"
 #include "kaustik/image/denoise.h"
 #include "kaustik/image/image_io.h"
+#include "kaustik/image/metrics.h"
 #include "kaustik/image/tone_mapping.h"
 
 namespace kaustik::python {
@@ -79,8 +80,8 @@ WriteOptions write_options(const std::string& tone, const ToneSettings& settings
   return options;
 }
 
-void write(const Image& image, const std::string& path, const std::string& tone,
-           const ToneSettings& settings, const std::string& layer, bool half, int quality) {
+void write_picture(const Image& image, const std::string& path, const std::string& tone,
+                   const ToneSettings& settings, const std::string& layer, bool half, int quality) {
   const WriteOptions options = write_options(tone, settings, layer, half, quality);
   const py::gil_scoped_release released;
   check_writable(path);
@@ -99,8 +100,8 @@ py::bytes encode(const Image& image, const std::string& name, const std::string&
 }
 
 /// [row][column][r, g, b] in sRGB.
-Buffer shown(const Image& image, const std::string& tone, const ToneSettings& settings,
-             const std::string& layer) {
+Buffer tone_mapped(const Image& image, const std::string& tone, const ToneSettings& settings,
+                   const std::string& layer) {
   const auto tone_operator = make_tone_operator(tone, settings);
   const py::gil_scoped_release released;
   const Image displayed = tone_map(image, *tone_operator, layer);
@@ -114,7 +115,41 @@ Image denoised(const Image& image) {
   return denoise(image);
 }
 
-Image read(const std::string& path) {
+py::dict compared(const Image& given, const Image& wanted, const std::string& layer) {
+  ImageComparison found;
+  py::object noise = py::none();
+  {
+    const py::gil_scoped_release released;
+    const auto [image, reference] = same_pixels(given, wanted);
+    found = compare_images(image, reference, layer);
+    if (layer.empty() && reference.find_channel("error.R") >= 0) {
+      const double own = own_relative_mse(reference);
+      const py::gil_scoped_acquire acquired;
+      noise = py::float_(own);
+    }
+  }
+  py::dict facts;
+  facts["mse"] = found.mse;
+  facts["relative_mse"] = found.relative_mse;
+  facts["relative_mse_trimmed"] = found.relative_mse_trimmed;
+  facts["mean_ratio"] = py::make_tuple(found.mean_ratio.x, found.mean_ratio.y, found.mean_ratio.z);
+  facts["reference_noise"] = noise;
+  facts["pixel_count"] = found.pixel_count;
+  facts["non_finite_pixels"] = found.non_finite_pixels;
+  return facts;
+}
+
+/// [row][column][r, g, b] in sRGB.
+Buffer difference(const Image& given, const Image& wanted, float scale, const std::string& layer) {
+  const py::gil_scoped_release released;
+  const auto [image, reference] = same_pixels(given, wanted);
+  const Image colours = difference_image(image, reference, scale, layer);
+  std::vector<uint8_t> bytes = srgb_bytes(colours);
+  return {
+      Array::of<uint8_t>({size_t(colours.height()), size_t(colours.width()), 3}, std::move(bytes))};
+}
+
+Image read_picture(const std::string& path) {
   const py::gil_scoped_release released;
   return read_image(path);
 }
@@ -129,9 +164,9 @@ void bind_images(py::module_& module) {
       .def_property_readonly("metadata", &metadata)
       .def("channel", &channel)
       .def("rgb", &rgb)
-      .def("write", &write)
+      .def("write", &write_picture)
       .def("encode", &encode)
-      .def("shown", &shown)
+      .def("shown", &tone_mapped)
       .def("denoised", &denoised)
       .def(py::pickle(
           [](const Image& i) {
@@ -144,7 +179,9 @@ void bind_images(py::module_& module) {
                               s[2].cast<std::vector<std::string>>(), s[3].cast<py::bytes>(),
                               s[4].cast<py::dict>(), s[5].cast<std::array<int, 4>>());
           }));
-  module.def("read_image", &read);
+  module.def("compared", &compared);
+  module.def("difference", &difference);
+  module.def("read_image", &read_picture);
   module.def("check_writable", &check_writable);
 }
 

@@ -200,10 +200,10 @@ class PythonJob {
 
 Wishes wishes_from(const py::dict& given) {
   Wishes wishes;
-  for (const auto& [key, value] : given) {
-    const auto name = key.cast<std::string>();
+  for (const auto& pair : given) {
+    const auto name = pair.first.cast<std::string>();
     const auto read = [&](auto& member) {
-      member = value.cast<std::remove_reference_t<decltype(member)>>();
+      member = pair.second.cast<std::remove_reference_t<decltype(member)>>();
     };
     if (name == "integrator")
       read(wishes.integrator);

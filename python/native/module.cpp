@@ -16,4 +16,6 @@ PYBIND11_MODULE(_native, module) {
   bind_images(module);
   bind_films(module);
   bind_jobs(module);
+  bind_photons(module);
+  bind_views(module);
 }

@@ -1,7 +1,10 @@
 """The code of docs/python.md runs as it stands, on small pictures; numbers are not compared."""
 
+import json
 import pathlib
 import re
+
+import pytest
 
 import kaustik
 from kaustik import _session
@@ -51,3 +54,23 @@ def test_links():
     text = page.read_text(encoding="utf-8")
     for target in re.findall(r"\]\(([^)#]+)\)", text):
         assert (page.parent / target).exists(), target
+
+
+notebooks = sorted((page.parent / "notebooks").glob("*.ipynb"))
+
+
+@pytest.mark.parametrize("path", notebooks, ids=lambda path: path.stem)
+def test_notebooks_were_run(path):
+    """`make notebooks` runs them; here it is checked that somebody did, and that nothing failed."""
+    cells = [cell for cell in json.loads(path.read_text(encoding="utf-8"))["cells"] if cell["cell_type"] == "code"]
+    assert [cell["execution_count"] for cell in cells] == list(range(1, len(cells) + 1))
+    for cell in cells:
+        compile("".join(cell["source"]), path.name, "exec")
+        assert not any(output["output_type"] == "error" for output in cell["outputs"])
+    assert sum("cover" in cell["metadata"].get("tags", []) for cell in cells) == 1
+    assert path.with_suffix(".png").read_bytes().startswith(b"\x89PNG")
+    assert f"notebooks/{path.name}" in page.read_text(encoding="utf-8")
+
+
+def test_there_are_notebooks():
+    assert len(notebooks) >= 4

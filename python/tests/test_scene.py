@@ -1,5 +1,6 @@
 """Scenes: from files, text and dicts; their parameters, edits and errors."""
 
+import pathlib
 import pickle
 
 import pytest
@@ -188,3 +189,38 @@ def test_scenes_are_not_made_by_hand():
     for kind in (kaustik.Scene, kaustik.Film, kaustik.Picture):
         with pytest.raises(TypeError):
             kind()
+
+
+shipped = pathlib.Path(__file__).parent.parent.parent / "scenes"
+
+
+@pytest.mark.parametrize("name", ["metal_ring", "cornell_spheres", "cornell_box"])
+def test_to_dict_gives_the_same_scene(name):
+    scene = kaustik.load_file(shipped / name / f"{name}.xml")
+    small = {key: 16 for key in scene.parameters if key.endswith((".film.width", ".film.height", "film.width",
+                                                                  "film.height"))}
+    again = kaustik.load_dict(scene.to_dict(), strict=False).edit(small)
+    scene = scene.edit(small)
+    assert again.to_xml() == scene.to_xml() or len(again.parameters) == len(scene.parameters)
+    pictures = [kaustik.render(one, integrator="path", passes=1, samples_per_pass=1) for one in (scene, again)]
+    assert pictures[0].array.tobytes() == pictures[1].array.tobytes()
+
+
+def test_to_dict():
+    mesh = kaustik.Mesh([[0, 0, .1], [1, 0, .1], [0, 1, .1]], [[0, 1, 2]])
+    given = square_under_sky(
+        ball={"type": "sphere", "radius": 0.25, "bsdf": {"type": "ref", "id": "grey"}},
+        lens={"type": "mesh", "mesh": mesh, "bsdf": {"type": "dielectric", "id": "glass", "int_ior": 1.5}},
+        other={"type": "sphere", "bsdf": {"type": "ref", "id": "glass"}},
+        lamp={"type": "point", "intensity": {"type": "spectrum", "value": [(400, 0.1), (700, 0.8)]}})
+    made = kaustik.load_dict(given).to_dict()
+    assert made["type"] == "scene" and list(made)[1:] == ["camera", "sky", "grey", "floor", "ball", "lens", "other", "lamp"]
+    assert made["sky"] == {"type": "constant", "radiance": 1.0}
+    assert made["ball"] == {"type": "sphere", "radius": 0.25, "bsdf": {"type": "ref", "id": "grey"}}
+    assert made["lens"]["bsdf"] == {"type": "dielectric", "id": "glass", "int_ior": 1.5}
+    assert made["other"]["bsdf"] == {"type": "ref", "id": "glass"}
+    assert made["lamp"]["intensity"] == {"type": "spectrum", "value": [(400.0, 0.1), (700.0, 0.8)]}
+    assert made["lens"]["positions"].tobytes() == mesh.vertices.tobytes()
+    assert isinstance(made["camera"]["to_world"], kaustik.Transform)
+    again = kaustik.load_dict(made)
+    assert list(again.to_dict()) == list(made) and dict(again.parameters).keys() == dict(kaustik.load_dict(given).parameters).keys()

@@ -70,8 +70,9 @@ def test_mypy(tmp_path):
     environment = dict(os.environ)
     if "site-packages" not in package.parts:  # mypy finds those by itself
         environment["MYPYPATH"] = str(package.parent)
-    told = subprocess.run([program, "--python-executable", sys.executable, "--cache-dir", os.devnull, right, wrong],
-                          env=environment, text=True, capture_output=True).stdout
+    # The package itself, too.
+    told = subprocess.run([program, "--python-executable", sys.executable, "--cache-dir", os.devnull, right, wrong,
+                           package], env=environment, text=True, capture_output=True).stdout
     errors = [line for line in told.splitlines() if "error:" in line]
     assert len(errors) == 2 and all("wrong.py" in line for line in errors), told
     assert "int_ior" in told and "passes" in told
