@@ -101,8 +101,9 @@ class ListOfPixels {
  public:
   explicit ListOfPixels(size_t count) : count_(count), row_(std::min(count, longest_row)) {}
   Vec2i size() const { return {int(row_), int((count_ + row_ - 1) / row_)}; }
-  /// −1: the pixel shows nothing.
+  /// −1: the pixel shows nothing. A single one is what all pixels show.
   int at(const Vec2f& raster) const {
+    if (count_ == 1) return 0;
     if (!(raster.x >= 0 && raster.y >= 0 && raster.x < float(row_))) return -1;
     const size_t number = size_t(raster.y) * row_ + size_t(raster.x);
     return number < count_ ? int(number) : -1;

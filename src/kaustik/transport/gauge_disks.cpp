@@ -26,8 +26,8 @@ GaugeDisks::GaugeDisks(const Scene& scene, std::vector<float> radii, float turn,
     uint64_t of_block = 0;
     for (size_t i = begin; i < end; ++i) {
       const size_t number = numbers_[i];
-      inverse_shares_[number] = {1 / share_in_sight(number, 1, turn, of_block),
-                                 1 / share_in_sight(number, 0.5f, turn, of_block)};
+      inverse_shares_[number] = {1 / share_in_sight(number, radii_[number], turn, of_block),
+                                 1 / share_in_sight(number, wide_radius(number), turn, of_block)};
     }
     counted += of_block;
   });
@@ -35,10 +35,9 @@ GaugeDisks::GaugeDisks(const Scene& scene, std::vector<float> radii, float turn,
   build(0, uint32_t(numbers_.size()));
 }
 
-float GaugeDisks::share_in_sight(size_t number, float share, float turn, uint64_t& rays) const {
+float GaugeDisks::share_in_sight(size_t number, float radius, float turn, uint64_t& rays) const {
   const SurfacePoint& point = gauge(number).point;
   const Frame frame(point.ng);
-  const float radius = share * radii_[number];
   int looks = 0, seen = 0;
   const auto look = [&](int count) {
     for (; looks < count; ++looks) {
@@ -58,7 +57,7 @@ float GaugeDisks::share_in_sight(size_t number, float share, float turn, uint64_
 
 Bounds3f GaugeDisks::bounds_of(uint32_t number) const {
   const SurfacePoint& point = gauge(number).point;
-  const float radius = radii_[number];
+  const float radius = wide_radius(number);
   Vec3f half;
   for (int axis = 0; axis < 3; ++axis)
     half[axis] = radius * std::sqrt(std::max(0.0f, 1 - sqr(point.ng[axis])));
@@ -113,7 +112,7 @@ bool GaugeDisks::crosses(uint32_t number, const Ray& ray, float length, Crossing
   if (!(distance > 0 && distance < length)) return false;
   const Vec3f offset = ray.direction * distance - to_gauge;
   const float offset_sq = length_sq(offset);
-  if (!(offset_sq < sqr(radii_[number]))) return false;
+  if (!(offset_sq < sqr(wide_radius(number)))) return false;
   at = {number, distance, point.position + offset, offset_sq};
   return true;
 }

@@ -12,6 +12,8 @@ namespace kaustik {
 class GaugeDisks {
  public:
   GaugeDisks() = default;
+  /// Light is collected so far beyond the radius: a wide disk tells of the bias of the other.
+  static constexpr float wide_factor = 2;
   /// `radii`, m, of each gauge; 0: none. Looks how much of each disk is in sight of its gauge, and
   /// counts the rays. `turn` in [0, 1) turns the places where it looks. `scene` must outlive this.
   GaugeDisks(const Scene& scene, std::vector<float> radii, float turn, uint64_t& rays);
@@ -21,10 +23,10 @@ class GaugeDisks {
 
   bool empty() const { return numbers_.empty(); }
   float radius(size_t gauge) const { return radii_[gauge]; }
-  /// One over the share of the disk that is in sight, points being weighed by 1 − distance²/radius²
-  /// in a disk of the whole radius or of half of it.
+  /// One over the share of the disk, or of the wide one, that is in sight, points being weighed by
+  /// 1 − distance²/radius².
   float inverse_share(size_t gauge) const { return inverse_shares_[gauge][0]; }
-  float inverse_share_of_half(size_t gauge) const { return inverse_shares_[gauge][1]; }
+  float inverse_share_of_wide(size_t gauge) const { return inverse_shares_[gauge][1]; }
 
   /// Where light passes a disk.
   struct Crossing {
@@ -33,8 +35,8 @@ class GaugeDisks {
     Vec3f position;   ///< on the disk
     float offset_sq;  ///< from the gauge, m²
   };
-  /// visit(crossing) for the disks that `ray`, whose direction is unit, passes to the measured side
-  /// before `length`; in an order that is always the same.
+  /// visit(crossing) for the wide disks that `ray`, whose direction is unit, passes to the measured
+  /// side before `length`; in an order that is always the same.
   template <typename Visit>
   void visit_crossed(const Ray& ray, float length, const Visit& visit) const {
     if (numbers_.empty()) return;
@@ -63,8 +65,8 @@ class GaugeDisks {
   const PlacedGauge& gauge(size_t number) const { return scene_->gauges()[number]; }
   Bounds3f bounds_of(uint32_t number) const;
   uint32_t build(uint32_t begin, uint32_t end);
-  /// Of disks of `share` times the radius.
-  float share_in_sight(size_t number, float share, float turn, uint64_t& rays) const;
+  float wide_radius(size_t number) const { return wide_factor * radii_[number]; }
+  float share_in_sight(size_t number, float radius, float turn, uint64_t& rays) const;
   static bool meets(const Bounds3f& box, const Ray& ray, float length);
   bool crosses(uint32_t number, const Ray& ray, float length, Crossing& at) const;
 

@@ -71,8 +71,10 @@ void SurfaceMerging::merge() {
 void SurfaceMerging::merge_at_gauge() {
   const float radius = vertices_.merge_radius();
   if (in_.light.at_gauges.empty() || !(radius > 0)) return;
+  constexpr float wide_factor = GaugeDisks::wide_factor;
   MergedLight light;
-  visit_at_gauge(radius, uint32_t(std::max(1.0f, in_.camera_samples)),
+  Spectrum wide;
+  visit_at_gauge(wide_factor * radius, uint32_t(std::max(1.0f, in_.camera_samples)),
                  [&](const GaugeVertex& at, const Spectrum& flux, const BsdfValues& bsdf,
                      const PathHalves& path) {
                    const Component component = walk_.component_of(Lobes::diffuse, at.data.specular);
@@ -80,24 +82,24 @@ void SurfaceMerging::merge_at_gauge() {
                    const Spectrum reflected =
                        flux * bsdf.of(Lobes::diffuse) * in_.weights.merge(path);
                    const float share = at.offset_sq / sqr(radius);
-                   light.of[size_t(component)] += reflected * (1 - share);
-                   light.narrow += reflected * std::max(0.0f, 1 - share / sqr(narrow_radius));
+                   if (share < 1) light.of[size_t(component)] += reflected * (1 - share);
+                   wide += reflected * (1 - share / sqr(wide_factor));
                  });
-  if (light.is_zero()) return;
   const GaugeDisks& disks = in_.light.at_gauges.disks();
   const auto gauge = size_t(walk_.gauge());
   // Of the parabolic kernel: 2/(π r²).
   const float scale = 2 * inv_pi / (sqr(radius) * float(in_.light.path_count));
   light.scale(scale * disks.inverse_share(gauge));
-  light.narrow *= scale / sqr(narrow_radius) * disks.inverse_share_of_half(gauge);
   Spectrum total;
   for (int c = 0; c < component_count; ++c) {
     const Spectrum& sum = light.of[size_t(c)];
     if (!sum.is_zero()) walk_.add(Component(c), sum);
     total += sum;
   }
-  // As elsewhere.
-  walk_.add_bias((total - light.narrow) * (1 / (1 - narrow_radius)));
+  // As elsewhere the bias is taken to grow by the radius. It is told by a wider disk, not by a
+  // narrow one: there are no pixels around to take the noise off that.
+  wide *= scale / sqr(wide_factor) * disks.inverse_share_of_wide(gauge);
+  walk_.add_bias((wide - total) * (1 / (wide_factor - 1)));
 }
 
 bool SurfaceMerging::MergedLight::is_zero() const {

@@ -126,9 +126,12 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
           found[block].push_back({uint32_t(p), photon.path, photon.path + photon.before, value});
       };
       if (probe.gauge >= 0) {
-        for (const GaugeVertex& vertex : light.at_gauges.of(size_t(probe.gauge)))
-          if (vertex.data.path <= last_path)
-            arrive(vertex.data, inv_pi / sqr(light.at_gauges.disks().radius(size_t(probe.gauge))));
+        const auto vertices = light.at_gauges.of(size_t(probe.gauge));
+        if (vertices.empty()) continue;
+        const float radius_sq = sqr(light.at_gauges.disks().radius(size_t(probe.gauge)));
+        for (const GaugeVertex& vertex : vertices)
+          if (vertex.data.path <= last_path && vertex.offset_sq < radius_sq)
+            arrive(vertex.data, inv_pi / radius_sq);
         continue;
       }
       const float radius = reach_ * probe.pixel_width;
