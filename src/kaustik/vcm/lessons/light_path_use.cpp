@@ -120,8 +120,7 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
       const PixelProbe& probe = probes_[p];
       if (!probe.found) continue;
       const ProbeLight at_probe(probe, wanted_, light.wavelengths);
-      const auto arrive = [&](const LightVertexData& photon, float height) {
-        const float value = at_probe.sent(photon) * height;
+      const auto arrive = [&](const LightVertexData& photon, float value) {
         if (value > 0)
           found[block].push_back({uint32_t(p), photon.path, photon.path + photon.before, value});
       };
@@ -131,7 +130,7 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
         const float radius_sq = sqr(light.at_gauges.disks().radius(size_t(probe.gauge)));
         for (const GaugeVertex& vertex : vertices)
           if (vertex.data.path <= last_path && vertex.offset_sq < radius_sq)
-            arrive(vertex.data, inv_pi / radius_sq);
+            arrive(vertex.data, at_probe.sent(vertex.data) * inv_pi / radius_sq);
         continue;
       }
       const float radius = reach_ * probe.pixel_width;
@@ -142,7 +141,8 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
             const LightVertexData& photon = light.tree.tree().data(index);
             if (photon.path > last_path) return;
             const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
-            arrive(photon, disk.share(offset, photon.side) * inv_pi / sqr(radius));
+            arrive(photon,
+                   at_probe.sent(photon) * disk.share(offset, photon.side) * inv_pi / sqr(radius));
           });
     }
   });
