@@ -16,6 +16,7 @@ from ._mesh import Mesh
 from ._native import version as __version__
 from ._photons import LightCounts, PhotonMap, Photons, trace_photons
 from ._picture import Estimate, Film, Interval, Picture, read
+from ._points import Estimates, irradiance, radiance
 from ._progress import Progress
 from ._scene import Parameters, Scene, load_dict, load_file, load_string
 from ._session import Interrupted, Session, render
@@ -24,8 +25,8 @@ from ._types import Family, Parameter, Type, types
 from ._view import View, view
 
 __all__ = [
-    "Buffer", "Comparison", "Error", "Estimate", "Family", "Film", "Interrupted", "Interval", "LightCounts", "Mesh",
-    "Parameter", "Parameters", "PhotonMap", "Photons", "Picture", "Problem", "Progress", "Scene", "Session",
-    "Transform", "Type", "View", "compare", "difference", "load_dict", "load_file", "load_string", "merge", "read",
-    "render", "trace_photons", "types", "view",
+    "Buffer", "Comparison", "Error", "Estimate", "Estimates", "Family", "Film", "Interrupted", "Interval",
+    "LightCounts", "Mesh", "Parameter", "Parameters", "PhotonMap", "Photons", "Picture", "Problem", "Progress",
+    "Scene", "Session", "Transform", "Type", "View", "compare", "difference", "irradiance", "load_dict", "load_file",
+    "load_string", "merge", "radiance", "read", "render", "trace_photons", "types", "view",
 ]

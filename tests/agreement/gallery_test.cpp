@@ -24,7 +24,8 @@ const std::set<std::string>& shown_families() {
 
 /// Types without a scene of their own: programs make them.
 const std::set<std::string>& types_without_scene() {
-  static const std::set<std::string> types = {"shape_mesh"};
+  static const std::set<std::string> types = {"shape_mesh", "sensor_irradiancepoints",
+                                              "sensor_radiancerays"};
   return types;
 }
 

@@ -35,6 +35,19 @@ void refuse_what_is_the_scenes(const Arguments& arguments, Problems& problems) {
                    arguments.place_of(name));
 }
 
+void refuse_gauges(const IntegratorType& type, const Scene& scene, const Place& place) {
+  if (scene.gauges().empty() || type.knows_gauges) return;
+  std::vector<std::string> names;
+  for (const IntegratorType& row : integrator_types())
+    if (row.knows_gauges) names.push_back(row.info.name);
+  throw Error(
+      ErrorKind::input,
+      fmt::format("integrator '{}' knows nothing of irradiance at points in the air, which the "
+                  "camera measures",
+                  type.info.name),
+      fmt::format("one of these does: {}", fmt::join(names, ", ")), place);
+}
+
 /// Several shapes may have such an integrator.
 void tell_once(const std::string& warning, std::vector<std::string>& warnings) {
   if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
@@ -74,6 +87,7 @@ std::unique_ptr<Integrator> create(const Object& given, const Scene& scene, bool
   for (const std::string& ignored : arguments.ignored())
     tell_once(fmt::format("'{}' of integrator '{}' has no effect here", ignored, object.type),
               warnings);
+  if (!of_surface) refuse_gauges(type, scene, object.place);
   return type.create(arguments, scene);
 }
 

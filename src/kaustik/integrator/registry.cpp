@@ -23,17 +23,22 @@ IntegratorType from_camera_alone(IntegratorType type) {
   return type;
 }
 
+IntegratorType at_gauges(IntegratorType type) {
+  type.knows_gauges = true;
+  return type;
+}
+
 }  // namespace
 
 const std::vector<IntegratorType>& integrator_types() {
   static const std::vector<IntegratorType> types{
-      row<VcmIntegrator>(auto_info()),
-      from_camera_alone(row<PathIntegrator>(PathIntegrator::info())),
+      at_gauges(row<VcmIntegrator>(auto_info())),
+      at_gauges(from_camera_alone(row<PathIntegrator>(PathIntegrator::info()))),
       row<LightTracer>(LightTracer::info()),
       row<PhotonMapIntegrator>(PhotonMapSettings::info()),
-      row<VcmIntegrator>(vcm_info()),
-      row<VcmIntegrator>(bdpt_info()),
-      row<VcmIntegrator>(ppm_info()),
+      at_gauges(row<VcmIntegrator>(vcm_info())),
+      at_gauges(row<VcmIntegrator>(bdpt_info())),
+      at_gauges(row<VcmIntegrator>(ppm_info())),
       from_camera_alone(row<LocalPhong>(LocalPhong::info())),
       from_camera_alone(row<RayTracing>(RayTracing::info())),
   };

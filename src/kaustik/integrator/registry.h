@@ -11,6 +11,8 @@ struct IntegratorType {
   /// It follows paths from the camera alone: light of lamps that no path can meet (point, spot,
   /// directional) it never finds behind glass.
   bool is_from_camera_alone = false;
+  /// It knows what arrives at points in the air (Camera::gauges()).
+  bool knows_gauges = false;
 };
 /// "auto", "path", "lighttracer", "photonmap", "vcm", "bdpt", "ppm", "localphong", "raytracing".
 /// Other renderers' names are foreign_integrators().

@@ -16,7 +16,8 @@ class SurfaceModels::Tracer final : public RadianceTracer {
     uint32_t model = model_;
     // Media have one model, whoever sees them.
     while (all_.models_[0]->advance(*state_.states[0], walk)) {
-      if (walk.all_events_specular()) model = all_.model_of_surface_[walk.vertex().point().shape];
+      if (walk.gauge() < 0 && walk.all_events_specular())
+        model = all_.model_of_surface_[walk.vertex().point().shape];
       if (!all_.models_[model]->reflect(*state_.states[model], walk, Tracer(all_, state_, model)))
         return;
     }

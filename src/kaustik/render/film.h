@@ -24,8 +24,12 @@ struct FilmLayers {
   /// What images with layers hold beside the picture: its components, what is seen, errors and
   /// noise of pixels. Without, the film takes less memory.
   bool in_images = true;
-  static FilmLayers of(const Integrator& integrator, bool in_images = true) {
-    return {integrator.traits().components, integrator.traits().estimates_bias, in_images};
+  bool pixels_are_apart = false;  ///< each is a measurement of its own: its
+                                  ///< error is told by it alone
+  static FilmLayers of(const Integrator& integrator, bool in_images = true,
+                       bool pixels_are_apart = false) {
+    return {integrator.traits().components, integrator.traits().estimates_bias, in_images,
+            pixels_are_apart};
   }
   friend bool operator==(const FilmLayers&, const FilmLayers&) = default;
 };

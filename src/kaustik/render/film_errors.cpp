@@ -45,12 +45,12 @@ struct BiasSquares {
   Squares variances{};  ///< of the mean of the two
 };
 
-/// Means of each value with its neighbours in a line of `count` values that are `step` apart; at
-/// the ends of those that are there. Calls take(i, mean).
+/// Means of each value with its neighbours, as far as `reach`, in a line of `count` values that are
+/// `step` apart; at the ends of those that are there. Calls take(i, mean).
 template <typename Take>
-void smooth_line(const BiasSquares* values, int count, size_t step, const Take& take) {
+void smooth_line(const BiasSquares* values, int count, size_t step, int reach, const Take& take) {
   for (int i = 0; i < count; ++i) {
-    const int first = std::max(0, i - bias_reach), last = std::min(count - 1, i + bias_reach);
+    const int first = std::max(0, i - reach), last = std::min(count - 1, i + reach);
     const float share = 1 / float(last - first + 1);
     BiasSquares mean;
     for (int k = first; k <= last; ++k)
@@ -150,7 +150,9 @@ void FilmErrors::pool_variances() const {
   parallel_blocks(variances.size(), 4096, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) variances[i] = luminance_variance(i);
   });
-  variances_around_ = means_around(variances, {film_.width(), film_.height()}, pool_reach);
+  variances_around_ = are_pixels_apart()
+                          ? std::move(variances)
+                          : means_around(variances, {film_.width(), film_.height()}, pool_reach);
 }
 
 void FilmErrors::square_bias() {
@@ -159,6 +161,7 @@ void FilmErrors::square_bias() {
     half_passes[half] = float(film_.passes().count_of_remainder(half, bias_halves));
   if (!(half_passes[0] > 0 && half_passes[1] > 0)) return;
   const int width = film_.width(), height = film_.height();
+  const int reach = are_pixels_apart() ? 0 : bias_reach;
   const auto estimate = [&](size_t pixel, size_t half) {
     return bias_[pixel][half] / half_passes[half];
   };
@@ -171,17 +174,18 @@ void FilmErrors::square_bias() {
       const Vec3f off = (even - odd) * 0.5f;
       row[x] = {squares(even, odd), squares(off, off)};
     }
-    smooth_line(row.data(), width, 1,
+    smooth_line(row.data(), width, 1, reach,
                 [&](size_t x, const BiasSquares& mean) { rows[begin + x] = mean; });
   });
   bias_sq_.resize(film_.pixel_count());
   luminance_bias_sq_around_.resize(film_.pixel_count());
   parallel_blocks(size_t(width), 1, [&](size_t x, size_t, size_t) {
-    smooth_line(rows.data() + x, height, size_t(width), [&](size_t y, const BiasSquares& around) {
-      const size_t pixel = y * size_t(width) + x;
-      bias_sq_[pixel] = pixel_bias(estimate(pixel, 0), estimate(pixel, 1), around);
-      luminance_bias_sq_around_[pixel] = around.products[3];
-    });
+    smooth_line(rows.data() + x, height, size_t(width), reach,
+                [&](size_t y, const BiasSquares& around) {
+                  const size_t pixel = y * size_t(width) + x;
+                  bias_sq_[pixel] = pixel_bias(estimate(pixel, 0), estimate(pixel, 1), around);
+                  luminance_bias_sq_around_[pixel] = around.products[3];
+                });
   });
 }
 
@@ -295,7 +299,9 @@ KnownLuminance FilmErrors::known(const PixelRegion& region) const {
   return known;
 }
 
-double FilmErrors::freedom() const { return freedom_of_pool * (replicates_ - 1); }
+double FilmErrors::freedom() const {
+  return (are_pixels_apart() ? 1 : freedom_of_pool) * (replicates_ - 1);
+}
 
 double FilmErrors::of_picture() const {
   if (!is_known()) return std::numeric_limits<double>::infinity();

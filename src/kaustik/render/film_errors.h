@@ -68,6 +68,7 @@ class FilmErrors {
   }
   /// Degrees of freedom of the noise that a pixel's interval has.
   double freedom() const;
+  bool are_pixels_apart() const { return film_.layers().pixels_are_apart; }
   /// Square root of the mean over pixels of (e/(|L| + 0.01 M))², where e is the standard error of
   /// the pixel's luminance L (noise and bias), M the picture's mean luminance. Infinite with fewer
   /// than two replicates, 0 for a black picture.

@@ -32,10 +32,11 @@ PassSet get_passes(BinaryReader& reader) {
 }
 
 /// Beside the components' bits; absent in files that were written before there was a choice.
-constexpr uint32_t without_layers = uint32_t(1) << 31;
+constexpr uint32_t without_layers = uint32_t(1) << 31, with_pixels_apart = uint32_t(1) << 30;
 
 void put_layers(BinaryWriter& writer, const FilmLayers& layers) {
   uint32_t bits = layers.in_images ? 0 : without_layers;
+  if (layers.pixels_are_apart) bits |= with_pixels_apart;
   for (int c = 0; c < component_count; ++c)
     if (layers.components.has(Component(c))) bits |= 1u << c;
   writer.put(bits);
@@ -46,7 +47,8 @@ FilmLayers get_layers(BinaryReader& reader) {
   FilmLayers layers;
   auto bits = reader.get<uint32_t>();
   layers.in_images = (bits & without_layers) == 0;
-  bits &= ~without_layers;
+  layers.pixels_are_apart = (bits & with_pixels_apart) != 0;
+  bits &= ~(without_layers | with_pixels_apart);
   if (bits >> component_count != 0) reader.damaged("it has components that are not known");
   for (int c = 0; c < component_count; ++c)
     if (bits >> c & 1u) layers.components.add(Component(c));

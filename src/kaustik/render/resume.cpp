@@ -54,7 +54,8 @@ void check_same_scene(const PreparedScene& prepared, const Checkpoint& checkpoin
   const bool same =
       prepared.digest == recipe.digest &&
       checkpoint.film.is_for(prepared.scene->film().crop_size,
-                             FilmLayers::of(*prepared.integrator, prepared.scene->film().layers));
+                             FilmLayers::of(*prepared.integrator, prepared.scene->film().layers,
+                                            prepared.scene->camera().traits().are_pixels_apart()));
   if (same) return;
   throw Error(
       ErrorKind::input,

@@ -27,6 +27,12 @@ bool is_clear(const Surface& surface) {
          any(surface.traits.lobes & Lobes::delta);
 }
 
+/// A point, and where it is seen from.
+struct SeenPoint {
+  SurfacePoint point;
+  Vec3f toward_camera;
+};
+
 /// The first surface along a ray of the camera that scatters light by more than delta lobes.
 std::optional<SurfacePoint> seen_point(const Scene& scene, const Ray& ray) {
   std::optional<SurfacePoint> seen;
@@ -35,6 +41,27 @@ std::optional<SurfacePoint> seen_point(const Scene& scene, const Ray& ray) {
     if (any(surface.traits.lobes & (Lobes::diffuse | Lobes::glossy))) seen = point;
     return seen || !surface.traits.transmits;
   });
+  return seen;
+}
+
+/// Gauges, or by rays of the camera over the picture.
+std::vector<SeenPoint> seen_points(const Scene& scene) {
+  constexpr size_t probes = size_t(probes_per_side) * probes_per_side;
+  std::vector<SeenPoint> seen;
+  const std::vector<PlacedGauge>& gauges = scene.gauges();
+  for (size_t i = 0; i < gauges.size(); i += 1 + gauges.size() / probes)
+    seen.push_back({gauges[i].point, gauges[i].point.ng});
+  if (!gauges.empty()) return seen;
+  const Vec2i size = scene.film().crop_size;
+  for (size_t i = 0; i < probes; ++i) {
+    const Vec2f raster((float(i % probes_per_side) + 0.5f) / probes_per_side * float(size.x),
+                       (float(i / probes_per_side) + 0.5f) / probes_per_side * float(size.y));
+    const CameraRay ray =
+        scene.camera().sample_ray(raster, scene.camera().numbers_to_look_around(uint32_t(i)));
+    if (ray.is_none()) continue;
+    if (const std::optional<SurfacePoint> point = seen_point(scene, ray))
+      seen.push_back({*point, -ray.direction});
+  }
   return seen;
 }
 
@@ -86,26 +113,18 @@ std::string hidden_lamps_warning(const Scene& scene, const std::string& integrat
     if (light->traits().is_delta && !light->traits().is_only_seen && int(lamps.size()) < most_lamps)
       lamps.push_back(light.get());
   if (lamps.empty()) return {};
-  int points = 0, hidden = 0;
+  int hidden = 0;
   std::string name;
-  const Vec2i size = scene.film().crop_size;
-  for (int i = 0; i < probes_per_side * probes_per_side; ++i) {
-    const Vec2f raster((float(i % probes_per_side) + 0.5f) / probes_per_side * float(size.x),
-                       (float(i / probes_per_side) + 0.5f) / probes_per_side * float(size.y));
-    const CameraRay ray =
-        scene.camera().sample_ray(raster, scene.camera().numbers_to_look_around(uint32_t(i)));
-    if (ray.is_none()) continue;
-    const std::optional<SurfacePoint> point = seen_point(scene, ray);
-    if (!point) continue;
-    ++points;
-    const Surface* clear = what_hides(scene, lamps, *point, -ray.direction);
+  const std::vector<SeenPoint> points = seen_points(scene);
+  for (const SeenPoint& seen : points) {
+    const Surface* clear = what_hides(scene, lamps, seen.point, seen.toward_camera);
     if (clear && ++hidden == 1) name = clear->name;
   }
   if (hidden == 0) return {};
   return fmt::format(
       "integrator {} never finds light of point, spot and directional lamps through glass or masks "
       "('{}'): {} of {} points that the camera sees lack it; use auto, or a small sphere as lamp",
-      integrator, name, hidden, points);
+      integrator, name, hidden, points.size());
 }
 
 std::string coordinates_warning(const Scene& scene) {
@@ -124,7 +143,7 @@ std::string missed_lamps_warning(const Scene& scene) {
     return light->traits().is_delta && !light->traits().is_only_seen;
   });
   const CameraTraits& camera = scene.camera().traits();
-  if (!camera.has_ways || !has_lamps) return {};
+  if (!camera.has_ways || !has_lamps || !scene.gauges().empty()) return {};
   if (!camera.measures_irradiance)
     return "the fluencemeter misses what point, spot and directional lamps send straight to it: "
            "let small spheres shine instead";

@@ -32,7 +32,9 @@ uint32_t divided_up(uint32_t a, uint32_t b) { return a / b + (a % b > 0 ? 1 : 0)
 
 Session::Session(const Scene& scene, const Integrator& integrator, const SessionSettings& settings)
     : Session(scene, integrator, settings,
-              Film(scene.film(), FilmLayers::of(integrator, settings.layers && scene.film().layers),
+              Film(scene.film(),
+                   FilmLayers::of(integrator, settings.layers && scene.film().layers,
+                                  scene.camera().traits().are_pixels_apart()),
                    integrator.traits().splats)) {}
 
 Session::Session(const Scene& scene, const Integrator& integrator, const SessionSettings& settings,

@@ -21,8 +21,9 @@ const std::vector<CameraType>& camera_types() {
   static const std::vector<CameraType> types = {
       perspective_camera_type(), thin_lens_camera_type(), orthographic_camera_type(),
       telecentric_camera_type(), fisheye_camera_type(),   spherical_camera_type(),
-      cylinder_camera_type(),    irradiance_meter_type(), radiance_meter_type(),
-      fluence_meter_type(),      distant_camera_type()};
+      cylinder_camera_type(),    irradiance_meter_type(), irradiance_points_type(),
+      radiance_meter_type(),     radiance_rays_type(),    fluence_meter_type(),
+      distant_camera_type()};
   return types;
 }
 

@@ -44,6 +44,13 @@ struct CameraConnection {
   float importance = 0;  ///< zero: outside the picture or behind
 };
 
+/// A point, and the side of it, whose irradiance a camera measures: light passes it as if it were
+/// not there. Paths of the camera begin there, as on a white matt surface.
+struct Gauge {
+  Vec3f position{0, 0, 0};  ///< m, in the world
+  Vec3f normal{0, 0, 1};    ///< unit, on the side that is measured
+};
+
 /// What is the same for a camera whoever asks.
 struct CameraTraits {
   Vec3f position{0, 0, 0};  ///< middle of the lens, m, in the world; a pinhole's lens is all there
@@ -60,6 +67,10 @@ struct CameraTraits {
   bool repeats = false;     ///< see Camera::visit_repetitions()
   float weight = 1;         ///< that a ray's radiance counts with
   bool measures_irradiance = false;  ///< then that weight is π, and pixels are irradiances
+  /// Each pixel measures something of its own: nothing is filtered or learned across pixels. The
+  /// picture has this size, then; 0: pixels are those of a picture.
+  Vec2i size_of_pixels_apart{0, 0};
+  bool are_pixels_apart() const { return size_of_pixels_apart.x > 0; }
   /// Of a camera that sees along parallel lines: from where one of usual field of view would see as
   /// much, m; 0: it sees from a point.
   float parallel_distance = 0;
@@ -98,6 +109,12 @@ class Camera {
   /// By that point of the lens.
   virtual CameraConnection connect(const Vec3f& point, const LensNumbers& lens) const = 0;
 
+  /// Where paths begin that have no ray of a camera: one for each of the first pixels, row by row;
+  /// none: paths begin with rays.
+  const std::vector<Gauge>& gauges() const { return gauges_; }
+  /// Number of the gauge that a pixel shows; −1: there is none.
+  virtual int gauge_at(const Vec2f& /*raster*/) const { return -1; }
+
   /// Cameras that look all around show what lies at one edge of the picture beyond another one,
   /// too, where pixel filters reach. Visits `connection` with the other rasters where it is seen.
   virtual void visit_repetitions(const CameraConnection& /*connection*/,
@@ -105,6 +122,7 @@ class Camera {
 
  protected:
   CameraTraits traits_;  ///< complete once the constructor is done
+  std::vector<Gauge> gauges_;
 };
 
 /// What a camera is made of.
@@ -125,7 +143,8 @@ struct CameraType {
   bool takes_shape = false;  ///< it may hold one, which it looks at
 };
 /// "perspective", "thinlens", "orthographic", "telecentric", "fisheye", "spherical", "cylinder",
-/// "irradiancemeter", "radiancemeter", "fluencemeter", "distant".
+/// "irradiancemeter", "irradiancepoints", "radiancemeter", "radiancerays", "fluencemeter",
+/// "distant".
 const std::vector<CameraType>& camera_types();
 
 }  // namespace kaustik

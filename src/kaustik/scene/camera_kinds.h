@@ -13,7 +13,9 @@ CameraType fisheye_camera_type();
 CameraType spherical_camera_type();
 CameraType cylinder_camera_type();
 CameraType irradiance_meter_type();
+CameraType irradiance_points_type();
 CameraType radiance_meter_type();
+CameraType radiance_rays_type();
 CameraType fluence_meter_type();
 CameraType distant_camera_type();
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kaustik/scene/gauges.h"
 #include "kaustik/scene/light_probes.h"
 #include "kaustik/scene/media.h"
 
@@ -19,6 +20,7 @@ Scene::Scene(Parts parts, const Scene* previous) : parts_(std::move(parts)) {
   const std::vector<bool>& hidden = parts_.hidden_lights;
   hides_lights_ = std::find(hidden.begin(), hidden.end(), true) != hidden.end();
   find_media();
+  if (parts_.camera && !parts_.camera->gauges().empty()) gauges_ = place_gauges(*this);
   make_light_selector(previous);
 }
 

@@ -37,6 +37,13 @@ struct Surface {
   }
 };
 
+/// A gauge of the camera where it stands in the scene.
+struct PlacedGauge {
+  SurfacePoint point;              ///< both normals are that of the side that is measured
+  const Medium* medium = nullptr;  ///< that it stands in; null: vacuum
+  float distance_around = 1;       ///< of what lies on that side, m: a median
+};
+
 /// Sees every ray that is traced; for benchmarks that repeat them.
 class RayObserver {
  public:
@@ -104,6 +111,8 @@ class Scene {
   /// Whether there is any light that a ray which has been scattered may meet.
   bool has_lights_to_meet() const { return has_lights_to_meet_; }
   const Camera& camera() const { return *parts_.camera; }
+  /// The camera's gauges; empty: it has none.
+  const std::vector<PlacedGauge>& gauges() const { return gauges_; }
   const FilmSettings& film() const { return parts_.film; }
   /// What the picture holds, by what the film asks for and by what the camera is.
   Quantity quantity() const {
@@ -138,6 +147,7 @@ class Scene {
   bool hides_lights_ = false;
   std::vector<const Medium*> light_media_;  ///< parallel to the lights
   std::vector<uint8_t> may_be_null_;        ///< by shape; empty: as its surface says
+  std::vector<PlacedGauge> gauges_;
 };
 
 struct BuildOptions {

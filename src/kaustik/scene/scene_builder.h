@@ -97,6 +97,8 @@ class SceneBuilder {
   /// The first one is the scene's camera; `shape`: that it belongs to, −1: none.
   void add_sensor(const Object& object, int shape);
   void make_sensor(const Object& object);
+  /// Its size is that of the camera's list, and no filter mixes pixels.
+  void make_film_of_pixels_apart(const Object& film);
   /// Null: there is none. A second one is told.
   const Object* only_child(const Object& object, const std::string& family);
   /// What the camera belongs to, or looks at; null: nothing, or what is wrong with it was told.

@@ -36,10 +36,23 @@ void SceneBuilder::make_sensor(const Object& object) {
   const Arguments arguments = arguments_of(type->info, object);
   const Bounds3f bounds = type->takes_shape ? bounds_of_shapes() : Bounds3f();
   camera_ = type->create({arguments, film_, shape, own && own->traits.is_null, bounds});
+  if (camera_->traits().are_pixels_apart()) make_film_of_pixels_apart(film ? *film : default_film);
   // Of what rays meet, unless they bring irradiance themselves.
   if (own)
     film_.quantity =
         camera_->traits().measures_irradiance ? Quantity::radiance : Quantity::irradiance;
+}
+
+void SceneBuilder::make_film_of_pixels_apart(const Object& object) {
+  film_.size = film_.crop_size = camera_->traits().size_of_pixels_apart;
+  film_.crop_offset = {0, 0};
+  film_.quantity = Quantity::radiance;
+  // Within its pixel, and far enough from the edge that no rounding takes it to the next one.
+  film_.filter = box_filter(0.25f);
+  for (const Property& property : object.properties)
+    if (property.name == "width" || property.name == "height" || property.name == "quantity" ||
+        property.name.starts_with("crop_"))
+      ignored_.insert(fmt::format("'{}' of the film of such a sensor", property.name));
 }
 
 const Object* SceneBuilder::only_child(const Object& object, const std::string& family) {

@@ -58,6 +58,7 @@ CameraWalk::CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler
                                           camera.pixel_spread);
   state_.medium = scene.camera_medium();
   state_.wavelengths = sink.wavelengths();
+  if (!scene.gauges().empty()) gauge_ = scene.camera().gauge_at(raster);
   const float weight = seeks_irradiance() ? pi : camera.weight;
   if (weight != 1) {
     state_.throughput = Spectrum(weight);
@@ -75,6 +76,7 @@ CameraWalk::CameraWalk(const CameraWalk& other, Sampler& sampler)
       light_choice_(other.light_choice_),
       raster_(other.raster_),
       u_lens_(other.u_lens_),
+      gauge_(other.gauge_),
       ray_(other.ray_),
       vertex_(other.vertex_),
       in_medium_(other.in_medium_),
@@ -92,12 +94,23 @@ void CameraWalk::describe_what_is_seen(const SurfaceVertex& vertex, float distan
   sink_.set_first_hit(seen);
 }
 
+CameraWalk::Arrival CameraWalk::arrive_at_gauge() {
+  if (gauge_ < 0) return Arrival::nothing;
+  sampler_.start_vertex(segments_++);
+  const PlacedGauge& gauge = scene_.gauges()[size_t(gauge_)];
+  state_.medium = gauge.medium;
+  vertex_.stand_at(gauge.point, state_.wavelengths);
+  describe_what_is_seen(vertex_, 0);
+  return Arrival::surface;
+}
+
 /// Goes on until `pass_medium(length)`, asked about every segment through a medium, answers that
 /// the path is scattered, or until a surface that is more than a boundary of media.
 template <typename PassMedium>
 CameraWalk::Arrival CameraWalk::arrive(LightWeights* weights, const PassMedium& pass_medium) {
   const bool only_arrives = seeks_irradiance();
   is_in_medium_ = false;
+  if (state_.depth == 0 && !scene_.gauges().empty()) return arrive_at_gauge();
   if (ray_.t_max < 0) return Arrival::nothing;  // the camera sees nothing there
   const auto go_on = [&](const Hit& hit, bool found) {
     sampler_.start_vertex(segments_++);

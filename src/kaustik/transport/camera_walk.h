@@ -43,7 +43,8 @@ class CameraWalk {
  public:
   /// `traced`: lobes whose events count as specular. Starts with the ray through `raster`. Where
   /// the film asks for irradiance, the first surface is painted white (SurfaceVertex::paint_white)
-  /// and what it sends is counted π times; nothing before it counts.
+  /// and what it sends is counted π times; nothing before it counts. Where the camera has gauges,
+  /// the walk begins at one, which is the first surface that it comes to.
   CameraWalk(const Scene& scene, const Vec2f& raster, Sampler& sampler, SampleSink& sink,
              Lobes traced = Lobes::specular);
   ~CameraWalk() { sink_.count_rays(rays_); }
@@ -72,6 +73,8 @@ class CameraWalk {
   }
   /// That the path arrived at the vertex through; null: vacuum.
   const Medium* medium() const { return state_.medium; }
+  /// Number of the gauge that the walk is at; −1: it is at none.
+  int gauge() const { return state_.depth == 0 ? gauge_ : -1; }
   /// Where it began.
   const Vec2f& raster() const { return raster_; }
   /// Numbers of the point of the lens where it began (see Camera).
@@ -177,6 +180,8 @@ class CameraWalk {
   bool seeks_irradiance() const {
     return state_.depth == 0 && scene_.film().quantity == Quantity::irradiance;
   }
+  /// The pixel's gauge, if there is one.
+  Arrival arrive_at_gauge();
   void add_background(LightWeights* weights);
   void add_emission(LightWeights* weights);
   /// Whether the camera looks through the surface that the walk has come to.
@@ -193,6 +198,7 @@ class CameraWalk {
   LightChoice light_choice_ = LightChoice::one;  ///< of the last add_direct_light()
   Vec2f raster_;                                 ///< where it began
   LensNumbers u_lens_;                           ///< and of which point of the lens
+  int gauge_ = -1;                               ///< that of the pixel; −1: it has none
   Ray ray_;
   SurfaceVertex vertex_;
   Receiver in_medium_;             ///< the point where fly() came to in a medium

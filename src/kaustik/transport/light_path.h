@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kaustik/base/sampler.h"
+#include "kaustik/transport/gauge_disks.h"
 #include "kaustik/transport/path_class.h"
 #include "kaustik/transport/path_state.h"
 #include "kaustik/transport/roulette.h"
@@ -76,6 +77,17 @@ struct LightMediumEvent {
   LightMediumVertex at;
 };
 
+/// Where light passes a gauge's disk. The path goes on as if there were none.
+struct LightAtGauge {
+  const GaugeDisks::Crossing& crossing;
+  Vec3f wo;                          ///< unit, back along the path
+  Spectrum flux;                     ///< W
+  const LightPathClass& path_class;  ///< the events before
+  float distance;                    ///< from the path's previous vertex, m
+  const PathState& state;            ///< at the begin of the segment
+  uint32_t path;                     ///< number of the path
+};
+
 /// Where light paths may go on after they are scattered in a medium.
 enum class MediumEvents {
   follow,        ///< everywhere
@@ -94,6 +106,8 @@ struct LightPathLimits {
   bool needs_reverse_pdf = false;  ///< PathState::pdf_reverse is to be found out
   /// Where paths that may go on by all lobes do so; null: by the bsdf alone.
   const ScatterGuide* guide = nullptr;
+  /// Whose disks a handler that takes LightAtGauge is shown; null: none.
+  const GaugeDisks* gauges = nullptr;
 };
 
 /// What became of light paths.
@@ -129,6 +143,26 @@ enum class MediumFate { scattered, absorbed, stopped, too_long };
 MediumFate scatter_in_medium(LightPath& path, const Medium::Flight& flight,
                              const LightPathLimits& limits);
 
+/// Calls `handler(LightAtGauge)` for the disks that the path's segment of length `limit` passes.
+template <typename Handler>
+void show_at_gauges(const LightPath& path, float limit, const GaugeDisks& gauges,
+                    const Handler& handler) {
+  gauges.visit_crossed(path.ray, limit, [&](const GaugeDisks::Crossing& crossing) {
+    Spectrum flux = path.state.throughput;
+    if (path.state.medium)
+      flux *=
+          path.state.medium->transmittance({path.ray.origin, path.ray.direction, crossing.distance},
+                                           path.state.wavelengths, path.sampler);
+    handler(LightAtGauge{.crossing = crossing,
+                         .wo = -path.ray.direction,
+                         .flux = flux,
+                         .path_class = path.path_class,
+                         .distance = path.distance + crossing.distance,
+                         .state = path.state,
+                         .path = path.index});
+  });
+}
+
 /// Handlers of different vertices as one.
 template <typename... Parts>
 struct Handlers : Parts... {
@@ -139,10 +173,10 @@ Handlers(Parts...) -> Handlers<Parts...>;
 
 /// Follows the light paths `begin` to `end`. `emit(i)` gives the i-th, or nothing. At every surface
 /// `handler(const LightVertex&)` answers with the lobes by which the path may go on (Lobes::none
-/// stops it). A handler that also takes a LightMediumVertex or a LightMediumEvent is shown those.
-/// Some dozens of paths advance side by side: their rays are traced in packets, and the memory that
-/// they need is fetched early (`make bench` compares with rays one by one). The order is the same
-/// in every run.
+/// stops it). A handler that also takes a LightMediumVertex, a LightMediumEvent or a LightAtGauge
+/// is shown those. Some dozens of paths advance side by side: their rays are traced in packets, and
+/// the memory that they need is fetched early (`make bench` compares with rays one by one). The
+/// order is the same in every run.
 template <typename Emit, typename Handler>
 LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t end,
                                   const LightPathLimits& limits, const Emit& emit,
@@ -161,6 +195,8 @@ LightPathCounts trace_light_paths(const Scene& scene, uint32_t begin, uint32_t e
       return false;
     };
     path.sampler.start_vertex(path.segments++);
+    if constexpr (std::is_invocable_v<const Handler&, const LightAtGauge&>)
+      if (limits.gauges) show_at_gauges(path, hit.t, *limits.gauges, handler);
     if (path.state.medium) {
       if constexpr (std::is_invocable_v<const Handler&, const LightMediumVertex&>) {
         const LightMediumVertex in_medium = sample_medium_vertex(path, hit.t);

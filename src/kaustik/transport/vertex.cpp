@@ -39,6 +39,21 @@ void SurfaceVertex::meet(const Scene& scene, const Ray& ray, const Hit& hit, Tra
   side_sign_ = dot(frame_.z, point_.ng) < 0 ? -1.0f : 1.0f;
 }
 
+void SurfaceVertex::stand_at(const SurfacePoint& gauge, const Wavelengths& wavelengths) {
+  static const Surface nothing{};
+  point_ = gauge;
+  wo_ = gauge.ng;
+  surface_ = &nothing;
+  bsdf_ = &white_diffuse();
+  traits_ = bsdf_->traits();
+  light_ = -1;
+  context_.mode = TransportMode::radiance;
+  context_.move_to({}, wavelengths);
+  turn_to(gauge.ns);
+  has_relief_ = false;
+  side_sign_ = 1;
+}
+
 void SurfaceVertex::paint_white() {
   bsdf_ = &white_diffuse();
   traits_ = bsdf_->traits();

@@ -30,6 +30,10 @@ class SurfaceVertex {
   void meet(const Scene& scene, const Ray& ray, const Hit& hit, TransportMode mode,
             const Footprint& footprint, const Wavelengths& wavelengths);
 
+  /// Makes this a point of a white matt surface that is none of the scene's, seen straight from
+  /// above its normal; see Gauge.
+  void stand_at(const SurfacePoint& gauge, const Wavelengths& wavelengths);
+
   /// The same in light of other wavelengths, with the widths of a beam and the relief as they are.
   SurfaceVertex in(const Wavelengths& wavelengths) const;
 

@@ -26,12 +26,12 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
   for (const LightBlock& block : blocks) {
     report.rays += block.rays;
     report.photons += block.splats;
-    merging += block.data.size() + block.in_media.size();
+    merging += block.data.size() + block.in_media.size() + block.at_gauges.size();
     connectible += block.connectible.size();
   }
   const bool merges = inputs.weights.settings().techniques.merging && merging > 0;
   report.photons += merges ? merging : connectible;
-  LightVertices result = join(blocks);
+  LightVertices result = join(blocks, inputs.scene.gauges().size(), inputs.gauges);
   result.wavelengths = pass.wavelengths;
   result.path_count = inputs.light_paths;
   result.remembered_paths = std::min(inputs.remembered_paths, inputs.light_paths);

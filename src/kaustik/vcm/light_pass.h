@@ -24,6 +24,8 @@ struct VcmLightInputs {
   MediumDisks media = {};
   const ScatterGuide* scattering = nullptr;  ///< null: none is guided
   bool remembers_scattering = false;         ///< of the paths whose beginnings are remembered
+  /// Within which light merges at gauges; null: it does not. Must outlive the vertices.
+  const GaugeDisks* gauges = nullptr;
 };
 
 /// Traces the light paths of a pass, keeps their vertices, and splats them where that is one of the

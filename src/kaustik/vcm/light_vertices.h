@@ -8,6 +8,7 @@
 #include "kaustik/medium/medium.h"
 #include "kaustik/photon/disc_hierarchy.h"
 #include "kaustik/photon/kd_tree/sided_tree.h"
+#include "kaustik/transport/gauge_disks.h"
 #include "kaustik/transport/path_weights.h"
 #include "kaustik/vcm/lessons/light_path_emission.h"
 #include "kaustik/vcm/lessons/scatter_learning.h"
@@ -57,6 +58,37 @@ struct MediumVertices {
   bool empty() const { return data.empty(); }
 };
 
+/// Where a path passes the disk of a gauge, which may be merged there. It is none of the path's
+/// vertices; its flux is that which passes, its side the gauge's.
+struct GaugeVertex {
+  LightVertexData data;
+  uint32_t gauge = 0;
+  float offset_sq = 0;                   ///< from the gauge, m²
+  float pdf_light = 0, to_previous = 0;  ///< see PathVertex
+};
+
+/// Those of a pass, gauge by gauge.
+class GaugeVertices {
+ public:
+  GaugeVertices() = default;
+  /// `vertices` in any order, which those of one gauge keep. `disks` must outlive this.
+  GaugeVertices(const std::vector<GaugeVertex>& vertices, size_t gauges, const GaugeDisks& disks);
+
+  bool empty() const { return vertices_.empty(); }
+  const std::vector<GaugeVertex>& all() const { return vertices_; }
+  std::span<const GaugeVertex> of(size_t gauge) const {
+    if (vertices_.empty()) return {};
+    return std::span(vertices_).subspan(begins_[gauge], begins_[gauge + 1] - begins_[gauge]);
+  }
+  /// Only if there are any vertices.
+  const GaugeDisks& disks() const { return *disks_; }
+
+ private:
+  std::vector<GaugeVertex> vertices_;
+  std::vector<size_t> begins_;
+  const GaugeDisks* disks_ = nullptr;
+};
+
 /// How a path began that has left vertices.
 struct LightPathBeginning {
   uint32_t path = 0;  ///< where its vertices begin
@@ -69,6 +101,7 @@ struct LightVertices {
   std::vector<PathVertex> vertices;  ///< path by path, from the light's point on
   SidedTree<LightVertexData> tree;   ///< those that may be merged
   MediumVertices in_media;           ///< those in media that may be merged
+  GaugeVertices at_gauges;           ///< those that may be merged at gauges
   /// Those of the first paths that may be connected: a choice of so many is large enough.
   std::vector<ConnectibleVertex> connectible;
   static constexpr uint32_t most_connectible_paths = 1 << 18;

@@ -1,5 +1,7 @@
 #include "kaustik/vcm/pass.h"
 
+#include <cmath>
+
 #include "kaustik/photon/photon_map.h"
 #include "kaustik/vcm/camera_path/camera_path.h"
 #include "kaustik/vcm/light_pass.h"
@@ -28,9 +30,24 @@ PathWeights VcmPass::make_weights() const {
   return PathWeights(weights);
 }
 
+GaugeDisks VcmPass::make_gauge_disks(uint64_t& rays) const {
+  const Vec2i size = scene_.film().size;
+  std::vector<float> radii(scene_.gauges().size());
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const Vec2f raster(float(x) + 0.5f, float(y) + 0.5f);
+      if (const int gauge = scene_.camera().gauge_at(raster); gauge >= 0)
+        radii[size_t(gauge)] = plans_->pixels.at(raster, shrinkage_).merge_radius();
+    }
+  constexpr double golden = 0.6180339887498949;
+  return {scene_, std::move(radii), float(std::fmod(double(pass_.index) * golden, 1.0)), rays};
+}
+
 void VcmPass::trace_light(const LightPathAims& aims, SplatBuffer& splats, std::stop_token stop,
                           const ProgressFunction& progress, PassReport& report) {
   if (!plans_->techniques.needs_light_paths()) return;
+  if (plans_->techniques.merging && !scene_.gauges().empty())
+    gauges_ = make_gauge_disks(report.rays);
   PathWeights::Settings traced = weights_.settings();
   traced.techniques.splats = traced.techniques.splats && aims.splats;
   traced.techniques.connections = traced.techniques.connections && aims.connections;
@@ -47,7 +64,8 @@ void VcmPass::trace_light(const LightPathAims& aims, SplatBuffer& splats, std::s
        .remembered_paths = aims.remembered_paths,
        .media = media_,
        .scattering = plans_->guides.scattering.get(),
-       .remembers_scattering = plans_->guides.scattering != nullptr},
+       .remembers_scattering = plans_->guides.scattering != nullptr,
+       .gauges = gauges_.empty() ? nullptr : &gauges_},
       pass_, Stream::light_path, splats, stop, progress, report);
   if (plans_->techniques.merging) matt_ = MattMerging(light_, weights_);
   connection_scale_ = float(double(light_.connectible.size()) /

@@ -41,6 +41,9 @@ class VcmPass {
  private:
   PathWeights make_weights() const;
 
+  /// Of the first vertices of paths that begin at gauges, as the plans have it.
+  GaugeDisks make_gauge_disks(uint64_t& rays) const;
+
   const Scene& scene_;
   const VcmSettings& settings_;
   std::shared_ptr<const VcmPlans> plans_;
@@ -48,6 +51,7 @@ class VcmPass {
   PathWeights weights_;
   float shrinkage_;    ///< of the disks of merging since the first pass
   MediumDisks media_;  ///< shrunk
+  GaugeDisks gauges_;
   LightVertices light_;
   MattMerging matt_;
   float connection_scale_ = 0;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "kaustik/transport/integrator.h"
 #include "kaustik/transport/integrator_parameters.h"
 
@@ -184,12 +186,27 @@ void adapt_to_camera(const Arguments& arguments, const Camera& camera, VcmSettin
   settings.techniques.splats = false;
 }
 
+/// Light paths per camera sample and pixel, where pixels are so few that a pass would have next to
+/// none, and each is to be known well.
+constexpr float light_paths_of_few_pixels = 512;
+
+/// Nothing is learned of one pixel from those beside it.
+void adapt_to_pixels_apart(const Arguments& arguments, const FilmSettings& film,
+                           VcmSettings& settings) {
+  settings.learn_radii = settings.edges = false;
+  if (arguments.info().find("light_paths") && arguments.given("light_paths")) return;
+  const float pixels = float(film.size.x) * float(film.size.y);
+  settings.light_paths = std::max(settings.light_paths, light_paths_of_few_pixels / pixels);
+}
+
 }  // namespace
 
 VcmSettings settings_for(const Scene& scene, const Arguments& arguments) {
   VcmSettings settings(arguments);
   if (scene.has_scattering()) adapt_to_media(arguments, settings);
   adapt_to_camera(arguments, scene.camera(), settings);
+  if (scene.camera().traits().are_pixels_apart())
+    adapt_to_pixels_apart(arguments, scene.film(), settings);
   return settings;
 }
 

@@ -31,6 +31,8 @@ PixelProbe look(const Scene& scene, const Vec2f& raster, uint64_t block, uint32_
       probe.vertex = vertex;
       probe.pixel_width = 2 * walk.footprint().width;
       probe.path = walk.path_class();
+      probe.gauge = walk.gauge();
+      if (probe.gauge >= 0) probe.distance = scene.gauges()[size_t(probe.gauge)].distance_around;
       break;
     }
     const Vec2f u = sampler.next_2d();
@@ -60,7 +62,8 @@ PixelProbe look_around(const Scene& scene, const Vec2f& raster, uint64_t block) 
 }  // namespace
 
 std::vector<PixelProbe> make_pixel_probes(const Scene& scene, const BlockGrid& grid) {
-  const bool is_meter = !scene.camera().traits().can_connect;
+  const CameraTraits& camera = scene.camera().traits();
+  const bool is_meter = !camera.can_connect && !camera.are_pixels_apart();
   std::vector<PixelProbe> probes(grid.size());
   parallel_blocks(probes.size(), 16, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) {

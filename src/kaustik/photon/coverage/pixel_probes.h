@@ -18,6 +18,8 @@ struct PixelProbe {
   /// CameraTraits::parallel_distance, however far back it stands.
   float distance = 0;
   CameraPathClass path;  ///< of the events before the vertex
+  int gauge = -1;        ///< that the vertex is; then it has no width of a pixel, and the distance
+                         ///< is that of what lies around; −1: it is on a surface
 };
 
 /// One for each block.

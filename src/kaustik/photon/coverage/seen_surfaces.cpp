@@ -39,13 +39,17 @@ DiskBounds bounds_by(const SurfaceEdges& edges, const Vec3f& position, float rad
 
 }  // namespace
 
+int SeenSurfaces::block_size_of(const Scene& scene) {
+  return scene.camera().traits().are_pixels_apart() ? 1 : block_size;
+}
+
 SeenSurfaces::SeenSurfaces(const Scene& scene)
-    : grid_(PlanWindow(scene.film(), block_size), block_size),
+    : grid_(PlanWindow(scene.film(), block_size_of(scene)), block_size_of(scene)),
       probes_(make_pixel_probes(scene, grid_)) {
   const FilmSettings& film = scene.film();
   mean_distance_ = film.crop_size == film.size
                        ? mean_distance_of(probes_)
-                       : mean_distance_of(probes_of_whole_picture(scene, block_size));
+                       : mean_distance_of(probes_of_whole_picture(scene, grid_.block_size()));
 }
 
 void SeenSurfaces::find_edges(const Scene& scene, float widths, float given, uint64_t& rays,
@@ -56,8 +60,8 @@ void SeenSurfaces::find_edges(const Scene& scene, float widths, float given, uin
     uint64_t block_rays = 0;
     for (size_t i = begin; i < end && !stop.stop_requested(); ++i) {
       const PixelProbe& probe = probes_[i];
-      const float reach =
-          (given > 0 ? given : widths * probe.pixel_width) + float(block_size) * probe.pixel_width;
+      const float reach = (given > 0 ? given : widths * probe.pixel_width) +
+                          float(grid_.block_size()) * probe.pixel_width;
       if (probe.found && reach > 0) edges[i] = SurfaceEdges(scene, probe.vertex, reach, block_rays);
     }
     counted += block_rays;

@@ -22,7 +22,9 @@ struct DiskBounds {
 /// them around the probes.
 class SeenSurfaces {
  public:
-  static constexpr int block_size = 4;  ///< pixels on a side
+  static constexpr int block_size = 4;  ///< usual number of pixels on a side of a block …
+  /// … and that of the scene: 1 where pixels are apart.
+  static int block_size_of(const Scene& scene);
   SeenSurfaces() = default;
   /// With probes, but no edges yet.
   explicit SeenSurfaces(const Scene& scene);

@@ -19,6 +19,7 @@ constexpr float bias_chance = 0.25f;
 }  // namespace
 
 void SurfaceMerging::merge() {
+  if (walk_.gauge() >= 0) return merge_at_gauge();
   const SurfaceVertex& vertex = walk_.vertex();
   const Lobes lobes = vertex.lobes() & (Lobes::diffuse | Lobes::glossy);
   if (!any(lobes) || in_.light.tree.empty() || !in_.weights.merges_at(vertices_.list())) return;
@@ -65,6 +66,40 @@ void SurfaceMerging::merge() {
       radius * narrow_radius, weights.bounds.edges, walk_.sampler().fork(Fork::narrow_merge_cover));
   const Spectrum narrow = light.narrow * (weights.narrow.scale * narrow_coverage / paths);
   walk_.add_bias((total - narrow) * (1 / ((1 - narrow_radius) * bias_chance)));
+}
+
+void SurfaceMerging::merge_at_gauge() {
+  const float radius = vertices_.merge_radius();
+  if (in_.light.at_gauges.empty() || !(radius > 0)) return;
+  constexpr float wide_factor = GaugeDisks::wide_factor;
+  MergedLight light;
+  Spectrum wide;
+  visit_at_gauge(wide_factor * radius, uint32_t(std::max(1.0f, in_.camera_samples)),
+                 [&](const GaugeVertex& at, const Spectrum& flux, const BsdfValues& bsdf,
+                     const PathHalves& path) {
+                   const Component component = walk_.component_of(Lobes::diffuse, at.data.specular);
+                   if (!walk_.wants(component)) return;
+                   const Spectrum reflected =
+                       flux * bsdf.of(Lobes::diffuse) * in_.weights.merge(path);
+                   const float share = at.offset_sq / sqr(radius);
+                   if (share < 1) light.of[size_t(component)] += reflected * (1 - share);
+                   wide += reflected * (1 - share / sqr(wide_factor));
+                 });
+  const GaugeDisks& disks = in_.light.at_gauges.disks();
+  const auto gauge = size_t(walk_.gauge());
+  // Of the parabolic kernel: 2/(π r²).
+  const float scale = 2 * inv_pi / (sqr(radius) * float(in_.light.path_count));
+  light.scale(scale * disks.inverse_share(gauge));
+  Spectrum total;
+  for (int c = 0; c < component_count; ++c) {
+    const Spectrum& sum = light.of[size_t(c)];
+    if (!sum.is_zero()) walk_.add(Component(c), sum);
+    total += sum;
+  }
+  // As elsewhere the bias is taken to grow by the radius. It is told by a wider disk, not by a
+  // narrow one: there are no pixels around to take the noise off that.
+  wide *= scale / sqr(wide_factor) * disks.inverse_share_of_wide(gauge);
+  walk_.add_bias((wide - total) * (1 / (wide_factor - 1)));
 }
 
 bool SurfaceMerging::MergedLight::is_zero() const {
@@ -195,6 +230,33 @@ SurfaceMerging::MergedLight SurfaceMerging::merged_matt(
   return result;
 }
 
+SurfaceMerging::Part SurfaceMerging::part_of(size_t vertices, uint32_t most_parts) const {
+  const size_t parts = std::clamp(vertices / least_in_part, size_t(1), size_t(most_parts));
+  if (parts == 1) return {0, 1};
+  const float u = walk_.sampler().fork(Fork::merge_part).next_1d();
+  return {std::min(size_t(u * float(parts)), parts - 1), parts};
+}
+
+template <typename Visit>
+void SurfaceMerging::visit_at_gauge(float radius, uint32_t most_parts, const Visit& visit) const {
+  const SurfaceVertex& vertex = walk_.vertex();
+  const std::span<const GaugeVertex> all = in_.light.at_gauges.of(size_t(walk_.gauge()));
+  const Part part = part_of(all.size(), most_parts);
+  PathHalves path = vertices_.halves();
+  for (size_t i = part.first; i < all.size(); i += part.step) {
+    const GaugeVertex& at = all[i];
+    if (!(at.offset_sq < sqr(radius))) continue;
+    if (walk_.events() + int(at.data.before) > in_.maximum_events) continue;
+    const BsdfValues bsdf = vertex.values(at.data.direction.unpack());
+    path.light = in_.light.before(at.data);
+    path.pdf_light_last = at.pdf_light;
+    path.pdf_camera_last = bsdf.pdf * at.to_previous;
+    path.pdf_camera_before_last = path.light[path.light.size() - 2].pdf_camera;
+    path.pdf_next_event = at.data.pdf_next_event;
+    visit(at, at.data.flux.spectrum() * float(part.step), bsdf, path);
+  }
+}
+
 template <typename Visit>
 void SurfaceMerging::visit_merging(const MergeDisk& disk, uint32_t most_parts,
                                    const Visit& visit) const {
@@ -208,11 +270,7 @@ void SurfaceMerging::visit_merging(const MergeDisk& disk, uint32_t most_parts,
   in_.light.tree.within(vertex.position(), side, both_sides, sqr(disk.radius()),
                         [&](uint32_t index, float) { near.push_back(index); });
   // Neighbours in the tree are neighbours in the disk: one in so many is spread over it.
-  const size_t parts = std::clamp(near.size() / least_in_part, size_t(1), size_t(most_parts));
-  size_t first = 0;
-  if (parts > 1)
-    first = std::min(size_t(walk_.sampler().fork(Fork::merge_part).next_1d() * float(parts)),
-                     parts - 1);
+  const auto [first, parts] = part_of(near.size(), most_parts);
   // Paths lie anywhere in memory: waiting for one after the other took half the time.
   for (size_t i = first; i < near.size(); i += parts) {
     const LightVertexData& photon = tree.data(near[i]);
@@ -281,6 +339,19 @@ std::vector<SurfaceMerging::MergedVertex> SurfaceMerging::merged_vertices() cons
   const float radius = vertices_.merge_radius();
   std::vector<MergedVertex> result;
   if (!(radius > 0)) return result;
+  if (walk_.gauge() >= 0) {
+    visit_at_gauge(
+        radius, 1,
+        [&](const GaugeVertex& at, const Spectrum& flux, const BsdfValues& bsdf,
+            const PathHalves& path) {
+          if (!walk_.wants(walk_.component_of(Lobes::diffuse, at.data.specular))) return;
+          const float kernel = 2 * (1 - at.offset_sq / sqr(radius)) /
+                               (pi * sqr(radius) * float(in_.light.path_count));
+          result.push_back({in_.weights.beyond_merge(path),
+                            walk_.throughput() * bsdf.of(Lobes::diffuse) * flux * kernel});
+        });
+    return result;
+  }
   const MergeDisk disk(vertex, radius);
   visit_merging(
       disk, 1,

@@ -70,6 +70,17 @@ class SurfaceMerging {
   /// Leaves what is_reached(part) holds for of those drawn.
   template <typename IsReached>
   static void leave_drawn(const Draws& draws, const IsReached& is_reached, MergedLight& light);
+  /// merge() at a gauge, with what passes its disk.
+  void merge_at_gauge();
+  /// visit(vertex, its flux, bsdf, path) for what passes the gauge's disk of that radius; where it
+  /// is much, for one of `most_parts` parts of it at most, which is drawn and counts for all.
+  template <typename Visit>
+  void visit_at_gauge(float radius, uint32_t most_parts, const Visit& visit) const;
+  /// The part of so many light vertices that is visited.
+  struct Part {
+    size_t first, step;
+  };
+  Part part_of(size_t vertices, uint32_t most_parts) const;
   /// visit(vertex, its flux as far as it counts, how far it lies from the disk's, direction to
   /// where it comes from, bsdf, path) for all that merge; where they are many, for one of
   /// `most_parts` parts of them at most, which is drawn and counts for all.

@@ -114,7 +114,7 @@ LightQuery CameraVertices::weighed_query() const {
 }
 
 float CameraVertices::merge_radius() const {
-  return std::sqrt(all_delta_ ? plan_.merge_area * inv_pi : in_.merge_radius_sq);
+  return all_delta_ ? plan_.merge_radius() : std::sqrt(in_.merge_radius_sq);
 }
 
 }  // namespace kaustik

@@ -14,14 +14,14 @@ namespace {
 
 /// Probes that there are at most, or a few more.
 constexpr double most_probes = 1024;
-constexpr int least_block = 4;
+constexpr int usual_least_block = 4;
 constexpr int direct_samples = 4;
 /// Of the mean over the probes: light that counts where there is less. What is dark may be noisy.
 constexpr double least_light = 0.05;
 /// Boxes that the probes are put into.
 constexpr size_t most_targets = 32;
 
-int block_size(const Vec2i& pixels) {
+int block_size(const Vec2i& pixels, int least_block) {
   const double each = double(pixels.x) * double(pixels.y) / most_probes;
   return std::max(least_block, int(std::ceil(std::sqrt(each))));
 }
@@ -83,7 +83,8 @@ LightPathUse::LightPathUse(const Scene& scene, const LightPathEmission& plain, C
   // What merges in a crop window comes from around it, too. Guides that knew the window alone left
   // it darker.
   const FilmSettings& film = scene.film();
-  const int block = block_size(film.crop_size);
+  const bool are_apart = scene.camera().traits().are_pixels_apart();
+  const int block = block_size(film.crop_size, are_apart ? 1 : usual_least_block);
   const int margin = int(std::ceil(RadiusLearning::widest_widths() / float(block)));
   reach_ = 0.5f * float(block);
   probes_ = make_pixel_probes(scene, BlockGrid(PlanWindow(film, block, margin), block));
@@ -98,8 +99,15 @@ LightPathUse::LightPathUse(const Scene& scene, const LightPathEmission& plain, C
 
 std::vector<AimTarget> LightPathUse::targets() const {
   std::vector<Vec3f> points;
-  for (const PixelProbe& probe : probes_)
-    if (probe.found) points.push_back(probe.vertex.position());
+  for (const PixelProbe& probe : probes_) {
+    if (!probe.found) continue;
+    points.push_back(probe.vertex.position());
+    if (probe.gauge < 0) continue;
+    // Its disk, which no other probe stands for.
+    const Vec3f reach(GaugeDisks::largest_radius(probe.distance));
+    points.push_back(probe.vertex.position() - reach);
+    points.push_back(probe.vertex.position() + reach);
+  }
   return boxes_around(std::move(points), most_targets);
 }
 
@@ -110,20 +118,31 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
   parallel_blocks(probes_.size(), per_block, [&](size_t begin, size_t end, size_t block) {
     for (size_t p = begin; p < end; ++p) {
       const PixelProbe& probe = probes_[p];
-      const float radius = reach_ * probe.pixel_width;
-      if (!probe.found || !(radius > 0)) continue;
-      const MergeDisk disk(probe.vertex, radius);
+      if (!probe.found) continue;
       const ProbeLight at_probe(probe, wanted_, light.wavelengths);
+      const auto arrive = [&](const LightVertexData& photon, float value) {
+        if (value > 0)
+          found[block].push_back({uint32_t(p), photon.path, photon.path + photon.before, value});
+      };
+      if (probe.gauge >= 0) {
+        const auto vertices = light.at_gauges.of(size_t(probe.gauge));
+        if (vertices.empty()) continue;
+        const float radius_sq = sqr(light.at_gauges.disks().radius(size_t(probe.gauge)));
+        for (const GaugeVertex& vertex : vertices)
+          if (vertex.data.path <= last_path && vertex.offset_sq < radius_sq)
+            arrive(vertex.data, at_probe.sent(vertex.data) * inv_pi / radius_sq);
+        continue;
+      }
+      const float radius = reach_ * probe.pixel_width;
+      if (!(radius > 0)) continue;
+      const MergeDisk disk(probe.vertex, radius);
       light.tree.within(
           probe.vertex.position(), disk.side(), false, sqr(radius), [&](uint32_t index, float) {
             const LightVertexData& photon = light.tree.tree().data(index);
             if (photon.path > last_path) return;
             const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
-            const float value =
-                at_probe.sent(photon) * disk.share(offset, photon.side) * inv_pi / sqr(radius);
-            if (value > 0)
-              found[block].push_back(
-                  {uint32_t(p), photon.path, photon.path + photon.before, value});
+            arrive(photon,
+                   at_probe.sent(photon) * disk.share(offset, photon.side) * inv_pi / sqr(radius));
           });
     }
   });
@@ -189,7 +208,7 @@ LightPathUse::Noise LightPathUse::noise_of(const Seen& seen) const {
 LightPathUse::Seen LightPathUse::seen_in(const LightVertices& light) const {
   Seen seen;
   seen.paths = light.remembered_paths;
-  if (light.tree.empty() || light.beginnings.empty()) return seen;
+  if ((light.tree.empty() && light.at_gauges.empty()) || light.beginnings.empty()) return seen;
   seen.beginnings = light.beginnings;
   seen.scatterings = light.scatterings;
   seen.arrivals = arrivals(light);

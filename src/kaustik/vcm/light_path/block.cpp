@@ -54,7 +54,16 @@ MediumVertices in_order(const std::vector<DiscHierarchy::Disc>& discs,
 
 }  // namespace
 
-LightVertices join(std::vector<LightBlock>& blocks) {
+GaugeVertices::GaugeVertices(const std::vector<GaugeVertex>& vertices, size_t gauges,
+                             const GaugeDisks& disks)
+    : vertices_(vertices.size()), begins_(gauges + 1), disks_(&disks) {
+  for (const GaugeVertex& vertex : vertices) ++begins_[vertex.gauge + 1];
+  for (size_t i = 0; i < gauges; ++i) begins_[i + 1] += begins_[i];
+  std::vector<size_t> next(begins_.begin(), begins_.end() - 1);
+  for (const GaugeVertex& vertex : vertices) vertices_[next[vertex.gauge]++] = vertex;
+}
+
+LightVertices join(std::vector<LightBlock>& blocks, size_t gauges, const GaugeDisks* disks) {
   const std::vector<size_t> begins = begins_of(blocks, &LightBlock::vertices);
   const auto as_it_is = [](const auto&, size_t) {};
   const auto of_whole = [&](auto& element, size_t block) {
@@ -69,6 +78,11 @@ LightVertices join(std::vector<LightBlock>& blocks) {
   result.scatterings = joined(blocks, &LightBlock::scatterings, of_whole);
   result.in_media = in_order(joined(blocks, &LightBlock::discs, as_it_is),
                              joined(blocks, &LightBlock::in_media, of_whole));
+  if (disks)
+    result.at_gauges = {
+        joined(blocks, &LightBlock::at_gauges,
+               [&](GaugeVertex& vertex, size_t block) { of_whole(vertex.data, block); }),
+        gauges, *disks};
   std::vector<Vec3f> positions = joined(blocks, &LightBlock::positions, as_it_is);
   std::vector<LightVertexData> data = joined(blocks, &LightBlock::data, of_whole);
   blocks.clear();

@@ -11,13 +11,14 @@ struct LightBlock {
   std::vector<ConnectibleVertex> connectible;
   std::vector<DiscHierarchy::Disc> discs;  ///< of the following
   std::vector<MergeableMediumVertex> in_media;
+  std::vector<GaugeVertex> at_gauges;
   std::vector<LightPathBeginning> beginnings;
   std::vector<LightScattering> scatterings;
   uint64_t rays = 0, splats = 0;
 };
 
 /// The vertices of all blocks in their order, of which nothing is left. How many paths there are is
-/// for the caller to say.
-LightVertices join(std::vector<LightBlock>& blocks);
+/// for the caller to say. `gauges`: so many; null disks: none.
+LightVertices join(std::vector<LightBlock>& blocks, size_t gauges, const GaugeDisks* disks);
 
 }  // namespace kaustik

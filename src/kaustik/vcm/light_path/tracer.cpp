@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kaustik/transport/camera_splats.h"
+#include "kaustik/transport/visibility.h"
 #include "kaustik/vcm/light_path/densities.h"
 
 namespace kaustik {
@@ -27,14 +28,16 @@ class Tracer {
     limits.maximum_events = std::max(0, in_.maximum_events - 1);
     limits.needs_reverse_pdf = true;
     limits.guide = in_.scattering;
+    limits.gauges = in_.gauges;
     const auto emit = [this](uint32_t i) { return start(i); };
     const auto handlers = Handlers{[this](const LightVertex& at) {
                                      add_vertex(at);
                                      return Lobes::all;
                                    },
                                    [this](const LightMediumVertex& at) { show_in_medium(at); },
-                                   [this](const LightMediumEvent& event) { add_event(event.at); }};
-    block_.rays = trace_light_paths(in_.scene, begin, end, limits, emit, handlers).rays;
+                                   [this](const LightMediumEvent& event) { add_event(event.at); },
+                                   [this](const LightAtGauge& at) { show_at_gauge(at); }};
+    block_.rays += trace_light_paths(in_.scene, begin, end, limits, emit, handlers).rays;
     block_.rays += splats_.rays();
     block_.splats = splats_.shown();
     gather();
@@ -148,6 +151,34 @@ class Tracer {
     path.vertices.pop_back();
   }
 
+  /// Where the path passes a gauge: merged there alone. As on surfaces, light from the lamp itself
+  /// is not.
+  void show_at_gauge(const LightAtGauge& at) {
+    LightPathUnderWay& path = paths_[at.path - begin_];
+    const size_t before = path.vertices.size();
+    if (before < 2 || before > most_before || at.flux.is_zero()) return;
+    const GaugeDisks::Crossing& crossing = at.crossing;
+    const SurfacePoint& gauge = in_.scene.gauges()[crossing.gauge].point;
+    if (!is_unobstructed(in_.scene, spawn_ray_to(gauge, crossing.position), block_.rays)) return;
+    const PathVertex vertex =
+        next_light_vertex(in_, LightQuery(crossing.position, gauge.ng, 1, at.state.wavelengths),
+                          {gauge.ng, 0}, at.state, at.wo, at.distance, path);
+    path.kept = true;
+    GaugeVertex kept;
+    kept.data.flux = at.flux;
+    kept.data.direction = PackedDirection(at.wo);
+    kept.data.side = CoarseNormal(gauge.ng);
+    kept.data.specular = at.path_class.diffuse_events() == 0;
+    kept.data.before = uint16_t(before);
+    kept.data.path = at.path - begin_;
+    kept.data.pdf_next_event = path.pdf_next_event;
+    kept.gauge = crossing.gauge;
+    kept.offset_sq = crossing.offset_sq;
+    kept.pdf_light = vertex.pdf_light;
+    kept.to_previous = vertex.to_previous;
+    block_.at_gauges.push_back(kept);
+  }
+
   /// Light from the lamp itself is not merged on surfaces: sampling it is better, and has no bias.
   void keep(const LightVertex& at, LightPathUnderWay& path, bool may_merge) {
     const SurfaceVertex& vertex = at.vertex;
@@ -208,6 +239,7 @@ class Tracer {
       block_.scatterings.push_back(event);
     }
     for (MergeableMediumVertex& vertex : block_.in_media) vertex.path = begins[vertex.path];
+    for (GaugeVertex& vertex : block_.at_gauges) vertex.data.path = begins[vertex.data.path];
     for (ConnectibleVertex& vertex : block_.connectible)
       vertex.data.path = begins[vertex.data.path];
   }

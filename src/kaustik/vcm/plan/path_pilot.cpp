@@ -127,9 +127,9 @@ struct PilotDensity {
   uint32_t paths = 0;
 
   /// In a picture of that size, of which a crop window is planned as the whole is.
-  explicit PilotDensity(const Vec2i& size) {
+  PilotDensity(const Vec2i& size, int block_size) {
     const size_t blocks =
-        std::max<size_t>(1, size_t(size.x) * size_t(size.y) / sqr(SeenSurfaces::block_size));
+        std::max<size_t>(1, size_t(size.x) * size_t(size.y) / size_t(sqr(block_size)));
     const auto affordable = [&] { return most_paths * size_t(sqr(stride)) / blocks; };
     while (affordable() < least_paths_per_probe) ++stride;
     paths = uint32_t(std::min<size_t>(affordable(), most_paths_per_probe));
@@ -225,8 +225,8 @@ std::vector<ProbeStatistics> probe_statistics(const CameraPathInputs& inputs,
                                               const PixelPlans& plans, const PilotLimits& limits,
                                               uint64_t& rays, const std::stop_token& stop) {
   const std::vector<PixelProbe>& probes = plans.seen().probes();
-  const PilotDensity density(inputs.scene.film().size);
   const BlockGrid& grid = plans.seen().grid();
+  const PilotDensity density(inputs.scene.film().size, grid.block_size());
   // Of so many blocks each, whose middle one's probe has paths.
   const BlockGrid cells(grid.window(), grid.block_size() * density.stride);
   std::vector<ProbeStatistics> single(cells.size());

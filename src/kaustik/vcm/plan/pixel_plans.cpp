@@ -11,6 +11,24 @@ namespace {
 /// Most of the radius at later vertices, in distances of what the camera sees.
 constexpr float most_other_radius = 0.03f;
 
+/// Of a gauge's disk, relative to the largest.
+constexpr float least_gauge_radius = 1.0f / 32;
+/// A gauge has no neighbours that are as bright: its disk takes so many times as many vertices as
+/// that of a pixel.
+constexpr size_t gauge_share = 8;
+
+/// Of the disk of a gauge, m, where that of a pixel takes so many vertices.
+float gauge_radius(const GaugeVertices& at_gauges, size_t gauge, float largest, size_t of_pixel) {
+  const auto vertices = at_gauges.of(gauge);
+  const size_t neighbors = gauge_share * of_pixel;
+  if (vertices.size() < neighbors) return largest;
+  std::vector<float> offsets;
+  for (const GaugeVertex& vertex : vertices) offsets.push_back(vertex.offset_sq);
+  const auto farthest = offsets.begin() + std::ptrdiff_t(neighbors - 1);
+  std::nth_element(offsets.begin(), farthest, offsets.end());
+  return std::clamp(std::sqrt(*farthest), least_gauge_radius * largest, largest);
+}
+
 Vec3f side_of(const SurfaceVertex& vertex) {
   return vertex.on_front() ? vertex.point().ng : -vertex.point().ng;
 }
@@ -33,6 +51,12 @@ void PixelPlans::choose_disks(const LightVertices& pilot, uint32_t paths, int wa
     SidedTree<LightVertexData>::Neighbors found;
     for (size_t i = begin; i < end && !stop.stop_requested(); ++i) {
       const PixelProbe& probe = seen_->probes()[i];
+      if (probe.gauge >= 0) {
+        plans_[i].merge_area =
+            pi * sqr(gauge_radius(pilot.at_gauges, size_t(probe.gauge),
+                                  GaugeDisks::largest_radius(probe.distance), size_t(neighbors)));
+        continue;
+      }
       if (!probe.found || pilot.tree.empty()) continue;
       pilot.tree.nearest(probe.vertex.position(), side_of(probe.vertex), false, neighbors,
                          most_disk_widths * probe.pixel_width, found);

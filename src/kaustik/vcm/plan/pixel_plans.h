@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stop_token>
 #include <vector>
@@ -28,6 +29,7 @@ struct PixelPlan {
   // What weights go by (PathHalves):
   /// All samples of a pixel merge with the same light vertices, which count but once.
   float counted_area(float camera_samples) const { return merge_area / camera_samples; }
+  float merge_radius() const { return std::sqrt(merge_area * inv_pi); }
   float counted_survival() const { return survival * evenness; }
 };
 

@@ -45,12 +45,15 @@ constexpr float near_per_distance = 0.01746f;  // tan 1°
 /// come to after a delta event: nothing but light paths will find such light.
 bool has_hidden_light(const LightVertices& light) {
   const auto all = light.tree.tree().data();
+  const auto& at_gauges = light.at_gauges.all();
   const auto is_hidden = [&](const auto& data) {
     const PathVertex& first = light.vertices[size_t(data.path) + 1];
     return data.before >= 2 && first.to_previous == 0 && first.delta;
   };
   return std::any_of(all.begin(), all.end(), is_hidden) ||
-         std::any_of(light.in_media.data.begin(), light.in_media.data.end(), is_hidden);
+         std::any_of(light.in_media.data.begin(), light.in_media.data.end(), is_hidden) ||
+         std::any_of(at_gauges.begin(), at_gauges.end(),
+                     [&](const GaugeVertex& vertex) { return is_hidden(vertex.data); });
 }
 
 /// As many vertices as on surfaces, were those in media spread over the picture, in discs that blur
@@ -301,7 +304,14 @@ VcmPlanner::PilotLight VcmPlanner::trace_pilot(const LightGuides& guides, uint32
   Pass pass;
   pass.index = round;
   PassReport report;
-  PilotLight light{.guides = guides, .vertices = {}};
+  PilotLight light{.guides = guides, .gauges = {}, .vertices = {}};
+  if (pilot.techniques.merging && !scene_.gauges().empty()) {
+    std::vector<float> radii;
+    for (const PlacedGauge& gauge : scene_.gauges())
+      radii.push_back(settings_.radius > 0 ? settings_.radius
+                                           : GaugeDisks::largest_radius(gauge.distance_around));
+    light.gauges = std::make_shared<const GaugeDisks>(scene_, std::move(radii), 0.0f, report.rays);
+  }
   light.vertices = trace_light_vertices(
       {.scene = scene_,
        .emission = *guides.emission,
@@ -314,7 +324,8 @@ VcmPlanner::PilotLight VcmPlanner::trace_pilot(const LightGuides& guides, uint32
        .shrinkage = 1,
        .remembered_paths = settings_.guiding ? LightPathUse::most_pilot_paths : 0,
        .scattering = guides.scattering.get(),
-       .remembers_scattering = settings_.guided_scattering},
+       .remembers_scattering = settings_.guided_scattering,
+       .gauges = light.gauges.get()},
       pass, Stream::pilot_light, nowhere, stop, {}, report);
   light.rays = report.rays;
   return light;

@@ -90,6 +90,7 @@ class VcmPlanner {
   /// The light paths of a pilot pass.
   struct PilotLight {
     LightGuides guides;
+    std::shared_ptr<const GaugeDisks> gauges;  ///< null: there are none
     LightVertices vertices;
     uint64_t rays = 0;
   };
