@@ -427,7 +427,6 @@ TEST(ViewRoutes, PlacesThatAreNotThere) {
   ShownScene shown;
   ASSERT_TRUE(shown.wait_until_done());
   EXPECT_EQ(shown.ask("GET", "/nothing").status, 404);
-  EXPECT_EQ(shown.ask("GET", "/photons?max=10").status, 404);
   EXPECT_EQ(shown.ask("POST", "/state", "{}").status, 405);
   EXPECT_EQ(shown.ask("GET", "/command").header("allow"), "POST");
   EXPECT_EQ(shown.ask("DELETE", "/").status, 405);

@@ -384,6 +384,7 @@ void Engine::publish(const Run& run, bool is_last) {
   snapshot->is_moving = run.is_moving;
   snapshot->passes = passes;
   snapshot->elapsed_s = elapsed_s;
+  snapshot->scene = run.job->shared_scene();
   snapshot->picture = std::move(*picture);
   const std::lock_guard lock(mutex_);
   if (shown_ != &run) return;

@@ -55,6 +55,7 @@ const std::vector<Routes::Route>& Routes::table() {
                                           {"/frame", "GET", true, &Routes::poll_frame},
                                           {"/pixel", "GET", true, &Routes::probe_pixel},
                                           {"/region", "GET", true, &Routes::probe_region},
+                                          {"/photons", "GET", true, &Routes::show_photons},
                                           {"/parameters", "GET", true, &Routes::list_parameters},
                                           {"/command", "POST", true, &Routes::do_command}};
   return rows;
@@ -64,6 +65,7 @@ Routes::Routes(Parts parts, Description description)
     : parts_(std::move(parts)),
       edits_(std::move(description)),
       polls_(parts_.engine, parts_.worker),
+      photons_(parts_.seed, parts_.threads),
       saver_(std::make_shared<PictureSaver>(parts_.output_folder)) {
   edit(copy_of(edits_.current()), std::nullopt);
   parts_.engine.start();
@@ -157,6 +159,14 @@ void Routes::probe_region(Call& call) {
       reply->send(response_of_current_exception());
     }
   });
+}
+
+void Routes::show_photons(Call& call) {
+  const PhotonQuery query = PhotonQuery::from(call.query);
+  noted_status();
+  auto scene = parts_.engine.scene();
+  if (!scene) throw RequestError(409, "there is no scene yet", "ask again in a moment");
+  photons_.answer(query, {copy_of(edits_.current()), std::move(scene)}, std::move(call.reply));
 }
 
 void Routes::list_parameters(Call& call) {
