@@ -287,7 +287,7 @@ void Routes::tick() {
   const EngineStatus status = noted_status();
   learn_of_layers(status);
   const auto snapshot = parts_.engine.snapshot();
-  const bool has_new_error = history_.note(status, snapshot && snapshot->is_moving);
+  if (history_.note(status, snapshot && snapshot->is_moving)) has_new_error_ = true;
   ++ticks_;
   if (streams_.empty()) return;
   if (ticks_ % ticks_per_state == 0) {
@@ -297,8 +297,10 @@ void Routes::tick() {
       streams_.send("state", now);
     }
   }
-  if (has_new_error && ticks_ % ticks_per_history == 0)
+  if (has_new_error_ && ticks_ % ticks_per_history == 0) {
+    has_new_error_ = false;
     streams_.send("error_history", history_.json());
+  }
 }
 
 void Routes::clear() {

@@ -78,6 +78,7 @@ class Routes {
   PhotonAnswers photons_;
   std::shared_ptr<PictureSaver> saver_;
   ErrorHistory history_;
+  bool has_new_error_ = false;  ///< in the history, and those who listen were not told yet
   std::vector<std::string> layers_ = {""};
   uint64_t layers_revision_ = 0;  ///< that the layers are known of, or asked for
   bool knows_distance_ = false;
