@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of the named groups: build, check, coverage, package, bench, python. Asks nothing, and
+# Installs the Debian packages of the named groups: build, check, coverage, package, bench, python, view. Asks nothing, and
 # needs no network when everything is there already.
 set -euo pipefail
 
@@ -11,6 +11,9 @@ coverage=(llvm-14)
 package=(dpkg-dev file)
 bench=(blender povray)
 python=(python3 python3-dev python3-venv python3-pytest python3-numpy pybind11-dev)
+view=(chromium)
+# Whoever has them from elsewhere keeps those.
+command -v npm >/dev/null || view+=(nodejs npm)
 
 wanted=()
 for group in "$@"; do
@@ -21,7 +24,8 @@ for group in "$@"; do
     package) wanted+=("${package[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     python) wanted+=("${python[@]}") ;;
-    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench and python" >&2; exit 2 ;;
+    view) wanted+=("${view[@]}") ;;
+    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench, python and view" >&2; exit 2 ;;
   esac
 done
 
