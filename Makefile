@@ -13,7 +13,7 @@ bench_scenes_options = $(if $(SCENES),--scenes $(SCENES)) $(if $(INTEGRATORS),--
 comma = ,
 sources = $(shell git ls-files -co --exclude-standard '*.h' '*.cpp')
 
-.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel notebooks install package docs format clean
+.PHONY: all setup configure build render test test-long coverage thesis bench bench-scenes bench-peers ablation sensitivity comparisons references gallery python wheel notebooks view-test install package docs format clean
 all: build
 
 # What is missing comes from Debian's packages (root or sudo); nothing is fetched when all is there.
@@ -40,6 +40,13 @@ test: build
 # Statistics at length, beside the quick tests of the same: before a release, and when an estimator changes.
 test-long: build
 	ctest --preset long
+
+# The page of `kaustik view` in Chromium: on a server of its own, and on the program. Builds both.
+view-test: configure
+	@scripts/install_packages.sh view
+	cd apps/view && npm ci --no-audit --no-fund && npm run build
+	@cmake --build --preset release --target kaustik
+	cd apps/view && KAUSTIK=$(abspath $(program)) npm test
 
 # Which share of the lines the tests run, of each room and in all.
 coverage: setup

@@ -30,7 +30,7 @@ void measure_cancelling(const std::string& scene, const std::string& integrator)
   std::vector<double> seconds;
   for (int i = 0; i < moments; ++i) {
     JobSettings settings;
-    settings.session.passes = 1'000'000;
+    settings.session.is_endless = true;
     settings.previews = true;
     Job job(described(scene, integrator), std::move(settings));
     job.prepare();
@@ -51,7 +51,7 @@ void measure_cancelling(const std::string& scene, const std::string& integrator)
 /// From an edit to the first picture of the new scene.
 void measure_first_picture(const std::string& scene, const std::string& integrator) {
   EngineSettings settings;
-  settings.session.passes = 1'000'000;
+  settings.session.is_endless = true;
   settings.session.layers = false;
   Engine engine(settings);
   engine.edit(described(scene, integrator));
@@ -94,7 +94,7 @@ Description turned(const Description& description, double degrees) {
 /// the next move after that.
 void measure_orbit(const std::string& scene) {
   EngineSettings settings;
-  settings.session.passes = 1'000'000;
+  settings.session.is_endless = true;
   settings.session.layers = false;
   settings.snapshot_interval_s = 0;
   settings.moving = recipe_of_moving_views();

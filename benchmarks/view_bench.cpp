@@ -74,7 +74,7 @@ json turned(json camera, double degrees) {
 view::ViewSettings settings_of(const std::string& scene) {
   view::ViewSettings settings;
   settings.scene = scene;
-  settings.engine.session.passes = 1'000'000;
+  settings.engine.session.is_endless = true;
   return settings;
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of the named groups: build, check, coverage, package, bench, python, wheel, notebooks.
-# Asks nothing, and needs no network when everything is there already.
+# Installs the Debian packages of the named groups: build, check, coverage, package, bench, python, wheel, notebooks,
+# view. Asks nothing, and needs no network when everything is there already.
 set -euo pipefail
 
 build=(cmake ninja-build pkg-config python3 libembree-dev libtbb-dev libimath-dev libopenexr-dev libtiff-dev
@@ -13,6 +13,9 @@ bench=(blender povray)
 python=(python3 python3-dev python3-venv python3-pytest python3-numpy pybind11-dev)
 wheel=(patchelf mmdebstrap)
 notebooks=(python3-nbclient python3-nbformat python3-ipykernel python3-matplotlib)
+view=(chromium)
+# Whoever has them from elsewhere keeps those.
+command -v npm >/dev/null || view+=(nodejs npm)
 
 wanted=()
 for group in "$@"; do
@@ -25,7 +28,8 @@ for group in "$@"; do
     python) wanted+=("${python[@]}") ;;
     wheel) wanted+=("${wheel[@]}") ;;
     notebooks) wanted+=("${notebooks[@]}") ;;
-    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench, python, wheel and notebooks" >&2; exit 2 ;;
+    view) wanted+=("${view[@]}") ;;
+    *) echo "$0: no group '$group'; there are build, check, coverage, package, bench, python, wheel, notebooks and view" >&2; exit 2 ;;
   esac
 done
 

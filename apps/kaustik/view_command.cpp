@@ -33,8 +33,8 @@ namespace {
 constexpr uint16_t usual_port = 8763;
 constexpr const char* token_variable = "KAUSTIK_VIEW_TOKEN";
 constexpr size_t shortest_token = 16;
-/// As many as nobody waits for.
-constexpr uint32_t endless_passes = 1'000'000;
+/// Few: who moves the camera waits for the first pass at rest.
+constexpr uint32_t samples_per_pass = 4;
 
 struct ViewerOptions {
   RenderRecipe recipe;
@@ -127,7 +127,8 @@ void view_scene(ViewerOptions options) {
   settings.engine.recipe = recipe;
   settings.engine.build = options.build;
   settings.engine.session.threads = usable_threads(options.threads);
-  settings.engine.session.passes = endless_passes;
+  settings.engine.session.is_endless = true;
+  settings.engine.session.samples_per_pass = samples_per_pass;
   settings.address = options.address;
   settings.token = token_of_environment();
   settings.output_folder = options.output;

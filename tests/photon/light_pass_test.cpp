@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <functional>
+
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/statistics.h"
 #include "tests/photon/emission_scenes.h"
@@ -160,6 +164,92 @@ TEST(LightPass, SameForAnyNumberOfThreads) {
       ASSERT_EQ(a.tree().data(i).flux.lanes, b.tree().data(i).flux.lanes);
     }
   }
+}
+
+/// By position and flux.
+using PhotonKey = std::array<float, 4>;
+std::vector<PhotonKey> sorted_keys(const PhotonMap& map) {
+  std::vector<PhotonKey> keys;
+  for (uint32_t i = 0; i < map.size(); ++i) {
+    const Vec3f p = map.tree().key(i);
+    keys.push_back({p.x, p.y, p.z, map.tree().data(i).flux.lanes[1]});
+  }
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+std::vector<PhotonKey> sorted_keys(const DrawnPhotons& drawn, DrawnPhoton::Map map) {
+  std::vector<PhotonKey> keys;
+  for (const DrawnPhoton& photon : drawn.photons)
+    if (photon.map == map)
+      keys.push_back(
+          {photon.position.x, photon.position.y, photon.position.z, photon.flux.lanes[1]});
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+std::shared_ptr<const Scene> scene_of_two_lamps() {
+  return make_scene({room(0.5), lamp(Vec3d(0.5, 0, 0)), lamp(Vec3d(0, 0.9, 0)),
+                     sphere(Vec3d(0, 0, 0), 0.4, glass())});
+}
+
+TEST(LightPass, DrawsThePhotonsOfItsMaps) {
+  const auto scene = scene_of_two_lamps();
+  const LightPass pass(*scene, settings_of(20'000 / photon_divisor, 10'000 / photon_divisor), 7);
+  const PhotonMaps maps = pass.trace(7, 3);
+  const DrawnPhotons drawn = pass.draw(7, 3, 1 << 30);
+  ASSERT_GT(maps.caustic.size(), 0u);
+  EXPECT_EQ(drawn.total, maps.global.size() + maps.caustic.size());
+  EXPECT_EQ(drawn.photons.size(), drawn.total);
+  EXPECT_EQ(sorted_keys(drawn, DrawnPhoton::Map::global), sorted_keys(maps.global));
+  EXPECT_EQ(sorted_keys(drawn, DrawnPhoton::Map::caustic), sorted_keys(maps.caustic));
+  std::array<uint64_t, 2> of_light{};
+  for (const DrawnPhoton& photon : drawn.photons) {
+    ASSERT_GE(photon.level, 1u);
+    ++of_light.at(photon.light);
+  }
+  for (size_t light = 0; light < 2; ++light)
+    EXPECT_EQ(of_light[light],
+              maps.global_report.lights[light].stored + maps.caustic_report.lights[light].stored);
+}
+
+/// How far the share of photons of lamp 0, of caustic ones and of those after two events or more is
+/// from that of all, in standard deviations of a draw without replacement: the largest of the
+/// three.
+double oddity(const std::vector<DrawnPhoton>& some, const std::vector<DrawnPhoton>& all) {
+  double largest = 0;
+  for (const auto& counts : std::vector<std::function<bool(const DrawnPhoton&)>>{
+           [](const DrawnPhoton& p) { return p.light == 0; },
+           [](const DrawnPhoton& p) { return p.map == DrawnPhoton::Map::caustic; },
+           [](const DrawnPhoton& p) { return p.level >= 2; }}) {
+    const double share = double(std::ranges::count_if(all, counts)) / double(all.size());
+    const double n = double(some.size()), rest = 1 - n / double(all.size());
+    const double found = double(std::ranges::count_if(some, counts));
+    largest =
+        std::max(largest, std::abs(found - n * share) / std::sqrt(n * share * (1 - share) * rest));
+  }
+  return largest;
+}
+
+TEST(LightPass, DrawsEachPhotonAsLikelyAsAnyOther) {
+  const auto scene = scene_of_two_lamps();
+  const LightPass pass(*scene, settings_of(20'000, 10'000), 7);
+  DrawnPhotons all, some;
+  with_threads(1, [&] { all = pass.draw(7, 0, 1 << 30); });
+  with_threads(2, [&] { some = pass.draw(7, 0, 500); });
+  ASSERT_GT(all.photons.size(), 10'000u);
+  EXPECT_EQ(some.total, all.total);
+  ASSERT_EQ(some.photons.size(), 500u);
+  for (size_t i = 0; i < some.photons.size(); ++i) {
+    ASSERT_EQ(some.photons[i].position, all.photons[i].position);
+    ASSERT_EQ(some.photons[i].flux.lanes, all.photons[i].flux.lanes);
+  }
+  // Three tests at 1e-4 each.
+  EXPECT_LT(oddity(some.photons, all.photons), 3.9);
+  // The first that were traced are no such draw.
+  std::vector<DrawnPhoton> ordered = all.photons;
+  std::ranges::stable_sort(ordered, {}, &DrawnPhoton::light);
+  ordered.resize(500);
+  EXPECT_GT(oddity(ordered, all.photons), 3.9);
 }
 
 }  // namespace

@@ -229,6 +229,28 @@ TEST(Session, ManySamplesMakeManyPasses) {
   EXPECT_EQ(plan(*small, settings), std::pair(2u, 50000u));
 }
 
+// Who looks on ends it, not the number of samples that the scene asks for.
+TEST(Session, EndlessOnesGoOn) {
+  Script script;
+  const auto scene = scene_with(
+      film_of(4, 4) +
+          "<sampler type=\"independent\"><integer name=\"sample_count\" value=\"3\"/></sampler>",
+      room);
+  const Scripted integrator{script};
+  SessionSettings settings;
+  EXPECT_EQ(Session(*scene, integrator, settings).planned_passes(), 3u);
+  settings.is_endless = true;
+  Session session(*scene, integrator, settings);
+  EXPECT_EQ(session.planned_passes(), 0u);
+  EXPECT_EQ(session.samples_per_pass(), integrator.traits().default_samples_per_pass);
+  std::stop_source stop;
+  const SessionReport report = session.run(stop.get_token(), {}, [&] {
+    if (session.film().pass_count() == 20) stop.request_stop();
+  });
+  EXPECT_EQ(report.end, SessionEnd::cancelled);
+  EXPECT_EQ(report.passes, 20u);
+}
+
 // A large first pass is cut when the time is over, but not below a sample of each pixel.
 TEST(Session, ALargeFirstPassEndsInTime) {
   const auto scene = scene_with(film_of(2, 2, "<rfilter type=\"box\"/>"), room);

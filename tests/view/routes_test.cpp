@@ -184,6 +184,28 @@ TEST(ViewRoutes, EventsTellWhatChanges) {
   EXPECT_NE(listener.until("\"revision\":2"), "");
 }
 
+// However short the moment is in which there is a new error, those who listen are told of it.
+TEST(ViewRoutes, ErrorsAreToldToThoseWhoListen) {
+  ShownScene shown;
+  ASSERT_TRUE(shown.wait_until_done());
+  HttpClient listener(shown.port());
+  listener.send(shown.request("GET", "/events"));
+  const auto next_history = [&] {
+    if (listener.until("event: error_history\ndata: ", std::chrono::seconds(20)).empty())
+      return json();
+    return json::parse(listener.until("\n\n"), nullptr, false);
+  };
+  ASSERT_TRUE(next_history().is_object());
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_EQ(shown.command({{"do", "reset"}}).status, 200);
+    ASSERT_TRUE(shown.wait_until_done());
+    json history = next_history();
+    while (history.is_object() && history["error"].empty()) history = next_history();
+    ASSERT_TRUE(history.is_object()) << "nothing came after reset " << i;
+    EXPECT_GT(history["error"].back(), 0);
+  }
+}
+
 TEST(ViewRoutes, CamerasMove) {
   ShownScene shown;
   ASSERT_TRUE(shown.wait_until_done());
@@ -427,7 +449,6 @@ TEST(ViewRoutes, PlacesThatAreNotThere) {
   ShownScene shown;
   ASSERT_TRUE(shown.wait_until_done());
   EXPECT_EQ(shown.ask("GET", "/nothing").status, 404);
-  EXPECT_EQ(shown.ask("GET", "/photons?max=10").status, 404);
   EXPECT_EQ(shown.ask("POST", "/state", "{}").status, 405);
   EXPECT_EQ(shown.ask("GET", "/command").header("allow"), "POST");
   EXPECT_EQ(shown.ask("DELETE", "/").status, 405);

@@ -12,6 +12,7 @@ export class Frame {
     readonly height: number,
     readonly scale: number, // pixels times this are the values
     readonly isMoving: boolean,
+    readonly projection: readonly number[] | null, // from the world to pixels of the whole picture, 3 rows of 4
     readonly layer: string,
     readonly format: FrameFormat,
     readonly pixels: Uint32Array | Float32Array,
@@ -34,6 +35,7 @@ export class Frame {
       height,
       Number(response.headers.get('X-Scale') ?? 1),
       response.headers.get('X-Moving') === '1',
+      projectionOf(response),
       layer,
       format,
       format === 'rgb9e5' ? new Uint32Array(bytes) : new Float32Array(bytes),
@@ -60,4 +62,10 @@ export class Frame {
       for (let x = step >> 1; x < this.width; x += step) result.push(luminance(this.rgb(x, y)));
     return Float64Array.from(result);
   }
+}
+
+/// Null: the camera has none.
+function projectionOf(response: Response): number[] | null {
+  const numbers = (response.headers.get('X-Projection') ?? '').split(' ').map(Number);
+  return numbers.length === 12 && numbers.every(Number.isFinite) ? numbers : null;
 }

@@ -13,6 +13,7 @@ import { Legend } from './legend';
 import { Log } from './log';
 import { startNotice } from './notice';
 import { ParametersPanel } from './parameters';
+import { Photons } from './photons';
 import { ErrorPlot } from './plot';
 import { Probe } from './probe';
 import { Region } from './region';
@@ -55,6 +56,7 @@ function start(): void {
   const camera = new CameraControl(client, fail);
   const probe = new Probe(client, state, fail);
   const region = new Region(client, state, fail);
+  const photons = new Photons(client, state, fail);
   const parameters = new ParametersPanel(client, fail);
   const transport = new Transport(client, state, fail);
   const save = new SaveDialog(client, (file) => {
@@ -101,7 +103,7 @@ function start(): void {
   startNotice(connection);
   startCameraPanel(camera);
   try {
-    new Stage(connection, frames, display, view, probe, region);
+    new Stage(connection, frames, display, view, probe, region, photons);
   } catch (error) {
     log.add({ level: 'error', text: (error as Error).message });
     toast((error as Error).message, 'error');
@@ -120,7 +122,7 @@ function start(): void {
     },
   });
   const keyboard: Keyboard = new Keyboard(
-    shortcuts({ camera, display, probe, region, save, transport, view, showHelp: () => keyboard.toggleHelp() }),
+    shortcuts({ camera, display, photons, probe, region, save, transport, view, showHelp: () => keyboard.toggleHelp() }),
     hints,
   );
   void connection.open();

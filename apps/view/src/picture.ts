@@ -1,5 +1,6 @@
 import { paletteBytes } from './color';
 import type { Frame } from './frame';
+import { linked } from './gl';
 import type { Operator } from './layers';
 import type { Scale } from './scale';
 import { fragmentShader, vertexShader } from './shaders';
@@ -36,7 +37,7 @@ export class PictureCanvas {
     const gl = canvas.getContext('webgl2', { alpha: true, antialias: false, depth: false });
     if (!gl) throw new Error('This browser has no WebGL2, which the picture needs.');
     this.gl = gl;
-    const program = linked(gl);
+    const program = linked(gl, vertexShader, fragmentShader);
     gl.useProgram(program);
     const place = (name: string) => gl.getUniformLocation(program, name);
     this.uniforms = Object.fromEntries(uniformNames.map((name) => [name, place(name)])) as Uniforms;
@@ -108,20 +109,4 @@ export class PictureCanvas {
       gl.texParameteri(gl.TEXTURE_2D, side, gl.CLAMP_TO_EDGE);
     return texture;
   }
-}
-
-function linked(gl: WebGL2RenderingContext): WebGLProgram {
-  const program = gl.createProgram()!;
-  for (const [type, text] of [[gl.VERTEX_SHADER, vertexShader], [gl.FRAGMENT_SHADER, fragmentShader]] as const) {
-    const shader = gl.createShader(type)!;
-    gl.shaderSource(shader, text);
-    gl.compileShader(shader);
-    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS))
-      throw new Error(`The picture's shader does not compile: ${gl.getShaderInfoLog(shader)}`);
-    gl.attachShader(program, shader);
-  }
-  gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS))
-    throw new Error(`The picture's program does not link: ${gl.getProgramInfoLog(program)}`);
-  return program;
 }

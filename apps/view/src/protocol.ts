@@ -154,6 +154,12 @@ export class Client {
     return (await this.ask(`region?${query({ ...region })}`)).json();
   }
 
+  /// Some of the scene's photons, for PhotonCloud; null: those of the key are what there is.
+  async photons(most: number, known: string | null): Promise<Response | null> {
+    const response = await this.ask(`photons?${query({ max: most, ...(known ? { known } : {}) })}`);
+    return response.status === 204 ? null : response;
+  }
+
   async command(command: Command): Promise<CommandAnswer> {
     return (await this.ask('command', this.posted(command))).json();
   }

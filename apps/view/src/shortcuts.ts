@@ -2,6 +2,7 @@ import type { CameraControl } from './camera_control';
 import type { Display } from './display';
 import type { Hint, Shortcut } from './keyboard';
 import type { Operator } from './layers';
+import type { Photons } from './photons';
 import type { Probe } from './probe';
 import type { Region } from './region';
 import type { SaveDialog } from './save';
@@ -13,6 +14,7 @@ import type { View } from './view';
 interface Parts {
   camera: CameraControl;
   display: Display;
+  photons: Photons;
   probe: Probe;
   region: Region;
   save: SaveDialog;
@@ -66,6 +68,7 @@ export function shortcuts(parts: Parts): Shortcut[] {
     { group: 'Picture', keys: ['z'], shown: 'Z', text: 'One pixel for one of the screen', run: () => view.zoomTo(1 / (window.devicePixelRatio || 1)) },
     { group: 'Picture', keys: ['+', '='], shown: '+', text: 'Larger', run: () => view.zoomBy(1.5) },
     { group: 'Picture', keys: ['-'], shown: '−', text: 'Smaller', run: () => view.zoomBy(1 / 1.5) },
+    { group: 'Picture', keys: ['x'], shown: 'X', text: 'Photons over the picture', run: () => parts.photons.toggle() },
     { group: 'Picture', keys: ['l'], shown: 'L', text: 'Next layer', run: () => display.nextLayer(1) },
     { group: 'Picture', keys: ['Shift+l'], shown: 'Shift L', text: 'Layer before', run: () => display.nextLayer(-1) },
     { group: 'Tone', keys: ['e'], shown: 'E', text: 'Half a stop brighter', run: () => display.exposeBy(0.5) },

@@ -8,6 +8,7 @@ import { titleOf } from './layers';
 import { formatNumber, formatZoom } from './numbers';
 import { Overlay } from './overlay';
 import { PictureCanvas } from './picture';
+import type { Photons } from './photons';
 import type { Probe } from './probe';
 import type { Region } from './region';
 import { photometry, shownFactor, shownUnit } from './units';
@@ -30,6 +31,7 @@ export class Stage {
     private readonly view: View,
     private readonly probe: Probe,
     private readonly region: Region,
+    private readonly photons: Photons,
   ) {
     this.picture = new PictureCanvas(this.canvas);
     this.overlay = new Overlay(byId<HTMLCanvasElement>('overlay'), view);
@@ -41,7 +43,7 @@ export class Stage {
     view.changed.onChange(() => this.askForSize());
     display.asked.onChange(() => this.askForSize());
     connection.state.onChange(() => this.askForSize());
-    const shown = [view.changed, display.look, frames.frame, probe.pinned, probe.hovered, region.rectangle, region.text, photometry];
+    const shown = [view.changed, display.look, frames.frame, probe.pinned, probe.hovered, region.rectangle, region.text, photons.changed, photometry];
     for (const signal of shown) (signal as { onChange(f: () => void): void }).onChange(this.redraw);
     byId('zoom-fit').addEventListener('click', () => view.fit());
     byId('zoom-one').addEventListener('click', () => view.zoomTo(1 / (window.devicePixelRatio || 1)));
@@ -72,6 +74,7 @@ export class Stage {
     }
     const ratio = this.canvas.width / Math.max(1, this.canvas.clientWidth);
     this.picture.draw(this.display.look.value, this.view.placement(ratio));
+    this.photons.draw(frame, this.view.pictureSize, this.view.placement(ratio), ratio);
     const { pinned, hovered } = this.probe;
     this.overlay.draw({
       frame,

@@ -51,6 +51,10 @@ export class FakeServer {
     this.camera = { origin: [3, 3.2, 7], target: [0, 0.8, 0], up: [0, 1, 0], fov: 38 };
     Object.assign(this, { number: 0, revision: 1, passes: 0, state: 'rendering', elapsed: 0, movedAt: -Infinity, refusal: null });
     this.history = { elapsed_s: [], error: [] };
+    // Photons lie at pixels: this camera sees along parallel lines.
+    this.projection = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1];
+    this.photons = { key: 'a1', lamps: ['lamp', 'window'], list: [] };
+    this.photonRequests = [];
     this.waiting = new Set();
     this.listeners = new Set();
     this.trace();
@@ -164,6 +168,7 @@ export class FakeServer {
     if (url.pathname === '/parameters') return json(200, { objects: this.objects, integrators: ['auto', 'path', 'vcm', 'photonmap'] });
     if (url.pathname === '/pixel') return json(200, this.pixel(at('x'), at('y')));
     if (url.pathname === '/region') return json(200, this.region(at('x'), at('y'), at('width'), at('height')));
+    if (url.pathname === '/photons') return this.sendPhotons(url.searchParams, response, headers);
     if (url.pathname === '/frame') return this.frame(url.searchParams, request, response, headers);
     if (url.pathname === '/events') return this.events(request, response, headers);
     return json(404, { error: `nothing is at ${url.pathname}`, remedy: 'see the protocol' });
@@ -202,7 +207,30 @@ export class FakeServer {
       ...headers, 'Content-Type': 'application/octet-stream', 'X-Number': this.number, 'X-Revision': this.revision,
       'X-Kind': 'passes', 'X-Passes': this.passes, 'X-Width': width, 'X-Height': height, 'X-Scale': 0.5,
       'X-Moving': Date.now() - this.movedAt < 400 ? 1 : 0,
+      ...(this.projection ? { 'X-Projection': this.projection.join(' ') } : {}),
     }).end(body);
+  }
+
+  /// Each photon is {at: [x, y, z], kind, level, lamp}.
+  sendPhotons(query, response, headers) {
+    this.photonRequests.push(Object.fromEntries(query));
+    const { key, lamps, list } = this.photons;
+    if (query.get('known') === key) return response.writeHead(204, headers).end();
+    const kinds = ['global', 'caustic', 'volume'];
+    let text = JSON.stringify({ count: list.length, total: 12345, key, kinds, lamps });
+    text = text.padEnd(4 * Math.ceil(text.length / 4));
+    const body = Buffer.alloc(4 + text.length + 28 * list.length);
+    body.writeUInt32LE(text.length, 0);
+    body.write(text, 4, 'latin1');
+    list.forEach(({ at, kind, level, lamp }, i) => {
+      const start = 4 + text.length + 28 * i;
+      at.forEach((v, axis) => body.writeFloatLE(v, start + 4 * axis));
+      [1, 2, 3].forEach((v, lane) => body.writeFloatLE(v, start + 12 + 4 * lane));
+      body.writeUInt8(kinds.indexOf(kind), start + 24);
+      body.writeUInt8(level, start + 25);
+      body.writeUInt16LE(lamp, start + 26);
+    });
+    response.writeHead(200, { ...headers, 'Content-Type': 'application/octet-stream' }).end(body);
   }
 
   newer(request) {

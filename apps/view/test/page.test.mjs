@@ -4,41 +4,23 @@ import { after, before, describe, test } from 'node:test';
 import { launch } from './browser.mjs';
 import { FakeServer } from './fake_server.mjs';
 import { patches } from './fake_scene.mjs';
-import { readPng } from './png.mjs';
+import { coloursAt, connectionOf, luminance, openedPage, patience, placeOf, shownNumber, until } from './support.mjs';
 
-const patience = 120_000; // machines are busy
 let browser;
 
 before(async () => (browser = await launch()), { timeout: patience });
 after(() => browser?.close());
 
-/// A page on a server of its own. What the browser complains of fails the test.
+/// A page on a server of its own.
 async function opened(settings = {}, view = {}, whenDone = null) {
   const server = await new FakeServer(settings).listen();
-  const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, colorScheme: 'dark', ...view });
-  const page = await context.newPage();
-  page.setDefaultTimeout(patience);
-  const complaints = [];
-  page.on('pageerror', (error) => complaints.push(String(error)));
-  page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
-  await page.goto(server.link);
-  await page.waitForFunction(() => document.getElementById('zoom-value').textContent !== '100 %' && document.getElementById('exposure').value !== '0');
+  const parts = await openedPage(browser, server.link, view);
   const close = async () => {
-    await context.close();
+    await parts.context.close();
     await server.close();
   };
   whenDone?.after(close);
-  return { server, page, context, complaints, close };
-}
-
-async function until(check, what) {
-  const end = Date.now() + patience;
-  while (Date.now() < end) {
-    const result = await check();
-    if (result) return result;
-    await new Promise((done) => setTimeout(done, 50));
-  }
-  assert.fail(`waited in vain: ${what}`);
+  return { server, close, ...parts };
 }
 
 /// No camera comes any more.
@@ -52,23 +34,6 @@ async function settled(server, page) {
   }, 'cameras');
 }
 
-/// Where a place of the picture is on the page.
-async function placeOf(page, x, y, { width, height }) {
-  const box = await page.locator('#stage').boundingBox();
-  const zoom = Math.min(box.width / width, box.height / height);
-  return {
-    x: box.x + box.width / 2 + (x - width / 2) * zoom,
-    y: box.y + box.height / 2 + (y - height / 2) * zoom,
-  };
-}
-
-async function coloursAt(page, places) {
-  const picture = readPng(await page.screenshot());
-  return places.map(({ x, y }) => picture.at(Math.round(x), Math.round(y)));
-}
-
-const photopic = [0.212639, 0.7151687, 0.0721923];
-const luminance = (rgb) => rgb.reduce((sum, v, c) => sum + photopic[c] * v, 0);
 const encoded = (v) => 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
 
 function intoGamut(rgb) {
@@ -210,8 +175,7 @@ describe('page', { concurrency: false }, () => {
     await page.mouse.click(at.x, at.y);
     await page.waitForFunction(() => document.getElementById('probe-x').value === '80' && document.getElementById('probe-y').value === '60');
     const pixel = server.pixel(80, 60);
-    const shown = async () => Number((await page.textContent('#probe-luminance')).replace(/\(.*/, ''));
-    await until(async () => Math.abs((await shown()) - pixel.luminance) <= pixel.standard_error, 'the luminance');
+    await until(async () => Math.abs((await shownNumber(page, '#probe-luminance')) - pixel.luminance) <= pixel.standard_error, 'the luminance');
     const [low, high] = (await page.textContent('#probe-interval')).split(' to ').map(Number);
     assert.ok(Math.abs(low - pixel.interval[0]) < 0.1 * (high - low) && Math.abs(high - pixel.interval[1]) < 0.1 * (high - low));
     assert.notEqual(await page.textContent('#probe-bias'), 'none estimated');
@@ -229,7 +193,7 @@ describe('page', { concurrency: false }, () => {
     await page.mouse.up();
     await page.waitForFunction(() => document.getElementById('region-pixels').textContent === '600');
     const mean = server.region(20, 30, 30, 20);
-    assert.ok(Math.abs(Number((await page.textContent('#region-mean')).replace(/\(.*/, '')) - mean.mean) <= mean.standard_error);
+    assert.ok(Math.abs((await shownNumber(page, '#region-mean')) - mean.mean) <= mean.standard_error);
     await page.click('.photometry [value=photometric]');
     assert.equal(await page.textContent('#region-unit'), 'cd/m²');
     assert.ok(Math.abs(parseFloat(await page.textContent('#region-mean')) / (179 * mean.mean) - 1) < 0.01);
@@ -258,7 +222,7 @@ describe('page', { concurrency: false }, () => {
     await row('glass.roughness').locator('.row-message').waitFor();
     assert.match(await row('glass.roughness').locator('.row-message').textContent(), /out of range.*smaller/);
     assert.equal(server.value('glass.roughness').value, 0);
-    assert.equal(await page.evaluate(() => document.documentElement.dataset.connection), 'connected');
+    assert.equal(await connectionOf(page), 'connected');
     await page.fill('#parameter-filter', 'ior');
     assert.equal(await page.locator('.parameter:visible').count(), 1);
     await page.selectOption('#integrator', 'vcm');
@@ -322,10 +286,75 @@ describe('page', { concurrency: false }, () => {
     server.state = 'rendering';
   });
 
+  test('photons lie over the picture, in the colours of the legend', { timeout: 3 * patience }, async (t) => {
+    const size = { width: 160, height: 120 };
+    const { server, page, complaints } = await opened({ scene: 'chart', ...size, passes: 2 }, {}, t);
+    server.photons.list = [
+      { at: [30.5, 30.5, 7], kind: 'caustic', level: 1, lamp: 0 },
+      { at: [30.5, 90.5, -7], kind: 'global', level: 3, lamp: 1 },
+      { at: [120.5, 60.5, 0], kind: 'caustic', level: 200, lamp: 1 },
+    ];
+    const places = await Promise.all(server.photons.list.map(({ at: [x, y] }) => placeOf(page, x, y, size)));
+    const bare = await coloursAt(page, places);
+    const far = (a, b) => Math.max(...a.map((v, c) => Math.abs(v - b[c])));
+    const shows = (colours) => until(async () => {
+      const now = await coloursAt(page, places);
+      return colours.every((colour, i) => (colour ? far(now[i], colour.map((v, c) => 0.85 * v + 0.15 * bare[i][c])) <= 6 : far(now[i], bare[i]) <= 3));
+    }, `points of ${JSON.stringify(colours)}`);
+    const [caustic, global, lamp, window] = [[255, 179, 71], [95, 170, 255], [255, 190, 60], [90, 180, 240]];
+    await page.focus('#stage');
+    await page.keyboard.press('x');
+    await shows([caustic, global, caustic]);
+    assert.equal(server.photonRequests[0].known, undefined);
+    const rows = () => page.locator('#photon-classes button').allTextContents();
+    assert.deepEqual(await rows(), ['Indirect1', 'Caustic2']);
+    assert.match(await page.textContent('#photon-count'), /^3 of 12/);
+
+    await page.locator('#photon-classes button', { hasText: 'Caustic' }).click();
+    await shows([null, global, null]);
+    await page.selectOption('#photon-colour', 'lamp');
+    assert.deepEqual(await rows(), ['lamp1', 'window2']);
+    await shows([lamp, window, window]);
+    await page.selectOption('#photon-colour', 'level');
+    assert.deepEqual(await rows(), ['11', '31', '8 or more1']);
+    await page.selectOption('#photon-colour', 'kind');
+    await shows([caustic, global, caustic]);
+
+    // They go with the camera of the picture that is shown.
+    server.projection = [1, 0, 0, 15, 0, 1, 0, -5, 0, 0, 0, 1];
+    server.publish();
+    const moved = await placeOf(page, 45.5, 25.5, size);
+    await shows([null, null, null]);
+    const [there] = await coloursAt(page, [moved]);
+    assert.ok(far(there, caustic) < 60, `moved along: ${there}`);
+    server.projection = null;
+    server.publish();
+    await until(async () => /no points/.test(await page.textContent('#photon-note')), 'why there are none');
+    server.projection = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1];
+    server.publish();
+    await shows([caustic, global, caustic]);
+
+    // After an edit they are asked for, but sent only if they are others.
+    const asked = server.photonRequests.length;
+    server.edited();
+    server.publish();
+    await until(() => server.photonRequests.length > asked, 'another request');
+    assert.equal(server.photonRequests.at(-1).known, 'a1');
+    await shows([caustic, global, caustic]);
+    server.photons = { ...server.photons, key: 'b2', list: server.photons.list.slice(0, 1) };
+    server.edited();
+    server.publish();
+    await shows([caustic, null, null]);
+    await page.click('#show-photons');
+    await shows([null, null, null]);
+    assert.ok(await page.isHidden('#photon-legend'));
+    assert.deepEqual(complaints, []);
+  });
+
   test('comes back when the server was started again, and asks for a link if the token is new', { timeout: 3 * patience }, async (t) => {
     const { server, page } = await opened({}, {}, t);
     const { port, token } = server;
-    const connection = () => page.evaluate(() => document.documentElement.dataset.connection);
+    const connection = () => connectionOf(page);
     await server.close();
     await until(async () => (await connection()) === 'lost', 'the loss');
     assert.match(await page.textContent('#notice'), /does not answer/);
@@ -348,7 +377,10 @@ describe('page', { concurrency: false }, () => {
   });
 
   test('fits a phone: nothing is wider than the screen', { timeout: 3 * patience }, async (t) => {
-    const { page } = await opened({}, { viewport: { width: 390, height: 844 } }, t);
+    const { server, page } = await opened({}, { viewport: { width: 390, height: 844 } }, t);
+    server.photons.list = [1, 2, 3, 4].map((level) => ({ at: [level, 1, 1], kind: 'global', level, lamp: 0 }));
+    await page.click('#show-photons');
+    await page.waitForFunction(() => /photons/.test(document.getElementById('photon-count').textContent));
     for (const tab of ['#tab-measure', '#tab-scene', '#tab-log'])
       for (const operator of ['filmic', 'falsecolor']) {
         await page.click(`[data-operator=${operator}]`);
@@ -368,10 +400,9 @@ describe('page', { concurrency: false }, () => {
     const colour = () => page.evaluate(() => getComputedStyle(document.querySelector('.top')).backgroundColor);
     const dark = await colour();
     await page.emulateMedia({ colorScheme: 'light' });
-    const light = await colour();
-    assert.notEqual(dark, light);
+    await until(async () => (await colour()) !== dark, 'light');
     await page.keyboard.press('t');
-    assert.equal(await colour(), dark);
+    await until(async () => (await colour()) === dark, 'dark');
     await page.keyboard.press('?');
     assert.ok(await page.isVisible('#help-dialog'));
     assert.ok((await page.locator('#help-text dt').count()) > 25);
@@ -386,6 +417,6 @@ describe('page', { concurrency: false }, () => {
     assert.ok(Math.abs(Number(await page.inputValue('#exposure-number')) - before - 0.5) < 1e-6);
     await page.keyboard.press('v');
     await page.keyboard.press('z');
-    assert.equal(await page.textContent('#zoom-value'), '100 %');
+    await page.waitForFunction(() => document.getElementById('zoom-value').textContent === '100 %');
   });
 });

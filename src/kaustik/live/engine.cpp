@@ -142,8 +142,10 @@ bool Engine::moves() const { return settings_.moving && Clock::now() < end_of_mo
 
 bool Engine::rests() const {
   if (!taken_.is_moving || wanted_.is_paused || moves()) return false;
-  // Light that is not traced to its end is lost, and the next move would begin anew.
-  return shows_motion(taken_.revision) || status_.state != EngineState::rendering ||
+  // Light that is not traced to its end is lost, and the next move would begin anew. And until the
+  // first pass at rest is done its picture is looked at: it should have all its pixels.
+  const bool has_pass = snapshot_ && snapshot_->kind == Snapshot::Kind::passes;
+  return (has_pass && shows_motion(taken_.revision)) || status_.state != EngineState::rendering ||
          Clock::now() >= longest_motion();
 }
 
@@ -382,6 +384,7 @@ void Engine::publish(const Run& run, bool is_last) {
   snapshot->is_moving = run.is_moving;
   snapshot->passes = passes;
   snapshot->elapsed_s = elapsed_s;
+  snapshot->scene = run.job->shared_scene();
   snapshot->picture = std::move(*picture);
   const std::lock_guard lock(mutex_);
   if (shown_ != &run) return;

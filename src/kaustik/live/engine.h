@@ -24,8 +24,8 @@ struct EngineSettings {
   BuildOptions build;
   RenderRecipe recipe;  ///< changes that are made to every description
   /// Those that are made in their place until nothing was edited for `rest_s`, for integrators that
-  /// have a picture sooner (recipe_of_moving_views()); and until that was seen, 10 s at most: what
-  /// they keep of light is for the next move. Absent: `recipe`.
+  /// have a picture sooner (recipe_of_moving_views()); and until a whole pass of that was seen, 10
+  /// s at most: what they keep of light is for the next move. Absent: `recipe`.
   std::optional<RenderRecipe> moving;
   double rest_s = 1;
   /// Least time between two snapshots of the same kind, s. Those of another kind come at once.

@@ -1,9 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 
 #include "kaustik/image/image.h"
 
 namespace kaustik {
+
+class Scene;
 
 /// A picture as it was at a moment. Immutable once it is shared.
 struct Snapshot {
@@ -19,7 +22,8 @@ struct Snapshot {
   Kind kind = Kind::preview;
   bool is_moving = false;  ///< by EngineSettings::moving
   uint32_t passes = 0;
-  double elapsed_s = 0;  ///< of rendering
+  double elapsed_s = 0;                ///< of rendering
+  std::shared_ptr<const Scene> scene;  ///< that the picture shows
   Image picture;
 };
 

@@ -12,10 +12,17 @@ namespace {
 
 constexpr size_t photons_per_block = 2048;
 
+/// Where a photon comes from, which its record does not tell.
+struct PhotonOrigin {
+  uint32_t path = 0;   ///< number of its light path in the pass
+  uint32_t level = 0;  ///< events before
+};
+
 /// Photons in the order in which they were stored.
 struct PhotonList {
   std::vector<Vec3f> positions;
   std::vector<Photon> photons;
+  std::vector<PhotonOrigin> origins;  ///< parallel, or empty: not noted
 
   void reserve(size_t count) {
     positions.reserve(count);
@@ -109,13 +116,14 @@ class LightPass::Tracer {
  public:
   /// `first_path`: how many paths the pass has of other kinds and lights before these.
   Tracer(const LightPass& pass, Kind kind, int light, uint32_t count, uint32_t first_path,
-         const Address& address)
+         const Address& address, bool notes_origins)
       : pass_(pass),
         wavelengths_(address.wavelengths),
         largest_weight_(largest_first_weight * std::cbrt(float(address.index) + 1)),
         kind_(kind),
         light_(light),
         first_path_(first_path),
+        notes_origins_(notes_origins),
         scale_(1.0f / float(count)),
         storing_(without(Lobes::all, pass.settings_.traced | Lobes::delta)),
         stores_everywhere_(pass.scene_.film().quantity == Quantity::irradiance) {
@@ -159,8 +167,30 @@ class LightPass::Tracer {
 
   PhotonList global, caustic;
   std::vector<VolumePhoton> volume;
+  std::vector<PhotonOrigin> volume_origins;  ///< parallel, or empty: not noted
   LightCounts counts;
   uint64_t rays = 0;
+
+  /// All photons, with keys by which they are drawn. Only if origins are noted.
+  std::vector<PhotonDraw::Offer> offers(uint64_t seed) const {
+    std::vector<PhotonDraw::Offer> all;
+    const auto add = [&](DrawnPhoton::Map map, const Vec3f& position, const StoredSpectrum& flux,
+                         const PhotonOrigin& origin) {
+      // A path has one photon at each level.
+      const uint64_t path = hash_mix(hash_mix(seed, uint64_t(kind_)), origin.path);
+      all.push_back(
+          {hash_mix(path, origin.level), {position, flux, map, uint32_t(light_), origin.level}});
+    };
+    const auto add_list = [&](DrawnPhoton::Map map, const PhotonList& list) {
+      for (size_t i = 0; i < list.photons.size(); ++i)
+        add(map, list.positions[i], list.photons[i].flux, list.origins[i]);
+    };
+    add_list(DrawnPhoton::Map::global, global);
+    add_list(DrawnPhoton::Map::caustic, caustic);
+    for (size_t i = 0; i < volume.size(); ++i)
+      add(DrawnPhoton::Map::volume, volume[i].position, volume[i].flux, volume_origins[i]);
+    return all;
+  }
 
  private:
   std::optional<LightPath> emit(Sampler sampler) {
@@ -203,6 +233,8 @@ class LightPass::Tracer {
   void store(const LightVertex& at, PhotonList& list) {
     if (!stores_everywhere_ && !any(at.vertex.lobes() & storing_)) return;
     list.add(at, first_path_ + at.path, scale_);
+    if (notes_origins_ && list.origins.size() < list.photons.size())
+      list.origins.push_back({first_path_ + at.path, uint32_t(at.path_class.events())});
     ++counts.stored;
     counts.stored_flux += double(at.state.throughput.max_lane()) * scale_;
   }
@@ -214,6 +246,8 @@ class LightPass::Tracer {
     photon.direction = PackedDirection(at.wo);
     photon.medium = &at.medium;
     volume.push_back(photon);
+    if (notes_origins_)
+      volume_origins.push_back({first_path_ + at.path, uint32_t(at.path_class.events())});
     ++counts.stored;
     counts.stored_flux += double(photon.flux.max_lane());
   }
@@ -224,6 +258,7 @@ class LightPass::Tracer {
   Kind kind_;
   int light_;
   uint32_t first_path_;
+  bool notes_origins_;
   float scale_;
   Lobes storing_;
   bool stores_everywhere_;  ///< irradiance is asked for on mirrors and glass too
@@ -263,14 +298,8 @@ std::vector<uint32_t> LightPass::train(Kind kind, uint32_t total, uint64_t seed)
   return share_photons(total, arriving, power);
 }
 
-void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, const Address& address,
-                           Stream stream, std::stop_token stop, WorkCounter& counter,
-                           Deposits& deposits) const {
-  deposits.report.lights.assign(shares.size(), {});
-  struct Block {
-    int light;
-    uint32_t first_path, begin, end;
-  };
+std::vector<LightPass::Block> LightPass::blocks_of(Kind kind,
+                                                   const std::vector<uint32_t>& shares) const {
   std::vector<Block> blocks;
   // Paths of both kinds may end in one map.
   uint32_t first_path = kind == Kind::caustic ? settings_.global_photons : 0;
@@ -280,6 +309,28 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, const
                         std::min(shares[light], begin + uint32_t(photons_per_block))});
     first_path += shares[light];
   }
+  return blocks;
+}
+
+std::unique_ptr<LightPass::Tracer> LightPass::traced(const Block& block, Kind kind, uint32_t share,
+                                                     const Address& address, Stream stream,
+                                                     bool notes_origins) const {
+  auto tracer = std::make_unique<Tracer>(*this, kind, block.light, share, block.first_path, address,
+                                         notes_origins);
+  // Kinds draw from different addresses even where they share a stream (training).
+  const uint64_t element = uint64_t(block.light) * 2 + (kind == Kind::caustic ? 1 : 0) +
+                           (kind == Kind::volume ? uint64_t(1) << 32 : 0);
+  tracer->trace(block.begin, block.end, [&](uint32_t photon) {
+    return Sampler::at(address.seed, address.index, stream, element, photon);
+  });
+  return tracer;
+}
+
+void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, const Address& address,
+                           Stream stream, std::stop_token stop, WorkCounter& counter,
+                           Deposits& deposits) const {
+  deposits.report.lights.assign(shares.size(), {});
+  std::vector<Block> blocks = blocks_of(kind, shares);
   if (stream != Stream::training) {
     const size_t total = blocks.size();
     blocks.resize(total * (settings_.part.index + 1) / settings_.part.count);
@@ -290,15 +341,7 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, const
   parallel_blocks(blocks.size(), 1, [&](size_t i, size_t, size_t) {
     if (stop.stop_requested()) return;
     const Block& block = blocks[i];
-    auto tracer = std::make_unique<Tracer>(*this, kind, block.light, shares[size_t(block.light)],
-                                           block.first_path, address);
-    // Kinds draw from different addresses even where they share a stream (training).
-    const uint64_t element = uint64_t(block.light) * 2 + (kind == Kind::caustic ? 1 : 0) +
-                             (kind == Kind::volume ? uint64_t(1) << 32 : 0);
-    tracer->trace(block.begin, block.end, [&](uint32_t photon) {
-      return Sampler::at(address.seed, address.index, stream, element, photon);
-    });
-    results[i] = std::move(tracer);
+    results[i] = traced(block, kind, shares[size_t(block.light)], address, stream, false);
     counter.add(block.end - block.begin);
   });
   std::vector<const PhotonList*> global, caustic;
@@ -313,6 +356,24 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, const
   }
   deposits.global = concatenate(global);
   deposits.caustic = concatenate(caustic);
+}
+
+DrawnPhotons LightPass::draw(uint64_t seed, uint32_t index, size_t most, std::stop_token stop,
+                             const Wavelengths& wavelengths) const {
+  const Address address{seed, index, wavelengths};
+  PhotonDraw draw(most);
+  const auto offer_kind = [&](Kind kind, const std::vector<uint32_t>& shares, Stream stream) {
+    const std::vector<Block> blocks = blocks_of(kind, shares);
+    parallel_blocks(blocks.size(), 1, [&](size_t i, size_t, size_t) {
+      if (stop.stop_requested()) return;
+      const uint32_t share = shares[size_t(blocks[i].light)];
+      draw.offer(traced(blocks[i], kind, share, address, stream, true)->offers(seed));
+    });
+  };
+  offer_kind(Kind::caustic, caustic_shares_, Stream::photon_caustic);
+  offer_kind(Kind::global, global_shares_, Stream::photon_global);
+  offer_kind(Kind::volume, volume_shares_, Stream::photon_volume);
+  return draw.take();
 }
 
 std::vector<uint32_t> LightPass::place_shares() const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kaustik/base/progress.h"
+#include "kaustik/photon/drawn_photons.h"
 #include "kaustik/photon/emission/emission.h"
 #include "kaustik/photon/irradiance_map.h"
 #include "kaustik/photon/photon_map.h"
@@ -90,6 +91,11 @@ class LightPass {
                    const ProgressFunction& progress = {},
                    const Wavelengths& wavelengths = {}) const;
 
+  /// At most `most` photons of the maps of that pass, drawn at random: each as likely as any other,
+  /// always the same ones, and the first of those that are drawn if more are asked for.
+  DrawnPhotons draw(uint64_t seed, uint32_t index, size_t most, std::stop_token stop = {},
+                    const Wavelengths& wavelengths = {}) const;
+
   /// Why a map that was asked for is empty. (A scene without specular objects has no caustics:
   /// that is no warning.)
   std::vector<std::string> warnings(const PhotonMaps& maps) const;
@@ -104,6 +110,14 @@ class LightPass {
     uint32_t index;
     Wavelengths wavelengths;
   };
+  /// Paths that are traced together.
+  struct Block {
+    int light;
+    uint32_t first_path, begin, end;
+  };
+  std::vector<Block> blocks_of(Kind kind, const std::vector<uint32_t>& shares) const;
+  std::unique_ptr<Tracer> traced(const Block& block, Kind kind, uint32_t share,
+                                 const Address& address, Stream stream, bool notes_origins) const;
   void trace_kind(Kind kind, const std::vector<uint32_t>& shares, const Address& address,
                   Stream stream, std::stop_token stop, WorkCounter& counter,
                   Deposits& deposits) const;

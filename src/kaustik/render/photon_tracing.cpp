@@ -5,6 +5,7 @@
 #include "kaustik/integrator/make_integrator.h"
 #include "kaustik/photon/photon_parts.h"
 #include "kaustik/photonmap/photon_map_settings.h"
+#include "kaustik/scene/part_keys.h"
 #include "kaustik/scene/scene_report.h"
 
 namespace kaustik {
@@ -24,6 +25,21 @@ std::shared_ptr<Object> photonmap_of(const Description& description,
   // The map that it asks for may be the one that is about to be written.
   std::erase_if(object->properties, [](const Property& p) { return p.name == "photon_map"; });
   return object;
+}
+
+/// As that integrator has them. Throws Error(input) for wrong parameters.
+LightPassSettings light_pass_settings(const Description& description, const Scene& scene,
+                                      std::vector<std::string>& warnings) {
+  const auto object = photonmap_of(description, warnings);
+  // Checks the object as a render would, but not the surfaces' own, which photons don't know.
+  make_integrator_alone(*object, scene, warnings, description.is_strict);
+  Problems problems;
+  UnknownParameters told;
+  const Arguments arguments(PhotonMapSettings::info(),
+                            told.without_unknown(PhotonMapSettings::info(), object->properties),
+                            object->place, problems);
+  problems.throw_if_any();
+  return PhotonMapSettings(arguments).light_pass;
 }
 
 /// Why a map is empty where LightPass finds nothing wrong.
@@ -46,20 +62,10 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
                                 int threads, std::stop_token stop, const ProgressFunction& progress,
                                 PhotonPart part) {
   TracedPhotons traced;
-  const auto object = photonmap_of(description, traced.warnings);
-  // Checks the object as a render would, but not the surfaces' own, which photons don't know.
-  make_integrator_alone(*object, scene, traced.warnings, description.is_strict);
-  Problems problems;
-  UnknownParameters told;
-  const Arguments arguments(PhotonMapSettings::info(),
-                            told.without_unknown(PhotonMapSettings::info(), object->properties),
-                            object->place, problems);
-  problems.throw_if_any();
-
   StoredPhotons& photons = traced.photons;
   photons.fingerprint = fingerprint_of(scene);
   photons.seed = seed;
-  photons.settings = PhotonMapSettings(arguments).light_pass;
+  photons.settings = light_pass_settings(description, scene, traced.warnings);
   photons.settings.part = part;
   photons.settings.volume_photons = 0;  // files have no place for them
   const uint64_t refused_before = scene.tracer().refused_rays();
@@ -76,6 +82,22 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
   if (const uint64_t refused = scene.tracer().refused_rays() - refused_before)
     traced.warnings.push_back(refused_rays_warning(refused));
   return traced;
+}
+
+DrawnPhotons draw_photons(const Description& description, const Scene& scene, uint64_t seed,
+                          int threads, size_t most, std::stop_token stop) {
+  std::vector<std::string> warnings;
+  const LightPassSettings settings = light_pass_settings(description, scene, warnings);
+  DrawnPhotons drawn;
+  with_threads(threads,
+               [&] { drawn = LightPass(scene, settings, seed).draw(seed, 0, most, stop); });
+  return stop.stop_requested() ? DrawnPhotons() : drawn;
+}
+
+uint64_t drawn_photons_key(const Description& description, const Scene& scene, uint64_t seed) {
+  std::vector<std::string> warnings;
+  const uint64_t world = hash_mix(scene.built().world, uint64_t(scene.quantity()));
+  return hash_mix(hash_mix(world, PartKeys().whole(*photonmap_of(description, warnings))), seed);
 }
 
 }  // namespace kaustik

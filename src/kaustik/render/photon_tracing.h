@@ -21,4 +21,13 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
                                 int threads, std::stop_token stop = {},
                                 const ProgressFunction& progress = {}, PhotonPart part = {});
 
+/// Some of the photons of the maps that trace_photon_maps() traces, and of those in media that its
+/// files have no place for: LightPass::draw(). None if stopped, or if the scene has no light.
+DrawnPhotons draw_photons(const Description& description, const Scene& scene, uint64_t seed,
+                          int threads, size_t most, std::stop_token stop = {});
+
+/// Whatever draw_photons() depends on but the number that is wanted: the camera makes no
+/// difference.
+uint64_t drawn_photons_key(const Description& description, const Scene& scene, uint64_t seed);
+
 }  // namespace kaustik

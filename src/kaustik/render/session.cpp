@@ -73,6 +73,11 @@ uint32_t Session::samples_by_time() const {
 
 void Session::plan() {
   const uint32_t by_integrator = integrator_.traits().default_samples_per_pass;
+  if (settings_.is_endless) {
+    samples_per_pass_ = settings_.samples_per_pass.value_or(by_integrator);
+    pass_count_ = 0;
+    return;
+  }
   std::optional<uint32_t> samples = settings_.samples_per_pixel;
   const bool is_open = settings_.seconds || settings_.error;  // else passes alone end it
   if (!samples && !is_open && scene_.film().sample_count > 0)

@@ -22,6 +22,9 @@ struct SessionSettings {
   /// How many from the first on, those that the film begins with included; absent: see
   /// `samples_per_pixel` and `seconds`.
   std::optional<uint32_t> passes;
+  /// Passes go on until something else ends them, whatever the scene says of samples, with the
+  /// integrator's default samples each. Then `passes` and `samples_per_pixel` have no meaning.
+  bool is_endless = false;
   /// Samples per pixel of all passes together; absent: the scene's, else the integrator's default
   /// per pass. Unless `passes` says how many there are, there are at least four where there are so
   /// many samples, and no pass is long: many samples make many passes, not large ones.

@@ -1,11 +1,14 @@
 #include "kaustik/view/frame_polls.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "kaustik/live/engine.h"
+#include "kaustik/scene/scene.h"
+#include "kaustik/view/projection.h"
 #include "kaustik/view/request_error.h"
 #include "kaustik/view/worker.h"
 
@@ -26,6 +29,11 @@ const char* name_of(Snapshot::Kind kind) {
       break;
   }
   return "passes";
+}
+
+/// Twelve numbers, row by row.
+std::string text_of(const Projection& projection) {
+  return fmt::format("{:.9g}", fmt::join(projection, " "));
 }
 
 }  // namespace
@@ -84,6 +92,10 @@ HttpResponse frame_response(const FrameQuery& query, const Snapshot& snapshot,
                       {"X-Height", fmt::format("{}", frame.height)},
                       {"X-Scale", fmt::format("{}", frame.scale)},
                       {"X-Moving", snapshot.is_moving ? "1" : "0"}};
+  const Vec2i size(image.width(), image.height());
+  if (snapshot.scene)
+    if (const auto projection = projection_of(snapshot.scene->camera(), size))
+      response.headers.emplace_back("X-Projection", text_of(*projection));
   response.body = std::make_shared<const std::string>(std::move(frame.bytes));
   return response;
 }

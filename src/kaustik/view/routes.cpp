@@ -55,6 +55,7 @@ const std::vector<Routes::Route>& Routes::table() {
                                           {"/frame", "GET", true, &Routes::poll_frame},
                                           {"/pixel", "GET", true, &Routes::probe_pixel},
                                           {"/region", "GET", true, &Routes::probe_region},
+                                          {"/photons", "GET", true, &Routes::show_photons},
                                           {"/parameters", "GET", true, &Routes::list_parameters},
                                           {"/command", "POST", true, &Routes::do_command}};
   return rows;
@@ -64,6 +65,7 @@ Routes::Routes(Parts parts, Description description)
     : parts_(std::move(parts)),
       edits_(std::move(description)),
       polls_(parts_.engine, parts_.worker),
+      photons_(parts_.seed, parts_.threads),
       saver_(std::make_shared<PictureSaver>(parts_.output_folder)) {
   edit(copy_of(edits_.current()), std::nullopt);
   parts_.engine.start();
@@ -157,6 +159,14 @@ void Routes::probe_region(Call& call) {
       reply->send(response_of_current_exception());
     }
   });
+}
+
+void Routes::show_photons(Call& call) {
+  const PhotonQuery query = PhotonQuery::from(call.query);
+  noted_status();
+  auto scene = parts_.engine.scene();
+  if (!scene) throw RequestError(409, "there is no scene yet", "ask again in a moment");
+  photons_.answer(query, {copy_of(edits_.current()), std::move(scene)}, std::move(call.reply));
 }
 
 void Routes::list_parameters(Call& call) {
@@ -277,7 +287,7 @@ void Routes::tick() {
   const EngineStatus status = noted_status();
   learn_of_layers(status);
   const auto snapshot = parts_.engine.snapshot();
-  const bool has_new_error = history_.note(status, snapshot && snapshot->is_moving);
+  if (history_.note(status, snapshot && snapshot->is_moving)) has_new_error_ = true;
   ++ticks_;
   if (streams_.empty()) return;
   if (ticks_ % ticks_per_state == 0) {
@@ -287,8 +297,10 @@ void Routes::tick() {
       streams_.send("state", now);
     }
   }
-  if (has_new_error && ticks_ % ticks_per_history == 0)
+  if (has_new_error_ && ticks_ % ticks_per_history == 0) {
+    has_new_error_ = false;
     streams_.send("error_history", history_.json());
+  }
 }
 
 void Routes::clear() {

@@ -8,6 +8,7 @@
 #include "kaustik/view/event_streams.h"
 #include "kaustik/view/frame_polls.h"
 #include "kaustik/view/http_message.h"
+#include "kaustik/view/photon_answers.h"
 #include "kaustik/view/picture_saver.h"
 #include "kaustik/view/query.h"
 #include "kaustik/view/scene_edits.h"
@@ -27,6 +28,8 @@ class Routes {
     std::string scene;                                ///< its name, for pages
     std::string output_folder;                        ///< that pictures are saved in
     std::function<void(std::function<void()>)> post;  ///< runs it in the server's thread
+    uint64_t seed = 0;                                ///< of the engine's sessions
+    int threads = 0;                                  ///< of the engine's sessions; 0: all
   };
   /// Gives the engine the description to render.
   Routes(Parts parts, Description description);
@@ -54,6 +57,7 @@ class Routes {
   void poll_frame(Call& call);
   void probe_pixel(Call& call);
   void probe_region(Call& call);
+  void show_photons(Call& call);
   void list_parameters(Call& call);
   void do_command(Call& call);
 
@@ -71,8 +75,10 @@ class Routes {
   uint64_t last_revision_ = 0;
   EventStreams streams_;
   FramePolls polls_;
+  PhotonAnswers photons_;
   std::shared_ptr<PictureSaver> saver_;
   ErrorHistory history_;
+  bool has_new_error_ = false;  ///< in the history, and those who listen were not told yet
   std::vector<std::string> layers_ = {""};
   uint64_t layers_revision_ = 0;  ///< that the layers are known of, or asked for
   bool knows_distance_ = false;

@@ -88,7 +88,8 @@ ViewServer::State::State(Description description, ViewSettings settings, const M
   apply_changes(description, settings.engine.recipe, messages);
   routes = std::make_unique<Routes>(
       Routes::Parts{engine, worker, access, settings.scene, settings.output_folder,
-                    [this](std::function<void()> action) { http.post(std::move(action)); }},
+                    [this](std::function<void()> action) { http.post(std::move(action)); },
+                    settings.engine.session.seed, settings.engine.session.threads},
       std::move(description));
   http.start(
       [this](HttpRequest request, std::shared_ptr<HttpReply> reply) {
