@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import array
 from collections.abc import Sequence
-from typing import Any, Dict, List, Optional, Tuple, Union, overload
+from typing import Any, Dict, List, Optional, Tuple, Union, cast, overload
 
 from . import _native
 from ._arrays import Buffer, numbers_of
@@ -34,7 +34,7 @@ class Estimates(Sequence):
         estimates = object.__new__(cls)
         places = [divmod(number, picture.width) for number in range(count)]
         estimates._all = tuple(picture.pixel(x, y) for y, x in places)
-        flat = memoryview(picture.array).cast("B").cast("f")
+        flat = memoryview(cast(Any, picture.array)).cast("B").cast("f")
         estimates._rgb = tuple(tuple(flat[3 * number:3 * number + 3]) for number in range(count))  # type: ignore[misc]
         estimates._picture = picture
         return estimates
@@ -160,7 +160,7 @@ def _measuring(scene: Scene, sensor: str, lists: Dict[str, Buffer]) -> Scene:
     shapes: List[tuple] = []
 
     def part(index: int, parts: List[tuple]) -> List[tuple]:
-        kept = []
+        kept: List[tuple] = []
         for name, child in parts:
             if objects[child][0] != "sensor":
                 kept.append((name, child))
