@@ -294,7 +294,12 @@ class Grammar {
   }
 
   std::string single_sensor() {
-    const CameraType& type = draw_.one_of(camera_types());
+    // Few integrators know of points in the air.
+    const bool may_have_gauges = draw_.chance(0.3);
+    const auto types = rows_that(camera_types(), [&](const CameraType& row) {
+      return may_have_gauges || row.info.name != "irradiancepoints";
+    });
+    const CameraType& type = *draw_.one_of(types);
     Names skips = {"to_world", "focal_length", "origin", "direction"};
     // Few cameras see nothing but what is near.
     if (draw_.chance(0.9)) skips.emplace_back("far_clip");
