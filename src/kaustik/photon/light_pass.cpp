@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/sampler.h"
 
 namespace kaustik {
 namespace {

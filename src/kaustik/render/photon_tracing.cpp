@@ -1,6 +1,7 @@
 #include "kaustik/render/photon_tracing.h"
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/base/sampler.h"
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/make_integrator.h"
 #include "kaustik/photon/photon_parts.h"

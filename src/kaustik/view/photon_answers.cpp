@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kaustik/render/photon_tracing.h"
+#include "kaustik/scene/scene.h"
 #include "kaustik/view/json_text.h"
 #include "kaustik/view/request_error.h"
 
