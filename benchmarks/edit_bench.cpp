@@ -24,8 +24,8 @@ Description described(const std::string& scene, const std::string& integrator) {
   return description;
 }
 
-/// From the moment that a render is cancelled to the return of its last thread, at moments from its
-/// begin on.
+/// From the moment that a render is abandoned, as edits do, to the return of its last thread, at
+/// moments from its begin on.
 void measure_cancelling(const std::string& scene, const std::string& integrator) {
   std::vector<double> seconds;
   for (int i = 0; i < moments; ++i) {
@@ -37,7 +37,7 @@ void measure_cancelling(const std::string& scene, const std::string& integrator)
     job.start();
     std::this_thread::sleep_for(std::chrono::duration<double>(longest_wait * (i + 0.5) / moments));
     seconds.push_back(bench::seconds_of([&] {
-      job.cancel();
+      job.abandon();
       job.wait();
     }));
   }

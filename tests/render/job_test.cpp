@@ -296,6 +296,18 @@ TEST(Job, FinishedSnapshotsCountNoPauses) {
   job.wait();
 }
 
+TEST(Job, AbandonedJobsKeepFinishedPassesOnly) {
+  for (const bool is_abandoned : {false, true}) {
+    Job job(room_with("path", 64), settings_for(1, 100'000));
+    job.start();
+    while (!job.finished_snapshot()) std::this_thread::yield();
+    is_abandoned ? job.abandon() : job.cancel();
+    const JobResult& result = job.wait();
+    EXPECT_TRUE(result.report.cancelled());
+    EXPECT_EQ(result.report.passes, is_abandoned ? 0u : 1u);
+  }
+}
+
 TEST(Job, FinishedSnapshotsOfAFirstPassCountItsSamples) {
   constexpr uint32_t samples = 4096;
   Job job(room_with("path", 64), settings_for(1, samples));

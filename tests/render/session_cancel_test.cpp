@@ -97,6 +97,35 @@ TEST(SessionCancel, CancellingTheFirstPassLeavesARightPictureOrNone) {
   }
 }
 
+// Whoever abandons it gets the finished passes alone.
+TEST(SessionCancel, AnAbandonedPassIsLeftOut) {
+  const auto scene = scene_with(film_of(40, 40), room);
+  constexpr int pixels = 40 * 40, in_pass = 2 * pixels;
+  for (const int at : {in_pass - 5, 2 * in_pass - 5}) {
+    SCOPED_TRACE(at);
+    std::stop_source source;
+    std::atomic<int> samples = 0;
+    Session* running = nullptr;
+    const std::function<void(int)> abandon = [&](int number) {
+      if (number != at) return;
+      running->abandon_pass();
+      source.request_stop();
+    };
+    const Scripted integrator(unit_script(abandon, samples));
+    SessionSettings settings;
+    settings.threads = 1;
+    settings.passes = 3;
+    settings.samples_per_pass = 2;
+    Session session(*scene, integrator, settings);
+    running = &session;
+    const SessionReport report = session.run(source.get_token());
+    EXPECT_TRUE(report.cancelled());
+    EXPECT_FALSE(report.incomplete_pass);
+    EXPECT_EQ(report.part, 0);
+    EXPECT_EQ(report.passes, uint32_t(at / in_pass));
+  }
+}
+
 TEST(SessionCancel, APixelOfManySamplesCanBeCancelled) {
   const auto scene = scene_with(film_of(2, 2), room);
   std::stop_source source;

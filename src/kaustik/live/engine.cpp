@@ -304,7 +304,7 @@ void Engine::end_run() {
     gate_ = nullptr;
   }
   take_light();
-  run_->job->cancel();
+  run_->job->abandon();
   try {
     run_->job->wait();
   } catch (...) {

@@ -37,7 +37,7 @@ Job::Job(Description description, JobSettings settings, JobListener listener)
       previous_(std::move(settings_.previous)) {}
 
 Job::~Job() {
-  cancel();
+  abandon();
   if (thread_.joinable()) thread_.join();
 }
 
@@ -110,6 +110,12 @@ const JobResult& Job::wait() {
 
 void Job::cancel() {
   const std::lock_guard lock(mutex_);
+  stop_.request_stop();
+}
+
+void Job::abandon() {
+  const std::lock_guard lock(mutex_);
+  if (run_ && run_->session) run_->session->abandon_pass();
   stop_.request_stop();
 }
 
@@ -282,7 +288,7 @@ std::optional<Image> Job::finished_snapshot(const Messages& messages) const {
 void Job::edit(Description description) {
   if (!settings_.checkpoint.empty())
     throw std::logic_error("Job::edit: its passes are kept in a checkpoint");
-  cancel();
+  abandon();
   if (thread_.joinable()) thread_.join();
   {
     const std::lock_guard lock(mutex_);

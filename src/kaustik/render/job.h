@@ -17,8 +17,8 @@
 namespace kaustik {
 
 /// What a job tells its owner, from its own threads. What a function throws ends the job, and
-/// wait() throws it. They must not start, edit, or wait for the job; snapshot() and cancel() they
-/// may call.
+/// wait() throws it. They must not start, edit, or wait for the job; snapshot(), cancel() and
+/// abandon() they may call.
 struct JobListener {
   Messages messages;
   std::function<void(const Progress&)> progress;  ///< Session::run()
@@ -84,7 +84,8 @@ struct JobResult {
 /// A render from a description to a film, in a thread of its own: scene, integrator, session and
 /// checkpoint. Or, in the caller's thread, what else is made of a scene: JobTask. Prints nothing
 /// and keeps nothing global, so that there may be many at once; each has the bits that it has
-/// alone. Its functions are called by one owner, snapshot() and cancel() from any thread.
+/// alone. Its functions are called by one owner; snapshot(), cancel() and abandon() from any
+/// thread.
 class Job {
  public:
   Job(Description description, JobSettings settings, JobListener listener = {});
@@ -106,6 +107,8 @@ class Job {
   const JobResult& run();
   /// Ends it soon, as SessionEnd::cancelled says; a scene that is being built is built.
   void cancel();
+  /// cancel(), but what the running pass has is left out: sooner, for those who want no picture.
+  void abandon();
 
   /// What `session.passes` passes (16 unless it says so) of the session's seed teach; complete, for
   /// a file. Throws as kaustik::learn() does, and std::logic_error if it is not the job's task.

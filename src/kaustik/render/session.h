@@ -124,6 +124,10 @@ class Session {
                     const std::function<void(const Progress&)>& progress = {},
                     const std::function<void()>& pass_done = {});
 
+  /// From any thread: where run() is stopped, it leaves out what the running pass has, even if that
+  /// is the first one. Then its last thread returns sooner.
+  void abandon_pass() { is_pass_abandoned_ = true; }
+
   /// From any thread, at any time, in callbacks too: a whole picture of what there is. Of finished
   /// passes; in the first one of the samples so far, and pixels without any show those of a pixel
   /// near by: then incomplete_key says so. None: not even that is there. `facts` of it, if wanted.
@@ -203,6 +207,7 @@ class Session {
   mutable std::mutex picture_mutex_;            ///< the film, and whether pixels are sums or means
   std::unique_ptr<std::mutex[]> tile_mutexes_;  ///< the pixels of a first pass
   std::atomic<bool> has_picture_;
+  std::atomic<bool> is_pass_abandoned_{false};
 };
 
 /// Type of the integrator that make_integrator() makes: what the description asks for; else the

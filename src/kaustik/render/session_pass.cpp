@@ -94,7 +94,7 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
   uint32_t samples = samples_per_pass_;
   if (!complete) {
     samples = pass_.fewest_samples();
-    if (samples == 0) return PassEnd::discarded;
+    if (samples == 0 || is_pass_abandoned_) return PassEnd::discarded;
   }
   const std::lock_guard lock(picture_mutex_);
   isolated([&] {
