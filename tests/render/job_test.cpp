@@ -300,7 +300,10 @@ TEST(Job, AbandonedJobsKeepFinishedPassesOnly) {
   for (const bool is_abandoned : {false, true}) {
     Job job(room_with("path", 64), settings_for(1, 100'000));
     job.start();
-    while (!job.finished_snapshot()) std::this_thread::yield();
+    // Until every pixel has samples.
+    std::optional<Image> shown;
+    while (!(shown = job.finished_snapshot()) || integer_of(*shown, "samples_per_pixel") < 4)
+      std::this_thread::yield();
     is_abandoned ? job.abandon() : job.cancel();
     const JobResult& result = job.wait();
     EXPECT_TRUE(result.report.cancelled());
