@@ -62,6 +62,22 @@ TEST(IrradianceMeter, UnderAPointLamp) {
                   intensity * solid_angle / (std::numbers::pi * a * a), 100);
 }
 
+// Light that a glass ball throws together on a small disk: with so few samples a picture of one
+// pixel would have a handful of light paths, of which none would find the disk, and that with an
+// error of zero. What little is found has to have an error that tells.
+TEST(IrradianceMeter, HasLightPathsForFocusedLight) {
+  const TestScene scene(
+      flat("disk", scale("0.02, 0.02, 1") + translate("0, 0, 0.001"), sensor("irradiancemeter")) +
+      sphere("0, 0, 1", 0.4, R"(<bsdf type="dielectric"/>)") + point_light("0, 0, 3", 10));
+  for (const char* type : {"vcm", "auto"}) {
+    const auto mean = render(scene, type, "", {4}).mean({""});
+    EXPECT_GT(mean.mean(), 0) << type;
+    EXPECT_GT(mean.standard_error(), 0) << type;
+  }
+  // Whoever gives a number gets that.
+  EXPECT_EQ(render(scene, "vcm", set("light_paths", 0.25), {4}).mean({""}).mean(), 0);
+}
+
 // Parallel light meets the cross-section of a ball, a quarter of its area.
 TEST(IrradianceMeter, BallInParallelLight) {
   expect_measured(

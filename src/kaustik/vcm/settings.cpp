@@ -186,17 +186,22 @@ void adapt_to_camera(const Arguments& arguments, const Camera& camera, VcmSettin
   settings.techniques.splats = false;
 }
 
-/// Light paths per camera sample and pixel, where pixels are so few that a pass would have next to
-/// none, and each is to be known well.
-constexpr float light_paths_of_few_pixels = 512;
+/// Nothing is learned of one pixel from those beside it. Light paths per camera sample and pixel:
+/// each is to be known well.
+constexpr float light_paths_of_pixels_apart = 512;
+/// Of a pass: a meter's picture is a number, for which pixels would ask for next to none. Few would
+/// miss focused light, in all passes alike, and the error would not tell.
+constexpr float least_light_paths_of_meter = 8192;
 
-/// Nothing is learned of one pixel from those beside it.
-void adapt_to_pixels_apart(const Arguments& arguments, const FilmSettings& film,
-                           VcmSettings& settings) {
-  settings.learn_radii = settings.edges = false;
-  if (arguments.info().find("light_paths") && arguments.given("light_paths")) return;
+void adapt_to_few_pixels(const Arguments& arguments, const CameraTraits& camera,
+                         const FilmSettings& film, VcmSettings& settings) {
+  if (camera.are_pixels_apart()) settings.learn_radii = settings.edges = false;
+  const bool is_given = arguments.info().find("light_paths") && arguments.given("light_paths");
+  if (camera.can_connect || is_given) return;
+  settings.least_light_paths = least_light_paths_of_meter;
   const float pixels = float(film.size.x) * float(film.size.y);
-  settings.light_paths = std::max(settings.light_paths, light_paths_of_few_pixels / pixels);
+  if (camera.are_pixels_apart())
+    settings.light_paths = std::max(settings.light_paths, light_paths_of_pixels_apart / pixels);
 }
 
 }  // namespace
@@ -205,8 +210,7 @@ VcmSettings settings_for(const Scene& scene, const Arguments& arguments) {
   VcmSettings settings(arguments);
   if (scene.has_scattering()) adapt_to_media(arguments, settings);
   adapt_to_camera(arguments, scene.camera(), settings);
-  if (scene.camera().traits().are_pixels_apart())
-    adapt_to_pixels_apart(arguments, scene.film(), settings);
+  adapt_to_few_pixels(arguments, scene.camera().traits(), scene.film(), settings);
   return settings;
 }
 

@@ -18,6 +18,7 @@ struct VcmSettings {
   bool guiding = true;
   bool guided_scattering = true;  ///< beside emission
   float light_paths = 0.25f;      ///< per camera sample
+  float least_light_paths = 0;    ///< of a pass, where camera samples ask for fewer
   int connections = 1;            ///< per vertex of the camera's path
   int merge_neighbors = 30;       ///< light vertices that the first radius is made for
   float radius = 0;             ///< of merging in pass 0, m; 0: from the pixels and the light paths

@@ -197,18 +197,23 @@ float accepted_area(const PixelPlans& pixels) {
   return pi * sqr(near_per_distance * pixels.seen().mean_distance());
 }
 
+float VcmPlanner::light_paths_asked_for(uint32_t samples_per_pixel) const {
+  const Vec2i& pixels = scene_.film().size;
+  const double samples = double(samples_per_pixel) * double(pixels.x) * double(pixels.y);
+  return std::max(settings_.light_paths, float(double(settings_.least_light_paths) / samples));
+}
+
 FirstPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& stop) const {
   VcmPlans plans;
   plans.samples_per_pixel = samples_per_pixel;
   plans.guides.emission = plain_;
   plans.techniques = settings_.techniques;
-  plans.light_paths = settings_.light_paths;
+  plans.light_paths = light_paths_asked_for(samples_per_pixel);
   plans.chooses_survival = settings_.choose_survival;
   if (!settings_.techniques.merging && !settings_.techniques.connections)
     return {.plans = std::make_shared<const VcmPlans>(std::move(plans))};
   if (settings_.techniques.merging) plans.pixels = PixelPlans(scene_);
-  const uint32_t of_pass =
-      light_path_count(scene_.film(), samples_per_pixel, settings_.light_paths);
+  const uint32_t of_pass = light_path_count(scene_.film(), samples_per_pixel, plans.light_paths);
   const uint32_t count =
       std::min({of_pass, most_pilot_paths, std::max(fewest_pilot_paths, of_pass / 2)});
   const FoundLight found = search_light(count, stop);
@@ -386,7 +391,7 @@ VcmPilot VcmPlanner::make_pilot(const VcmPlans& plans, const PilotLight& light,
   // beyond its own size's are taken for its neighbours'.
   const double shared_by =
       double(light_paths) /
-      double(light_path_count(size, plans.samples_per_pixel, settings_.light_paths));
+      double(light_path_count(size, plans.samples_per_pixel, plans.light_paths));
   pilot.costs = {samples, double(light.rays) / light_share /
                               (samples * double(size.x) * double(size.y) * shared_by)};
   return pilot;

@@ -87,6 +87,8 @@ class VcmPlanner {
   FirstPlans make(uint32_t samples_per_pixel, const std::stop_token& stop) const;
 
  private:
+  /// Per camera sample, before a pilot tells what pays.
+  float light_paths_asked_for(uint32_t samples_per_pixel) const;
   /// The light paths of a pilot pass.
   struct PilotLight {
     LightGuides guides;
