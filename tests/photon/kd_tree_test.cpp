@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <stop_token>
 #include <vector>
 
 namespace kaustik {
@@ -166,11 +167,11 @@ std::vector<Item<Vec3f>> make_items(const Points& points) {
   return items;
 }
 
-Tree assigned(const Points& points) {
+Tree assigned(const Points& points, const std::stop_token& stop = {}) {
   std::vector<int> data;
   for (size_t i = 0; i < points.size(); ++i) data.push_back(int(i));
   Tree tree;
-  tree.assign(points, data);
+  tree.assign(points, data, stop);
   return tree;
 }
 
@@ -206,6 +207,18 @@ TEST(KdTree, LargeCloud) {
   const Points points = make_points(planar, large);
   const auto items = make_items(points);
   expect_same_as_force(assigned(points), items, make_points(uniform, 3, 9),
+                       EuclideanMetric<3, Vec3f>());
+}
+
+// Nobody waits for order among points that nobody will look for; but what is there is right.
+TEST(KdTree, IsRightWhereItsBuildIsStopped) {
+  std::stop_source stop;
+  stop.request_stop();
+  const Points points = make_points(uniform, 20'000);
+  const Tree stopped = assigned(points, stop.get_token());
+  ASSERT_EQ(stopped.size(), points.size());
+  for (uint32_t i = 0; i < 100; ++i) EXPECT_EQ(stopped.data(i), int(i)) << "it was put in order";
+  expect_same_as_force(stopped, make_items(points), make_points(uniform, 3, 9),
                        EuclideanMetric<3, Vec3f>());
 }
 

@@ -151,8 +151,11 @@ SessionReport Session::run(std::stop_token stop,
     report_.end = *end;
   });
   report_.passes = film_.pass_count();
-  report_.mean_error = film_.mean_error();
-  report_.picture_error = monitor.error();
+  // What it takes to tell the error, over all pixels, would keep those waiting who abandoned it.
+  if (!is_pass_abandoned_) {
+    report_.mean_error = film_.mean_error();
+    report_.picture_error = monitor.error();
+  }
   report_.rays = monitor.rays;
   report_.photons = monitor.photons;
   report_.dropped_samples = monitor.dropped + splats_.dropped();

@@ -125,7 +125,7 @@ class Session {
                     const std::function<void()>& pass_done = {});
 
   /// From any thread: where run() is stopped, it leaves out what the running pass has, even if that
-  /// is the first one. Then its last thread returns sooner.
+  /// is the first one, and tells no error. Then it returns sooner.
   void abandon_pass() { is_pass_abandoned_ = true; }
 
   /// From any thread, at any time, in callbacks too: a whole picture of what there is. Of finished

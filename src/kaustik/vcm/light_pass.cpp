@@ -22,6 +22,8 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
     blocks[i] = trace_light_block(inputs, pass, stream, splats, uint32_t(begin), uint32_t(end));
     counter.add(end - begin);
   });
+  // Nobody looks at a part of the light; to put it in order would take its time.
+  if (stop.stop_requested()) return {};
   size_t merging = 0, connectible = 0;
   for (const LightBlock& block : blocks) {
     report.rays += block.rays;
@@ -31,7 +33,7 @@ LightVertices trace_light_vertices(const VcmLightInputs& inputs, const Pass& pas
   }
   const bool merges = inputs.weights.settings().techniques.merging && merging > 0;
   report.photons += merges ? merging : connectible;
-  LightVertices result = join(blocks, inputs.scene.gauges().size(), inputs.gauges);
+  LightVertices result = join(blocks, inputs.scene.gauges().size(), inputs.gauges, stop);
   result.wavelengths = pass.wavelengths;
   result.path_count = inputs.light_paths;
   result.remembered_paths = std::min(inputs.remembered_paths, inputs.light_paths);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -96,8 +97,8 @@ class KdTree {
   explicit KdTree(Metric metric = {}) : metric_(std::move(metric)) {}
 
   /// Replaces all items, and optimises: the quickest way to fill a tree. data[i] belongs to
-  /// keys[i].
-  void assign(std::vector<Key> keys, std::vector<Data> data);
+  /// keys[i]. Where `stop` is requested the tree is right, but slow to search.
+  void assign(std::vector<Key> keys, std::vector<Data> data, const std::stop_token& stop = {});
   void insert(const Key& key, Data data);
   /// Removes one item with this key that the predicate accepts; false if there is none.
   template <typename Accept = KdAcceptAll>
@@ -144,7 +145,7 @@ class KdTree {
   static void check(const Key& key);
   void check_size(size_t size) const;
   uint32_t forest_begin() const { return uint32_t(buckets_.size()); }
-  void build(std::vector<Key> keys, std::vector<Data> data);
+  void build(std::vector<Key> keys, std::vector<Data> data, const std::stop_token& stop);
   template <typename Visit>
   void visit_inside(const Key& lower, const Key& upper, const Visit& visit) const;
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "kaustik/base/vec.h"
@@ -67,8 +68,8 @@ class KdBuckets {
 
   /// Builds the tree in parallel; the result does not depend on the number of threads. All
   /// coordinates are below max_coordinate. Returns the order of the points: point i of the tree is
-  /// positions[order[i]].
-  std::vector<uint32_t> build(std::span<const Vec3f> positions);
+  /// positions[order[i]]. Where `stop` is requested the tree is right, but slow to search.
+  std::vector<uint32_t> build(std::span<const Vec3f> positions, const std::stop_token& stop = {});
   void clear() { *this = {}; }
 
   size_t size() const { return size_; }

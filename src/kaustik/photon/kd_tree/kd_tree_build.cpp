@@ -98,15 +98,16 @@ int longest_axis(const TreePoint* points, size_t count) {
 }
 
 /// Orders the points of a node that has (or whose ancestor has) children of `child_size` points.
-void split(TreePoint* points, size_t count, size_t child_size) {
+void split(TreePoint* points, size_t count, size_t child_size, const std::stop_token& stop) {
   if (count <= KdBuckets::bucket_size) return;
+  if (count >= parallel_size && stop.stop_requested()) return;
   while (child_size >= count) child_size /= KdBuckets::fan_out;
   const size_t children = (count + child_size - 1) / child_size;
   const size_t left_children = (count + child_size) / (2 * child_size);
   const size_t left = std::clamp<size_t>(left_children, 1, children - 1) * child_size;
   select(points, count, left, longest_axis(points, count));
-  const auto split_left = [=] { split(points, left, child_size); };
-  const auto split_right = [=] { split(points + left, count - left, child_size); };
+  const auto split_left = [=, &stop] { split(points, left, child_size, stop); };
+  const auto split_right = [=, &stop] { split(points + left, count - left, child_size, stop); };
   if (count < parallel_size) {
     split_left();
     split_right();
@@ -156,7 +157,8 @@ void bound_node(const KdBuckets::Node& inner, uint32_t child, KdBuckets::Node& n
 
 }  // namespace
 
-std::vector<uint32_t> KdBuckets::build(std::span<const Vec3f> positions) {
+std::vector<uint32_t> KdBuckets::build(std::span<const Vec3f> positions,
+                                       const std::stop_token& stop) {
   clear();
   size_ = positions.size();
   // Not a vector, whose elements would be set to zero by one thread.
@@ -167,7 +169,7 @@ std::vector<uint32_t> KdBuckets::build(std::span<const Vec3f> positions) {
   });
   size_t child_size = bucket_size;
   while (child_size < size_) child_size *= fan_out;
-  split(points.get(), size_, child_size);
+  split(points.get(), size_, child_size, stop);
 
   std::vector<uint32_t> order(size_);
   buckets_.resize((size_ + bucket_size - 1) / bucket_size);

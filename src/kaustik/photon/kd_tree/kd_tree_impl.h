@@ -37,13 +37,14 @@ void KdTree<Dim, Key, Data, Metric>::check_size(size_t size) const {
 }
 
 template <int Dim, typename Key, typename Data, typename Metric>
-void KdTree<Dim, Key, Data, Metric>::assign(std::vector<Key> keys, std::vector<Data> data) {
+void KdTree<Dim, Key, Data, Metric>::assign(std::vector<Key> keys, std::vector<Data> data,
+                                            const std::stop_token& stop) {
   assert(keys.size() == data.size());
   check_size(keys.size());
   parallel_blocks(keys.size(), 16384, [&](size_t begin, size_t end, size_t) {
     for (size_t i = begin; i < end; ++i) check(keys[i]);
   });
-  build(std::move(keys), std::move(data));
+  build(std::move(keys), std::move(data), stop);
 }
 
 template <int Dim, typename Key, typename Data, typename Metric>
@@ -104,15 +105,16 @@ void KdTree<Dim, Key, Data, Metric>::optimise() {
     keys.push_back(key(i));
     data.push_back(std::move(data_[i]));
   }
-  build(std::move(keys), std::move(data));
+  build(std::move(keys), std::move(data), {});
 }
 
 template <int Dim, typename Key, typename Data, typename Metric>
-void KdTree<Dim, Key, Data, Metric>::build(std::vector<Key> keys, std::vector<Data> data) {
+void KdTree<Dim, Key, Data, Metric>::build(std::vector<Key> keys, std::vector<Data> data,
+                                           const std::stop_token& stop) {
   forest_.clear();
   std::vector<uint32_t> order;
   if constexpr (has_buckets)
-    order = buckets_.build(keys);
+    order = buckets_.build(keys, stop);
   else
     order = forest_.build(std::move(keys));
   data_ = std::vector<Data>(order.size());

@@ -17,8 +17,10 @@ class SidedTree {
   using Neighbors = typename Tree::Neighbors;
 
   SidedTree() = default;
-  SidedTree(std::vector<Vec3f> positions, std::vector<Data> data) {
-    tree_.assign(std::move(positions), std::move(data));
+  /// Where `stop` is requested the tree is right, but slow to search.
+  SidedTree(std::vector<Vec3f> positions, std::vector<Data> data,
+            const std::stop_token& stop = {}) {
+    tree_.assign(std::move(positions), std::move(data), stop);
     sides_.reserve(tree_.size());
     for (const Data& d : tree_.data())
       sides_.add(d.side.x(), d.side.y(), d.side.z(), d.on_front != 0);

@@ -63,7 +63,8 @@ GaugeVertices::GaugeVertices(const std::vector<GaugeVertex>& vertices, size_t ga
   for (const GaugeVertex& vertex : vertices) vertices_[next[vertex.gauge]++] = vertex;
 }
 
-LightVertices join(std::vector<LightBlock>& blocks, size_t gauges, const GaugeDisks* disks) {
+LightVertices join(std::vector<LightBlock>& blocks, size_t gauges, const GaugeDisks* disks,
+                   const std::stop_token& stop) {
   const std::vector<size_t> begins = begins_of(blocks, &LightBlock::vertices);
   const auto as_it_is = [](const auto&, size_t) {};
   const auto of_whole = [&](auto& element, size_t block) {
@@ -86,7 +87,7 @@ LightVertices join(std::vector<LightBlock>& blocks, size_t gauges, const GaugeDi
   std::vector<Vec3f> positions = joined(blocks, &LightBlock::positions, as_it_is);
   std::vector<LightVertexData> data = joined(blocks, &LightBlock::data, of_whole);
   blocks.clear();
-  if (!data.empty()) result.tree = {std::move(positions), std::move(data)};
+  if (!data.empty()) result.tree = {std::move(positions), std::move(data), stop};
   return result;
 }
 

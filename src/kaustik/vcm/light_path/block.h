@@ -1,4 +1,6 @@
 #pragma once
+#include <stop_token>
+
 #include "kaustik/vcm/light_vertices.h"
 
 namespace kaustik {
@@ -18,7 +20,9 @@ struct LightBlock {
 };
 
 /// The vertices of all blocks in their order, of which nothing is left. How many paths there are is
-/// for the caller to say. `gauges`: so many; null disks: none.
-LightVertices join(std::vector<LightBlock>& blocks, size_t gauges, const GaugeDisks* disks);
+/// for the caller to say. `gauges`: so many; null disks: none. Where `stop` is requested they are
+/// not in order for searches.
+LightVertices join(std::vector<LightBlock>& blocks, size_t gauges, const GaugeDisks* disks,
+                   const std::stop_token& stop);
 
 }  // namespace kaustik

@@ -251,9 +251,11 @@ VcmPlanner::FoundLight VcmPlanner::search_light(uint32_t count, const std::stop_
     trace(emission, pilots - 1);
     if (stop.stop_requested()) return found;
     found.use->learn(found.light.vertices);
+    if (stop.stop_requested()) return found;
     const EmissionLearning& learning = found.use->emission();
     const double before = learning.second_moment(*guides.emission);
     guides = guides.guided_by(*found.use);
+    if (stop.stop_requested()) return found;
     const double after = learning.second_moment(*guides.emission);
     const bool searches = guides.emission == plain_ && learning.size() < few_paths;
     if (pilots == most_pilots || !(searches || after < worth_a_pilot * before)) {
