@@ -29,7 +29,7 @@ Passes caustic(const TestScene& scene, const char* aim, int photons, double samp
                uint64_t seed) {
   return render(scene, "photonmap",
                 set("components", "caustic") + set("aim", aim) +
-                    set("caustic_photons", int(photons * sample_share)) +
+                    set("caustic_photons", int(photons * sample_share())) +
                     set("caustic_neighbors", 100'000) + set("caustic_radius", 0.2) +
                     set("caustic_kernel", "constant"),
                 {samples, seed});

@@ -257,7 +257,7 @@ TEST(Auto, HasNoBiasWithoutLightPaths) {
   const auto integrator = scene.integrator("auto");
   const Passes path = render(scene, "path", "", {64, 7});
   const Passes found = render(scene, *integrator, {64, 8});
-  const std::string chosen = decision(scene, *integrator, uint32_t(64 * sample_share));
+  const std::string chosen = decision(scene, *integrator, uint32_t(64 * sample_share()));
   EXPECT_TRUE(is_for_camera_alone(chosen)) << chosen;
   for (const char* layer : {"", "direct"})
     expect_equal_means(fmt::format("auto {}", layer), found.mean({layer}), path.mean({layer}));

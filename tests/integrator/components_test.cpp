@@ -81,8 +81,8 @@ Description shipped(const std::string& name, int size = 20) {
 std::string fine_estimates(int caustic_photons = 60'000) {
   return set("cache_minimum_spacing", 0.2) + set("cache_maximum_spacing", 4.0) +
          set("cache_quality", 0.1) + set("caustic_neighbors", 8) + set("global_neighbors", 8) +
-         set("caustic_photons", int(caustic_photons * sample_share)) +
-         set("global_photons", int(40'000 * sample_share));
+         set("caustic_photons", int(caustic_photons * sample_share())) +
+         set("global_photons", int(40'000 * sample_share()));
 }
 
 constexpr double one_percent = 0.01;
@@ -135,7 +135,7 @@ void check_caustic(const std::string& name, const TestScene& scene, const Causti
                    const Passes& light, const PixelWeight& weight = {}) {
   const Passes found = render(scene, "photonmap",
                               set("components", "caustic") +
-                                  set("caustic_photons", int(samples.photons * sample_share)) +
+                                  set("caustic_photons", int(samples.photons * sample_share())) +
                                   set("caustic_neighbors", samples.neighbors),
                               {samples.per_pixel, 1});
   expect_near_means(fmt::format("{} caustic, {} neighbours", name, samples.neighbors),

@@ -57,7 +57,7 @@ std::vector<double> means(const TestScene& scene, const std::string& type, doubl
     SessionSettings settings;
     settings.first_pass = pass;
     settings.passes = 1;
-    settings.samples_per_pixel = uint32_t(std::max(1.0, samples * sample_share));
+    settings.samples_per_pixel = uint32_t(std::max(1.0, samples * sample_share()));
     Session session(scene.scene(), *integrator, settings);
     session.run();
     result.push_back(Passes::mean_of(session.film().image(), {""}));

@@ -33,7 +33,7 @@ std::string large_lamp() {
 }
 
 std::string photons(int count) {
-  return set("components", "caustic") + set("caustic_photons", int(count * sample_share)) +
+  return set("components", "caustic") + set("caustic_photons", int(count * sample_share())) +
          set("caustic_neighbors", 100'000) + set("caustic_radius", 0.03) +
          set("caustic_kernel", "constant");
 }
@@ -102,7 +102,7 @@ TEST(Lampshade, IsTheSameForAllIntegrators) {
   const Passes light = render(scene, "lighttracer", wanted, {128, 2});
   const Passes map =
       render(scene, "photonmap",
-             set("global_photons", int(60'000 * sample_share)) + set("global_neighbors", 30) +
+             set("global_photons", int(60'000 * sample_share())) + set("global_neighbors", 30) +
                  set("irradiance_cache", false) + wanted,
              {12, 3});
   for (const PixelWeight& weight : {PixelWeight(), PixelWeight(on_shade)}) {
@@ -120,7 +120,7 @@ TEST(Lampshade, IsTheSameWithTheCacheLong) {
   const Passes path = render(scene, "path", wanted, {300, 1});
   const Passes map =
       render(scene, "photonmap",
-             set("global_photons", int(60'000 * sample_share)) + set("global_neighbors", 30) +
+             set("global_photons", int(60'000 * sample_share())) + set("global_neighbors", 30) +
                  set("cache_minimum_spacing", 0.2) + set("cache_maximum_spacing", 4.0) +
                  set("cache_quality", 0.1) + wanted,
              {16, 3});
@@ -134,8 +134,8 @@ TEST(Lampshade, GlossyTransmissionIsTheSame) {
   const Passes path = render(scene, "path", wanted, {128, 1});
   const Passes map =
       render(scene, "photonmap",
-             set("global_photons", int(60'000 * sample_share)) +
-                 set("caustic_photons", int(60'000 * sample_share)) + set("caustic_neighbors", 20) +
+             set("global_photons", int(60'000 * sample_share())) +
+                 set("caustic_photons", int(60'000 * sample_share())) + set("caustic_neighbors", 20) +
                  set("global_neighbors", 30) + set("irradiance_cache", false) + wanted,
              {8, 3});
   expect_near_means("frosted lampshade photonmap", map.mean(layers), path.mean(layers), 0.01);

@@ -19,7 +19,7 @@ std::string furnace(bool through_shell, int size = 4) {
 }
 std::string light_paths_of(int max_light_level) {
   return set("max_light_level", max_light_level) + set("precompute_stride", 0) +
-         set("global_photons", int(50'000 * sample_share)) + set("global_neighbors", 100) +
+         set("global_photons", int(50'000 * sample_share())) + set("global_neighbors", 100) +
          set("caustic_neighbors", 0) + set("importance_floor", 1.0) +
          set("irradiance_cache", false) + set("diffuse_samples", 2);
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,17 +18,27 @@
 
 namespace kaustik::test {
 
-/// Passes of a measurement, each a replicate of its own, and the share of the samples that is
-/// taken, a tenth in all where programs run slowly.
+/// Passes of a measurement, each a replicate of its own.
 #ifdef KAUSTIK_SLOW_BUILD
 inline constexpr bool slow_build = true;
 inline constexpr uint32_t measured_passes = 4;
-inline constexpr double sample_share = 0.4;
 #else
 inline constexpr bool slow_build = false;
 inline constexpr uint32_t measured_passes = replicate_count;
-inline constexpr double sample_share = 1;
 #endif
+/// Whether all samples are taken, as `make test-long` wants; else it is a quarter of them, with
+/// twice the noise.
+inline bool is_thorough() {
+  static const bool value = std::getenv("KAUSTIK_THOROUGH") != nullptr;
+  return value;
+}
+/// The share of a pass's samples that is taken. Where programs run slowly, of all passes a tenth.
+inline double sample_share() {
+  if (slow_build) return 0.4;
+  return is_thorough() ? 1 : 0.25;
+}
+/// Of a measurement, over that with all samples.
+inline double noise_factor() { return is_thorough() ? 1 : 2; }
 
 /// Level of a single check, if all of about a hundred together are wrong once in a hundred times.
 inline double check_level() { return sidak_level(0.01, 100); }
@@ -119,7 +130,7 @@ inline Passes render(const TestScene& scene, const Integrator& integrator,
     settings.threads = options.threads;
     settings.first_pass = pass;
     settings.passes = 1;
-    settings.samples_per_pixel = uint32_t(std::max(1.0, options.samples * sample_share));
+    settings.samples_per_pixel = uint32_t(std::max(1.0, options.samples * sample_share()));
     Session session(scene.scene(), integrator, settings);
     const SessionReport report = session.run();
     EXPECT_EQ(report.dropped_samples, 0u);
@@ -215,21 +226,24 @@ inline void expect_sharp(const std::string& what, const Comparison& c, double la
   std::printf("  %-58s %.6g, ratio %.5f ± %.5f\n", what.c_str(), c.mean(), c.ratio(),
               c.relative_error());
   if (!slow_build) {
-    EXPECT_LE(c.relative_error(), largest_error) << what << " is too noisy to tell";
+    EXPECT_LE(c.relative_error(), noise_factor() * largest_error)
+        << what << " is too noisy to tell";
   }
 }
 
 /// The first has the mean of the second, and the check is sharp enough to tell it from one that is
 /// off by 2 %: its standard error is at most 0.3 %, and the wrong value, farther off on the side
 /// where the right one lies, would fail. (Errors planted in scenes and methods have tests of their
-/// own.)
+/// own.) Both are twice as much where not all samples are taken.
 inline void expect_equal_means(const std::string& what, const Comparison& c,
                                double largest_error = sharp) {
   expect_sharp(what, c, largest_error);
   EXPECT_GT(c.p_value_of_equality(), check_level()) << what << ": ratio " << c.ratio();
   if (slow_build) return;
-  const double twin = c.ratio() > 1 ? 1.02 : 1 / 1.02;
-  EXPECT_LT(c.p_value_of_equality(twin), check_level()) << what << ": an error of 2 % goes unseen";
+  const double planted = 1 + 0.02 * noise_factor();
+  const double twin = c.ratio() > 1 ? planted : 1 / planted;
+  EXPECT_LT(c.p_value_of_equality(twin), check_level())
+      << what << ": a factor of " << planted << " goes unseen";
 }
 inline void expect_equal_means(const std::string& what, const RunningStatistics& a,
                                const RunningStatistics& b) {
@@ -247,16 +261,18 @@ inline double nearness_level() { return slow_build ? check_level() : 0.05; }
 /// The same where the first is an estimate whose bias the parameters make small: its mean lies
 /// within `tolerance` of the other's, relatively. What is measured may lie beyond it by as much as
 /// the noise explains, 1.7 standard errors of at most 0.3 %, so at ± 1 % all that is off by 1.5 %
-/// fails. An error of twice the tolerance on top of the estimate's own would fail.
+/// fails. An error of twice the tolerance on top of the estimate's own would fail, of three times
+/// where not all samples are taken.
 inline void expect_near_means(const std::string& what, const Comparison& c, double tolerance,
                               double largest_error = sharp) {
   expect_sharp(what, c, largest_error);
   EXPECT_GT(c.p_value_of_nearness(tolerance), nearness_level())
       << what << ": ratio " << c.ratio() << " is not within " << tolerance;
   if (slow_build) return;
-  const double twin = c.ratio() > 1 ? 1 + 2 * tolerance : 1 / (1 + 2 * tolerance);
+  const double planted = 1 + (1 + noise_factor()) * tolerance;
+  const double twin = c.ratio() > 1 ? planted : 1 / planted;
   EXPECT_LT(c.p_value_of_nearness(tolerance, twin), nearness_level())
-      << what << ": an error of " << 2 * tolerance << " goes unseen";
+      << what << ": a factor of " << planted << " goes unseen";
 }
 inline void expect_near_means(const std::string& what, const RunningStatistics& a,
                               const RunningStatistics& b, double tolerance) {
