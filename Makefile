@@ -39,6 +39,7 @@ test: build
 
 # Statistics at length, beside the quick tests of the same: before a release, and when an estimator changes.
 test-long: build
+	ctest --preset thorough
 	ctest --preset long
 
 # The page of `kaustik view` in Chromium: on a server of its own, and on the program. Builds both.
