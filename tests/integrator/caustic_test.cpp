@@ -243,7 +243,9 @@ TEST_F(Nephroid, Bdpt) {
   check("bdpt", render(scene_, "bdpt", of_techniques(gather_radius, 4), {4}));
 }
 TEST_F(Nephroid, Vcm) { check("vcm", render(scene_, "vcm", of_techniques(gather_radius, 4), {4})); }
-TEST_F(Nephroid, Ppm) { check("ppm", render(scene_, "ppm", of_techniques(gather_radius, 4), {4})); }
+TEST_F(Nephroid, Ppm) {
+  check("ppm", render(scene_, "ppm", of_techniques(gather_radius, 4), {10}));
+}
 /// Of its radii it is not known that they end before the light jumps; hence the bound of 1 %.
 TEST_F(Nephroid, Auto) {
   expect_near_means("auto nephroid",

@@ -140,12 +140,12 @@ TEST_F(Penumbra, Approximate) {
 TEST_F(Penumbra, ErrorFallsWithThePhotons) {
   std::vector<double> accurate, approximate;
   for (const int photons : {200, 2'000, 20'000}) {
-    accurate.push_back(error_of(rendered(photons, 1, 64, 5)));
-    approximate.push_back(error_of(rendered(photons, 0, 64, 5)));
+    accurate.push_back(error_of(rendered(photons, 1, 160, 5)));
+    approximate.push_back(error_of(rendered(photons, 0, 160, 5)));
     std::printf("  %6d photons: error of the accurate solution %.4f, of the approximate %.4f\n",
                 photons, accurate.back(), approximate.back());
   }
-  const double by_rays = error_of(rendered(0, 1, 64));
+  const double by_rays = error_of(rendered(0, 1, 160));
   std::printf("  shadow rays: %.4f\n", by_rays);
   for (size_t i = 1; i < 3; ++i) {
     EXPECT_LT(accurate[i], 0.7 * accurate[i - 1]);

@@ -26,18 +26,16 @@ inline constexpr uint32_t measured_passes = 4;
 inline constexpr bool slow_build = false;
 inline constexpr uint32_t measured_passes = replicate_count;
 #endif
-/// Whether all samples are taken, as `make test-long` wants; else it is a quarter of them, with
-/// twice the noise.
+/// Whether all samples are taken, as `make test-long` wants.
 inline bool is_thorough() {
   static const bool value = std::getenv("KAUSTIK_THOROUGH") != nullptr;
   return value;
 }
-/// The share of a pass's samples that is taken. Where programs run slowly, of all passes a tenth.
-inline double sample_share() {
-  if (slow_build) return 0.4;
-  return is_thorough() ? 1 : 0.25;
-}
-/// Of a measurement, over that with all samples.
+/// The share of a pass's samples that is taken otherwise. Where programs run slowly there are fewer
+/// passes, too, and a tenth of the samples in all.
+inline double sample_share() { return is_thorough() && !slow_build ? 1 : 0.4; }
+/// Noise with that share over noise with all samples, at most: strata make it fall faster than the
+/// root of their number.
 inline double noise_factor() { return is_thorough() ? 1 : 2; }
 
 /// Level of a single check, if all of about a hundred together are wrong once in a hundred times.
