@@ -180,7 +180,8 @@ def _measuring(scene: Scene, sensor: str, lists: Dict[str, Buffer]) -> Scene:
     present = {child for _, child in children}
     children = children + [(name, child) for name, child in shapes if child not in present] + [("", len(objects))]
     objects[0] = (family, name, own_id, place, properties, children)
-    objects.append(("sensor", sensor, "", (sensor, 0, 0),
+    # The arguments are places enough.
+    objects.append(("sensor", sensor, "", ("", 0, 0),
                     [(key, values, (key, 0, 0)) for key, values in lists.items()], within))
     made = _native.scene_from_objects(objects, native.sources, native.load_warnings, native.is_strict)
     return Scene._of(made, previous=scene)._build()

@@ -74,11 +74,12 @@ py::tuple python_place(const Place& place) {
   return py::make_tuple(place.file ? *place.file : std::string(), place.line, place.column);
 }
 
-/// Places of one file share its name.
+/// Places of one file share its name; "": it is not known.
 class Places {
  public:
   Place of(const py::handle& value) {
     const auto [file, line, column] = value.cast<std::tuple<std::string, int, int>>();
+    if (file.empty()) return {};
     auto& name = names_[file];
     if (!name) name = std::make_shared<const std::string>(file);
     return {name, line, column};

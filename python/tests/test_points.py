@@ -116,6 +116,14 @@ def test_wrong_arguments():
                                          ([(0, 0, 0)] * 3, [(0, 0, 1)] * 2, "directions")):
         with pytest.raises(kaustik.Error, match=message):
             kaustik.radiance(scene, origins, directions)
+    # The argument is the place, and nothing that nobody has written.
+    for call, argument in ((lambda: kaustik.irradiance(scene, [(0, 0, 0)], [(0, 0, 0)]), "normals"),
+                           (lambda: kaustik.irradiance(scene, [(0, 0, 1e300)], [(0, 0, 1)]), "points"),
+                           (lambda: kaustik.radiance(scene, (0, 0, 0), [(0, 0, 0)]), "directions")):
+        with pytest.raises(kaustik.Error, match=f"^{argument}: ") as caught:
+            call()
+        assert caught.value.file == argument and "irradiancepoints" not in str(caught.value)
+        assert "radiancerays" not in str(caught.value) and ":0" not in str(caught.value)
     with pytest.raises(kaustik.Error, match="scene"):
         kaustik.irradiance("scene.xml", [(0, 0, 0)], [(0, 0, 1)])
     with pytest.raises(kaustik.Error, match="photonmap.*knows nothing"):

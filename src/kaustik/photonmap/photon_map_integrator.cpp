@@ -88,7 +88,7 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
   StoredPhotons stored = read_photon_file(settings_.photon_file);
   const auto refuse = [&](const std::string& message) {
     throw Error(ErrorKind::input, settings_.photon_file + " " + message,
-                "make the maps anew with `kaustik photons` from this scene and these settings",
+                "trace the maps anew, from this scene and with these settings",
                 settings_.photon_file_place);
   };
   if (!stored.fingerprint.matches(fingerprint_of(scene)))
@@ -98,8 +98,7 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
         stored.scene + ", " + stored.fingerprint.counts + ")");
   if (!stored.settings.part.is_whole())
     throw Error(ErrorKind::input, settings_.photon_file + " holds only a part of the photons",
-                "put all parts together with: kaustik merge PART.kpm ... -o MAP.kpm",
-                settings_.photon_file_place);
+                "merge all parts, and give what that makes", settings_.photon_file_place);
   if (stored.settings.traced != settings_.light_pass.traced)
     refuse("was traced with another specular_sampling");
   if ((settings_.light_pass.caustic_photons > 0 && stored.settings.caustic_photons == 0) ||

@@ -45,6 +45,8 @@ struct JobSettings {
   /// The program's version, the recipe, whose changes the job makes, its plan and outputs. What it
   /// lacks is filled in: samples per pass, passes, digest, view.
   RenderRecord record;
+  /// Who asks for the recipe's integrator, for messages: "command line: --integrator".
+  std::string integrator_origin = "integrator";
   SessionSettings session;  ///< time counts from `clock_start` on
   BuildOptions build;
   std::string checkpoint;  ///< file that finished passes are kept in; "": none
