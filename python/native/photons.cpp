@@ -66,6 +66,13 @@ Buffer paths(const KeptPhotons& photons, const std::string& kind) {
   return {Array::of<uint32_t>({count}, std::move(numbers))};
 }
 
+/// Indices of lamps; of a part of a pass they are not known.
+Buffer lamps(const KeptPhotons& photons, const std::string& kind) {
+  std::vector<uint32_t> indices = lamps_of(*photons.stored, photons.map(kind));
+  const size_t count = indices.size();
+  return {Array::of<uint32_t>({count}, std::move(indices))};
+}
+
 /// Of all lamps together.
 py::dict light_counts(const KeptPhotons& photons, const std::string& kind) {
   const PhotonMaps& maps = photons.stored->maps;
@@ -120,7 +127,7 @@ class PhotonTracing {
   }
 
   void cancel() { job_->cancel(); }
-  /// The photons, and what is odd about them.
+  /// The photons, what is odd about them, and the names of the lamps.
   py::tuple run() {
     TracedPhotons traced;
     {
@@ -130,7 +137,10 @@ class PhotonTracing {
     }
     return py::make_tuple(
         KeptPhotons{std::make_shared<const StoredPhotons>(std::move(traced.photons))},
-        traced.warnings);
+    const Scene& scene = job_->scene();
+    std::vector<std::string> names;
+    for (size_t i = 0; i < scene.lights().size(); ++i) names.push_back(scene.light_name(i));
+        traced.warnings, names);
   }
 
  private:
@@ -155,6 +165,7 @@ void bind_photons(py::module_& module) {
       .def("paths", &paths)
       .def("light_counts", &light_counts)
       .def_property_readonly("scene", [](const KeptPhotons& p) { return p.stored->scene; })
+      .def("lamps", &lamps)
       .def_property_readonly("seed", [](const KeptPhotons& p) { return p.stored->seed; })
       .def_property_readonly(
           "is_whole", [](const KeptPhotons& p) { return p.stored->settings.part.is_whole(); });
