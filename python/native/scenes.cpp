@@ -8,6 +8,7 @@
 #include "kaustik/integrator/description_types.h"
 #include "kaustik/loader/mitsuba_writer.h"
 #include "kaustik/loader/scene_format.h"
+#include "kaustik/render/measuring.h"
 #include "kaustik/render/prepared_scene.h"
 #include "kaustik/scene/overrides.h"
 
@@ -205,6 +206,20 @@ void build(DescribedScene& scene, const DescribedScene* previous) {
   apply_changes(description, {}, {keep, keep});
   // Its integrator is checked, too.
   scene.built = prepare_scene(description, {}, false, {{}, keep}, shared).scene;
+/// The scene with a meter for its only camera; `lists` are (name, Buffer).
+DescribedScene with_meter(const DescribedScene& scene, const std::string& sensor,
+                          const py::list& lists) {
+  std::vector<Property> properties;
+  for (const py::handle& list : lists) {
+    const auto parts = list.cast<py::tuple>();
+    properties.push_back({parts[0].cast<std::string>(), native_value(parts[1]), {}});
+  }
+  return {std::make_shared<const Description>(
+              measuring(*scene.description, sensor, std::move(properties))),
+          nullptr,
+          {}};
+}
+
   scene.warnings = std::move(warnings);
 }
 
@@ -237,3 +252,6 @@ void bind_scenes(py::module_& module) {
 }
 
 }  // namespace kaustik::python
+      .def("with_meter", &with_meter)
+  module.attr("measuring_passes") = MeasuringDefaults::passes;
+  module.attr("measuring_samples_per_pass") = MeasuringDefaults::samples_per_pass;
