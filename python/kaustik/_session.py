@@ -77,6 +77,7 @@ class Session:
         if not isinstance(scene, Scene):
             raise Error(f"scene: {type(scene).__name__} is no scene",
                         "make one by kaustik.load_file, load_string or load_dict")
+        scene._require_camera()
         self._goals = _Goals(integrator=integrator, passes=passes, spp=spp, time=time, error=error, seed=seed,
                              threads=threads, first_pass=first_pass, samples_per_pass=samples_per_pass)
         self._scene = scene

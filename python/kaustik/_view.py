@@ -35,6 +35,7 @@ class View:
                 raise Error(f"integrator: there is no '{integrator}'",
                             _native.suggest(str(integrator), list(types["integrator"])))
             name = integrator
+        scene._require_camera()
         _threads.begin()
         scene._build()
         title = os.path.splitext(os.path.basename(scene.source))[0] or "scene"

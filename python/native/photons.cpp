@@ -123,7 +123,9 @@ class PhotonTracing {
     const int available = int(std::thread::hardware_concurrency());
     settings.session.threads = available > 0 ? std::min(threads, available) : threads;
     settings.previous = scene.built;
-    job_ = std::make_unique<Job>(copy_of(*scene.description), std::move(settings), JobListener{});
+    Description description = copy_of(*scene.description);
+    add_camera_if_missing(description);
+    job_ = std::make_unique<Job>(std::move(description), std::move(settings), JobListener{});
   }
 
   void cancel() { job_->cancel(); }
@@ -135,11 +137,11 @@ class PhotonTracing {
       traced = job_->trace_photons(part_);
       traced.photons.scene = name_;
     }
-    return py::make_tuple(
-        KeptPhotons{std::make_shared<const StoredPhotons>(std::move(traced.photons))},
     const Scene& scene = job_->scene();
     std::vector<std::string> names;
     for (size_t i = 0; i < scene.lights().size(); ++i) names.push_back(scene.light_name(i));
+    return py::make_tuple(
+        KeptPhotons{std::make_shared<const StoredPhotons>(std::move(traced.photons))},
         traced.warnings, names);
   }
 
@@ -163,9 +165,9 @@ void bind_photons(py::module_& module) {
       .def("normals", &normals)
       .def("powers", &powers)
       .def("paths", &paths)
+      .def("lamps", &lamps)
       .def("light_counts", &light_counts)
       .def_property_readonly("scene", [](const KeptPhotons& p) { return p.stored->scene; })
-      .def("lamps", &lamps)
       .def_property_readonly("seed", [](const KeptPhotons& p) { return p.stored->seed; })
       .def_property_readonly(
           "is_whole", [](const KeptPhotons& p) { return p.stored->settings.part.is_whole(); });

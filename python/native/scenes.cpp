@@ -11,6 +11,7 @@
 #include "kaustik/render/measuring.h"
 #include "kaustik/render/prepared_scene.h"
 #include "kaustik/scene/overrides.h"
+#include "kaustik/scene/scene_cameras.h"
 
 namespace kaustik::python {
 
@@ -54,6 +55,18 @@ Value native_value(const py::handle& value) {
   throw py::type_error("no value of a scene: " + py::repr(value).cast<std::string>());
 }
 
+bool has_camera(const Description& description) {
+  return !description.is_strict || !cameras_of(*description.scene).empty();
+}
+
+void add_camera_if_missing(Description& description) {
+  if (has_camera(description)) return;
+  const auto camera = std::make_shared<Object>();
+  camera->family = "sensor";
+  camera->type = "perspective";
+  description.scene->children.push_back({"", camera});
+}
+
 namespace {
 
 /// Every object of a description once, each before what it holds for the first time.
@@ -75,12 +88,11 @@ py::tuple python_place(const Place& place) {
   return py::make_tuple(place.file ? *place.file : std::string(), place.line, place.column);
 }
 
-/// Places of one file share its name; "": it is not known.
+/// Places of one file share its name.
 class Places {
  public:
   Place of(const py::handle& value) {
     const auto [file, line, column] = value.cast<std::tuple<std::string, int, int>>();
-    if (file.empty()) return {};
     auto& name = names_[file];
     if (!name) name = std::make_shared<const std::string>(file);
     return {name, line, column};
@@ -194,18 +206,6 @@ DescribedScene with_integrator(const DescribedScene& scene, const py::list& obje
   return {std::make_shared<const Description>(std::move(description)), nullptr, {}};
 }
 
-/// Builds it, sharing with another one what is the same; null: with none.
-void build(DescribedScene& scene, const DescribedScene* previous) {
-  if (scene.built) return;
-  const std::shared_ptr<const Scene> shared = previous ? previous->built : nullptr;
-  const py::gil_scoped_release released;
-  // As a job does: of several cameras it takes one.
-  Description description = copy_of(*scene.description);
-  std::vector<std::string> warnings;
-  const auto keep = [&](const std::string& sentence) { warnings.push_back(sentence); };
-  apply_changes(description, {}, {keep, keep});
-  // Its integrator is checked, too.
-  scene.built = prepare_scene(description, {}, false, {{}, keep}, shared).scene;
 /// The scene with a meter for its only camera; `lists` are (name, Buffer).
 DescribedScene with_meter(const DescribedScene& scene, const std::string& sensor,
                           const py::list& lists) {
@@ -220,6 +220,19 @@ DescribedScene with_meter(const DescribedScene& scene, const std::string& sensor
           {}};
 }
 
+/// Builds it, sharing with another one what is the same; null: with none.
+void build(DescribedScene& scene, const DescribedScene* previous) {
+  if (scene.built) return;
+  const std::shared_ptr<const Scene> shared = previous ? previous->built : nullptr;
+  const py::gil_scoped_release released;
+  Description description = copy_of(*scene.description);
+  std::vector<std::string> warnings;
+  const auto keep = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  // As a job does: of several cameras it takes one.
+  apply_changes(description, {}, {keep, keep});
+  add_camera_if_missing(description);
+  // Its integrator is checked, too.
+  scene.built = prepare_scene(description, {}, false, {{}, keep}, shared).scene;
   scene.warnings = std::move(warnings);
 }
 
@@ -234,10 +247,13 @@ void bind_scenes(py::module_& module) {
                              [](const DescribedScene& s) { return s.description->warnings; })
       .def_property_readonly("is_strict",
                              [](const DescribedScene& s) { return s.description->is_strict; })
+      .def_property_readonly("has_camera",
+                             [](const DescribedScene& s) { return has_camera(*s.description); })
       .def_property_readonly("is_built", [](const DescribedScene& s) { return s.built != nullptr; })
       .def_property_readonly("build_warnings", [](const DescribedScene& s) { return s.warnings; })
       .def("edited", &edited)
       .def("with_integrator", &with_integrator)
+      .def("with_meter", &with_meter)
       .def("build", &build, py::arg("previous").none(true))
       // How much of the scene was built for it, rather than shared.
       .def_property_readonly(
@@ -249,9 +265,8 @@ void bind_scenes(py::module_& module) {
   module.def("load_file", &load_file);
   module.def("load_string", &load_string);
   module.def("scene_from_objects", &from_objects);
+  module.attr("measuring_passes") = MeasuringDefaults::passes;
+  module.attr("measuring_samples_per_pass") = MeasuringDefaults::samples_per_pass;
 }
 
 }  // namespace kaustik::python
-      .def("with_meter", &with_meter)
-  module.attr("measuring_passes") = MeasuringDefaults::passes;
-  module.attr("measuring_samples_per_pass") = MeasuringDefaults::samples_per_pass;
