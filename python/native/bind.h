@@ -42,7 +42,8 @@ struct DescribedScene {
   std::vector<std::string> warnings;   ///< of building it
 };
 
-/// Whether it can be looked at. One that is not read strictly can: Mitsuba's camera stands for its own.
+/// Whether it can be looked at. One that is not read strictly can: Mitsuba's camera stands for its
+/// own.
 bool has_camera(const Description& description);
 /// What nobody looks at needs no camera, and gets one that stands for it while it is built.
 void add_camera_if_missing(Description& description);

@@ -308,7 +308,10 @@ void Job::edit(Description description) {
 
 const Scene& Job::scene() const { return *current()->prepared.scene; }
 
-std::shared_ptr<const Scene> Job::shared_scene() const { return current()->prepared.scene; }
+std::shared_ptr<const Scene> Job::shared_scene() const {
+  const std::shared_ptr<Run> run = current();
+  return run ? run->prepared.scene : nullptr;
+}
 
 JobLight Job::kept_light() const {
   const std::shared_ptr<Run> run = current();

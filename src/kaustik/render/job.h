@@ -139,7 +139,8 @@ class Job {
 
   /// After prepare().
   const Scene& scene() const;
-  std::shared_ptr<const Scene> shared_scene() const;  ///< to share with others
+  /// To share with others, from any thread; null before prepare().
+  std::shared_ptr<const Scene> shared_scene() const;
   /// After prepare(), from any thread: for a job that comes after this one.
   JobLight kept_light() const;
   /// Session::film_so_far(), from any thread, while the job runs.
