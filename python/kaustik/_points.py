@@ -97,7 +97,7 @@ def irradiance(scene: Scene, points: Any, normals: Any, *, integrator: Union[str
     is changed in the scene: the points are as if they were not there. One that lies on a surface, to a
     hundred thousandth of the scene's size, measures what arrives there.
 
-    `integrator` is "auto", "vcm", "bdpt", "ppm", "path", or a dict of one. Without `passes`, `spp`, `time`
+    `integrator` is "auto", "vcm", "bdpt", "ppm", "path", "photonmap", or a dict of one. Without `passes`, `spp`, `time`
     and `error`, as for `render`, each point gets 1024 samples. Raises Error with the name of what is wrong."""
     at = numbers_of(points, "points", (None, 3))
     return _measured(scene, "irradiancepoints", {"points": at, "normals": _one_for_each("normals", normals, at)},
@@ -111,7 +111,7 @@ def radiance(scene: Scene, origins: Any, directions: Any, *, integrator: Union[s
     """The radiance, W/(sr·m²), that arrives along rays: at `origins` from where `directions` look.
 
     `origins` is (n, 3), or one for all; `directions` is (n, 3), of any length. Integrators and the other
-    arguments are those of `irradiance`, and "photonmap" besides."""
+    arguments are those of `irradiance`."""
     along = numbers_of(directions, "directions", (None, 3))
     return _measured(scene, "radiancerays", {"origins": _one_for_each("origins", origins, along), "directions": along},
                      integrator, passes, spp, time, error, seed, threads, progress)

@@ -25,7 +25,7 @@ def from_lamp(x, y, z):
     return 3 * (1 - z) / (x * x + y * y + (1 - z) ** 2) ** 1.5
 
 
-@pytest.mark.parametrize("integrator", ["auto", "path"])
+@pytest.mark.parametrize("integrator", ["auto", "path", "photonmap"])
 def test_irradiance(integrator):
     measured = kaustik.irradiance(lit_floor(), [[0.5, 0.2, 0], [0.5, 0.2, 0.6], [0, 0, 1.5]], [0, 0, 1],
                                   integrator=integrator, passes=8)
@@ -148,7 +148,7 @@ def test_wrong_arguments():
         assert "radiancerays" not in str(caught.value) and ":0" not in str(caught.value)
     with pytest.raises(kaustik.Error, match="scene"):
         kaustik.irradiance("scene.xml", [(0, 0, 0)], [(0, 0, 1)])
-    with pytest.raises(kaustik.Error, match="photonmap.*knows nothing"):
-        kaustik.irradiance(scene, [(0, 0, 0)], [(0, 0, 1)], integrator="photonmap")
+    with pytest.raises(kaustik.Error, match="^integrator: .*lighttracer.*knows nothing"):
+        kaustik.irradiance(scene, [(0, 0, 0)], [(0, 0, 1)], integrator="lighttracer")
     with pytest.raises(kaustik.Error, match="passes"):
         kaustik.radiance(scene, [(0, 0, 0)], [(0, 0, 1)], passes=0)

@@ -89,7 +89,7 @@ TEST(LibraryPoints, WhatIsRefused) {
 TEST(LibraryPoints, IntegratorsThatKnowNoPoints) {
   const std::vector<Vec3> point = {{0, 0, 0.5}}, up = {{0, 0, 1}};
   SessionSettings settings = passes(1, 1);
-  settings.integrator = "photonmap";
+  settings.integrator = "lighttracer";
   const Error error = error_of([&] { irradiance(lit_floor(), point, up, settings); });
   EXPECT_EQ(error.file(), "SessionSettings::integrator");
   EXPECT_NE(error.remedy().find("vcm"), std::string::npos) << error.what();
