@@ -156,6 +156,9 @@ output=$("$work/consumer/build/mean_radiance")
 check_mean scene 0.5 "$output"
 check_mean brighter 1 "$output"
 check_pkg_config
+# The other example: a picture, and how bright it is at points.
+output=$("$work/consumer/build/rippled_glass" "$work/glass.jpg" 32 2 2>"$work/log") || fail "$(cat "$work/log")"
+[[ -s $work/glass.jpg && $output == *"irradiance at (-0.3, -1): "*" W/m²"* ]] || fail "rippled_glass has told: $output"
 
 cat >"$work/sky.xml" <<'EOF'
 <scene version="3.0.0">

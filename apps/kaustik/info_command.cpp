@@ -13,7 +13,7 @@ namespace {
 
 void info(const std::string& path, const std::vector<std::string>& definitions, bool is_strict,
           const std::string& camera, const BuildOptions& build) {
-  const LoadOptions load{.definitions = parse_definitions(definitions), .is_strict = is_strict};
+  const LoadOptions load = load_options(parse_definitions(definitions), is_strict);
   Description description = read_scene(path, load);
   if (const std::string others = choose_camera(description, camera); !others.empty())
     terminal_messages().tell(others);

@@ -56,6 +56,7 @@ void learn_scene(LearnOptions options) {
   settings.task = JobTask::learn;
   settings.record.program = KAUSTIK_VERSION;
   settings.record.recipe = recipe;
+  settings.integrator_origin = integrator_origin;
   settings.session = session_settings(options);
   settings.build = options.build;
   Job job(std::move(description), std::move(settings), {terminal_messages(), {}, {}});

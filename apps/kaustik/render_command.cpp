@@ -106,6 +106,7 @@ void render(RenderOptions options) {
     recipe.integrator = "photonmap";
   recipe.settings =
       collected_settings(integrator_of(description, recipe), options.levels, options.settings);
+  job.integrator_origin = integrator_origin;
   RenderRecord& record = job.record;
   record.program = KAUSTIK_VERSION;
   record.recipe = recipe;

@@ -83,6 +83,14 @@ JsonObject result_facts(const JobResult& result, const Job& job) {
 
 }  // namespace
 
+LoadOptions load_options(std::vector<std::pair<std::string, std::string>> definitions,
+                         bool is_strict) {
+  return {.definitions = std::move(definitions),
+          .is_strict = is_strict,
+          .definitions_origin = "command line: -D",
+          .definition_prefix = "-D "};
+}
+
 Description read_scene(const std::string& path, const LoadOptions& options) {
   if (!is_standard_stream(path)) return load_scene(path, options);
   return parse_scene(read_standard_input(), "standard input", "", options);
@@ -91,10 +99,7 @@ Description read_scene(const std::string& path, const LoadOptions& options) {
 Messages terminal_messages() { return {note, warn}; }
 
 Description load_description(const RenderRecipe& recipe) {
-  LoadOptions load;
-  load.definitions = recipe.definitions;
-  load.is_strict = recipe.is_strict;
-  return read_scene(recipe.scene, load);
+  return read_scene(recipe.scene, load_options(recipe.definitions, recipe.is_strict));
 }
 
 std::optional<Object> integrator_of(const Description& description, const RenderRecipe& recipe) {

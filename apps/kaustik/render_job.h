@@ -10,6 +10,10 @@
 
 namespace kaustik::app {
 
+/// Of scenes whose variables -D sets.
+LoadOptions load_options(std::vector<std::pair<std::string, std::string>> definitions,
+                         bool is_strict);
+
 /// Reads a scene file, or standard input ("-"). Throws Error.
 Description read_scene(const std::string& path, const LoadOptions& options);
 

@@ -136,6 +136,7 @@ void resume(const ResumeOptions& options) {
   else if (options.time)
     record.plan.seconds = record.seconds + *job.session.seconds;
   job.record = record;
+  job.integrator_origin = integrator_origin;
   job.build = options.build;
   job.checkpoint = options.checkpoint;
   job.every_s = limits.every_s;

@@ -21,6 +21,8 @@ void add_strict(CLI::App& command, bool& is_strict);
 void add_settings(CLI::App& command, std::vector<std::string>& settings,
                   const std::string& examples);
 
+/// What messages call the option.
+inline constexpr const char* integrator_origin = "command line: --integrator";
 /// Kaustik's own, for --integrator.
 std::vector<std::string> integrator_names();
 

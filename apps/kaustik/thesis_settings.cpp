@@ -184,7 +184,8 @@ std::vector<Setting> collected_settings(const std::optional<Object>& integrator,
   };
   set_level("-l", "max_light_level", levels.light);
   set_level("-e", "max_eye_level", levels.eye);
-  for (const std::string& setting : settings) result.push_back(setting_of_command_line(setting));
+  for (const std::string& setting : settings)
+    result.push_back(setting_from(setting, "command line: --set " + setting));
   return result;
 }
 

@@ -71,7 +71,7 @@ void check_method(const std::string& name) {
   const Object asked{"integrator", name, "", {}, {}, {}};
   if (!name.empty() && !find_integrator_type(native_type(asked)))
     throw Error(ErrorKind::input, fmt::format("there is no integrator '{}'", name),
-                suggest(name, integrator_names()), place_in("command line: --integrator"));
+                suggest(name, integrator_names()), place_in(integrator_origin));
 }
 
 std::unique_ptr<view::ViewServer> started(const Description& description,

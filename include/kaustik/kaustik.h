@@ -5,6 +5,7 @@
 #include "kaustik/estimate.h"
 #include "kaustik/mesh.h"
 #include "kaustik/picture.h"
+#include "kaustik/points.h"
 #include "kaustik/scene.h"
 #include "kaustik/session.h"
 #include "kaustik/value.h"

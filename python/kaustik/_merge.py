@@ -29,7 +29,8 @@ def merge(*parts: Part) -> Union[Film, Photons]:
     _threads.begin()
     loaded = [_loaded(part) for part in parts]
     if all(isinstance(part, Photons) for part in loaded):
-        return Photons._of(_native.Photons.merged([part._native for part in loaded]))
+        names = next((part.lamp_names for part in loaded if part.lamp_names), ())
+        return Photons._of(_native.Photons.merged([part._native for part in loaded]), lamp_names=names)
     if all(isinstance(part, Film) for part in loaded):
         whole = loaded[0]
         for part in loaded[1:]:

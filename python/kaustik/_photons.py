@@ -69,6 +69,14 @@ class PhotonMap:
         return self._array("paths")
 
     @property
+    def lamps(self) -> Buffer:
+        """(n,) uint32: numbers of the lamps that they come from, whose names are `Photons.lamp_names`. Raises Error
+        for a part of the photons: `merge` the parts before."""
+        if not self._native.is_whole:
+            raise Error("a part of the photons does not know their lamps", "put all parts together by kaustik.merge")
+        return self._array("lamps")
+
+    @property
     def counts(self) -> LightCounts:
         return LightCounts(**self._native.light_counts(self._kind))
 
@@ -84,18 +92,19 @@ class Photons(Mapping):
     ``photons["global"]`` light that a diffuse surface or a medium has scattered before. What comes straight from
     a lamp is in neither. A `.kpm` file is the same."""
 
-    __slots__ = ("_native", "_warnings", "_maps")
+    __slots__ = ("_native", "_warnings", "_lamp_names", "_maps")
     _native: Any
     _warnings: Tuple[str, ...]
+    _lamp_names: Tuple[str, ...]
     _maps: Dict[str, PhotonMap]
 
     def __init__(self, *_: Any):
         raise TypeError("photons come from kaustik.trace_photons, or from kaustik.Photons.load")
 
     @classmethod
-    def _of(cls, native: Any, warnings: Tuple[str, ...] = ()) -> "Photons":
+    def _of(cls, native: Any, warnings: Tuple[str, ...] = (), lamp_names: Tuple[str, ...] = ()) -> "Photons":
         photons = object.__new__(cls)
-        photons._native, photons._warnings = native, warnings
+        photons._native, photons._warnings, photons._lamp_names = native, warnings, lamp_names
         photons._maps = {kind: PhotonMap(native, kind) for kind in _kinds}
         return photons
 
@@ -127,6 +136,12 @@ class Photons(Mapping):
         return self._native.seed
 
     @property
+    def lamp_names(self) -> Tuple[str, ...]:
+        """Of each lamp its id, or that of its shape, or "lamp 3". Empty where photons come from files, which do not
+        keep them."""
+        return self._lamp_names
+
+    @property
     def warnings(self) -> Tuple[str, ...]:
         """Why a map is empty, and what else is odd."""
         return self._warnings
@@ -155,8 +170,8 @@ def trace_photons(scene: Scene, *, integrator: Optional[Dict[str, Any]] = None, 
     _threads.begin()
     scene._build()
     tracing = _native.PhotonTracing(scene._native, wishes["seed"], wishes["threads"], index - 1, count, source)
-    photons, warnings = _run(tracing)
-    return Photons._of(photons, tuple(warnings))
+    photons, warnings, lamp_names = _run(tracing)
+    return Photons._of(photons, tuple(warnings), tuple(lamp_names))
 
 
 def _checked_part(part: Any) -> Tuple[int, int]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import array
 from collections.abc import Sequence
-from typing import Any, Dict, List, Optional, Tuple, Union, cast, overload
+from typing import Any, Dict, Optional, Tuple, Union, cast, overload
 
 from . import _native
 from ._arrays import Buffer, numbers_of
@@ -13,9 +13,6 @@ from ._picture import Estimate, Interval, Picture
 from ._progress import ProgressWish
 from ._scene import Scene
 from ._session import render
-
-#: Of a measurement that is told no end: as many passes as there are replicates.
-_passes, _samples_per_pass = 16, 64
 
 
 class Estimates(Sequence):
@@ -100,7 +97,7 @@ def irradiance(scene: Scene, points: Any, normals: Any, *, integrator: Union[str
     is changed in the scene: the points are as if they were not there. One that lies on a surface, to a
     hundred thousandth of the scene's size, measures what arrives there.
 
-    `integrator` is "auto", "vcm", "bdpt", "ppm", "path", or a dict of one. Without `passes`, `spp`, `time`
+    `integrator` is "auto", "vcm", "bdpt", "ppm", "path", "photonmap", or a dict of one. Without `passes`, `spp`, `time`
     and `error`, as for `render`, each point gets 1024 samples. Raises Error with the name of what is wrong."""
     at = numbers_of(points, "points", (None, 3))
     return _measured(scene, "irradiancepoints", {"points": at, "normals": _one_for_each("normals", normals, at)},
@@ -114,7 +111,7 @@ def radiance(scene: Scene, origins: Any, directions: Any, *, integrator: Union[s
     """The radiance, W/(sr·m²), that arrives along rays: at `origins` from where `directions` look.
 
     `origins` is (n, 3), or one for all; `directions` is (n, 3), of any length. Integrators and the other
-    arguments are those of `irradiance`, and "photonmap" besides."""
+    arguments are those of `irradiance`."""
     along = numbers_of(directions, "directions", (None, 3))
     return _measured(scene, "radiancerays", {"origins": _one_for_each("origins", origins, along), "directions": along},
                      integrator, passes, spp, time, error, seed, threads, progress)
@@ -144,43 +141,14 @@ def _measured(scene: Scene, sensor: str, lists: Dict[str, Buffer], integrator: A
         raise Error(f"{second}: it has {other} rows, and {first} has {count}", "give one row for each")
     samples_per_pass = None
     if passes is None and spp is None and time is None and error is None:
-        passes = _passes
+        passes = _native.measuring_passes
     if spp is None:
-        samples_per_pass = _samples_per_pass
+        samples_per_pass = _native.measuring_samples_per_pass
     picture = render(_measuring(scene, sensor, lists), integrator=integrator, passes=passes, spp=spp, time=time,
                      error=error, seed=seed, threads=threads, samples_per_pass=samples_per_pass, progress=progress)
     return Estimates._of(picture, count)
 
 
 def _measuring(scene: Scene, sensor: str, lists: Dict[str, Buffer]) -> Scene:
-    """The scene with this sensor for its only camera, in the medium that its own camera is in."""
-    native = scene._build()._native
-    objects = list(native.objects)
-    within: List[tuple] = []
-    shapes: List[tuple] = []
-
-    def part(index: int, parts: List[tuple]) -> List[tuple]:
-        kept: List[tuple] = []
-        for name, child in parts:
-            if objects[child][0] != "sensor":
-                kept.append((name, child))
-                continue
-            own = objects[child][5]
-            if not within:
-                within.extend((name, inner) for name, inner in own if objects[inner][0] == "medium")
-            # A batch holds cameras, and shapes that are the scene's.
-            shapes.extend(("", inner) for _, inner in own if objects[child][1] == "batch" and objects[inner][0] == "shape")
-        return kept
-
-    for index in range(len(objects)):
-        family, name, own_id, place, properties, children = objects[index]
-        if family in ("scene", "shape"):
-            objects[index] = (family, name, own_id, place, properties, part(index, children))
-    family, name, own_id, place, properties, children = objects[0]
-    present = {child for _, child in children}
-    children = children + [(name, child) for name, child in shapes if child not in present] + [("", len(objects))]
-    objects[0] = (family, name, own_id, place, properties, children)
-    objects.append(("sensor", sensor, "", (sensor, 0, 0),
-                    [(key, values, (key, 0, 0)) for key, values in lists.items()], within))
-    made = _native.scene_from_objects(objects, native.sources, native.load_warnings, native.is_strict)
-    return Scene._of(made, previous=scene)._build()
+    """The scene with this sensor for its only camera."""
+    return Scene._of(scene._build()._native.with_meter(sensor, list(lists.items())), previous=scene)._build()

@@ -141,6 +141,12 @@ class Scene:
             self._native.build(previous._native if previous is not None else None)
         return self
 
+    def _require_camera(self) -> None:
+        if not self._native.has_camera:
+            raise Error("the scene has no camera",
+                        'add one, {"type": "perspective", "to_world": …}; kaustik.irradiance, radiance and '
+                        "trace_photons need none", "scene")
+
     @property
     def parameters(self) -> Parameters:
         if self._parameters is None:
@@ -238,5 +244,6 @@ def load_dict(scene: dict, *, strict: bool = True) -> Scene:
     Keys are ids, and within objects names of parameters. ``{"type": "ref", "id": "white"}`` refers to an
     object. Values are numbers, text, ``(r, g, b)`` or ``(x, y, z)``, ``{"type": "rgb", "value": …}``,
     ``{"type": "spectrum", "value": …}``, transforms (`Transform` or 4 x 4 numbers), arrays and `Mesh`.
-    Raises Error with all problems, each with its place: ``floor.bsdf.reflectance``."""
+    A scene without a camera can be measured, but has no picture. Raises Error with all problems, each with its
+    place: ``floor.bsdf.reflectance``."""
     return Scene._of(_native.scene_from_objects(objects_of_scene(scene), [], [], strict))._build()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import time as clock
+import weakref
 from typing import Any, Callable, Dict, Optional, Tuple, Union
 
 from . import _native, _threads
@@ -77,6 +78,7 @@ class Session:
         if not isinstance(scene, Scene):
             raise Error(f"scene: {type(scene).__name__} is no scene",
                         "make one by kaustik.load_file, load_string or load_dict")
+        scene._require_camera()
         self._goals = _Goals(integrator=integrator, passes=passes, spp=spp, time=time, error=error, seed=seed,
                              threads=threads, first_pass=first_pass, samples_per_pass=samples_per_pass)
         self._scene = scene
@@ -85,6 +87,7 @@ class Session:
         self._film: Optional[Film] = None  # of what was finished before
         self._picture: Optional[Picture] = None
         self._keeps_passes = True
+        self._views: "weakref.WeakSet[View]" = weakref.WeakSet()
 
     # What is rendered.
 
@@ -114,15 +117,20 @@ class Session:
         _threads.begin()
         self._job = self._new_job()
         self._job.start()
+        for view in self._views:
+            view._show(self._job, self._rendered_scene())
         return self
+
+    def _rendered_scene(self) -> Scene:
+        if isinstance(self._goals.integrator, dict):
+            return self._scene._with_integrator(self._goals.integrator)
+        return self._scene
 
     def _new_job(self) -> Any:
         goals = self._goals
-        scene = self._scene
+        scene = self._rendered_scene()
         wishes = {name: value for name, value in goals.wishes.items() if value is not None}
-        if isinstance(goals.integrator, dict):
-            scene = scene._with_integrator(goals.integrator)
-        elif goals.integrator is not None:
+        if isinstance(goals.integrator, str):
             wishes["integrator"] = goals.integrator
         if self._film is not None:
             wishes["samples_per_pass"] = self._film._native.samples_per_pass
@@ -278,10 +286,18 @@ class Session:
         session._picture = film.picture()
         return session
 
-    def view(self, **settings: Any) -> "View":
-        """`kaustik.view` of its scene as it is now. The view renders by itself: pause this session meanwhile."""
-        settings.setdefault("integrator", self._goals.integrator)
-        return View(self._scene, **settings)
+    def view(self, *, port: int = 0, output: Union[str, os.PathLike] = ".") -> "View":
+        """Shows what this session renders to browsers of this machine: its picture, errors and values of pixels, as
+        they are now, and after each `start` and `edit`. Nothing is rendered for the view; who looks can pause and
+        stop the session, but not change the scene. `port` 0 is any that is free, and `output` the folder where
+        pages may save pictures. It goes on until `.stop()` or the end of the program."""
+        integrator = self._goals.integrator if isinstance(self._goals.integrator, str) else ""
+        view = View._of_session(self._rendered_scene(), integrator, self._goals.wishes["threads"],
+                                self._goals.wishes["seed"], port, output)
+        self._views.add(view)
+        if self._job is not None:
+            view._show(self._job, self._rendered_scene())
+        return view
 
     def __enter__(self) -> "Session":
         return self

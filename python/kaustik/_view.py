@@ -12,21 +12,32 @@ from ._scene import Scene, load_file
 from ._types import types
 
 
+def _check_place(port: Any, output: Any) -> None:
+    if not isinstance(port, int) or not 0 <= port < 65536:
+        raise Error(f"port: {port!r} is no port", "give a number up to 65535, or 0 for any that is free")
+    if not os.path.isdir(output):
+        raise Error(f"output: '{os.fspath(output)}' is no folder", "give one that is there")
+
+
+def _title(scene: Scene) -> str:
+    return os.path.splitext(os.path.basename(scene.source))[0] or "scene"
+
+
 class View:
     """A server that shows a scene to browsers of this machine, until `stop`. It renders by itself, from its first
-    pass on; what is changed in the browser stays there."""
+    pass on, and what is changed in the browser stays there; but that of `Session.view` shows what the session
+    renders."""
+
+    _native: Any
 
     def __init__(self, scene: Scene, *, integrator: Union[None, str, Dict[str, Any]] = None, port: int = 0,
                  threads: int = 0, output: Union[str, os.PathLike] = "."):
         if not isinstance(scene, Scene):
             raise Error(f"scene: {type(scene).__name__} is no scene",
                         "make one by kaustik.load_file, load_string or load_dict")
-        if not isinstance(port, int) or not 0 <= port < 65536:
-            raise Error(f"port: {port!r} is no port", "give a number up to 65535, or 0 for any that is free")
+        _check_place(port, output)
         if not isinstance(threads, int) or not 0 <= threads <= 1 << 16:
             raise Error(f"threads: {threads!r} is no number of threads", "give an integer, 0 for all")
-        if not os.path.isdir(output):
-            raise Error(f"output: '{os.fspath(output)}' is no folder", "give one that is there")
         name = ""
         if isinstance(integrator, dict):
             scene = scene._with_integrator(integrator)
@@ -35,10 +46,23 @@ class View:
                 raise Error(f"integrator: there is no '{integrator}'",
                             _native.suggest(str(integrator), list(types["integrator"])))
             name = integrator
+        scene._require_camera()
         _threads.begin()
         scene._build()
-        title = os.path.splitext(os.path.basename(scene.source))[0] or "scene"
-        self._native = _native.View(scene._native, title, name, port, threads, os.fspath(output))
+        self._native = _native.View(scene._native, _title(scene), name, port, threads, os.fspath(output), 0, False)
+
+    @classmethod
+    def _of_session(cls, scene: Scene, integrator: str, threads: int, seed: int, port: int,
+                    output: Union[str, os.PathLike]) -> "View":
+        """Shows nothing but what `_show` says."""
+        _check_place(port, output)
+        _threads.begin()
+        made = object.__new__(cls)
+        made._native = _native.View(scene._native, _title(scene), integrator, port, threads, os.fspath(output), seed, True)
+        return made
+
+    def _show(self, job: Any, scene: Scene) -> None:
+        self._native.show(job, scene._native)
 
     @property
     def url(self) -> str:

@@ -42,6 +42,12 @@ struct DescribedScene {
   std::vector<std::string> warnings;   ///< of building it
 };
 
+/// Whether it can be looked at. One that is not read strictly can: Mitsuba's camera stands for its
+/// own.
+bool has_camera(const Description& description);
+/// What nobody looks at needs no camera, and gets one that stands for it while it is built.
+void add_camera_if_missing(Description& description);
+
 /// Python's value of a property, and back: bool, int, float and str are themselves, as are Buffer
 /// and Transform; others are tuples that begin with "point", "rgb", "spectrum" or "untyped". Throws
 /// TypeError for others.

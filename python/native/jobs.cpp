@@ -10,6 +10,7 @@
 
 #include "bind.h"
 #include "films.h"
+#include "jobs.h"
 #include "kaustik/base/version.h"
 #include "kaustik/render/job.h"
 #include "kaustik/render/resume.h"
@@ -60,7 +61,7 @@ JobSettings job_settings(const Wishes& wishes, const DescribedScene& scene) {
 }
 
 /// A job and what it has told so far. Only waiting and looking may happen in several threads.
-class PythonJob {
+class PythonJob final : public LiveJob {
  public:
   PythonJob(const DescribedScene& scene, const Wishes& wishes, const KeptFilm* begun)
       : gate_(std::make_shared<Gate>()), process_(getpid()) {
@@ -81,9 +82,10 @@ class PythonJob {
       const std::lock_guard lock(mutex_);
       progress_ = progress;
     };
-    listener.ended = [this](const std::exception_ptr&) {
+    listener.ended = [this](const std::exception_ptr& failure) {
       {
         const std::lock_guard lock(mutex_);
+        failure_ = failure;
         has_ended_ = true;
       }
       ended_.notify_all();
@@ -92,7 +94,7 @@ class PythonJob {
     job_ = std::make_unique<Job>(copy_of(*scene.description), std::move(settings),
                                  std::move(listener));
   }
-  ~PythonJob() {
+  ~PythonJob() override {
     // In a forked process the thread that is to be waited for is not there.
     if (process_ != getpid()) {
       (void)job_.release();
@@ -102,13 +104,21 @@ class PythonJob {
   }
 
   void start() { job_->start(); }
-  void pause() { gate_->close(); }
-  void resume() { gate_->open(); }
+  void pause() override { gate_->close(); }
+  void resume() override { gate_->open(); }
+  const Job& job() const override { return *job_; }
+  JobCourse course() const override {
+    const std::lock_guard lock(mutex_);
+    return {progress_.value_or(Progress()), gate_->is_closed(), has_ended_, failure_};
+  }
+  void request_stop() override {
+    job_->cancel();
+    gate_->open();
+  }
   bool is_paused() const { return gate_->is_closed(); }
   void cancel() {
     const py::gil_scoped_release released;
-    job_->cancel();
-    gate_->open();
+    request_stop();
   }
   bool has_ended() const {
     const std::lock_guard lock(mutex_);
@@ -192,6 +202,7 @@ class PythonJob {
   mutable std::mutex mutex_;  ///< of what follows
   std::condition_variable ended_;
   bool has_ended_ = false;
+  std::exception_ptr failure_;
   std::optional<Progress> progress_;
   std::vector<std::string> messages_;
   /// Last: its thread uses all of the above.
@@ -240,9 +251,10 @@ Wishes wishes_from(const py::dict& given) {
 }  // namespace
 
 void bind_jobs(py::module_& module) {
-  py::class_<PythonJob>(module, "Job")
+  py::class_<LiveJob, std::shared_ptr<LiveJob>>(module, "LiveJob");
+  py::class_<PythonJob, LiveJob, std::shared_ptr<PythonJob>>(module, "Job")
       .def(py::init([](const DescribedScene& scene, const py::dict& wishes, const KeptFilm* begun) {
-             return std::make_unique<PythonJob>(scene, wishes_from(wishes), begun);
+             return std::make_shared<PythonJob>(scene, wishes_from(wishes), begun);
            }),
            py::arg("scene"), py::arg("wishes"), py::arg("begun").none(true) = nullptr)
       .def("start", &PythonJob::start)

@@ -66,6 +66,13 @@ Buffer paths(const KeptPhotons& photons, const std::string& kind) {
   return {Array::of<uint32_t>({count}, std::move(numbers))};
 }
 
+/// Indices of lamps; of a part of a pass they are not known.
+Buffer lamps(const KeptPhotons& photons, const std::string& kind) {
+  std::vector<uint32_t> indices = lamps_of(*photons.stored, photons.map(kind));
+  const size_t count = indices.size();
+  return {Array::of<uint32_t>({count}, std::move(indices))};
+}
+
 /// Of all lamps together.
 py::dict light_counts(const KeptPhotons& photons, const std::string& kind) {
   const PhotonMaps& maps = photons.stored->maps;
@@ -116,11 +123,13 @@ class PhotonTracing {
     const int available = int(std::thread::hardware_concurrency());
     settings.session.threads = available > 0 ? std::min(threads, available) : threads;
     settings.previous = scene.built;
-    job_ = std::make_unique<Job>(copy_of(*scene.description), std::move(settings), JobListener{});
+    Description description = copy_of(*scene.description);
+    add_camera_if_missing(description);
+    job_ = std::make_unique<Job>(std::move(description), std::move(settings), JobListener{});
   }
 
   void cancel() { job_->cancel(); }
-  /// The photons, and what is odd about them.
+  /// The photons, what is odd about them, and the names of the lamps.
   py::tuple run() {
     TracedPhotons traced;
     {
@@ -128,9 +137,12 @@ class PhotonTracing {
       traced = job_->trace_photons(part_);
       traced.photons.scene = name_;
     }
+    const Scene& scene = job_->scene();
+    std::vector<std::string> names;
+    for (size_t i = 0; i < scene.lights().size(); ++i) names.push_back(scene.light_name(i));
     return py::make_tuple(
         KeptPhotons{std::make_shared<const StoredPhotons>(std::move(traced.photons))},
-        traced.warnings);
+        traced.warnings, names);
   }
 
  private:
@@ -153,6 +165,7 @@ void bind_photons(py::module_& module) {
       .def("normals", &normals)
       .def("powers", &powers)
       .def("paths", &paths)
+      .def("lamps", &lamps)
       .def("light_counts", &light_counts)
       .def_property_readonly("scene", [](const KeptPhotons& p) { return p.stored->scene; })
       .def_property_readonly("seed", [](const KeptPhotons& p) { return p.stored->seed; })

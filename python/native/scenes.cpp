@@ -8,8 +8,10 @@
 #include "kaustik/integrator/description_types.h"
 #include "kaustik/loader/mitsuba_writer.h"
 #include "kaustik/loader/scene_format.h"
+#include "kaustik/render/measuring.h"
 #include "kaustik/render/prepared_scene.h"
 #include "kaustik/scene/overrides.h"
+#include "kaustik/scene/scene_cameras.h"
 
 namespace kaustik::python {
 
@@ -51,6 +53,18 @@ Value native_value(const py::handle& value) {
     if (kind == "untyped") return Untyped{parts[1].cast<std::string>()};
   }
   throw py::type_error("no value of a scene: " + py::repr(value).cast<std::string>());
+}
+
+bool has_camera(const Description& description) {
+  return !description.is_strict || !cameras_of(*description.scene).empty();
+}
+
+void add_camera_if_missing(Description& description) {
+  if (has_camera(description)) return;
+  const auto camera = std::make_shared<Object>();
+  camera->family = "sensor";
+  camera->type = "perspective";
+  description.scene->children.push_back({"", camera});
 }
 
 namespace {
@@ -192,16 +206,31 @@ DescribedScene with_integrator(const DescribedScene& scene, const py::list& obje
   return {std::make_shared<const Description>(std::move(description)), nullptr, {}};
 }
 
+/// The scene with a meter for its only camera; `lists` are (name, Buffer).
+DescribedScene with_meter(const DescribedScene& scene, const std::string& sensor,
+                          const py::list& lists) {
+  std::vector<Property> properties;
+  for (const py::handle& list : lists) {
+    const auto parts = list.cast<py::tuple>();
+    properties.push_back({parts[0].cast<std::string>(), native_value(parts[1]), {}});
+  }
+  return {std::make_shared<const Description>(
+              measuring(*scene.description, sensor, std::move(properties))),
+          nullptr,
+          {}};
+}
+
 /// Builds it, sharing with another one what is the same; null: with none.
 void build(DescribedScene& scene, const DescribedScene* previous) {
   if (scene.built) return;
   const std::shared_ptr<const Scene> shared = previous ? previous->built : nullptr;
   const py::gil_scoped_release released;
-  // As a job does: of several cameras it takes one.
   Description description = copy_of(*scene.description);
   std::vector<std::string> warnings;
   const auto keep = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  // As a job does: of several cameras it takes one.
   apply_changes(description, {}, {keep, keep});
+  add_camera_if_missing(description);
   // Its integrator is checked, too.
   scene.built = prepare_scene(description, {}, false, {{}, keep}, shared).scene;
   scene.warnings = std::move(warnings);
@@ -218,10 +247,13 @@ void bind_scenes(py::module_& module) {
                              [](const DescribedScene& s) { return s.description->warnings; })
       .def_property_readonly("is_strict",
                              [](const DescribedScene& s) { return s.description->is_strict; })
+      .def_property_readonly("has_camera",
+                             [](const DescribedScene& s) { return has_camera(*s.description); })
       .def_property_readonly("is_built", [](const DescribedScene& s) { return s.built != nullptr; })
       .def_property_readonly("build_warnings", [](const DescribedScene& s) { return s.warnings; })
       .def("edited", &edited)
       .def("with_integrator", &with_integrator)
+      .def("with_meter", &with_meter)
       .def("build", &build, py::arg("previous").none(true))
       // How much of the scene was built for it, rather than shared.
       .def_property_readonly(
@@ -233,6 +265,8 @@ void bind_scenes(py::module_& module) {
   module.def("load_file", &load_file);
   module.def("load_string", &load_string);
   module.def("scene_from_objects", &from_objects);
+  module.attr("measuring_passes") = MeasuringDefaults::passes;
+  module.attr("measuring_samples_per_pass") = MeasuringDefaults::samples_per_pass;
 }
 
 }  // namespace kaustik::python

@@ -7,7 +7,9 @@
 #include <thread>
 
 #include "bind.h"
+#include "jobs.h"
 #include "kaustik/base/version.h"
+#include "kaustik/render/prepared_scene.h"
 #include "kaustik/view/view_server.h"
 
 namespace kaustik::python {
@@ -16,30 +18,70 @@ namespace {
 /// As many as nobody waits for.
 constexpr uint32_t endless_passes = 1'000'000;
 
+/// What the view is of, and how it is to be reached.
+struct ViewWishes {
+  std::string name, integrator;
+  uint16_t port = 0;
+  int threads = 0;
+  std::string output_folder;
+  uint64_t seed = 0;
+};
+
+view::ViewSettings settings_for(const DescribedScene& scene, const ViewWishes& wishes) {
+  view::ViewSettings settings;
+  settings.scene = wishes.name;
+  settings.engine.recipe.integrator = wishes.integrator;
+  settings.engine.recipe.is_strict = scene.description->is_strict;
+  const int available = int(std::thread::hardware_concurrency());
+  settings.engine.session.threads =
+      available > 0 ? std::min(wishes.threads, available) : wishes.threads;
+  settings.engine.session.passes = endless_passes;
+  settings.engine.session.seed = wishes.seed;
+  settings.port = wishes.port;
+  settings.output_folder = wishes.output_folder;
+  return settings;
+}
+
 /// No thread of the server's calls Python.
 class PythonView {
  public:
-  PythonView(const DescribedScene& scene, std::string name, const std::string& integrator,
-             uint16_t port, int threads, std::string output_folder)
-      : process_(getpid()) {
-    view::ViewSettings settings;
-    settings.scene = std::move(name);
-    settings.engine.recipe.integrator = integrator;
-    settings.engine.recipe.is_strict = scene.description->is_strict;
-    const int available = int(std::thread::hardware_concurrency());
-    settings.engine.session.threads = available > 0 ? std::min(threads, available) : threads;
-    settings.engine.session.passes = endless_passes;
-    settings.port = port;
-    settings.output_folder = std::move(output_folder);
+  /// Renders by itself, unless it `is_of_session`: then show() tells what is seen.
+  PythonView(const DescribedScene& scene, const ViewWishes& wishes, bool is_of_session)
+      : process_(getpid()), integrator_(wishes.integrator) {
+    const view::ViewSettings settings = settings_for(scene, wishes);
     const auto keep = [this](const std::string& sentence) {
       const std::lock_guard lock(mutex_);
       messages_.push_back(sentence);
     };
+    const Messages messages{keep, keep};
     const py::gil_scoped_release released;
-    server_ = std::make_unique<view::ViewServer>(copy_of(*scene.description), settings,
-                                                 Messages{keep, keep});
+    Description description = copy_of(*scene.description);
+    if (is_of_session) {
+      jobs_ = std::make_shared<WatchedJobs>();
+      server_ = std::make_unique<view::ViewServer>(view::ShownSession{jobs_, controls()},
+                                                   std::move(description), settings, messages);
+    } else {
+      server_ = std::make_unique<view::ViewServer>(std::move(description), settings, messages);
+    }
     url_ = server_->url();
     port_ = server_->port();
+  }
+
+  /// Of a session: it renders that scene by this job now.
+  void show(const std::shared_ptr<LiveJob>& job, const DescribedScene& scene) {
+    const py::gil_scoped_release released;
+    {
+      const std::lock_guard lock(mutex_);
+      job_ = job;
+    }
+    if (!jobs_ || !server_) return;
+    const uint64_t revision = jobs_->show(std::shared_ptr<const Job>(job, &job->job()),
+                                          [live = job.get()] { return live->course(); });
+    Description description = copy_of(*scene.description);
+    RenderRecipe recipe;
+    recipe.integrator = integrator_;
+    apply_changes(description, recipe, {});
+    server_->session_renders(revision, std::move(description));
   }
   ~PythonView() {
     // In a forked process the threads that are to be waited for are not there.
@@ -62,9 +104,27 @@ class PythonView {
   }
 
  private:
+  view::SessionControls controls() {
+    return {[this] { with_job([](LiveJob& job) { job.pause(); }); },
+            [this] { with_job([](LiveJob& job) { job.resume(); }); },
+            [this] { with_job([](LiveJob& job) { job.request_stop(); }); }};
+  }
+  template <typename Call>
+  void with_job(const Call& call) {
+    std::shared_ptr<LiveJob> job;
+    {
+      const std::lock_guard lock(mutex_);
+      job = job_;
+    }
+    if (job) call(*job);
+  }
+
   pid_t process_;
-  mutable std::mutex mutex_;  ///< of what follows
+  std::string integrator_;
+  std::shared_ptr<WatchedJobs> jobs_;  ///< null: it is of no session
+  mutable std::mutex mutex_;           ///< of what follows
   std::vector<std::string> messages_;
+  std::shared_ptr<LiveJob> job_;
   std::string url_;
   uint16_t port_ = 0;
   /// Last: its threads use what is above.
@@ -75,8 +135,15 @@ class PythonView {
 
 void bind_views(py::module_& module) {
   py::class_<PythonView>(module, "View")
-      .def(py::init<const DescribedScene&, std::string, const std::string&, uint16_t, int,
-                    std::string>())
+      .def(py::init([](const DescribedScene& scene, std::string name, std::string integrator,
+                       uint16_t port, int threads, std::string output_folder, uint64_t seed,
+                       bool is_of_session) {
+        return std::make_unique<PythonView>(scene,
+                                            ViewWishes{std::move(name), std::move(integrator), port,
+                                                       threads, std::move(output_folder), seed},
+                                            is_of_session);
+      }))
+      .def("show", &PythonView::show)
       .def("stop", &PythonView::stop)
       .def_property_readonly("is_running", &PythonView::is_running)
       .def_property_readonly("url", &PythonView::url)

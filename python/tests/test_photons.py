@@ -72,6 +72,40 @@ def test_shown(numpy):
         photons["volume"]
 
 
+def lamp_by_position(photons):
+    """Files and merges have their own order."""
+    positions = memoryview(photons["caustic"].positions).tolist()
+    return dict(zip(map(tuple, positions), memoryview(photons["caustic"].lamps).tolist()))
+
+
+def test_lamps(tmp_path):
+    """Two lamps above the mirror: each photon leaves the image of the one that it is told to come from."""
+    scene = mirror_below_a_lamp().to_dict()
+    where = {"lamp": (0, 0, 1), "other": (0.6, 0.2, 1.5)}
+    scene["other"] = {"type": "point", "position": where["other"], "intensity": 3.0}
+    traced = kaustik.trace_photons(kaustik.load_dict(scene), integrator=wanted)
+    assert sorted(traced.lamp_names) == ["lamp", "other"]
+    caustic = traced["caustic"]
+    lamps = memoryview(caustic.lamps).tolist()
+    assert min(lamps.count(0), lamps.count(1)) > 500 and len(lamps) == len(caustic)
+    for position, direction, lamp in zip(memoryview(caustic.positions).tolist(),
+                                         memoryview(caustic.directions).tolist(), lamps):
+        x, y, z = where[traced.lamp_names[lamp]]
+        along = [position[0] - x, position[1] - y, position[2] + z]
+        length = math.hypot(*along)
+        assert direction == pytest.approx([a / length for a in along], abs=1e-3)
+    assert 0 < len(traced["global"]) == traced["global"].lamps.shape[0]
+    # Files keep what tells the lamps, but no names; parts tell them once they are together.
+    traced.save(tmp_path / "a.kpm")
+    again = kaustik.Photons.load(tmp_path / "a.kpm")
+    assert lamp_by_position(again) == lamp_by_position(traced) and again.lamp_names == ()
+    parts = [kaustik.trace_photons(kaustik.load_dict(scene), integrator=wanted, part=(part, 2)) for part in (1, 2)]
+    with pytest.raises(kaustik.Error, match="part"):
+        parts[0]["caustic"].lamps
+    merged = kaustik.merge(*parts)
+    assert lamp_by_position(merged) == lamp_by_position(traced) and merged.lamp_names == traced.lamp_names
+
+
 def test_same_bits_as_the_command_line(program, tmp_path):
     path, maps = spheres, tmp_path / "maps.kpm"
     subprocess.run([program, "photons", path, "-o", maps, "--seed", "3", "-q", "--set", "integrator.global_photons=3000",

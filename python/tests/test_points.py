@@ -25,7 +25,7 @@ def from_lamp(x, y, z):
     return 3 * (1 - z) / (x * x + y * y + (1 - z) ** 2) ** 1.5
 
 
-@pytest.mark.parametrize("integrator", ["auto", "path"])
+@pytest.mark.parametrize("integrator", ["auto", "path", "photonmap"])
 def test_irradiance(integrator):
     measured = kaustik.irradiance(lit_floor(), [[0.5, 0.2, 0], [0.5, 0.2, 0.6], [0, 0, 1.5]], [0, 0, 1],
                                   integrator=integrator, passes=8)
@@ -103,6 +103,28 @@ def test_cameras_of_the_scene_do_not_count():
     assert other[0].value == pytest.approx(plain[0].value, rel=1e-5)
 
 
+def test_scenes_without_a_camera():
+    scene = lit_floor().to_dict()
+    del scene["camera"]
+    plain = kaustik.load_dict(scene)
+    assert not plain.warnings
+    measured = kaustik.irradiance(plain, [(0.5, 0.2, 0.6)], (0, 0, 1), integrator="path", passes=2)
+    assert measured[0].value == pytest.approx(from_lamp(0.5, 0.2, 0.6), rel=1e-4)
+    brighter = plain.edit({"lamp.intensity": 6.0})
+    assert kaustik.radiance(brighter, (0.3, -0.2, 2), [(0, 0, -1)], passes=2)[0].value == pytest.approx(
+        2 * 0.4 / math.pi * from_lamp(0.3, -0.2, 0), rel=1e-3)
+    assert kaustik.trace_photons(plain, integrator={"type": "photonmap", "global_photons": 1000})["global"] is not None
+    for picture in (lambda: kaustik.render(plain), lambda: kaustik.Session(plain), lambda: kaustik.view(plain)):
+        with pytest.raises(kaustik.Error, match="the scene has no camera") as caught:
+            picture()
+        assert "irradiance" in caught.value.remedy and caught.value.file == "scene"
+    # What else is wrong with it is told as ever.
+    with pytest.raises(kaustik.Error, match="floor.bsdf.reflectance"):
+        kaustik.load_dict({**scene, "floor": {"type": "rectangle", "bsdf": {"type": "diffuse", "reflectance": 2}}})
+    # Not read strictly a camera stands for it, which is told.
+    assert any("no camera" in warning for warning in kaustik.load_dict(scene, strict=False).warnings)
+
+
 def test_wrong_arguments():
     scene, nan = lit_floor(), math.nan
     for points, normals, message in (
@@ -116,9 +138,17 @@ def test_wrong_arguments():
                                          ([(0, 0, 0)] * 3, [(0, 0, 1)] * 2, "directions")):
         with pytest.raises(kaustik.Error, match=message):
             kaustik.radiance(scene, origins, directions)
+    # The argument is the place, and nothing that nobody has written.
+    for call, argument in ((lambda: kaustik.irradiance(scene, [(0, 0, 0)], [(0, 0, 0)]), "normals"),
+                           (lambda: kaustik.irradiance(scene, [(0, 0, 1e300)], [(0, 0, 1)]), "points"),
+                           (lambda: kaustik.radiance(scene, (0, 0, 0), [(0, 0, 0)]), "directions")):
+        with pytest.raises(kaustik.Error, match=f"^{argument}: ") as caught:
+            call()
+        assert caught.value.file == argument and "irradiancepoints" not in str(caught.value)
+        assert "radiancerays" not in str(caught.value) and ":0" not in str(caught.value)
     with pytest.raises(kaustik.Error, match="scene"):
         kaustik.irradiance("scene.xml", [(0, 0, 0)], [(0, 0, 1)])
-    with pytest.raises(kaustik.Error, match="photonmap.*knows nothing"):
-        kaustik.irradiance(scene, [(0, 0, 0)], [(0, 0, 1)], integrator="photonmap")
+    with pytest.raises(kaustik.Error, match="^integrator: .*lighttracer.*knows nothing"):
+        kaustik.irradiance(scene, [(0, 0, 0)], [(0, 0, 1)], integrator="lighttracer")
     with pytest.raises(kaustik.Error, match="passes"):
         kaustik.radiance(scene, [(0, 0, 0)], [(0, 0, 1)], passes=0)

@@ -156,6 +156,21 @@ def test_xarray(scene):
     assert array.dims == ("y", "x", "channel") and array.attrs["units"] == "W/(sr·m²)"
 
 
+def test_errors_name_arguments(scene):
+    """As Python calls them, not as the command line does."""
+    for call in (lambda: kaustik.render(scene, integrator="pth"), lambda: kaustik.Session(scene, integrator="pth").run(),
+                 lambda: kaustik.irradiance(scene, [(0, 0, 0)], (0, 0, 1), integrator="pth")):
+        with pytest.raises(kaustik.Error, match="^integrator: unknown integrator type 'pth'") as caught:
+            call()
+        assert caught.value.file == "integrator" and "did you mean 'path'" in caught.value.remedy
+    with pytest.raises(kaustik.Error, match="^definitions: the scene does not use 'size'") as caught:
+        kaustik.load_string(scene.to_xml(), size=3)
+    assert "-D" not in str(caught.value)
+    with pytest.raises(kaustik.Error, match="define it: size=") as caught:
+        kaustik.load_string('<scene version="3.0.0"><sensor type="$size"/></scene>')
+    assert "-D" not in str(caught.value)
+
+
 def test_integrators_by_dict(scene):
     picture = kaustik.render(scene, integrator={"type": "path", "max_depth": 1}, passes=1, samples_per_pass=1)
     assert picture.mean().value == 0  # nothing but what lamps show, and the square hides the sky

@@ -40,13 +40,82 @@ def test_serves_the_scene(scene):
     view.stop()
 
 
-def test_of_files_and_sessions(scene_file):
+def test_of_files(scene_file):
     with kaustik.view(scene_file) as view:
         assert json.load(asked(view, "state", cookie_of(view)))["scene"] == "scene"
-    session = kaustik.Session(kaustik.load_file(scene_file), integrator={"type": "path", "max_depth": 2})
-    with session.view() as view:
-        assert view.is_running
-    assert not session.is_running
+
+
+def state_when(view, cookie, fits):
+    until = time.monotonic() + 20
+    while not fits(state := json.load(asked(view, "state", cookie))):
+        assert time.monotonic() < until, state
+        time.sleep(0.02)
+    return state
+
+
+def refused(view, cookie, command):
+    with pytest.raises(urllib.error.HTTPError) as caught:
+        asked(view, "command", cookie, json.dumps(command).encode())
+    return caught.value.code, json.load(caught.value)
+
+
+def test_views_of_sessions_show_the_session(scene_file, tmp_path):
+    """The film is the session's, to the bit; nothing else is rendered."""
+    session = kaustik.Session(kaustik.load_file(scene_file), integrator={"type": "path", "max_depth": 2}, passes=3,
+                              samples_per_pass=2)
+    with session.view(output=tmp_path) as view:
+        cookie = cookie_of(view)
+        assert json.load(asked(view, "state", cookie))["state"] == "idle" and not session.is_running
+        picture = session.run()
+        state = state_when(view, cookie, lambda state: state["state"] == "finished")
+        assert state["passes"] == 3 and state["integrator"] == "path" and state["revision"] == 1
+        shown = json.load(asked(view, "pixel?x=5&y=7", cookie))
+        estimate = picture.pixel(5, 7)
+        assert shown["luminance"] == pytest.approx(estimate.value, rel=1e-6) and shown["passes"] == 3
+        assert shown["standard_error"] == pytest.approx(estimate.standard_error, rel=1e-6)
+        frame = asked(view, "frame?after=0&format=f32", cookie)
+        while frame.headers["X-Passes"] != "3":  # the last one comes soon
+            frame = asked(view, f"frame?after={frame.headers['X-Number']}&format=f32", cookie)
+        assert frame.headers["X-Kind"] == "passes"
+        assert frame.read() == memoryview(picture.array).cast("B")
+        # It goes on, and is edited: the view follows.
+        session.run(passes=5)
+        assert state_when(view, cookie, lambda state: state["passes"] == 5)["revision"] == 2
+        session.edit({"sky.radiance": 3})
+        bright = session.run(passes=2)
+        state_when(view, cookie, lambda state: state["passes"] == 2 and state["revision"] == 3)
+        assert json.load(asked(view, "pixel?x=5&y=7", cookie))["luminance"] == pytest.approx(
+            bright.pixel(5, 7).value, rel=1e-6)
+        # Who looks changes nothing, but saves.
+        for command in ({"set": {"sky.radiance": 1}}, {"integrator": "vcm"}, {"do": "start"}, {"do": "reset"},
+                        {"camera": {"origin": [0, 0, 2], "target": [0, 0, 0], "up": [0, 1, 0]}}):
+            code, answer = refused(view, cookie, command)
+            assert code == 409 and "session" in answer["remedy"], command
+        assert json.load(asked(view, "parameters", cookie))["objects"] == []
+        asked(view, "command", cookie, b'{"save": {"name": "a.exr"}}')
+        assert (tmp_path / "a.exr").exists()
+    assert session.picture is not None and not session.is_running
+
+
+def test_views_pause_and_stop_sessions(scene):
+    with kaustik.Session(scene, integrator="path", passes=1 << 24, samples_per_pass=1) as session:
+        view = session.start().view()
+        cookie = cookie_of(view)
+        first = state_when(view, cookie, lambda state: state["passes"] > 1)
+        assert first["state"] == "rendering"
+        asked(view, "command", cookie, b'{"do": "pause"}')
+        assert session.is_paused and json.load(asked(view, "state", cookie))["state"] == "paused"
+        asked(view, "command", cookie, b'{"do": "resume"}')
+        state_when(view, cookie, lambda state: state["passes"] > first["passes"])
+        asked(view, "command", cookie, b'{"do": "stop"}')
+        session.wait(timeout=20)
+        assert not session.is_running and session.picture is not None
+        # A view may go first, or last.
+        del view
+        session.start()
+        last = session.view()
+    assert state_when(last, cookie_of(last), lambda state: state["state"] == "finished")
+    last.stop()
 
 
 def test_a_view_may_go(scene):

@@ -247,7 +247,8 @@ TEST_F(BadInput, SettingsFromTheCommandLine) {
     EXPECT_TRUE(contains(result.err, remedy)) << result.err << "\nexpected: " << remedy;
     EXPECT_FALSE(exists("new.png"));
   };
-  refused({"--integrator", "photonmpa"}, "unknown integrator type 'photonmpa'",
+  refused({"--integrator", "photonmpa"},
+          "command line: --integrator: unknown integrator type 'photonmpa'",
           "did you mean 'photonmap'?");
   refused({"--integrator", "photonmap", "--set", "integrator.caustic_neighbor=3"},
           "no parameter 'caustic_neighbor'", "did you mean 'caustic_neighbors'?");

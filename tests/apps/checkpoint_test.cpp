@@ -226,7 +226,7 @@ TEST_F(CheckpointCommands, FilesThatAreNoCheckpoints) {
   expect_refused({"merge", "a.kpt", "map.kpm", "-o", "new.exr"}, "map.kpm", "not a checkpoint",
                  "--checkpoint");
   expect_refused({"merge", "map.kpm", "a.kpt", "-o", "new.kpm"}, "a.kpt", "not a photon map",
-                 "kaustik photons");
+                 "give a .kpm file");
   EXPECT_EQ(run({"resume", "missing.kpt"}).exit_code, 2);
 }
 

@@ -193,7 +193,7 @@ TEST_F(PictureOfScene, all_pictures_share_one_budget) {
   ASSERT_TRUE(error.is_error);
   EXPECT_EQ(error.kind, ErrorKind::system);
   EXPECT_NE(error.text.find("scene.xml:3:4"), std::string::npos) << error.text;
-  EXPECT_NE(error.text.find("--texture-memory"), std::string::npos) << error.text;
+  EXPECT_NE(error.text.find("texture memory"), std::string::npos) << error.text;
 }
 
 TEST_F(PictureOfScene, bad_pixels_are_repaired_and_counted) {

@@ -196,7 +196,7 @@ TEST(ForeignIntegrators, OfDialectsTheDefaultStandsForThem) {
   EXPECT_EQ(native_integrator(described("photon_map", ""), notes, false).type, "photon_map");
   EXPECT_EQ(native_integrator(unknown, notes, true).type, "restirgi");
   Object typed = unknown;
-  typed.place = place_in("command line: --integrator");
+  typed.place = place_in("integrator");
   EXPECT_EQ(native_integrator(typed, notes, false).type, "restirgi");
 }
 

@@ -71,6 +71,27 @@ TEST(LibraryScene, DefinitionsAndStrictness) {
   EXPECT_THROW(Scene::load_string(text, {.definitions = {}, .is_strict = true}).check(), Error);
 }
 
+// Places are what programs call things, not what the command line has.
+TEST(LibraryScene, PlacesOfSettings) {
+  const std::string text = "<scene version=\"3.0.0\"><emitter type=\"constant\"/></scene>";
+  try {
+    Scene::load_string(text, {.definitions = {{"size", "12"}}});
+    ADD_FAILURE() << "a definition without use was taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.file(), "LoadOptions::definitions");
+    EXPECT_EQ(std::string(error.what()).find("-D"), std::string::npos) << error.what();
+  }
+  SessionSettings settings = passes(1, 1);
+  settings.integrator = "pth";
+  try {
+    Session(Scene({camera(4, 4), Object("emitter", "constant")}), settings).run();
+    ADD_FAILURE() << "an unknown integrator was taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.file(), "SessionSettings::integrator");
+    EXPECT_EQ(std::string(error.what()).find("--"), std::string::npos) << error.what();
+  }
+}
+
 TEST(LibraryScene, ObjectsAreValues) {
   Object grey = Object("bsdf", "diffuse").set("reflectance", 0.5);
   Object shape = square_mesh().shape().add(grey);

@@ -282,7 +282,8 @@ TEST(MitsubaErrors, Versions) {
 }
 
 TEST(MitsubaErrors, Definitions) {
-  expect_wrong({"<float name='x' value='$spp'/>", "2:24", "$spp is not defined", "-D spp="});
+  expect_wrong(
+      {"<float name='x' value='$spp'/>", "2:24", "$spp is not defined", "define it: spp="});
   expect_wrong({"<default name='spp' value='1'/><float name='x' value='$sp'/>", "2:55",
                 "$sp is not defined", "did you mean 'spp'"});
   expect_wrong({"<float name='x' value='a$'/>", "2:24", "'$' without a name", "\\$"});
@@ -291,7 +292,7 @@ TEST(MitsubaErrors, Definitions) {
   const std::string text = in_scene("<default name='spp' value='1'/>");
   const auto expect = [](const std::string& scene, const LoadOptions& options,
                          const std::string& message, const std::string& remedy) {
-    expect_problem(problems_in(scene, options), "command line", message, remedy);
+    expect_problem(problems_in(scene, options), "definitions", message, remedy);
   };
   expect(text, {{{"sp", "2"}}}, "does not use 'sp'", "did you mean 'spp'? Valid: spp");
   expect(in_scene(""), {{{"sp", "2"}}}, "does not use 'sp'", "no <default>");

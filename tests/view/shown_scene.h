@@ -56,6 +56,12 @@ class ShownScene {
     cookie_ = login(client_);
   }
 
+  /// Of a render that the test steers.
+  explicit ShownScene(view::ShownSession session)
+      : server_(std::move(session), shown_scene(), shown_settings()), client_(server_.port()) {
+    cookie_ = login(client_);
+  }
+
   view::ViewServer& server() { return server_; }
   uint16_t port() const { return server_.port(); }
   std::string host() const { return "127.0.0.1:" + std::to_string(port()); }

@@ -188,7 +188,7 @@ Image PictureReader::read(const Arguments& arguments, int64_t kept_bytes_per_pix
   options.memory_bytes = left_bytes_;
   options.kept_bytes_per_pixel = kept_bytes_per_pixel;
   options.memory_remedy = fmt::format(
-      "allow pictures more memory than {:.3g} MB in all (--texture-memory), or give smaller ones",
+      "allow pictures more memory than {:.3g} MB in all (texture memory), or give smaller ones",
       double(budget_bytes_) / 1e6);
   Image image = chosen(read_at(arguments, options), arguments, wish);
   ++read_count_;

@@ -43,7 +43,8 @@ bool implies(const std::string& type, const std::string& name) {
 
 }  // namespace
 
-std::string override_integrator(Description& description, const std::string& type) {
+std::string override_integrator(Description& description, const std::string& type,
+                                const Place& place) {
   const auto object = made_integrator(description);
   if (object->type == type) return {};
   const Object before = in_our_words(*object);
@@ -64,7 +65,7 @@ std::string override_integrator(Description& description, const std::string& typ
   object->type = type;
   object->properties = std::move(kept);
   object->children.clear();
-  object->place = place_in("command line: --integrator");
+  object->place = place;
   if (left_out.empty()) return {};
   return fmt::format("integrator '{}' has no use for what the scene says of its '{}': {}", type,
                      type_before, fmt::join(left_out, ", "));

@@ -35,7 +35,7 @@ const std::vector<IntegratorType>& integrator_types() {
       at_gauges(row<VcmIntegrator>(auto_info())),
       at_gauges(from_camera_alone(row<PathIntegrator>(PathIntegrator::info()))),
       row<LightTracer>(LightTracer::info()),
-      row<PhotonMapIntegrator>(PhotonMapSettings::info()),
+      at_gauges(row<PhotonMapIntegrator>(PhotonMapSettings::info())),
       at_gauges(row<VcmIntegrator>(vcm_info())),
       at_gauges(row<VcmIntegrator>(bdpt_info())),
       at_gauges(row<VcmIntegrator>(ppm_info())),

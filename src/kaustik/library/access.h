@@ -67,6 +67,9 @@ struct Access {
   static std::shared_ptr<kaustik::Object> object(const v0::Object& object) { return object.state_; }
   static void rename(v0::Object& object, std::string id) { object.own().id = std::move(id); }
   static const SceneState& scene(const v0::Scene& scene) { return *scene.state_; }
+  static v0::Scene made(SceneState scene) {
+    return v0::Scene(std::make_shared<const SceneState>(std::move(scene)));
+  }
   /// `film` null: without errors.
   static v0::Picture picture(Image image, std::shared_ptr<const Film> film, uint32_t passes,
                              int threads);

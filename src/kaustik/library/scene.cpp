@@ -26,7 +26,9 @@ void forget(kaustik::Object& object, const std::string& name) {
 }
 
 kaustik::LoadOptions internal(const LoadOptions& options) {
-  return {.definitions = options.definitions, .is_strict = options.is_strict};
+  return {.definitions = options.definitions,
+          .is_strict = options.is_strict,
+          .definitions_origin = "LoadOptions::definitions"};
 }
 
 }  // namespace

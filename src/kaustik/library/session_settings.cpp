@@ -76,6 +76,7 @@ JobSettings job_settings(const v0::SessionSettings& settings, const SceneState& 
   job.session.seed = settings.seed;
   job.session.first_pass = settings.first_pass;
   job.session.samples_per_pass = unless_zero(settings.samples_per_pass);
+  job.integrator_origin = "SessionSettings::integrator";
   RenderRecord& record = job.record;
   record.program = KAUSTIK_VERSION;
   record.plan = {settings.first_pass, 0, job.session.seconds, job.session.error};

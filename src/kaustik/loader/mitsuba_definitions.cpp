@@ -25,15 +25,15 @@ std::string_view name_at(std::string_view text) {
 
 }  // namespace
 
-Definitions::Definitions(const LoadOptions& options, Problems& problems) {
-  const Place command_line = place_in("command line");
+Definitions::Definitions(const LoadOptions& options, Problems& problems)
+    : origin_(place_in(options.definitions_origin)), prefix_(options.definition_prefix) {
   for (const auto& [name, value] : options.definitions) {
     if (name.empty() || name_at(name) != name)
       problems.add(fmt::format("{} cannot be the name of a definition", in_quotes(name)),
-                   "names are made of letters, digits and '_'", command_line);
+                   "names are made of letters, digits and '_'", origin_);
     else if (definitions_.contains(name))
       problems.add(fmt::format("{} is defined twice", in_quotes(name)), "keep one definition",
-                   command_line);
+                   origin_);
     else
       insert(name, {value, false});
   }
@@ -100,7 +100,7 @@ void Definitions::fail_undefined(std::string_view name) const {
   for (const auto& [known, definition] : definitions_) names.push_back(known);
   name = name.substr(0, maximum_name);
   std::string remedy =
-      fmt::format("define it with -D {}=… or <default name=\"{}\" value=\"…\"/>", name, name);
+      fmt::format("define it: {}{}=…, or <default name=\"{}\" value=\"…\"/>", prefix_, name, name);
   const std::string others = names.empty() ? "" : suggestion(name, names);
   throw BadValue(fmt::format("${} is not defined", name),
                  others.empty() ? remedy : remedy + "; " + others);
@@ -110,10 +110,11 @@ void Definitions::report_unused(Problems& problems) const {
   const std::vector<std::string> names(known_.begin(), known_.end());
   for (const auto& [name, definition] : definitions_)
     if (!definition.used)
-      problems.add(fmt::format("the scene does not use '{}', which -D defines", name),
-                   names.empty() ? "the scene has no <default> and uses no $name: leave out -D"
-                                 : suggestion(name, names),
-                   place_in("command line"));
+      problems.add(fmt::format("the scene does not use '{}', which is defined", name),
+                   names.empty()
+                       ? "the scene has no <default> and uses no $name: leave the definition out"
+                       : suggestion(name, names),
+                   origin_);
 }
 
 }  // namespace kaustik::mitsuba

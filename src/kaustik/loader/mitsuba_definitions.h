@@ -34,6 +34,8 @@ class Definitions {
   Entry* longest_at(std::string_view text);
   [[noreturn]] void fail_undefined(std::string_view name) const;
 
+  Place origin_;        ///< of what the user defined
+  std::string prefix_;  ///< LoadOptions::definition_prefix
   std::map<std::string, Definition, std::less<>> definitions_;
   std::set<size_t> lengths_;     ///< of their names
   std::set<std::string> known_;  ///< names that the scene itself mentions

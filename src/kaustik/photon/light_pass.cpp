@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <numeric>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/sampler.h"
+#include "kaustik/transport/visibility.h"
 
 namespace kaustik {
 namespace {
@@ -74,6 +76,24 @@ PhotonList concatenate(const std::vector<const PhotonList*>& lists) {
   return result;
 }
 
+/// A share of a gauge's irradiance.
+struct GaugeLight {
+  uint32_t gauge = 0;
+  Spectrum irradiance;  ///< W/m²
+};
+
+/// In the order in which it came, so that the bits are the same for any threads.
+std::vector<Spectrum> sum_of(const std::vector<GaugeLight>& lights, size_t gauge_count) {
+  std::vector<std::array<double, Spectrum::lane_count>> sums(gauge_count);
+  for (const GaugeLight& light : lights)
+    for (int lane = 0; lane < Spectrum::lane_count; ++lane)
+      sums[light.gauge][size_t(lane)] += double(light.irradiance[lane]);
+  std::vector<Spectrum> result(gauge_count);
+  for (size_t i = 0; i < gauge_count; ++i)
+    result[i] = {float(sums[i][0]), float(sums[i][1]), float(sums[i][2]), float(sums[i][3])};
+  return result;
+}
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -104,6 +124,7 @@ LightCounts MapReport::total() const {
 struct LightPass::Deposits {
   PhotonList global, caustic;
   std::vector<VolumePhoton> volume;
+  std::vector<GaugeLight> gauges;
   MapReport report;
 };
 
@@ -125,6 +146,7 @@ class LightPass::Tracer {
         light_(light),
         first_path_(first_path),
         notes_origins_(notes_origins),
+        gauges_(kind == Kind::caustic ? address.gauges : nullptr),
         scale_(1.0f / float(count)),
         storing_(without(Lobes::all, pass.settings_.traced | Lobes::delta)),
         stores_everywhere_(pass.scene_.film().quantity == Quantity::irradiance) {
@@ -139,8 +161,9 @@ class LightPass::Tracer {
     const MediumEvents in_media = kind_ != Kind::caustic      ? MediumEvents::follow
                                   : pass_.settings_.reradiate ? MediumEvents::after_events
                                                               : MediumEvents::stop;
-    const LightPathLimits limits{pass_.settings_.maximum_events, pass_.settings_.traced, in_media,
-                                 largest_weight_};
+    LightPathLimits limits{pass_.settings_.maximum_events, pass_.settings_.traced, in_media,
+                           largest_weight_};
+    limits.gauges = gauges_;
     const auto start = [&](uint32_t photon) { return emit(sampler_of(photon)); };
     const auto on_surface = [this](const LightVertex& at) {
       switch (kind_) {
@@ -153,12 +176,14 @@ class LightPass::Tracer {
       }
       return Lobes::all;
     };
+    const auto on_gauge = [this](const LightAtGauge& at) { pass_gauge(at); };
     const auto on_medium_vertex = [this](const LightMediumVertex& at) { store(at); };
     const LightPathCounts ends =
-        kind_ == Kind::volume
-            ? trace_light_paths(pass_.scene_, begin, end, limits, start,
-                                Handlers{on_surface, on_medium_vertex})
-            : trace_light_paths(pass_.scene_, begin, end, limits, start, on_surface);
+        kind_ == Kind::volume ? trace_light_paths(pass_.scene_, begin, end, limits, start,
+                                                  Handlers{on_surface, on_medium_vertex})
+        : gauges_             ? trace_light_paths(pass_.scene_, begin, end, limits, start,
+                                                  Handlers{on_surface, on_gauge})
+                  : trace_light_paths(pass_.scene_, begin, end, limits, start, on_surface);
     rays += ends.rays;
     counts.escaped += ends.escaped;
     counts.absorbed += ends.absorbed + ends.absorbed_in_media;
@@ -167,6 +192,7 @@ class LightPass::Tracer {
   }
 
   PhotonList global, caustic;
+  std::vector<GaugeLight> at_gauges;  ///< in the order of their coming
   std::vector<VolumePhoton> volume;
   std::vector<PhotonOrigin> volume_origins;  ///< parallel, or empty: not noted
   LightCounts counts;
@@ -240,6 +266,20 @@ class LightPass::Tracer {
     counts.stored_flux += double(at.state.throughput.max_lane()) * scale_;
   }
 
+  /// Caustic light that passes a disk. Light from the lamp itself is sampled.
+  void pass_gauge(const LightAtGauge& at) {
+    if (at.path_class.events() == 0 || at.path_class.diffuse_events() > 0) return;
+    const GaugeDisks::Crossing& crossing = at.crossing;
+    const float radius_sq = sqr(gauges_->radius(crossing.gauge));
+    const float weight = 1 - crossing.offset_sq / radius_sq;
+    if (!(weight > 0) || at.flux.is_zero()) return;
+    const SurfacePoint& gauge = pass_.scene_.gauges()[crossing.gauge].point;
+    if (!is_unobstructed(pass_.scene_, spawn_ray_to(gauge, crossing.position), rays)) return;
+    const float density =
+        2 * weight / (pi * radius_sq) * gauges_->inverse_share(crossing.gauge) * scale_;
+    at_gauges.push_back({crossing.gauge, at.flux * density});
+  }
+
   void store(const LightMediumVertex& at) {
     VolumePhoton photon;
     photon.position = at.position;
@@ -260,6 +300,7 @@ class LightPass::Tracer {
   int light_;
   uint32_t first_path_;
   bool notes_origins_;
+  const GaugeDisks* gauges_;  ///< null: none
   float scale_;
   Lobes storing_;
   bool stores_everywhere_;  ///< irradiance is asked for on mirrors and glass too
@@ -352,6 +393,8 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, const
     caustic.push_back(&results[i]->caustic);
     deposits.volume.insert(deposits.volume.end(), results[i]->volume.begin(),
                            results[i]->volume.end());
+    deposits.gauges.insert(deposits.gauges.end(), results[i]->at_gauges.begin(),
+                           results[i]->at_gauges.end());
     deposits.report.lights[size_t(blocks[i].light)].add(results[i]->counts);
     deposits.report.rays += results[i]->rays;
   }
@@ -396,9 +439,9 @@ std::vector<SurfaceSide> LightPass::trace_places(const Address& address, std::st
 }
 
 PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop,
-                            const ProgressFunction& progress,
-                            const Wavelengths& wavelengths) const {
-  const Address address{seed, index, wavelengths};
+                            const ProgressFunction& progress, const Wavelengths& wavelengths,
+                            const GaugeDisks* gauges) const {
+  const Address address{seed, index, wavelengths, gauges};
   const auto start = std::chrono::steady_clock::now();
   uint64_t total = 0;
   for (const auto& shares : {caustic_shares_, global_shares_, volume_shares_, place_shares()})
@@ -418,6 +461,7 @@ PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop,
   maps.caustic_report = std::move(caustic.report);
   maps.volume_report = std::move(volume.report);
   maps.volume = std::move(volume.volume);
+  if (gauges) maps.gauges = sum_of(caustic.gauges, scene_.gauges().size());
   maps.trace_seconds = seconds_since(start);
   const auto build_start = std::chrono::steady_clock::now();
   maps.caustic =

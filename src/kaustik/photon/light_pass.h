@@ -71,6 +71,9 @@ struct PhotonMaps {
   /// Where media scatter light, for every segment of the light paths made for that; not in a map
   /// yet: their radii are the integrator's.
   std::vector<VolumePhoton> volume;
+  /// What caustic photons bring to the camera's gauges on their way, W/m² for each; empty: nobody
+  /// asked.
+  std::vector<Spectrum> gauges;
   MapReport global_report, caustic_report, volume_report;
   double trace_seconds = 0, build_seconds = 0;
 };
@@ -87,9 +90,10 @@ class LightPass {
 
   /// The maps of pass `index`: the same for any number of threads. `progress` is told of photons,
   /// not of the building of the trees. `wavelengths`: of all photons, since any of them may meet.
+  /// `gauges`: through whose disks caustic photons pass; null: through none.
   PhotonMaps trace(uint64_t seed, uint32_t index, std::stop_token stop = {},
-                   const ProgressFunction& progress = {},
-                   const Wavelengths& wavelengths = {}) const;
+                   const ProgressFunction& progress = {}, const Wavelengths& wavelengths = {},
+                   const GaugeDisks* gauges = nullptr) const;
 
   /// At most `most` photons of the maps of that pass, drawn at random: each as likely as any other,
   /// always the same ones, and the first of those that are drawn if more are asked for.
@@ -109,6 +113,7 @@ class LightPass {
     uint64_t seed;
     uint32_t index;
     Wavelengths wavelengths;
+    const GaugeDisks* gauges = nullptr;  ///< that caustic photons are shown to
   };
   /// Paths that are traced together.
   struct Block {

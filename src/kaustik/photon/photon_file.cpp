@@ -24,8 +24,8 @@ constexpr BinaryFileKind photon_map_kind = {
     {0x89, 'K', 'P', 'M', '\r', '\n', 0x1a, '\n'},
     6,  // Photon's layout is part of the file's
     "photon map",
-    "give a .kpm file that was written by: kaustik photons SCENE -o MAP.kpm",
-    "write it again with this program: kaustik photons SCENE -o MAP.kpm"};
+    "give a .kpm file, of photons that Kaustik has traced in a scene",
+    "trace them again with this version of Kaustik"};
 constexpr size_t bytes_per_photon = sizeof(Vec3f) + sizeof(Photon);
 constexpr size_t bytes_per_light = 7 * sizeof(uint64_t);
 static_assert(std::is_trivially_copyable_v<Photon> && sizeof(Vec3f) == 12);

@@ -76,7 +76,7 @@ void check(std::span<const StoredPhotons> parts) {
              "trace all parts at the same ones");
     if (part.seed != first.seed || settings_key(part.settings) != settings_key(first.settings))
       refuse("the photon maps were traced with different seeds or settings",
-             "trace all parts with the same --seed and --set, and the same number of parts");
+             "trace all parts with the same seed and settings, and the same number of parts");
     const uint32_t index = part.settings.part.index;
     if (found[index])
       refuse(fmt::format("part {} of {} comes twice", index + 1, count), "give each part once");
@@ -85,8 +85,7 @@ void check(std::span<const StoredPhotons> parts) {
   for (uint32_t i = 0; i < count; ++i)
     if (!found[i])
       refuse(fmt::format("part {} of {} is missing", i + 1, count),
-             fmt::format("trace it with: kaustik photons SCENE --part {}/{} -o PART.kpm", i + 1,
-                         count));
+             fmt::format("trace part {} of {}, and give all", i + 1, count));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/photon/photon_file.h"
@@ -88,7 +89,7 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
   StoredPhotons stored = read_photon_file(settings_.photon_file);
   const auto refuse = [&](const std::string& message) {
     throw Error(ErrorKind::input, settings_.photon_file + " " + message,
-                "make the maps anew with `kaustik photons` from this scene and these settings",
+                "trace the maps anew, from this scene and with these settings",
                 settings_.photon_file_place);
   };
   if (!stored.fingerprint.matches(fingerprint_of(scene)))
@@ -98,8 +99,7 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
         stored.scene + ", " + stored.fingerprint.counts + ")");
   if (!stored.settings.part.is_whole())
     throw Error(ErrorKind::input, settings_.photon_file + " holds only a part of the photons",
-                "put all parts together with: kaustik merge PART.kpm ... -o MAP.kpm",
-                settings_.photon_file_place);
+                "merge all parts, and give what that makes", settings_.photon_file_place);
   if (stored.settings.traced != settings_.light_pass.traced)
     refuse("was traced with another specular_sampling");
   if ((settings_.light_pass.caustic_photons > 0 && stored.settings.caustic_photons == 0) ||
@@ -111,6 +111,12 @@ PhotonMapIntegrator::PhotonMapIntegrator(const Arguments& arguments, const Scene
                 "leave out 'photon_map', or set 'volume_photons' to 0 for a picture without that "
                 "light",
                 settings_.photon_file_place);
+  if (!scene.gauges().empty())
+    throw Error(
+        ErrorKind::input,
+        "stored maps hold no light that passes points in the air, which the camera measures",
+        "leave out 'photon_map': each pass then traces photons of its own",
+        settings_.photon_file_place);
   stored_wavelengths_ = stored.wavelengths;
   stored_maps_ = std::make_shared<const PhotonMaps>(std::move(stored.maps));
 }
@@ -157,6 +163,18 @@ GatherRadii PhotonMapIntegrator::pass_radii(const PhotonMaps& maps, uint32_t ind
           radius(maps.global, settings_.global, settings_.global_radius)};
 }
 
+GaugeDisks PhotonMapIntegrator::gauge_disks(uint32_t index, uint64_t& rays) const {
+  std::vector<float> radii;
+  for (const PlacedGauge& gauge : scene().gauges()) {
+    const float first = settings_.caustic_radius > 0
+                            ? settings_.caustic_radius
+                            : GaugeDisks::largest_radius(gauge.distance_around);
+    radii.push_back(pass_radius(first, index));
+  }
+  constexpr double golden = 0.6180339887498949;
+  return {scene(), std::move(radii), float(std::fmod(double(index) * golden, 1.0)), rays};
+}
+
 std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
     const Pass& pass, PassReport& report, std::stop_token stop,
     const ProgressFunction& progress) const {
@@ -165,10 +183,12 @@ std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
     return stored_maps_;
   }
   const auto lights = light_pass(pass.seed);
-  auto maps = std::make_shared<const PhotonMaps>(
-      lights->trace(pass.seed, pass.index, stop, progress, pass.wavelengths));
+  GaugeDisks gauges;
+  if (!scene().gauges().empty()) gauges = gauge_disks(pass.index, report.rays);
+  auto maps = std::make_shared<const PhotonMaps>(lights->trace(
+      pass.seed, pass.index, stop, progress, pass.wavelengths, gauges.empty() ? nullptr : &gauges));
   report.photons = maps->global.size() + maps->caustic.size() + maps->volume.size();
-  report.rays = maps->global_report.rays + maps->caustic_report.rays + maps->volume_report.rays;
+  report.rays += maps->global_report.rays + maps->caustic_report.rays + maps->volume_report.rays;
   if (!stop.stop_requested()) report.warnings = lights->warnings(*maps);
   return maps;
 }
@@ -187,9 +207,10 @@ std::shared_ptr<const KeptLight> PhotonMapIntegrator::kept_light() const {
 std::shared_ptr<const PhotonMapIntegrator::Light> PhotonMapIntegrator::light_of(
     const Pass& pass, PassReport& report, std::stop_token stop,
     const ProgressFunction& progress) const {
-  // Files of maps may change, and what media scatter belongs to the media of one scene.
-  const bool is_kept =
-      keeps_light_ && pass.index == 0 && !stored_maps_ && !scene().has_scattering();
+  // Files of maps may change, what media scatter belongs to the media of one scene, and gauges are
+  // the camera's.
+  const bool is_kept = keeps_light_ && pass.index == 0 && !stored_maps_ &&
+                       !scene().has_scattering() && scene().gauges().empty();
   if (is_kept) {
     const std::lock_guard lock(light_mutex_);
     if (first_light_ && first_light_->seed == pass.seed &&
@@ -232,12 +253,15 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
                                                state->shadow_settings, pass);
   const bool wants_indirect = settings_.components.has(Component::indirect) ||
                               settings_.components.has(Component::specular);
-  if (settings_.gathers && settings_.cache && wants_indirect && settings_.global.neighbors > 0)
+  // Gauges are measured each by itself, and edges around them are of no use.
+  const bool has_gauges = !scene().gauges().empty();
+  if (settings_.gathers && settings_.cache && wants_indirect && settings_.global.neighbors > 0 &&
+      !has_gauges)
     fill_cache(*state, pass, stop, [&](double share) {
       if (progress) progress(0.5 + 0.5 * share);
     });
   // They spare rays, and take more time than the first samples do.
-  if (settings_.gathers && settings_.visibility && !photons.maps->caustic.empty())
+  if (settings_.gathers && settings_.visibility && !photons.maps->caustic.empty() && !has_gauges)
     state->seen_edges = seen_edges(state->report.rays, stop);
   state->report.rays += state->light->rays();
   if (!stop.stop_requested()) add_warnings(*state);
@@ -343,7 +367,8 @@ bool PhotonMapIntegrator::reflect(const PassState& pass_state, CameraWalk& walk,
   ShadowVisibility visibility(state.shadows.get(), state.shadow_settings, walk.vertex(),
                               walk.events(), walk.work().scratch);
   LightRules rules;
-  rules.visibility = &visibility;
+  // Shadow photons lie on surfaces.
+  if (walk.gauge() < 0) rules.visibility = &visibility;
   walk.add_direct_light(0, traces_glossy ? float(rays) : 0.0f, {settings_.light_choice, lights},
                         rules);
   add_photon_light(state, walk);
@@ -364,7 +389,22 @@ bool PhotonMapIntegrator::scatter_specular(CameraWalk& walk, int rays) const {
   return walk.events() <= roulette_depth || walk.survive(u_choice.y);
 }
 
+/// As on a white matt surface, but with what passes the gauge in place of photons around it.
+void PhotonMapIntegrator::add_photon_light_at_gauge(const State& state, CameraWalk& walk) const {
+  const SurfaceVertex& vertex = walk.vertex();
+  const std::vector<Spectrum>& passing = state.photons->maps->gauges;
+  if (!passing.empty() && walk.wants_photon_light(Component::caustic))
+    walk.add_photon_light(Component::caustic,
+                          vertex.diffuse_value() * passing[size_t(walk.gauge())]);
+  if (settings_.global.neighbors <= 0 || !walk.wants_photon_light(Component::indirect)) return;
+  const Spectrum irradiance =
+      state.light->gather_irradiance(vertex, vertex.facing_normal(), walk.medium(), walk.sampler(),
+                                     level_of(walk), walk.work().scratch);
+  walk.add_photon_light(Component::indirect, vertex.diffuse_value() * irradiance);
+}
+
 void PhotonMapIntegrator::add_photon_light(const State& state, CameraWalk& walk) const {
+  if (walk.gauge() >= 0) return add_photon_light_at_gauge(state, walk);
   const SurfaceVertex& vertex = walk.vertex();
   const Lobes local = vertex.lobes() & settings_.local();
   if (!any(local)) return;

@@ -37,6 +37,8 @@ class PhotonMapIntegrator final : public IlluminationModel {
                                             const ProgressFunction& progress) const;
   /// Throws Error(input) unless the stored maps were traced at these.
   void check_stored_wavelengths(const Wavelengths& wavelengths) const;
+  /// Around the camera's gauges, in a pass of that index. Counts rays.
+  GaugeDisks gauge_disks(uint32_t index, uint64_t& rays) const;
   GatherRadii pass_radii(const PhotonMaps& maps, uint32_t index) const;
   void add_shadow_photons(State& state, const Pass& pass, std::stop_token stop) const;
   void add_warnings(State& state) const;
@@ -51,6 +53,7 @@ class PhotonMapIntegrator final : public IlluminationModel {
   int specular_rays(const CameraWalk& walk) const;
   bool scatter_specular(CameraWalk& walk, int rays) const;
   void add_photon_light(const State& state, CameraWalk& walk) const;
+  void add_photon_light_at_gauge(const State& state, CameraWalk& walk) const;
   Spectrum diffuse_irradiance(const State& state, CameraWalk& walk, const Vec3f& normal) const;
 
   /// The light pass of a seed, its budgets trained when it is first asked for.

@@ -44,8 +44,7 @@ void smooth_noise(Image& image, int threads, const Messages& messages) {
     if (can_denoise(image))
       with_threads(threads, [&] { image = denoise(image); });
     else
-      messages.warn(
-          "the picture has no component with noise, or no surfaces: --denoise did nothing");
+      messages.warn("the picture has no component with noise, or no surfaces: it is not denoised");
   } catch (const std::exception& error) {
     const bool lacks_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
     messages.warn(fmt::format("cannot denoise, so the picture is written as it was rendered: {}",

@@ -52,7 +52,8 @@ std::shared_ptr<Job::Run> Job::prepared_run() {
     throw std::logic_error("Job: passes that go on have their lessons; others can't be given");
   if (settings_.task != JobTask::render && (settings_.begun || settings_.learned))
     throw std::logic_error("Job: only a render goes on, or has lessons given");
-  apply_changes(description_, settings_.record.recipe, listener_.messages);
+  apply_changes(description_, settings_.record.recipe, listener_.messages,
+                settings_.integrator_origin);
   const auto run = std::make_shared<Run>();
   const bool needs_digest = settings_.task == JobTask::learn || settings_.keeps_digest ||
                             keeps_passes() || settings_.begun || settings_.learned;
@@ -307,7 +308,10 @@ void Job::edit(Description description) {
 
 const Scene& Job::scene() const { return *current()->prepared.scene; }
 
-std::shared_ptr<const Scene> Job::shared_scene() const { return current()->prepared.scene; }
+std::shared_ptr<const Scene> Job::shared_scene() const {
+  const std::shared_ptr<Run> run = current();
+  return run ? run->prepared.scene : nullptr;
+}
 
 JobLight Job::kept_light() const {
   const std::shared_ptr<Run> run = current();

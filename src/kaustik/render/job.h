@@ -45,6 +45,8 @@ struct JobSettings {
   /// The program's version, the recipe, whose changes the job makes, its plan and outputs. What it
   /// lacks is filled in: samples per pass, passes, digest, view.
   RenderRecord record;
+  /// Who asks for the recipe's integrator, for messages: "command line: --integrator".
+  std::string integrator_origin = "integrator";
   SessionSettings session;  ///< time counts from `clock_start` on
   BuildOptions build;
   std::string checkpoint;  ///< file that finished passes are kept in; "": none
@@ -137,7 +139,8 @@ class Job {
 
   /// After prepare().
   const Scene& scene() const;
-  std::shared_ptr<const Scene> shared_scene() const;  ///< to share with others
+  /// To share with others, from any thread; null before prepare().
+  std::shared_ptr<const Scene> shared_scene() const;
   /// After prepare(), from any thread: for a job that comes after this one.
   JobLight kept_light() const;
   /// Session::film_so_far(), from any thread, while the job runs.

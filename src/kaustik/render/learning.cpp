@@ -41,7 +41,7 @@ Learned learn(const PreparedScene& prepared, const LearningSettings& settings, s
 void check_same_scene(const PreparedScene& prepared, const StoredLessons& stored,
                       const std::string& path) {
   const std::string remedy =
-      "learn anew: kaustik learn, with the same file, -D, --set and --integrator";
+      "learn anew, with the same scene, definitions, settings and integrator";
   if (prepared.digest->scene != stored.digest.scene)
     throw Error(
         ErrorKind::input,

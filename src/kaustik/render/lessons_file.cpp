@@ -12,8 +12,8 @@ constexpr BinaryFileKind lessons_kind = {
     {0x89, 'K', 'L', 'N', '\r', '\n', 0x1a, '\n'},
     5,
     "file of lessons",
-    "give a .kln file that was written by: kaustik learn SCENE -o FILE.kln",
-    "learn again with this program: kaustik learn SCENE -o FILE.kln"};
+    "give a .kln file, of lessons that Kaustik has learned of a scene",
+    "learn again with this version of Kaustik"};
 
 }  // namespace
 

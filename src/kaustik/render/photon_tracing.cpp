@@ -4,6 +4,7 @@
 #include "kaustik/base/sampler.h"
 #include "kaustik/integrator/foreign_integrators.h"
 #include "kaustik/integrator/make_integrator.h"
+#include "kaustik/photon/photon_lamps.h"
 #include "kaustik/photon/photon_parts.h"
 #include "kaustik/photonmap/photon_map_settings.h"
 #include "kaustik/scene/part_keys.h"
@@ -83,6 +84,13 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
   if (const uint64_t refused = scene.tracer().refused_rays() - refused_before)
     traced.warnings.push_back(refused_rays_warning(refused));
   return traced;
+}
+
+std::vector<uint32_t> lamps_of(const StoredPhotons& photons, const PhotonMap& map) {
+  const PhotonLamps lamps(photons.settings, photons.maps);
+  std::vector<uint32_t> indices(map.size());
+  for (uint32_t i = 0; i < indices.size(); ++i) indices[i] = lamps.of_path(map.tree().data(i).path);
+  return indices;
 }
 
 DrawnPhotons draw_photons(const Description& description, const Scene& scene, uint64_t seed,

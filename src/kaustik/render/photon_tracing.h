@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -20,6 +21,11 @@ struct TracedPhotons {
 TracedPhotons trace_photon_maps(const Description& description, const Scene& scene, uint64_t seed,
                                 int threads, std::stop_token stop = {},
                                 const ProgressFunction& progress = {}, PhotonPart part = {});
+
+/// Index into Scene::lights() of the lamp of each photon of a map, in the order of its tree; of
+/// maps of a whole pass, not of a part of one. PhotonLamps::unknown where a damaged file has
+/// numbers of no light path.
+std::vector<uint32_t> lamps_of(const StoredPhotons& photons, const PhotonMap& map);
 
 /// Some of the photons of the maps that trace_photon_maps() traces, and of those in media that its
 /// files have no place for: LightPass::draw(). None if stopped, or if the scene has no light.

@@ -32,11 +32,13 @@ ViewFacts facts_of(const Scene& scene, const std::string& integrator) {
 
 }  // namespace
 
-void apply_changes(Description& description, const RenderRecipe& recipe, const Messages& messages) {
+void apply_changes(Description& description, const RenderRecipe& recipe, const Messages& messages,
+                   const std::string& integrator_origin) {
   if (const std::string others = choose_camera(description, recipe.camera); !others.empty())
     messages.tell(others);
   if (!recipe.integrator.empty())
-    if (const std::string left_out = override_integrator(description, recipe.integrator);
+    if (const std::string left_out =
+            override_integrator(description, recipe.integrator, place_in(integrator_origin));
         !left_out.empty())
       messages.tell(left_out);
   for (const Setting& setting : recipe.settings) override_property(description, setting);

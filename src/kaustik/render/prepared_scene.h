@@ -18,8 +18,10 @@ struct PreparedScene {
 };
 
 /// Makes the changes of a recipe, once: its integrator, then its settings. They change the
-/// description's objects. Throws Error.
-void apply_changes(Description& description, const RenderRecipe& recipe, const Messages& messages);
+/// description's objects. `integrator_origin`: who asks for the recipe's integrator, for messages.
+/// Throws Error.
+void apply_changes(Description& description, const RenderRecipe& recipe, const Messages& messages,
+                   const std::string& integrator_origin = "integrator");
 
 /// Says how much memory large meshes will take, before they are read.
 void tell_of_memory(const Description& description, const Messages& messages);

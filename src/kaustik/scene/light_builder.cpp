@@ -97,6 +97,9 @@ void SceneBuilder::make_lights() {
       if (lights_.back()->traits().shape >= 0)
         shapes_[size_t(pending.shape_index)].surface.light = int(lights_.size()) - 1;
       light_media_.push_back(medium_of(*pending.object));
+      const std::string& own = pending.object->id;
+      light_names_.push_back(
+          own.empty() && pending.shape ? shapes_[size_t(pending.shape_index)].object->id : own);
       hidden_lights_.push_back(hides_lights_ ||
                                (type->info.find("visible") && !arguments.boolean("visible")));
     });

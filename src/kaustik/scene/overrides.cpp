@@ -51,7 +51,7 @@ std::shared_ptr<Object> made_integrator(Description& description) {
   auto object = std::make_shared<Object>();
   object->family = "integrator";
   object->type = default_integrator;
-  object->place = place_in("command line");
+  object->place = place_in("integrator");
   description.scene->children.push_back({"", object});
   return object;
 }
@@ -98,12 +98,8 @@ std::string assignment_of(const Setting& setting) {
   return fmt::format("{}.{}={}", setting.object, setting.parameter, setting.value);
 }
 
-Setting setting_of_command_line(const std::string& assignment) {
-  return setting_from(assignment, fmt::format("command line: --set {}", assignment));
-}
-
 void override_property(Description& description, const std::string& assignment) {
-  override_property(description, setting_of_command_line(assignment));
+  override_property(description, setting_from(assignment, "setting " + assignment));
 }
 
 void override_property(Description& description, const Setting& setting) {

@@ -10,7 +10,7 @@ struct Setting {
   std::string object;  ///< an id, or a family that the scene has once
   std::string parameter;
   std::string value;   ///< as text, which the parameter's table reads
-  std::string origin;  ///< who asks for it, for messages: "command line: -e 2"
+  std::string origin;  ///< who asks for it, for messages: a place
   friend bool operator==(const Setting&, const Setting&) = default;
 };
 
@@ -22,12 +22,10 @@ std::string assignment_of(const Setting& setting);
 /// ("integrator", "sensor", "film", "sampler", "rfilter"). Replaces what the file says. Throws
 /// Error for an object that is not there; its origin is named if the value is wrong.
 void override_property(Description& description, const Setting& setting);
-/// The same of an assignment that --set gives.
+/// The same of setting_from(assignment), whose origin is the assignment itself.
 void override_property(Description& description, const std::string& assignment);
 /// The same of a value whose type is known: the place is the property's.
 void override_property(Description& description, const std::string& object, Property property);
-/// As --set gives it.
-Setting setting_of_command_line(const std::string& assignment);
 
 /// Leaves one camera in the scene: the one with the id `name`, or the first where that is empty.
 /// Those in shapes and in batches count like those at the top.

@@ -1,6 +1,7 @@
 #include "kaustik/scene/scene.h"
 
 #include <algorithm>
+#include <string>
 
 #include "kaustik/scene/gauges.h"
 #include "kaustik/scene/light_probes.h"
@@ -22,6 +23,11 @@ Scene::Scene(Parts parts, const Scene* previous) : parts_(std::move(parts)) {
   find_media();
   if (parts_.camera && !parts_.camera->gauges().empty()) gauges_ = place_gauges(*this);
   make_light_selector(previous);
+}
+
+std::string Scene::light_name(size_t light) const {
+  const bool has_name = light < parts_.light_names.size() && !parts_.light_names[light].empty();
+  return has_name ? parts_.light_names[light] : "lamp " + std::to_string(light + 1);
 }
 
 void Scene::find_hidden_surfaces() {

@@ -64,6 +64,8 @@ class Scene {
     /// Parallel to the lights: that they shine into; null: to be found out from the surfaces.
     std::vector<std::shared_ptr<const Medium>> light_media;
     std::vector<bool> hidden_lights = {};  ///< parallel to the lights, or empty: none is
+    /// Parallel to the lights, or empty: they have none.
+    std::vector<std::string> light_names = {};
     std::vector<std::string> warnings;
     RayObserver* observer = nullptr;
     BuiltParts built = {};
@@ -98,6 +100,9 @@ class Scene {
   }
   size_t surface_count() const { return parts_.surfaces.size(); }
   const std::vector<std::shared_ptr<const Light>>& lights() const { return parts_.lights; }
+  /// For people: its id, or that of its shape; where both have none, "lamp" and its number from 1
+  /// on.
+  std::string light_name(size_t light) const;
   const LightSelector& light_selector() const { return *light_selector_; }
   /// Indices of the lights that rays meet at infinity.
   const std::vector<int>& environment_lights() const { return environment_lights_; }

@@ -180,6 +180,7 @@ Scene::Parts SceneBuilder::build(const Object& scene) {
   parts.camera_medium = std::move(camera_medium_);
   parts.light_media = std::move(light_media_);
   parts.hidden_lights = std::move(hidden_lights_);
+  parts.light_names = std::move(light_names_);
   parts.warnings = std::move(warnings_);
   if (!ignored_.empty())
     parts.warnings.push_back(fmt::format("without effect here: {}", fmt::join(ignored_, ", ")));

@@ -236,6 +236,7 @@ class SceneBuilder {
   std::vector<std::shared_ptr<const Light>> lights_;
   std::vector<std::shared_ptr<const Medium>> light_media_;
   std::vector<bool> hidden_lights_;
+  std::vector<std::string> light_names_;
   bool hides_lights_ = false;
   std::shared_ptr<const Medium> camera_medium_;
   Bounds3f bounds_;

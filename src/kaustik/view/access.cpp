@@ -92,7 +92,7 @@ void Access::check_sender(const HttpRequest& request, bool is_page) const {
   const std::string* host = request.header("host");
   if (!host || request.count("host") != 1 || !is_own_host(*host))
     throw RequestError(403, "the request is for another host than this one",
-                       "use the address that kaustik view has printed");
+                       "use the address that the program has told");
   if (const std::string* origin = request.header("origin")) {
     const std::string own = in_lower_case(*host), sender = in_lower_case(*origin);
     if (request.count("origin") != 1 || (sender != "http://" + own && sender != "https://" + own))
@@ -115,13 +115,13 @@ void Access::check_session(const HttpRequest& request) const {
   const auto value = cookies ? cookie_value(*cookies, cookie_name_) : std::nullopt;
   if (!value || !equal_in_constant_time(*value, token_))
     throw RequestError(403, "the request has no session",
-                       "open the address that kaustik view has printed, with its #token=…");
+                       "open the address that the program has told, with its #token=…");
 }
 
 std::string Access::cookie_for(std::string_view token) const {
   if (!equal_in_constant_time(token, token_))
     throw RequestError(403, "the token is not this server's",
-                       "open the address that kaustik view has printed last");
+                       "open the address that the program has told last");
   return fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/", cookie_name_, token_);
 }
 

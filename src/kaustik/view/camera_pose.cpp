@@ -168,7 +168,8 @@ CameraPose MovableCamera::pose(const Description& description, double distance,
 void MovableCamera::put(Description& description, const CameraPose& pose) const {
   const auto camera = camera_of(description);
   if (!camera || !takes(*camera, "to_world"))
-    throw RequestError(400, "the scene's camera cannot be moved", "choose another: --camera ID");
+    throw RequestError(400, "the scene's camera cannot be moved",
+                       "begin the view with another of the scene's cameras");
   std::erase_if(camera->properties, [](const Property& p) { return p.name == "toWorld"; });
   set(*camera, "to_world", look(pose) * camera_from_shape_);
   if (!pose.fov || !takes(*camera, "fov")) return;

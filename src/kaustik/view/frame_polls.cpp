@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "kaustik/live/engine.h"
+#include "kaustik/live/watched.h"
 #include "kaustik/scene/scene.h"
 #include "kaustik/view/projection.h"
 #include "kaustik/view/request_error.h"
@@ -53,11 +53,11 @@ FrameQuery FrameQuery::from(const Query& query) {
   return frame;
 }
 
-std::shared_ptr<const LayerPictures::Layers> LayerPictures::of(const Engine& engine,
+std::shared_ptr<const LayerPictures::Layers> LayerPictures::of(const Watched& shown,
                                                                uint64_t revision) {
   auto next = std::make_shared<Layers>();
   bool is_known = false, has_layers = false;
-  const bool has_film = engine.look_at_film([&](const Film& film) {
+  const bool has_film = shown.look_at_film([&](const Film& film) {
     has_layers = film.layers().in_images;
     is_known =
         has_layers && last_ && last_->revision == revision && last_->passes == film.pass_count();
@@ -68,7 +68,7 @@ std::shared_ptr<const LayerPictures::Layers> LayerPictures::of(const Engine& eng
   });
   if (!has_film || is_known) return is_known ? last_ : nullptr;
   // Another scene may have come meanwhile, or views that move, whose films have no layers.
-  if (engine.status().revision != revision) return nullptr;
+  if (shown.status().revision != revision) return nullptr;
   if (!has_layers)
     throw RequestError(404, "the scene's film keeps no layers", "ask for the picture alone");
   last_ = std::move(next);
@@ -100,7 +100,7 @@ HttpResponse frame_response(const FrameQuery& query, const Snapshot& snapshot,
   return response;
 }
 
-FramePolls::FramePolls(const Engine& engine, Worker& worker) : engine_(engine), worker_(worker) {}
+FramePolls::FramePolls(const Watched& shown, Worker& worker) : shown_(shown), worker_(worker) {}
 
 void FramePolls::add(FrameQuery query, std::shared_ptr<HttpReply> reply) {
   polls_.push_back({std::move(query), std::move(reply), Clock::now() + longest_poll});
@@ -117,7 +117,7 @@ bool FramePolls::is_due(const Poll& poll, const Snapshot* snapshot) const {
 void FramePolls::serve() {
   std::erase_if(polls_, [](const Poll& poll) { return !poll.reply->is_open(); });
   if (polls_.empty()) return;
-  const auto snapshot = engine_.snapshot();
+  const auto snapshot = shown_.snapshot();
   const auto now = Clock::now();
   std::vector<Poll> waiting, due;
   for (Poll& poll : polls_) {
@@ -148,11 +148,11 @@ void FramePolls::serve() {
 
 void FramePolls::answer(std::vector<Poll> polls, std::shared_ptr<const Snapshot> snapshot) {
   const auto shared = std::make_shared<std::vector<Poll>>(std::move(polls));
-  worker_.run([shared, snapshot = std::move(snapshot), &engine = engine_, layers = layers_] {
+  worker_.run([shared, snapshot = std::move(snapshot), &shown = shown_, layers = layers_] {
     HttpResponse response;
     try {
       const FrameQuery& query = shared->front().query;
-      const auto of_film = query.layer.empty() ? nullptr : layers->of(engine, snapshot->revision);
+      const auto of_film = query.layer.empty() ? nullptr : layers->of(shown, snapshot->revision);
       // Nothing has the layer now: the client asks again.
       if (!query.layer.empty() && !of_film)
         response.status = 204;

@@ -12,7 +12,7 @@
 #include "kaustik/view/query.h"
 
 namespace kaustik {
-class Engine;
+class Watched;
 }
 
 namespace kaustik::view {
@@ -40,7 +40,7 @@ class LayerPictures {
     Image image;
   };
   /// The layers of what is shown, as of a revision; null: there are none now. Takes time.
-  std::shared_ptr<const Layers> of(const Engine& engine, uint64_t revision);
+  std::shared_ptr<const Layers> of(const Watched& shown, uint64_t revision);
 
  private:
   std::shared_ptr<const Layers> last_;
@@ -51,7 +51,7 @@ class LayerPictures {
 class FramePolls {
  public:
   /// Both must outlive this.
-  FramePolls(const Engine& engine, Worker& worker);
+  FramePolls(const Watched& shown, Worker& worker);
 
   void add(FrameQuery query, std::shared_ptr<HttpReply> reply);
   /// Answers those that there is a frame for, and those that have waited long enough.
@@ -68,7 +68,7 @@ class FramePolls {
   bool is_due(const Poll& poll, const Snapshot* snapshot) const;
   void answer(std::vector<Poll> polls, std::shared_ptr<const Snapshot> snapshot);
 
-  const Engine& engine_;
+  const Watched& shown_;
   Worker& worker_;
   std::shared_ptr<LayerPictures> layers_ = std::make_shared<LayerPictures>();
   std::vector<Poll> polls_;

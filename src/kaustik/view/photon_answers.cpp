@@ -30,14 +30,9 @@ uint64_t key_from(const std::string& text) {
   return key;
 }
 
-/// The lamps by their shapes' names, or by their numbers from 1 on.
 Json names_of_lamps(const Scene& scene) {
   Json names = Json::array();
-  for (size_t i = 0; i < scene.lights().size(); ++i) {
-    const int shape = scene.lights()[i]->traits().surface();
-    const std::string name = shape >= 0 ? scene.surface(uint32_t(shape)).name : "";
-    names.push_back(name.empty() ? fmt::format("lamp {}", i + 1) : name);
-  }
+  for (size_t i = 0; i < scene.lights().size(); ++i) names.push_back(scene.light_name(i));
   return names;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kaustik/image/photometry.h"
-#include "kaustik/live/engine.h"
+#include "kaustik/live/watched.h"
 #include "kaustik/render/film_errors.h"
 #include "kaustik/transport/component.h"
 #include "kaustik/view/request_error.h"
@@ -81,15 +81,15 @@ void check_lies_in(const PixelRegion& region, int width, int height) {
 
 /// What the film tells, or else what the picture does that is shown.
 template <typename OfFilm, typename OfPicture>
-Json facts_of(const Engine& engine, const PixelRegion& region, const OfFilm& of_film,
+Json facts_of(const Watched& shown, const PixelRegion& region, const OfFilm& of_film,
               const OfPicture& of_picture) {
   Json facts;
-  const bool has_film = engine.look_at_film([&](const Film& film) {
+  const bool has_film = shown.look_at_film([&](const Film& film) {
     check_lies_in(region, film.width(), film.height());
     facts = of_film(film);
   });
   if (has_film) return facts;
-  const auto snapshot = engine.snapshot();
+  const auto snapshot = shown.snapshot();
   if (!snapshot) throw RequestError(409, "there is no picture yet", "ask again in a moment");
   check_lies_in(region, snapshot->picture.width(), snapshot->picture.height());
   return of_picture(snapshot->picture);
@@ -122,15 +122,15 @@ Json region_facts(const Film& film, const PixelRegion& region) {
           {"pixels", int64_t(region.width) * region.height}};
 }
 
-Json pixel_of(const Engine& engine, int x, int y) {
+Json pixel_of(const Watched& shown, int x, int y) {
   return facts_of(
-      engine, {x, y, 1, 1}, [&](const Film& film) { return pixel_facts(film, x, y); },
+      shown, {x, y, 1, 1}, [&](const Film& film) { return pixel_facts(film, x, y); },
       [&](const Image& picture) { return pixel_of_picture(picture, x, y); });
 }
 
-Json region_of(const Engine& engine, const PixelRegion& region) {
+Json region_of(const Watched& shown, const PixelRegion& region) {
   return facts_of(
-      engine, region, [&](const Film& film) { return region_facts(film, region); },
+      shown, region, [&](const Film& film) { return region_facts(film, region); },
       [&](const Image& picture) { return region_of_picture(picture, region); });
 }
 

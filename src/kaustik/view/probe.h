@@ -7,7 +7,7 @@
 #include "kaustik/view/json_text.h"
 
 namespace kaustik {
-class Engine;
+class Watched;
 class Film;
 }  // namespace kaustik
 
@@ -20,7 +20,7 @@ Json region_facts(const Film& film, const PixelRegion& region);
 
 /// The same of what is shown; of a picture before its first pass the values alone. Throw
 /// RequestError for pixels that it has not, or while there is no picture.
-Json pixel_of(const Engine& engine, int x, int y);
-Json region_of(const Engine& engine, const PixelRegion& region);
+Json pixel_of(const Watched& shown, int x, int y);
+Json region_of(const Watched& shown, const PixelRegion& region);
 
 }  // namespace kaustik::view

@@ -64,11 +64,18 @@ const std::vector<Routes::Route>& Routes::table() {
 Routes::Routes(Parts parts, Description description)
     : parts_(std::move(parts)),
       edits_(std::move(description)),
-      polls_(parts_.engine, parts_.worker),
+      polls_(parts_.shown, parts_.worker),
       photons_(parts_.seed, parts_.threads),
       saver_(std::make_shared<PictureSaver>(parts_.output_folder)) {
+  if (parts_.session) return;
   edit(copy_of(edits_.current()), std::nullopt);
   parts_.engine.start();
+}
+
+void Routes::session_renders(uint64_t revision, Description description) {
+  edits_ = SceneEdits(std::move(description));
+  last_revision_ = revision;
+  knows_distance_ = false;
 }
 
 void Routes::handle(HttpRequest request, std::shared_ptr<HttpReply> reply) {
@@ -137,9 +144,9 @@ void Routes::probe_pixel(Call& call) {
   call.query.allow_only({"x", "y"});
   const int x = int(call.query.required("x", 0, most_pixels_across));
   const int y = int(call.query.required("y", 0, most_pixels_across));
-  parts_.worker.run([x, y, &engine = parts_.engine, reply = std::move(call.reply)] {
+  parts_.worker.run([x, y, &shown = parts_.shown, reply = std::move(call.reply)] {
     try {
-      reply->send(json_response(pixel_of(engine, x, y)));
+      reply->send(json_response(pixel_of(shown, x, y)));
     } catch (...) {
       reply->send(response_of_current_exception());
     }
@@ -152,9 +159,9 @@ void Routes::probe_region(Call& call) {
                               int(call.query.required("y", 0, most_pixels_across)),
                               int(call.query.required("width", 1, most_pixels_across)),
                               int(call.query.required("height", 1, most_pixels_across))};
-  parts_.worker.run([region, &engine = parts_.engine, reply = std::move(call.reply)] {
+  parts_.worker.run([region, &shown = parts_.shown, reply = std::move(call.reply)] {
     try {
-      reply->send(json_response(region_of(engine, region)));
+      reply->send(json_response(region_of(shown, region)));
     } catch (...) {
       reply->send(response_of_current_exception());
     }
@@ -164,7 +171,7 @@ void Routes::probe_region(Call& call) {
 void Routes::show_photons(Call& call) {
   const PhotonQuery query = PhotonQuery::from(call.query);
   noted_status();
-  auto scene = parts_.engine.scene();
+  auto scene = parts_.shown.scene();
   if (!scene) throw RequestError(409, "there is no scene yet", "ask again in a moment");
   photons_.answer(query, {copy_of(edits_.current()), std::move(scene)}, std::move(call.reply));
 }
@@ -172,7 +179,11 @@ void Routes::show_photons(Call& call) {
 void Routes::list_parameters(Call& call) {
   call.query.allow_only({});
   noted_status();
-  call.reply->send(json_response(parameter_list(edits_.current())));
+  Json list = parameter_list(edits_.current());
+  // Nothing of it can be set.
+  if (parts_.session)
+    list = {{"objects", Json::array()}, {"integrators", {integrator_of(edits_.current())}}};
+  call.reply->send(json_response(std::move(list)));
 }
 
 void Routes::do_command(Call& call) {
@@ -185,6 +196,9 @@ void Routes::do_command(Call& call) {
   noted_status();
   const std::string& what = json.begin().key();
   const Json& value = json.begin().value();
+  if (parts_.session && what != "do" && what != "save")
+    throw RequestError(409, "this view shows what a program renders: it can't be changed here",
+                       "change it in the program, by its session's edit()");
   uint64_t revision = last_revision_;
   if (what == "camera") {
     const CameraPose pose = camera_pose_from(value);
@@ -211,7 +225,25 @@ uint64_t Routes::edit(Description description, const std::optional<CameraPose>& 
   return last_revision_;
 }
 
+void Routes::command_session(const std::string& what) {
+  const SessionControls& controls = *parts_.session;
+  if (what == "pause") {
+    controls.pause();
+  } else if (what == "resume") {
+    controls.resume();
+  } else if (what == "stop") {
+    controls.stop();
+  } else if (what == "start" || what == "reset") {
+    throw RequestError(409, "this view shows what a program renders: it can't be begun here",
+                       "begin it in the program, by its session's start()");
+  } else {
+    throw RequestError(400, fmt::format("'{}' cannot be done", what),
+                       suggest(what, {"pause", "resume", "stop"}));
+  }
+}
+
 void Routes::command(const std::string& what) {
+  if (parts_.session) return command_session(what);
   Engine& engine = parts_.engine;
   if (what == "start") {
     engine.start();
@@ -233,10 +265,10 @@ void Routes::command(const std::string& what) {
 void Routes::save(Call& call, const Json& what) {
   if (!what.is_object()) throw RequestError(400, "'save' is no object", "give {\"name\": \"…\"}");
   const std::string name = text_of(what, "name");
-  parts_.worker.run([name, saver = saver_, &engine = parts_.engine, reply = std::move(call.reply)] {
+  parts_.worker.run([name, saver = saver_, &shown = parts_.shown, reply = std::move(call.reply)] {
     try {
       const std::string path = saver->path_for(name);
-      const auto image = engine.finished_snapshot();
+      const auto image = shown.finished_snapshot();
       if (!image) throw RequestError(409, "there is no picture yet", "save it in a moment");
       saver->save(*image, name);
       reply->send(json_response({{"file", path}}));
@@ -247,37 +279,37 @@ void Routes::save(Call& call, const Json& what) {
 }
 
 EngineStatus Routes::noted_status() {
-  EngineStatus status = parts_.engine.status();
+  EngineStatus status = parts_.shown.status();
   edits_.note(status.revision, status.refusal ? status.refused_revision : 0);
   learn_of_scene();
   return status;
 }
 
 Json Routes::state(const EngineStatus& status) const {
-  const auto scene = parts_.engine.scene();
+  const auto scene = parts_.shown.scene();
   return state_report(
-      parts_.engine, status,
+      parts_.shown, status,
       {parts_.scene, integrator_of(edits_.current()), layers_, edits_.camera(scene.get())});
 }
 
 void Routes::learn_of_scene() {
   if (knows_distance_) return;
-  const auto scene = parts_.engine.scene();
+  const auto scene = parts_.shown.scene();
   if (!scene) return;
   knows_distance_ = true;
   edits_.set_distance(distance_ahead(*scene));
 }
 
 void Routes::learn_of_layers(const EngineStatus& status) {
-  const auto snapshot = parts_.engine.snapshot();
+  const auto snapshot = parts_.shown.snapshot();
   if (!snapshot || snapshot->is_moving || snapshot->kind != Snapshot::Kind::passes ||
       snapshot->revision != status.revision || layers_revision_ == status.revision)
     return;
   layers_revision_ = status.revision;
   // A film may be in use for a while.
-  parts_.worker.run([this, &engine = parts_.engine, post = parts_.post] {
+  parts_.worker.run([this, &shown = parts_.shown, post = parts_.post] {
     std::vector<std::string> names;
-    engine.look_at_film([&](const Film& film) { names = layer_names(film.layers()); });
+    shown.look_at_film([&](const Film& film) { names = layer_names(film.layers()); });
     if (names.size() > 1) post([this, names] { layers_ = names; });
   });
 }
@@ -286,7 +318,7 @@ void Routes::tick() {
   polls_.serve();
   const EngineStatus status = noted_status();
   learn_of_layers(status);
-  const auto snapshot = parts_.engine.snapshot();
+  const auto snapshot = parts_.shown.snapshot();
   if (history_.note(status, snapshot && snapshot->is_moving)) has_new_error_ = true;
   ++ticks_;
   if (streams_.empty()) return;

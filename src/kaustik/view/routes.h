@@ -1,9 +1,11 @@
 #pragma once
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "kaustik/live/engine.h"
+#include "kaustik/live/watched.h"
 #include "kaustik/view/access.h"
 #include "kaustik/view/event_streams.h"
 #include "kaustik/view/frame_polls.h"
@@ -12,6 +14,7 @@
 #include "kaustik/view/picture_saver.h"
 #include "kaustik/view/query.h"
 #include "kaustik/view/scene_edits.h"
+#include "kaustik/view/shown_session.h"
 #include "kaustik/view/view_report.h"
 #include "kaustik/view/worker.h"
 
@@ -22,7 +25,8 @@ namespace kaustik::view {
 class Routes {
  public:
   struct Parts {
-    Engine& engine;  // All three must outlive the routes.
+    Engine& engine;  // All four must outlive the routes.
+    const Watched& shown;
     Worker& worker;
     Access& access;
     std::string scene;                                ///< its name, for pages
@@ -30,8 +34,11 @@ class Routes {
     std::function<void(std::function<void()>)> post;  ///< runs it in the server's thread
     uint64_t seed = 0;                                ///< of the engine's sessions
     int threads = 0;                                  ///< of the engine's sessions; 0: all
+    /// Absent: the engine renders what viewers ask for, and is shown. Else nobody gives it anything
+    /// to render: what is shown is steered elsewhere.
+    std::optional<SessionControls> session = std::nullopt;
   };
-  /// Gives the engine the description to render.
+  /// Gives the engine the description to render, or shows what it is that is rendered.
   Routes(Parts parts, Description description);
 
   /// Answers, or keeps the reply for later. Throws what becomes the answer.
@@ -40,6 +47,8 @@ class Routes {
   void picture_changed() { polls_.serve(); }
   /// To be called a few times a second.
   void tick();
+  /// A session renders this from now on.
+  void session_renders(uint64_t revision, Description description);
   /// A message for those who look.
   void log(const std::string& level, const std::string& text) { streams_.log(level, text); }
   /// Lets go of all clients.
@@ -63,6 +72,7 @@ class Routes {
 
   uint64_t edit(Description description, const std::optional<CameraPose>& pose);
   void command(const std::string& what);
+  void command_session(const std::string& what);
   void save(Call& call, const Json& what);
   /// Takes in what has become of the edits, and what the scene tells.
   EngineStatus noted_status();

@@ -80,7 +80,7 @@ void check_value(const Object& object, const Setting& setting) {
   if (row->kind == ParameterKind::file)
     throw RequestError(400,
                        fmt::format("'{}' names a file, which pages may not", setting.parameter),
-                       "edit the scene's file, or use --set on the command line");
+                       "edit the scene itself");
   TypeInfo alone{info->family, info->name, info->sentence, {*row}};
   alone.parameters[0].stands_for.clear();
   Problems problems;

@@ -41,9 +41,9 @@ std::string text_of_exception(const std::exception_ptr& exception) {
 
 }  // namespace
 
-Json state_report(const Engine& engine, const EngineStatus& status, const PageFacts& facts) {
-  const auto scene = engine.scene();
-  const auto snapshot = engine.snapshot();
+Json state_report(const Watched& shown, const EngineStatus& status, const PageFacts& facts) {
+  const auto scene = shown.scene();
+  const auto snapshot = shown.snapshot();
   const Progress& progress = status.progress;
   const bool has_error = progress.passes_done > 0 && std::isfinite(progress.relative_error);
   Json refusal = nullptr;

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "kaustik/live/engine.h"
+#include "kaustik/live/watched.h"
 #include "kaustik/view/camera_pose.h"
 #include "kaustik/view/json_text.h"
 
@@ -17,7 +17,7 @@ struct PageFacts {
 };
 
 /// As GET state gives it.
-Json state_report(const Engine& engine, const EngineStatus& status, const PageFacts& facts);
+Json state_report(const Watched& shown, const EngineStatus& status, const PageFacts& facts);
 
 /// The layers that pictures of a film have: "" is the picture itself.
 std::vector<std::string> layer_names(const FilmLayers& layers);

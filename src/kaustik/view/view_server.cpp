@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 #include <utility>
@@ -47,7 +48,8 @@ class ToldOnce {
 }  // namespace
 
 struct ViewServer::State {
-  State(Description description, ViewSettings settings, const Messages& told);
+  State(std::optional<ShownSession> session, Description description, ViewSettings settings,
+        const Messages& told);
   ~State();
   void watch();
   void log(const char* level, const std::string& text) {
@@ -64,12 +66,14 @@ struct ViewServer::State {
   ToldOnce told_once;
   Messages messages;
   Engine engine;
+  std::shared_ptr<const Watched> shown;
   std::unique_ptr<Routes> routes;
   std::atomic<bool> ends = false;
   std::thread watcher;
 };
 
-ViewServer::State::State(Description description, ViewSettings settings, const Messages& told)
+ViewServer::State::State(std::optional<ShownSession> session, Description description,
+                         ViewSettings settings, const Messages& told)
     : address(settings.address),
       http(settings.address, settings.port, settings.limits),
       access(settings.token.empty() ? random_token() : settings.token, settings.address,
@@ -84,13 +88,20 @@ ViewServer::State::State(Description description, ViewSettings settings, const M
                  told.warn(text);
                  log("warning", text);
                }},
-      engine(for_views(settings.engine), messages) {
+      engine(for_views(settings.engine), messages),
+      shown(session ? session->render : std::make_shared<const WatchedEngine>(engine)) {
   apply_changes(description, settings.engine.recipe, messages);
-  routes = std::make_unique<Routes>(
-      Routes::Parts{engine, worker, access, settings.scene, settings.output_folder,
-                    [this](std::function<void()> action) { http.post(std::move(action)); },
-                    settings.engine.session.seed, settings.engine.session.threads},
-      std::move(description));
+  Routes::Parts parts{engine,
+                      *shown,
+                      worker,
+                      access,
+                      settings.scene,
+                      settings.output_folder,
+                      [this](std::function<void()> action) { http.post(std::move(action)); },
+                      settings.engine.session.seed,
+                      settings.engine.session.threads};
+  if (session) parts.session = std::move(session->controls);
+  routes = std::make_unique<Routes>(std::move(parts), std::move(description));
   http.start(
       [this](HttpRequest request, std::shared_ptr<HttpReply> reply) {
         routes->handle(std::move(request), std::move(reply));
@@ -111,7 +122,7 @@ ViewServer::State::~State() {
 void ViewServer::State::watch() {
   uint64_t last = 0;
   while (!ends) {
-    const auto snapshot = engine.wait_for_snapshot(last, watch_interval);
+    const auto snapshot = shown->wait_for_snapshot(last, watch_interval);
     if (!snapshot) continue;
     last = snapshot->number;
     http.post([this] { routes->picture_changed(); });
@@ -119,7 +130,13 @@ void ViewServer::State::watch() {
 }
 
 ViewServer::ViewServer(Description description, ViewSettings settings, Messages messages)
-    : state_(std::make_unique<State>(std::move(description), std::move(settings), messages)) {}
+    : state_(std::make_unique<State>(std::nullopt, std::move(description), std::move(settings),
+                                     messages)) {}
+
+ViewServer::ViewServer(ShownSession session, Description description, ViewSettings settings,
+                       Messages messages)
+    : state_(std::make_unique<State>(std::move(session), std::move(description),
+                                     std::move(settings), messages)) {}
 
 ViewServer::~ViewServer() = default;
 
@@ -127,6 +144,13 @@ uint16_t ViewServer::port() const { return state_->http.port(); }
 bool ViewServer::is_local() const { return state_->http.is_local(); }
 const std::string& ViewServer::token() const { return state_->access.token(); }
 const Engine& ViewServer::engine() const { return state_->engine; }
+
+void ViewServer::session_renders(uint64_t revision, Description description) {
+  const auto shared = std::make_shared<Description>(std::move(description));
+  state_->http.post([state = state_.get(), revision, shared] {
+    if (state->routes) state->routes->session_renders(revision, std::move(*shared));
+  });
+}
 
 std::string ViewServer::url() const {
   std::string host = state_->address;

@@ -5,6 +5,7 @@
 
 #include "kaustik/live/engine.h"
 #include "kaustik/view/http_server.h"
+#include "kaustik/view/shown_session.h"
 
 namespace kaustik::view {
 
@@ -29,6 +30,10 @@ class ViewServer {
   /// cannot be had, and for changes of the recipe that cannot be made; what else is wrong with the
   /// scene its viewers are told.
   ViewServer(Description description, ViewSettings settings, Messages messages = {});
+  /// Shows a session's render of a description and renders nothing itself. Of the settings' engine
+  /// only the session counts, for photons that viewers ask for.
+  ViewServer(ShownSession session, Description description, ViewSettings settings,
+             Messages messages = {});
   ~ViewServer();
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
@@ -40,6 +45,8 @@ class ViewServer {
   /// What to open in a browser on this machine, with the token.
   std::string url() const;
   const Engine& engine() const;
+  /// The session renders another description, in this revision of what is shown. It has one camera.
+  void session_renders(uint64_t revision, Description description);
 
  private:
   struct State;
