@@ -166,7 +166,7 @@ std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
   }
   const auto lights = light_pass(pass.seed);
   auto maps = std::make_shared<const PhotonMaps>(
-      lights->trace(pass.seed, pass.index, stop, progress, pass.wavelengths));
+      lights->trace(pass.seed, pass.index, stop, progress, pass.wavelengths, pass.stage()));
   report.photons = maps->global.size() + maps->caustic.size() + maps->volume.size();
   report.rays = maps->global_report.rays + maps->caustic_report.rays + maps->volume_report.rays;
   if (!stop.stop_requested()) report.warnings = lights->warnings(*maps);
@@ -205,7 +205,7 @@ std::shared_ptr<const PhotonMapIntegrator::Light> PhotonMapIntegrator::light_of(
   light->maps = maps_of(pass, light->report, stop, progress);
   // Stored maps are the same in every pass: shrinking their radii would trade bias for noise that
   // no number of passes removes.
-  light->radii = pass_radii(*light->maps, stored_maps_ ? 0 : pass.index);
+  light->radii = pass_radii(*light->maps, stored_maps_ ? 0 : pass.stage());
   if (settings_.gathers)
     light->precomputed = precomputed_irradiance(scene(), settings_, *light->maps, light->radii);
   light->report.rays += light->precomputed.rays();
@@ -255,7 +255,7 @@ void PhotonMapIntegrator::add_shadow_photons(State& state, const Pass& pass,
   const float first = settings_.shadow_radius > 0 ? settings_.shadow_radius
                                                   : state.shadows->tree().typical_radius(
                                                         settings_.shadows.neighbors, quantile);
-  state.shadow_settings.maximum_radius = pass_radius(first, pass.index);
+  state.shadow_settings.maximum_radius = pass_radius(first, pass.stage());
 }
 
 /// What those of the light pass don't know of.
@@ -273,7 +273,7 @@ void PhotonMapIntegrator::add_warnings(State& state) const {
 void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_token stop,
                                      const ProgressFunction& progress) const {
   // Its errors have to vanish as well: all lengths shrink as the gather radii do.
-  const float shrinkage = pass_radius(1, stored_maps_ ? 0 : pass.index);
+  const float shrinkage = pass_radius(1, stored_maps_ ? 0 : pass.stage());
   CacheSettings cache_settings = settings_.cache_settings;
   cache_settings.quality *= shrinkage;
   cache_settings.minimum_spacing *= shrinkage;
