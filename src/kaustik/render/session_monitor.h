@@ -31,9 +31,11 @@ class Session::Monitor {
     light_done_ = share;
     tell(Progress::Stage::light, false);
   }
-  void light_pass_done(const PassReport& report) {
-    last_light_seconds_ = seconds_since(pass_start_);
-    light_seconds += last_light_seconds_;
+  /// What regional passes take tells nothing of those of the picture.
+  void light_pass_done(const PassReport& report, bool is_regional) {
+    const double seconds = seconds_since(pass_start_);
+    if (!is_regional) last_light_seconds_ = seconds;
+    light_seconds += seconds;
     light_done_ = 1;
     if (passes_done_ == 0 && light_seconds < 0.1) light_share_ = 0;
     rays += report.rays;
@@ -53,6 +55,12 @@ class Session::Monitor {
     light_share_ = std::min(1.0, light_seconds / std::max(1e-9, elapsed()));
     error_ = session_.film_.picture_error();
     tell(Progress::Stage::light, false);
+  }
+  void regional_pass_done() {
+    samples_done_ = 0;
+    light_done_ = 0;
+    error_ = session_.film_.picture_error();
+    tell(Progress::Stage::light, true);
   }
   uint32_t passes_done() const { return passes_done_; }
   double error() const { return error_; }
