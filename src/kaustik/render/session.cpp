@@ -163,7 +163,8 @@ SessionReport Session::run(std::stop_token stop,
   report_.passes = film_.pass_count();
   report_.regional_passes = film_.regional_pass_count();
   report_.mean_error = film_.mean_error();
-  report_.picture_error = monitor.error();
+  // Of regions that still wait the last passes may not be in it.
+  report_.picture_error = next_region() ? film_.picture_error() : monitor.error();
   report_.rays = monitor.rays;
   report_.photons = monitor.photons;
   report_.dropped_samples = monitor.dropped + splats_.dropped();

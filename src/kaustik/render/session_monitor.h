@@ -56,11 +56,16 @@ class Session::Monitor {
     error_ = session_.film_.picture_error();
     tell(Progress::Stage::light, false);
   }
-  void regional_pass_done() {
+  /// Their passes may take less time than finding out the error of a large picture does, so that is
+  /// done now and then, and after the last one that was asked for.
+  void regional_pass_done(bool is_last) {
     samples_done_ = 0;
     light_done_ = 0;
-    error_ = session_.film_.picture_error();
-    tell(Progress::Stage::light, true);
+    if (is_last || now() - last_error_ > 1) {
+      error_ = session_.film_.picture_error();
+      last_error_ = now();
+    }
+    tell(Progress::Stage::light, is_last);
   }
   uint32_t passes_done() const { return passes_done_; }
   double error() const { return error_; }
@@ -99,7 +104,7 @@ class Session::Monitor {
 
   const Session& session_;
   const std::function<void(const Progress&)>& listener_;
-  double start_, pass_start_ = 0, last_ = 0;  ///< s
+  double start_, pass_start_ = 0, last_ = 0, last_error_ = 0;  ///< s
   double last_pass_seconds_ = 0, last_light_seconds_ = 0;
   bool told_ = false;
   std::mutex mutex_;

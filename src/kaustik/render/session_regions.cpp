@@ -62,7 +62,7 @@ Session::PassEnd Session::render_regions(std::stop_token stop, Monitor& monitor,
     pass.samples_per_pixel = samples_per_pass_;
     if (render_pass({pass, region}, stop, monitor) != PassEnd::complete) return PassEnd::discarded;
     count_down(*region);
-    monitor.regional_pass_done();
+    monitor.regional_pass_done(!next_region());
     if (pass_done) pass_done();
   }
   return PassEnd::complete;
