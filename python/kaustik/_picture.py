@@ -132,6 +132,11 @@ class Film:
         return tuple(number for begin, end in self._native.passes for number in range(begin, end))
 
     @property
+    def regions(self) -> Tuple[Tuple[int, int, int, int, int], ...]:
+        """Regions with passes of their own: (x, y, width, height, passes) of each."""
+        return tuple((x, y, width, height, passes) for x, y, width, height, passes in self._native.regions)
+
+    @property
     def shape(self) -> Tuple[int, int]:
         """Rows and columns."""
         return self._native.height, self._native.width

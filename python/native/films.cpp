@@ -1,6 +1,7 @@
 // Films: exact sums of passes, with all that they are a function of.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -95,6 +96,14 @@ std::vector<std::pair<uint32_t, uint32_t>> pass_ranges(const KeptFilm& film) {
   return ranges;
 }
 
+std::vector<std::array<int, 5>> region_rows(const KeptFilm& film) {
+  std::vector<std::array<int, 5>> rows;
+  for (const FilmRegion& region : film.checkpoint->film.regions())
+    rows.push_back({region.pixels.x, region.pixels.y, region.pixels.width, region.pixels.height,
+                    int(region.film.pass_count())});
+  return rows;
+}
+
 }  // namespace
 
 const FilmErrors& KeptFilm::errors() const {
@@ -125,6 +134,7 @@ void bind_films(py::module_& module) {
       .def("__add__", &sum)
       .def("equals", &equal)
       .def_property_readonly("passes", &pass_ranges)
+      .def_property_readonly("regions", &region_rows)
       .def_property_readonly("width", [=](const KeptFilm& f) { return film_of(f).width(); })
       .def_property_readonly("height", [=](const KeptFilm& f) { return film_of(f).height(); })
       .def_property_readonly("samples_per_pixel",

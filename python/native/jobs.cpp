@@ -2,6 +2,7 @@
 // kept, and Python's thread asks for it.
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -18,6 +19,14 @@
 namespace kaustik::python {
 namespace {
 
+/// x, y, width, height, passes
+using RegionNumbers = std::array<int, 5>;
+
+RegionRequest request_of(const RegionNumbers& numbers) {
+  const auto& [x, y, width, height, passes] = numbers;
+  return {{x, y, width, height}, uint32_t(std::max(0, passes))};
+}
+
 /// What a render is asked for.
 struct Wishes {
   std::string integrator;  ///< "": the scene's
@@ -27,6 +36,7 @@ struct Wishes {
   int threads = 0;
   uint32_t first_pass = 0;
   bool keeps_passes = false;
+  std::vector<RegionNumbers> regions;
   // Of the recipe, for who goes on with a file of the passes.
   std::string scene, folder;
   std::vector<std::pair<std::string, std::string>> definitions;
@@ -45,6 +55,8 @@ JobSettings job_settings(const Wishes& wishes, const DescribedScene& scene) {
   settings.session.seconds = wishes.time;
   settings.session.error = wishes.error;
   settings.session.keeps_passes = wishes.keeps_passes;
+  for (const RegionNumbers& region : wishes.regions)
+    settings.session.regions.push_back(request_of(region));
   settings.keeps_digest = true;
   settings.previous = scene.built;
   RenderRecord& record = settings.record;
@@ -116,6 +128,15 @@ class PythonJob final : public LiveJob {
     gate_->open();
   }
   bool is_paused() const { return gate_->is_closed(); }
+  void refine(const RegionNumbers& region) { job_->refine(request_of(region)); }
+  /// Of each region: x, y, width, height, passes, passes that wait.
+  std::vector<std::array<int, 6>> regions() const {
+    std::vector<std::array<int, 6>> regions;
+    for (const RegionProgress& region : job_->regions())
+      regions.push_back({region.pixels.x, region.pixels.y, region.pixels.width,
+                         region.pixels.height, int(region.passes), int(region.waiting)});
+    return regions;
+  }
   void cancel() {
     const py::gil_scoped_release released;
     request_stop();
@@ -236,6 +257,8 @@ Wishes wishes_from(const py::dict& given) {
       read(wishes.first_pass);
     else if (name == "keeps_passes")
       read(wishes.keeps_passes);
+    else if (name == "regions")
+      read(wishes.regions);
     else if (name == "scene")
       read(wishes.scene);
     else if (name == "folder")
@@ -261,6 +284,8 @@ void bind_jobs(py::module_& module) {
       .def("pause", &PythonJob::pause)
       .def("resume", &PythonJob::resume)
       .def("cancel", &PythonJob::cancel)
+      .def("refine", &PythonJob::refine)
+      .def("regions", &PythonJob::regions)
       .def("wait", &PythonJob::wait)
       .def("join", &PythonJob::join)
       .def("progress", &PythonJob::progress)

@@ -47,6 +47,58 @@ def test_course(scene):
         assert picture.report["end"] == "cancelled"
 
 
+def test_regions_get_more_samples(scene, tmp_path, numpy):
+    settings = {"integrator": "auto", "samples_per_pass": 2, "seed": 5}
+    session = kaustik.Session(scene, **settings)
+    with pytest.raises(kaustik.Error, match="no pass"):
+        session.refine(4, 2, 8, 6)
+    plain = session.run(passes=4)
+    session.refine(4, 2, 8, 6, passes=3)
+    session.refine(4, 2, 8, 6, passes=2)
+    assert session.film.regions == ((4, 2, 8, 6, 5),) and session.film.passes == (0, 1, 2, 3)
+    refined = session.picture
+    changed = (numpy.asarray(refined) != numpy.asarray(plain)).any(axis=2)
+    assert changed[2:8, 4:12].any() and not changed[:2].any() and not changed[:, 12:].any()
+    errors = [numpy.asarray(picture.error)[3:7, 5:11].mean() for picture in (plain, refined)]
+    assert 0 < errors[1] < errors[0]
+    assert refined.metadata["regions"] == "8 x 6 pixels at (4, 2): 5 passes"
+    # At once, and going on from a file.
+    again = kaustik.Session(scene, **settings)
+    again.run(passes=4)
+    again.refine(4, 2, 8, 6, passes=5)
+    assert again.film == session.film
+    session.save(tmp_path / "a.kpt")
+    loaded = kaustik.Session.load(tmp_path / "a.kpt", scene, integrator="auto")
+    loaded.run(passes=6)
+    assert loaded.film.regions == ((4, 2, 8, 6, 5),) and loaded.film.passes == tuple(range(6))
+    for bad in [(0, 0, 17, 1, 1), (-1, 0, 1, 1, 1), (0, 0, 1, 1, 0), (0, 0, 1, 1, 5000), (0, 0, 1.5, 1, 1)]:
+        with pytest.raises(kaustik.Error):
+            session.refine(*bad)
+    assert session.film.regions == ((4, 2, 8, 6, 5),), "a refused one harms nothing"
+    assert session.picture is not None
+    with pytest.raises(kaustik.Error, match="given before"):
+        session.film + kaustik_film_of_other_passes(scene, settings)
+
+
+def kaustik_film_of_other_passes(scene, settings):
+    """Passes 4 and 5, and the regional passes that the other film has, too."""
+    other = kaustik.Session(scene, first_pass=4, passes=2, **settings)
+    other.run()
+    other.refine(4, 2, 8, 6, passes=16)
+    return other.film
+
+
+def test_regions_of_a_running_session(scene):
+    with kaustik.Session(scene, **long).start() as session:
+        wait_for(lambda: session.progress and session.progress.passes > 0)
+        session.refine(4, 2, 8, 6, passes=7)
+        with pytest.raises(kaustik.Error, match="does not lie in"):
+            session.refine(10, 2, 8, 6)
+        wait_for(lambda: session._job.regions() == [[4, 2, 8, 6, 7, 0]])
+        session.stop()
+        assert session.film.regions == ((4, 2, 8, 6, 7),)
+
+
 def test_stopped_while_it_is_paused(scene):
     session = kaustik.Session(scene, **long).start()
     wait_for(lambda: session.progress and session.progress.passes > 0)

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "kaustik/integrator/override_integrator.h"
 #include "kaustik/loader/mitsuba_xml.h"
 #include "tests/support/same_bits.h"
@@ -437,6 +439,67 @@ TEST(Engine, ShowsSomethingWhileEditsKeepComing) {
   }
   ASSERT_TRUE(shown);
   EXPECT_GT(shown->revision, 3u);
+}
+
+/// Until that holds; false after a long time.
+bool wait_for(const std::function<bool()>& holds) {
+  const auto end = std::chrono::steady_clock::now() + long_enough;
+  while (!holds()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(5ms);
+  }
+  return true;
+}
+
+TEST(Engine, GivesRegionsMorePasses) {
+  EngineSettings settings = engine_settings(0);
+  settings.session.is_endless = true;
+  Engine engine(settings);
+  const RegionRequest request{{3, 4, 10, 9}, 6};
+  EXPECT_FALSE(engine.can_refine());
+  EXPECT_THROW(engine.refine(request), Error);
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  ASSERT_TRUE(wait_for([&] { return engine.can_refine(); }));
+  EXPECT_THROW(engine.refine({{20, 20, 10, 9}, 6}), Error);
+  // There need not be a job that has a session yet.
+  ASSERT_TRUE(wait_for([&] { return engine.look_at_film([](const Film&) {}); }));
+  engine.pause();
+  engine.refine(request);
+  ASSERT_EQ(engine.status().regions.size(), 1u);
+  const uint64_t shown = engine.snapshot() ? engine.snapshot()->number : 0;
+  engine.resume();
+  ASSERT_TRUE(wait_for([&] { return engine.status().regions[0].waiting == 0; }));
+  EXPECT_EQ(engine.status().regions[0].passes, 6u);
+  engine.look_at_film([&](const Film& film) {
+    ASSERT_EQ(film.regions().size(), 1u);
+    EXPECT_TRUE(film.regions()[0].pixels == request.pixels);
+    EXPECT_EQ(film.pass_count(5 * 24 + 5), film.pass_count() + 6);
+  });
+  ASSERT_NE(engine.wait_for_snapshot(shown, 60s), nullptr);
+  const auto saved = engine.finished_snapshot();
+  ASSERT_TRUE(saved);
+  ASSERT_NE(saved->find_metadata("regions"), nullptr);
+  // An edit makes another picture.
+  engine.edit(room_with_ball(0.6));
+  ASSERT_TRUE(wait_for([&] { return engine.status().revision == 2; }));
+  EXPECT_TRUE(engine.status().regions.empty());
+  engine.stop();
+  ASSERT_TRUE(engine.wait_until_done(long_enough));
+  EXPECT_THROW(engine.refine(request), Error);
+}
+
+TEST(Engine, ViewsThatMoveHaveNoRegions) {
+  EngineSettings settings = engine_settings(0);
+  settings.session.is_endless = true;
+  settings.moving = recipe_of_moving_views();
+  settings.rest_s = 1e5;
+  Engine engine(settings);
+  engine.edit(room_with_ball(0.5));
+  engine.start();
+  ASSERT_TRUE(engine.wait_for_snapshot(0, 60s));
+  EXPECT_FALSE(engine.can_refine());
+  EXPECT_THROW(engine.refine({{3, 4, 10, 9}, 6}), Error);
 }
 
 TEST(Engine, IsDestroyedWhileItBuildsAndRests) {

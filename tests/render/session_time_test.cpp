@@ -312,7 +312,7 @@ TEST(PartPicture, WeighsByShares) {
   pixel.first_hit.depth = 7;
   pixel.first_hit.lamps = 0.25f;
   pixel.bias = {8, 9, 10, 0};
-  PartPicture(image, 3, 0.5).put(0, 0, pixel);
+  PartPicture(image, 0.5).put(0, 0, pixel, 3);
   const auto mean = [](double part) { return float((3 * 3 + 0.5 * part) / 3.5); };
   const float fallen = 3 * std::sqrt(3 / 3.5f);
   const float expected[] = {mean(11), mean(22), mean(33), mean(2), mean(0.3), mean(5),

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <mutex>
 #include <thread>
 
@@ -382,6 +383,58 @@ TEST(ViewRoutes, SavesByPlainNewNamesOnly) {
   std::ifstream(folder.path("old.exr")) >> old;
   EXPECT_EQ(old, "old");
   EXPECT_EQ(shown.command({{"save", "a.exr"}}).status, 400);
+}
+
+TEST(ViewRoutes, RegionsGetMoreSamples) {
+  view::ViewSettings settings = shown_settings();
+  settings.engine.session.is_endless = true;
+  ShownScene shown(settings);
+  const json region = {{"x", 3}, {"y", 4}, {"width", 8}, {"height", 6}, {"passes", 200}};
+  const auto refine = [&](const json& change) {
+    json asked = region;
+    asked.update(change);
+    return shown.command({{"refine", asked}});
+  };
+  const auto wait_for = [&](const std::function<bool(const json&)>& holds) {
+    for (int i = 0; i < 6000; ++i) {
+      if (holds(shown.get("/state"))) return true;
+      std::this_thread::sleep_for(10ms);
+    }
+    return false;
+  };
+  ASSERT_TRUE(wait_for([](const json& state) { return state["passes"] > 0; }));
+  for (const json& bad : std::vector<json>{{{"x", -1}},
+                                           {{"x", 20}},
+                                           {{"width", 0}},
+                                           {{"height", 1e9}},
+                                           {{"passes", 0}},
+                                           {{"passes", 4097}},
+                                           {{"passes", 1.5}},
+                                           {{"y", nullptr}},
+                                           {{"y", "4"}},
+                                           {{"x", 18446744073709551615ull}},
+                                           {{"more", 1}}}) {
+    const ClientResponse response = refine(bad);
+    EXPECT_EQ(response.status, 400) << bad << ": " << response.body;
+    EXPECT_FALSE(json::parse(response.body)["remedy"].get<std::string>().empty());
+  }
+  EXPECT_EQ(shown.command({{"refine", 7}}).status, 400);
+  EXPECT_EQ(shown.get("/state")["regions"], json::array());
+  const ClientResponse taken = refine(json::object());
+  EXPECT_EQ(taken.status, 200) << taken.body;
+  ASSERT_TRUE(wait_for([](const json& state) { return state["regions"][0]["passes"] == 200; }));
+  const json known = shown.get("/state")["regions"];
+  EXPECT_EQ(
+      known,
+      json::array(
+          {{{"x", 3}, {"y", 4}, {"width", 8}, {"height", 6}, {"passes", 200}, {"waiting", 0}}}));
+  const json inside = shown.get("/pixel?x=5&y=6"), outside = shown.get("/pixel?x=13&y=6");
+  EXPECT_GE(inside["passes"].get<int>(), 200 + 1);
+  EXPECT_LT(std::abs(inside["passes"].get<int>() - 200 - outside["passes"].get<int>()), 150);
+  // Of a picture that is not rendered.
+  shown.command({{"do", "stop"}});
+  ASSERT_TRUE(shown.wait_until_done());
+  EXPECT_EQ(refine(json::object()).status, 409);
 }
 
 TEST(ViewRoutes, PausesAndStops) {

@@ -16,6 +16,7 @@ import { ParametersPanel } from './parameters';
 import { Photons } from './photons';
 import { ErrorPlot } from './plot';
 import { Probe } from './probe';
+import { Refine } from './refine';
 import { Region } from './region';
 import { SaveDialog } from './save';
 import { hints, shortcuts } from './shortcuts';
@@ -56,6 +57,11 @@ function start(): void {
   const camera = new CameraControl(client, fail);
   const probe = new Probe(client, state, fail);
   const region = new Region(client, state, fail);
+  const refine = new Refine(client, state, region.rectangle, (error) => {
+    fail(error);
+    // What the button promised, and could not do.
+    if (error instanceof Refusal && error.status === 409) toast(error.message, 'error');
+  });
   const photons = new Photons(client, state, fail);
   const parameters = new ParametersPanel(client, fail);
   const transport = new Transport(client, state, fail);
@@ -122,7 +128,7 @@ function start(): void {
     },
   });
   const keyboard: Keyboard = new Keyboard(
-    shortcuts({ camera, display, photons, probe, region, save, transport, view, showHelp: () => keyboard.toggleHelp() }),
+    shortcuts({ camera, display, photons, probe, refine, region, save, transport, view, showHelp: () => keyboard.toggleHelp() }),
     hints,
   );
   void connection.open();

@@ -26,6 +26,7 @@ export interface State {
   elapsed_s: number;
   error: number | null; // of the picture, relative
   is_moving: boolean;
+  regions: RefinedRegion[];
   integrator: string;
   layers: string[];
   unit: string;
@@ -68,6 +69,12 @@ export interface Rectangle {
   height: number;
 }
 
+/// A region that has passes of its own, or is to have some.
+export interface RefinedRegion extends Rectangle {
+  passes: number;
+  waiting: number;
+}
+
 export type ParameterValue = number | boolean | string | number[] | null;
 
 export interface Parameter {
@@ -101,6 +108,7 @@ export type Command =
   | { set: Record<string, ParameterValue> }
   | { integrator: string }
   | { do: Action }
+  | { refine: Rectangle & { passes: number } }
   | { save: { name: string } };
 
 export interface CommandAnswer {

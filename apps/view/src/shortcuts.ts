@@ -4,6 +4,7 @@ import type { Hint, Shortcut } from './keyboard';
 import type { Operator } from './layers';
 import type { Photons } from './photons';
 import type { Probe } from './probe';
+import type { Refine } from './refine';
 import type { Region } from './region';
 import type { SaveDialog } from './save';
 import { switchTheme } from './theme';
@@ -16,6 +17,7 @@ interface Parts {
   display: Display;
   photons: Photons;
   probe: Probe;
+  refine: Refine;
   region: Region;
   save: SaveDialog;
   transport: Transport;
@@ -46,6 +48,7 @@ export function shortcuts(parts: Parts): Shortcut[] {
   return [
     { group: 'Render', keys: [' '], shown: 'Space', text: 'Start, pause, resume', run: () => parts.transport.toggle() },
     { group: 'Render', keys: ['s'], shown: 'S', text: 'Save the picture', run: () => parts.save.open() },
+    { group: 'Render', keys: ['m'], shown: 'M', text: 'More samples in the region', run: () => void parts.refine.ask() },
     { group: 'Tools', keys: ['c'], shown: 'C', text: 'Camera: drag to orbit', run: pick('camera') },
     { group: 'Tools', keys: ['v'], shown: 'V', text: 'Picture: drag to pan, wheel to zoom', run: pick('picture') },
     { group: 'Tools', keys: ['p'], shown: 'P', text: 'Probe: drag over pixels', run: pick('probe') },

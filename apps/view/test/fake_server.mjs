@@ -49,7 +49,7 @@ export class FakeServer {
     this.objects = objects();
     this.integrator = 'auto';
     this.camera = { origin: [3, 3.2, 7], target: [0, 0.8, 0], up: [0, 1, 0], fov: 38 };
-    Object.assign(this, { number: 0, revision: 1, passes: 0, state: 'rendering', elapsed: 0, movedAt: -Infinity, refusal: null });
+    Object.assign(this, { number: 0, revision: 1, passes: 0, state: 'rendering', elapsed: 0, movedAt: -Infinity, refusal: null, regions: [] });
     this.history = { elapsed_s: [], error: [] };
     // Photons lie at pixels: this camera sees along parallel lines.
     this.projection = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1];
@@ -105,8 +105,14 @@ export class FakeServer {
     }
     const isMoving = Date.now() - this.movedAt < 400;
     if (this.state !== 'rendering') return isMoving && this.publish();
-    this.passes += 1;
     this.elapsed += this.passMs / 1000;
+    const refined = this.regions.find(({ waiting }) => waiting > 0);
+    if (refined) {
+      refined.passes += 1;
+      refined.waiting -= 1;
+      return this.publish();
+    }
+    this.passes += 1;
     if (this.hasNoise && this.passes >= 2) {
       this.history.elapsed_s.push(this.elapsed);
       this.history.error.push(0.35 / Math.sqrt(this.passes) * (1 + 0.06 * noise(7, this.passes)));
@@ -128,7 +134,7 @@ export class FakeServer {
       refusal: this.refusal, width: this.width, height: this.height, passes: this.passes,
       samples: this.passes * this.width * this.height, elapsed_s: this.elapsed,
       error: this.history.error.at(-1) ?? null, is_moving: Date.now() - this.movedAt < 400,
-      integrator: this.integrator,
+      regions: this.regions, integrator: this.integrator,
       layers: this.layersThere ?? ['', 'direct', 'caustic', 'indirect', 'emission', 'error', 'bias', 'albedo', 'N', 'depth'],
       unit: 'W/(sr·m²)', camera: this.camera,
     };
@@ -298,6 +304,13 @@ export class FakeServer {
       this.movedAt = Date.now();
     }
     if (command.integrator) this.integrator = command.integrator;
+    if (command.refine) {
+      const { passes, ...region } = command.refine;
+      if (region.x + region.width > this.width) return json(400, { error: 'no such region', remedy: 'stay within the picture' });
+      const known = this.regions.find(({ x, y, width, height }) => x === region.x && y === region.y && width === region.width && height === region.height);
+      if (known) known.waiting += passes;
+      else this.regions.push({ ...region, passes: 0, waiting: passes });
+    }
     if (command.do) this.act(command.do);
     if (command.camera || command.set || command.integrator || command.do === 'reset') this.edited();
     else this.publish();
@@ -324,6 +337,7 @@ export class FakeServer {
   edited() {
     this.revision += 1;
     this.passes = 0;
+    this.regions = [];
     this.elapsed = 0;
     this.history = { elapsed_s: [], error: [] };
     this.state = this.state === 'finished' ? 'rendering' : this.state;

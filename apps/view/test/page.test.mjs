@@ -202,6 +202,41 @@ describe('page', { concurrency: false }, () => {
     server.state = 'rendering';
   });
 
+  test('a region gets more samples, by the button or the key, and tells how far they are', { timeout: 3 * patience }, async (t) => {
+    const size = { width: 160, height: 120 };
+    const { server, page } = await opened({ ...size, passes: 1e6, passMs: 100 }, {}, t);
+    assert.ok(await page.isHidden('#refine'), 'there is no region yet');
+    await page.keyboard.press('m');
+    await page.keyboard.press('r');
+    const from = await placeOf(page, 20.2, 30.2, size);
+    const to = await placeOf(page, 49.8, 49.8, size);
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(to.x, to.y, { steps: 5 });
+    await page.mouse.up();
+    await page.waitForSelector('#refine:not([hidden])');
+    await page.click('#refine-more');
+    const asked = () => server.commands.filter(({ refine }) => refine).map(({ refine }) => refine);
+    await until(() => asked().length === 1, 'the request');
+    assert.deepEqual(asked()[0], { x: 20, y: 30, width: 30, height: 20, passes: 16 });
+    await page.waitForFunction(() => /^\d+ of 16 passes of its own/.test(document.getElementById('refine-note').textContent));
+    await page.waitForFunction(() => /^16 passes of its own/.test(document.getElementById('refine-note').textContent));
+    await page.fill('#refine-passes', '5');
+    await page.focus('#stage');
+    await page.keyboard.press('m');
+    await until(() => asked().length === 2, 'the key');
+    assert.equal(asked()[1].passes, 5);
+    await page.waitForFunction(() => /^21 passes of its own/.test(document.getElementById('refine-note').textContent));
+    server.state = 'idle';
+    server.publish();
+    await page.waitForFunction(() => document.getElementById('refine-more').disabled);
+    await page.keyboard.press('Escape');
+    assert.ok(await page.isHidden('#refine'));
+    await page.keyboard.press('m');
+    await page.waitForTimeout(200);
+    assert.equal(asked().length, 2, 'nothing to ask for without a region');
+  });
+
   test('edits go to the server; a refused one is told at its row', { timeout: 3 * patience }, async () => {
     const { server, page } = shared;
     await page.click('#tab-scene');

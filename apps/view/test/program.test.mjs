@@ -144,6 +144,30 @@ describe('page on kaustik view', { concurrency: false }, () => {
     await resumed();
   });
 
+  test('a region gets more samples, and the saved file has them', longest, async () => {
+    await rested(3);
+    await page.keyboard.press('r');
+    const from = await placeOf(page, 20.2, 50.2, size);
+    const to = await placeOf(page, 39.8, 61.8, size);
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(to.x, to.y, { steps: 5 });
+    await page.mouse.up();
+    await page.fill('#refine-passes', '40');
+    await page.click('#refine-more');
+    await page.waitForFunction(() => /^40 passes of its own/.test(document.getElementById('refine-note').textContent), null, { timeout: 60000 });
+    await paused();
+    const inside = await server.get('pixel?x=30&y=55');
+    const outside = await server.get('pixel?x=60&y=55');
+    assert.equal(inside.passes - outside.passes, 40);
+    const picture = await saved('refined.exr');
+    for (const told of [inside, outside])
+      told.value.forEach((value, c) => assert.ok(isNear(value, rgbOf(picture, told.x, told.y)[c]), `channel ${c} at ${told.x}`));
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('c');
+    await resumed();
+  });
+
   test('a picture that is there already stays', longest, async () => {
     writeFileSync(join(folder, 'mine.exr'), 'mine');
     await page.focus('#stage');

@@ -79,10 +79,31 @@ EngineState Engine::state() const {
   return status_.state;
 }
 
-EngineStatus Engine::status() const {
+std::shared_ptr<Job> Engine::resting_job() const {
   const std::lock_guard lock(mutex_);
+  const bool rests = shown_ && !shown_->is_moving;
+  const bool will_change = taken_.revision != wanted_.revision || is_building_;
+  return rests && !will_change && status_.state == EngineState::rendering ? shown_job_ : nullptr;
+}
+
+bool Engine::can_refine() const { return resting_job() != nullptr; }
+
+void Engine::refine(const RegionRequest& request) {
+  const auto job = resting_job();
+  if (!job)
+    throw Error(ErrorKind::input,
+                "there is no picture at rest that is rendered, so no region can have more passes",
+                "start the render, and ask when its first pass is shown");
+  job->refine(request);
+}
+
+EngineStatus Engine::status() const {
+  std::unique_lock lock(mutex_);
   EngineStatus status = status_;
   status.state = state();
+  const auto job = shown_job_;
+  lock.unlock();
+  if (job) status.regions = job->regions();
   return status;
 }
 

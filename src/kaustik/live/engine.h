@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "kaustik/live/snapshot.h"
 #include "kaustik/render/job.h"
@@ -46,8 +47,9 @@ enum class EngineState : uint8_t {
 
 struct EngineStatus {
   EngineState state = EngineState::idle;
-  uint64_t revision = 0;       ///< of what is rendered
-  Progress progress;           ///< of rendering it, the last that was told
+  uint64_t revision = 0;                ///< of what is rendered
+  Progress progress;                    ///< of rendering it, the last that was told
+  std::vector<RegionProgress> regions;  ///< of the same
   std::exception_ptr failure;  ///< what ended rendering otherwise than it should; null: nothing
   /// Why a description was refused, and its revision; null once a later one is rendered.
   std::exception_ptr refusal;
@@ -83,6 +85,13 @@ class Engine {
   void resume();
   /// Ends rendering; the last snapshot stays.
   void stop();
+
+  /// Session::refine() of what is rendered; where that is paused it waits. Edits forget regions.
+  /// Throws Error(input), too, while nothing is rendered, or a view that moves: its pictures are
+  /// replaced.
+  void refine(const RegionRequest& request);
+  /// Whether there is something that could be refined now.
+  bool can_refine() const;
 
   EngineStatus status() const;
   /// The newest; null: there is none yet.
@@ -127,6 +136,8 @@ class Engine {
   void begin(std::unique_ptr<Run> run);
   void end_run();
   std::shared_ptr<const Job> shown_job() const;
+  /// What is rendered at rest; null: nothing is.
+  std::shared_ptr<Job> resting_job() const;
   bool has_work() const;
   /// When a view that moves may come to rest, if nothing is edited until then.
   Clock::time_point end_of_motion() const;
@@ -158,10 +169,10 @@ class Engine {
   EngineStatus status_;        ///< the state is the run's: neither building nor paused
   Clock::time_point touched_;  ///< when it was last edited, or a view that moves began
   bool is_building_ = false;
-  bool is_busy_ = false;                  ///< the thread is doing what was wanted
-  const Run* shown_ = nullptr;            ///< whose pictures and progress count
-  std::shared_ptr<const Job> shown_job_;  ///< of the same
-  std::shared_ptr<Gate> gate_;            ///< of the run
+  bool is_busy_ = false;            ///< the thread is doing what was wanted
+  const Run* shown_ = nullptr;      ///< whose pictures and progress count
+  std::shared_ptr<Job> shown_job_;  ///< of the same
+  std::shared_ptr<Gate> gate_;      ///< of the run
   std::shared_ptr<const Snapshot> snapshot_;
   Clock::time_point published_;
 

@@ -141,7 +141,7 @@ class LightPass::Tracer {
          const Address& address, bool notes_origins)
       : pass_(pass),
         wavelengths_(address.wavelengths),
-        largest_weight_(largest_first_weight * std::cbrt(float(address.index) + 1)),
+        largest_weight_(largest_first_weight * std::cbrt(float(address.stage) + 1)),
         kind_(kind),
         light_(light),
         first_path_(first_path),
@@ -331,7 +331,7 @@ std::vector<uint32_t> LightPass::train(Kind kind, uint32_t total, uint64_t seed)
     Deposits deposits;
     const ProgressFunction nobody;
     WorkCounter counter(0, nobody);
-    trace_kind(kind, std::vector<uint32_t>(lights, tries), {seed, 0, {}}, Stream::training, {},
+    trace_kind(kind, std::vector<uint32_t>(lights, tries), {seed, 0, 0, {}}, Stream::training, {},
                counter, deposits);
     for (size_t i = 0; i < lights; ++i) arriving[i] = deposits.report.lights[i].stored_flux;
   } else {
@@ -404,7 +404,7 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, const
 
 DrawnPhotons LightPass::draw(uint64_t seed, uint32_t index, size_t most, std::stop_token stop,
                              const Wavelengths& wavelengths) const {
-  const Address address{seed, index, wavelengths};
+  const Address address{seed, index, index, wavelengths};
   PhotonDraw draw(most);
   const auto offer_kind = [&](Kind kind, const std::vector<uint32_t>& shares, Stream stream) {
     const std::vector<Block> blocks = blocks_of(kind, shares);
@@ -440,8 +440,8 @@ std::vector<SurfaceSide> LightPass::trace_places(const Address& address, std::st
 
 PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop,
                             const ProgressFunction& progress, const Wavelengths& wavelengths,
-                            const GaugeDisks* gauges) const {
-  const Address address{seed, index, wavelengths, gauges};
+                             const GaugeDisks* gauges, std::optional<uint32_t> stage) const {
+  const Address address{seed, index, stage.value_or(index), wavelengths, gauges};
   const auto start = std::chrono::steady_clock::now();
   uint64_t total = 0;
   for (const auto& shares : {caustic_shares_, global_shares_, volume_shares_, place_shares()})

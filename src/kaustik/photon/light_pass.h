@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -90,10 +91,11 @@ class LightPass {
 
   /// The maps of pass `index`: the same for any number of threads. `progress` is told of photons,
   /// not of the building of the trees. `wavelengths`: of all photons, since any of them may meet.
-  /// `gauges`: through whose disks caustic photons pass; null: through none.
+  /// `gauges`: through whose disks caustic photons pass; null: through none. `stage`: the pass whose
+  /// largest weight photons have, Pass::stage(); absent: `index`.
   PhotonMaps trace(uint64_t seed, uint32_t index, std::stop_token stop = {},
                    const ProgressFunction& progress = {}, const Wavelengths& wavelengths = {},
-                   const GaugeDisks* gauges = nullptr) const;
+                   const GaugeDisks* gauges = nullptr, std::optional<uint32_t> stage = {}) const;
 
   /// At most `most` photons of the maps of that pass, drawn at random: each as likely as any other,
   /// always the same ones, and the first of those that are drawn if more are asked for.
@@ -111,7 +113,7 @@ class LightPass {
   /// What tells the photons of a pass.
   struct Address {
     uint64_t seed;
-    uint32_t index;
+    uint32_t index, stage;
     Wavelengths wavelengths;
     const GaugeDisks* gauges = nullptr;  ///< that caustic photons are shown to
   };

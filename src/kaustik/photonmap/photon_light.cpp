@@ -52,7 +52,7 @@ PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,
       precomputed_(precomputed),
       shadows_(shadows),
       shadow_settings_(shadow_settings) {
-  if (!maps.volume.empty()) make_volume_maps(pass.index);
+  if (!maps.volume.empty()) make_volume_maps(pass.stage());
   for (uint32_t shape = 0; shape < scene.surface_count(); ++shape) {
     const Lobes lobes = scene.surface(shape).traits.lobes;
     if (any(lobes & MergeDisk::keeping()) && !any(lobes & keeping()))

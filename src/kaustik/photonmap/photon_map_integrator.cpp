@@ -163,16 +163,16 @@ GatherRadii PhotonMapIntegrator::pass_radii(const PhotonMaps& maps, uint32_t ind
           radius(maps.global, settings_.global, settings_.global_radius)};
 }
 
-GaugeDisks PhotonMapIntegrator::gauge_disks(uint32_t index, uint64_t& rays) const {
+GaugeDisks PhotonMapIntegrator::gauge_disks(const Pass& pass, uint64_t& rays) const {
   std::vector<float> radii;
   for (const PlacedGauge& gauge : scene().gauges()) {
     const float first = settings_.caustic_radius > 0
                             ? settings_.caustic_radius
                             : GaugeDisks::largest_radius(gauge.distance_around);
-    radii.push_back(pass_radius(first, index));
+    radii.push_back(pass_radius(first, pass.stage()));
   }
   constexpr double golden = 0.6180339887498949;
-  return {scene(), std::move(radii), float(std::fmod(double(index) * golden, 1.0)), rays};
+  return {scene(), std::move(radii), float(std::fmod(double(pass.index) * golden, 1.0)), rays};
 }
 
 std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
@@ -184,9 +184,10 @@ std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
   }
   const auto lights = light_pass(pass.seed);
   GaugeDisks gauges;
-  if (!scene().gauges().empty()) gauges = gauge_disks(pass.index, report.rays);
-  auto maps = std::make_shared<const PhotonMaps>(lights->trace(
-      pass.seed, pass.index, stop, progress, pass.wavelengths, gauges.empty() ? nullptr : &gauges));
+  if (!scene().gauges().empty()) gauges = gauge_disks(pass, report.rays);
+  auto maps = std::make_shared<const PhotonMaps>(
+      lights->trace(pass.seed, pass.index, stop, progress, pass.wavelengths,
+                    gauges.empty() ? nullptr : &gauges, pass.stage()));
   report.photons = maps->global.size() + maps->caustic.size() + maps->volume.size();
   report.rays += maps->global_report.rays + maps->caustic_report.rays + maps->volume_report.rays;
   if (!stop.stop_requested()) report.warnings = lights->warnings(*maps);
@@ -226,7 +227,7 @@ std::shared_ptr<const PhotonMapIntegrator::Light> PhotonMapIntegrator::light_of(
   light->maps = maps_of(pass, light->report, stop, progress);
   // Stored maps are the same in every pass: shrinking their radii would trade bias for noise that
   // no number of passes removes.
-  light->radii = pass_radii(*light->maps, stored_maps_ ? 0 : pass.index);
+  light->radii = pass_radii(*light->maps, stored_maps_ ? 0 : pass.stage());
   if (settings_.gathers)
     light->precomputed = precomputed_irradiance(scene(), settings_, *light->maps, light->radii);
   light->report.rays += light->precomputed.rays();
@@ -279,7 +280,7 @@ void PhotonMapIntegrator::add_shadow_photons(State& state, const Pass& pass,
   const float first = settings_.shadow_radius > 0 ? settings_.shadow_radius
                                                   : state.shadows->tree().typical_radius(
                                                         settings_.shadows.neighbors, quantile);
-  state.shadow_settings.maximum_radius = pass_radius(first, pass.index);
+  state.shadow_settings.maximum_radius = pass_radius(first, pass.stage());
 }
 
 /// What those of the light pass don't know of.
@@ -297,7 +298,7 @@ void PhotonMapIntegrator::add_warnings(State& state) const {
 void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_token stop,
                                      const ProgressFunction& progress) const {
   // Its errors have to vanish as well: all lengths shrink as the gather radii do.
-  const float shrinkage = pass_radius(1, stored_maps_ ? 0 : pass.index);
+  const float shrinkage = pass_radius(1, stored_maps_ ? 0 : pass.stage());
   CacheSettings cache_settings = settings_.cache_settings;
   cache_settings.quality *= shrinkage;
   cache_settings.minimum_spacing *= shrinkage;

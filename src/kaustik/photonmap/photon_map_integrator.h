@@ -37,8 +37,8 @@ class PhotonMapIntegrator final : public IlluminationModel {
                                             const ProgressFunction& progress) const;
   /// Throws Error(input) unless the stored maps were traced at these.
   void check_stored_wavelengths(const Wavelengths& wavelengths) const;
-  /// Around the camera's gauges, in a pass of that index. Counts rays.
-  GaugeDisks gauge_disks(uint32_t index, uint64_t& rays) const;
+  /// Around the camera's gauges. Counts rays.
+  GaugeDisks gauge_disks(const Pass& pass, uint64_t& rays) const;
   GatherRadii pass_radii(const PhotonMaps& maps, uint32_t index) const;
   void add_shadow_photons(State& state, const Pass& pass, std::stop_token stop) const;
   void add_warnings(State& state) const;

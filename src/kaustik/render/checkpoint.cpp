@@ -268,6 +268,10 @@ Checkpoint get_checkpoint(BinaryReader& reader) {
   if (film.samples_per_pixel() !=
       uint64_t(film.pass_count()) * checkpoint.record.recipe.samples_per_pass)
     reader.damaged("its passes do not have the samples that it tells");
+  for (const FilmRegion& region : film.regions())
+    if (region.film.samples_per_pixel() !=
+        uint64_t(region.film.pass_count()) * checkpoint.record.recipe.samples_per_pass)
+      reader.damaged("the passes of its regions do not have the samples that it tells");
   if (checkpoint.record.plan.first_pass >= passes.ranges().back().end)
     reader.damaged("its passes come before those that it was to have");
   return checkpoint;
@@ -305,6 +309,10 @@ void merge_checkpoint(Checkpoint& whole, const std::string& whole_path, const Ch
     fail(fmt::format("of its passes {} were given before: {}", part.film.passes().text(),
                      twice.text()),
          "give each pass once: render parts with their own --first-pass and --passes");
+  if (const PassSet regional = whole.film.twice_in_regions(part.film); !regional.empty())
+    fail(fmt::format("of the passes of its regions {} were given before, for the same pixels",
+                     regional.text()),
+         "ask for more samples in a region of one part alone");
   const bool leads =
       part.film.passes().ranges().front().begin < whole.film.passes().ranges().front().begin;
   whole.film.add(part.film);

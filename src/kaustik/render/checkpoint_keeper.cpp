@@ -43,13 +43,13 @@ void CheckpointKeeper::pass_done(const Film& film) {
 }
 
 void CheckpointKeeper::write_last(const Film& film) {
-  if (path_.empty() || film.pass_count() == passes_written_) return;
+  if (path_.empty() || film.pass_count() + film.regional_pass_count() == passes_written_) return;
   write(film);
 }
 
 void CheckpointKeeper::write(const Film& film) {
   write_checkpoint(path_, record(), film, integrator_.lessons());
-  passes_written_ = film.pass_count();
+  passes_written_ = film.pass_count() + film.regional_pass_count();
 }
 
 RenderRecord CheckpointKeeper::record() const {

@@ -33,7 +33,7 @@ class CheckpointKeeper {
   const Integrator& integrator_;
   std::function<void(const std::string&)> warn_;
   Clock::time_point start_, next_;
-  uint32_t passes_written_ = 0;
+  uint32_t passes_written_ = 0;  ///< of the picture and of regions
 };
 
 }  // namespace kaustik

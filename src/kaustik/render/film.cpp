@@ -198,7 +198,8 @@ void Film::add_pass(const PassTiles& pass, uint32_t pass_index, uint32_t samples
 }
 
 void Film::add(const Film& other) {
-  assert(is_like(other) && passes_.common(other.passes_).empty());
+  assert(is_like(other) && passes_.common(other.passes_).empty() &&
+         twice_in_regions(other).empty());
   parallel_blocks(tiles_.count(), tiles_per_block, [&](size_t begin, size_t end, size_t) {
     TilePacker packer(numbers_.count);
     for (size_t tile = begin; tile < end; ++tile) {
@@ -212,22 +213,14 @@ void Film::add(const Film& other) {
     add_to(mean_luminances_[r], other.mean_luminances_[r]);
   passes_.add(other.passes_);
   sample_count_ += other.sample_count_;
+  for (const FilmRegion& region : other.regions_) region_of(region.pixels).add(region);
 }
 
 size_t Film::bytes() const {
   size_t sum = sums_.capacity() * sizeof(PackedTile);
   for (const PackedTile& tile : sums_) sum += tile.bytes();
+  for (const FilmRegion& region : regions_) sum += region.film.bytes();
   return sum;
-}
-
-void Film::read(size_t tile, std::vector<Fixed>& sums) const {
-  sums.resize(tile_pixels * numbers_.count);
-  sums_[tile].read_pixels(numbers_.count, 0, tile_pixels, sums.data());
-}
-
-Fixed Film::sum(size_t pixel, size_t number) const {
-  const int x = int(pixel % size_t(size_.x)), y = int(pixel / size_t(size_.x));
-  return sums_[tiles_.tile_at(x, y)].at(number, numbers_.count, PictureTiles::place_of(x, y));
 }
 
 double Film::total(size_t pixel, int lane) const {

@@ -7,12 +7,14 @@
 #include "kaustik/render/packed_tile.h"
 #include "kaustik/render/pass_set.h"
 #include "kaustik/render/pass_tiles.h"
+#include "kaustik/render/pixel_region.h"
 #include "kaustik/transport/integrator.h"
 
 namespace kaustik {
 
 class BinaryReader;
 class BinaryWriter;
+struct FilmRegion;
 
 /// Estimates of the bias are summed apart for even and for odd replicates.
 inline constexpr uint32_t bias_halves = 2;
@@ -59,6 +61,9 @@ struct FilmNumbers {
 /// same bits in whatever order the passes come, and whether they come one by one or as another
 /// film's sums. What only errors are computed from is rounded in each pass before it is summed:
 /// round_line().
+///
+/// Regions of it may have passes of their own beside. A pixel is the mean of all passes that it
+/// has: those of the picture and those of the regions that it lies in.
 class Film {
  public:
   /// Throws Error(input) when the picture does not fit into memory, with what its passes take:
@@ -68,17 +73,35 @@ class Film {
   /// Adds a finished pass of so many samples per pixel on average, which must not be there yet. Not
   /// thread-safe.
   void add_pass(const PassTiles& pass, uint32_t pass_index, uint32_t samples = 1);
-  /// Adds the passes of another film of this size and these layers; none may be in both.
+  /// Adds the passes of another film of this size and these layers; none may be in both, as
+  /// `passes` and twice_in_regions() tell.
   void add(const Film& other);
   bool is_like(const Film& other) const { return is_for(other.size_, other.layers_); }
   /// Whether it holds pictures of this size and these layers.
   bool is_for(Vec2i size, const FilmLayers& layers) const {
     return size_ == size && layers_ == layers;
   }
+  /// Of all of the picture.
   const PassSet& passes() const { return passes_; }
   uint32_t pass_count() const { return passes_.count(); }
-  /// On average.
+  /// Of those passes, on average.
   uint64_t samples_per_pixel() const { return sample_count_; }
+
+  /// In ascending order; no rectangle comes twice.
+  const std::vector<FilmRegion>& regions() const { return regions_; }
+  /// Of all regions together.
+  uint32_t regional_pass_count() const;
+  /// The pass of a region that comes next, with the plans and radii of pass `stage`; without seed
+  /// and samples. It goes on with the region's last order where that has the same stage and no pass
+  /// came after it. Else it begins an order; its replicate is then the one that the region's pixels
+  /// have fewest passes of.
+  Pass next_regional_pass(const PixelRegion& pixels, uint32_t stage) const;
+  /// Adds that pass: `of_region` are the region's pixels alone.
+  void add_regional_pass(const PixelRegion& pixels, const PassTiles& of_region, const Pass& pass);
+  /// Passes that some pixel has in both films, by their numbers.
+  PassSet twice_in_regions(const Film& other) const;
+  /// That a pixel has, regional ones included.
+  uint32_t pass_count(size_t pixel) const;
   int width() const { return size_.x; }
   int height() const { return size_.y; }
   size_t pixel_count() const { return size_t(size_.x) * size_t(size_.y); }
@@ -107,12 +130,11 @@ class Film {
   void write(BinaryWriter& writer) const;
   static Film read(BinaryReader& reader);
 
+  // Sums over all passes that pixels have.
   /// All sums of a tile's pixels: [place in the tile][number].
   void read(size_t tile, std::vector<Fixed>& sums) const;
   /// One of them, of all the tile's pixels.
-  void read(size_t tile, size_t number, std::array<Fixed, PictureTiles::pixels>& sums) const {
-    sums_[tile].read(number, numbers_.count, sums);
-  }
+  void read(size_t tile, size_t number, std::array<Fixed, PictureTiles::pixels>& sums) const;
   /// One of one pixel, pixels counted row by row.
   Fixed sum(size_t pixel, size_t number) const;
 
@@ -125,7 +147,7 @@ class Film {
   double luminance_squares(size_t pixel) const {
     return double_from(sum(pixel, numbers_.luminance_squares));
   }
-  /// Of the picture's mean luminance, by replicate.
+  /// Of the picture's mean luminance, by replicate, in passes of all of it.
   const std::array<Fixed, replicate_count>& mean_luminances() const { return mean_luminances_; }
 
  private:
@@ -135,7 +157,17 @@ class Film {
   /// Calls body(sums) with all sums of each row of pixels, [x][number], from the top on.
   template <typename Body>
   void for_rows(const Body& body) const;
+  /// All after size and layers but regions.
+  void read_content(BinaryReader& reader);
   void read_rows(BinaryReader& reader);
+  void write_regions(BinaryWriter& writer) const;
+  void read_regions(BinaryReader& reader);
+  /// Adds those of regions to the sums of a tile's pixels, [place][number].
+  void add_regions(size_t tile, std::vector<Fixed>& sums) const;
+  /// That has these pixels; made if there is none.
+  FilmRegion& region_of(const PixelRegion& pixels);
+  /// After all orders there are.
+  uint32_t next_regional_number() const;
   bool knows_noise() const { return sample_count_ >= 2; }
 
   Vec2i size_;
@@ -146,6 +178,37 @@ class Film {
   uint64_t sample_count_ = 0;  ///< per pixel, on average
   std::vector<PackedTile> sums_;
   std::array<Fixed, replicate_count> mean_luminances_{};
+  std::vector<FilmRegion> regions_;
 };
+
+/// Passes of a region that were asked for together, as far as they were taken.
+struct FilmOrder {
+  PassRange passes;    ///< numbers from 0: the index of a pass is that and `first_regional_pass`
+  uint32_t stage = 0;  ///< RegionOrder::stage
+  friend bool operator==(const FilmOrder&, const FilmOrder&) = default;
+};
+
+/// A part of a picture that has passes of its own.
+struct FilmRegion {
+  PixelRegion pixels;
+  Film film;                      ///< of these pixels; its passes have numbers from 0
+  std::vector<FilmOrder> orders;  ///< ascending; all that the passes are a function of
+
+  /// Adds the passes of the same region of another film.
+  void add(const FilmRegion& other);
+  /// "64 x 48 pixels at (10, 20): 32 passes"
+  std::string text() const;
+};
+
+/// Metadata of a picture whose regions have passes of their own: which, and how many.
+inline constexpr const char* regions_key = "regions";
+
+/// Throws Error(input) if these pixels of a picture of this size can't have passes of their own
+/// beside other regions: they do not lie in it, or regions would take too much memory.
+void check_region(const PixelRegion& pixels, const std::vector<PixelRegion>& others,
+                  const Vec2i& size);
+
+/// What is known of all regions, for that; "": there are none.
+std::string text_of(const std::vector<FilmRegion>& regions);
 
 }  // namespace kaustik

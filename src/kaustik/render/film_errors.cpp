@@ -1,5 +1,6 @@
 #include "kaustik/render/film_errors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -90,13 +91,85 @@ double half_width_with_bias(double deviation, double bias, double confidence, do
   return deviation * high;
 }
 
+/// Sums over pixels of luminances by replicate, apart for parts whose pixels have other passes.
+class RegionSums {
+ public:
+  RegionSums(const FilmParts& parts, double pixels)
+      : parts_(parts), pixels_(pixels), sums_(parts.count()), areas_(parts.count()) {}
+
+  void add(size_t part, size_t replicate, double luminance) { sums_[part][replicate] += luminance; }
+  void count_pixel(size_t part) { areas_[part] += 1; }
+  /// The mean and its noise.
+  KnownLuminance known() const;
+
+ private:
+  using Sums = std::array<double, replicate_count>;
+  KnownLuminance known_of_one(const PassCounts& counts, Sums sums) const;
+
+  const FilmParts& parts_;
+  double pixels_;
+  std::vector<Sums> sums_;
+  std::vector<double> areas_;  ///< pixels
+};
+
+KnownLuminance RegionSums::known_of_one(const PassCounts& counts, Sums sums) const {
+  for (double& sum : sums) sum /= pixels_;
+  KnownLuminance known;
+  known.mean =
+      std::accumulate(sums.begin(), sums.end(), 0.0) / std::max(1.0, double(counts.count()));
+  known.deviation = counts.is_known() ? std::sqrt(counts.variance(sums))
+                                      : std::numeric_limits<double>::infinity();
+  if (counts.is_known()) known.freedom = counts.freedom();
+  return known;
+}
+
+KnownLuminance RegionSums::known() const {
+  std::vector<size_t> met;
+  for (size_t part = 0; part < areas_.size(); ++part)
+    if (areas_[part] > 0) met.push_back(part);
+  if (met.size() == 1) return known_of_one(parts_[met[0]], sums_[met[0]]);
+  KnownLuminance known;
+  // Parts share light paths: what a replicate is off by is that of all of them together.
+  Sums off{}, shares{};
+  double sum_of_variances = 0, sum_by_freedom = 0, most_freedom = 1;
+  bool is_known = true;
+  for (const size_t part : met) {
+    const PassCounts& counts = parts_[part];
+    const double n = counts.count();
+    const double total = std::accumulate(sums_[part].begin(), sums_[part].end(), 0.0);
+    known.mean += total / n / pixels_;
+    is_known = is_known && counts.is_known();
+    if (!is_known) continue;
+    const double root = std::sqrt(counts.scale());
+    double variance = 0;
+    for (size_t r = 0; r < replicate_count; ++r) {
+      const double of_part =
+          (sums_[part][r] - counts.of_replicate(r) * total / n) / n / pixels_ * root;
+      off[r] += of_part;
+      shares[r] += counts.of_replicate(r) / n * areas_[part];
+      variance += sqr(of_part);
+    }
+    sum_of_variances += variance;
+    sum_by_freedom += sqr(variance) / counts.freedom();
+    most_freedom = std::max(most_freedom, counts.freedom());
+  }
+  known.deviation = std::numeric_limits<double>::infinity();
+  if (!is_known) return known;
+  double variance = 0;
+  for (const double of_replicate : off) variance += sqr(of_replicate);
+  known.deviation = std::sqrt(variance);
+  // Satterthwaite (1946), as if parts were independent and as if they shared all their noise;
+  // whichever is less.
+  known.freedom = std::min(most_freedom, freedom_of_shares(shares));
+  if (sum_by_freedom > 0)
+    known.freedom = std::min(known.freedom, sqr(sum_of_variances) / sum_by_freedom);
+  known.freedom = std::max(1.0, known.freedom);
+  return known;
+}
+
 }  // namespace
 
-FilmErrors::FilmErrors(const Film& film) : film_(film) {
-  for (uint32_t r = 0; r < replicate_count; ++r) {
-    replicate_passes_[r] = film.passes().count_of_remainder(r, replicate_count);
-    replicates_ += replicate_passes_[r] > 0 ? 1 : 0;
-  }
+FilmErrors::FilmErrors(const Film& film) : film_(film), parts_(film) {
   if (!film.holds_bias()) return;
   sum_up_bias();
   square_bias();
@@ -110,11 +183,15 @@ void FilmErrors::sum_up_luminances() const {
     for (size_t r = 0; r < replicate_count; ++r)
       film_.read(tile, film_.numbers().replicate_luminances + r, lines[r]);
     tiles.for_pixels_of(tile, [&](int x, int y, size_t place) {
-      std::array<Fixed, replicate_count> sums;
+      std::array<double, replicate_count> sums;
       Fixed sum = 0;
-      for (size_t r = 0; r < replicate_count; ++r) add_to(sum, sums[r] = lines[r][place]);
-      luminances_[size_t(y) * size_t(film_.width()) + size_t(x)] = {
-          double_from(sum), is_known() ? variance_by_replicates(sums.data()) : 0};
+      for (size_t r = 0; r < replicate_count; ++r) {
+        add_to(sum, lines[r][place]);
+        sums[r] = double_from(lines[r][place]);
+      }
+      const size_t pixel = size_t(y) * size_t(film_.width()) + size_t(x);
+      const PassCounts& of_pixel = counts(pixel);
+      luminances_[pixel] = {double_from(sum), of_pixel.is_known() ? of_pixel.variance(sums) : 0};
     });
   });
 }
@@ -141,29 +218,41 @@ void FilmErrors::sum_up_bias() {
 }
 
 Vec3f FilmErrors::mean_bias(size_t pixel) const {
-  return (bias_[pixel][0] + bias_[pixel][1]) / float(film_.pass_count());
+  return (bias_[pixel][0] + bias_[pixel][1]) / float(counts(pixel).count());
 }
 
 void FilmErrors::pool_variances() const {
   luminances();
   std::vector<double> variances(film_.pixel_count());
+  const bool has_parts = parts_.count() > 1;
   parallel_blocks(variances.size(), 4096, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) variances[i] = luminance_variance(i);
+    for (size_t i = begin; i < end; ++i)
+      variances[i] = luminance_variance(i) * (has_parts ? double(counts(i).count()) : 1);
   });
-  variances_around_ = are_pixels_apart()
-                          ? std::move(variances)
-                          : means_around(variances, {film_.width(), film_.height()}, pool_reach);
+  const Vec2i size(film_.width(), film_.height());
+  variances_around_ =
+      are_pixels_apart() ? std::move(variances) : means_around(variances, size, pool_reach);
+  if (parts_.are_known() || are_pixels_apart()) return;
+  // Of those around that are known.
+  std::vector<double> is_known(film_.pixel_count());
+  for (size_t i = 0; i < is_known.size(); ++i) is_known[i] = counts(i).is_known() ? 1 : 0;
+  const std::vector<double> shares = means_around(is_known, size, pool_reach);
+  for (size_t i = 0; i < shares.size(); ++i)
+    if (shares[i] > 0) variances_around_[i] /= shares[i];
 }
 
 void FilmErrors::square_bias() {
-  std::array<float, bias_halves> half_passes{};
-  for (uint32_t half = 0; half < bias_halves; ++half)
-    half_passes[half] = float(film_.passes().count_of_remainder(half, bias_halves));
-  if (!(half_passes[0] > 0 && half_passes[1] > 0)) return;
+  std::vector<std::array<float, bias_halves>> half_passes(parts_.count());
+  const auto has_halves = [](const auto& halves) { return halves[0] > 0 && halves[1] > 0; };
+  for (size_t part = 0; part < parts_.count(); ++part)
+    for (uint32_t half = 0; half < bias_halves; ++half)
+      half_passes[part][half] = float(parts_[part].of_half(half));
+  if (std::none_of(half_passes.begin(), half_passes.end(), has_halves)) return;
   const int width = film_.width(), height = film_.height();
   const int reach = are_pixels_apart() ? 0 : bias_reach;
   const auto estimate = [&](size_t pixel, size_t half) {
-    return bias_[pixel][half] / half_passes[half];
+    const auto& halves = half_passes[parts_.part_of(pixel)];
+    return has_halves(halves) ? bias_[pixel][half] / halves[half] : Vec3f(0, 0, 0);
   };
   std::vector<BiasSquares> rows(film_.pixel_count());
   parallel_blocks(size_t(height), 1, [&](size_t y, size_t, size_t) {
@@ -189,32 +278,17 @@ void FilmErrors::square_bias() {
   });
 }
 
-double FilmErrors::variance_by_replicates(const Fixed* sums) const {
-  std::array<double, replicate_count> values;
-  for (size_t r = 0; r < replicate_count; ++r) values[r] = double_from(sums[r]);
-  return variance_by_replicates(values);
-}
-
-double FilmErrors::variance_by_replicates(const std::array<double, replicate_count>& sums) const {
-  double total = 0;
-  for (const double sum : sums) total += sum;
-  const double mean = total / passes();
-  double squares = 0;
-  for (size_t r = 0; r < replicate_count; ++r)
-    squares += sqr(sums[r] - replicate_passes_[r] * mean);
-  return squares / sqr(passes()) * replicates_ / (replicates_ - 1);
-}
-
 double FilmErrors::pooled_variance(size_t pixel) const {
-  if (!is_known()) return 0;
+  if (!counts(pixel).is_known()) return 0;
   std::call_once(is_pooled_, [this] { isolated([this] { pool_variances(); }); });
   const double own = luminance_variance(pixel);
-  return (1 - share_around) * own +
-         share_around * std::min(most_around * own, variances_around_[pixel]);
+  const double around =
+      variances_around_[pixel] / (parts_.count() > 1 ? double(counts(pixel).count()) : 1);
+  return (1 - share_around) * own + share_around * std::min(most_around * own, around);
 }
 
-double FilmErrors::variance_over_passes(double sum, double sum_of_squares) const {
-  const double n = passes(), mean = sum / n;
+double FilmErrors::variance_over_passes(double n, double sum, double sum_of_squares) {
+  const double mean = sum / n;
   return std::max(0.0, sum_of_squares / n - mean * mean) / (n - 1);
 }
 
@@ -224,12 +298,15 @@ double FilmErrors::luminance_bias_sq_around(size_t pixel) const {
 
 Vec3f FilmErrors::of_pixel(size_t pixel, const ChannelSums& sums) const {
   Vec3f variance(0, 0, 0);
-  if (film_.pass_count() >= 2) {
+  const PassCounts& of_pixel = counts(pixel);
+  const double passes = of_pixel.count();
+  if (passes >= 2) {
     for (size_t lane = 0; lane < 3; ++lane)
-      variance[int(lane)] = float(variance_over_passes(sums.totals[lane], sums.squares[lane]));
+      variance[int(lane)] =
+          float(variance_over_passes(passes, sums.totals[lane], sums.squares[lane]));
     const double luminance_over_passes =
-        variance_over_passes(luminance_sum(pixel), sums.luminance_squares);
-    if (is_known()) {
+        variance_over_passes(passes, luminance_sum(pixel), sums.luminance_squares);
+    if (of_pixel.is_known()) {
       const double pooled = pooled_variance(pixel);
       // Squares that are rounded may not tell noise that is next to nothing beside the tile's
       // light: then all channels have the luminance's.
@@ -254,68 +331,64 @@ ConfidenceInterval KnownLuminance::interval(double confidence) const {
 double KnownLuminance::error() const { return std::hypot(deviation, bias); }
 
 KnownLuminance FilmErrors::known(size_t pixel) const {
+  const PassCounts& of_pixel = counts(pixel);
   KnownLuminance known;
-  known.mean = luminance_sum(pixel) / std::max(1.0, passes());
-  known.deviation =
-      is_known() ? std::sqrt(pooled_variance(pixel)) : std::numeric_limits<double>::infinity();
+  known.mean = luminance_sum(pixel) / std::max(1.0, double(of_pixel.count()));
+  known.deviation = of_pixel.is_known() ? std::sqrt(pooled_variance(pixel))
+                                        : std::numeric_limits<double>::infinity();
   known.bias = bias_sq_.empty() ? 0 : std::sqrt(std::max(0.0, double(bias_sq_[pixel][3])));
-  if (is_known()) known.freedom = freedom();
+  if (of_pixel.is_known()) known.freedom = freedom(of_pixel);
   return known;
 }
 
 KnownLuminance FilmErrors::known(const PixelRegion& region) const {
-  std::array<double, replicate_count> sums{};
+  RegionSums sums(parts_, double(region.pixel_count()));
   double bias = 0;
   const PictureTiles& tiles = film_.tiles();
+  const auto pixel_at = [&](int x, int y) { return size_t(y) * size_t(film_.width()) + size_t(x); };
   std::array<Fixed, PictureTiles::pixels> line;
-  const auto is_in = [&](int x, int y) {
-    return x >= region.x && x < region.x + region.width && y >= region.y &&
-           y < region.y + region.height;
-  };
   for (size_t tile = 0; tile < tiles.count(); ++tile) {
-    bool meets = false;
-    tiles.for_pixels_of(tile, [&](int x, int y, size_t) { meets = meets || is_in(x, y); });
-    if (!meets) continue;
+    const Vec2i first = tiles.first_pixel(tile);
+    if (!region.meets({first.x, first.y, PictureTiles::side, PictureTiles::side})) continue;
     for (size_t r = 0; r < replicate_count; ++r) {
       film_.read(tile, film_.numbers().replicate_luminances + r, line);
       tiles.for_pixels_of(tile, [&](int x, int y, size_t place) {
-        if (is_in(x, y)) sums[r] += double_from(line[place]);
+        if (region.holds(x, y))
+          sums.add(parts_.part_of(pixel_at(x, y)), r, double_from(line[place]));
       });
     }
-    if (!film_.holds_bias() || film_.pass_count() == 0) continue;
     tiles.for_pixels_of(tile, [&](int x, int y, size_t) {
-      if (is_in(x, y))
-        bias += double(photopic(mean_bias(size_t(y) * size_t(film_.width()) + size_t(x))));
+      if (!region.holds(x, y)) return;
+      const size_t pixel = pixel_at(x, y);
+      sums.count_pixel(parts_.part_of(pixel));
+      if (film_.holds_bias() && counts(pixel).count() > 0)
+        bias += double(photopic(mean_bias(pixel)));
     });
   }
-  const double pixels = double(region.width) * region.height;
-  for (double& sum : sums) sum /= pixels;
-  KnownLuminance known;
-  known.mean = std::accumulate(sums.begin(), sums.end(), 0.0) / std::max(1.0, passes());
-  known.deviation = is_known() ? std::sqrt(variance_by_replicates(sums))
-                               : std::numeric_limits<double>::infinity();
-  known.bias = std::abs(bias) / pixels;
-  if (is_known()) known.freedom = replicates_ - 1;
+  KnownLuminance known = sums.known();
+  known.bias = std::abs(bias) / double(region.pixel_count());
   return known;
 }
 
+double FilmErrors::freedom(const PassCounts& of) const {
+  return (are_pixels_apart() ? 1 : freedom_of_pool) * of.freedom();
+}
+
 double FilmErrors::freedom() const {
-  return (are_pixels_apart() ? 1 : freedom_of_pool) * (replicates_ - 1);
+  return (are_pixels_apart() ? 1 : freedom_of_pool) * (parts_[0].replicates() - 1);
 }
 
 double FilmErrors::of_picture() const {
-  if (!is_known()) return std::numeric_limits<double>::infinity();
+  if (!parts_.are_known()) return std::numeric_limits<double>::infinity();
   const size_t pixels = film_.pixel_count();
   luminances();
-  double sum_of_luminances = 0;
-  for (const Fixed part : film_.mean_luminances()) sum_of_luminances += double_from(part);
-  const double dark = dark_share * std::abs(sum_of_luminances) / passes();
+  const double dark = dark_share * std::abs(mean_luminance());
   const auto sum_of = [&](const auto& square_of) {
     return sum_over_blocks(pixels, 4096, [&](size_t begin, size_t end) {
       double block = 0;
       for (size_t i = begin; i < end; ++i)
         if (const double square = square_of(i); square != 0)
-          block += square / sqr(std::abs(luminance_sum(i)) / passes() + dark);
+          block += square / sqr(std::abs(luminance_sum(i)) / double(counts(i).count()) + dark);
       return block;
     });
   };
@@ -325,15 +398,37 @@ double FilmErrors::of_picture() const {
   return std::sqrt((noise + std::max(0.0, bias)) / double(pixels));
 }
 
-double FilmErrors::of_mean() const {
-  double sum = 0, bias = 0;
+double FilmErrors::mean_luminance() const {
+  if (parts_.count() > 1)
+    return sum_over_blocks(film_.pixel_count(), 4096,
+                           [&](size_t begin, size_t end) {
+                             double block = 0;
+                             for (size_t i = begin; i < end; ++i)
+                               block += luminance_sum(i) / double(counts(i).count());
+                             return block;
+                           }) /
+           double(film_.pixel_count());
+  double sum = 0;
   for (const Fixed part : film_.mean_luminances()) sum += double_from(part);
-  if (!is_known() || !(sum > 0)) return std::numeric_limits<double>::infinity();
+  return sum / double(film_.pass_count());
+}
+
+double FilmErrors::of_mean() const {
+  if (!parts_.are_known()) return std::numeric_limits<double>::infinity();
+  const double mean = mean_luminance();
+  if (!(mean > 0)) return std::numeric_limits<double>::infinity();
+  if (parts_.count() > 1) {
+    const KnownLuminance all = known(PixelRegion{0, 0, film_.width(), film_.height()});
+    return (student_t_quantile(0.975, all.freedom) * all.deviation + all.bias) / mean;
+  }
+  double bias = 0;
   if (film_.holds_bias())
     for (size_t i = 0; i < film_.pixel_count(); ++i) bias += double(photopic(mean_bias(i)));
-  const double t = student_t_quantile(0.975, replicates_ - 1);
-  const double noise = std::sqrt(variance_by_replicates(film_.mean_luminances().data()));
-  return (t * noise + std::abs(bias) / double(film_.pixel_count())) / (sum / passes());
+  std::array<double, replicate_count> sums;
+  for (size_t r = 0; r < replicate_count; ++r) sums[r] = double_from(film_.mean_luminances()[r]);
+  const double t = student_t_quantile(0.975, parts_[0].freedom());
+  const double noise = std::sqrt(parts_[0].variance(sums));
+  return (t * noise + std::abs(bias) / double(film_.pixel_count())) / mean;
 }
 
 }  // namespace kaustik

@@ -5,6 +5,7 @@
 
 #include "kaustik/base/statistics.h"
 #include "kaustik/render/film.h"
+#include "kaustik/render/film_parts.h"
 
 namespace kaustik {
 
@@ -28,11 +29,6 @@ struct KnownLuminance {
   ConfidenceInterval interval(double confidence = 0.95) const;
 };
 
-/// A rectangle of pixels.
-struct PixelRegion {
-  int x = 0, y = 0, width = 0, height = 0;
-};
-
 /// How well a film's picture is known: from the noise of its passes, and from the bias that the
 /// integrator estimates, if it does.
 ///
@@ -50,23 +46,28 @@ struct PixelRegion {
 /// opposite signs on its two sides.) Where a pixel's own estimate is larger, and more than three
 /// times its standard error, that counts: a line of light is narrower than 5 × 5 pixels. With
 /// passes of one half alone the bias counts as zero.
+///
+/// Regions: a pixel's passes are those of the picture and those of its regions, by replicate.
+/// Variances around a pixel count by the variance of a pass.
 class FilmErrors {
  public:
   /// `film` must outlive this and not change.
   explicit FilmErrors(const Film& film);
 
   /// Standard error of the pixel's mean per channel, √(noise² + bias²); the noise counts as zero
-  /// with fewer than two passes.
+  /// with fewer than two passes of the pixel.
   Vec3f of_pixel(size_t pixel, const ChannelSums& sums) const;
   KnownLuminance known(size_t pixel) const;
   /// The mean over a region, which must not be empty and lie in the picture: its noise is that of
   /// the region's own means by replicate, since pixels share photons; its bias the mean of theirs.
+  /// Parts whose pixels have other passes weigh by their area, in each replicate.
   KnownLuminance known(const PixelRegion& region) const;
   /// The interval of the pixel's luminance.
   ConfidenceInterval luminance(size_t pixel, double confidence = 0.95) const {
     return known(pixel).interval(confidence);
   }
-  /// Degrees of freedom of the noise that a pixel's interval has.
+  /// Degrees of freedom of the noise that a pixel's interval has, outside of regions with passes of
+  /// their own.
   double freedom() const;
   bool are_pixels_apart() const { return film_.layers().pixels_are_apart; }
   /// Square root of the mean over pixels of (e/(|L| + 0.01 M))², where e is the standard error of
@@ -84,34 +85,33 @@ class FilmErrors {
     double sum = 0;       ///< over the passes
     double variance = 0;  ///< of the mean; 0 while it is not known
   };
-  bool is_known() const { return replicates_ >= 2; }
-  double passes() const { return double(film_.pass_count()); }
-  /// Of the mean of what was summed up by replicate.
-  double variance_by_replicates(const Fixed* sums) const;
-  double variance_by_replicates(const std::array<double, replicate_count>& sums) const;
+  const PassCounts& counts(size_t pixel) const { return parts_.of_pixel(pixel); }
+  double freedom(const PassCounts& of) const;
   double luminance_sum(size_t pixel) const { return luminances()[pixel].sum; }
   double luminance_variance(size_t pixel) const { return luminances()[pixel].variance; }
   /// The same, as neighbours tell of it too.
   double pooled_variance(size_t pixel) const;
   /// Of a mean over passes as if they were independent.
-  double variance_over_passes(double sum, double sum_of_squares) const;
+  static double variance_over_passes(double passes, double sum, double sum_of_squares);
   /// Averaged over neighbours; may be negative, which over many pixels cancels what is too large
   /// elsewhere.
   double luminance_bias_sq_around(size_t pixel) const;
   void sum_up_luminances() const;
   /// Only once one is asked for: the error of the mean needs none.
   const std::vector<Luminance>& luminances() const;
+  /// Of the picture.
+  double mean_luminance() const;
   void sum_up_bias();
   void square_bias();
   /// Only once a single pixel is asked for: the picture's error is looked at after every pass.
   void pool_variances() const;
 
   const Film& film_;
-  std::array<uint32_t, replicate_count> replicate_passes_{};
-  int replicates_ = 0;  ///< that have passes
+  FilmParts parts_;
   mutable std::once_flag is_summed_up_, is_pooled_;
-  mutable std::vector<Luminance> luminances_;     ///< by pixel
-  mutable std::vector<double> variances_around_;  ///< of the luminance: means over neighbours
+  mutable std::vector<Luminance> luminances_;  ///< by pixel
+  /// Of the luminance: means over neighbours, of the variance of a pass if there are regions.
+  mutable std::vector<double> variances_around_;
   /// Sums over passes, by pixel and half; empty: none is held.
   std::vector<std::array<Vec3f, bias_halves>> bias_;
   /// Squared, of R, G, B and the luminance, as it counts in a pixel; empty: none is known.

@@ -32,23 +32,26 @@ PassSet get_passes(BinaryReader& reader) {
 }
 
 /// Beside the components' bits; absent in files that were written before there was a choice.
-constexpr uint32_t without_layers = uint32_t(1) << 31, with_pixels_apart = uint32_t(1) << 30;
+constexpr uint32_t without_layers = uint32_t(1) << 31, with_pixels_apart = uint32_t(1) << 30,
+                   with_regions = uint32_t(1) << 29;
 
-void put_layers(BinaryWriter& writer, const FilmLayers& layers) {
+void put_layers(BinaryWriter& writer, const FilmLayers& layers, bool has_regions) {
   uint32_t bits = layers.in_images ? 0 : without_layers;
   if (layers.pixels_are_apart) bits |= with_pixels_apart;
+  if (has_regions) bits |= with_regions;
   for (int c = 0; c < component_count; ++c)
     if (layers.components.has(Component(c))) bits |= 1u << c;
   writer.put(bits);
   writer.put(uint8_t(layers.bias));
 }
 
-FilmLayers get_layers(BinaryReader& reader) {
+FilmLayers get_layers(BinaryReader& reader, bool& has_regions) {
   FilmLayers layers;
   auto bits = reader.get<uint32_t>();
   layers.in_images = (bits & without_layers) == 0;
   layers.pixels_are_apart = (bits & with_pixels_apart) != 0;
-  bits &= ~(without_layers | with_pixels_apart);
+  has_regions = (bits & with_regions) != 0;
+  bits &= ~(without_layers | with_pixels_apart | with_regions);
   if (bits >> component_count != 0) reader.damaged("it has components that are not known");
   for (int c = 0; c < component_count; ++c)
     if (bits >> c & 1u) layers.components.add(Component(c));
@@ -80,7 +83,7 @@ void Film::for_rows(const Body& body) const {
 void Film::write(BinaryWriter& writer) const {
   writer.put(int32_t(size_.x));
   writer.put(int32_t(size_.y));
-  put_layers(writer, layers_);
+  put_layers(writer, layers_, !regions_.empty());
   writer.put(sample_count_);
   put_passes(writer, passes_);
   put_sums(writer, mean_luminances_);
@@ -89,17 +92,72 @@ void Film::write(BinaryWriter& writer) const {
   for_rows([&](const std::vector<Fixed>& row) { size += packed_size(row); });
   writer.reserve(size);
   for_rows([&](const std::vector<Fixed>& row) { put_sums(writer, row); });
+  if (!regions_.empty()) write_regions(writer);
 }
 
 Film Film::read(BinaryReader& reader) {
   const Vec2i size = get_size(reader);
-  Film film(size, get_layers(reader));
-  film.sample_count_ = reader.get<uint64_t>();
-  film.passes_ = get_passes(reader);
-  const std::vector<Fixed> replicates = get_sums(reader, replicate_count);
-  std::copy(replicates.begin(), replicates.end(), film.mean_luminances_.begin());
-  film.read_rows(reader);
+  bool has_regions = false;
+  Film film(size, get_layers(reader, has_regions));
+  film.read_content(reader);
+  if (has_regions) film.read_regions(reader);
   return film;
+}
+
+void Film::read_content(BinaryReader& reader) {
+  sample_count_ = reader.get<uint64_t>();
+  passes_ = get_passes(reader);
+  const std::vector<Fixed> replicates = get_sums(reader, replicate_count);
+  std::copy(replicates.begin(), replicates.end(), mean_luminances_.begin());
+  read_rows(reader);
+}
+
+void Film::write_regions(BinaryWriter& writer) const {
+  writer.put(uint64_t(regions_.size()));
+  for (const FilmRegion& region : regions_) {
+    writer.put(int32_t(region.pixels.x));
+    writer.put(int32_t(region.pixels.y));
+    writer.put(uint64_t(region.orders.size()));
+    for (const FilmOrder& order : region.orders) {
+      writer.put(order.passes.begin);
+      writer.put(order.passes.end);
+      writer.put(order.stage);
+    }
+    region.film.write(writer);
+  }
+}
+
+void Film::read_regions(BinaryReader& reader) {
+  const uint64_t count = reader.get_count(sizeof(PixelRegion));
+  for (uint64_t i = 0; i < count; ++i) {
+    const auto x = reader.get<int32_t>(), y = reader.get<int32_t>();
+    std::vector<FilmOrder> orders(reader.get_count(sizeof(FilmOrder)));
+    PassSet ordered;
+    for (FilmOrder& order : orders) {
+      order.passes.begin = reader.get<uint32_t>();
+      order.passes.end = reader.get<uint32_t>();
+      order.stage = reader.get<uint32_t>();
+      const bool is_after = ordered.empty() || order.passes.begin >= ordered.ranges().back().end;
+      if (order.passes.begin >= order.passes.end || order.passes.end > pass_limit ||
+          order.stage >= pass_limit || !is_after)
+        reader.damaged("the orders of a region are not valid");
+      ordered.add(order.passes);
+    }
+    // A film in this one has no regions: so none are nested without an end.
+    const Vec2i size = get_size(reader);
+    bool is_nested = false;
+    Film film(size, get_layers(reader, is_nested));
+    if (is_nested) reader.damaged("a region of it has regions");
+    film.read_content(reader);
+    const PixelRegion pixels{x, y, size.x, size.y};
+    const bool is_new = regions_.empty() || regions_.back().pixels < pixels;
+    if (!pixels.lies_in(size_) || !(film.layers_ == layers_) || !is_new)
+      reader.damaged("a region of it is not valid");
+    if (ordered.empty() || ordered.ranges() != film.passes_.ranges())
+      reader.damaged("the passes of a region are not those that it was to have");
+    regions_.push_back({pixels, std::move(film), std::move(orders)});
+  }
+  if (regions_.empty()) reader.damaged("it has no regions, but says so");
 }
 
 void Film::read_rows(BinaryReader& reader) {

@@ -16,8 +16,8 @@ constexpr size_t lanes = FilmNumbers::lanes;
 /// The sums of one pixel and what they tell.
 class PixelSums {
  public:
-  PixelSums(const Film& film, const Fixed* sums)
-      : film_(film), numbers_(film.numbers()), sums_(sums), passes_(film.pass_count()) {}
+  PixelSums(const Film& film, const Fixed* sums, double passes)
+      : film_(film), numbers_(film.numbers()), sums_(sums), passes_(passes) {}
 
   double sum(size_t number) const { return double_from(sums_[number]); }
   double total(size_t lane) const {
@@ -107,6 +107,8 @@ Image Film::image(bool with_layers) const {
   with_layers = with_layers && layers_.in_images;
   Image image(size_.x, size_.y, channel_names(with_layers));
   if (passes_.empty()) return image;
+  if (!regions_.empty()) image.set_metadata(regions_key, text_of(regions_));
+  const FilmParts parts(*this);
   std::optional<FilmErrors> errors;
   if (with_layers) errors.emplace(*this);
   const auto put = [&](int x, int y, const PixelSums& sums) {
@@ -134,7 +136,9 @@ Image Film::image(bool with_layers) const {
     std::vector<Fixed> sums;
     read(tile, sums);
     tiles_.for_pixels_of(tile, [&](int x, int y, size_t place) {
-      put(x, y, PixelSums(*this, sums.data() + place * numbers_.count));
+      const size_t pixel = size_t(y) * size_t(size_.x) + size_t(x);
+      put(x, y,
+          PixelSums(*this, sums.data() + place * numbers_.count, parts.of_pixel(pixel).count()));
     });
   });
   return image;

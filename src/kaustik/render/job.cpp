@@ -46,6 +46,11 @@ std::shared_ptr<Job::Run> Job::current() const {
   return run_;
 }
 
+std::shared_ptr<Job::Run> Job::current_with_session() const {
+  const std::lock_guard lock(mutex_);
+  return run_ && run_->session ? run_ : nullptr;
+}
+
 std::shared_ptr<Job::Run> Job::prepared_run() {
   if (auto run = current()) return run;
   if (settings_.begun && settings_.learned)
@@ -257,6 +262,19 @@ std::optional<Image> Job::snapshot(bool with_layers) const {
 
 double Job::rested_s() const {
   return settings_.session.gate ? settings_.session.gate->closed_s() : 0;
+}
+
+void Job::refine(const RegionRequest& request) {
+  const std::shared_ptr<Run> run = current_with_session();
+  if (!run)
+    throw Error(ErrorKind::input, "there is no picture yet whose regions could have more passes",
+                "ask again when it has begun");
+  run->session->refine(request);
+}
+
+std::vector<RegionProgress> Job::regions() const {
+  const std::shared_ptr<Run> run = current_with_session();
+  return run ? run->session->regions() : std::vector<RegionProgress>();
 }
 
 bool Job::look_at_film(const std::function<void(const Film&)>& look) const {

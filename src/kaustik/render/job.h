@@ -125,6 +125,11 @@ class Job {
   /// the integrator's, with a sample of each pixel. After the end there is one unless the job was
   /// cancelled.
   std::optional<Image> snapshot(bool with_layers = true) const;
+  /// Session::refine(). From any thread, while the job runs; throws Error(input), too, while there
+  /// is no session.
+  void refine(const RegionRequest& request);
+  /// Session::regions(); none while there is no session. From any thread.
+  std::vector<RegionProgress> regions() const;
   /// Session::look_at_film(); false also while there is no session.
   bool look_at_film(const std::function<void(const Film&)>& look) const;
   /// The session's snapshot as a file would show it: finished_picture() of it. None where there is
@@ -173,6 +178,7 @@ class Job {
     uint64_t light_key = 0;                       ///< of what it keeps of light
   };
   std::shared_ptr<Run> current() const;
+  std::shared_ptr<Run> current_with_session() const;  ///< null: there is no session
   /// How long the gate has been closed, s.
   double rested_s() const;
   std::shared_ptr<Run> prepared_run();

@@ -51,23 +51,20 @@ int source_of(const std::string& channel) {
 
 }  // namespace
 
-PartPicture::PartPicture(Image& image, double passes, double share)
-    : image_(image),
-      passes_(passes),
-      share_(share),
-      error_scale_(float(std::sqrt(passes / (passes + share)))) {
+PartPicture::PartPicture(Image& image, double share) : image_(image), share_(share) {
   for (const std::string& channel : image.channel_names()) sources_.push_back(source_of(channel));
 }
 
-void PartPicture::put(int x, int y, const PassPixel& mean) {
+void PartPicture::put(int x, int y, const PassPixel& mean, double passes) {
   const std::array<float, number_count> numbers = numbers_of(mean);
+  const auto error_scale = float(std::sqrt(passes / (passes + share_)));
   for (int channel = 0; channel < image_.channel_count(); ++channel) {
     const int source = sources_[size_t(channel)];
     float& value = image_.at(x, y, channel);
-    if (source == scaled_error) value *= error_scale_;
+    if (source == scaled_error) value *= error_scale;
     if (source >= 0)
-      value = float((passes_ * double(value) + share_ * double(numbers[size_t(source)])) /
-                    (passes_ + share_));
+      value = float((passes * double(value) + share_ * double(numbers[size_t(source)])) /
+                    (passes + share_));
   }
 }
 

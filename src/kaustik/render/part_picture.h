@@ -15,17 +15,17 @@ inline constexpr const char* incomplete_key = "incomplete";
 /// nothing where there is no whole pass.
 class PartPicture {
  public:
-  /// `passes`: that the image holds; `share` of the part, 0 to 1.
-  PartPicture(Image& image, double passes, double share);
-  /// `mean` of the pixel's samples in the part, with its splats. From any thread.
-  void put(int x, int y, const PassPixel& mean);
+  /// `share` of the part, 0 to 1.
+  PartPicture(Image& image, double share);
+  /// `passes`: that the image holds of the pixel; `mean` of its samples in the part, with its
+  /// splats. From any thread.
+  void put(int x, int y, const PassPixel& mean, double passes);
   /// Gives the pixel what another one shows.
   void copy(int x, int y, int from_x, int from_y);
 
  private:
   Image& image_;
-  double passes_, share_;
-  float error_scale_;
+  double share_;
   std::vector<int> sources_;  ///< number of the pixel that each channel shows; −1: none
 };
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "kaustik/base/parallel.h"
 #include "kaustik/image/photometry.h"
 
 namespace kaustik {
@@ -120,6 +121,31 @@ void PassTiles::load(size_t tile, Pixels& pixels) const {
     set_numbers_of(pixels[i], [&](size_t line) { return (*lines[line])[i]; });
     pixels[i].samples = samples[i];
   }
+}
+
+PassTiles PassTiles::cut_out(const PixelRegion& region) const {
+  PassTiles part({region.width, region.height});
+  parallel_blocks(part.tiles_.count(), 1, [&](size_t tile, size_t, size_t) {
+    const auto from = std::make_unique<Pixels>(), to = std::make_unique<Pixels>();
+    // A tile of the part lies in up to four of these.
+    for (int down = 0; down < 2; ++down)
+      for (int across = 0; across < 2; ++across) {
+        size_t source = tiles_.count();
+        part.tiles_.for_pixels_of(tile, [&](int x, int y, size_t place) {
+          const int whole_x = x + region.x, whole_y = y + region.y;
+          const Vec2i first = part.tiles_.first_pixel(tile) + Vec2i(region.x, region.y);
+          constexpr int side = PictureTiles::side;
+          if (whole_x / side - first.x / side != across || whole_y / side - first.y / side != down)
+            return;
+          const size_t of_pixel = tiles_.tile_at(whole_x, whole_y);
+          if (of_pixel != source) load(of_pixel, *from);
+          source = of_pixel;
+          (*to)[place] = (*from)[PictureTiles::place_of(whole_x, whole_y)];
+        });
+      }
+    part.store(tile, *to);
+  });
+  return part;
 }
 
 uint32_t PassTiles::fewest_samples() const {

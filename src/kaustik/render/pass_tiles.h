@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "kaustik/render/pixel_region.h"
 #include "kaustik/transport/integrator.h"
 #include "kaustik/transport/picture_tiles.h"
 
@@ -52,6 +53,8 @@ class PassTiles {
   /// `uniform` is used where it is the same all over.
   const Line* read(size_t tile, size_t line, Line& uniform) const;
   void read_samples(size_t tile, std::array<uint32_t, PictureTiles::pixels>& samples) const;
+  /// Those pixels, as a picture of their own.
+  PassTiles cut_out(const PixelRegion& region) const;
   /// Of all pixels of the picture.
   uint32_t fewest_samples() const;
   void clear();

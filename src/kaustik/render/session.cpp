@@ -49,7 +49,10 @@ Session::Session(const Scene& scene, const Integrator& integrator, const Session
       is_finished_(pass_.tiles().count()),
       tile_mutexes_(std::make_unique<std::mutex[]>(pass_.tiles().count())),
       has_picture_(film_.pass_count() > 0) {
+  for (const FilmRegion& region : film_.regions())
+    regions_.push_back({region.pixels, region.film.pass_count(), 0});
   plan();
+  for (const RegionRequest& request : settings_.regions) refine(request);
 }
 
 Session::~Session() = default;
@@ -138,9 +141,16 @@ SessionReport Session::run(std::stop_token stop,
   with_threads(settings_.threads, [&] {
     uint32_t next = film_.passes().first_missing(settings_.first_pass);
     std::optional<SessionEnd> end = end_before(next, monitor);
-    while (!end) {
-      if (stop.stop_requested() || render_pass(next, stop, monitor) != PassEnd::complete) {
-        end = stop.stop_requested() ? SessionEnd::cancelled : SessionEnd::time;
+    const auto cut_short = [&] {
+      return stop.stop_requested() ? SessionEnd::cancelled : SessionEnd::time;
+    };
+    while (true) {
+      if (end != SessionEnd::time && render_regions(stop, monitor, pass_done) != PassEnd::complete)
+        end = cut_short();
+      if (end) break;
+      const Pass pass{settings_.seed, next, samples_per_pass_, {}};
+      if (stop.stop_requested() || render_pass({pass, {}}, stop, monitor) != PassEnd::complete) {
+        end = cut_short();
         break;
       }
       monitor.pass_done();
@@ -151,10 +161,12 @@ SessionReport Session::run(std::stop_token stop,
     report_.end = *end;
   });
   report_.passes = film_.pass_count();
+  report_.regional_passes = film_.regional_pass_count();
   // What it takes to tell the error, over all pixels, would keep those waiting who abandoned it.
   if (!is_pass_abandoned_) {
     report_.mean_error = film_.mean_error();
-    report_.picture_error = monitor.error();
+    // Of regions that still wait the last passes may not be in it.
+    report_.picture_error = next_region() ? film_.picture_error() : monitor.error();
   }
   report_.rays = monitor.rays;
   report_.photons = monitor.photons;

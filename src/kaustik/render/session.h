@@ -14,6 +14,22 @@
 
 namespace kaustik {
 
+/// Passes of a region, beside those of the picture.
+struct RegionRequest {
+  PixelRegion pixels;
+  uint32_t passes = 1;
+};
+
+/// What a region has, and what it is to have.
+struct RegionProgress {
+  PixelRegion pixels;
+  uint32_t passes = 0;   ///< of its own, that are finished
+  uint32_t waiting = 0;  ///< that were asked for
+};
+
+/// At most so many passes are asked for at a time.
+inline constexpr uint32_t most_region_passes = 4096;
+
 /// How a session goes about its passes.
 struct SessionSettings {
   uint64_t seed = 0;
@@ -45,6 +61,8 @@ struct SessionSettings {
   std::optional<double> error;
   /// Seconds since some moment, asked by several threads; absent: the machine's clock.
   std::function<double()> clock;
+  /// Passes of regions: Session::refine(), from the begin.
+  std::vector<RegionRequest> regions;
   /// While it is closed no samples are taken, and no time counts; a light pass is finished all the
   /// same. Null: nobody closes it.
   std::shared_ptr<Gate> gate;
@@ -78,7 +96,8 @@ enum class SessionEnd { passes, time, error, cancelled };
 
 /// What came out of a session.
 struct SessionReport {
-  uint32_t passes = 0;  ///< that the film holds
+  uint32_t passes = 0;           ///< that the film holds
+  uint32_t regional_passes = 0;  ///< of regions, beside
   uint32_t samples_per_pass = 0;
   uint64_t rays = 0, photons = 0;
   uint64_t dropped_samples = 0;  ///< not finite, left out
@@ -104,6 +123,13 @@ struct SessionReport {
 /// film. Owns the loop, the clock, cancelling and progress, for every integrator. A film may begin
 /// with passes of an earlier session; those are left out, and the result has the same bits as if
 /// one session had rendered all.
+///
+/// Regions may be given passes of their own. Each is a pass like any other, but its samples are
+/// taken in the region alone, and what it splats elsewhere is dropped. How many there are must not
+/// depend on what samples have shown in these pixels: who asks for more just where single pixels
+/// are bright makes them too dark on average. They teach an integrator nothing. Those that are
+/// asked for together have the plans and the radii of the next pass of the picture, whose number is
+/// kept with the film: so the same requests after the same passes have the same bits.
 class Session {
  public:
   /// The scene and the integrator must outlive the session. Throws Error for a picture too large.
@@ -124,6 +150,13 @@ class Session {
                     const std::function<void(const Progress&)>& progress = {},
                     const std::function<void()>& pass_done = {});
 
+  /// From any thread, at any time: the region gets so many passes more, before the next pass of the
+  /// picture, once that has one; unless time is over. Throws Error(input) if there are no such
+  /// pixels, for too many regions, or passes that are none or more than `most_region_passes`. What
+  /// is asked for after run() has ended waits for the next one.
+  void refine(const RegionRequest& request);
+  /// From any thread: of all regions that have passes, or wait for some.
+  std::vector<RegionProgress> regions() const;
   /// From any thread: where run() is stopped, it leaves out what the running pass has, even if that
   /// is the first one, and tells no error. Then it returns sooner.
   void abandon_pass() { is_pass_abandoned_ = true; }
@@ -152,6 +185,17 @@ class Session {
   class Monitor;
   struct CameraPass;
   struct Round;
+  /// A pass, and where its samples are taken.
+  struct Task {
+    Pass pass;
+    std::optional<PixelRegion> region = {};  ///< absent: all of the picture
+
+    bool is_in(int x, int y) const { return !region || region->holds(x, y); }
+    /// Of a tile, by its first pixel.
+    bool meets_tile(const Vec2i& first) const {
+      return !region || region->meets({first.x, first.y, PictureTiles::side, PictureTiles::side});
+    }
+  };
   enum class PassEnd { complete, incomplete, discarded };
   void plan();
   /// Of a pass of a plan that does not say how many passes there are.
@@ -168,9 +212,15 @@ class Session {
   /// When the next pass is given up if it is no picture yet, in seconds of the session; absent:
   /// never.
   std::optional<double> last_second(const Monitor& monitor) const;
-  PassEnd render_pass(uint32_t index, std::stop_token stop, Monitor& monitor);
+  PassEnd render_pass(const Task& task, std::stop_token stop, Monitor& monitor);
+  /// Those of the regions that wait, until `stop` is requested or time is over.
+  PassEnd render_regions(std::stop_token stop, Monitor& monitor,
+                         const std::function<void()>& pass_done);
+  /// The one whose turn it is; none waits otherwise.
+  std::optional<PixelRegion> next_region() const;
+  void count_down(const PixelRegion& region);
   /// Takes the pass's samples. False if it was halted: then pixels have fewer, maybe none.
-  bool render_camera(const Pass& pass, const PassState& state, const std::stop_token& stop,
+  bool render_camera(const Task& task, const PassState& state, const std::stop_token& stop,
                      Monitor& monitor);
   /// The tile's samples of the round, until it is halted.
   void render_tile(CameraPass& camera, size_t tile, const Round& round);
@@ -181,8 +231,8 @@ class Session {
   PassPixel finished(const PassPixel& pixel, int x, int y) const;
   /// The same of all pixels of a tile, whose splats are forgotten then.
   void finish(size_t tile, PassTiles::Pixels& pixels);
-  /// Of all tiles that are not finished yet.
-  void finish_tiles();
+  /// Of all tiles of the task that are not finished yet.
+  void finish_tiles(const Task& task);
   /// Gives the pass's memory back, so that what looks at the film may use it.
   void forget_pass(Monitor& monitor);
   void clear_pixels(Monitor& monitor);
@@ -202,6 +252,9 @@ class Session {
   uint32_t pass_count_ = 0;           ///< 0: limited by time or error
   uint32_t samples_per_pass_ = 1;
   SessionReport report_;
+
+  mutable std::mutex regions_mutex_;
+  std::vector<RegionProgress> regions_;  ///< in the order in which they were asked for
 
   // For snapshots.
   mutable std::mutex picture_mutex_;            ///< the film, and whether pixels are sums or means

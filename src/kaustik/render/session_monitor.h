@@ -31,9 +31,11 @@ class Session::Monitor {
     light_done_ = share;
     tell(Progress::Stage::light, false);
   }
-  void light_pass_done(const PassReport& report) {
-    last_light_seconds_ = seconds_since(pass_start_);
-    light_seconds += last_light_seconds_;
+  /// What regional passes take tells nothing of those of the picture.
+  void light_pass_done(const PassReport& report, bool is_regional) {
+    const double seconds = seconds_since(pass_start_);
+    if (!is_regional) last_light_seconds_ = seconds;
+    light_seconds += seconds;
     light_done_ = 1;
     if (passes_done_ == 0 && light_seconds < 0.1) light_share_ = 0;
     rays += report.rays;
@@ -53,6 +55,17 @@ class Session::Monitor {
     light_share_ = std::min(1.0, light_seconds / std::max(1e-9, elapsed()));
     error_ = session_.film_.picture_error();
     tell(Progress::Stage::light, false);
+  }
+  /// Their passes may take less time than finding out the error of a large picture does, so that is
+  /// done now and then, and after the last one that was asked for.
+  void regional_pass_done(bool is_last) {
+    samples_done_ = 0;
+    light_done_ = 0;
+    if (is_last || now() - last_error_ > 1) {
+      error_ = session_.film_.picture_error();
+      last_error_ = now();
+    }
+    tell(Progress::Stage::light, is_last);
   }
   uint32_t passes_done() const { return passes_done_; }
   double error() const { return error_; }
@@ -91,7 +104,7 @@ class Session::Monitor {
 
   const Session& session_;
   const std::function<void(const Progress&)>& listener_;
-  double start_, pass_start_ = 0, last_ = 0;  ///< s
+  double start_, pass_start_ = 0, last_ = 0, last_error_ = 0;  ///< s
   double last_pass_seconds_ = 0, last_light_seconds_ = 0;
   bool told_ = false;
   std::mutex mutex_;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "kaustik/base/parallel.h"
+#include "kaustik/render/film_parts.h"
 #include "kaustik/render/part_picture.h"
 #include "kaustik/render/sample_sum.h"
 #include "kaustik/render/session.h"
@@ -50,11 +51,11 @@ void add_new(const std::vector<std::string>& sentences, std::vector<std::string>
 
 }  // namespace
 
-Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Monitor& monitor) {
+Session::PassEnd Session::render_pass(const Task& task, std::stop_token stop, Monitor& monitor) {
   if (settings_.gate) settings_.gate->pass(stop);
   if (stop.stop_requested()) return PassEnd::discarded;
   monitor.start_pass();
-  const Pass pass{settings_.seed, index, samples_per_pass_, {}};
+  const Pass& pass = task.pass;
   clear_pixels(monitor);
   monitor.tell(Progress::Stage::light, false);
   std::stop_source halt;
@@ -85,13 +86,15 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
   note_memory();
   // Half a light pass is of no use: what it has brought is a part of the light only.
   if (halt.stop_requested()) return PassEnd::discarded;
-  monitor.light_pass_done(state->report);
+  monitor.light_pass_done(state->report, pass.is_regional());
   add_new(state->report.warnings, report_.warnings);
   // Later ones take the place of earlier ones: what is decided changes as passes teach.
   report_.decisions = state->report.decisions;
   const bool complete =
-      !integrator_.traits().samples_camera || render_camera(pass, *state, stop, monitor);
+      !integrator_.traits().samples_camera || render_camera(task, *state, stop, monitor);
   uint32_t samples = samples_per_pass_;
+  // Of a region a part is of no use: there is a picture of it.
+  if (!complete && task.region) return PassEnd::discarded;
   if (!complete) {
     samples = pass_.fewest_samples();
     if (samples == 0 || is_pass_abandoned_) return PassEnd::discarded;
@@ -101,10 +104,14 @@ Session::PassEnd Session::render_pass(uint32_t index, std::stop_token stop, Moni
     // Beside whole passes it is a part, by itself it is the picture.
     const bool is_part = !complete && film_.pass_count() > 0;
     if (is_part) report_.part = share_taken(pass, *state);
-    finish_tiles();
+    finish_tiles(task);
     note_memory();
-    if (!is_part) {
-      film_.add_pass(pass_, index, samples);
+    if (task.region) {
+      film_.add_regional_pass(*task.region, pass_.cut_out(*task.region), pass);
+      note_memory();
+      forget_pass(monitor);
+    } else if (!is_part) {
+      film_.add_pass(pass_, pass.index, samples);
       note_memory();
       forget_pass(monitor);
     }
@@ -172,7 +179,7 @@ struct Session::Round {
 
 /// What the threads of a pass share that takes camera samples.
 struct Session::CameraPass {
-  const Pass& pass;
+  const Task& task;
   const PassState& state;
   const std::stop_token& stop;
   Monitor& monitor;
@@ -193,15 +200,15 @@ struct Session::CameraPass {
   }
 };
 
-bool Session::render_camera(const Pass& pass, const PassState& state, const std::stop_token& stop,
+bool Session::render_camera(const Task& task, const PassState& state, const std::stop_token& stop,
                             Monitor& monitor) {
-  CameraPass camera{pass, state, stop, monitor};
+  CameraPass camera{task, state, stop, monitor};
   // If there is no picture yet, all pixels get a sample, then another, two more, four more …, so
   // that there is one as soon as can be; and if it may not be finished, so that it is one then.
   const bool is_first = film_.pass_count() == 0;
   camera.last_second = last_second(monitor);
   const bool may_be_cut =
-      camera.last_second &&
+      camera.last_second && !task.region &&
       (monitor.passes_done() == 0 ||
        monitor.elapsed() + passes_ahead * monitor.last_pass_seconds() > *settings_.seconds);
   Round round;
@@ -231,7 +238,7 @@ bool Session::render_camera(const Pass& pass, const PassState& state, const std:
 }
 
 void Session::render_tile(CameraPass& camera, size_t tile, const Round& round) {
-  if (is_finished_[tile]) return;
+  if (is_finished_[tile] || !camera.task.meets_tile(pass_.tiles().first_pixel(tile))) return;
   const auto pixels = std::make_unique<PassTiles::Pixels>();
   Scratch scratch;
   uint64_t rays = 0, samples = 0;
@@ -239,7 +246,8 @@ void Session::render_tile(CameraPass& camera, size_t tile, const Round& round) {
   std::unique_lock lock(tile_mutexes_[tile]);
   pass_.load(tile, *pixels);
   pass_.tiles().for_pixels_of(tile, [&](int x, int y, size_t place) {
-    if (camera.halted || x % round.stride != 0 || y % round.stride != 0) return;
+    if (camera.halted || !camera.task.is_in(x, y)) return;
+    if (x % round.stride != 0 || y % round.stride != 0) return;
     if (settings_.gate && settings_.gate->is_closed()) camera.rests = true;
     if (camera.rests) return;
     PassPixel& pixel = (*pixels)[place];
@@ -261,8 +269,8 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end, S
   const FilmSettings& film = scene_.film();
   const uint64_t address =
       uint64_t(y + film.crop_offset.y) * uint64_t(film.size.x) + uint64_t(x + film.crop_offset.x);
-  const Pass& pass = camera.pass;
-  const uint32_t replicate = pass.index % replicate_count;
+  const Pass& pass = camera.task.pass;
+  const uint32_t sequence = pass.sequence();
   const PixelSamples samples = integrator_.pixel_samples(camera.state, pass, {x, y});
   if (samples.count > end && !camera.more) camera.more = true;
   end = std::min(end, samples.count);
@@ -276,7 +284,7 @@ uint64_t Session::render_pixel(CameraPass& camera, int x, int y, uint32_t end, S
     const uint32_t block_end = std::min(end, (done / samples_per_block + 1) * samples_per_block);
     do {
       Sampler sampler =
-          Sampler::at(pass.seed, replicate, Stream::camera, address, samples.first_index + done);
+          Sampler::at(pass.seed, sequence, Stream::camera, address, samples.first_index + done);
       const Vec2f offset = film.filter.sample(sampler.next_2d());
       SampleSink sink(integrator_.traits().components, pass.wavelengths, &scratch);
       integrator_.sample(camera.state, {float(x) + 0.5f + offset.x, float(y) + 0.5f + offset.y},
@@ -309,9 +317,9 @@ void Session::finish(size_t tile, PassTiles::Pixels& pixels) {
   is_finished_[tile] = 1;
 }
 
-void Session::finish_tiles() {
+void Session::finish_tiles(const Task& task) {
   parallel_blocks(pass_.tiles().count(), 1, [&](size_t tile, size_t, size_t) {
-    if (is_finished_[tile]) return;
+    if (is_finished_[tile] || !task.meets_tile(pass_.tiles().first_pixel(tile))) return;
     const auto pixels = std::make_unique<PassTiles::Pixels>();
     pass_.load(tile, *pixels);
     finish(tile, *pixels);
@@ -348,12 +356,17 @@ std::optional<Film> Session::film_so_far() const {
 Image Session::image(bool with_layers) const {
   Image image = film_.image(with_layers);
   if (!(report_.part > 0)) return image;
-  PartPicture picture(image, film_.pass_count(), report_.part);
+  PartPicture picture(image, report_.part);
+  const FilmParts parts(film_);
+  const auto passes_at = [&](int x, int y) {
+    return double(parts.of_pixel(size_t(y) * size_t(film_.width()) + size_t(x)).count());
+  };
   parallel_blocks(pass_.tiles().count(), 1, [&](size_t tile, size_t, size_t) {
     const auto pixels = std::make_unique<PassTiles::Pixels>();
     pass_.load(tile, *pixels);
-    pass_.tiles().for_pixels_of(
-        tile, [&](int x, int y, size_t place) { picture.put(x, y, (*pixels)[place]); });
+    pass_.tiles().for_pixels_of(tile, [&](int x, int y, size_t place) {
+      picture.put(x, y, (*pixels)[place], passes_at(x, y));
+    });
   });
   return image;
 }
@@ -361,7 +374,7 @@ Image Session::image(bool with_layers) const {
 Image Session::first_samples(std::unique_lock<std::mutex> lock, SnapshotFacts& facts,
                              bool with_layers) const {
   Image image = film_.image(with_layers);
-  PartPicture picture(image, 0, 1);
+  PartPicture picture(image, 1);
   std::vector<uint8_t> is_shown(film_.pixel_count());
   const auto index = [&](int x, int y) { return size_t(y) * size_t(film_.width()) + size_t(x); };
   const auto pixels = std::make_unique<PassTiles::Pixels>();
@@ -373,7 +386,7 @@ Image Session::first_samples(std::unique_lock<std::mutex> lock, SnapshotFacts& f
     pass_.tiles().for_pixels_of(tile, [&](int x, int y, size_t place) {
       if ((*pixels)[place].samples == 0) return;
       samples += (*pixels)[place].samples;
-      picture.put(x, y, finished((*pixels)[place], x, y));
+      picture.put(x, y, finished((*pixels)[place], x, y), 0);
       is_shown[index(x, y)] = 1;
     });
   }

@@ -19,6 +19,17 @@ namespace kaustik {
 /// Number of independent replicates; pass i belongs to replicate i mod 16.
 inline constexpr uint32_t replicate_count = 16;
 
+/// Passes of a region of the picture have numbers from here on, passes of all of it smaller ones:
+/// so no random number is used twice. A multiple of `replicate_count`.
+inline constexpr uint32_t first_regional_pass = uint32_t(1) << 31;
+
+/// Passes of a region that were asked for together.
+struct RegionOrder {
+  uint32_t begin = 0;  ///< index of the first one
+  /// The pass of all of the picture whose plans and radii they have.
+  uint32_t stage = 0;
+};
+
 /// What makes a pass: its results are a function of this (and of the scene) alone.
 struct Pass {
   uint64_t seed = 0;
@@ -26,6 +37,21 @@ struct Pass {
   uint32_t samples_per_pixel = 1;  ///< of this pass and every other
   /// Of all light of the pass: whatever meets in it has the same.
   Wavelengths wavelengths = {};
+  RegionOrder order = {};  ///< of a regional pass alone
+
+  bool is_regional() const { return index >= first_regional_pass; }
+  /// The pass whose plans and radii this one has: itself, or that of its order. What a pass teaches
+  /// and how its radii shrink go by this, random numbers by the index.
+  uint32_t stage() const { return is_regional() ? order.stage : index; }
+  /// How many passes of its replicate come before it, in its order if it is regional: those whose
+  /// camera samples are of the same sequence.
+  uint32_t round() const { return (is_regional() ? index - order.begin : index) / replicate_count; }
+  /// What tells the sequence of its camera samples from others of the seed: its replicate, or of a
+  /// regional pass the first one of its order that is of that replicate.
+  uint32_t sequence() const {
+    return is_regional() ? order.begin + (index - order.begin) % replicate_count
+                         : index % replicate_count;
+  }
 };
 
 /// Camera samples of a pixel in a pass: how many, and which of its replicate's sequence. No index
@@ -156,7 +182,7 @@ class Integrator {
   /// the pass's. All passes count alike.
   virtual PixelSamples pixel_samples(const PassState&, const Pass& pass,
                                      const Vec2i& /*pixel*/) const {
-    return {pass.index / replicate_count * pass.samples_per_pixel, pass.samples_per_pixel};
+    return {pass.round() * pass.samples_per_pixel, pass.samples_per_pixel};
   }
   /// What the passes prepared so far have taught, for integrators of the same scene and parameters
   /// that go on from there; empty: nothing is learned. Not during prepare() and learn().

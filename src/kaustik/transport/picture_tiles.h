@@ -22,10 +22,15 @@ class PictureTiles {
   /// Within its tile, row by row.
   static size_t place_of(int x, int y) { return size_t(y % side) * side + size_t(x % side); }
 
+  /// Its upper left one.
+  Vec2i first_pixel(size_t tile) const {
+    return {int(tile % size_t(across_)) * side, int(tile / size_t(across_)) * side};
+  }
+
   /// Calls body(x, y, place) for all pixels of the picture that lie in the tile, row by row.
   template <typename Body>
   void for_pixels_of(size_t tile, const Body& body) const {
-    const int x0 = int(tile % size_t(across_)) * side, y0 = int(tile / size_t(across_)) * side;
+    const int x0 = first_pixel(tile).x, y0 = first_pixel(tile).y;
     for (int y = y0; y < size_.y && y < y0 + side; ++y)
       for (int x = x0; x < size_.x && x < x0 + side; ++x) body(x, y, place_of(x, y));
   }

@@ -15,7 +15,7 @@ VcmPass::VcmPass(const Scene& scene, const VcmSettings& settings,
       plans_(std::move(plans)),
       pass_(pass),
       weights_(make_weights()),
-      shrinkage_(sqr(pass_radius(1, pass.index))),
+      shrinkage_(sqr(pass_radius(1, pass.stage()))),
       media_(plans_->media.shrunk(shrinkage_)) {}
 
 PathWeights VcmPass::make_weights() const {
@@ -24,7 +24,7 @@ PathWeights VcmPass::make_weights() const {
   weights.light_paths =
       float(light_path_count(scene_.film(), pass_.samples_per_pixel, plans_->light_paths));
   weights.connections = float(settings_.connections) / plans_->connectible_per_path;
-  weights.merge_area = plans_->pixels.other_area() * sqr(pass_radius(1, pass_.index));
+  weights.merge_area = plans_->pixels.other_area() * sqr(pass_radius(1, pass_.stage()));
   weights.accepted_area = accepted_area(plans_->pixels);
   weights.first_medium_share = 1 / float(pass_.samples_per_pixel);
   return PathWeights(weights);

@@ -50,6 +50,8 @@ PixelSamples VcmIntegrator::pixel_samples(const PassState& state, const Pass& pa
     return Integrator::pixel_samples(state, pass, pixel);
   const size_t block = plans.pixels.seen().grid().index_at(Vec2f(float(pixel.x), float(pixel.y)));
   const uint32_t count = spread->counts[block];
+  // Orders have sequences of their own.
+  if (pass.is_regional()) return {pass.round() * count, count};
   const uint32_t rounds = (pass.index - spread->begin) / replicate_count;
   return {spread->first_indices[block] + rounds * count, count};
 }

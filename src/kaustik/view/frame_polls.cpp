@@ -59,11 +59,13 @@ std::shared_ptr<const LayerPictures::Layers> LayerPictures::of(const Watched& sh
   bool is_known = false, has_layers = false;
   const bool has_film = shown.look_at_film([&](const Film& film) {
     has_layers = film.layers().in_images;
-    is_known =
-        has_layers && last_ && last_->revision == revision && last_->passes == film.pass_count();
+    is_known = has_layers && last_ && last_->revision == revision &&
+               last_->passes == film.pass_count() &&
+               last_->regional_passes == film.regional_pass_count();
     if (is_known || !has_layers) return;
     next->revision = revision;
     next->passes = film.pass_count();
+    next->regional_passes = film.regional_pass_count();
     next->image = film.image();
   });
   if (!has_film || is_known) return is_known ? last_ : nullptr;

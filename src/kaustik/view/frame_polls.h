@@ -36,7 +36,7 @@ class LayerPictures {
  public:
   struct Layers {
     uint64_t revision = 0;
-    uint32_t passes = 0;
+    uint32_t passes = 0, regional_passes = 0;
     Image image;
   };
   /// The layers of what is shown, as of a revision; null: there are none now. Takes time.

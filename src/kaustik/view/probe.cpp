@@ -22,11 +22,16 @@ Json json_of(const ConfidenceInterval& interval) {
   return Json::array({interval.mean - interval.half_width, interval.mean + interval.half_width});
 }
 
-/// The means over the passes of three numbers of a pixel.
+/// The mean over the passes of a number of a pixel.
+float mean_number(const Film& film, size_t pixel, size_t number) {
+  return float(double_from(film.sum(pixel, number)) / film.pass_count(pixel));
+}
+
+/// The same of three numbers.
 Vec3f mean_of(const Film& film, size_t pixel, size_t first_number) {
   Vec3f mean;
   for (size_t lane = 0; lane < 3; ++lane)
-    mean[int(lane)] = float(double_from(film.sum(pixel, first_number + lane)) / film.pass_count());
+    mean[int(lane)] = mean_number(film, pixel, first_number + lane);
   return mean;
 }
 
@@ -40,8 +45,7 @@ Json layers_of_pixel(const Film& film, size_t pixel) {
           json_of_color(mean_of(film, pixel, numbers.radiance + c * FilmNumbers::lanes));
   layers["albedo"] = json_of_color(mean_of(film, pixel, numbers.first_hit));
   layers["N"] = json_of_color(mean_of(film, pixel, numbers.first_hit + 3));
-  layers["depth"] =
-      Json::array({float(double_from(film.sum(pixel, numbers.first_hit + 6)) / film.pass_count())});
+  layers["depth"] = Json::array({mean_number(film, pixel, numbers.first_hit + 6)});
   return layers;
 }
 
@@ -102,7 +106,7 @@ Json pixel_facts(const Film& film, int x, int y) {
   const FilmErrors errors(film);
   Vec3f value;
   for (int lane = 0; lane < 3; ++lane)
-    value[lane] = float(film.total(pixel, lane) / film.pass_count());
+    value[lane] = float(film.total(pixel, lane) / film.pass_count(pixel));
   Json facts = {{"x", x}, {"y", y}, {"value", json_of_color(value)}};
   facts["luminance"] = photopic(value);
   const KnownLuminance known = errors.known(pixel);
@@ -110,7 +114,7 @@ Json pixel_facts(const Film& film, int x, int y) {
   facts["interval"] = json_of(known.interval());
   facts["bias"] = film.holds_bias() ? json_of_color(errors.mean_bias(pixel)) : Json(nullptr);
   facts["layers"] = layers_of_pixel(film, pixel);
-  facts["passes"] = film.pass_count();
+  facts["passes"] = film.pass_count(pixel);
   return facts;
 }
 

@@ -7,6 +7,7 @@
 #include "kaustik/view/assets.h"
 #include "kaustik/view/parameter_list.h"
 #include "kaustik/view/probe.h"
+#include "kaustik/view/region_request.h"
 #include "kaustik/view/request_error.h"
 
 namespace kaustik::view {
@@ -192,7 +193,7 @@ void Routes::do_command(Call& call) {
   const Json json = parse_request_json(call.request.body);
   if (json.size() != 1)
     throw RequestError(400, fmt::format("a command of {} members", json.size()),
-                       "give one: camera, set, integrator, do or save");
+                       "give one: camera, set, integrator, do, refine or save");
   noted_status();
   const std::string& what = json.begin().key();
   const Json& value = json.begin().value();
@@ -210,11 +211,13 @@ void Routes::do_command(Call& call) {
   } else if (what == "do") {
     command(text_of(json, "do"));
     revision = last_revision_;
+  } else if (what == "refine") {
+    refine(value);
   } else if (what == "save") {
     return save(call, value);
   } else {
     throw RequestError(400, fmt::format("there is no command '{}'", what),
-                       suggest(what, {"camera", "set", "integrator", "do", "save"}));
+                       suggest(what, {"camera", "set", "integrator", "do", "refine", "save"}));
   }
   call.reply->send(json_response({{"revision", revision}}));
 }
@@ -260,6 +263,14 @@ void Routes::command(const std::string& what) {
     throw RequestError(400, fmt::format("'{}' cannot be done", what),
                        suggest(what, {"start", "pause", "resume", "stop", "reset"}));
   }
+}
+
+void Routes::refine(const Json& what) {
+  const RegionRequest request = region_request_from(what);
+  if (!parts_.engine.can_refine())
+    throw RequestError(409, "no picture is rendered at rest, so no region can have more samples",
+                       "start the render, and ask when its first pass is shown");
+  parts_.engine.refine(request);
 }
 
 void Routes::save(Call& call, const Json& what) {

@@ -73,6 +73,8 @@ class Routes {
   uint64_t edit(Description description, const std::optional<CameraPose>& pose);
   void command(const std::string& what);
   void command_session(const std::string& what);
+  /// More samples in a region.
+  void refine(const Json& what);
   void save(Call& call, const Json& what);
   /// Takes in what has become of the edits, and what the scene tells.
   EngineStatus noted_status();

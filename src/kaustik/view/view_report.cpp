@@ -5,6 +5,7 @@
 #include "kaustik/base/version.h"
 #include "kaustik/scene/scene.h"
 #include "kaustik/transport/component.h"
+#include "kaustik/view/region_request.h"
 
 namespace kaustik::view {
 namespace {
@@ -66,6 +67,7 @@ Json state_report(const Watched& shown, const EngineStatus& status, const PageFa
           {"elapsed_s", progress.elapsed_s},
           {"error", has_error ? Json(progress.relative_error) : Json(nullptr)},
           {"is_moving", snapshot && snapshot->is_moving},
+          {"regions", json_of(status.regions)},
           {"integrator", facts.integrator},
           {"layers", facts.layers},
           {"unit", is_irradiance ? "W/m²" : "W/(sr·m²)"},

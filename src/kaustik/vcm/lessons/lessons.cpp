@@ -35,14 +35,14 @@ uint32_t VcmLessons::epoch_begin(uint32_t pass) const {
 }
 
 bool VcmLessons::serve(const Pass& pass) const {
-  const uint32_t epoch = epoch_begin(pass.index);
+  const uint32_t epoch = epoch_begin(pass.stage());
   return seed_ == pass.seed && first_->samples_per_pixel == pass.samples_per_pixel &&
          (epochs_.contains(epoch) || epoch >= passes_);
 }
 
 bool VcmLessons::is_next(const Pass& pass) const {
   // Sums of an epoch whose plans are still to be made stay as they are.
-  return serve(pass) && passes_ == pass.index && pass.index < end_ &&
+  return !pass.is_regional() && serve(pass) && passes_ == pass.index && pass.index < end_ &&
          epochs_.contains(epoch_begin(pass.index));
 }
 
@@ -113,11 +113,12 @@ uint32_t VcmLessons::make_up(const Pass& pass, uint32_t until, const std::stop_t
 
 PassPlans VcmLessons::plans_for(const Pass& pass, const std::stop_token& stop,
                                 const ProgressFunction& progress, PassReport& report) {
-  const uint32_t begin = epoch_begin(pass.index);
+  const uint32_t begin = epoch_begin(pass.stage());
   PassPlans result;
   result.made_up = make_up(pass, begin, stop, progress, report);
   result.plans = stop.stop_requested() ? first_ : plans_of(begin, stop, report.rays);
-  result.remembered_paths = needs_of(pass.index).remembered_paths;
+  // Regional passes teach nothing.
+  if (!pass.is_regional()) result.remembered_paths = needs_of(pass.index).remembered_paths;
   return result;
 }
 
