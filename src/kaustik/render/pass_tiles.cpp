@@ -126,15 +126,15 @@ void PassTiles::load(size_t tile, Pixels& pixels) const {
 PassTiles PassTiles::cut_out(const PixelRegion& region) const {
   PassTiles part({region.width, region.height});
   parallel_blocks(part.tiles_.count(), 1, [&](size_t tile, size_t, size_t) {
+    constexpr int side = PictureTiles::side;
     const auto from = std::make_unique<Pixels>(), to = std::make_unique<Pixels>();
-    // A tile of the part lies in up to four of these.
+    const Vec2i first = part.tiles_.first_pixel(tile) + Vec2i(region.x, region.y);
+    // A tile of the part lies in up to four of these, each of which is loaded once.
     for (int down = 0; down < 2; ++down)
       for (int across = 0; across < 2; ++across) {
         size_t source = tiles_.count();
         part.tiles_.for_pixels_of(tile, [&](int x, int y, size_t place) {
           const int whole_x = x + region.x, whole_y = y + region.y;
-          const Vec2i first = part.tiles_.first_pixel(tile) + Vec2i(region.x, region.y);
-          constexpr int side = PictureTiles::side;
           if (whole_x / side - first.x / side != across || whole_y / side - first.y / side != down)
             return;
           const size_t of_pixel = tiles_.tile_at(whole_x, whole_y);
