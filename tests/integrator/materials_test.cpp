@@ -42,7 +42,7 @@ const std::vector<Material>& materials() {
       {"principled_glass",
        bsdf("principled",
             rgb("base_color", "0.8, 0.9, 0.7") + set("spec_trans", 0.7) + set("roughness", 0.5)),
-       16, 4},
+       32, 4},
       {"leaf",
        bsdf("principledthin",
             rgb("base_color", "0.4, 0.8, 0.3") + set("diff_trans", 1.0) + set("spec_trans", 0.3)),
