@@ -132,12 +132,12 @@ TEST(Lampshade, GlossyTransmissionIsTheSame) {
   const std::vector<std::string> layers = {"direct", "caustic", "indirect"};
   const std::string wanted = set("components", "direct, caustic, indirect");
   const Passes path = render(scene, "path", wanted, {128, 1});
-  const Passes map =
-      render(scene, "photonmap",
-             set("global_photons", int(60'000 * sample_share())) +
-                 set("caustic_photons", int(60'000 * sample_share())) + set("caustic_neighbors", 20) +
-                 set("global_neighbors", 30) + set("irradiance_cache", false) + wanted,
-             {8, 3});
+  const Passes map = render(scene, "photonmap",
+                            set("global_photons", int(60'000 * sample_share())) +
+                                set("caustic_photons", int(60'000 * sample_share())) +
+                                set("caustic_neighbors", 20) + set("global_neighbors", 30) +
+                                set("irradiance_cache", false) + wanted,
+                            {8, 3});
   expect_near_means("frosted lampshade photonmap", map.mean(layers), path.mean(layers), 0.01);
 }
 

@@ -440,7 +440,7 @@ std::vector<SurfaceSide> LightPass::trace_places(const Address& address, std::st
 
 PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop,
                             const ProgressFunction& progress, const Wavelengths& wavelengths,
-                             const GaugeDisks* gauges, std::optional<uint32_t> stage) const {
+                            const GaugeDisks* gauges, std::optional<uint32_t> stage) const {
   const Address address{seed, index, stage.value_or(index), wavelengths, gauges};
   const auto start = std::chrono::steady_clock::now();
   uint64_t total = 0;

@@ -91,8 +91,8 @@ class LightPass {
 
   /// The maps of pass `index`: the same for any number of threads. `progress` is told of photons,
   /// not of the building of the trees. `wavelengths`: of all photons, since any of them may meet.
-  /// `gauges`: through whose disks caustic photons pass; null: through none. `stage`: the pass whose
-  /// largest weight photons have, Pass::stage(); absent: `index`.
+  /// `gauges`: through whose disks caustic photons pass; null: through none. `stage`: the pass
+  /// whose largest weight photons have, Pass::stage(); absent: `index`.
   PhotonMaps trace(uint64_t seed, uint32_t index, std::stop_token stop = {},
                    const ProgressFunction& progress = {}, const Wavelengths& wavelengths = {},
                    const GaugeDisks* gauges = nullptr, std::optional<uint32_t> stage = {}) const;
