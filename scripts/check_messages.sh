@@ -13,7 +13,7 @@ find src apps \( -name '*.h' -o -name '*.cpp' \) -not -path apps/kaustik/page_op
     function may_write_xml() { return FILENAME ~ /^src\/kaustik\/loader\// }
     function words_of_xml() { return FILENAME ~ /^apps\/|\/(base|image|geometry)\// ? "" : "(^|[^a-z_])(elements?|attributes?|tags?|XML)([^a-z_]|$)" }
     # Tables of parameters are the pages of `kaustik help`.
-    function may_name_options() { return FILENAME ~ /^apps\/|\/type_tables\.cpp$|\/render\/checkpoint\.cpp$/ }
+    function may_name_options() { return FILENAME ~ /^apps\/|\/type_tables\.cpp$/ }
     /^[ \t]*#[ \t]*include/ { next }
     {
       ++lines

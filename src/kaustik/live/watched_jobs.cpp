@@ -13,9 +13,14 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds look_interval(50), snapshot_interval(100);
 
 /// That are finished.
-uint32_t passes_of(const Job& job) {
-  uint32_t passes = 0;
-  job.look_at_film([&](const Film& film) { passes = film.pass_count(); });
+struct FilmPasses {
+  uint32_t whole = 0, regional = 0;
+};
+FilmPasses passes_of(const Job& job) {
+  FilmPasses passes;
+  job.look_at_film([&](const Film& film) {
+    passes = {film.pass_count(), film.regional_pass_count()};
+  });
   return passes;
 }
 
@@ -42,7 +47,8 @@ EngineStatus WatchedJobs::status() const {
   if (!shown.job) return status;
   const JobCourse course = shown.course();
   status.progress = course.progress;
-  status.progress.passes_done = passes_of(*shown.job);
+  status.progress.passes_done = passes_of(*shown.job).whole;
+  status.regions = shown.job->regions();
   status.failure = course.failure;
   status.state = course.failure              ? EngineState::failed
                  : course.has_ended          ? EngineState::finished
@@ -64,15 +70,16 @@ bool WatchedJobs::is_due(const Shown& shown, Snapshot::Kind kind, uint32_t passe
   if (is_last_) return false;
   if (has_ended) return true;
   if (kind == Snapshot::Kind::preview || Clock::now() - made_ < snapshot_interval) return false;
-  return kind == Snapshot::Kind::samples || snapshot_->passes != passes;
+  return kind == Snapshot::Kind::samples || passes_ != passes;
 }
 
 void WatchedJobs::look(const Shown& shown) const {
   if (!shown.job) return;
   // Asked before the picture is made, so that nothing after it is missed.
   const JobCourse course = shown.course();
-  const uint32_t passes = passes_of(*shown.job);
-  const Snapshot::Kind kind = passes > 0                    ? Snapshot::Kind::passes
+  const FilmPasses film = passes_of(*shown.job);
+  const uint32_t passes = film.whole + film.regional;
+  const Snapshot::Kind kind = film.whole > 0                ? Snapshot::Kind::passes
                               : course.progress.has_picture ? Snapshot::Kind::samples
                                                             : Snapshot::Kind::preview;
   if (!is_due(shown, kind, passes, course.has_ended)) return;
@@ -81,7 +88,7 @@ void WatchedJobs::look(const Shown& shown) const {
   auto next = std::make_shared<Snapshot>();
   next->revision = shown.revision;
   next->kind = kind;
-  next->passes = passes;
+  next->passes = film.whole;
   next->elapsed_s = course.progress.elapsed_s;
   next->scene = shown.job->shared_scene();
   next->picture = std::move(*picture);
@@ -89,6 +96,7 @@ void WatchedJobs::look(const Shown& shown) const {
   if (shown_.revision != shown.revision) return;
   next->number = snapshot_ ? snapshot_->number + 1 : 1;
   snapshot_ = std::move(next);
+  passes_ = passes;
   is_last_ = course.has_ended;
   made_ = Clock::now();
 }

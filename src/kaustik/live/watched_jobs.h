@@ -44,6 +44,7 @@ class WatchedJobs final : public Watched {
   mutable std::mutex mutex_;
   Shown shown_;
   mutable std::shared_ptr<const Snapshot> snapshot_;
+  mutable uint32_t passes_ = 0;   ///< in it, those of regions too
   mutable bool is_last_ = false;  ///< the snapshot was made after the job's end
   mutable std::chrono::steady_clock::time_point made_;
 };

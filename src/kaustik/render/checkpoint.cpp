@@ -14,12 +14,11 @@
 namespace kaustik {
 namespace {
 
-constexpr BinaryFileKind checkpoint_kind = {
-    {0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
-    10,
-    "checkpoint",
-    "give a .kpt file that was written by: kaustik render SCENE --checkpoint FILE.kpt",
-    "render again with this program: kaustik render SCENE --checkpoint FILE.kpt"};
+constexpr BinaryFileKind checkpoint_kind = {{0x89, 'K', 'P', 'T', '\r', '\n', 0x1a, '\n'},
+                                            10,
+                                            "checkpoint",
+                                            "give a checkpoint (.kpt) that a render has written",
+                                            "render the scene again with this program"};
 
 void put_texts(BinaryWriter& writer, const std::vector<std::string>& texts) {
   writer.put(uint64_t(texts.size()));
@@ -178,19 +177,18 @@ RenderRecord get_record(BinaryReader& reader) {
 std::pair<std::string, std::string> difference(const RenderRecipe& a, const RenderRecipe& b) {
   if (a.digest.scene != b.digest.scene)
     return {"another scene, or one that was changed",
-            "render all parts with the same scene file, -D and --set"};
+            "render all parts of one scene file, with the same definitions and settings"};
   if (a.digest.integrator != b.digest.integrator)
     return {"another integrator, or other parameters of it",
-            "render all parts with the same --integrator and --set"};
+            "render all parts by the same integrator with the same settings"};
   if (a.seed != b.seed)
     return {fmt::format("seed {} instead of {}", b.seed, a.seed),
-            "render all parts with the same --seed"};
+            "render all parts with the same seed"};
   if (a.samples_per_pass != b.samples_per_pass)
     return {
         fmt::format("{} samples per pass instead of {}", b.samples_per_pass, a.samples_per_pass),
-        "give each part --spp as its --passes times the same number"};
-  if (a.lessons != b.lessons)
-    return {"other lessons", "render all parts with the same --learned, or all without"};
+        "give the passes of all parts the same number of samples per pixel"};
+  if (a.lessons != b.lessons) return {"other lessons", "give all parts the same lessons, or none"};
   return {};
 }
 
@@ -303,12 +301,12 @@ void merge_checkpoint(Checkpoint& whole, const std::string& whole_path, const Ch
     fail(fmt::format("this cannot be merged with '{}': its picture has another size or other "
                      "components",
                      whole_path),
-         "render all parts with the same scene file, -D and --set");
+         "render all parts of one scene file, with the same definitions and settings");
   const PassSet twice = whole.film.passes().common(part.film.passes());
   if (!twice.empty())
     fail(fmt::format("of its passes {} were given before: {}", part.film.passes().text(),
                      twice.text()),
-         "give each pass once: render parts with their own --first-pass and --passes");
+         "give each pass once: parts have passes of their own");
   if (const PassSet regional = whole.film.twice_in_regions(part.film); !regional.empty())
     fail(fmt::format("of the passes of its regions {} were given before, for the same pixels",
                      regional.text()),
