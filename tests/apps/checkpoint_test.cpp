@@ -196,14 +196,16 @@ TEST_F(CheckpointCommands, MergeRefusesWhatDoesNotBelongTogether) {
     run_well(other);
     expect_refused({"merge", "a.kpt", "b.kpt", "-o", "new.exr"}, "b.kpt", message, remedy);
   };
-  refused(render("path", {1, 3}, "b"), "of its passes 1–2 were given before: 1", "--first-pass");
+  refused(render("path", {1, 3}, "b"), "of its passes 1–2 were given before: 1",
+          "parts have passes of their own");
   refused(render("path", {2, 4}, "b") + Arguments{"--set", "metal.radius=0.4"}, "another scene",
-          "the same scene file");
+          "of one scene file");
   refused(render("path", {2, 4}, "b") + Arguments{"--set", "integrator.max_depth=4"},
-          "other parameters", "--integrator and --set");
-  refused(render("photonmap", {2, 4}, "b"), "another integrator", "--integrator and --set");
-  refused(render("path", {2, 4}, "b", 2, "8"), "seed 8 instead of 7", "--seed");
-  refused(render("path", {2, 4}, "b", 3), "3 samples per pass instead of 2", "--spp");
+          "other parameters", "by the same integrator");
+  refused(render("photonmap", {2, 4}, "b"), "another integrator", "by the same integrator");
+  refused(render("path", {2, 4}, "b", 2, "8"), "seed 8 instead of 7", "the same seed");
+  refused(render("path", {2, 4}, "b", 3), "3 samples per pass instead of 2",
+          "the same number of samples");
 }
 
 TEST_F(CheckpointCommands, FilesThatAreNoCheckpoints) {
@@ -220,11 +222,12 @@ TEST_F(CheckpointCommands, FilesThatAreNoCheckpoints) {
     expect_refused({"merge", "a.kpt", damaged, "-o", "new.exr"}, damaged,
                    "the checkpoint is damaged", "render again");
   }
-  expect_refused({"resume", "path.xml"}, "path.xml", "not a checkpoint", "--checkpoint");
+  expect_refused({"resume", "path.xml"}, "path.xml", "not a checkpoint",
+                 "that a render has written");
   expect_refused({"merge", "path.xml", "a.kpt", "-o", "new.exr"}, "path.xml",
                  "neither a checkpoint nor a photon map", "--part");
   expect_refused({"merge", "a.kpt", "map.kpm", "-o", "new.exr"}, "map.kpm", "not a checkpoint",
-                 "--checkpoint");
+                 "that a render has written");
   expect_refused({"merge", "map.kpm", "a.kpt", "-o", "new.kpm"}, "a.kpt", "not a photon map",
                  "give a .kpm file");
   EXPECT_EQ(run({"resume", "missing.kpt"}).exit_code, 2);

@@ -18,7 +18,7 @@ constexpr BinaryFileKind checkpoint_kind = {{0x89, 'K', 'P', 'T', '\r', '\n', 0x
                                             10,
                                             "checkpoint",
                                             "give a checkpoint (.kpt) that a render has written",
-                                            "render the scene again with this program"};
+                                            "render again with this program"};
 
 void put_texts(BinaryWriter& writer, const std::vector<std::string>& texts) {
   writer.put(uint64_t(texts.size()));
