@@ -120,9 +120,9 @@ class Session:
 
     def refine(self, x: int, y: int, width: int, height: int, passes: int = 16) -> None:
         """More samples in a region of the picture: so many passes for its pixels alone. The picture, its errors
-        and its intervals count them. While the session runs they come before the next pass of the picture, and
-        this returns at once; after the end they are taken now. Choose a region by what is in it, not by single
-        pixels that look too bright: only then the picture stays unbiased."""
+        and its intervals count them. The session must have begun a picture. While it runs they come before the next
+        pass of the picture, and this returns at once; after the end they are taken now. Choose a region by what is
+        in it, not by single pixels that look too bright: only then the picture stays unbiased."""
         region = [_positive("x", x, is_integer=True, most=_most_pixels),
                   _positive("y", y, is_integer=True, most=_most_pixels),
                   _positive("width", width, is_integer=True, least=1, most=_most_pixels),
@@ -315,7 +315,7 @@ class Session:
         """Shows what this session renders to browsers of this machine: its picture, errors and values of pixels, as
         they are now, and after each `start` and `edit`. Nothing is rendered for the view; who looks can pause and
         stop the session, but not change the scene. `port` 0 is any that is free, and `output` the folder where
-        pages may save pictures. It goes on until `.stop()` or the end of the program."""
+        pages may save pictures. It goes on until `.stop()`, or until nobody holds it."""
         integrator = self._goals.integrator if isinstance(self._goals.integrator, str) else ""
         view = View._of_session(self._rendered_scene(), integrator, self._goals.wishes["threads"],
                                 self._goals.wishes["seed"], port, output)

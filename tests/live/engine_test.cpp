@@ -471,11 +471,11 @@ TEST(Engine, GivesRegionsMorePasses) {
   engine.resume();
   ASSERT_TRUE(wait_for([&] { return engine.status().regions[0].waiting == 0; }));
   EXPECT_EQ(engine.status().regions[0].passes, 6u);
-  engine.look_at_film([&](const Film& film) {
+  EXPECT_TRUE(engine.look_at_film([&](const Film& film) {
     ASSERT_EQ(film.regions().size(), 1u);
     EXPECT_TRUE(film.regions()[0].pixels == request.pixels);
     EXPECT_EQ(film.pass_count(5 * 24 + 5), film.pass_count() + 6);
-  });
+  }));
   ASSERT_NE(engine.wait_for_snapshot(shown, 60s), nullptr);
   const auto saved = engine.finished_snapshot();
   ASSERT_TRUE(saved);

@@ -715,6 +715,37 @@ TEST(Regions, DamagedFilesAreRefused) {
   }
 }
 
+// Pixels would count it twice, and be told to have less noise than they have.
+TEST(Regions, AFileWithAPassTwiceForTheSamePixelsIsRefused) {
+  const auto film_of = [](bool is_same_pass) {
+    FilmAndPasses all;
+    MadeUpPasses passes(1);
+    all.add_whole(0, passes.next(size_t(picture_width) * picture_height));
+    Pass pass = regional_pass(all.film, first_region, 1);
+    for (const PixelRegion& region : {first_region, second_region}) {
+      if (!is_same_pass) pass = regional_pass(all.film, region, 1);
+      const RegionPixels pixels = passes.next(size_t(region.pixel_count()));
+      all.film.add_regional_pass(region, pass_of(pixels, {region.width, region.height}), pass);
+    }
+    return std::move(all.film);
+  };
+  EXPECT_NO_THROW(parse_checkpoint(film_bytes(film_of(false)), "good.kpt"));
+  EXPECT_THROW(parse_checkpoint(film_bytes(film_of(true)), "twice.kpt"), Error);
+}
+
+// No pixel is left that has the passes of the picture alone.
+TEST(Regions, ThatCoverThePictureMakeItsErrorKnown) {
+  for (const int height : {picture_height, picture_height - 1}) {
+    FilmAndPasses all;
+    MadeUpPasses passes(1);
+    all.add_whole(0, passes.next(size_t(picture_width) * picture_height));
+    const PixelRegion region{0, 0, picture_width, height};
+    for (int i = 0; i < 15; ++i) all.add(region, passes.next(size_t(region.pixel_count())), 1);
+    EXPECT_EQ(std::isfinite(all.film.mean_error()), height == picture_height);
+    EXPECT_EQ(std::isfinite(all.film.picture_error()), height == picture_height);
+  }
+}
+
 TEST(Regions, BadRequestsAreRefused) {
   const auto integrator = integrator_of("path");
   Session session(ball().scene(), *integrator, refined_settings(1));

@@ -26,13 +26,13 @@ class SessionOfProgram {
     JobSettings settings;
     settings.session = shown_session();
     job_ = std::make_shared<Job>(shown_scene(), std::move(settings));
+    has_ended_ = false;
     const uint64_t revision = watched_->show(job_, [this] {
       JobCourse course;
       course.has_ended = has_ended_;
       return course;
     });
     shown_.server().session_renders(revision, shown_scene());
-    has_ended_ = false;
     job_->run();
     has_ended_ = true;
     return *job_;

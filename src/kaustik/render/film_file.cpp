@@ -155,6 +155,9 @@ void Film::read_regions(BinaryReader& reader) {
       reader.damaged("a region of it is not valid");
     if (ordered.empty() || ordered.ranges() != film.passes_.ranges())
       reader.damaged("the passes of a region are not those that it was to have");
+    for (const FilmRegion& before : regions_)
+      if (before.pixels.meets(pixels) && !before.film.passes_.common(film.passes_).empty())
+        reader.damaged("two regions of it have the same pass for the same pixels");
     regions_.push_back({pixels, std::move(film), std::move(orders)});
   }
   if (regions_.empty()) reader.damaged("it has no regions, but says so");

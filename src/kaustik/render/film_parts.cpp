@@ -60,7 +60,7 @@ double PassCounts::variance(const std::array<double, replicate_count>& sums) con
   return squares / sqr(n) * replicates_ / (replicates_ - 1);
 }
 
-FilmParts::FilmParts(const Film& film) : counts_{PassCounts(film.passes())} {
+FilmParts::FilmParts(const Film& film) : counts_{PassCounts(film.passes())}, has_pixels_{1} {
   if (film.regions().empty()) return;
   parts_.resize(film.pixel_count());
   for (const FilmRegion& region : film.regions()) {
@@ -79,16 +79,14 @@ FilmParts::FilmParts(const Film& film) : counts_{PassCounts(film.passes())} {
         part = within[part];
       }
   }
+  has_pixels_.assign(counts_.size(), 0);
+  for (const uint32_t part : parts_) has_pixels_[part] = 1;
 }
 
 bool FilmParts::are_known() const {
-  return std::all_of(counts_.begin(), counts_.end(),
-                     [](const PassCounts& counts) { return counts.is_known(); });
-}
-
-bool FilmParts::is_any_known() const {
-  return std::any_of(counts_.begin(), counts_.end(),
-                     [](const PassCounts& counts) { return counts.is_known(); });
+  for (size_t part = 0; part < counts_.size(); ++part)
+    if (has_pixels_[part] != 0 && !counts_[part].is_known()) return false;
+  return true;
 }
 
 }  // namespace kaustik

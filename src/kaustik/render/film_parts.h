@@ -55,13 +55,13 @@ class FilmParts {
   size_t part_of(size_t pixel) const { return parts_.empty() ? 0 : parts_[pixel]; }
   const PassCounts& operator[](size_t part) const { return counts_[part]; }
   const PassCounts& of_pixel(size_t pixel) const { return counts_[part_of(pixel)]; }
-  /// Of all parts.
+  /// Of all parts that have pixels: regions may leave the first one none.
   bool are_known() const;
-  bool is_any_known() const;
 
  private:
-  std::vector<PassCounts> counts_;  ///< the first: of passes of all of the picture alone
-  std::vector<uint32_t> parts_;     ///< by pixel; empty: all are of the first
+  std::vector<PassCounts> counts_;   ///< the first: of passes of all of the picture alone
+  std::vector<uint32_t> parts_;      ///< by pixel; empty: all are of the first
+  std::vector<uint8_t> has_pixels_;  ///< by part
 };
 
 }  // namespace kaustik

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/integrator/foreign_integrators.h"
@@ -163,7 +164,9 @@ SessionReport Session::run(std::stop_token stop,
   report_.passes = film_.pass_count();
   report_.regional_passes = film_.regional_pass_count();
   // What it takes to tell the error, over all pixels, would keep those waiting who abandoned it.
-  if (!is_pass_abandoned_) {
+  if (is_pass_abandoned_ && report_.cancelled()) {
+    report_.mean_error = report_.picture_error = std::numeric_limits<double>::infinity();
+  } else {
     report_.mean_error = film_.mean_error();
     // Of regions that still wait the last passes may not be in it.
     report_.picture_error = next_region() ? film_.picture_error() : monitor.error();

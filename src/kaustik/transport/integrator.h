@@ -40,8 +40,8 @@ struct Pass {
   RegionOrder order = {};  ///< of a regional pass alone
 
   bool is_regional() const { return index >= first_regional_pass; }
-  /// The pass whose plans and radii this one has: itself, or that of its order. What a pass teaches
-  /// and how its radii shrink go by this, random numbers by the index.
+  /// The pass whose plans and radii this one has: itself, or that of its order. Random numbers of
+  /// light paths go by the index, those of camera samples by sequence() and round().
   uint32_t stage() const { return is_regional() ? order.stage : index; }
   /// How many passes of its replicate come before it, in its order if it is regional: those whose
   /// camera samples are of the same sequence.

@@ -122,7 +122,13 @@ ViewServer::State::~State() {
 void ViewServer::State::watch() {
   uint64_t last = 0;
   while (!ends) {
-    const auto snapshot = shown->wait_for_snapshot(last, watch_interval);
+    std::shared_ptr<const Snapshot> snapshot;
+    try {
+      snapshot = shown->wait_for_snapshot(last, watch_interval);
+    } catch (const std::exception&) {
+      // No memory for the picture: the one before stays, and the next may find some.
+      std::this_thread::sleep_for(watch_interval);
+    }
     if (!snapshot) continue;
     last = snapshot->number;
     http.post([this] { routes->picture_changed(); });
