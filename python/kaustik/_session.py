@@ -6,7 +6,7 @@ import math
 import os
 import time as clock
 import weakref
-from typing import Any, Callable, Dict, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Tuple, Union
 
 from . import _native, _threads
 from ._errors import Error
@@ -83,6 +83,7 @@ class Session:
         self._goals = _Goals(integrator=integrator, passes=passes, spp=spp, time=time, error=error, seed=seed,
                              threads=threads, first_pass=first_pass, samples_per_pass=samples_per_pass)
         self._scene = scene
+        self._waiting: List[List[int]] = []  # regions: x, y, width, height, passes that the last run left
         self._progress = progress
         self._job: Any = None
         self._film: Optional[Film] = None  # of what was finished before
@@ -103,6 +104,7 @@ class Session:
         was_running, was_paused = self.is_running, self.is_paused
         self.stop()
         self._scene, self._job, self._film, self._picture = scene, None, None, None
+        self._waiting = []
         if was_running or was_paused:
             self.start()
             if was_paused:
@@ -122,7 +124,8 @@ class Session:
         """More samples in a region of the picture: so many passes for its pixels alone. The picture, its errors
         and its intervals count them. The session must have begun a picture. While it runs they come before the next
         pass of the picture, and this returns at once; after the end they are taken now. Choose a region by what is
-        in it, not by single pixels that look too bright: only then the picture stays unbiased."""
+        in it, not by single pixels that look too bright: only then the picture stays unbiased. What the end of a
+        run leaves waiting, the next `start` or `refine` takes up."""
         region = [_positive("x", x, is_integer=True, most=_most_pixels),
                   _positive("y", y, is_integer=True, most=_most_pixels),
                   _positive("width", width, is_integer=True, least=1, most=_most_pixels),
@@ -160,6 +163,9 @@ class Session:
         if self._film is not None:
             wishes["samples_per_pass"] = self._film._native.samples_per_pass
         wishes["keeps_passes"] = self._keeps_passes
+        if self._waiting:
+            wishes["regions"] = self._waiting + wishes.get("regions", [])
+            self._waiting = []
         if scene.source:
             wishes.update(scene=scene.source, folder=os.getcwd(), definitions=list(scene._definitions))
         scene._build()
@@ -279,6 +285,7 @@ class Session:
             return
         facts["warnings"] = tuple(facts["warnings"])
         facts["messages"] = tuple(job.messages())
+        self._waiting = [[*region[:4], region[5]] for region in job.regions() if region[5] > 0]
         if facts["passes"] > 0 and not facts["is_incomplete"]:
             self._film = Film._of(job.film())
         if facts["passes"] > 0 or facts["end"] != "cancelled":

@@ -99,6 +99,20 @@ def test_regions_of_a_running_session(scene):
         assert session.film.regions == ((4, 2, 8, 6, 7),)
 
 
+def test_regions_that_wait_at_the_end_are_not_lost(scene):
+    session = kaustik.Session(scene, **long).start()
+    wait_for(lambda: session.progress and session.progress.passes > 0)
+    session.pause()
+    session.refine(4, 2, 8, 6, passes=7)
+    session.stop()
+    left = 7 - sum(region[4] for region in session.film.regions)
+    assert left > 0, "the pause came too late"
+    session.start()
+    wait_for(lambda: session._job.regions() and session._job.regions()[0][5] == 0)
+    session.stop()
+    assert session.film.regions == ((4, 2, 8, 6, 7),)
+
+
 def test_stopped_while_it_is_paused(scene):
     session = kaustik.Session(scene, **long).start()
     wait_for(lambda: session.progress and session.progress.passes > 0)
