@@ -84,9 +84,12 @@ LightVertices join(std::vector<LightBlock>& blocks, size_t gauges, const GaugeDi
         joined(blocks, &LightBlock::at_gauges,
                [&](GaugeVertex& vertex, size_t block) { of_whole(vertex.data, block); }),
         gauges, *disks};
+  // What comes now is most of all, and nobody will look at it.
+  if (stop.stop_requested()) return {};
   std::vector<Vec3f> positions = joined(blocks, &LightBlock::positions, as_it_is);
   std::vector<LightVertexData> data = joined(blocks, &LightBlock::data, of_whole);
   blocks.clear();
+  if (stop.stop_requested()) return {};
   if (!data.empty()) result.tree = {std::move(positions), std::move(data), stop};
   return result;
 }

@@ -20,8 +20,8 @@ struct LightBlock {
 };
 
 /// The vertices of all blocks in their order, of which nothing is left. How many paths there are is
-/// for the caller to say. `gauges`: so many; null disks: none. Where `stop` is requested they are
-/// not in order for searches.
+/// for the caller to say. `gauges`: so many; null disks: none. Where `stop` is requested it
+/// may be nothing, or not in order for searches.
 LightVertices join(std::vector<LightBlock>& blocks, size_t gauges, const GaugeDisks* disks,
                    const std::stop_token& stop);
 
