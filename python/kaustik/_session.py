@@ -18,6 +18,8 @@ from ._view import View
 
 #: Between two looks at signals and progress, s.
 _slice = 0.05
+#: Between two looks whether it has begun, s.
+_poll = 0.002
 _most_pixels = 1 << 20
 
 
@@ -122,8 +124,8 @@ class Session:
 
     def refine(self, x: int, y: int, width: int, height: int, passes: int = 16) -> None:
         """More samples in a region of the picture: so many passes for its pixels alone. The picture, its errors
-        and its intervals count them. The session must have begun a picture. While it runs they come before the next
-        pass of the picture, and this returns at once; after the end they are taken now. Choose a region by what is
+        and its intervals count them. While the session runs they come before the next pass of the picture, and this
+        returns as soon as it has begun; after the end they are taken now. Choose a region by what is
         in it, not by single pixels that look too bright: only then the picture stays unbiased. What the end of a
         run leaves waiting, the next `start` or `refine` takes up."""
         region = [_positive("x", x, is_integer=True, most=_most_pixels),
@@ -131,9 +133,13 @@ class Session:
                   _positive("width", width, is_integer=True, least=1, most=_most_pixels),
                   _positive("height", height, is_integer=True, least=1, most=_most_pixels),
                   _positive("passes", passes, is_integer=True, least=1, most=4096)]
-        if self.is_running:
-            self._job.refine(region)
-            return
+        while self.is_running:
+            if self._job.has_session():
+                if self._job.refine(region):
+                    return
+                self._job.wait(_slice)  # it is about to end
+            else:
+                self._job.wait(_poll)  # it reads its scene
         begin = self.film._native.first_pass
         done = set(self.film.passes)
         wishes = dict(self._goals.wishes, time=None, error=None, spp=None, regions=[region],
@@ -146,8 +152,11 @@ class Session:
         _threads.begin()
         self._job = self._new_job(wishes)
         self._job.start()
-        for view in self._views:
-            view._show(self._job, self._rendered_scene())
+        for view in list(self._views):
+            if view.is_running:
+                view._show(self._job, self._rendered_scene())
+            else:
+                self._views.discard(view)
 
     def _rendered_scene(self) -> Scene:
         if isinstance(self._goals.integrator, dict):

@@ -128,7 +128,10 @@ class PythonJob final : public LiveJob {
     gate_->open();
   }
   bool is_paused() const { return gate_->is_closed(); }
-  void refine(const RegionNumbers& region) { job_->refine(request_of(region)); }
+  bool has_session() const { return job_->has_session(); }
+  bool refine(const RegionRequest& request) override {
+    return job_->has_session() && job_->refine(request);
+  }
   /// Of each region: x, y, width, height, passes, passes that wait.
   std::vector<std::array<int, 6>> regions() const {
     std::vector<std::array<int, 6>> regions;
@@ -284,7 +287,9 @@ void bind_jobs(py::module_& module) {
       .def("pause", &PythonJob::pause)
       .def("resume", &PythonJob::resume)
       .def("cancel", &PythonJob::cancel)
-      .def("refine", &PythonJob::refine)
+      .def("has_session", &PythonJob::has_session)
+      .def("refine", [](PythonJob& job,
+                        const RegionNumbers& region) { return job.refine(request_of(region)); })
       .def("regions", &PythonJob::regions)
       .def("wait", &PythonJob::wait)
       .def("join", &PythonJob::join)

@@ -21,6 +21,8 @@ class LiveJob {
   virtual void pause() = 0;
   virtual void resume() = 0;
   virtual void request_stop() = 0;
+  /// False: it renders nothing, or has come to its end.
+  virtual bool refine(const RegionRequest& request) = 0;
 };
 
 }  // namespace kaustik::python

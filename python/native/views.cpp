@@ -58,10 +58,10 @@ class PythonView {
     Description description = copy_of(*scene.description);
     if (is_of_session) {
       jobs_ = std::make_shared<WatchedJobs>();
-      server_ = std::make_unique<view::ViewServer>(view::ShownSession{jobs_, controls()},
+      server_ = std::make_shared<view::ViewServer>(view::ShownSession{jobs_, controls()},
                                                    std::move(description), settings, messages);
     } else {
-      server_ = std::make_unique<view::ViewServer>(std::move(description), settings, messages);
+      server_ = std::make_shared<view::ViewServer>(std::move(description), settings, messages);
     }
     url_ = server_->url();
     port_ = server_->port();
@@ -70,32 +70,41 @@ class PythonView {
   /// Of a session: it renders that scene by this job now.
   void show(const std::shared_ptr<LiveJob>& job, const DescribedScene& scene) {
     const py::gil_scoped_release released;
+    std::shared_ptr<view::ViewServer> server;
     {
       const std::lock_guard lock(mutex_);
       job_ = job;
+      server = server_;
     }
-    if (!jobs_ || !server_) return;
+    if (!jobs_ || !server) return;
     const uint64_t revision = jobs_->show(std::shared_ptr<const Job>(job, &job->job()),
                                           [live = job.get()] { return live->course(); });
     Description description = copy_of(*scene.description);
     RenderRecipe recipe;
     recipe.integrator = integrator_;
     apply_changes(description, recipe, {});
-    server_->session_renders(revision, std::move(description));
+    server->session_renders(revision, std::move(description));
   }
   ~PythonView() {
     // In a forked process the threads that are to be waited for are not there.
     if (process_ != getpid())
-      (void)server_.release();
+      (void)new std::shared_ptr(std::move(server_));  // never freed
     else
       stop();
   }
 
   void stop() {
     const py::gil_scoped_release released;
-    server_.reset();
+    std::shared_ptr<view::ViewServer> server;  // ends without the lock: its threads take it
+    {
+      const std::lock_guard lock(mutex_);
+      server.swap(server_);
+    }
   }
-  bool is_running() const { return server_ != nullptr; }
+  bool is_running() const {
+    const std::lock_guard lock(mutex_);
+    return server_ != nullptr;
+  }
   const std::string& url() const { return url_; }
   uint16_t port() const { return port_; }
   std::vector<std::string> messages() const {
@@ -107,7 +116,12 @@ class PythonView {
   view::SessionControls controls() {
     return {[this] { with_job([](LiveJob& job) { job.pause(); }); },
             [this] { with_job([](LiveJob& job) { job.resume(); }); },
-            [this] { with_job([](LiveJob& job) { job.request_stop(); }); }};
+            [this] { with_job([](LiveJob& job) { job.request_stop(); }); },
+            [this](const RegionRequest& request) {
+              bool is_taken = false;
+              with_job([&](LiveJob& job) { is_taken = job.refine(request); });
+              return is_taken;
+            }};
   }
   template <typename Call>
   void with_job(const Call& call) {
@@ -128,7 +142,7 @@ class PythonView {
   std::string url_;
   uint16_t port_ = 0;
   /// Last: its threads use what is above.
-  std::unique_ptr<view::ViewServer> server_;
+  std::shared_ptr<view::ViewServer> server_;
 };
 
 }  // namespace

@@ -90,8 +90,7 @@ def kaustik_film_of_other_passes(scene, settings):
 
 def test_regions_of_a_running_session(scene):
     with kaustik.Session(scene, **long).start() as session:
-        wait_for(lambda: session.progress and session.progress.passes > 0)
-        session.refine(4, 2, 8, 6, passes=7)
+        session.refine(4, 2, 8, 6, passes=7)  # at once
         with pytest.raises(kaustik.Error, match="does not lie in"):
             session.refine(10, 2, 8, 6)
         wait_for(lambda: session._job.regions() == [[4, 2, 8, 6, 7, 0]])

@@ -103,13 +103,18 @@ def test_views_pause_and_stop_sessions(scene):
         cookie = cookie_of(view)
         first = state_when(view, cookie, lambda state: state["passes"] > 1)
         assert first["state"] == "rendering"
+        assert first["can_edit"] is False
+        asked(view, "command", cookie, b'{"refine": {"x": 4, "y": 2, "width": 8, "height": 6, "passes": 3}}')
+        state_when(view, cookie, lambda state: state["regions"] and state["regions"][0]["passes"] == 3)
         asked(view, "command", cookie, b'{"do": "pause"}')
         assert session.is_paused and json.load(asked(view, "state", cookie))["state"] == "paused"
         asked(view, "command", cookie, b'{"do": "resume"}')
         state_when(view, cookie, lambda state: state["passes"] > first["passes"])
         asked(view, "command", cookie, b'{"do": "stop"}')
         session.wait(timeout=20)
-        assert not session.is_running and session.picture is not None
+        assert not session.is_running and session.film.regions == ((4, 2, 8, 6, 3),)
+        code, _ = refused(view, cookie, {"refine": {"x": 4, "y": 2, "width": 8, "height": 6, "passes": 3}})
+        assert code == 409
         # A view may go first, or last.
         del view
         session.start()

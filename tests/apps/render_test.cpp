@@ -242,6 +242,15 @@ TEST_F(Render, StoredPhotonsServeOtherViews) {
   };
   refused({"--set", "glass.radius=0.4"}, "another scene");
   refused({"--set", "integrator.specular_sampling=perfect"}, "another specular_sampling");
+  // What passes a point in the air is in no map.
+  std::string points = contents("photonmap.xml");
+  const size_t at = points.find("perspective");
+  points.replace(at, std::string("perspective").size(), "irradiancepoints");
+  write("points.xml", points);
+  const RunResult of_points =
+      run(with({"render", "points.xml", "-q", "--spp", "1", "-o", "c.exr"}, stored));
+  EXPECT_EQ(of_points.exit_code, 2) << of_points.err;
+  EXPECT_TRUE(contains(of_points.err, "no light that passes points")) << of_points.err;
   write("map.kpm", contents("map.kpm").substr(0, 5000));
   refused({}, "map.kpm: the photon map is damaged");
   std::filesystem::remove(path("map.kpm"));

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kaustik/base/memory.h"
 #include "kaustik/integrator/override_integrator.h"
 #include "kaustik/integrator/registry.h"
@@ -227,6 +229,25 @@ TEST(FilmMemory, PicturesTooLargeAreRefused) {
                            "film.layers=none", "kaustik stitch"})
     EXPECT_NE(text.find(part), std::string::npos) << text;
   EXPECT_NE(refusal(30000, 30000).find("at most 500000000 are possible"), std::string::npos);
+}
+
+TEST(FilmMemory, RegionsCountBesideThePicture) {
+  FilmSettings settings;
+  const FilmLayers layers{ComponentSet::all()};
+  const FilmMemory memory = expected_film_memory(layers, false);
+  // The picture takes half of what there is, so regions of a sum over the other half don't fit.
+  const double pixels = 0.5 * double(physical_memory_bytes()) / memory.peak();
+  const int side_of_half = int(std::sqrt(pixels)) / PictureTiles::side * PictureTiles::side;
+  settings.size = settings.crop_size = {side_of_half, side_of_half};
+  if (int64_t(side_of_half) * side_of_half > max_image_pixels) GTEST_SKIP() << "too much memory";
+  const double shares = memory.peak() / memory.film;  // of the picture, that fill the other half
+  const std::vector<PixelRegion> one = {{0, 0, side_of_half, side_of_half}};
+  EXPECT_NO_THROW(check_film_memory(settings, layers, false));
+  EXPECT_NO_THROW(check_region_memory(settings, layers, false, {}));
+  std::vector<PixelRegion> regions(size_t(0.9 * shares), one[0]);
+  EXPECT_NO_THROW(check_region_memory(settings, layers, false, regions));
+  regions.resize(size_t(1.1 * shares) + 1, one[0]);
+  EXPECT_THROW(check_region_memory(settings, layers, false, regions), Error);
 }
 
 }  // namespace

@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <mutex>
 #include <random>
 #include <set>
+#include <thread>
 #include <tuple>
 
 #include "kaustik/base/checksum.h"
@@ -525,7 +528,7 @@ TEST(Regions, NoRandomNumberComesTwice) {
   // More of the first one later: another order.
   session.run({}, {}, [&] {
     if (session.film().pass_count() == 17 && session.film().regional_pass_count() == 55)
-      session.refine({{3, 3, 8, 9}, 18});
+      ASSERT_TRUE(session.refine({{3, 3, 8, 9}, 18}));
   });
   ASSERT_EQ(passes.size(), 20u + 20 + 35 + 18);
   // The filter takes pixels a little apart, so not all samples are seen.
@@ -599,8 +602,10 @@ TEST(Regions, ResumedOnesHaveTheSameBits) {
     const auto ask = [](Session& session) {
       const Film& film = session.film();
       const uint32_t asked = film.regional_pass_count();
-      if (film.pass_count() == 2 && asked == 0) session.refine({floor_region, 5});
-      if (film.pass_count() == 3 && asked == 5) session.refine({floor_region, 2});
+      if (film.pass_count() == 2 && asked == 0)
+        EXPECT_TRUE(session.refine({floor_region, 5}));
+      if (film.pass_count() == 3 && asked == 5)
+        EXPECT_TRUE(session.refine({floor_region, 2}));
     };
     Session whole(ball().scene(), *integrator, refined_settings(4));
     whole.run({}, {}, [&] { ask(whole); });
@@ -648,6 +653,14 @@ TEST(Regions, PartsAreMergedInAnyOrder) {
       if (!floor_region.holds(x, y) && !elsewhere.holds(x, y)) {
         ASSERT_EQ(channel_at(merged, x, y, "G"), channel_at(expected, x, y, "G"));
       }
+  // Within, the sums are those of all passes.
+  for (const auto& [x, y] : {std::pair(12, 17), std::pair(2, 3)}) {
+    const size_t pixel = size_t(y) * 24 + size_t(x);
+    EXPECT_EQ(ab.film.pass_count(pixel), floor_region.holds(x, y) ? 7u : 8u);
+    const auto own = [&](const Film& film) { return film.total(pixel, 1); };
+    EXPECT_DOUBLE_EQ(own(ab.film), own(a) + own(b));
+    EXPECT_NE(channel_at(merged, x, y, "G"), channel_at(expected, x, y, "G"));
+  }
   // The same passes of the same pixels.
   const Film again = refined_film(*integrator, refined_settings(2, {{{10, 15, 3, 3}, 3}}, 2));
   Checkpoint twice{record_for(2), a, {}};
@@ -759,16 +772,16 @@ TEST(Regions, BadRequestsAreRefused) {
                                   {{24, 0, 1, 1}, 1},
                                   {{0, 0, 0, 1}, 1},
                                   {{2147483647, 2147483647, 2147483647, 2147483647}, 1}})
-    EXPECT_THROW(session.refine(bad), Error) << bad.pixels.text();
+    EXPECT_THROW((void)session.refine(bad), Error) << bad.pixels.text();
   EXPECT_TRUE(session.regions().empty());
-  session.refine({floor_region, most_region_passes});
-  EXPECT_THROW(session.refine({floor_region, 1}), Error);
+  EXPECT_TRUE(session.refine({floor_region, most_region_passes}));
+  EXPECT_THROW((void)session.refine({floor_region, 1}), Error);
   // Four times the picture, and no more.
   Session many(ball().scene(), *integrator, refined_settings(1));
-  for (int i = 0; i < 4; ++i) many.refine({{0, 0, 24, 24 - i}, 1});
-  many.refine({{0, 0, 24, 3}, 1});
-  EXPECT_THROW(many.refine({{0, 0, 24, 5}, 1}), Error);
-  many.refine({{0, 0, 24, 3}, 1});
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(many.refine({{0, 0, 24, 24 - i}, 1}));
+  EXPECT_TRUE(many.refine({{0, 0, 24, 3}, 1}));
+  EXPECT_THROW((void)many.refine({{0, 0, 24, 5}, 1}), Error);
+  EXPECT_TRUE(many.refine({{0, 0, 24, 3}, 1}));
   EXPECT_EQ(many.regions().size(), 5u);
 }
 
@@ -784,14 +797,65 @@ TEST(Regions, WaitForThePictureAndEndWithIt) {
   EXPECT_EQ(report.passes, 3u);
   EXPECT_EQ(report.regional_passes, 2u);
   EXPECT_EQ(report.end, SessionEnd::passes);
-  // After the last pass, too.
-  session.refine({floor_region, 4});
-  EXPECT_EQ(session.regions()[0].waiting, 4u);
-  session.run();
-  EXPECT_EQ(session.regions()[0].passes, 6u);
+  // Nobody would take them.
+  EXPECT_FALSE(session.refine({floor_region, 4}));
   EXPECT_EQ(session.regions()[0].waiting, 0u);
-  EXPECT_EQ(session.film().pass_count(), 3u);
-  EXPECT_EQ(session.film().regional_pass_count(), 6u);
+}
+
+TEST(Regions, AskedForAfterTheLastPassAreRendered) {
+  const auto integrator = integrator_of("path");
+  Session session(ball().scene(), *integrator, refined_settings(2));
+  session.run({}, {}, [&] {
+    if (session.film().pass_count() == 2 && session.film().regions().empty())
+      EXPECT_TRUE(session.refine({floor_region, 4}));
+  });
+  EXPECT_EQ(session.film().pass_count(), 2u);
+  EXPECT_EQ(session.film().regional_pass_count(), 4u);
+}
+
+// Whoever asks as it ends gets what was promised, or a no.
+TEST(Regions, NoneIsLostAtTheEnd) {
+  const auto integrator = integrator_of("path");
+  uint32_t refused = 0;
+  for (int i = 0; i < 20; ++i) {
+    Session session(ball().scene(), *integrator, refined_settings(1));
+    std::atomic<bool> has_pass = false;
+    uint32_t taken = 0;
+    std::thread asking([&] {
+      while (!has_pass) std::this_thread::yield();
+      while (taken < 50 && session.refine({{3, 20, 2, 2}, 1})) ++taken;
+    });
+    session.run({}, {}, [&] { has_pass = true; });
+    asking.join();
+    refused += taken < 50 ? 1 : 0;
+    ASSERT_EQ(session.film().regional_pass_count(), taken);
+  }
+  EXPECT_GT(refused, 0u);
+}
+
+TEST(Regions, ProgressNeverFallsBack) {
+  const auto integrator = integrator_of("path");
+  // Beside passes of the picture, then by themselves.
+  std::optional<Film> film;
+  for (int run = 0; run < 2; ++run) {
+    SessionSettings settings = refined_settings(4, {{floor_region, 20}});
+    // Time flies, so that every tile is told.
+    settings.clock = [begin = std::chrono::steady_clock::now()] {
+      return 1e4 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    Session session = film ? Session(ball().scene(), *integrator, settings, std::move(*film))
+                           : Session(ball().scene(), *integrator, settings);
+    std::vector<double> fractions;
+    session.run({}, [&](const Progress& progress) { fractions.push_back(progress.fraction); });
+    ASSERT_GT(fractions.size(), 10u);
+    for (size_t i = 1; i < fractions.size(); ++i)
+      EXPECT_GE(fractions[i], fractions[i - 1] - 0.01) << run << ": " << i;
+    EXPECT_LT(fractions.front(), 0.1);
+    EXPECT_GT(fractions[fractions.size() - 2], 0.85);
+    EXPECT_EQ(fractions.back(), 1);
+    EXPECT_EQ(session.film().regional_pass_count(), 20u * unsigned(run + 1));
+    film = session.film();
+  }
 }
 
 }  // namespace

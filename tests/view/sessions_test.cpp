@@ -19,16 +19,24 @@ class SessionOfProgram {
       : watched_(std::make_shared<WatchedJobs>()),
         shown_({watched_,
                 {[this] { note("pause "); }, [this] { note("resume "); },
-                 [this] { note("stop "); }}}) {}
+                 [this] { note("stop "); },
+                 [this](const RegionRequest& request) { return refine(request); }}}) {}
 
   /// Another job, to its end.
   const Job& render() {
     JobSettings settings;
     settings.session = shown_session();
-    job_ = std::make_shared<Job>(shown_scene(), std::move(settings));
+    JobListener listener;
+    listener.progress = [this](const Progress& progress) {
+      const std::lock_guard lock(mutex_);
+      progress_ = progress;
+    };
+    job_ = std::make_shared<Job>(shown_scene(), std::move(settings), std::move(listener));
     has_ended_ = false;
     const uint64_t revision = watched_->show(job_, [this] {
+      const std::lock_guard lock(mutex_);
       JobCourse course;
+      course.progress = progress_;
       course.has_ended = has_ended_;
       return course;
     });
@@ -50,9 +58,15 @@ class SessionOfProgram {
     did_ += what;
   }
 
+  bool refine(const RegionRequest& request) {
+    note("refine ");
+    return request.passes < 10;
+  }
+
   std::atomic<bool> has_ended_ = false;
   mutable std::mutex mutex_;
   std::string did_;
+  Progress progress_;
   std::shared_ptr<Job> job_;
   std::shared_ptr<WatchedJobs> watched_;
   ShownScene shown_;
@@ -100,7 +114,13 @@ TEST(ViewSessions, WhoLooksChangesNothing) {
   EXPECT_EQ(shown.get("/state")["passes"], 4);
   for (const char* what : {"pause", "resume", "stop"})
     EXPECT_EQ(shown.command({{"do", what}}).status, 200) << what;
-  EXPECT_EQ(program.did(), "pause resume stop ");
+  EXPECT_FALSE(shown.get("/state")["can_edit"].get<bool>());
+  // Regions are the program's to render, or not.
+  json region = {{"x", 0}, {"y", 0}, {"width", 4}, {"height", 4}, {"passes", 3}};
+  EXPECT_EQ(shown.command({{"refine", region}}).status, 200);
+  region["passes"] = 20;
+  EXPECT_EQ(shown.command({{"refine", region}}).status, 409);
+  EXPECT_EQ(program.did(), "pause resume stop refine refine ");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ export class CameraControl {
   private home: Camera | null = null;
   private scene = '';
   private movedAt = -Infinity;
+  private canMove = true;
   private readonly sender: Latest<Camera>;
 
   constructor(client: Client, onError: (error: unknown) => void) {
@@ -25,6 +26,7 @@ export class CameraControl {
   }
 
   follow(state: State): void {
+    this.canMove = state.can_edit;
     if (state.scene !== this.scene) {
       this.scene = state.scene;
       this.home = state.camera;
@@ -60,7 +62,7 @@ export class CameraControl {
   private change(next: (camera: Camera) => Camera | null): void {
     const before = this.camera.value;
     const after = before && next(before);
-    if (!after || after === before) return;
+    if (!after || after === before || !this.canMove) return;
     this.movedAt = performance.now();
     this.camera.value = after;
     this.sender.push(after);

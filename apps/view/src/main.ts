@@ -16,6 +16,7 @@ import { ParametersPanel } from './parameters';
 import { Photons } from './photons';
 import { ErrorPlot } from './plot';
 import { Probe } from './probe';
+import { startReadOnly } from './read_only';
 import { Refine } from './refine';
 import { Region } from './region';
 import { SaveDialog } from './save';
@@ -106,6 +107,7 @@ function start(): void {
       button.setAttribute('aria-pressed', String(button.value === now));
   });
   startTools(stage);
+  startReadOnly(state);
   startNotice(connection);
   startCameraPanel(camera);
   try {

@@ -31,6 +31,7 @@ export interface State {
   layers: string[];
   unit: string;
   camera: Camera;
+  can_edit: boolean; // false: a program renders the scene, and only it can change it
 }
 
 export interface LogLine {

@@ -8,7 +8,7 @@ import type { Refine } from './refine';
 import type { Region } from './region';
 import type { SaveDialog } from './save';
 import { switchTheme } from './theme';
-import { type Tool, tool } from './tools';
+import { chooseTool, type Tool, tool } from './tools';
 import type { Transport } from './transport';
 import type { View } from './view';
 
@@ -43,7 +43,7 @@ function moveByArrow(parts: Parts, event: KeyboardEvent): void {
 
 export function shortcuts(parts: Parts): Shortcut[] {
   const { display, view, camera } = parts;
-  const pick = (name: Tool) => () => (tool.value = name);
+  const pick = (name: Tool) => () => chooseTool(name);
   const operator = (name: Operator) => () => display.setOperator(name);
   return [
     { group: 'Render', keys: [' '], shown: 'Space', text: 'Start, pause, resume', run: () => parts.transport.toggle() },

@@ -26,6 +26,7 @@ export class Transport {
   }
 
   toggle(): void {
+    if (this.play.disabled) return;
     const now = this.state.value?.state;
     if (now === 'rendering' || now === 'building') this.act('pause');
     else this.act(now === 'paused' ? 'resume' : 'start');
@@ -51,6 +52,8 @@ export class Transport {
     const label = isRunning ? 'Pause' : state.state === 'paused' ? 'Resume' : 'Start';
     this.play.setAttribute('aria-label', label);
     this.play.title = `${label} (Space)`;
+    // A program begins its renders itself.
+    this.play.disabled = label === 'Start' && !state.can_edit;
     this.stopButton.disabled = state.state === 'idle' || state.state === 'finished' || state.state === 'failed';
     this.integrators.dataset.now = state.integrator;
     if (document.activeElement !== this.integrators) this.integrators.value = state.integrator;

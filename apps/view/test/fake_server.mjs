@@ -42,8 +42,8 @@ function objects() {
 }
 
 export class FakeServer {
-  constructor({ width = 160, height = 120, token = randomBytes(16).toString('hex'), scene = 'spheres', picture = null, passes = 64, hasNoise = scene !== 'chart', passMs = 150 } = {}) {
-    Object.assign(this, { width, height, token, sceneKind: scene, given: picture, goal: passes, hasNoise, passMs });
+  constructor({ width = 160, height = 120, token = randomBytes(16).toString('hex'), scene = 'spheres', picture = null, passes = 64, hasNoise = scene !== 'chart', passMs = 150, canEdit = true } = {}) {
+    Object.assign(this, { width, height, token, sceneKind: scene, given: picture, goal: passes, hasNoise, passMs, canEdit });
     this.cookie = randomBytes(16).toString('hex');
     this.commands = [];
     this.objects = objects();
@@ -136,7 +136,7 @@ export class FakeServer {
       error: this.history.error.at(-1) ?? null, is_moving: Date.now() - this.movedAt < 400,
       regions: this.regions, integrator: this.integrator,
       layers: this.layersThere ?? ['', 'direct', 'caustic', 'indirect', 'emission', 'error', 'bias', 'albedo', 'N', 'depth'],
-      unit: 'W/(sr·m²)', camera: this.camera,
+      unit: 'W/(sr·m²)', camera: this.camera, can_edit: this.canEdit,
     };
   }
 

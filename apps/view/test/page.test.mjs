@@ -264,6 +264,28 @@ describe('page', { concurrency: false }, () => {
     await until(() => server.integrator === 'vcm', 'the integrator');
   });
 
+  test('where a program renders the scene, what would change it rests', { timeout: 3 * patience }, async (t) => {
+    const { server, page } = await opened({ canEdit: false, passes: 1e6 }, {}, t);
+    await page.waitForFunction(() => document.querySelector('[data-tool=camera]').disabled);
+    for (const id of ['integrator', 'fov', 'home']) assert.ok(await page.isDisabled(`#${id}`), id);
+    await page.click('#tab-scene');
+    assert.match(await page.textContent('#scene-note:visible'), /only the program can change it/);
+    assert.ok(await page.isHidden('#scene-parameters'));
+    await page.focus('#stage');
+    for (const key of ['c', 'h', '[', ']', 'ArrowLeft']) await page.keyboard.press(key);
+    const place = await placeOf(page, 20, 30, { width: 160, height: 120 });
+    await page.mouse.move(place.x, place.y);
+    await page.mouse.wheel(0, 120);
+    await page.keyboard.press('Space');
+    await until(() => server.state === 'paused', 'a pause is no change');
+    server.state = 'finished';
+    server.publish();
+    await page.waitForFunction(() => document.getElementById('play').disabled);
+    await page.keyboard.press('Space');
+    await page.waitForTimeout(200);
+    assert.deepEqual(server.commands.map((command) => command.do), ['pause']);
+  });
+
   test('starts, pauses, stops and saves', { timeout: 3 * patience }, async () => {
     const { server, page } = shared;
     server.act('start');

@@ -90,11 +90,10 @@ bool Engine::can_refine() const { return resting_job() != nullptr; }
 
 void Engine::refine(const RegionRequest& request) {
   const auto job = resting_job();
-  if (!job)
+  if (!job || !job->refine(request))
     throw Error(ErrorKind::input,
                 "there is no picture at rest that is rendered, so no region can have more passes",
                 "start the render, and ask when its first pass is shown");
-  job->refine(request);
 }
 
 EngineStatus Engine::status() const {

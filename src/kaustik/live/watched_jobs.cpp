@@ -47,7 +47,6 @@ EngineStatus WatchedJobs::status() const {
   if (!shown.job) return status;
   const JobCourse course = shown.course();
   status.progress = course.progress;
-  status.progress.passes_done = passes_of(*shown.job).whole;
   status.regions = shown.job->regions();
   status.failure = course.failure;
   status.state = course.failure              ? EngineState::failed
@@ -75,6 +74,9 @@ bool WatchedJobs::is_due(const Shown& shown, Snapshot::Kind kind, uint32_t passe
 
 void WatchedJobs::look(const Shown& shown) const {
   if (!shown.job) return;
+  // Of several who wait one makes the picture, so that none replaces a newer one.
+  const std::unique_lock making(making_, std::try_to_lock);
+  if (!making) return;
   // Asked before the picture is made, so that nothing after it is missed.
   const JobCourse course = shown.course();
   const FilmPasses film = passes_of(*shown.job);

@@ -21,7 +21,6 @@ class WatchedJobs final : public Watched {
   /// long as the job is kept. Returns the revision, from 1 on.
   uint64_t show(std::shared_ptr<const Job> job, std::function<JobCourse()> course);
 
-  /// Progress counts all passes of the film, those of earlier jobs too.
   EngineStatus status() const override;
   std::shared_ptr<const Snapshot> snapshot() const override;
   std::shared_ptr<const Snapshot> wait_for_snapshot(
@@ -41,7 +40,8 @@ class WatchedJobs final : public Watched {
   void look(const Shown& shown) const;
   bool is_due(const Shown& shown, Snapshot::Kind kind, uint32_t passes, bool has_ended) const;
 
-  mutable std::mutex mutex_;
+  mutable std::mutex making_;  ///< taken before the other one
+  mutable std::mutex mutex_;   ///< of what follows
   Shown shown_;
   mutable std::shared_ptr<const Snapshot> snapshot_;
   mutable uint32_t passes_ = 0;   ///< in it, those of regions too

@@ -41,7 +41,7 @@ class Depths {
 
  private:
   Sampler& numbers_;
-  Vec2f two_;
+  Vec2f two_ = Vec2f(0, 0);
   bool has_other_ = false;
 };
 

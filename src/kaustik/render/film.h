@@ -92,9 +92,9 @@ class Film {
   /// Of all regions together.
   uint32_t regional_pass_count() const;
   /// The pass of a region that comes next, with the plans and radii of pass `stage`; without seed
-  /// and samples. It goes on with the region's last order where that has the same stage and no pass
-  /// came after it. Else it begins an order; its replicate is then the one that the region's pixels
-  /// have fewest passes of.
+  /// and samples. It goes on with the region's last order where that has the same stage and is the
+  /// last of all regions' orders. Else it begins an order, in that replicate of which the region's
+  /// pixels have fewest passes: its number may leave some out.
   Pass next_regional_pass(const PixelRegion& pixels, uint32_t stage) const;
   /// Adds that pass: `of_region` are the region's pixels alone.
   void add_regional_pass(const PixelRegion& pixels, const PassTiles& of_region, const Pass& pass);
@@ -164,8 +164,6 @@ class Film {
   void read_regions(BinaryReader& reader);
   /// Adds those of regions to the sums of a tile's pixels, [place][number].
   void add_regions(size_t tile, std::vector<Fixed>& sums) const;
-  /// That has these pixels; made if there is none.
-  FilmRegion& region_of(const PixelRegion& pixels);
   /// After all orders there are.
   uint32_t next_regional_number() const;
   bool knows_noise() const { return sample_count_ >= 2; }

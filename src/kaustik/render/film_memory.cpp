@@ -57,6 +57,11 @@ double count_of(ComponentSet components) {
   return count;
 }
 
+/// Of the picture, or of a region: its tiles are whole.
+double tiled_pixels(const Vec2i& size) {
+  return double(PictureTiles(size).count()) * double(PictureTiles::pixels);
+}
+
 }  // namespace
 
 double FilmMemory::peak() const { return std::max(rendering(), film + errors + image); }
@@ -94,9 +99,7 @@ FilmMemory expected_film_memory(const FilmLayers& layers, bool splats) {
 
 void check_film_memory(const FilmSettings& settings, const FilmLayers& layers, bool splats) {
   const Vec2i size = settings.crop_size;
-  // Tiles are whole.
-  const double pixels = double(PictureTiles(size).count()) * double(PictureTiles::pixels);
-  const double bytes = expected_film_memory(layers, splats).peak() * pixels;
+  const double bytes = expected_film_memory(layers, splats).peak() * tiled_pixels(size);
   const auto there = double(physical_memory_bytes());
   if (int64_t(size.x) * size.y > max_image_pixels)
     throw Error(ErrorKind::input,
@@ -114,6 +117,21 @@ void check_film_memory(const FilmSettings& settings, const FilmLayers& layers, b
                           "film's crop window: kaustik stitch",
                           layers.in_images ? "leave out the layers (film.layers=none), " : ""),
               settings.place);
+}
+
+void check_region_memory(const FilmSettings& settings, const FilmLayers& layers, bool splats,
+                         const std::vector<PixelRegion>& regions) {
+  const FilmMemory memory = expected_film_memory(layers, splats);
+  double bytes = memory.peak() * tiled_pixels(settings.crop_size);
+  for (const PixelRegion& region : regions)
+    bytes += memory.film * tiled_pixels({region.width, region.height});
+  const auto there = double(physical_memory_bytes());
+  if (bytes <= there) return;
+  throw Error(ErrorKind::input,
+              fmt::format("with regions that have passes of their own the picture would need about "
+                          "{:.1f} GB, and this machine has {:.1f} GB",
+                          bytes / 1e9, there / 1e9),
+              "ask for a smaller region, or for more passes of one that is there");
 }
 
 }  // namespace kaustik

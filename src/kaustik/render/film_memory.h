@@ -26,4 +26,8 @@ FilmMemory expected_film_memory(const FilmLayers& layers, bool splats);
 /// memory.
 void check_film_memory(const FilmSettings& settings, const FilmLayers& layers, bool splats);
 
+/// Throws Error(input) where these regions, with passes of their own, do not fit beside it.
+void check_region_memory(const FilmSettings& settings, const FilmLayers& layers, bool splats,
+                         const std::vector<PixelRegion>& regions);
+
 }  // namespace kaustik

@@ -121,28 +121,28 @@ void check_region(const PixelRegion& pixels, const std::vector<PixelRegion>& oth
       "ask for more passes of one of those that are there, or let all of the picture go on");
 }
 
-FilmRegion& Film::region_of(const PixelRegion& pixels) {
-  const auto at =
-      std::lower_bound(regions_.begin(), regions_.end(), pixels,
-                       [](const FilmRegion& a, const PixelRegion& b) { return a.pixels < b; });
-  if (at != regions_.end() && at->pixels == pixels) return *at;
-  Film film({pixels.width, pixels.height}, layers_);
-  film.sums_.resize(film.tiles_.count());
-  return *regions_.insert(at, FilmRegion{pixels, std::move(film), {}});
-}
-
 void Film::add_regional_pass(const PixelRegion& pixels, const PassTiles& of_region,
                              const Pass& pass) {
   assert(pixels.lies_in(size_) && pass.is_regional());
   const uint32_t number = pass.index - first_regional_pass;
-  FilmRegion& region = region_of(pixels);
-  region.film.add_pass(of_region, number, pass.samples_per_pixel);
-  std::vector<FilmOrder>& orders = region.orders;
-  if (!orders.empty() && orders.back().passes.end == number &&
-      orders.back().stage == pass.order.stage)
+  const FilmOrder order{{number, number + 1}, pass.order.stage};
+  const auto at =
+      std::lower_bound(regions_.begin(), regions_.end(), pixels,
+                       [](const FilmRegion& a, const PixelRegion& b) { return a.pixels < b; });
+  if (at == regions_.end() || at->pixels != pixels) {
+    // A region is there only once it has a pass, whatever fails before.
+    FilmRegion region{pixels, Film({pixels.width, pixels.height}, layers_), {order}};
+    region.film.sums_.resize(region.film.tiles_.count());
+    region.film.add_pass(of_region, number, pass.samples_per_pixel);
+    regions_.insert(at, std::move(region));
+    return;
+  }
+  at->film.add_pass(of_region, number, pass.samples_per_pixel);
+  std::vector<FilmOrder>& orders = at->orders;
+  if (orders.back().passes.end == number && orders.back().stage == order.stage)
     ++orders.back().passes.end;
   else
-    orders.push_back({{number, number + 1}, pass.order.stage});
+    orders.push_back(order);
 }
 
 void FilmRegion::add(const FilmRegion& other) {

@@ -264,12 +264,12 @@ double Job::rested_s() const {
   return settings_.session.gate ? settings_.session.gate->closed_s() : 0;
 }
 
-void Job::refine(const RegionRequest& request) {
+bool Job::refine(const RegionRequest& request) {
   const std::shared_ptr<Run> run = current_with_session();
   if (!run)
     throw Error(ErrorKind::input, "there is no picture yet whose regions could have more passes",
                 "ask again when it has begun");
-  run->session->refine(request);
+  return run->session->refine(request);
 }
 
 std::vector<RegionProgress> Job::regions() const {

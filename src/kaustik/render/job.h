@@ -125,9 +125,10 @@ class Job {
   /// the integrator's, with a sample of each pixel. After the end there is one unless the job was
   /// cancelled.
   std::optional<Image> snapshot(bool with_layers = true) const;
-  /// Session::refine(). From any thread, while the job runs; throws Error(input), too, while there
-  /// is no session.
-  void refine(const RegionRequest& request);
+  /// Whether there is something for refine() to ask. From any thread.
+  bool has_session() const { return current_with_session() != nullptr; }
+  /// Session::refine(). From any thread; throws Error(input), too, while there is no session.
+  [[nodiscard]] bool refine(const RegionRequest& request);
   /// Session::regions(); none while there is no session. From any thread.
   std::vector<RegionProgress> regions() const;
   /// Session::look_at_film(); false also while there is no session.

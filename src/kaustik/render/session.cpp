@@ -53,7 +53,7 @@ Session::Session(const Scene& scene, const Integrator& integrator, const Session
   for (const FilmRegion& region : film_.regions())
     regions_.push_back({region.pixels, region.film.pass_count(), 0});
   plan();
-  for (const RegionRequest& request : settings_.regions) refine(request);
+  for (const RegionRequest& request : settings_.regions) ask_for(request);
 }
 
 Session::~Session() = default;
@@ -138,6 +138,15 @@ SessionReport Session::run(std::stop_token stop,
     report_.samples_per_pass = samples_per_pass_;
   }
   const uint64_t refused_before = scene_.tracer().refused_rays();
+  {
+    const std::lock_guard lock(regions_mutex_);
+    takes_regions_ = true;
+  }
+  // What throws ends it, too.
+  struct Closing {
+    Session& session;
+    ~Closing() { session.close_regions(SessionEnd::cancelled); }
+  } const closing{*this};
   Monitor monitor(*this, progress);
   with_threads(settings_.threads, [&] {
     uint32_t next = film_.passes().first_missing(settings_.first_pass);
@@ -148,7 +157,8 @@ SessionReport Session::run(std::stop_token stop,
     while (true) {
       if (end != SessionEnd::time && render_regions(stop, monitor, pass_done) != PassEnd::complete)
         end = cut_short();
-      if (end) break;
+      if (end && close_regions(*end)) break;
+      if (end) continue;
       const Pass pass{settings_.seed, next, samples_per_pass_, {}};
       if (stop.stop_requested() || render_pass({pass, {}}, stop, monitor) != PassEnd::complete) {
         end = cut_short();

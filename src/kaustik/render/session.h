@@ -151,10 +151,10 @@ class Session {
                     const std::function<void()>& pass_done = {});
 
   /// From any thread, at any time: the region gets so many passes more, before the next pass of the
-  /// picture, once that has one; unless time is over. Throws Error(input) if there are no such
-  /// pixels, for too many regions, or passes that are none or more than `most_region_passes`. What
-  /// is asked for after run() has ended waits for the next one.
-  void refine(const RegionRequest& request);
+  /// picture, once that has one; unless time is over. False, and nothing is asked for, once run()
+  /// has come to its end. Throws Error(input) if there are no such pixels, for regions that are too
+  /// many or too large, or passes that are none or more than `most_region_passes`.
+  [[nodiscard]] bool refine(const RegionRequest& request);
   /// From any thread: of all regions that have passes, or wait for some.
   std::vector<RegionProgress> regions() const;
   /// From any thread: where run() is stopped, it leaves out what the running pass has, even if that
@@ -185,6 +185,7 @@ class Session {
   class Monitor;
   struct CameraPass;
   struct Round;
+  struct RegionWork;
   /// A pass, and where its samples are taken.
   struct Task {
     Pass pass;
@@ -216,9 +217,16 @@ class Session {
   /// Those of the regions that wait, until `stop` is requested or time is over.
   PassEnd render_regions(std::stop_token stop, Monitor& monitor,
                          const std::function<void()>& pass_done);
+  /// Its plans are those of the next pass of the picture, and errors need one of it.
+  bool can_render_regions() const { return film_.pass_count() > 0 && !report_.incomplete_pass; }
   /// The one whose turn it is; none waits otherwise.
   std::optional<PixelRegion> next_region() const;
+  /// What is still to be done for regions, and what was done by this session.
+  RegionWork waiting_work() const;
+  void ask_for(const RegionRequest& request);
   void count_down(const PixelRegion& region);
+  /// From here on no region is taken. False, and they are, if one waits that can be rendered.
+  bool close_regions(SessionEnd end);
   /// Takes the pass's samples. False if it was halted: then pixels have fewer, maybe none.
   bool render_camera(const Task& task, const PassState& state, const std::stop_token& stop,
                      Monitor& monitor);
@@ -236,7 +244,8 @@ class Session {
   /// Gives the pass's memory back, so that what looks at the film may use it.
   void forget_pass(Monitor& monitor);
   void clear_pixels(Monitor& monitor);
-  void note_memory();
+  /// Now, and `extra` bytes beside.
+  void note_memory(size_t extra = 0);
   /// Share of the pass's samples that its pixels have.
   double share_taken(const Pass& pass, const PassState& state) const;
   Image first_samples(std::unique_lock<std::mutex> lock, SnapshotFacts& facts,
@@ -255,6 +264,7 @@ class Session {
 
   mutable std::mutex regions_mutex_;
   std::vector<RegionProgress> regions_;  ///< in the order in which they were asked for
+  bool takes_regions_ = true;
 
   // For snapshots.
   mutable std::mutex picture_mutex_;            ///< the film, and whether pixels are sums or means

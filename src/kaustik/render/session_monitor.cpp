@@ -47,12 +47,17 @@ double Session::Monitor::passes_for_error() const {
 }
 
 double Session::Monitor::fraction(double elapsed_s) const {
-  const double samples = double(session_.film_.pixel_count()) * session_.samples_per_pass_;
   double f = 0;
-  if (passes_to_do_ > 0)
-    f = (passes_done_ + light_share_ * light_done_ +
-         (1 - light_share_) * std::min(1.0, double(samples_done_) / samples)) /
-        passes_to_do_;
+  if (session_.pass_count_ > 0) {
+    const double pixels = double(pixels_of_pass_);
+    const double samples = std::max(1.0, pixels * session_.samples_per_pass_);
+    RegionWork pass{light_done_, 0};
+    pass.camera = std::min(1.0, double(samples_done_) / samples) * pixels /
+                  double(session_.film_.pixel_count());
+    const double done = passes_done_ + passes_in(regions_done_);
+    const double all = passes_to_do_ + passes_in(regions_done_) + passes_in(session_.waiting_work());
+    if (all > 0) f = (done + passes_in(pass)) / all;
+  }
   if (session_.settings_.error)
     f = std::max(f, (passes_at_start_ + passes_done_) / passes_for_error());
   if (session_.settings_.seconds) f = std::max(f, elapsed_s / *session_.settings_.seconds);

@@ -10,6 +10,17 @@
 
 namespace kaustik {
 
+/// Passes of regions, and what their samples come to.
+struct Session::RegionWork {
+  double passes = 0;
+  double camera = 0;  ///< in visualisation passes of the whole picture
+
+  void add(double count, const PixelRegion& region, size_t pixels_of_picture) {
+    passes += count;
+    camera += count * double(region.pixel_count()) / double(pixels_of_picture);
+  }
+};
+
 /// Counts what is done and tells the listener now and then.
 class Session::Monitor {
  public:
@@ -22,8 +33,9 @@ class Session::Monitor {
         light_share_(session.integrator_.traits().samples_camera ? 0.3 : 1),
         error_(session.film_.picture_error()) {}
 
-  void start_pass() {
+  void start_pass(const std::optional<PixelRegion>& region) {
     pass_start_ = now();
+    pixels_of_pass_ = region ? uint64_t(region->pixel_count()) : session_.film_.pixel_count();
     samples_done_ = 0;
     light_done_ = 0;
   }
@@ -58,7 +70,8 @@ class Session::Monitor {
   }
   /// Their passes may take less time than finding out the error of a large picture does, so that is
   /// done now and then, and after the last one that was asked for.
-  void regional_pass_done(bool is_last) {
+  void regional_pass_done(const PixelRegion& region, bool is_last) {
+    regions_done_.add(1, region, session_.film_.pixel_count());
     samples_done_ = 0;
     light_done_ = 0;
     if (is_last || now() - last_error_ > 1) {
@@ -101,6 +114,10 @@ class Session::Monitor {
   /// known yet.
   double passes_for_error() const;
   double fraction(double elapsed_s) const;
+  /// In passes of the picture, for which light and camera take these shares of the time.
+  double passes_in(const RegionWork& work) const {
+    return light_share_ * work.passes + (1 - light_share_) * work.camera;
+  }
 
   const Session& session_;
   const std::function<void(const Progress&)>& listener_;
@@ -110,6 +127,8 @@ class Session::Monitor {
   std::mutex mutex_;
   uint32_t passes_at_start_;
   uint32_t passes_to_do_;                  ///< 0: limited by time, or nothing is left
+  RegionWork regions_done_;                ///< by this session
+  uint64_t pixels_of_pass_ = 0;
   std::atomic<uint32_t> passes_done_{0};   ///< of this session
   std::atomic<uint64_t> samples_done_{0};  ///< of this pass, of all pixels
   std::atomic<double> light_done_{0};      ///< of this pass's light pass

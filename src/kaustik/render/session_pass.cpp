@@ -54,7 +54,7 @@ void add_new(const std::vector<std::string>& sentences, std::vector<std::string>
 Session::PassEnd Session::render_pass(const Task& task, std::stop_token stop, Monitor& monitor) {
   if (settings_.gate) settings_.gate->pass(stop);
   if (stop.stop_requested()) return PassEnd::discarded;
-  monitor.start_pass();
+  monitor.start_pass(task.region);
   const Pass& pass = task.pass;
   clear_pixels(monitor);
   monitor.tell(Progress::Stage::light, false);
@@ -107,8 +107,9 @@ Session::PassEnd Session::render_pass(const Task& task, std::stop_token stop, Mo
     finish_tiles(task);
     note_memory();
     if (task.region) {
-      film_.add_regional_pass(*task.region, pass_.cut_out(*task.region), pass);
-      note_memory();
+      const PassTiles of_region = pass_.cut_out(*task.region);
+      film_.add_regional_pass(*task.region, of_region, pass);
+      note_memory(of_region.bytes());
       forget_pass(monitor);
     } else if (!is_part) {
       film_.add_pass(pass_, pass.index, samples);
@@ -134,10 +135,10 @@ void Session::forget_pass(Monitor& monitor) {
   std::fill(is_finished_.begin(), is_finished_.end(), uint8_t(0));
 }
 
-void Session::note_memory() {
+void Session::note_memory(size_t extra) {
   report_.film_bytes = film_.bytes();
-  report_.rendering_bytes =
-      std::max(report_.rendering_bytes, report_.film_bytes + pass_.bytes() + splats_.bytes());
+  report_.rendering_bytes = std::max(
+      report_.rendering_bytes, report_.film_bytes + pass_.bytes() + splats_.bytes() + extra);
 }
 
 double Session::share_taken(const Pass& pass, const PassState& state) const {

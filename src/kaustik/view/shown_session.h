@@ -9,6 +9,8 @@ namespace kaustik::view {
 /// What viewers may do to a render that a program steers. From any thread.
 struct SessionControls {
   std::function<void()> pause, resume, stop;
+  /// Session::refine(); false, too, where nothing is rendered.
+  std::function<bool(const RegionRequest&)> refine;
 };
 
 /// A render that a program steers, for a view that only shows it.

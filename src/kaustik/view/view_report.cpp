@@ -71,7 +71,8 @@ Json state_report(const Watched& shown, const EngineStatus& status, const PageFa
           {"integrator", facts.integrator},
           {"layers", facts.layers},
           {"unit", is_irradiance ? "W/m²" : "W/(sr·m²)"},
-          {"camera", json_of(facts.camera)}};
+          {"camera", json_of(facts.camera)},
+          {"can_edit", facts.can_edit}};
 }
 
 std::vector<std::string> layer_names(const FilmLayers& layers) {

@@ -14,6 +14,7 @@ struct PageFacts {
   std::string integrator;  ///< that is asked for
   std::vector<std::string> layers;
   CameraPose camera;
+  bool can_edit = true;  ///< the scene; false: a program renders it
 };
 
 /// As GET state gives it.
