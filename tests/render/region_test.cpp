@@ -527,8 +527,9 @@ TEST(Regions, NoRandomNumberComesTwice) {
   Session session(*scene, integrator, settings);
   // More of the first one later: another order.
   session.run({}, {}, [&] {
-    if (session.film().pass_count() == 17 && session.film().regional_pass_count() == 55)
+    if (session.film().pass_count() == 17 && session.film().regional_pass_count() == 55) {
       ASSERT_TRUE(session.refine({{3, 3, 8, 9}, 18}));
+    }
   });
   ASSERT_EQ(passes.size(), 20u + 20 + 35 + 18);
   // The filter takes pixels a little apart, so not all samples are seen.
@@ -602,10 +603,12 @@ TEST(Regions, ResumedOnesHaveTheSameBits) {
     const auto ask = [](Session& session) {
       const Film& film = session.film();
       const uint32_t asked = film.regional_pass_count();
-      if (film.pass_count() == 2 && asked == 0)
+      if (film.pass_count() == 2 && asked == 0) {
         EXPECT_TRUE(session.refine({floor_region, 5}));
-      if (film.pass_count() == 3 && asked == 5)
+      }
+      if (film.pass_count() == 3 && asked == 5) {
         EXPECT_TRUE(session.refine({floor_region, 2}));
+      }
     };
     Session whole(ball().scene(), *integrator, refined_settings(4));
     whole.run({}, {}, [&] { ask(whole); });
@@ -659,7 +662,9 @@ TEST(Regions, PartsAreMergedInAnyOrder) {
     EXPECT_EQ(ab.film.pass_count(pixel), floor_region.holds(x, y) ? 7u : 8u);
     const auto own = [&](const Film& film) { return film.total(pixel, 1); };
     EXPECT_DOUBLE_EQ(own(ab.film), own(a) + own(b));
-    EXPECT_NE(channel_at(merged, x, y, "G"), channel_at(expected, x, y, "G"));
+    if (floor_region.holds(x, y)) {
+      EXPECT_NE(channel_at(merged, x, y, "G"), channel_at(expected, x, y, "G"));
+    }
   }
   // The same passes of the same pixels.
   const Film again = refined_film(*integrator, refined_settings(2, {{{10, 15, 3, 3}, 3}}, 2));
@@ -806,8 +811,9 @@ TEST(Regions, AskedForAfterTheLastPassAreRendered) {
   const auto integrator = integrator_of("path");
   Session session(ball().scene(), *integrator, refined_settings(2));
   session.run({}, {}, [&] {
-    if (session.film().pass_count() == 2 && session.film().regions().empty())
+    if (session.film().pass_count() == 2 && session.film().regions().empty()) {
       EXPECT_TRUE(session.refine({floor_region, 4}));
+    }
   });
   EXPECT_EQ(session.film().pass_count(), 2u);
   EXPECT_EQ(session.film().regional_pass_count(), 4u);
@@ -848,8 +854,10 @@ TEST(Regions, ProgressNeverFallsBack) {
     std::vector<double> fractions;
     session.run({}, [&](const Progress& progress) { fractions.push_back(progress.fraction); });
     ASSERT_GT(fractions.size(), 10u);
+    // Passes of the region that counted as some of the picture would go up and back by a twentieth;
+    // a better guess of what light passes take moves it by less.
     for (size_t i = 1; i < fractions.size(); ++i)
-      EXPECT_GE(fractions[i], fractions[i - 1] - 0.01) << run << ": " << i;
+      EXPECT_GE(fractions[i], fractions[i - 1] - 0.025) << run << ": " << i;
     EXPECT_LT(fractions.front(), 0.1);
     EXPECT_GT(fractions[fractions.size() - 2], 0.85);
     EXPECT_EQ(fractions.back(), 1);

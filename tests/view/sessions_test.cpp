@@ -18,8 +18,7 @@ class SessionOfProgram {
   SessionOfProgram()
       : watched_(std::make_shared<WatchedJobs>()),
         shown_({watched_,
-                {[this] { note("pause "); }, [this] { note("resume "); },
-                 [this] { note("stop "); },
+                {[this] { note("pause "); }, [this] { note("resume "); }, [this] { note("stop "); },
                  [this](const RegionRequest& request) { return refine(request); }}}) {}
 
   /// Another job, to its end.

@@ -29,8 +29,8 @@ class CallbackRelay {
 
  private:
   struct Inside {
-    explicit Inside(std::atomic<std::thread::id>& caller)
-        : caller(caller), before(caller.exchange(std::this_thread::get_id())) {}
+    explicit Inside(std::atomic<std::thread::id>& of)
+        : caller(of), before(of.exchange(std::this_thread::get_id())) {}
     ~Inside() { caller = before; }
     Inside(const Inside&) = delete;
     Inside& operator=(const Inside&) = delete;

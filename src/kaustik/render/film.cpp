@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/image/photometry.h"
 #include "kaustik/render/film_errors.h"
 #include "kaustik/render/film_memory.h"
+#include "kaustik/render/film_parts.h"
 #include "kaustik/render/rounded_line.h"
 
 namespace kaustik {
@@ -213,7 +215,13 @@ void Film::add(const Film& other) {
     add_to(mean_luminances_[r], other.mean_luminances_[r]);
   passes_.add(other.passes_);
   sample_count_ += other.sample_count_;
-  for (const FilmRegion& region : other.regions_) region_of(region.pixels).add(region);
+  for (const FilmRegion& region : other.regions_) {
+    const auto [at, is_there] = place_of(region.pixels);
+    if (is_there)
+      at->add(region);
+    else
+      regions_.insert(at, region);
+  }
 }
 
 size_t Film::bytes() const {
@@ -232,6 +240,10 @@ double Film::total(size_t pixel, int lane) const {
 
 double Film::mean_error() const { return FilmErrors(*this).of_mean(); }
 
-double Film::picture_error() const { return FilmErrors(*this).of_picture(); }
+double Film::picture_error() const {
+  // Else the sums that FilmErrors makes, over all pixels, would be for nothing.
+  return FilmParts(*this).are_known() ? FilmErrors(*this).of_picture()
+                                      : std::numeric_limits<double>::infinity();
+}
 
 }  // namespace kaustik

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "kaustik/base/exact_sum.h"
@@ -164,6 +165,8 @@ class Film {
   void read_regions(BinaryReader& reader);
   /// Adds those of regions to the sums of a tile's pixels, [place][number].
   void add_regions(size_t tile, std::vector<Fixed>& sums) const;
+  /// Where the region with these pixels is, or would be.
+  std::pair<std::vector<FilmRegion>::iterator, bool> place_of(const PixelRegion& pixels);
   /// After all orders there are.
   uint32_t next_regional_number() const;
   bool knows_noise() const { return sample_count_ >= 2; }

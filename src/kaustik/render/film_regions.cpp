@@ -121,15 +121,20 @@ void check_region(const PixelRegion& pixels, const std::vector<PixelRegion>& oth
       "ask for more passes of one of those that are there, or let all of the picture go on");
 }
 
+std::pair<std::vector<FilmRegion>::iterator, bool> Film::place_of(const PixelRegion& pixels) {
+  const auto at =
+      std::lower_bound(regions_.begin(), regions_.end(), pixels,
+                       [](const FilmRegion& a, const PixelRegion& b) { return a.pixels < b; });
+  return {at, at != regions_.end() && at->pixels == pixels};
+}
+
 void Film::add_regional_pass(const PixelRegion& pixels, const PassTiles& of_region,
                              const Pass& pass) {
   assert(pixels.lies_in(size_) && pass.is_regional());
   const uint32_t number = pass.index - first_regional_pass;
   const FilmOrder order{{number, number + 1}, pass.order.stage};
-  const auto at =
-      std::lower_bound(regions_.begin(), regions_.end(), pixels,
-                       [](const FilmRegion& a, const PixelRegion& b) { return a.pixels < b; });
-  if (at == regions_.end() || at->pixels != pixels) {
+  const auto [at, is_there] = place_of(pixels);
+  if (!is_there) {
     // A region is there only once it has a pass, whatever fails before.
     FilmRegion region{pixels, Film({pixels.width, pixels.height}, layers_), {order}};
     region.film.sums_.resize(region.film.tiles_.count());

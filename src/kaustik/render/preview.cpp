@@ -157,7 +157,8 @@ Image small_picture(const Scene& scene, const Squares& squares, uint64_t seed,
 Image preview_picture(const Scene& scene, uint64_t seed, const std::stop_token& stop) {
   const Squares squares(scene.film().crop_size);
   Image small = small_picture(scene, squares, seed, stop);
-  const bool is_smooth = can_denoise(small);
+  // Nobody will look at it then.
+  const bool is_smooth = can_denoise(small) && !stop.stop_requested();
   if (is_smooth) small = denoise(small);
   Image image = squares.spread(small);
   if (is_smooth) image.set_metadata("denoised", std::string("true"));

@@ -157,8 +157,8 @@ class Session {
   [[nodiscard]] bool refine(const RegionRequest& request);
   /// From any thread: of all regions that have passes, or wait for some.
   std::vector<RegionProgress> regions() const;
-  /// From any thread: where run() is stopped, it leaves out what the running pass has, even if that
-  /// is the first one, and tells no error. Then it returns sooner.
+  /// From any thread, before run() is stopped: it leaves out what the running pass has, even if
+  /// that is the first one, and tells no error. Then it returns sooner.
   void abandon_pass() { is_pass_abandoned_ = true; }
 
   /// From any thread, at any time, in callbacks too: a whole picture of what there is. Of finished

@@ -55,7 +55,8 @@ double Session::Monitor::fraction(double elapsed_s) const {
     pass.camera = std::min(1.0, double(samples_done_) / samples) * pixels /
                   double(session_.film_.pixel_count());
     const double done = passes_done_ + passes_in(regions_done_);
-    const double all = passes_to_do_ + passes_in(regions_done_) + passes_in(session_.waiting_work());
+    const double all =
+        passes_to_do_ + passes_in(regions_done_) + passes_in(session_.waiting_work());
     if (all > 0) f = (done + passes_in(pass)) / all;
   }
   if (session_.settings_.error)

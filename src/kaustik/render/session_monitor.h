@@ -65,7 +65,8 @@ class Session::Monitor {
     samples_done_ = 0;
     light_done_ = 0;
     light_share_ = std::min(1.0, light_seconds / std::max(1e-9, elapsed()));
-    error_ = session_.film_.picture_error();
+    // Those who abandon it want no error.
+    if (!session_.is_pass_abandoned_) error_ = session_.film_.picture_error();
     tell(Progress::Stage::light, false);
   }
   /// Their passes may take less time than finding out the error of a large picture does, so that is
@@ -126,8 +127,8 @@ class Session::Monitor {
   bool told_ = false;
   std::mutex mutex_;
   uint32_t passes_at_start_;
-  uint32_t passes_to_do_;                  ///< 0: limited by time, or nothing is left
-  RegionWork regions_done_;                ///< by this session
+  uint32_t passes_to_do_;    ///< 0: limited by time, or nothing is left
+  RegionWork regions_done_;  ///< by this session
   uint64_t pixels_of_pass_ = 0;
   std::atomic<uint32_t> passes_done_{0};   ///< of this session
   std::atomic<uint64_t> samples_done_{0};  ///< of this pass, of all pixels

@@ -267,8 +267,8 @@ void Routes::command(const std::string& what) {
 
 void Routes::refine(const Json& what) {
   const RegionRequest request = region_request_from(what);
-  const bool is_taken = parts_.session ? parts_.session->refine(request)
-                                       : parts_.engine.can_refine();
+  const bool is_taken =
+      parts_.session ? parts_.session->refine(request) : parts_.engine.can_refine();
   if (!is_taken)
     throw RequestError(409, "no picture is rendered at rest, so no region can have more samples",
                        "start the render, and ask when its first pass is shown");
@@ -300,10 +300,9 @@ EngineStatus Routes::noted_status() {
 
 Json Routes::state(const EngineStatus& status) const {
   const auto scene = parts_.shown.scene();
-  return state_report(
-      parts_.shown, status,
-      {parts_.scene, integrator_of(edits_.current()), layers_, edits_.camera(scene.get()),
-       !parts_.session});
+  return state_report(parts_.shown, status,
+                      {parts_.scene, integrator_of(edits_.current()), layers_,
+                       edits_.camera(scene.get()), !parts_.session});
 }
 
 void Routes::learn_of_scene() {

@@ -16,14 +16,15 @@ std::vector<size_t> begins_of(const std::vector<LightBlock>& blocks, List LightB
 }
 
 /// One list of all blocks as one, each element changed by `change(element, block)`. Takes it away
-/// from the blocks, one by one: two of everything would be much memory.
+/// from the blocks, one by one: two of everything would be much memory. Of no use once stopped.
 template <typename Element, typename Change>
 std::vector<Element> joined(std::vector<LightBlock>& blocks, std::vector<Element> LightBlock::*list,
-                            const Change& change) {
+                            const std::stop_token& stop, const Change& change) {
+  if (stop.stop_requested()) return {};
   const std::vector<size_t> begins = begins_of(blocks, list);
   std::vector<Element> result(begins.back());
   parallel_blocks(blocks.size(), 8, [&](size_t first, size_t last, size_t) {
-    for (size_t i = first; i < last; ++i) {
+    for (size_t i = first; i < last && !stop.stop_requested(); ++i) {
       std::vector<Element>& from = blocks[i].*list;
       for (Element& element : from) change(element, i);
       std::copy(from.begin(), from.end(), result.begin() + std::ptrdiff_t(begins[i]));
@@ -71,25 +72,25 @@ LightVertices join(std::vector<LightBlock>& blocks, size_t gauges, const GaugeDi
     element.path += uint32_t(begins[block]);
   };
   LightVertices result;
-  result.vertices = joined(blocks, &LightBlock::vertices, as_it_is);
+  result.vertices = joined(blocks, &LightBlock::vertices, stop, as_it_is);
   result.connectible =
-      joined(blocks, &LightBlock::connectible,
+      joined(blocks, &LightBlock::connectible, stop,
              [&](ConnectibleVertex& vertex, size_t block) { of_whole(vertex.data, block); });
-  result.beginnings = joined(blocks, &LightBlock::beginnings, of_whole);
-  result.scatterings = joined(blocks, &LightBlock::scatterings, of_whole);
-  result.in_media = in_order(joined(blocks, &LightBlock::discs, as_it_is),
-                             joined(blocks, &LightBlock::in_media, of_whole));
-  if (disks)
-    result.at_gauges = {
-        joined(blocks, &LightBlock::at_gauges,
-               [&](GaugeVertex& vertex, size_t block) { of_whole(vertex.data, block); }),
-        gauges, *disks};
-  // What comes now is most of all, and nobody will look at it.
+  result.beginnings = joined(blocks, &LightBlock::beginnings, stop, of_whole);
+  result.scatterings = joined(blocks, &LightBlock::scatterings, stop, of_whole);
+  std::vector<DiscHierarchy::Disc> discs = joined(blocks, &LightBlock::discs, stop, as_it_is);
+  std::vector<MergeableMediumVertex> in_media =
+      joined(blocks, &LightBlock::in_media, stop, of_whole);
+  std::vector<GaugeVertex> at_gauges =
+      joined(blocks, &LightBlock::at_gauges, stop,
+             [&](GaugeVertex& vertex, size_t block) { of_whole(vertex.data, block); });
+  std::vector<Vec3f> positions = joined(blocks, &LightBlock::positions, stop, as_it_is);
+  std::vector<LightVertexData> data = joined(blocks, &LightBlock::data, stop, of_whole);
+  // Nobody will look at it: to put it in order takes the most time.
   if (stop.stop_requested()) return {};
-  std::vector<Vec3f> positions = joined(blocks, &LightBlock::positions, as_it_is);
-  std::vector<LightVertexData> data = joined(blocks, &LightBlock::data, of_whole);
   blocks.clear();
-  if (stop.stop_requested()) return {};
+  result.in_media = in_order(discs, in_media);
+  if (disks) result.at_gauges = {at_gauges, gauges, *disks};
   if (!data.empty()) result.tree = {std::move(positions), std::move(data), stop};
   return result;
 }
