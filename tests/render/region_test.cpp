@@ -844,7 +844,7 @@ TEST(Regions, ProgressNeverFallsBack) {
   // Beside passes of the picture, then by themselves.
   std::optional<Film> film;
   for (int run = 0; run < 2; ++run) {
-    SessionSettings settings = refined_settings(4, {{floor_region, 20}});
+    SessionSettings settings = refined_settings(4, {{{0, 0, 24, 20}, 20}});
     // Time flies, so that every tile is told.
     settings.clock = [begin = std::chrono::steady_clock::now()] {
       return 1e4 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -854,10 +854,10 @@ TEST(Regions, ProgressNeverFallsBack) {
     std::vector<double> fractions;
     session.run({}, [&](const Progress& progress) { fractions.push_back(progress.fraction); });
     ASSERT_GT(fractions.size(), 10u);
-    // Passes of the region that counted as some of the picture would go up and back by a twentieth;
-    // a better guess of what light passes take moves it by less.
+    // Passes of the region that counted as some of the picture would go up and back by a fifth; a
+    // better guess of what light passes take moves it by less.
     for (size_t i = 1; i < fractions.size(); ++i)
-      EXPECT_GE(fractions[i], fractions[i - 1] - 0.025) << run << ": " << i;
+      EXPECT_GE(fractions[i], fractions[i - 1] - 0.06) << run << ": " << i;
     EXPECT_LT(fractions.front(), 0.1);
     EXPECT_GT(fractions[fractions.size() - 2], 0.85);
     EXPECT_EQ(fractions.back(), 1);

@@ -121,6 +121,7 @@ void Job::cancel() {
 
 void Job::abandon() {
   const std::lock_guard lock(mutex_);
+  is_abandoned_ = true;
   if (run_ && run_->session) run_->session->abandon_pass();
   stop_.request_stop();
 }
@@ -199,6 +200,8 @@ void Job::make_session(Run& run) {
   run.record = record;
   run.begin = std::chrono::steady_clock::now();
   run.rested_s = rested_s();
+  // It may have been asked for before there was a session.
+  if (is_abandoned_) session->abandon_pass();
   run.session = std::move(session);
 }
 
@@ -314,6 +317,7 @@ void Job::edit(Description description) {
     if (run_) previous_ = run_->prepared.scene;
     run_ = nullptr;
     stop_ = {};
+    is_abandoned_ = false;
   }
   description_ = std::move(description);
   settings_.begun.reset();

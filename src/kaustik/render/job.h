@@ -200,6 +200,7 @@ class Job {
   mutable std::mutex mutex_;               ///< of what follows
   std::shared_ptr<Run> run_;               ///< null: not prepared
   std::stop_source stop_;
+  bool is_abandoned_ = false;
   JobResult result_;  ///< of the thread while it runs
   std::exception_ptr failure_;
   bool is_started_ = false;

@@ -97,7 +97,7 @@ class KdTree {
   explicit KdTree(Metric metric = {}) : metric_(std::move(metric)) {}
 
   /// Replaces all items, and optimises: the quickest way to fill a tree. data[i] belongs to
-  /// keys[i]. Where `stop` is requested the tree is right, but slow to search.
+  /// keys[i]. Where `stop` is requested the tree is left empty.
   void assign(std::vector<Key> keys, std::vector<Data> data, const std::stop_token& stop = {});
   void insert(const Key& key, Data data);
   /// Removes one item with this key that the predicate accepts; false if there is none.

@@ -68,7 +68,7 @@ class KdBuckets {
 
   /// Builds the tree in parallel; the result does not depend on the number of threads. All
   /// coordinates are below max_coordinate. Returns the order of the points: point i of the tree is
-  /// positions[order[i]]. Where `stop` is requested the tree is right, but slow to search.
+  /// positions[order[i]]. Where `stop` is requested the tree is left empty.
   std::vector<uint32_t> build(std::span<const Vec3f> positions, const std::stop_token& stop = {});
   void clear() { *this = {}; }
 

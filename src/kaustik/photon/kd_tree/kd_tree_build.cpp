@@ -170,6 +170,10 @@ std::vector<uint32_t> KdBuckets::build(std::span<const Vec3f> positions,
   size_t child_size = bucket_size;
   while (child_size < size_) child_size *= fan_out;
   split(points.get(), size_, child_size, stop);
+  if (stop.stop_requested()) {
+    clear();
+    return {};
+  }
 
   std::vector<uint32_t> order(size_);
   buckets_.resize((size_ + bucket_size - 1) / bucket_size);

@@ -17,7 +17,7 @@ class SidedTree {
   using Neighbors = typename Tree::Neighbors;
 
   SidedTree() = default;
-  /// Where `stop` is requested the tree is right, but slow to search.
+  /// Where `stop` is requested the tree is left empty.
   SidedTree(std::vector<Vec3f> positions, std::vector<Data> data,
             const std::stop_token& stop = {}) {
     tree_.assign(std::move(positions), std::move(data), stop);

@@ -1,17 +1,16 @@
 #include "kaustik/vcm/light_path/block.h"
 
-#include <algorithm>
-
-#include "kaustik/base/parallel.h"
-
 namespace kaustik {
 namespace {
 
-/// Where the elements of each block's list begin in the joint one; last, how many there are.
-template <typename List>
-std::vector<size_t> begins_of(const std::vector<LightBlock>& blocks, List LightBlock::*list) {
-  std::vector<size_t> begins(blocks.size() + 1);
-  for (size_t i = 0; i < blocks.size(); ++i) begins[i + 1] = begins[i] + (blocks[i].*list).size();
+/// Where each block's `vertices` begin in the joint list.
+std::vector<size_t> vertex_begins(const std::vector<LightBlock>& blocks) {
+  std::vector<size_t> begins;
+  size_t count = 0;
+  for (const LightBlock& block : blocks) {
+    begins.push_back(count);
+    count += block.vertices.size();
+  }
   return begins;
 }
 
@@ -20,17 +19,18 @@ std::vector<size_t> begins_of(const std::vector<LightBlock>& blocks, List LightB
 template <typename Element, typename Change>
 std::vector<Element> joined(std::vector<LightBlock>& blocks, std::vector<Element> LightBlock::*list,
                             const std::stop_token& stop, const Change& change) {
-  if (stop.stop_requested()) return {};
-  const std::vector<size_t> begins = begins_of(blocks, list);
-  std::vector<Element> result(begins.back());
-  parallel_blocks(blocks.size(), 8, [&](size_t first, size_t last, size_t) {
-    for (size_t i = first; i < last && !stop.stop_requested(); ++i) {
-      std::vector<Element>& from = blocks[i].*list;
-      for (Element& element : from) change(element, i);
-      std::copy(from.begin(), from.end(), result.begin() + std::ptrdiff_t(begins[i]));
-      from = {};
-    }
-  });
+  size_t count = 0;
+  for (const LightBlock& block : blocks) count += (block.*list).size();
+  std::vector<Element> result;
+  result.reserve(count);
+  // To touch so much memory takes longer than to copy it. Threads could share that only if all of
+  // it were set to zero before, which is as much work and can't be stopped.
+  for (size_t i = 0; i < blocks.size() && !stop.stop_requested(); ++i) {
+    std::vector<Element>& from = blocks[i].*list;
+    for (Element& element : from) change(element, i);
+    result.insert(result.end(), from.begin(), from.end());
+    from = {};
+  }
   return result;
 }
 
@@ -66,7 +66,7 @@ GaugeVertices::GaugeVertices(const std::vector<GaugeVertex>& vertices, size_t ga
 
 LightVertices join(std::vector<LightBlock>& blocks, size_t gauges, const GaugeDisks* disks,
                    const std::stop_token& stop) {
-  const std::vector<size_t> begins = begins_of(blocks, &LightBlock::vertices);
+  const std::vector<size_t> begins = vertex_begins(blocks);
   const auto as_it_is = [](const auto&, size_t) {};
   const auto of_whole = [&](auto& element, size_t block) {
     element.path += uint32_t(begins[block]);
