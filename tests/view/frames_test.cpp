@@ -8,6 +8,8 @@
 #include <cstring>
 #include <random>
 
+#include "kaustik/base/error.h"
+
 namespace kaustik::view {
 namespace {
 

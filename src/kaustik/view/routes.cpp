@@ -197,7 +197,8 @@ void Routes::do_command(Call& call) {
   noted_status();
   const std::string& what = json.begin().key();
   const Json& value = json.begin().value();
-  if (parts_.session && what != "do" && what != "save")
+  const bool is_edit = what == "camera" || what == "set" || what == "integrator";
+  if (parts_.session && is_edit)
     throw RequestError(409, "this view shows what a program renders: it can't be changed here",
                        "change it in the program, by its session's edit()");
   uint64_t revision = last_revision_;
