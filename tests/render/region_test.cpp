@@ -527,8 +527,9 @@ TEST(Regions, NoRandomNumberComesTwice) {
   Session session(*scene, integrator, settings);
   // More of the first one later: another order.
   session.run({}, {}, [&] {
-    if (session.film().pass_count() == 17 && session.film().regional_pass_count() == 55)
+    if (session.film().pass_count() == 17 && session.film().regional_pass_count() == 55) {
       ASSERT_TRUE(session.refine({{3, 3, 8, 9}, 18}));
+    }
   });
   ASSERT_EQ(passes.size(), 20u + 20 + 35 + 18);
   // The filter takes pixels a little apart, so not all samples are seen.
@@ -602,10 +603,12 @@ TEST(Regions, ResumedOnesHaveTheSameBits) {
     const auto ask = [](Session& session) {
       const Film& film = session.film();
       const uint32_t asked = film.regional_pass_count();
-      if (film.pass_count() == 2 && asked == 0)
+      if (film.pass_count() == 2 && asked == 0) {
         EXPECT_TRUE(session.refine({floor_region, 5}));
-      if (film.pass_count() == 3 && asked == 5)
+      }
+      if (film.pass_count() == 3 && asked == 5) {
         EXPECT_TRUE(session.refine({floor_region, 2}));
+      }
     };
     Session whole(ball().scene(), *integrator, refined_settings(4));
     whole.run({}, {}, [&] { ask(whole); });
@@ -806,8 +809,9 @@ TEST(Regions, AskedForAfterTheLastPassAreRendered) {
   const auto integrator = integrator_of("path");
   Session session(ball().scene(), *integrator, refined_settings(2));
   session.run({}, {}, [&] {
-    if (session.film().pass_count() == 2 && session.film().regions().empty())
+    if (session.film().pass_count() == 2 && session.film().regions().empty()) {
       EXPECT_TRUE(session.refine({floor_region, 4}));
+    }
   });
   EXPECT_EQ(session.film().pass_count(), 2u);
   EXPECT_EQ(session.film().regional_pass_count(), 4u);
