@@ -1,8 +1,8 @@
 // What denoising brings: relative MSE of pictures that ship, as rendered and denoised, against a
 // picture of another seed that was rendered for long; and how often the denoised picture's error
 // holds the truth.
-// `denoise_tool FOLDER [SECONDS [SCENE ...]]`: pictures are kept in the folder, and rendered if they
-// are not there; references for so many seconds each, a minute if it is not told.
+// `denoise_tool FOLDER [SECONDS [SCENE ...]]`: pictures are kept in the folder, and rendered if
+// they are not there; references for so many seconds each, a minute if it is not told.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,8 +73,8 @@ int main(int argc, char** argv) {
     std::filesystem::create_directories(folder);
     const std::vector<std::string> scenes =
         argc > 3 ? std::vector<std::string>(argv + 3, argv + argc) : shown_scenes;
-    bench::MarkdownTable table(
-        {"scene", "integrator", "passes", "as rendered", "denoised", "times less", "held, %", "ms"});
+    bench::MarkdownTable table({"scene", "integrator", "passes", "as rendered", "denoised",
+                                "times less", "held, %", "ms"});
     for (const std::string& scene : scenes) {
       SessionSettings settings;
       settings.threads = bench::picture_threads;
@@ -90,13 +90,11 @@ int main(int argc, char** argv) {
           short_ones.threads = bench::picture_threads;
           short_ones.passes = passes;
           short_ones.samples_per_pass = samples_per_pass;
-          const Image noisy =
-              kept(folder / fmt::format("{}_{}_{}.exr", scene, integrator, passes),
-                   [&] { return rendered(scene, integrator, short_ones); });
+          const Image noisy = kept(folder / fmt::format("{}_{}_{}.exr", scene, integrator, passes),
+                                   [&] { return rendered(scene, integrator, short_ones); });
           Image smooth;
-          const double time = bench::seconds_of([&] {
-            with_threads(bench::picture_threads, [&] { smooth = denoise(noisy); });
-          });
+          const double time = bench::seconds_of(
+              [&] { with_threads(bench::picture_threads, [&] { smooth = denoise(noisy); }); });
           const double before = bench::error_of(noisy, reference) - own;
           const double after = bench::error_of(smooth, reference) - own;
           const bool has_error = smooth.find_channel("denoised_error.R") >= 0;

@@ -24,7 +24,7 @@ constexpr float rare_ratio = 8;
 constexpr int variance_reach = 2;
 /// Pixels that are compared with their neighbours, too, and what is left of their noise.
 constexpr int patch_reach = 1;
-constexpr float patch_noise = 1.0f / 9;
+constexpr float noise_of_patch = 1.0f / 9;
 /// Keeps 0/0 from the test.
 constexpr float least_variance = 1e-30f;
 
@@ -33,8 +33,8 @@ struct Chain {
   Plane guide, variance;  ///< photopic mean, and its variance
   Plane raw_variance;     ///< of the mean of both halves as it was rendered
   std::array<Plane, 3> light;
-  /// Means of guide and variance over 3 × 3 like pixels, in the first round, whose pixels have noise
-  /// of their own; else those of the pixel.
+  /// Means of guide and variance over 3 × 3 like pixels, in the first round, whose pixels have
+  /// noise of their own; else those of the pixel.
   Plane patch, patch_variance;
 
   void resize(size_t count) {
@@ -77,13 +77,13 @@ void add_neighbor(const Chain& chain, std::ptrdiff_t row, const PixelNeighbor& n
     float t_sq = difference * difference / (noise_here[x] + noise[x] + least_variance);
     if constexpr (has_patches) {
       const float of_patches = patch_here[x] - patch[x];
-      t_sq = std::max(t_sq, of_patches * of_patches /
-                                (patch_noise_here[x] + patch_noise[x] + least_variance));
+      t_sq = std::max(
+          t_sq, of_patches * of_patches / (patch_noise_here[x] + patch_noise[x] + least_variance));
     }
     const float rest = std::max(0.0f, 1 - t_sq * (1 / greatest_t_sq));
     // Of light that is far less sure than the pixel's own no more than that is worth.
-    const float sure = std::min(1.0f, greatest_ratio * (noise_here[x] + least_variance) /
-                                          (noise[x] + least_variance));
+    const float sure = std::min(
+        1.0f, greatest_ratio * (noise_here[x] + least_variance) / (noise[x] + least_variance));
     const float w = likeness[x] * rest * rest * sure;
     weights[x] += w;
     guides[x] += w * there[x];
@@ -117,8 +117,7 @@ void average(const PixelSurfaces& s, const std::vector<Chain>& chains, int step,
       for (RowSums& of_chain : sums) of_chain.clear();
       for_neighbors(s, int(y), filter_reach, step, [&](const PixelNeighbor& n) {
         if (std::abs(n.dx) + std::abs(n.dy) == 2 * filter_reach) return;  // 1/256 each
-        const float share =
-            filter_kernel[n.dx + filter_reach] * filter_kernel[n.dy + filter_reach];
+        const float share = filter_kernel[n.dx + filter_reach] * filter_kernel[n.dy + filter_reach];
         tell_likeness(s, int(y), n, share, sums[0].likeness.data());
         for (size_t c = 0; c < chains.size(); ++c) {
           if (c > 0) sums[c].likeness.swap(sums[0].likeness);
@@ -134,9 +133,23 @@ void average(const PixelSurfaces& s, const std::vector<Chain>& chains, int step,
   });
 }
 
+/// Where nothing tells the noise: the variance of the brightness around each pixel, which takes
+/// what detail there is for noise.
+Plane variance_around(const PixelSurfaces& s, const Plane& brightness) {
+  Plane result = brightness;
+  for (float& value : result) value *= value;
+  result = mean_of_like(s, result, variance_reach);
+  const Plane means = mean_of_like(s, brightness, variance_reach);
+  for (size_t i = 0; i < result.size(); ++i)
+    result[i] = std::max(0.0f, result[i] - means[i] * means[i]);
+  return result;
+}
+
 /// Of the photopic mean by how much its halves differ, or as it is known without them.
-Plane own_variance(const NoisyLight& light, const Plane& mean, const Plane& odd_share) {
-  if (!light.has_halves()) return light.variance;
+Plane own_variance(const PixelSurfaces& s, const NoisyLight& light, const Plane& mean,
+                   const Plane& odd_share) {
+  if (!light.has_halves())
+    return light.variance.empty() ? variance_around(s, mean) : light.variance;
   Plane variance(mean.size());
   for_pixels(mean.size(), [&](size_t i) {
     const float off = mean[i] * (light.halves[0][i] - light.halves[1][i]);
@@ -160,7 +173,7 @@ std::vector<Chain> chains_of(const PixelSurfaces& s, const NoisyLight& light,
   for_pixels(mean.size(), [&](size_t i) {
     mean[i] = photopic({light.rgb[0][i], light.rgb[1][i], light.rgb[2][i]});
   });
-  Plane own = own_variance(light, mean, odd_share);
+  Plane own = own_variance(s, light, mean, odd_share);
   Plane variance = mean_of_like(s, own, variance_reach);
   believe_samples(light.variance, variance, own);
   // Pooled, but not below what a pixel knows itself: one that a rare event has hit is not taken for
@@ -171,7 +184,7 @@ std::vector<Chain> chains_of(const PixelSurfaces& s, const NoisyLight& light,
     if (known > 0) variance[i] = std::max(own[i], std::min(variance[i], greatest_ratio * known));
   });
   if (!light.has_halves())
-    return {{std::move(mean), std::move(variance), std::move(own), light.rgb}};
+    return {{std::move(mean), std::move(variance), std::move(own), light.rgb, {}, {}}};
   std::vector<Chain> chains(2);
   for (size_t half = 0; half < 2; ++half) {
     const Plane &of_half = light.halves[half], &of_other = light.halves[1 - half];
@@ -196,7 +209,7 @@ FilteredLight cross_filtered(const PixelSurfaces& surfaces, const NoisyLight& li
   for (Chain& chain : chains) {
     chain.patch = mean_of_like(surfaces, chain.guide, patch_reach);
     chain.patch_variance = mean_of_like(surfaces, chain.variance, patch_reach);
-    for (float& value : chain.patch_variance) value *= patch_noise;
+    for (float& value : chain.patch_variance) value *= noise_of_patch;
   }
   for (const int step : filter_steps) {
     average(surfaces, chains, step, next);

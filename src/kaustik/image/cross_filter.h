@@ -12,7 +12,7 @@ struct NoisyLight {
   /// The photopic means of two independent halves of the passes, over that of all; empty: they are
   /// not known.
   std::array<Plane, 2> halves;
-  /// Of the photopic mean as far as it is known without halves; with them it may be empty.
+  /// Of the photopic mean as far as it is known by samples; empty: it is not.
   Plane variance;
 
   bool has_halves() const { return !halves[0].empty(); }

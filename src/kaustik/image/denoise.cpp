@@ -28,7 +28,7 @@ constexpr const char* error_layer = "denoised_error";
 /// Light that is filtered by itself.
 struct Part {
   std::vector<std::string> components;
-  bool is_scattered = false;  ///< by surfaces, in proportion to their albedo
+  bool is_scattered = false;    ///< by surfaces, in proportion to their albedo
   const char* noise = nullptr;  ///< the layer that tells it by samples
 };
 
@@ -41,11 +41,14 @@ const std::vector<Part>& parts_with_halves() {
   return parts;
 }
 
-const Part scattered_light{{"direct", "caustic", "indirect"}, true, "noise.scattered"};
+const Part& scattered_light() {
+  static const Part part{{"direct", "caustic", "indirect"}, true, "noise.scattered"};
+  return part;
+}
 
 /// Of which the noise is known by samples.
 const std::vector<Part>& parts_without_halves() {
-  static const std::vector<Part> parts{scattered_light, {{"specular"}, false, "noise.mirrored"}};
+  static const std::vector<Part> parts{scattered_light(), {{"specular"}, false, "noise.mirrored"}};
   return parts;
 }
 
@@ -57,8 +60,9 @@ bool is_black(const std::array<Plane, 3>& rgb) { return std::ranges::all_of(rgb,
 
 Plane brightness_of(const std::array<Plane, 3>& rgb) {
   Plane result(rgb[0].size());
-  for_pixels(result.size(),
-             [&](size_t i) { result[i] = photopic({rgb[0][i], rgb[1][i], rgb[2][i]}); });
+  for_pixels(result.size(), [&](size_t i) {
+    result[i] = photopic({rgb[0][i], rgb[1][i], rgb[2][i]});
+  });
   return result;
 }
 
@@ -141,6 +145,8 @@ Denoising::Denoising(const Image& image)
     }
   for_pixels(brightness_.size(), [&](size_t i) {
     const float s = odd_share_[i];
+    const float most = brightness_[i] / s;
+    half_light_[1][i] = std::clamp(half_light_[1][i], std::min(0.0f, most), std::max(0.0f, most));
     half_light_[0][i] = (brightness_[i] - s * half_light_[1][i]) / (1 - s);
   });
 }
@@ -151,10 +157,12 @@ Denoising::Filtered Denoising::with_noise(const Part& part) const {
   if (part.noise && image_.find_channel(part.noise) >= 0) {
     f.variance = plane_of(image_, part.noise);
     const bool is_whole = !has_halves_ || !part.is_scattered;
-    const Plane whole = is_whole ? mean : brightness_of(light_of(image_, scattered_light));
+    const Plane whole = is_whole ? mean : brightness_of(light_of(image_, scattered_light()));
     for_pixels(mean.size(), [&](size_t i) {
       // Components have as much noise as light.
-      const float share = is_whole ? 1 : whole[i] > 0 ? std::clamp(mean[i] / whole[i], 0.0f, 1.0f) : 0;
+      const float share = is_whole       ? 1
+                          : whole[i] > 0 ? std::clamp(mean[i] / whole[i], 0.0f, 1.0f)
+                                         : 0;
       f.variance[i] = sqr(share * std::min(std::fabs(f.variance[i]), greatest_noise));
     });
   }
@@ -178,10 +186,9 @@ bool Denoising::is_noisy(const Filtered& f) const {
   const double sum = sum_over_blocks(brightness_.size(), 1 << 14, [&](size_t begin, size_t end) {
     double block = 0;
     for (size_t i = begin; i < end; ++i) {
-      const float own =
-          has_halves_ ? sqr(photopic(raw(f, i)) * (f.shares[0][i] - f.shares[1][i])) *
-                            odd_share_[i] * (1 - odd_share_[i])
-                      : f.variance[i];
+      const float own = has_halves_ ? sqr(photopic(raw(f, i)) * (f.shares[0][i] - f.shares[1][i])) *
+                                          odd_share_[i] * (1 - odd_share_[i])
+                                    : f.variance[i];
       block += double(own) / (sqr(double(brightness_[i])) + 0.01);
     }
     return block;
@@ -243,8 +250,8 @@ void Denoising::blend(const Filtered& f) {
   };
   Plane share(count);
   if (has_halves_ || !f.variance.empty()) {
-    Blend blend{Plane(count), f.variance, f.light.raw_variance, f.light.variance,
-                f.light.variance};
+    Blend blend{Plane(count),     f.variance,       f.light.raw_variance,
+                f.light.variance, f.light.variance, has_halves_};
     for_pixels(count, [&](size_t i) { blend.change[i] = photopic(filtered(f, i) - raw(f, i)); });
     if (has_halves_) {
       blend.own_variance.resize(count);

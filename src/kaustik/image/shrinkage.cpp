@@ -12,7 +12,7 @@ constexpr int pool_reach = 2, pool_times = 3;
 /// Pixels that such a mean is worth where they are independent: about 1/Σ of squared weights.
 constexpr float pooled_pixels = 75;
 /// Standard errors of what a blend gains that are taken off it.
-constexpr float gain_errors = 1;
+constexpr float gain_errors = 0.5f, gain_errors_by_samples = 2;
 
 /// Of a row, around x: at the picture's edge of what there is.
 float mean_around(const float* row, int width, int x) {
@@ -93,13 +93,14 @@ Plane share_of_raw(int width, int height, const Blend& blend, const Plane& impor
   // with the other: weights that follow the noise of one half make the other follow it.
   const Plane by_halves =
       pooled(width, height, [&](size_t i) { return importance[i] * blend.covariance[i]; });
-  const Plane by_weights = pooled(
-      width, height, [&](size_t i) { return importance[i] * blend.filtered_variance[i]; });
+  const Plane by_weights =
+      pooled(width, height, [&](size_t i) { return importance[i] * blend.filtered_variance[i]; });
+  const float errors = blend.knows_halves ? gain_errors : gain_errors_by_samples;
   Plane share(importance.size());
   for_pixels(share.size(), [&](size_t i) {
     const float deviation = std::sqrt(spreads[i] * (1 / pooled_pixels));
     const float common = std::max(by_halves[i], 2 * by_weights[i] - by_halves[i]);
-    const float gain = squares[i] - noise[i] + common - gain_errors * deviation;
+    const float gain = squares[i] - noise[i] + common - errors * deviation;
     share[i] = squares[i] > 0 ? std::clamp(gain / squares[i], 0.0f, 1.0f) : 0.0f;
   });
   return share;
@@ -112,13 +113,12 @@ Plane error_of_halves(int width, int height, const ChangedHalves& halves, const 
     return importance[i] * odd_share[i] * (1 - odd_share[i]) * off * also_off;
   };
   const auto raw_off = [&](size_t i) { return halves.raw[0][i] - halves.raw[1][i]; };
-  const auto off = [&](size_t i) {
-    return raw_off(i) + halves.change[0][i] - halves.change[1][i];
-  };
+  const auto off = [&](size_t i) { return raw_off(i) + halves.change[0][i] - halves.change[1][i]; };
   const auto change = [&](size_t i) {
     return (1 - odd_share[i]) * halves.change[0][i] + odd_share[i] * halves.change[1][i];
   };
-  const Plane variances = pooled(width, height, [&](size_t i) { return common(i, off(i), off(i)); });
+  const Plane variances =
+      pooled(width, height, [&](size_t i) { return common(i, off(i), off(i)); });
   const Plane noise =
       pooled(width, height, [&](size_t i) { return common(i, raw_off(i), raw_off(i)); });
   // (Z − X)² less the variance of X, and twice what X and Z have in common.

@@ -163,8 +163,7 @@ Image Film::image(bool with_layers) const {
     if (!has_halves) return;
     const double odd = parts.of_pixel(pixel).of_half(1);
     for (int c = 0; c < component_count; ++c)
-      if (layers_.components.has(Component(c)))
-        add(float(sums.odd_luminance(Component(c), odd)));
+      if (layers_.components.has(Component(c))) add(float(sums.odd_luminance(Component(c), odd)));
     add(float(odd / parts.of_pixel(pixel).count()));
   };
   parallel_blocks(tiles_.count(), 1, [&](size_t tile, size_t, size_t) {

@@ -82,12 +82,11 @@ void PartPicture::put(int x, int y, const PassPixel& mean, double passes) {
     const int source = sources_[size_t(channel)];
     float& value = image_.at(x, y, channel);
     if (source == scaled_error) value *= error_scale;
-    if (source == odd_share)
-      value = float((odd + (is_odd_ ? share_ : 0)) / (passes + share_));
+    if (source == odd_share) value = float((odd + (is_odd_ ? share_ : 0)) / (passes + share_));
     if (source <= odd_luminance && is_odd_)
-      value = float((odd * double(value) +
-                     share_ * double(luminance_of(mean, odd_luminance - source))) /
-                    (odd + share_));
+      value = float(
+          (odd * double(value) + share_ * double(luminance_of(mean, odd_luminance - source))) /
+          (odd + share_));
     if (source >= 0)
       value = float((passes * double(value) + share_ * double(numbers[size_t(source)])) /
                     (passes + share_));

@@ -140,8 +140,8 @@ void Session::forget_pass(Monitor& monitor) {
 
 void Session::note_memory(size_t extra) {
   report_.film_bytes = film_.bytes();
-  report_.rendering_bytes = std::max(
-      report_.rendering_bytes, report_.film_bytes + pass_.bytes() + splats_.bytes() + extra);
+  report_.rendering_bytes = std::max(report_.rendering_bytes,
+                                     report_.film_bytes + pass_.bytes() + splats_.bytes() + extra);
 }
 
 double Session::share_taken(const Pass& pass, const PassState& state) const {
