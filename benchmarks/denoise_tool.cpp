@@ -1,11 +1,12 @@
 // What denoising brings: relative MSE of pictures that ship, as rendered and denoised, against a
 // picture of another seed that was rendered for long; and how often the denoised picture's error
-// holds the truth.
-// `denoise_tool FOLDER [SECONDS [SCENE ...]]`: pictures are kept in the folder, and rendered if
-// they are not there; references for so many seconds each, a minute if it is not told.
+// holds the truth. Errors are less the reference's own; "–": they are too near to it to be
+// compared. `denoise_tool FOLDER [SECONDS [SCENE ...]]`: pictures are kept in the folder, and
+// rendered if they are not there; references for so many seconds each, a minute if it is not told.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -53,13 +54,14 @@ Image kept(const std::filesystem::path& file, const std::function<Image()>& make
   return image;
 }
 
-/// Of pixels, by the photopic value.
+/// Of pixels, by the photopic value; the reference's own error is beside that of the picture.
 double share_held(const Image& image, const Image& reference) {
   const RgbView shown = rgb_view(image), wanted = rgb_view(reference);
-  const RgbView error = rgb_view(image, "denoised_error");
+  const RgbView error = rgb_view(image, "denoised_error"), own = rgb_view(reference, "error");
   size_t held = 0;
   for (size_t i = 0; i < image.pixel_count(); ++i)
-    held += std::fabs(photopic(shown[i]) - photopic(wanted[i])) <= 1.96f * photopic(error[i]);
+    held += std::fabs(photopic(shown[i]) - photopic(wanted[i])) <=
+            1.96f * std::hypot(photopic(error[i]), photopic(own[i]));
   return double(held) / double(image.pixel_count());
 }
 
@@ -99,7 +101,8 @@ int main(int argc, char** argv) {
           const double after = bench::error_of(smooth, reference) - own;
           const bool has_error = smooth.find_channel("denoised_error.R") >= 0;
           table.add({scene, integrator, fmt::format("{}", passes), fmt::format("{:.5f}", before),
-                     fmt::format("{:.5f}", after), fmt::format("{:.1f}", before / after),
+                     fmt::format("{:.5f}", after),
+                     after > own / 2 ? fmt::format("{:.1f}", before / after) : "–",
                      has_error ? fmt::format("{:.0f}", 100 * share_held(smooth, reference)) : "–",
                      fmt::format("{:.0f}", 1000 * time)});
         }

@@ -82,6 +82,7 @@ FilmMemory expected_film_memory(const FilmLayers& layers, bool splats) {
                    of_square * (lanes_of_sum + 1);
     channels +=
         lanes_of_light + FilmNumbers::first_hit_lanes + lanes_of_sum + lanes_of_bias + noise_kinds;
+    if (layers.holds_halves()) channels += count_of(layers.components) + 1;
   } else {
     memory.film += of_light * lanes_of_sum;
     if (layers.components.has(Component::emission)) {
