@@ -13,7 +13,7 @@
 namespace kaustik {
 namespace {
 
-constexpr int side = 96;
+constexpr int wall_side = 96;
 
 /// A pixel of a wall without noise, and what one pass makes of it.
 struct WallPixel {
@@ -50,7 +50,7 @@ struct Shown {
   std::vector<double> truth;
 };
 
-Shown shown(const Wall& wall, const PassNoise& noise, int passes, uint32_t seed = 1) {
+Shown pictured(const Wall& wall, const PassNoise& noise, int passes, uint32_t seed = 1) {
   std::vector<std::string> names = {"R",
                                     "G",
                                     "B",
@@ -70,11 +70,11 @@ Shown shown(const Wall& wall, const PassNoise& noise, int passes, uint32_t seed 
                                     "noise.scattered",
                                     "noise.mirrored"};
   if (passes > 1) names.insert(names.end(), {"odd.direct", "odd.share"});
-  Shown result{Image(side, side, names), {}};
+  Shown result{Image(wall_side, wall_side, names), {}};
   Image& image = result.image;
   std::mt19937 generator(seed);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
+  for (int y = 0; y < wall_side; ++y)
+    for (int x = 0; x < wall_side; ++x) {
       const WallPixel pixel = wall(x, y);
       const double truth = double(pixel.albedo) * double(pixel.irradiance);
       double all = 0, odd = 0;
@@ -109,10 +109,10 @@ double relative_mse(
     const std::function<bool(int x)>& counts = [](int) { return true; }) {
   double sum = 0;
   int count = 0;
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
+  for (int y = 0; y < wall_side; ++y)
+    for (int x = 0; x < wall_side; ++x) {
       if (!counts(x)) continue;
-      const double wanted = truth[size_t(y) * side + size_t(x)];
+      const double wanted = truth[size_t(y) * wall_side + size_t(x)];
       sum += std::pow(double(image.at(x, y, 1)) - wanted, 2) / (wanted * wanted + 0.01);
       ++count;
     }
@@ -121,15 +121,15 @@ double relative_mse(
 
 constexpr int pass_counts[] = {1, 2, 4, 16, 64, 256};
 
-WallPixel constant(int, int) { return {}; }
-WallPixel gradient(int x, int y) { return {0.5f, 0.2f + 0.01f * float(x) + 0.02f * float(y)}; }
+WallPixel plain(int, int) { return {}; }
+WallPixel ramp(int x, int y) { return {0.5f, 0.2f + 0.01f * float(x) + 0.02f * float(y)}; }
 WallPixel bowl(int x, int y) {
   return {0.5f, 1 + 0.5f * std::sin(float(x) * 0.13f) * std::cos(float(y) * 0.11f)};
 }
-WallPixel edge(int x, int y) { return {0.5f, 3 * x + y < 2 * side ? 1.0f : 0.3f}; }
-WallPixel line(int x, int) { return {0.5f, x == side / 2 ? 4.0f : 1.0f}; }
-WallPixel faint_line(int x, int) { return {0.5f, x == side / 2 ? 1.3f : 1.0f}; }
-WallPixel texture(int x, int y) { return {(x / 3 + y / 3) % 2 ? 0.15f : 0.7f, 1}; }
+WallPixel lit_edge(int x, int y) { return {0.5f, 3 * x + y < 2 * wall_side ? 1.0f : 0.3f}; }
+WallPixel bright_line(int x, int) { return {0.5f, x == wall_side / 2 ? 4.0f : 1.0f}; }
+WallPixel faint_line(int x, int) { return {0.5f, x == wall_side / 2 ? 1.3f : 1.0f}; }
+WallPixel tiles(int x, int y) { return {(x / 3 + y / 3) % 2 ? 0.15f : 0.7f, 1}; }
 /// Of the light, so that no surface tells of it.
 WallPixel ripples(int x, int y) {
   return {0.5f, 1 + 0.4f * std::sin(float(x) * 1.1f) * std::sin(float(y) * 0.9f)};
@@ -140,10 +140,9 @@ struct NamedWall {
   Wall wall;
 };
 const std::vector<NamedWall>& walls() {
-  static const std::vector<NamedWall> all{{"constant", constant}, {"gradient", gradient},
-                                          {"bowl", bowl},         {"edge", edge},
-                                          {"line", line},         {"faint line", faint_line},
-                                          {"texture", texture},   {"ripples", ripples}};
+  static const std::vector<NamedWall> all{
+      {"constant", plain},   {"gradient", ramp},         {"bowl", bowl},     {"edge", lit_edge},
+      {"line", bright_line}, {"faint line", faint_line}, {"texture", tiles}, {"ripples", ripples}};
   return all;
 }
 
@@ -153,7 +152,7 @@ TEST(DenoisedTruth, IsNeverFartherThanThePictureAsRendered) {
         std::pair("fireflies", fireflies())})
     for (const NamedWall& w : walls())
       for (const int passes : pass_counts) {
-        const Shown noisy = shown(w.wall, noise, passes);
+        const Shown noisy = pictured(w.wall, noise, passes);
         const double before = relative_mse(noisy.image, noisy.truth);
         const double after = relative_mse(denoise(noisy.image), noisy.truth);
         // The mean over 9216 pixels has a standard error of 1.5 in a hundred.
@@ -162,9 +161,9 @@ TEST(DenoisedTruth, IsNeverFartherThanThePictureAsRendered) {
 }
 
 TEST(DenoisedTruth, IsFarNearerWhereLightIsSmooth) {
-  for (const Wall& wall : {Wall(constant), Wall(gradient), Wall(texture)})
+  for (const Wall& wall : {Wall(plain), Wall(ramp), Wall(tiles)})
     for (const int passes : {1, 2, 4, 16}) {
-      const Shown noisy = shown(wall, gaussian(0.8), passes);
+      const Shown noisy = pictured(wall, gaussian(0.8), passes);
       const double before = relative_mse(noisy.image, noisy.truth);
       EXPECT_LT(relative_mse(denoise(noisy.image), noisy.truth), before / 10) << passes;
     }
@@ -173,20 +172,20 @@ TEST(DenoisedTruth, IsFarNearerWhereLightIsSmooth) {
 /// Beside an edge that noise does not hide, and on it.
 TEST(DenoisedTruth, EdgesOfTheLightStay) {
   for (const int passes : {4, 16, 64}) {
-    const Shown noisy = shown(
+    const Shown noisy = pictured(
         [](int x, int) {
-          return WallPixel{0.5f, x < side / 2 ? 1.0f : 0.2f};
+          return WallPixel{0.5f, x < wall_side / 2 ? 1.0f : 0.2f};
         },
         gaussian(0.5), passes);
     const Image smooth = denoise(noisy.image);
-    const auto near_it = [](int x) { return x >= side / 2 - 2 && x < side / 2 + 2; };
+    const auto near_it = [](int x) { return x >= wall_side / 2 - 2 && x < wall_side / 2 + 2; };
     EXPECT_LT(relative_mse(smooth, noisy.truth, near_it),
               0.5 * relative_mse(noisy.image, noisy.truth, near_it))
         << passes;
     double left = 0, right = 0;
-    for (int y = 0; y < side; ++y) {
-      left += double(smooth.at(side / 2 - 1, y, 1)) / side;
-      right += double(smooth.at(side / 2, y, 1)) / side;
+    for (int y = 0; y < wall_side; ++y) {
+      left += double(smooth.at(wall_side / 2 - 1, y, 1)) / wall_side;
+      right += double(smooth.at(wall_side / 2, y, 1)) / wall_side;
     }
     EXPECT_NEAR(left, 0.5, 0.05) << passes;
     EXPECT_NEAR(right, 0.1, 0.05) << passes;
@@ -194,10 +193,10 @@ TEST(DenoisedTruth, EdgesOfTheLightStay) {
 }
 
 TEST(DenoisedTruth, LinesOfLightStay) {
-  const Shown noisy = shown(line, gaussian(0.5), 16);
+  const Shown noisy = pictured(bright_line, gaussian(0.5), 16);
   const Image smooth = denoise(noisy.image);
   double mean = 0;
-  for (int y = 0; y < side; ++y) mean += double(smooth.at(side / 2, y, 1)) / side;
+  for (int y = 0; y < wall_side; ++y) mean += double(smooth.at(wall_side / 2, y, 1)) / wall_side;
   // The line is 2 beside 0.5: nine tenths of that are there.
   EXPECT_GT(mean, 0.5 + 0.9 * 1.5);
   EXPECT_LT(mean, 2.05);
@@ -205,16 +204,17 @@ TEST(DenoisedTruth, LinesOfLightStay) {
 
 /// No light is lost where single paths bring much of it.
 TEST(DenoisedTruth, FirefliesKeepTheirLight) {
-  const Shown noisy = shown(constant, fireflies(), 16);
+  const Shown noisy = pictured(plain, fireflies(), 16);
   const Image smooth = denoise(noisy.image);
   double before = 0, after = 0;
-  for (const float value : noisy.image.channel(1)) before += double(value) / (side * side);
-  for (const float value : smooth.channel(1)) after += double(value) / (side * side);
+  for (const float value : noisy.image.channel(1))
+    before += double(value) / (wall_side * wall_side);
+  for (const float value : smooth.channel(1)) after += double(value) / (wall_side * wall_side);
   EXPECT_NEAR(after, before, 0.02 * before);
 }
 
 TEST(DenoisedTruth, AnyNumberOfThreadsGivesTheSameBits) {
-  const Shown noisy = shown(ripples, gaussian(0.8), 16);
+  const Shown noisy = pictured(ripples, gaussian(0.8), 16);
   const auto by = [&](int threads) {
     Image result;
     with_threads(threads, [&] { result = denoise(noisy.image); });
@@ -231,7 +231,7 @@ TEST(DenoisedTruth, OddHalvesMakeNoOddPictures) {
        {std::pair("odd.share", 0.0f), std::pair("odd.share", 1.0f), std::pair("odd.share", -3.0f),
         std::pair("odd.share", 1e-30f), std::pair("odd.direct", -1.0f),
         std::pair("odd.direct", 1e30f), std::pair("odd.direct", std::nanf(""))}) {
-    Image image = shown(constant, gaussian(0.8), 16).image;
+    Image image = pictured(plain, gaussian(0.8), 16).image;
     const auto values = image.channel(image.find_channel(name));
     std::fill(values.begin(), values.end(), value);
     const Image smooth = denoise(image);
@@ -245,13 +245,13 @@ TEST(DenoisedTruth, OddHalvesMakeNoOddPictures) {
 
 /// Halves need not have as many passes: regions have more of their own.
 TEST(DenoisedTruth, HalvesMayHaveOtherShares) {
-  Shown noisy = shown(constant, gaussian(0.8), 16);
+  Shown noisy = pictured(plain, gaussian(0.8), 16);
   const double before = relative_mse(noisy.image, noisy.truth);
   const int share = noisy.image.find_channel("odd.share");
   const int odd = noisy.image.find_channel("odd.direct");
   std::mt19937 generator(7);
-  for (int y = 0; y < side; ++y)
-    for (int x = side / 2; x < side; ++x) {
+  for (int y = 0; y < wall_side; ++y)
+    for (int x = wall_side / 2; x < wall_side; ++x) {
       // Three quarters of the passes, with the noise that goes with them.
       const double mean = double(noisy.image.at(x, y, 1));
       noisy.image.at(x, y, share) = 0.75f;
@@ -266,11 +266,11 @@ TEST(DenoisedTruth, HalvesMayHaveOtherShares) {
 double share_held(const Image& image, const std::vector<double>& truth) {
   int held = 0;
   const int error = image.find_channel("denoised_error.G");
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)
-      held += std::abs(double(image.at(x, y, 1)) - truth[size_t(y) * side + size_t(x)]) <=
+  for (int y = 0; y < wall_side; ++y)
+    for (int x = 0; x < wall_side; ++x)
+      held += std::abs(double(image.at(x, y, 1)) - truth[size_t(y) * wall_side + size_t(x)]) <=
               1.96 * double(image.at(x, y, error));
-  return double(held) / (side * side);
+  return double(held) / (wall_side * wall_side);
 }
 
 /// Of normal noise 0.95 would be right. Where light varies smoothly the bias that is left is as
@@ -278,7 +278,7 @@ double share_held(const Image& image, const std::vector<double>& truth) {
 TEST(DenoisedTruth, IsHeldByTheErrorOfThePicture) {
   for (const NamedWall& w : walls())
     for (const int passes : {2, 4, 16, 64}) {
-      const Shown noisy = shown(w.wall, gaussian(0.8), passes);
+      const Shown noisy = pictured(w.wall, gaussian(0.8), passes);
       const double held = share_held(denoise(noisy.image), noisy.truth);
       EXPECT_GT(held, 0.75) << w.name << ", " << passes;
       if (std::string(w.name) == "constant" || std::string(w.name) == "texture") {
