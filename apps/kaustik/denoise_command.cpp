@@ -5,18 +5,32 @@
 #include "kaustik/base/error.h"
 #include "kaustik/image/denoise.h"
 #include "kaustik/image/image_io.h"
+#include "kaustik/render/finished_picture.h"
 #include "option_values.h"
 #include "picture_file.h"
+#include "screen.h"
+#include "standard_streams.h"
 
 namespace kaustik::app {
 namespace {
 
-/// What denoising takes beside the image and its result, measured on 16 million pixels.
-constexpr int64_t denoiser_bytes_per_pixel = 4;
+/// What denoising takes beside the image and its result: planes of floats, of all kinds of light.
+constexpr int64_t denoiser_bytes_per_pixel = 440;
+
+/// An image, or that of a checkpoint.
+Image read_rendered(const std::string& path) {
+  if (is_standard_stream(path) || !is_checkpoint(path))
+    return read_image_beside(path, denoiser_bytes_per_pixel, 2);
+  const Checkpoint checkpoint = read_checkpoint(path);
+  RenderRecord record = checkpoint.record;
+  record.outputs.denoise = false;
+  return finished_picture(checkpoint.film.image(), record, PictureFacts::of(checkpoint.film),
+                          {note, warn});
+}
 
 /// What is wrong with an image is told with its name.
 Image denoised(const std::string& path) {
-  const Image image = read_image_beside(path, denoiser_bytes_per_pixel, 2);
+  const Image image = read_rendered(path);
   try {
     return denoise(image);
   } catch (const Error& error) {
@@ -30,19 +44,20 @@ Image denoised(const std::string& path) {
 
 void add_denoise(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "denoise", "Smooth the noise of a rendered EXR, by what its layers know of the surfaces.");
+      "denoise", "Smooth the noise of a rendered EXR or checkpoint, by what is known of it.");
   command->footer(
-      "Edges of what is seen stay; details of the light that are fainter than its noise are lost,\n"
-      "so the result is for looking at, not for measuring.");
+      "Edges of what is seen stay; details of the light that are fainter than its noise are lost.\n"
+      "The layer denoised_error tells how far off the result is, from two passes on.");
   struct Options {
     std::string input, output;
     bool full_float = false, force = false;
   };
   auto o = std::make_shared<Options>();
-  takes_files(
-      command->add_option("image", o->input, "EXR that kaustik rendered, with all its layers")
-          ->required(),
-      {"exr"});
+  takes_files(command
+                  ->add_option("image", o->input,
+                               "EXR that kaustik rendered, with all its layers, or checkpoint")
+                  ->required(),
+              {"exr", "kpt"});
   takes_files(command
                   ->add_option("-o,--output", o->output,
                                "EXR, HDR, PFM or LogLuv tif to write, - for standard output; for "

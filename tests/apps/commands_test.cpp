@@ -103,6 +103,18 @@ TEST_F(Commands, DenoiseMakesThePictureThatRenderMakes) {
   EXPECT_LT(error("b.exr"), error("a.exr"));
 }
 
+TEST_F(Commands, DenoiseTakesCheckpoints) {
+  run_well({"render", "scene.xml", "-q", "--passes", "4", "--spp", "16", "--float", "--checkpoint",
+            "a.kpt", "-o", "a.exr"});
+  run_well({"denoise", "a.kpt", "--float", "-o", "b.exr"});
+  run_well({"denoise", "a.exr", "--float", "-o", "c.exr"});
+  EXPECT_TRUE(same_pixels("b.exr", "c.exr"));
+  EXPECT_FALSE(same_pixels("a.exr", "b.exr"));
+  const Image smooth = read_image(path("b.exr"));
+  EXPECT_NE(smooth.find_metadata("denoised"), nullptr);
+  EXPECT_GE(smooth.find_channel("denoised_error.G"), 0);
+}
+
 TEST_F(Commands, WhatCannotBeDenoised) {
   run_well({"render", "scene.xml", "-q", "--spp", "2", "-o", "a.pfm"});
   const RunResult flat = run({"denoise", "a.pfm", "-o", "b.exr"});

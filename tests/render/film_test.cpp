@@ -321,6 +321,40 @@ TEST(Film, BiasIsPartOfTheError) {
   EXPECT_LT(Film(film_settings(), {ComponentSet::all()}).image().find_channel("bias.R"), 0);
 }
 
+/// Images tell what passes of odd replicates have, component by component.
+TEST(Film, HalvesAreTheMeansOfOddReplicates) {
+  const auto passes = made_up_passes(19);
+  const Image image = filmed(passes, counting(passes.size())).image();
+  // Passes 1, 3, … 17: nine of nineteen.
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      EXPECT_FLOAT_EQ(value_at(image, x, y, "odd.share"), 9 / 19.0f);
+      for (int c = 0; c < component_count; ++c) {
+        double odd = 0, all = 0;
+        for (size_t pass = 0; pass < passes.size(); ++pass) {
+          const Spectrum& radiance =
+              passes[pass][size_t(y) * width + size_t(x)].radiance[size_t(c)];
+          const auto luminance = double(photopic({radiance[0], radiance[1], radiance[2]}));
+          all += luminance / 19;
+          if (pass % 2 == 1) odd += luminance / 9;
+        }
+        const std::string name = "odd." + std::string(component_names[size_t(c)]);
+        // Rounded to 12 bits below most pixels of a tile; emission is what is left of all.
+        EXPECT_NEAR(double(value_at(image, x, y, name)), odd,
+                    1e-3 * std::max(odd, 1.0) + 1e-6 * all)
+            << name;
+      }
+    }
+  // There is one half alone, or none.
+  for (const size_t count : {0, 1})
+    EXPECT_LT(filmed(passes, counting(count)).image().find_channel("odd.share"), 0);
+  EXPECT_LT(filmed(passes, {0, 2, 4, 16}).image().find_channel("odd.share"), 0);
+  // Films of files from before there were halves lack them.
+  Film old(film_settings(), {ComponentSet::all(), false, true, false, false});
+  for (uint32_t pass = 0; pass < 4; ++pass) old.add_pass(tiled(passes[pass], old), pass);
+  EXPECT_LT(old.image().find_channel("odd.share"), 0);
+}
+
 /// Where the two halves contradict each other that is no bias, but it takes nothing off the noise.
 TEST(Film, ContradictoryBiasDoesNotHideNoise) {
   const auto film_with = [](bool biased) {

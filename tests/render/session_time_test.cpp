@@ -299,6 +299,23 @@ TEST(SessionTime, AClockThatFailsInALightPassEndsIt) {
   EXPECT_EQ(session.film().pass_count(), 0u);
 }
 
+/// The half that the part's pass belongs to has it, the other one does not.
+TEST(PartPicture, AddsToItsHalf) {
+  PassPixel pixel;
+  pixel.radiance[size_t(Component::direct)] = {10, 10, 10, 0};
+  for (const uint32_t replicate : {4u, 5u}) {
+    Image image(1, 1, {"direct.R", "odd.direct", "odd.share"});
+    image.at(0, 0, 0) = 3;
+    image.at(0, 0, 1) = 2;
+    image.at(0, 0, 2) = 0.25f;  // one pass of four
+    PartPicture(image, 0.5, replicate).put(0, 0, pixel, 4);
+    const bool is_odd = replicate == 5;
+    EXPECT_NEAR(image.at(0, 0, 0), (4 * 3 + 0.5 * 10) / 4.5, 1e-5);
+    EXPECT_NEAR(image.at(0, 0, 1), is_odd ? (2 + 0.5 * 10) / 1.5 : 2, 1e-5);
+    EXPECT_NEAR(image.at(0, 0, 2), is_odd ? 1.5 / 4.5 : 1 / 4.5, 1e-6);
+  }
+}
+
 TEST(PartPicture, WeighsByShares) {
   Image image(1, 1,
               {"R", "G", "B", "caustic.G", "albedo.B", "N.Y", "depth.Z", "error.R", "bias.B",

@@ -4,31 +4,12 @@
 #include <cmath>
 
 #include "kaustik/base/error.h"
-#include "kaustik/base/parallel.h"
-#include "kaustik/base/vectorize.h"
+#include "kaustik/image/cross_filter.h"
 #include "kaustik/image/photometry.h"
+#include "kaustik/image/shrinkage.h"
 
 namespace kaustik {
 namespace {
-
-using Plane = std::vector<float>;
-
-/// Averages over 5 × 5 pixels, each twice as sparse as the one before: 62 pixels to either side.
-constexpr int rounds = 5;
-/// Of the B₃ spline.
-constexpr float kernel[5] = {1.0f / 16, 1.0f / 4, 3.0f / 8, 1.0f / 4, 1.0f / 16};
-/// The noise is a mean over 5 × 5 pixels: that of single pixels is hardly known from few samples.
-constexpr int noise_reach = 2;
-
-// Pixels are unlike by the sum of four terms, each 1 where the weight falls to 1/e:
-/// the brightness differs by so many standard deviations of the noise,
-constexpr float brightness_tolerance = 4;
-/// the squared difference of the unit normals,
-constexpr float normal_tolerance_sq = 0.05f;
-/// the photopic albedo,
-constexpr float albedo_tolerance = 0.15f;
-/// the distance from the plane, in steps of the depth from pixel to pixel.
-constexpr float plane_tolerance = 1.5f;
 
 /// What noise is at most, that its square be finite.
 constexpr float greatest_noise = 1e15f;
@@ -36,278 +17,292 @@ constexpr float greatest_noise = 1e15f;
 /// What light is divided by where a surface hardly reflects.
 constexpr float least_albedo = 0.02f;
 
-/// Near e^−x for x ≥ 0 and zero from 8 on; compilers make vectors of it.
-inline float falloff(float x) {
-  float y = std::max(0.0f, 1.0f - 0.125f * x);
-  y *= y;
-  y *= y;
-  return y * y;
-}
+/// Noise below this share of the picture's brightness is left: nobody sees it.
+constexpr double least_noise = 1e-3;
 
-/// What is known of the surfaces that the pixels show, without noise.
-struct Surfaces {
-  int width, height;
-  std::array<Plane, 3> normal, albedo;
-  Plane lightness;  ///< photopic value of the albedo
-  Plane depth;
-  Plane inverse_step;  ///< 1 over plane_tolerance steps of the depth from pixel to pixel
+/// Share of the picture's mean luminance under which a pixel's own counts less and less.
+constexpr double dark_share = 0.02;
+
+constexpr const char* error_layer = "denoised_error";
+
+/// Light that is filtered by itself.
+struct Part {
+  std::vector<std::string> components;
+  bool is_scattered = false;    ///< by surfaces, in proportion to their albedo
+  const char* noise = nullptr;  ///< the layer that tells it by samples
 };
 
-/// The same from some pixel on.
-struct SurfaceRow {
-  SurfaceRow(const Surfaces& s, std::ptrdiff_t first)
-      : normal{s.normal[0].data() + first, s.normal[1].data() + first, s.normal[2].data() + first},
-        lightness(s.lightness.data() + first),
-        depth(s.depth.data() + first) {}
-  const float* normal[3];
-  const float* lightness;
-  const float* depth;
-};
-
-/// Calls body(i) for every pixel, in parallel.
-template <typename Body>
-void for_pixels(size_t count, const Body& body) {
-  parallel_blocks(count, 1 << 14, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) body(i);
-  });
+const std::vector<Part>& parts_with_halves() {
+  static const std::vector<Part> parts{{{"direct"}, true, "noise.scattered"},
+                                       {{"caustic"}, true, "noise.scattered"},
+                                       {{"indirect"}, true, "noise.scattered"},
+                                       {{"specular"}, false, "noise.mirrored"},
+                                       {{"volume"}, false, nullptr}};
+  return parts;
 }
 
-/// A part of the light.
-struct Signal {
-  std::array<Plane, 3> rgb;
-  Plane variance;  ///< of the photopic value's noise; empty: not known
-};
-
-Plane brightness_of(const Signal& s) {
-  Plane result(s.rgb[0].size());
-  for_pixels(result.size(), [&](size_t i) {
-    result[i] = photopic({s.rgb[0][i], s.rgb[1][i], s.rgb[2][i]});
-  });
-  return result;
+const Part& scattered_light() {
+  static const Part part{{"direct", "caustic", "indirect"}, true, "noise.scattered"};
+  return part;
 }
 
-/// How unlike the surfaces of pixels x of both rows are.
-inline float unlikeness(const SurfaceRow& p, const SurfaceRow& q, const float* inverse_step,
-                        float inverse_distance, int x) {
-  float normals = 0;
-  for (int k = 0; k < 3; ++k) {
-    const float difference = p.normal[k][x] - q.normal[k][x];
-    normals += difference * difference;
-  }
-  return normals * (1 / normal_tolerance_sq) +
-         std::fabs(p.lightness[x] - q.lightness[x]) * (1 / albedo_tolerance) +
-         std::fabs(p.depth[x] - q.depth[x]) * inverse_step[x] * inverse_distance;
-}
-
-/// A neighbour that every pixel of a row has, but for those too near to the edge.
-struct Neighbor {
-  int dx, dy;              ///< in the pattern, not yet multiplied by its step
-  int begin, end;          ///< the pixels x that have it
-  std::ptrdiff_t row;      ///< index of the neighbour of x = 0, were there one
-  float inverse_distance;  ///< 1 over its distance in pixels (of the pixel itself: 1)
-};
-
-/// Calls visit(neighbor) for those within `reach` steps of `step` pixels.
-template <typename Visit>
-void for_neighbors(const Surfaces& s, size_t y, int reach, int step, const Visit& visit) {
-  for (int dy = -reach; dy <= reach; ++dy) {
-    const int other = int(y) + dy * step;
-    if (other < 0 || other >= s.height) continue;
-    for (int dx = -reach; dx <= reach; ++dx) {
-      const int shift = dx * step;
-      const float distance = float(step) * std::sqrt(float(dx * dx + dy * dy));
-      visit(Neighbor{dx, dy, std::max(0, -shift), std::min(s.width, s.width - shift),
-                     std::ptrdiff_t(other) * s.width + shift, 1 / std::max(1.0f, distance)});
-    }
-  }
-}
-
-/// Mean of a plane over like surfaces nearby.
-Plane mean_of_like(const Surfaces& s, const Plane& values) {
-  Plane result(values.size());
-  const auto width = size_t(s.width);
-  parallel_blocks(size_t(s.height), 4, [&](size_t first, size_t last, size_t) {
-    Plane weight_row(width), sum_row(width);
-    for (size_t y = first; y < last; ++y) {
-      std::fill(weight_row.begin(), weight_row.end(), 0.0f);
-      std::fill(sum_row.begin(), sum_row.end(), 0.0f);
-      float *weights = weight_row.data(), *sums = sum_row.data();
-      const SurfaceRow p(s, std::ptrdiff_t(y * width));
-      const float* inverse_step = s.inverse_step.data() + y * width;
-      for_neighbors(s, y, noise_reach, 1, [&](const Neighbor& n) {
-        const SurfaceRow q(s, n.row);
-        const float* from = values.data() + n.row;
-        KAUSTIK_INDEPENDENT_TURNS
-        for (int x = n.begin; x < n.end; ++x) {
-          const float w = falloff(unlikeness(p, q, inverse_step, n.inverse_distance, x));
-          weights[x] += w;
-          sums[x] += w * from[x];
-        }
-      });
-      for (size_t x = 0; x < width; ++x)
-        if (weights[x] > 0) result[y * width + x] = sums[x] / weights[x];
-    }
-  });
-  return result;
-}
-
-/// Where samples do not tell the noise: the variance of the brightness around each pixel, which
-/// takes what detail there is for noise.
-Plane variance_around(const Surfaces& s, const Plane& brightness) {
-  Plane result = brightness;
-  for (float& value : result) value *= value;
-  result = mean_of_like(s, result);
-  const Plane means = mean_of_like(s, brightness);
-  for (size_t i = 0; i < result.size(); ++i)
-    result[i] = std::max(0.0f, result[i] - means[i] * means[i]);
-  return result;
-}
-
-/// Averages of like pixels that are `step` apart.
-Signal averaged(const Surfaces& s, const Signal& signal, int step) {
-  const Plane brightness = brightness_of(signal);
-  Signal result = signal;
-  const auto width = size_t(s.width);
-  parallel_blocks(size_t(s.height), 4, [&](size_t first, size_t last, size_t) {
-    Plane rows[6];
-    for (Plane& row : rows) row.resize(width);
-    float *weights = rows[0].data(), *variances = rows[1].data(), *red = rows[2].data();
-    float *green = rows[3].data(), *blue = rows[4].data(), *inverse_noise = rows[5].data();
-    for (size_t y = first; y < last; ++y) {
-      const size_t row = y * width;
-      for (int k = 0; k < 5; ++k) std::fill(rows[k].begin(), rows[k].end(), 0.0f);
-      for (size_t x = 0; x < width; ++x)
-        inverse_noise[x] =
-            1 / (brightness_tolerance * std::sqrt(signal.variance[row + x]) + 1e-12f);
-      const SurfaceRow p(s, std::ptrdiff_t(row));
-      const float* inverse_step = s.inverse_step.data() + row;
-      const float* here = brightness.data() + row;
-      for_neighbors(s, y, 2, step, [&](const Neighbor& n) {
-        const SurfaceRow q(s, n.row);
-        const float *there = brightness.data() + n.row, *noise = signal.variance.data() + n.row;
-        const float *r = signal.rgb[0].data() + n.row, *g = signal.rgb[1].data() + n.row;
-        const float* b = signal.rgb[2].data() + n.row;
-        const float share = kernel[n.dx + 2] * kernel[n.dy + 2];
-        KAUSTIK_INDEPENDENT_TURNS
-        for (int x = n.begin; x < n.end; ++x) {
-          const float w = share * falloff(unlikeness(p, q, inverse_step, n.inverse_distance, x) +
-                                          std::fabs(here[x] - there[x]) * inverse_noise[x]);
-          weights[x] += w;
-          variances[x] += w * w * noise[x];
-          red[x] += w * r[x];
-          green[x] += w * g[x];
-          blue[x] += w * b[x];
-        }
-      });
-      for (size_t x = 0; x < width; ++x) {
-        if (!(weights[x] > 0)) continue;  // values near the end of float's range
-        const float inverse = 1 / weights[x];
-        for (size_t k = 0; k < 3; ++k) result.rgb[k][row + x] = rows[2 + k][x] * inverse;
-        result.variance[row + x] = variances[x] * (inverse * inverse);
-      }
-    }
-  });
-  return result;
+/// Of which the noise is known by samples.
+const std::vector<Part>& parts_without_halves() {
+  static const std::vector<Part> parts{scattered_light(), {{"specular"}, false, "noise.mirrored"}};
+  return parts;
 }
 
 bool is_zero(const Plane& plane) {
   return std::all_of(plane.begin(), plane.end(), [](float value) { return value == 0; });
 }
 
-void smooth(const Surfaces& s, Signal& signal) {
-  signal.variance = signal.variance.empty() ? variance_around(s, brightness_of(signal))
-                                            : mean_of_like(s, signal.variance);
-  for (int round = 0; round < rounds; ++round) signal = averaged(s, signal, 1 << round);
-}
+bool is_black(const std::array<Plane, 3>& rgb) { return std::ranges::all_of(rgb, is_zero); }
 
-/// A channel, with 0 for what is not finite; zeros where there is none.
-Plane plane_of(const Image& image, const std::string& name) {
-  const int channel = image.find_channel(name);
-  if (channel < 0) return Plane(image.pixel_count());
-  const auto values = image.channel(channel);
-  Plane plane(values.size());
-  for_pixels(plane.size(),
-             [&](size_t i) { plane[i] = std::isfinite(values[i]) ? values[i] : 0.0f; });
-  return plane;
-}
-
-Surfaces surfaces_of(const Image& image) {
-  Surfaces s{image.width(), image.height(), {}, {}, {}, plane_of(image, "depth.Z"), {}};
-  for (size_t k = 0; k < 3; ++k) {
-    s.normal[k] = plane_of(image, std::string("N.") + "XYZ"[k]);
-    s.albedo[k] = plane_of(image, std::string("albedo.") + "RGB"[k]);
-  }
-  s.lightness.resize(s.depth.size());
-  for_pixels(s.depth.size(), [&](size_t i) {
-    s.lightness[i] = photopic({s.albedo[0][i], s.albedo[1][i], s.albedo[2][i]});
+Plane brightness_of(const std::array<Plane, 3>& rgb) {
+  Plane result(rgb[0].size());
+  for_pixels(result.size(), [&](size_t i) {
+    result[i] = photopic({rgb[0][i], rgb[1][i], rgb[2][i]});
   });
-  const auto depth = [&](int x, int y) { return s.depth[size_t(y) * size_t(s.width) + size_t(x)]; };
-  const auto step_to = [&](int x, int y, int dx, int dy) {
-    const bool inside = x + dx >= 0 && y + dy >= 0 && x + dx < s.width && y + dy < s.height;
-    return inside ? std::fabs(depth(x, y) - depth(x + dx, y + dy)) : infinity;
-  };
-  s.inverse_step.resize(s.depth.size());
-  parallel_blocks(size_t(s.height), 16, [&](size_t first, size_t last, size_t) {
-    for (int y = int(first); y < int(last); ++y)
-      for (int x = 0; x < s.width; ++x) {
-        // The lesser of both sides: beyond an outline is another surface.
-        const float across = std::min(step_to(x, y, -1, 0), step_to(x, y, 1, 0));
-        const float down = std::min(step_to(x, y, 0, -1), step_to(x, y, 0, 1));
-        float step = 1e-3f * std::fabs(depth(x, y)) + 1e-12f;  // rounding, and curved surfaces
-        for (const float side : {across, down})
-          if (std::isfinite(side)) step = std::max(step, side);
-        s.inverse_step[size_t(y) * size_t(s.width) + size_t(x)] = 1 / (plane_tolerance * step);
-      }
-  });
-  return s;
+  return result;
 }
 
-/// The sum of some layers, with the noise that the image knows.
-Signal signal_of(const Image& image, std::initializer_list<const char*> layers, const char* noise) {
-  Signal signal;
-  if (image.find_channel(noise) >= 0) signal.variance = plane_of(image, noise);
-  for (float& value : signal.variance) value = sqr(std::min(std::fabs(value), greatest_noise));
+std::array<Plane, 3> light_of(const Image& image, const Part& part) {
+  std::array<Plane, 3> rgb;
   for (size_t k = 0; k < 3; ++k) {
-    signal.rgb[k].resize(image.pixel_count());
-    for (const char* layer : layers) {
-      const Plane plane = plane_of(image, std::string(layer) + "." + "RGB"[k]);
-      for_pixels(plane.size(), [&](size_t i) { signal.rgb[k][i] += plane[i]; });
+    rgb[k].resize(image.pixel_count());
+    for (const std::string& component : part.components) {
+      const Plane plane = plane_of(image, component + "." + "RGB"[k]);
+      for_pixels(plane.size(), [&](size_t i) { rgb[k][i] += plane[i]; });
     }
   }
-  return signal;
+  return rgb;
 }
 
-/// Whether there is light, and noise in it that anyone could see: relative to the picture over a
-/// hundredth, as far as it is known.
-bool is_noisy(const Signal& signal, const Image& image) {
-  if (is_zero(signal.rgb[0]) && is_zero(signal.rgb[1]) && is_zero(signal.rgb[2])) return false;
-  if (signal.variance.empty()) return true;
+/// A picture on its way.
+class Denoising {
+ public:
+  explicit Denoising(const Image& image);
+  Image result();
+
+ private:
+  /// A part as it was rendered, and filtered.
+  struct Filtered {
+    const Part* part;
+    std::array<Plane, 3> raw;
+    std::array<Plane, 2> shares;  ///< what halves have over the mean, if they are known
+    Plane variance;               ///< of the photopic mean, else
+    FilteredLight light;
+  };
+
+  Filtered with_noise(const Part& part) const;
+  bool is_noisy(const Filtered& f) const;
+  void filter(Filtered& f) const;
+  /// Of what one part is as it was filtered, before the blend.
+  Vec3f filtered(const Filtered& f, size_t half, size_t i) const {
+    return {f.light.halves[half][0][i], f.light.halves[half][1][i], f.light.halves[half][2][i]};
+  }
+  Vec3f filtered(const Filtered& f, size_t i) const {
+    if (!has_halves_) return filtered(f, 0, i);
+    return filtered(f, 0, i) * (1 - odd_share_[i]) + filtered(f, 1, i) * odd_share_[i];
+  }
+  Vec3f raw(const Filtered& f, size_t i) const { return {f.raw[0][i], f.raw[1][i], f.raw[2][i]}; }
+  void find_importance(const std::vector<Filtered>& all);
+  void blend(const Filtered& f);
+
+  const Image& image_;
+  PixelSurfaces surfaces_;
+  bool has_albedo_;  ///< light is in proportion to it
+  Plane odd_share_;
+  bool has_halves_;
+  Plane brightness_;  ///< of the picture
+  Plane importance_;  ///< of a squared error
+  std::array<Plane, 3> change_;
+  std::array<Plane, 2> half_change_, half_light_;
+};
+
+Denoising::Denoising(const Image& image)
+    : image_(image), surfaces_(image), odd_share_(plane_of(image, "odd.share")) {
+  const MetadataValue* quantity = image.find_metadata("quantity");
+  has_albedo_ = !quantity || *quantity != MetadataValue("irradiance");
+  has_halves_ = std::ranges::all_of(odd_share_, [](float s) { return s > 0 && s < 1; });
   const RgbView picture = rgb_view(image);
-  double sum = 0;
-  for (size_t i = 0; i < signal.variance.size(); ++i) {
-    const float brightness = photopic(picture[i]);
-    if (std::isfinite(brightness)) sum += double(signal.variance[i] / (sqr(brightness) + 0.01f));
-  }
-  return sum > 1e-4 * double(signal.variance.size());
-}
-
-/// Adds a part of the light to the picture, or takes it away.
-void add(const Signal& signal, float factor, Image& image) {
-  for (size_t k = 0; k < 3; ++k) {
-    const auto values = image.channel(image.find_channel(std::string(1, "RGB"[k])));
-    for_pixels(values.size(), [&](size_t i) { values[i] += factor * signal.rgb[k][i]; });
-  }
-}
-
-/// Divides light by the albedo, or multiplies it.
-void change_by_albedo(const Surfaces& s, bool divide, Signal& signal) {
-  const auto albedo = [&](size_t k, size_t i) { return std::max(least_albedo, s.albedo[k][i]); };
-  for_pixels(s.lightness.size(), [&](size_t i) {
-    for (size_t k = 0; k < 3; ++k)
-      signal.rgb[k][i] = divide ? signal.rgb[k][i] / albedo(k, i) : signal.rgb[k][i] * albedo(k, i);
-    if (divide && !signal.variance.empty())
-      signal.variance[i] /= sqr(photopic({albedo(0, i), albedo(1, i), albedo(2, i)}));
+  brightness_.resize(image.pixel_count());
+  for_pixels(brightness_.size(), [&](size_t i) {
+    const float own = photopic(picture[i]);
+    brightness_[i] = std::isfinite(own) ? own : 0;
   });
+  for (Plane& plane : change_) plane.resize(image.pixel_count());
+  if (!has_halves_) return;
+  for (size_t half = 0; half < 2; ++half) {
+    half_change_[half].resize(image.pixel_count());
+    half_light_[half].resize(image.pixel_count());
+  }
+  // Of all components, those that stay included.
+  for (const std::string& name : image.channel_names())
+    if (name.starts_with("odd.") && name != "odd.share") {
+      const Plane odd = plane_of(image, name);
+      for_pixels(odd.size(), [&](size_t i) { half_light_[1][i] += odd[i]; });
+    }
+  for_pixels(brightness_.size(), [&](size_t i) {
+    const float s = odd_share_[i];
+    const float most = brightness_[i] / s;
+    half_light_[1][i] = std::clamp(half_light_[1][i], std::min(0.0f, most), std::max(0.0f, most));
+    half_light_[0][i] = (brightness_[i] - s * half_light_[1][i]) / (1 - s);
+  });
+}
+
+Denoising::Filtered Denoising::with_noise(const Part& part) const {
+  Filtered f{&part, light_of(image_, part), {}, {}, {}};
+  const Plane mean = brightness_of(f.raw);
+  if (part.noise && image_.find_channel(part.noise) >= 0) {
+    f.variance = plane_of(image_, part.noise);
+    const bool is_whole = !has_halves_ || !part.is_scattered;
+    const Plane whole = is_whole ? mean : brightness_of(light_of(image_, scattered_light()));
+    for_pixels(mean.size(), [&](size_t i) {
+      // Components have as much noise as light.
+      const float share = is_whole       ? 1
+                          : whole[i] > 0 ? std::clamp(mean[i] / whole[i], 0.0f, 1.0f)
+                                         : 0;
+      f.variance[i] = sqr(share * std::min(std::fabs(f.variance[i]), greatest_noise));
+    });
+  }
+  if (!has_halves_) return f;
+  const Plane odd = plane_of(image_, "odd." + part.components[0]);
+  for (Plane& half : f.shares) half.resize(mean.size());
+  for_pixels(mean.size(), [&](size_t i) {
+    const float s = odd_share_[i];
+    // Rounded, they may be a little more than all.
+    const float share = mean[i] > 0 ? std::clamp(odd[i] / mean[i], 0.0f, 1 / s) : 1.0f;
+    f.shares[1][i] = share;
+    f.shares[0][i] = std::max(0.0f, (1 - s * share) / (1 - s));
+  });
+  return f;
+}
+
+/// Whether there is light, and noise in it that anyone could see, as far as it is known.
+bool Denoising::is_noisy(const Filtered& f) const {
+  if (is_black(f.raw)) return false;
+  if (!has_halves_ && f.variance.empty()) return true;
+  const double sum = sum_over_blocks(brightness_.size(), 1 << 14, [&](size_t begin, size_t end) {
+    double block = 0;
+    for (size_t i = begin; i < end; ++i) {
+      const float own = has_halves_ ? sqr(photopic(raw(f, i)) * (f.shares[0][i] - f.shares[1][i])) *
+                                          odd_share_[i] * (1 - odd_share_[i])
+                                    : f.variance[i];
+      block += double(own) / (sqr(double(brightness_[i])) + 0.01);
+    }
+    return block;
+  });
+  return sum > sqr(least_noise) * double(brightness_.size());
+}
+
+void Denoising::filter(Filtered& f) const {
+  NoisyLight light{f.raw, f.shares, f.variance};
+  const bool divide = has_albedo_ && f.part->is_scattered;
+  const auto albedo = [&](size_t k, size_t i) {
+    return std::max(least_albedo, surfaces_.albedo[k][i]);
+  };
+  if (divide) {
+    for (size_t k = 0; k < 3; ++k)
+      for_pixels(light.rgb[k].size(), [&](size_t i) { light.rgb[k][i] /= albedo(k, i); });
+    for_pixels(light.variance.size(), [&](size_t i) {
+      light.variance[i] /= sqr(photopic({albedo(0, i), albedo(1, i), albedo(2, i)}));
+    });
+  }
+  f.light = cross_filtered(surfaces_, light, odd_share_);
+  if (!divide) return;
+  for (auto& half : f.light.halves)
+    for (size_t k = 0; k < 3; ++k)
+      for_pixels(half[k].size(), [&](size_t i) { half[k][i] *= albedo(k, i); });
+  for_pixels(f.light.variance.size(), [&](size_t i) {
+    const float lightness_sq = sqr(photopic({albedo(0, i), albedo(1, i), albedo(2, i)}));
+    f.light.variance[i] *= lightness_sq;
+    f.light.raw_variance[i] *= lightness_sq;
+  });
+}
+
+/// Errors count by the brightness of what is seen, as it is when all is filtered.
+void Denoising::find_importance(const std::vector<Filtered>& all) {
+  importance_ = brightness_;
+  for (const Filtered& f : all)
+    for_pixels(importance_.size(),
+               [&](size_t i) { importance_[i] += photopic(filtered(f, i) - raw(f, i)); });
+  const double mean = sum_over_blocks(importance_.size(), 1 << 14,
+                                      [&](size_t begin, size_t end) {
+                                        double sum = 0;
+                                        for (size_t i = begin; i < end; ++i)
+                                          sum += double(std::fabs(importance_[i]));
+                                        return sum;
+                                      }) /
+                      double(importance_.size());
+  const auto dark = float(dark_share * mean) + 1e-12f;
+  for_pixels(importance_.size(),
+             [&](size_t i) { importance_[i] = 1 / sqr(std::fabs(importance_[i]) + dark); });
+}
+
+void Denoising::blend(const Filtered& f) {
+  const size_t count = brightness_.size();
+  const auto raw_half = [&](size_t half, size_t i) {
+    return photopic(raw(f, i)) * f.shares[half][i];
+  };
+  const auto half_change = [&](size_t half, size_t i) {
+    return photopic(filtered(f, half, i)) - raw_half(half, i);
+  };
+  Plane share(count);
+  if (has_halves_ || !f.variance.empty()) {
+    Blend blend{Plane(count),     f.variance,       f.light.raw_variance,
+                f.light.variance, f.light.variance, has_halves_};
+    for_pixels(count, [&](size_t i) { blend.change[i] = photopic(filtered(f, i) - raw(f, i)); });
+    if (has_halves_) {
+      blend.own_variance.resize(count);
+      for_pixels(count, [&](size_t i) {
+        const float s = odd_share_[i], off = raw_half(0, i) - raw_half(1, i);
+        blend.own_variance[i] = s * (1 - s) * off * off;
+        blend.covariance[i] = s * (1 - s) * off * (off + half_change(0, i) - half_change(1, i));
+      });
+    }
+    share = share_of_raw(surfaces_.width, surfaces_.height, blend, importance_);
+  }
+  for_pixels(count, [&](size_t i) {
+    const Vec3f change = (filtered(f, i) - raw(f, i)) * (1 - share[i]);
+    for (size_t k = 0; k < 3; ++k) change_[k][i] += change[int(k)];
+    if (!has_halves_) return;
+    for (size_t half = 0; half < 2; ++half)
+      half_change_[half][i] += (1 - share[i]) * half_change(half, i);
+  });
+}
+
+Image Denoising::result() {
+  std::vector<Filtered> all;
+  for (const Part& part : has_halves_ ? parts_with_halves() : parts_without_halves()) {
+    Filtered f = with_noise(part);
+    if (!is_noisy(f)) continue;
+    filter(f);
+    all.push_back(std::move(f));
+  }
+  find_importance(all);
+  for (const Filtered& f : all) blend(f);
+  Image result = image_;
+  result.set_metadata("denoised", "true");
+  for (size_t k = 0; k < 3; ++k) {
+    const auto values = result.channel(result.find_channel(std::string(1, "RGB"[k])));
+    for_pixels(values.size(), [&](size_t i) { values[i] += change_[k][i]; });
+  }
+  if (!has_halves_) return result;
+  const Plane error = error_of_halves(surfaces_.width, surfaces_.height,
+                                      {half_light_, half_change_}, odd_share_, importance_);
+  // Channels have noise as they had in the picture as it was rendered.
+  std::array<Plane, 3> raw;
+  for (size_t k = 0; k < 3; ++k) raw[k] = plane_of(image_, std::string("error.") + "RGB"[k]);
+  for (size_t k = 0; k < 3; ++k) {
+    const auto values =
+        result.channel(result.add_channel(std::string(error_layer) + "." + "RGB"[k]));
+    for_pixels(values.size(), [&](size_t i) {
+      const float whole = photopic({raw[0][i], raw[1][i], raw[2][i]});
+      values[i] = whole > 0 ? error[i] * (raw[k][i] / whole) : error[i];
+    });
+  }
+  return result;
 }
 
 }  // namespace
@@ -328,26 +323,7 @@ Image denoise(const Image& image) {
   if (image.find_metadata("denoised"))
     throw Error(ErrorKind::input, "the image has been denoised before",
                 "denoise the one that was rendered");
-  const MetadataValue* quantity = image.find_metadata("quantity");
-  const bool has_albedo = !quantity || *quantity != MetadataValue("irradiance");
-  const Surfaces surfaces = surfaces_of(image);
-  Image result = image;
-  result.set_metadata("denoised", "true");
-  Signal scattered = signal_of(image, {"direct", "caustic", "indirect"}, "noise.scattered");
-  if (is_noisy(scattered, image)) {
-    add(scattered, -1, result);
-    if (has_albedo) change_by_albedo(surfaces, true, scattered);
-    smooth(surfaces, scattered);
-    if (has_albedo) change_by_albedo(surfaces, false, scattered);
-    add(scattered, 1, result);
-  }
-  Signal mirrored = signal_of(image, {"specular"}, "noise.mirrored");
-  if (is_noisy(mirrored, image)) {
-    add(mirrored, -1, result);
-    smooth(surfaces, mirrored);
-    add(mirrored, 1, result);
-  }
-  return result;
+  return Denoising(image).result();
 }
 
 }  // namespace kaustik

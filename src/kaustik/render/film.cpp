@@ -44,6 +44,7 @@ FilmNumbers::FilmNumbers(const FilmLayers& layers) {
   }
   replicate_luminances = next(replicate_count);
   if (layers.bias) bias = next(bias_halves * lanes);
+  if (layers.holds_halves()) odd_luminances = next(halved_components.size());
 }
 
 Film::Film(Vec2i size, const FilmLayers& layers)
@@ -81,6 +82,7 @@ class Film::Addition {
         packer.keep();
     }
     if (film_.layers_.bias) add_bias(tile, packer);
+    if (film_.layers_.holds_halves()) add_halves(tile, packer);
     packer.end(film_.sums_[tile]);
   }
 
@@ -135,6 +137,38 @@ class Film::Addition {
         else
           packer.keep();
       }
+  }
+
+  void add_halves(size_t tile, TilePacker& packer) {
+    for (const Component component : halved_components) {
+      if (replicate_ % 2 == 0 || !find_luminances(tile, component)) {
+        packer.keep();
+        continue;
+      }
+      round_line(rounded_, half_bits);
+      packer.add(rounded_);
+    }
+  }
+
+  /// Of one component, into `rounded_`; false: it is black all over the tile.
+  bool find_luminances(size_t tile, Component component) {
+    std::array<PassTiles::Line, FilmNumbers::lanes> uniform;
+    std::array<const PassTiles::Line*, FilmNumbers::lanes> lines;
+    bool is_black = true;
+    for (size_t lane = 0; lane < lines.size(); ++lane) {
+      const size_t line = PassTiles::radiance + size_t(component) * FilmNumbers::lanes + lane;
+      lines[lane] = pass_.read(tile, line, uniform[lane]);
+      is_black = is_black && !lines[lane];
+      if (lines[lane]) continue;
+      uniform[lane].fill(0);
+      lines[lane] = &uniform[lane];
+    }
+    if (is_black) return false;
+    for (size_t i = 0; i < tile_pixels; ++i) {
+      const float luminance = photopic({(*lines[0])[i], (*lines[1])[i], (*lines[2])[i]});
+      rounded_[i] = std::isfinite(luminance) ? luminance : 0;
+    }
+    return true;
   }
 
   void add_line(size_t tile, size_t line, TilePacker& packer) {

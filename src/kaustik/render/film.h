@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -20,6 +21,11 @@ struct FilmRegion;
 /// Estimates of the bias are summed apart for even and for odd replicates.
 inline constexpr uint32_t bias_halves = 2;
 
+/// Of these components the luminance is summed apart for odd replicates.
+inline constexpr std::array halved_components = {Component::direct, Component::caustic,
+                                                 Component::indirect, Component::specular,
+                                                 Component::volume};
+
 /// What a film holds beside what all of them do.
 struct FilmLayers {
   ComponentSet components;
@@ -29,6 +35,10 @@ struct FilmLayers {
   bool in_images = true;
   bool pixels_are_apart = false;  ///< each is a measurement of its own: its
                                   ///< error is told by it alone
+  /// With what images with layers hold: the luminances of odd replicates apart, by component. Films
+  /// of files from before there were such lack them.
+  bool halves = true;
+  bool holds_halves() const { return in_images && halves; }
   static FilmLayers of(const Integrator& integrator, bool in_images = true,
                        bool pixels_are_apart = false) {
     return {integrator.traits().components, integrator.traits().estimates_bias, in_images,
@@ -55,6 +65,9 @@ struct FilmNumbers {
   size_t luminance_squares = 0;  ///< of the passes
   size_t replicate_luminances = 0;  ///< [replicate]
   size_t bias = 0;                  ///< [half][lane], if held
+  /// [component but emission], of odd replicates, if held; what emission has is left of
+  /// `replicate_luminances`.
+  size_t odd_luminances = 0;
   size_t count = 0;
 };
 
@@ -118,8 +131,10 @@ class Film {
   /// (standard error of the mean per channel, see FilmErrors), "bias" where the integrator
   /// estimates it (how much the picture is expected to be too bright, per channel), and
   /// "noise.scattered" and "noise.mirrored" (of the photopic value, over all samples, as if they
-  /// were independent: what denoising goes by; only from two samples per pixel on). All zero
-  /// without a pass. "R" "G" "B" and "emission" alone if images are to have no layers, or these are
+  /// were independent: what denoising goes by; only from two samples per pixel on). Where there are
+  /// passes of even and of odd replicates also "odd", the mean luminance over odd ones of each
+  /// component, and "odd.share", the share of a pixel's passes that these are. All zero without a
+  /// pass. "R" "G" "B" and "emission" alone if images are to have no layers, or these are
   /// not wanted: that is much sooner made.
   Image image(bool with_layers = true) const;
   /// FilmErrors::of_mean()
@@ -170,6 +185,7 @@ class Film {
   /// After all orders there are.
   uint32_t next_regional_number() const;
   bool knows_noise() const { return sample_count_ >= 2; }
+  bool knows_halves() const;
 
   Vec2i size_;
   FilmLayers layers_;

@@ -33,12 +33,13 @@ PassSet get_passes(BinaryReader& reader) {
 
 /// Beside the components' bits; absent in files that were written before there was a choice.
 constexpr uint32_t without_layers = uint32_t(1) << 31, with_pixels_apart = uint32_t(1) << 30,
-                   with_regions = uint32_t(1) << 29;
+                   with_regions = uint32_t(1) << 29, with_halves = uint32_t(1) << 28;
 
 void put_layers(BinaryWriter& writer, const FilmLayers& layers, bool has_regions) {
   uint32_t bits = layers.in_images ? 0 : without_layers;
   if (layers.pixels_are_apart) bits |= with_pixels_apart;
   if (has_regions) bits |= with_regions;
+  if (layers.holds_halves()) bits |= with_halves;
   for (int c = 0; c < component_count; ++c)
     if (layers.components.has(Component(c))) bits |= 1u << c;
   writer.put(bits);
@@ -51,7 +52,8 @@ FilmLayers get_layers(BinaryReader& reader, bool& has_regions) {
   layers.in_images = (bits & without_layers) == 0;
   layers.pixels_are_apart = (bits & with_pixels_apart) != 0;
   has_regions = (bits & with_regions) != 0;
-  bits &= ~(without_layers | with_pixels_apart | with_regions);
+  layers.halves = !layers.in_images || (bits & with_halves) != 0;
+  bits &= ~(without_layers | with_pixels_apart | with_regions | with_halves);
   if (bits >> component_count != 0) reader.damaged("it has components that are not known");
   for (int c = 0; c < component_count; ++c)
     if (bits >> c & 1u) layers.components.add(Component(c));

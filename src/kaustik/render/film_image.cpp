@@ -57,15 +57,32 @@ class PixelSums {
     result.luminance_squares = sum(numbers_.luminance_squares);
     return result;
   }
+  /// The mean luminance over `passes` of odd replicates.
+  double odd_luminance(Component component, double passes) const {
+    return odd_sum(component) / passes;
+  }
   /// Standard errors of the kinds of light, over samples.
   std::array<double, noise_kinds> noise() const;
 
  private:
+  double odd_sum(Component component) const;
+
   const Film& film_;
   const FilmNumbers& numbers_;
   const Fixed* sums_;
   double passes_;
 };
+
+double PixelSums::odd_sum(Component component) const {
+  double rest = 0;
+  for (size_t r = 1; r < replicate_count; r += 2) rest += sum(numbers_.replicate_luminances + r);
+  for (size_t i = 0; i < halved_components.size(); ++i) {
+    const double of_component = sum(numbers_.odd_luminances + i);
+    if (halved_components[i] == component) return of_component;
+    rest -= of_component;
+  }
+  return rest;
+}
 
 std::array<double, noise_kinds> PixelSums::noise() const {
   std::array<double, noise_kinds> result{};
@@ -100,7 +117,18 @@ std::vector<std::string> Film::channel_names(bool with_layers) const {
     names.emplace_back(name);
   if (layers_.bias) names.insert(names.end(), {"bias.R", "bias.G", "bias.B"});
   if (knows_noise()) names.insert(names.end(), {"noise.scattered", "noise.mirrored"});
+  if (knows_halves()) {
+    for (int c = 0; c < component_count; ++c)
+      if (layers_.components.has(Component(c)))
+        names.push_back(fmt::format("odd.{}", component_names[size_t(c)]));
+    names.emplace_back("odd.share");
+  }
   return names;
+}
+
+bool Film::knows_halves() const {
+  const PassCounts counts(passes_);
+  return layers_.holds_halves() && counts.of_half(0) > 0 && counts.of_half(1) > 0;
 }
 
 Image Film::image(bool with_layers) const {
@@ -111,6 +139,7 @@ Image Film::image(bool with_layers) const {
   const FilmParts parts(*this);
   std::optional<FilmErrors> errors;
   if (with_layers) errors.emplace(*this);
+  const bool has_halves = knows_halves();
   const auto put = [&](int x, int y, const PixelSums& sums) {
     int channel = 0;
     const auto add = [&](float value) { image.at(x, y, channel++) = value; };
@@ -131,6 +160,11 @@ Image Film::image(bool with_layers) const {
     if (layers_.bias) add_rgb(errors->mean_bias(pixel));
     if (knows_noise())
       for (const double deviation : sums.noise()) add(float(deviation));
+    if (!has_halves) return;
+    const double odd = parts.of_pixel(pixel).of_half(1);
+    for (int c = 0; c < component_count; ++c)
+      if (layers_.components.has(Component(c))) add(float(sums.odd_luminance(Component(c), odd)));
+    add(float(odd / parts.of_pixel(pixel).count()));
   };
   parallel_blocks(tiles_.count(), 1, [&](size_t tile, size_t, size_t) {
     std::vector<Fixed> sums;

@@ -36,6 +36,7 @@ constexpr double of_sample_square = bytes_of(sample_bits + 1, spread_of_samples,
 constexpr double of_inverse_samples = bytes_of(sample_bits + 1, spread_of_rounded, bits_of_passes);
 constexpr double of_replicate =
     bytes_of(luminance_bits + 1, spread_of_rounded, bits_of_replicate_passes);
+constexpr double of_half = bytes_of(half_bits + 1, spread_of_rounded, bits_of_half);
 constexpr double of_bias = bytes_of(bias_bits + 1, spread_of_rounded, bits_of_half);
 
 /// What the pixels of a tile share: headers, pointers and what the allocator adds.
@@ -71,6 +72,9 @@ FilmMemory expected_film_memory(const FilmLayers& layers, bool splats) {
   const double lanes_of_bias = layers.bias ? lanes_of_sum : 0;
   FilmMemory memory;
   memory.film = of_tile + of_replicate * replicate_count + of_bias * bias_halves * lanes_of_bias;
+  if (layers.holds_halves())
+    for (const Component component : halved_components)
+      memory.film += layers.components.has(component) ? of_half : 0;
   double channels = lanes_of_sum;
   if (layers.in_images) {
     memory.film += of_light * lanes_of_light + of_surface * FilmNumbers::first_hit_lanes +
@@ -78,6 +82,7 @@ FilmMemory expected_film_memory(const FilmLayers& layers, bool splats) {
                    of_square * (lanes_of_sum + 1);
     channels +=
         lanes_of_light + FilmNumbers::first_hit_lanes + lanes_of_sum + lanes_of_bias + noise_kinds;
+    if (layers.holds_halves()) channels += count_of(layers.components) + 1;
   } else {
     memory.film += of_light * lanes_of_sum;
     if (layers.components.has(Component::emission)) {

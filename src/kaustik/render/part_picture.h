@@ -15,8 +15,8 @@ inline constexpr const char* incomplete_key = "incomplete";
 /// nothing where there is no whole pass.
 class PartPicture {
  public:
-  /// `share` of the part, 0 to 1.
-  PartPicture(Image& image, double share);
+  /// `share` of the part, 0 to 1, and the replicate of its pass.
+  PartPicture(Image& image, double share, uint32_t replicate = 0);
   /// `passes`: that the image holds of the pixel; `mean` of its samples in the part, with its
   /// splats. From any thread.
   void put(int x, int y, const PassPixel& mean, double passes);
@@ -26,7 +26,9 @@ class PartPicture {
  private:
   Image& image_;
   double share_;
+  bool is_odd_;               ///< the replicate
   std::vector<int> sources_;  ///< number of the pixel that each channel shows; −1: none
+  int odd_share_ = -1;        ///< channel "odd.share"; −1: there is none
 };
 
 }  // namespace kaustik

@@ -51,11 +51,11 @@ SessionSettings settings_to_go_on(const Checkpoint& checkpoint) {
 void check_same_scene(const PreparedScene& prepared, const Checkpoint& checkpoint,
                       const std::string& path) {
   const RenderRecipe& recipe = checkpoint.record.recipe;
-  const bool same =
-      prepared.digest == recipe.digest &&
-      checkpoint.film.is_for(prepared.scene->film().crop_size,
-                             FilmLayers::of(*prepared.integrator, prepared.scene->film().layers,
-                                            prepared.scene->camera().traits().are_pixels_apart()));
+  FilmLayers layers = FilmLayers::of(*prepared.integrator, prepared.scene->film().layers,
+                                     prepared.scene->camera().traits().are_pixels_apart());
+  layers.halves = checkpoint.film.layers().halves;
+  const bool same = prepared.digest == recipe.digest &&
+                    checkpoint.film.is_for(prepared.scene->film().crop_size, layers);
   if (same) return;
   throw Error(
       ErrorKind::input,

@@ -16,6 +16,8 @@ void round_line(std::array<Number, PictureTiles::pixels>& values, int bits);
 
 // For the numbers of a film that only errors are computed from. Of a square that has to be enough
 // to tell, less a mean's square, a variance; estimates of the bias are noise for the most part.
-inline constexpr int luminance_bits = 22, square_bits = 40, sample_bits = 24, bias_bits = 20;
+// Halves of the light tell by how much they differ.
+inline constexpr int luminance_bits = 22, square_bits = 40, sample_bits = 24, bias_bits = 20,
+                     half_bits = 12;
 
 }  // namespace kaustik

@@ -261,6 +261,7 @@ class Session {
   uint32_t pass_count_ = 0;           ///< 0: limited by time or error
   uint32_t samples_per_pass_ = 1;
   SessionReport report_;
+  uint32_t part_replicate_ = 0;  ///< of the pass that SessionReport::part is of
 
   mutable std::mutex regions_mutex_;
   std::vector<RegionProgress> regions_;  ///< in the order in which they were asked for

@@ -103,7 +103,10 @@ Session::PassEnd Session::render_pass(const Task& task, std::stop_token stop, Mo
   isolated([&] {
     // Beside whole passes it is a part, by itself it is the picture.
     const bool is_part = !complete && film_.pass_count() > 0;
-    if (is_part) report_.part = share_taken(pass, *state);
+    if (is_part) {
+      report_.part = share_taken(pass, *state);
+      part_replicate_ = pass.index % replicate_count;
+    }
     finish_tiles(task);
     note_memory();
     if (task.region) {
@@ -357,7 +360,7 @@ std::optional<Film> Session::film_so_far() const {
 Image Session::image(bool with_layers) const {
   Image image = film_.image(with_layers);
   if (!(report_.part > 0)) return image;
-  PartPicture picture(image, report_.part);
+  PartPicture picture(image, report_.part, part_replicate_);
   const FilmParts parts(film_);
   const auto passes_at = [&](int x, int y) {
     return double(parts.of_pixel(size_t(y) * size_t(film_.width()) + size_t(x)).count());
