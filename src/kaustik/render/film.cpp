@@ -44,7 +44,7 @@ FilmNumbers::FilmNumbers(const FilmLayers& layers) {
   }
   replicate_luminances = next(replicate_count);
   if (layers.bias) bias = next(bias_halves * lanes);
-  if (layers.holds_halves()) odd_luminances = next(halved_components.size());
+  if (layers.holds_halves()) odd_luminances = next(halved_components().size());
 }
 
 Film::Film(Vec2i size, const FilmLayers& layers)
@@ -140,7 +140,7 @@ class Film::Addition {
   }
 
   void add_halves(size_t tile, TilePacker& packer) {
-    for (const Component component : halved_components) {
+    for (const Component component : halved_components()) {
       if (replicate_ % 2 == 0 || !find_luminances(tile, component)) {
         packer.keep();
         continue;

@@ -22,9 +22,10 @@ struct FilmRegion;
 inline constexpr uint32_t bias_halves = 2;
 
 /// Of these components the luminance is summed apart for odd replicates.
-inline constexpr std::array halved_components = {Component::direct, Component::caustic,
-                                                 Component::indirect, Component::specular,
-                                                 Component::volume};
+constexpr std::array<Component, 5> halved_components() {
+  return {Component::direct, Component::caustic, Component::indirect, Component::specular,
+          Component::volume};
+}
 
 /// What a film holds beside what all of them do.
 struct FilmLayers {

@@ -76,9 +76,9 @@ class PixelSums {
 double PixelSums::odd_sum(Component component) const {
   double rest = 0;
   for (size_t r = 1; r < replicate_count; r += 2) rest += sum(numbers_.replicate_luminances + r);
-  for (size_t i = 0; i < halved_components.size(); ++i) {
+  for (size_t i = 0; i < halved_components().size(); ++i) {
     const double of_component = sum(numbers_.odd_luminances + i);
-    if (halved_components[i] == component) return of_component;
+    if (halved_components()[i] == component) return of_component;
     rest -= of_component;
   }
   return rest;

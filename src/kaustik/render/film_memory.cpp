@@ -73,7 +73,7 @@ FilmMemory expected_film_memory(const FilmLayers& layers, bool splats) {
   FilmMemory memory;
   memory.film = of_tile + of_replicate * replicate_count + of_bias * bias_halves * lanes_of_bias;
   if (layers.holds_halves())
-    for (const Component component : halved_components)
+    for (const Component component : halved_components())
       memory.film += layers.components.has(component) ? of_half : 0;
   double channels = lanes_of_sum;
   if (layers.in_images) {
