@@ -122,7 +122,7 @@ double relative_mse(
 constexpr int pass_counts[] = {1, 2, 4, 16, 64, 256};
 
 WallPixel plain(int, int) { return {}; }
-WallPixel ramp(int x, int y) { return {0.5f, 0.2f + 0.01f * float(x) + 0.02f * float(y)}; }
+WallPixel light_ramp(int x, int y) { return {0.5f, 0.2f + 0.01f * float(x) + 0.02f * float(y)}; }
 WallPixel bowl(int x, int y) {
   return {0.5f, 1 + 0.5f * std::sin(float(x) * 0.13f) * std::cos(float(y) * 0.11f)};
 }
@@ -141,7 +141,7 @@ struct NamedWall {
 };
 const std::vector<NamedWall>& walls() {
   static const std::vector<NamedWall> all{
-      {"constant", plain},   {"gradient", ramp},         {"bowl", bowl},     {"edge", lit_edge},
+      {"constant", plain},   {"gradient", light_ramp},   {"bowl", bowl},     {"edge", lit_edge},
       {"line", bright_line}, {"faint line", faint_line}, {"texture", tiles}, {"ripples", ripples}};
   return all;
 }
@@ -161,7 +161,7 @@ TEST(DenoisedTruth, IsNeverFartherThanThePictureAsRendered) {
 }
 
 TEST(DenoisedTruth, IsFarNearerWhereLightIsSmooth) {
-  for (const Wall& wall : {Wall(plain), Wall(ramp), Wall(tiles)})
+  for (const Wall& wall : {Wall(plain), Wall(light_ramp), Wall(tiles)})
     for (const int passes : {1, 2, 4, 16}) {
       const Shown noisy = pictured(wall, gaussian(0.8), passes);
       const double before = relative_mse(noisy.image, noisy.truth);
