@@ -68,9 +68,11 @@ void add_neighbor(const Chain& chain, std::ptrdiff_t row, const PixelNeighbor& n
   float *green = sums.rows[4].data(), *blue = sums.rows[5].data();
   const float* raw_noise = chain.raw_variance.data() + n.row;
   float* raw_variances = sums.rows[6].data();
-  const float *patch_here = chain.patch.data() + row, *patch = chain.patch.data() + n.row;
-  const float* patch_noise_here = chain.patch_variance.data() + row;
-  const float* patch_noise = chain.patch_variance.data() + n.row;
+  const Plane& patches = has_patches ? chain.patch : chain.guide;
+  const Plane& patch_noises = has_patches ? chain.patch_variance : chain.variance;
+  const float *patch_here = patches.data() + row, *patch = patches.data() + n.row;
+  const float *patch_noise_here = patch_noises.data() + row,
+              *patch_noise = patch_noises.data() + n.row;
   KAUSTIK_INDEPENDENT_TURNS
   for (int x = n.begin; x < n.end; ++x) {
     const float difference = here[x] - there[x];

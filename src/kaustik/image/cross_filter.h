@@ -30,12 +30,13 @@ struct FilteredLight {
 
 /// Averages over pixels of like surfaces whose light a test does not tell apart.
 ///
-/// Five times an average over 5 × 5 pixels that are 2ⁱ pixels apart, by the B₃ spline (Dammertz et
-/// al. 2010), the likeness of the surfaces, and (1 − t²/t₀²)² of Welch's t = (l − m)/√(v + w): the
-/// means and variances of the two pixels, as the averages so far know them. Where the halves of the
-/// light are known, those weights are decided by the averages of one half and applied to the light
-/// of the other (Back et al. 2023): then they do not depend on what they weigh, and what is joined
-/// is unbiased wherever the joined means are equal. Without halves light decides its own weights.
+/// Seven times an average over 5 × 5 pixels that are 1 to 16 pixels apart, by the B₃ spline
+/// (Dammertz et al. 2010), the likeness of the surfaces, and (1 − t²/t₀²)² of Welch's t = (l −
+/// m)/√(v + w): the means and variances of the two pixels, as the averages so far know them. Where
+/// the halves of the light are known, those weights are decided by the averages of one half and
+/// applied to the light of the other (Back et al. 2023): then they do not depend on what they
+/// weigh, and what is joined is unbiased wherever the joined means are equal. Without halves light
+/// decides its own weights.
 ///
 /// `odd_share`: of a pixel's passes those of the second half, by pixel; only with halves. Values
 /// must be finite.
