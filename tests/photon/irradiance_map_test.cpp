@@ -129,6 +129,14 @@ TEST(IrradianceMap, EmptyFromNothing) {
   EXPECT_TRUE(IrradianceMap(two_sided_map(100, 1), {}, {}).empty());
 }
 
+TEST(IrradianceMap, EmptyOnceStopped) {
+  std::stop_source stop;
+  stop.request_stop();
+  const IrradianceMap map(two_sided_map(100, 1), other_places(100, 1, 1), {}, nullptr,
+                          stop.get_token());
+  EXPECT_TRUE(map.empty());
+}
+
 TEST(IrradianceMap, SameForAnyNumberOfThreads) {
   const PhotonMap photons = two_sided_map(5000, 9);
   const auto values = [&](int threads) {

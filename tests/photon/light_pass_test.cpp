@@ -145,6 +145,20 @@ TEST(LightPass, TellsItsProgress) {
   EXPECT_DOUBLE_EQ(told.back(), 1);
 }
 
+/// Who stops a pass gets no photons and does not wait for trees.
+TEST(LightPass, NothingIsKeptOnceStopped) {
+  const auto scene = make_scene({room(0.5), lamp(Vec3d(0.5, 0, 0)), lamp(Vec3d(0, 0.9, 0)),
+                                 sphere(Vec3d(0, 0, 0), 0.4, glass())});
+  const LightPass pass(*scene, settings_of(20'000, 20'000), 7);
+  std::stop_source stop;
+  const ProgressFunction listener = [&](double) { stop.request_stop(); };
+  const PhotonMaps maps = pass.trace(7, 3, stop.get_token(), listener);
+  EXPECT_TRUE(maps.global.empty());
+  EXPECT_TRUE(maps.caustic.empty());
+  EXPECT_TRUE(maps.places.empty());
+  EXPECT_FALSE(pass.trace(7, 3).global.empty());
+}
+
 TEST(LightPass, SameForAnyNumberOfThreads) {
   const auto scene = make_scene({room(0.5), lamp(Vec3d(0.5, 0, 0)), lamp(Vec3d(0, 0.9, 0)),
                                  sphere(Vec3d(0, 0, 0), 0.4, glass())});

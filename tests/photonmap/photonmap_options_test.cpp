@@ -70,6 +70,23 @@ TEST_F(Options, Cache) {
   expect_near_means("cache without gradients", indirect(set("cache_gradients", false)), by_path(),
                     0.01);
 }
+/// A pass that is stopped leaves nothing behind for those that follow.
+TEST_F(Options, StoppedPassLeavesNothing) {
+  SplatBuffer splats(room_.scene().film(), ComponentSet());
+  const auto make = [&] {
+    return room_.integrator("photonmap", photons() + set("cache_samples", 16));
+  };
+  const auto stopped = make();
+  std::stop_source at_once, later;
+  at_once.request_stop();
+  stopped->prepare({1, 0, 1}, splats, at_once.get_token(), {});
+  stopped->prepare({1, 0, 1}, splats, later.get_token(), [&](double) { later.request_stop(); });
+  const PassReport after = stopped->prepare({1, 0, 1}, splats, {}, {})->report;
+  const PassReport expected = make()->prepare({1, 0, 1}, splats, {}, {})->report;
+  EXPECT_GT(after.photons, 0u);
+  EXPECT_EQ(after.photons, expected.photons);
+  EXPECT_EQ(after.rays, expected.rays);
+}
 /// It makes the cache denser, and is told where it does nothing.
 TEST_F(Options, CacheByLeastDistance) {
   const std::string split = set("cache_metric", "split_sphere");

@@ -66,14 +66,14 @@ UsefulPaths useful_paths(const std::string& text) {
                                 pass, Stream::training, nowhere, {}, {}, report);
   };
   LightPathUse use(scene, plain, ComponentSet::all());
-  use.learn(paths(LightPathEmission(plain, use.targets()), 0));
+  use.learn(paths(LightPathEmission(plain, use.targets()), 0), {});
   auto learned = use.emission().learned();
   if (!learned) return {};
-  use.learn(paths(*learned, 1));
+  use.learn(paths(*learned, 1), {});
   learned = use.emission().learned();
   const auto count = [&](const LightPathEmission& emission) {
     LightPathUse counted(scene, plain, ComponentSet::all());
-    counted.learn(paths(emission, 2));
+    counted.learn(paths(emission, 2), {});
     return counted.emission().size();
   };
   return learned ? UsefulPaths{count(plain), count(*learned)} : UsefulPaths();
@@ -123,15 +123,15 @@ TEST(LightPathUse, NoiseOfUnguidedPathsLong) {
                                 pass, Stream::training, nowhere, {}, {}, report);
   };
   LightPathUse use(scene, plain, ComponentSet::all());
-  use.learn(paths(nullptr, 0));
+  use.learn(paths(nullptr, 0), {});
   const auto guide = use.scattering().learned();
   ASSERT_TRUE(guide);
   RunningStatistics unguided, by_guided, guided;
   for (uint32_t i = 1; i <= 48; ++i) {
-    use.learn_scattering(paths(nullptr, i));
+    use.learn_scattering(paths(nullptr, i), {});
     EXPECT_EQ(use.noise().guided, use.noise().unguided);
     unguided.add(use.noise().guided);
-    use.learn_scattering(paths(guide.get(), i));
+    use.learn_scattering(paths(guide.get(), i), {});
     by_guided.add(use.noise().unguided);
     guided.add(use.noise().guided);
   }

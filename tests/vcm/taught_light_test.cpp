@@ -123,6 +123,23 @@ TEST(RadiusLearning, SumsUpTheLightOfABall) {
   EXPECT_GT(t_test_p_value(aside, 0), analytic_level);
 }
 
+/// A pass that was stopped teaches nothing; the same pass teaches where it was not.
+TEST(LightPathUse, LearnsNothingOnceStopped) {
+  const HollowBall ball;
+  LightPathUse use(ball.scene(), ball.emission(), ComponentSet::all());
+  constexpr uint32_t paths = 256;
+  const LightVertices light = ball.trace(merging_weights(paths, 0.1f), paths, 0, paths);
+  std::stop_source stop;
+  stop.request_stop();
+  use.learn(light, stop.get_token());
+  use.learn_scattering(light, stop.get_token());
+  EXPECT_EQ(use.emission().size(), 0u);
+  EXPECT_EQ(use.noise().guided, 0);
+  use.learn(light, {});
+  EXPECT_GT(use.emission().size(), 0u);
+  EXPECT_GT(use.noise().guided, 0);
+}
+
 /// Boxes to search by hold every probe.
 TEST(LightPathUse, TargetsHoldAllProbes) {
   const HollowBall ball;

@@ -120,7 +120,8 @@ struct IrradianceCache::Impl {
 
   std::vector<uint32_t> finite_points(const std::vector<CachePoint>& points) const;
   std::vector<uint32_t> misses(const std::vector<CachePoint>& points,
-                               const std::vector<uint32_t>& candidates) const;
+                               const std::vector<uint32_t>& candidates,
+                               const std::stop_token& stop) const;
   std::vector<uint32_t> pick(const std::vector<CachePoint>& points,
                              const std::vector<uint32_t>& candidates, float spacing) const;
   ComputedRecord compute(const CachePoint& at, const RadianceSource& source,
@@ -140,12 +141,13 @@ std::vector<uint32_t> IrradianceCache::Impl::finite_points(
   return result;
 }
 
-/// Those of `candidates` that no record serves.
+/// Those of `candidates` that no record serves. Worth nothing if it was stopped.
 std::vector<uint32_t> IrradianceCache::Impl::misses(const std::vector<CachePoint>& points,
-                                                    const std::vector<uint32_t>& candidates) const {
+                                                    const std::vector<uint32_t>& candidates,
+                                                    const std::stop_token& stop) const {
   std::vector<uint8_t> served(candidates.size());
   parallel_blocks(candidates.size(), query_block, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) {
+    for (size_t i = begin; i < end && !stop.stop_requested(); ++i) {
       const CachePoint& p = points[candidates[i]];
       const float tolerance = std::clamp(p.tolerance, 1.0f, RecordOctree::overlap);
       served[i] = serves(p, tolerance);
@@ -247,7 +249,7 @@ size_t IrradianceCache::fill_round(const std::vector<CachePoint>& points,
   }
   float spacing = 1;
   // Again from the start until all are served: a late record may have clamped one that served.
-  std::vector<uint32_t> open = impl_->misses(points, candidates);
+  std::vector<uint32_t> open = impl_->misses(points, candidates, stop);
   while (!open.empty() && !stop.stop_requested()) {
     const std::vector<uint32_t> picked = impl_->pick(points, open, spacing);
     std::vector<ComputedRecord> fresh(picked.size());
@@ -260,8 +262,8 @@ size_t IrradianceCache::fill_round(const std::vector<CachePoint>& points,
     if (stop.stop_requested()) break;
     impl_->insert(std::move(fresh));
     candidates = without(candidates, picked);
-    open = impl_->misses(points, without(open, picked));
-    if (open.empty()) open = impl_->misses(points, candidates);
+    open = impl_->misses(points, without(open, picked), stop);
+    if (open.empty()) open = impl_->misses(points, candidates, stop);
     spacing = std::max(0.5f * spacing, minimum_step_spacing);
   }
   return impl_->records.size() - count_before;

@@ -24,7 +24,8 @@ float radical_inverse(uint32_t i) {
 }  // namespace
 
 IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide>& places,
-                             const EstimateSettings& settings, const Scene* scene) {
+                             const EstimateSettings& settings, const Scene* scene,
+                             const std::stop_token& stop) {
   if (map.empty() || settings.neighbors <= 0) return;
   maximum_radius_ = settings.maximum_radius;
   std::vector<Vec3f> positions(places.size());
@@ -33,7 +34,7 @@ IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide
   parallel_blocks(places.size(), 256, [&](size_t begin, size_t end, size_t) {
     uint64_t block_rays = 0;
     Scratch scratch;
-    for (size_t i = begin; i < end; ++i) {
+    for (size_t i = begin; i < end && !stop.stop_requested(); ++i) {
       positions[i] = places[i].position;
       PhotonVisibility visibility;
       std::optional<SurfaceSight> sight;
@@ -48,7 +49,8 @@ IrradianceMap::IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide
     all_rays.fetch_add(block_rays, std::memory_order_relaxed);
   });
   rays_ = all_rays;
-  tree_ = {std::move(positions), std::move(entries)};
+  if (stop.stop_requested()) return;
+  tree_ = {std::move(positions), std::move(entries), stop};
 }
 
 bool IrradianceMap::lookup(const Vec3f& position, const Vec3f& side, Spectrum& irradiance,

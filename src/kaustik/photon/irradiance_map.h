@@ -18,9 +18,11 @@ class IrradianceMap {
  public:
   IrradianceMap() = default;
   /// In parallel, the same for any number of threads. Photons that the surfaces of `scene`, if
-  /// there is one, hide from a place do not count there.
+  /// there is one, hide from a place do not count there. Where `stop` is requested the map is left
+  /// empty.
   IrradianceMap(const PhotonMap& map, const std::vector<SurfaceSide>& places,
-                const EstimateSettings& settings, const Scene* scene = nullptr);
+                const EstimateSettings& settings, const Scene* scene = nullptr,
+                const std::stop_token& stop = {});
 
   bool empty() const { return tree_.empty(); }
   /// That told what is hidden.

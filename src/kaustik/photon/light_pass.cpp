@@ -306,7 +306,8 @@ class LightPass::Tracer {
   bool stores_everywhere_;  ///< irradiance is asked for on mirrors and glass too
 };
 
-LightPass::LightPass(const Scene& scene, const LightPassSettings& settings, uint64_t seed)
+LightPass::LightPass(const Scene& scene, const LightPassSettings& settings, uint64_t seed,
+                     const std::stop_token& stop)
     : scene_(scene),
       settings_(settings),
       global_emission_(std::make_unique<EmissionSampler>(scene)) {
@@ -315,12 +316,14 @@ LightPass::LightPass(const Scene& scene, const LightPassSettings& settings, uint
                                                           settings_.target_budget, settings_.aim);
     target_count_ = caustic_emission_->target_count();
   }
-  global_shares_ = train(Kind::global, settings_.global_photons, seed);
-  caustic_shares_ = train(Kind::caustic, settings_.caustic_photons, seed);
-  volume_shares_ = train(Kind::volume, scene.has_scattering() ? settings_.volume_photons : 0, seed);
+  global_shares_ = train(Kind::global, settings_.global_photons, seed, stop);
+  caustic_shares_ = train(Kind::caustic, settings_.caustic_photons, seed, stop);
+  volume_shares_ =
+      train(Kind::volume, scene.has_scattering() ? settings_.volume_photons : 0, seed, stop);
 }
 
-std::vector<uint32_t> LightPass::train(Kind kind, uint32_t total, uint64_t seed) const {
+std::vector<uint32_t> LightPass::train(Kind kind, uint32_t total, uint64_t seed,
+                                       const std::stop_token& stop) const {
   const size_t lights = scene_.lights().size();
   if (total == 0 || lights == 0 || (kind == Kind::caustic && target_count_ == 0))
     return std::vector<uint32_t>(lights, 0);
@@ -331,7 +334,7 @@ std::vector<uint32_t> LightPass::train(Kind kind, uint32_t total, uint64_t seed)
     Deposits deposits;
     const ProgressFunction nobody;
     WorkCounter counter(0, nobody);
-    trace_kind(kind, std::vector<uint32_t>(lights, tries), {seed, 0, 0, {}}, Stream::training, {},
+    trace_kind(kind, std::vector<uint32_t>(lights, tries), {seed, 0, 0, {}}, Stream::training, stop,
                counter, deposits);
     for (size_t i = 0; i < lights; ++i) arriving[i] = deposits.report.lights[i].stored_flux;
   } else {
@@ -386,6 +389,7 @@ void LightPass::trace_kind(Kind kind, const std::vector<uint32_t>& shares, const
     results[i] = traced(block, kind, shares[size_t(block.light)], address, stream, false);
     counter.add(block.end - block.begin);
   });
+  if (stop.stop_requested()) return;
   std::vector<const PhotonList*> global, caustic;
   for (size_t i = 0; i < blocks.size(); ++i) {
     if (!results[i]) continue;
@@ -452,7 +456,7 @@ PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop,
              caustic);
   trace_kind(Kind::global, global_shares_, address, Stream::photon_global, stop, counter, global);
   trace_kind(Kind::volume, volume_shares_, address, Stream::photon_volume, stop, counter, volume);
-  if (!caustic.global.photons.empty())
+  if (!caustic.global.photons.empty() && !stop.stop_requested())
     global.global = concatenate({&global.global, &caustic.global});
   caustic.report.target_count = target_count_;
   PhotonMaps maps;
@@ -465,8 +469,9 @@ PhotonMaps LightPass::trace(uint64_t seed, uint32_t index, std::stop_token stop,
   maps.trace_seconds = seconds_since(start);
   const auto build_start = std::chrono::steady_clock::now();
   maps.caustic =
-      PhotonMap(std::move(caustic.caustic.positions), std::move(caustic.caustic.photons));
-  maps.global = PhotonMap(std::move(global.global.positions), std::move(global.global.photons));
+      PhotonMap(std::move(caustic.caustic.positions), std::move(caustic.caustic.photons), stop);
+  maps.global =
+      PhotonMap(std::move(global.global.positions), std::move(global.global.photons), stop);
   maps.build_seconds = seconds_since(build_start);
   return maps;
 }

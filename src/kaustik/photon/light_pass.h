@@ -86,13 +86,16 @@ struct PhotonMaps {
 /// the one that makes the caustic. Immutable.
 class LightPass {
  public:
-  /// Trains the budgets with photons of `seed`. The scene must outlive this.
-  LightPass(const Scene& scene, const LightPassSettings& settings, uint64_t seed);
+  /// Trains the budgets with photons of `seed`. The scene must outlive this. Worth nothing if it
+  /// was stopped.
+  LightPass(const Scene& scene, const LightPassSettings& settings, uint64_t seed,
+            const std::stop_token& stop = {});
 
   /// The maps of pass `index`: the same for any number of threads. `progress` is told of photons,
   /// not of the building of the trees. `wavelengths`: of all photons, since any of them may meet.
   /// `gauges`: through whose disks caustic photons pass; null: through none. `stage`: the pass
-  /// whose largest weight photons have, Pass::stage(); absent: `index`.
+  /// whose largest weight photons have, Pass::stage(); absent: `index`. Worth nothing if it was
+  /// stopped.
   PhotonMaps trace(uint64_t seed, uint32_t index, std::stop_token stop = {},
                    const ProgressFunction& progress = {}, const Wavelengths& wavelengths = {},
                    const GaugeDisks* gauges = nullptr, std::optional<uint32_t> stage = {}) const;
@@ -131,7 +134,8 @@ class LightPass {
   std::vector<uint32_t> place_shares() const;
   std::vector<SurfaceSide> trace_places(const Address& address, std::stop_token stop,
                                         WorkCounter& counter) const;
-  std::vector<uint32_t> train(Kind kind, uint32_t total, uint64_t seed) const;
+  std::vector<uint32_t> train(Kind kind, uint32_t total, uint64_t seed,
+                              const std::stop_token& stop) const;
 
   const Scene& scene_;
   LightPassSettings settings_;

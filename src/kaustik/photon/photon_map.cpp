@@ -78,11 +78,13 @@ struct PhotonMap::Lists {
   std::vector<Spectrum> running_sums;  ///< what photons up to each of them add
 };
 
-PhotonMap::PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons) {
+PhotonMap::PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons,
+                     const std::stop_token& stop) {
+  if (stop.stop_requested()) return;
   double sum = 0;
   for (const Photon& photon : photons) sum += photon.flux.spectrum().max_lane();
   mean_flux_ = photons.empty() ? 0 : float(sum / double(photons.size()));
-  tree_ = {std::move(positions), std::move(photons)};
+  tree_ = {std::move(positions), std::move(photons), stop};
 }
 
 size_t PhotonMap::count_until(Lists& lists, size_t count, size_t paths) const {

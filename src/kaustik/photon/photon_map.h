@@ -51,7 +51,9 @@ struct DensityEstimate {
 class PhotonMap {
  public:
   PhotonMap() = default;
-  PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons);
+  /// Where `stop` is requested the map is left empty.
+  PhotonMap(std::vector<Vec3f> positions, std::vector<Photon> photons,
+            const std::stop_token& stop = {});
 
   size_t size() const { return tree_.size(); }
   bool empty() const { return tree_.empty(); }

@@ -34,10 +34,11 @@ EstimateSettings at_level(const PhotonMapSettings& settings, const EstimateSetti
 }  // namespace
 
 IrradianceMap precomputed_irradiance(const Scene& scene, const PhotonMapSettings& settings,
-                                     const PhotonMaps& maps, const GatherRadii& radii) {
+                                     const PhotonMaps& maps, const GatherRadii& radii,
+                                     const std::stop_token& stop) {
   return IrradianceMap(maps.global, maps.places,
                        at_level(settings, settings.global, radii.global, precomputed_level),
-                       settings.visibility ? &scene : nullptr);
+                       settings.visibility ? &scene : nullptr, stop);
 }
 
 PhotonLight::PhotonLight(const Scene& scene, const PhotonMapSettings& settings,

@@ -14,8 +14,10 @@ struct GatherRadii {
 };
 
 /// What gather rays look up: irradiance by global photons, at the places that `maps` has for it.
+/// Empty where `stop` is requested.
 IrradianceMap precomputed_irradiance(const Scene& scene, const PhotonMapSettings& settings,
-                                     const PhotonMaps& maps, const GatherRadii& radii);
+                                     const PhotonMaps& maps, const GatherRadii& radii,
+                                     const std::stop_token& stop = {});
 
 /// What photons know of the light in a scene: estimates at surfaces, and the radiance that arrives
 /// along gather rays. Immutable during the visualisation pass.

@@ -134,9 +134,12 @@ void PhotonMapIntegrator::check_stored_wavelengths(const Wavelengths& wavelength
               settings_.photon_file_place);
 }
 
-std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(uint64_t seed) const {
-  return light_pass_.get(
-      seed, [&] { return std::make_shared<const LightPass>(scene(), settings_.light_pass, seed); });
+std::shared_ptr<const LightPass> PhotonMapIntegrator::light_pass(
+    uint64_t seed, const std::stop_token& stop) const {
+  return light_pass_.get(seed, [&]() -> std::shared_ptr<const LightPass> {
+    auto made = std::make_shared<const LightPass>(scene(), settings_.light_pass, seed, stop);
+    return stop.stop_requested() ? nullptr : made;
+  });
 }
 
 std::shared_ptr<const SeenSurfaces> PhotonMapIntegrator::seen_edges(
@@ -182,7 +185,8 @@ std::shared_ptr<const PhotonMaps> PhotonMapIntegrator::maps_of(
     check_stored_wavelengths(pass.wavelengths);
     return stored_maps_;
   }
-  const auto lights = light_pass(pass.seed);
+  const auto lights = light_pass(pass.seed, stop);
+  if (!lights) return std::make_shared<const PhotonMaps>();
   GaugeDisks gauges;
   if (!scene().gauges().empty()) gauges = gauge_disks(pass, report.rays);
   auto maps = std::make_shared<const PhotonMaps>(
@@ -229,7 +233,8 @@ std::shared_ptr<const PhotonMapIntegrator::Light> PhotonMapIntegrator::light_of(
   // no number of passes removes.
   light->radii = pass_radii(*light->maps, stored_maps_ ? 0 : pass.stage());
   if (settings_.gathers)
-    light->precomputed = precomputed_irradiance(scene(), settings_, *light->maps, light->radii);
+    light->precomputed =
+        precomputed_irradiance(scene(), settings_, *light->maps, light->radii, stop);
   light->report.rays += light->precomputed.rays();
   report = light->report;
   if (is_kept && !stop.stop_requested()) {
@@ -247,6 +252,7 @@ std::unique_ptr<PassState> PhotonMapIntegrator::prepare(const Pass& pass, SplatB
   state->photons = light_of(pass, state->report, stop, [&](double share) {
     if (progress) progress(0.5 * share);
   });
+  if (stop.stop_requested()) return state;
   const Light& photons = *state->photons;
   add_shadow_photons(*state, pass, stop);
   state->light = std::make_unique<PhotonLight>(scene(), settings_, *photons.maps, photons.radii,
@@ -316,8 +322,10 @@ void PhotonMapIntegrator::fill_cache(State& state, const Pass& pass, std::stop_t
         collect_cache_points(Vec2i(x, first.y + int(row)) * stride, stride, pass, round, rows[row]);
     });
     std::vector<CachePoint> points;
-    for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
-    if (stop.stop_requested()) return;
+    for (const auto& row : rows) {
+      if (stop.stop_requested()) return;
+      points.insert(points.end(), row.begin(), row.end());
+    }
     state.cache->fill_round(points, *state.light, sampler, round++, stop);
     progress(double(round) / double(std::size(cache_strides)));
     if (is_last_stride(stride, cache_settings.minimum_spacing)) return;

@@ -56,8 +56,9 @@ class PhotonMapIntegrator final : public IlluminationModel {
   void add_photon_light_at_gauge(const State& state, CameraWalk& walk) const;
   Spectrum diffuse_irradiance(const State& state, CameraWalk& walk, const Vec3f& normal) const;
 
-  /// The light pass of a seed, its budgets trained when it is first asked for.
-  std::shared_ptr<const LightPass> light_pass(uint64_t seed) const;
+  /// The light pass of a seed, its budgets trained when it is first asked for; null after a
+  /// stop.
+  std::shared_ptr<const LightPass> light_pass(uint64_t seed, const std::stop_token& stop) const;
   /// What the pixels show, with edges, found when it is first asked for; null after a stop. Counts
   /// the rays that look for edges.
   std::shared_ptr<const SeenSurfaces> seen_edges(uint64_t& rays, const std::stop_token& stop) const;

@@ -72,7 +72,7 @@ TracedPhotons trace_photon_maps(const Description& description, const Scene& sce
   photons.settings.volume_photons = 0;  // files have no place for them
   const uint64_t refused_before = scene.tracer().refused_rays();
   with_threads(threads, [&] {
-    const LightPass pass(scene, photons.settings, seed);
+    const LightPass pass(scene, photons.settings, seed, stop);
     photons.maps = pass.trace(seed, 0, stop, progress, photons.wavelengths);
     sort_photons(photons.maps);
     for (const std::string& warning : pass.warnings(photons.maps))
@@ -99,7 +99,7 @@ DrawnPhotons draw_photons(const Description& description, const Scene& scene, ui
   const LightPassSettings settings = light_pass_settings(description, scene, warnings);
   DrawnPhotons drawn;
   with_threads(threads,
-               [&] { drawn = LightPass(scene, settings, seed).draw(seed, 0, most, stop); });
+               [&] { drawn = LightPass(scene, settings, seed, stop).draw(seed, 0, most, stop); });
   return stop.stop_requested() ? DrawnPhotons() : drawn;
 }
 

@@ -31,8 +31,9 @@ class GuideLesson final : public Lesson {
     if (!std::has_single_bit(pass + 1)) return {};
     return {.light = true, .remembered_paths = LightPathUse::most_paths};
   }
-  std::unique_ptr<LessonSums> sums_of(const TaughtPass& taught) const override {
-    return std::make_unique<GuideSums>(use_->seen_in(taught.light));
+  std::unique_ptr<LessonSums> sums_of(const TaughtPass& taught,
+                                      const std::stop_token& stop) const override {
+    return std::make_unique<GuideSums>(use_->seen_in(taught.light, stop));
   }
   std::unique_ptr<LessonSums> read_sums(ByteReader& reader) const override {
     return std::make_unique<GuideSums>(use_->read_seen(reader));
@@ -40,8 +41,8 @@ class GuideLesson final : public Lesson {
   void add(uint32_t, const LessonSums& sums) override {
     use_->learn(static_cast<const GuideSums&>(sums).seen);
   }
-  void apply(VcmPlans& plans, uint32_t epoch, const std::stop_token&, uint64_t&) override {
-    if (epoch <= most_passes) plans.guides = plans.guides.guided_by(*use_);
+  void apply(VcmPlans& plans, uint32_t epoch, const std::stop_token& stop, uint64_t&) override {
+    if (epoch <= most_passes) plans.guides = plans.guides.guided_by(*use_, stop);
   }
   std::string decision(const VcmPlans& plans, uint32_t epoch) const override;
   void write(ByteWriter& writer) const override {

@@ -59,8 +59,9 @@ class Lesson {
   virtual LessonNeeds needs_of(uint32_t pass) const = 0;
   /// Where it asks for training pairs.
   virtual std::vector<TrainingPlace> places(const Pass& /*pass*/) const { return {}; }
-  /// What a pass that it needs adds.
-  virtual std::unique_ptr<LessonSums> sums_of(const TaughtPass& taught) const = 0;
+  /// What a pass that it needs adds. Worth nothing if it was stopped.
+  virtual std::unique_ptr<LessonSums> sums_of(const TaughtPass& taught,
+                                              const std::stop_token& stop) const = 0;
   /// What LessonSums::write() wrote, of the same scene and settings. Throws as ByteReader does.
   virtual std::unique_ptr<LessonSums> read_sums(ByteReader& reader) const = 0;
   /// Of sums_of() the next pass that it needs.

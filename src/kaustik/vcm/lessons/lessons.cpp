@@ -70,8 +70,9 @@ void VcmLessons::take(const VcmPass& traced, const std::stop_token& stop, uint64
                                                            places, stop);
     for (const TrainingPair& pair : pairs) rays += pair.rays[0] + pair.rays[1];
     if (stop.stop_requested()) return;
-    sums.emplace_back(lesson.get(),
-                      lesson->sums_of({.light = traced.light(), .places = places, .pairs = pairs}));
+    sums.emplace_back(
+        lesson.get(),
+        lesson->sums_of({.light = traced.light(), .places = places, .pairs = pairs}, stop));
   }
   if (stop.stop_requested()) return;
   for (const auto& [lesson, of_pass] : sums) lesson->add(passes_, *of_pass);

@@ -111,12 +111,13 @@ std::vector<AimTarget> LightPathUse::targets() const {
   return boxes_around(std::move(points), most_targets);
 }
 
-std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& light) const {
+std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& light,
+                                                          const std::stop_token& stop) const {
   const uint32_t last_path = light.beginnings.back().path;
   constexpr size_t per_block = 16;
   std::vector<std::vector<Arrival>> found((probes_.size() + per_block - 1) / per_block);
   parallel_blocks(probes_.size(), per_block, [&](size_t begin, size_t end, size_t block) {
-    for (size_t p = begin; p < end; ++p) {
+    for (size_t p = begin; p < end && !stop.stop_requested(); ++p) {
       const PixelProbe& probe = probes_[p];
       if (!probe.found) continue;
       const ProbeLight at_probe(probe, wanted_, light.wavelengths);
@@ -147,6 +148,7 @@ std::vector<LightPathUse::Arrival> LightPathUse::arrivals(const LightVertices& l
     }
   });
   std::vector<Arrival> result;
+  if (stop.stop_requested()) return result;
   for (const auto& of_block : found) result.insert(result.end(), of_block.begin(), of_block.end());
   return result;
 }
@@ -205,13 +207,15 @@ LightPathUse::Noise LightPathUse::noise_of(const Seen& seen) const {
   return sum;
 }
 
-LightPathUse::Seen LightPathUse::seen_in(const LightVertices& light) const {
+LightPathUse::Seen LightPathUse::seen_in(const LightVertices& light,
+                                         const std::stop_token& stop) const {
   Seen seen;
   seen.paths = light.remembered_paths;
   if ((light.tree.empty() && light.at_gauges.empty()) || light.beginnings.empty()) return seen;
+  seen.arrivals = arrivals(light, stop);
+  if (stop.stop_requested()) return seen;
   seen.beginnings = light.beginnings;
   seen.scatterings = light.scatterings;
-  seen.arrivals = arrivals(light);
   return seen;
 }
 
@@ -224,8 +228,9 @@ std::vector<double> LightPathUse::look_at(const Seen& seen) {
   return squared_uses(seen);
 }
 
-void LightPathUse::learn_scattering(const LightVertices& light) {
-  const Seen seen = seen_in(light);
+void LightPathUse::learn_scattering(const LightVertices& light, const std::stop_token& stop) {
+  const Seen seen = seen_in(light, stop);
+  if (stop.stop_requested()) return;
   learn_scattering(seen, look_at(seen));
 }
 
@@ -239,6 +244,11 @@ void LightPathUse::learn_scattering(const Seen& seen, const std::vector<double>&
   const size_t step = (events.size() + most - 1) / most;
   for (size_t i = 0; i < events.size(); i += step)
     scattering_.add(*events[i].first, events[i].second, double(step));
+}
+
+void LightPathUse::learn(const LightVertices& light, const std::stop_token& stop) {
+  const Seen seen = seen_in(light, stop);
+  if (!stop.stop_requested()) learn(seen);
 }
 
 void LightPathUse::learn(const Seen& seen) {

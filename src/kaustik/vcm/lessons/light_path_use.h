@@ -1,4 +1,6 @@
 #pragma once
+#include <stop_token>
+
 #include "kaustik/photon/coverage/pixel_probes.h"
 #include "kaustik/vcm/lessons/emission_learning.h"
 #include "kaustik/vcm/light_vertices.h"
@@ -37,14 +39,16 @@ class LightPathUse {
     /// For read_seen().
     void write(ByteWriter& writer) const;
   };
-  Seen seen_in(const LightVertices& light) const;
+  /// Worth nothing if it was stopped.
+  Seen seen_in(const LightVertices& light, const std::stop_token& stop = {}) const;
   /// What Seen::write() wrote, of the same scene. Throws as ByteReader does.
   Seen read_seen(ByteReader& reader) const;
   /// Learns from the next pass.
   void learn(const Seen& seen);
-  void learn(const LightVertices& light) { learn(seen_in(light)); }
+  /// Learns nothing if it was stopped.
+  void learn(const LightVertices& light, const std::stop_token& stop);
   /// The same, but for emission: of paths that are guided on trial.
-  void learn_scattering(const LightVertices& light);
+  void learn_scattering(const LightVertices& light, const std::stop_token& stop);
   /// What was learned, and the same back. Reading throws as ByteReader does.
   void write(ByteWriter& writer) const;
   void read(ByteReader& reader);
@@ -63,7 +67,7 @@ class LightPathUse {
   const ScatterLearning& scattering() const { return scattering_; }
 
  private:
-  std::vector<Arrival> arrivals(const LightVertices& light) const;
+  std::vector<Arrival> arrivals(const LightVertices& light, const std::stop_token& stop) const;
   Noise noise_of(const Seen& seen) const;
   /// Σ use² at and after each vertex, as squared_uses(); empty if there is nothing to learn.
   std::vector<double> look_at(const Seen& seen);

@@ -178,11 +178,12 @@ RadiusLearning::RadiusLearning(const Scene& scene, const PixelPlans& first, uint
 std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& first,
                                                           const LightVertices& light,
                                                           ComponentSet wanted,
-                                                          const std::vector<Sums>& so_far) {
+                                                          const std::vector<Sums>& so_far,
+                                                          const std::stop_token& stop) {
   std::vector<Sums> result(first.seen().probes().size());
   if (light.tree.empty()) return result;
   parallel_blocks(result.size(), 16, [&](size_t begin, size_t end, size_t) {
-    for (size_t p = begin; p < end; ++p) {
+    for (size_t p = begin; p < end && !stop.stop_requested(); ++p) {
       const PixelProbe& probe = first.seen().probes()[p];
       if (!probe.found || !(probe.pixel_width > 0)) continue;
       const double least_sq = sqr(level_radius(probe, 0));

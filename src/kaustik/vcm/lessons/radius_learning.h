@@ -58,9 +58,11 @@ class RadiusLearning {
   RadiusLearning(const Scene& scene, const PixelPlans& first, uint64_t& rays,
                  const std::stop_token& stop = {});
 
-  /// What the light vertices of one pass add to `so_far`, per probe of `first`.
+  /// What the light vertices of one pass add to `so_far`, per probe of `first`. Worth nothing if it
+  /// was stopped.
   static std::vector<Sums> sums_of(const PixelPlans& first, const LightVertices& light,
-                                   ComponentSet wanted, const std::vector<Sums>& so_far);
+                                   ComponentSet wanted, const std::vector<Sums>& so_far,
+                                   const std::stop_token& stop = {});
   /// Leaves out disks in which `passes` passes had so many light vertices that none will be taken:
   /// most vertices of a dense caustic are in them.
   static void narrow(std::vector<Sums>& sums, uint32_t passes);

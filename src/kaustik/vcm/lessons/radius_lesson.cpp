@@ -41,9 +41,10 @@ class RadiusLesson final : public Lesson {
   void begin() override { sums_.assign(sums_.size(), {}); }
   uint32_t end() const override { return 256; }
   LessonNeeds needs_of(uint32_t) const override { return {.light = true}; }
-  std::unique_ptr<LessonSums> sums_of(const TaughtPass& taught) const override {
+  std::unique_ptr<LessonSums> sums_of(const TaughtPass& taught,
+                                      const std::stop_token& stop) const override {
     return std::make_unique<RadiusSums>(
-        RadiusLearning::sums_of(first_.pixels, taught.light, wanted_, sums_));
+        RadiusLearning::sums_of(first_.pixels, taught.light, wanted_, sums_, stop));
   }
   std::unique_ptr<LessonSums> read_sums(ByteReader& reader) const override {
     return std::make_unique<RadiusSums>(sums_from(reader));

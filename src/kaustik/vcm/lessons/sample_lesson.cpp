@@ -48,7 +48,8 @@ class SampleLesson final : public Lesson {
   std::vector<TrainingPlace> places(const Pass& pass) const override {
     return samples_.places(pass.index);
   }
-  std::unique_ptr<LessonSums> sums_of(const TaughtPass& taught) const override {
+  std::unique_ptr<LessonSums> sums_of(const TaughtPass& taught,
+                                      const std::stop_token&) const override {
     return std::make_unique<SampleSums>(samples_.sums_of(taught.places, taught.pairs));
   }
   std::unique_ptr<LessonSums> read_sums(ByteReader& reader) const override {

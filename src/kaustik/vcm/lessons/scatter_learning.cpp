@@ -44,10 +44,11 @@ void ScatterLearning::add(const LightScattering& event, double use, double event
     events_.push_back(added);
 }
 
-/// Divides the events among cells, and learns each.
+/// Divides the events among cells, and learns each. Worth nothing if it was stopped.
 class ScatterLearning::Builder {
  public:
-  explicit Builder(std::vector<Event> events) : events_(std::move(events)) {
+  Builder(std::vector<Event> events, const std::stop_token& stop)
+      : events_(std::move(events)), stop_(stop) {
     make_balls();
     // In the given order, so that sums are the same on every machine.
     std::stable_sort(events_.begin(), events_.end(),
@@ -190,7 +191,7 @@ class ScatterLearning::Builder {
   /// gives each what it has of the events (expectation maximisation).
   Shares fit(const Range& range, Shares shares) const {
     Shares parts(shares.size());
-    for (int step = 0; step < steps; ++step) {
+    for (int step = 0; step < steps && !stop_.stop_requested(); ++step) {
       std::fill(parts.begin(), parts.end(), 0.0);
       double sum = 0;
       for (size_t i = range.begin; i < range.end; ++i) {
@@ -235,7 +236,7 @@ class ScatterLearning::Builder {
     const size_t kinds = parts_.balls.size() + 1;
     densities_.resize(events_.size() * kinds);
     parallel_blocks(events_.size(), 256, [&](size_t begin, size_t end, size_t) {
-      for (size_t i = begin; i < end; ++i) {
+      for (size_t i = begin; i < end && !stop_.stop_requested(); ++i) {
         const std::vector<float> of_event = densities(events_[i]);
         std::copy(of_event.begin(), of_event.end(), densities_.begin() + std::ptrdiff_t(i * kinds));
       }
@@ -247,8 +248,9 @@ class ScatterLearning::Builder {
     for (size_t k = 0; k < kinds; ++k) mean[k] = 0.5 * (of_all[0][k] + of_all[1][k]);
     Shares plain(kinds, 0.0);
     plain.back() = 1;
+    if (stop_.stop_requested()) return;
     parallel_blocks(leaves_.size(), 1, [&](size_t begin, size_t end, size_t) {
-      for (size_t i = begin; i < end; ++i) {
+      for (size_t i = begin; i < end && !stop_.stop_requested(); ++i) {
         Leaf& leaf = leaves_[i];
         // Each half of the events tells how well the other has learned.
         for (int half = 0; half < 2; ++half)
@@ -260,6 +262,7 @@ class ScatterLearning::Builder {
           leaf.shares = leaf.gain > 0 ? fit_cell({leaf.begin, leaf.end}, mean) : plain;
       }
     });
+    if (stop_.stop_requested()) return;
     double weight = 0;
     for (const Event& event : events_) weight += event.weight;
     for (const Leaf& leaf : leaves_) {
@@ -283,16 +286,17 @@ class ScatterLearning::Builder {
   }
 
   std::vector<Event> events_;
+  const std::stop_token& stop_;
   ScatterGuide::Parts parts_;
   std::vector<Leaf> leaves_;
   std::vector<float> densities_;  ///< event by event
   double mean_gain_ = 0;
 };
 
-std::shared_ptr<const ScatterGuide> ScatterLearning::learned() const {
-  if (events_.size() < least_events) return nullptr;
-  Builder builder(events_);
-  if (builder.mean_gain() < least_gain) return nullptr;
+std::shared_ptr<const ScatterGuide> ScatterLearning::learned(const std::stop_token& stop) const {
+  if (events_.size() < least_events || stop.stop_requested()) return nullptr;
+  Builder builder(events_, stop);
+  if (stop.stop_requested() || builder.mean_gain() < least_gain) return nullptr;
   return std::make_shared<const ScatterGuide>(builder.take_parts());
 }
 

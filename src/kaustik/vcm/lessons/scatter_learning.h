@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 #include "kaustik/base/bytes.h"
@@ -37,8 +38,8 @@ class ScatterLearning {
   void write(ByteWriter& writer) const;
   void read(ByteReader& reader);
 
-  /// What the events so far teach; null: next to nothing.
-  std::shared_ptr<const ScatterGuide> learned() const;
+  /// What the events so far teach; null: next to nothing, or it was stopped.
+  std::shared_ptr<const ScatterGuide> learned(const std::stop_token& stop = {}) const;
 
  private:
   struct Event {

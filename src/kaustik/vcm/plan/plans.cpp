@@ -93,8 +93,9 @@ std::string described(const VcmPlans& plans, double gain) {
       plans.light_paths, 100 * going_on, why);
 }
 
-/// The same with as many light paths as pay, if any do, and says so.
-VcmPlans with_light_paths_that_pay(const VcmPlans& plans) {
+/// The same with as many light paths as pay, if any do, and says so. Worth nothing if it was
+/// stopped.
+VcmPlans with_light_paths_that_pay(const VcmPlans& plans, const std::stop_token& stop) {
   const std::vector<PixelPlan> disks = plans.pixels.plans();
   const auto with = [&](float light_paths) {
     VcmPlans result = plans;
@@ -108,6 +109,7 @@ VcmPlans with_light_paths_that_pay(const VcmPlans& plans) {
   auto best = of_paths_alone;
   if (needs_merging) best.second.squared_error = std::numeric_limits<double>::infinity();
   for (const float factor : light_path_factors) {
+    if (stop.stop_requested()) return plans;
     auto other = with(plans.pilot->light_paths * factor);
     const double handicap = factor < 1 && best.first.techniques.merging ? worth_fewer : 1;
     if (other.second.time() * handicap < best.second.time()) best = std::move(other);
@@ -128,7 +130,7 @@ std::string described(const LightGuides& guides) {
 
 }  // namespace
 
-LightGuides LightGuides::guided_by(const LightPathUse& learned) const {
+LightGuides LightGuides::guided_by(const LightPathUse& learned, const std::stop_token& stop) const {
   LightGuides result = *this;
   const EmissionLearning& learning = learned.emission();
   if (const auto found = learning.learned())
@@ -136,7 +138,7 @@ LightGuides LightGuides::guided_by(const LightPathUse& learned) const {
   if (!scattering) return result;
   const LightPathUse::Noise& noise = learned.noise();
   const bool pays = noise.guided < noise.unguided;
-  result.scattering = pays ? learned.scattering().learned() : nullptr;
+  result.scattering = pays ? learned.scattering().learned(stop) : nullptr;
   return result;
 }
 
@@ -250,11 +252,11 @@ VcmPlanner::FoundLight VcmPlanner::search_light(uint32_t count, const std::stop_
   for (uint32_t pilots = 1;; ++pilots) {
     trace(emission, pilots - 1);
     if (stop.stop_requested()) return found;
-    found.use->learn(found.light.vertices);
+    found.use->learn(found.light.vertices, stop);
     if (stop.stop_requested()) return found;
     const EmissionLearning& learning = found.use->emission();
     const double before = learning.second_moment(*guides.emission);
-    guides = guides.guided_by(*found.use);
+    guides = guides.guided_by(*found.use, stop);
     if (stop.stop_requested()) return found;
     const double after = learning.second_moment(*guides.emission);
     const bool searches = guides.emission == plain_ && learning.size() < few_paths;
@@ -262,7 +264,7 @@ VcmPlanner::FoundLight VcmPlanner::search_light(uint32_t count, const std::stop_
       // All else is to be told by light as passes will have it.
       if (emission != guides.emission) {
         trace(guides.emission, pilots);
-        if (!stop.stop_requested()) found.use->learn(found.light.vertices);
+        found.use->learn(found.light.vertices, stop);
       }
       return guide_scattering(std::move(found), pilots + 1, count, stop);
     }
@@ -279,13 +281,14 @@ VcmPlanner::FoundLight VcmPlanner::guide_scattering(FoundLight found, uint32_t r
   const uint32_t of_trial = std::max(1u, count / trial_part);
   const double unguided_rays = double(found.light.rays) / double(count) * double(of_trial);
   for (const uint32_t end = round + most_pilots; round < end; ++round) {
-    const auto learned = use.scattering().learned();
+    const auto learned = use.scattering().learned(stop);
     if (!learned) break;
     const PilotLight trial =
         trace_pilot({.emission = guides.emission, .scattering = learned}, round, of_trial, stop);
     found.rays += trial.rays;
     if (stop.stop_requested()) return found;
-    use.learn_scattering(trial.vertices);
+    use.learn_scattering(trial.vertices, stop);
+    if (stop.stop_requested()) return found;
     const LightPathUse::Noise& noise = use.noise();
     const double guided = noise.guided * double(trial.rays);
     const double least = guides.scattering ? guides.noise_of_guided : worth_guiding;
@@ -297,7 +300,7 @@ VcmPlanner::FoundLight VcmPlanner::guide_scattering(FoundLight found, uint32_t r
   found.light = trace_pilot(guides, round + 1, count, stop);
   found.rays += found.light.rays;
   use.forget_emission();
-  if (!stop.stop_requested()) use.learn(found.light.vertices);
+  use.learn(found.light.vertices, stop);
   return found;
 }
 
@@ -347,7 +350,7 @@ VcmPlans VcmPlanner::with_merging(VcmPlans plans, const PilotLight& light, uint3
   plans.pilot = std::make_shared<const VcmPilot>(make_pilot(plans, light, of_pass, stop, rays));
   if (stop.stop_requested()) return plans;
   if (settings_.chooses_light_paths)
-    plans = with_light_paths_that_pay(plans);
+    plans = with_light_paths_that_pay(plans, stop);
   else
     plans.settle(plans.pixels.plans(), 1);
   if (plans.techniques.merging && settings_.edges)

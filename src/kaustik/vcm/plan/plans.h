@@ -34,7 +34,7 @@ struct LightGuides {
   double noise_of_guided = 1;
 
   /// The same by what was learned.
-  LightGuides guided_by(const LightPathUse& learned) const;
+  LightGuides guided_by(const LightPathUse& learned, const std::stop_token& stop = {}) const;
 };
 
 /// What connection and merging know before a pass, from pilot passes and from finished ones.
