@@ -67,7 +67,7 @@ void VcmPass::trace_light(const LightPathAims& aims, SplatBuffer& splats, std::s
        .remembers_scattering = plans_->guides.scattering != nullptr,
        .gauges = gauges_.empty() ? nullptr : &gauges_},
       pass_, Stream::light_path, splats, stop, progress, report);
-  if (plans_->techniques.merging) matt_ = MattMerging(light_, weights_);
+  if (plans_->techniques.merging) matt_ = MattMerging(light_, weights_, stop);
   connection_scale_ = float(double(light_.connectible.size()) /
                             (double(settings_.connections) * double(light_.connectible_paths())));
 }

@@ -241,6 +241,7 @@ void fill_block(const LightVertices& light, const PathWeights& weights, size_t b
                 MattMerging::Block& block) {
   const auto& tree = light.tree.tree();
   const size_t count = std::min(MattMerging::Block::size, tree.size() - begin);
+  block = MattMerging::Block();
   block.same_side = true;
   for (size_t i = 0; i < count; ++i) {
     const LightVertexData& data = tree.data(uint32_t(begin + i));
@@ -263,21 +264,27 @@ void fill_block(const LightVertices& light, const PathWeights& weights, size_t b
 
 }  // namespace
 
-MattMerging::MattMerging(const LightVertices& light, const PathWeights& weights)
-    : buckets_(&light.tree.tree().buckets()), blocks_(buckets_->bucket_count()) {
-  parallel_blocks(blocks_.size(), 64, [&](size_t begin, size_t end, size_t) {
-    for (size_t i = begin; i < end; ++i) fill_block(light, weights, i * Block::size, blocks_[i]);
+MattMerging::MattMerging(const LightVertices& light, const PathWeights& weights,
+                         const std::stop_token& stop)
+    : buckets_(&light.tree.tree().buckets()) {
+  const size_t count = buckets_->bucket_count();
+  if (count == 0 || stop.stop_requested()) return;
+  auto blocks = std::make_unique_for_overwrite<Block[]>(count);
+  parallel_blocks(count, 64, [&](size_t begin, size_t end, size_t) {
+    for (size_t i = begin; i < end && !stop.stop_requested(); ++i)
+      fill_block(light, weights, i * Block::size, blocks[i]);
   });
+  if (!stop.stop_requested()) blocks_ = std::move(blocks);
 }
 
 MattLight MattMerging::merge(const MattDisk& disk, std::vector<Factors>* each) const {
-  if (blocks_.empty()) return {};
-  return HWY_DYNAMIC_DISPATCH(Merge)(*buckets_, blocks_.data(), disk, each);
+  if (!blocks_) return {};
+  return HWY_DYNAMIC_DISPATCH(Merge)(*buckets_, blocks_.get(), disk, each);
 }
 
 void MattMerging::offer(const std::vector<Factors>& each, Kind kind, const Spectrum& reflected,
                         LaneDraw& draw) const {
-  if (!each.empty()) HWY_DYNAMIC_DISPATCH(Offer)(blocks_.data(), each, kind, reflected, draw);
+  if (!each.empty()) HWY_DYNAMIC_DISPATCH(Offer)(blocks_.get(), each, kind, reflected, draw);
 }
 
 }  // namespace kaustik

@@ -1,4 +1,6 @@
 #pragma once
+#include <memory>
+#include <stop_token>
 #include <vector>
 
 #include "kaustik/photon/coverage/disk_kernel.h"
@@ -44,8 +46,9 @@ struct MattLight {
 class MattMerging {
  public:
   MattMerging() = default;
-  /// `light` must outlive this.
-  MattMerging(const LightVertices& light, const PathWeights& weights);
+  /// `light` must outlive this. Where `stop` is requested nothing will be merged.
+  MattMerging(const LightVertices& light, const PathWeights& weights,
+              const std::stop_token& stop = {});
 
   /// Light that came by specular events only, and the rest.
   enum Kind { other, after_specular };
@@ -64,22 +67,23 @@ class MattMerging {
              LaneDraw& draw) const;
   Vec3f position(uint32_t number) const { return buckets_->position(number); }
 
-  /// Of 16 vertices, those of one bucket of the tree.
+  /// Of 16 vertices, those of one bucket of the tree. Without initialisers, so that whoever fills
+  /// it is the first to touch its memory.
   struct alignas(64) Block {
     static constexpr size_t size = KdBuckets::bucket_size;
     float flux[Spectrum::lane_count][size];
     float connection[size], beyond[size];  ///< PathWeights::MattMerge
-    float side_length[size];      ///< of the sides; after floats alone, for vectors lie aligned
-    int8_t side[3][size];         ///< LightVertexData::side
-    uint16_t before[size];        ///< LightVertexData::before
-    uint16_t most_before = 0;     ///< of all
-    uint16_t after_specular = 0;  ///< bit i: that of vertex i
-    bool same_side = false;       ///< all sides are alike
+    float side_length[size];  ///< of the sides; after floats alone, for vectors lie aligned
+    int8_t side[3][size];     ///< LightVertexData::side
+    uint16_t before[size];    ///< LightVertexData::before
+    uint16_t most_before;     ///< of all
+    uint16_t after_specular;  ///< bit i: that of vertex i
+    bool same_side;           ///< all sides are alike
   };
 
  private:
   const KdBuckets* buckets_ = nullptr;
-  std::vector<Block> blocks_;
+  std::unique_ptr<Block[]> blocks_;  ///< one for each bucket; null: nothing merges
 };
 
 }  // namespace kaustik
