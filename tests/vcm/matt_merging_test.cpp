@@ -149,10 +149,8 @@ TEST(MattMerging, FindsWhatALoopFinds) {
   EXPECT_GT(found, 100);
 }
 
-TEST(MattMerging, DrawsVerticesByWhatTheyAdd) {
-  const PathWeights weights = all_techniques();
-  const LightVertices light = light_vertices(3001);
-  const MattMerging merging(light, weights);
+/// A disk that many vertices lie in.
+Seen middle_of_the_floor(const PathWeights& weights) {
   Seen seen;
   MattDisk& disk = seen.disk;
   disk.normal = Vec3f(0, 0, 1);
@@ -163,6 +161,26 @@ TEST(MattMerging, DrawsVerticesByWhatTheyAdd) {
   seen.vertex.pdf_camera = 20;
   seen.area = pi * sqr(disk.radius);
   disk.weights = weights.matt_vertex({&seen.vertex, 1}, seen.area, seen.survival);
+  return seen;
+}
+
+/// Blocks that a stop has left unfilled are never read.
+TEST(MattMerging, NothingMergesOnceStopped) {
+  const PathWeights weights = all_techniques();
+  const LightVertices light = light_vertices(3001);
+  const MattDisk disk = middle_of_the_floor(weights).disk;
+  std::stop_source stop;
+  EXPECT_FALSE(MattMerging(light, weights, stop.get_token()).merge(disk).other.wide.is_zero());
+  stop.request_stop();
+  EXPECT_TRUE(MattMerging(light, weights, stop.get_token()).merge(disk).other.wide.is_zero());
+}
+
+TEST(MattMerging, DrawsVerticesByWhatTheyAdd) {
+  const PathWeights weights = all_techniques();
+  const LightVertices light = light_vertices(3001);
+  const MattMerging merging(light, weights);
+  const Seen seen = middle_of_the_floor(weights);
+  const MattDisk& disk = seen.disk;
   std::vector<MattMerging::Factors> each;
   const MattLight found = merging.merge(disk, &each);
   const Spectrum reflected(0.9f, 0, 0, 0);  // one lane that draws
