@@ -46,7 +46,7 @@ const std::vector<Material>& materials() {
       {"leaf",
        bsdf("principledthin",
             rgb("base_color", "0.4, 0.8, 0.3") + set("diff_trans", 1.0) + set("spec_trans", 0.3)),
-       16, 4},
+       24, 4},
       {"ward", bsdf("ward", rgb("diffuse_reflectance", "0.4, 0.2, 0.3") +
                                 rgb("specular_reflectance", "0.3, 0.5, 0.4") + set("alpha_u", 0.2) +
                                 set("alpha_v", 0.5))},
@@ -60,7 +60,8 @@ const std::vector<Material>& materials() {
       {"coated_glass",
        bsdf("openpbr", set("transmission_weight", 0.6) + set("specular_roughness", 0.6) +
                            rgb("transmission_color", "0.7, 0.9, 1") + set("coat_weight", 0.5) +
-                           set("coat_roughness", 0.5) + set("fuzz_weight", 0.3))}};
+                           set("coat_roughness", 0.5) + set("fuzz_weight", 0.3)),
+       32, 1}};
   return all;
 }
 
