@@ -150,7 +150,7 @@ CoverageScene pane() {
 }
 
 CoverageScene shipped(const std::string& name, std::vector<TruthPart> truth) {
-  return {name, 24, "", {}, std::move(truth)};
+  return {name, 64, "", {}, std::move(truth)};
 }
 
 std::vector<KnownPixel> closed_form(const CoverageScene& of) {
