@@ -2,29 +2,44 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
+
+#include "kaustik/base/parallel.h"
 
 namespace kaustik {
+namespace {
+
+constexpr size_t rows_at_once = 16;
+
+}  // namespace
 
 std::vector<double> means_around(const std::vector<double>& values, const Vec2i& blocks,
                                  int reach) {
-  // Along the rows, then along the columns.
-  const auto sweep = [&](const std::vector<double>& from, bool across) {
-    std::vector<double> result(from.size());
-    const int length = across ? blocks.x : blocks.y, lines = across ? blocks.y : blocks.x;
-    const auto at = [&](int line, int i) {
-      return across ? size_t(line) * size_t(blocks.x) + size_t(i)
-                    : size_t(i) * size_t(blocks.x) + size_t(line);
-    };
-    for (int line = 0; line < lines; ++line)
-      for (int i = 0; i < length; ++i) {
-        const int first = std::max(0, i - reach), last = std::min(length - 1, i + reach);
-        double sum = 0;
-        for (int k = first; k <= last; ++k) sum += from[at(line, k)];
-        result[at(line, i)] = sum / double(last - first + 1);
-      }
-    return result;
+  const auto width = size_t(blocks.x), height = size_t(blocks.y);
+  const auto ends = [reach](size_t i, size_t count) {
+    const auto far = size_t(reach);
+    return std::pair(i - std::min(i, far), i + std::min(count - 1 - i, far) + 1);
   };
-  return sweep(sweep(values, true), false);
+  std::vector<double> along_rows(values.size()), result(values.size());
+  parallel_blocks(height, rows_at_once, [&](size_t begin, size_t end, size_t) {
+    for (size_t y = begin; y < end; ++y)
+      for (size_t x = 0; x < width; ++x) {
+        const auto [first, last] = ends(x, width);
+        double sum = 0;
+        for (size_t k = first; k < last; ++k) sum += values[y * width + k];
+        along_rows[y * width + x] = sum / double(last - first);
+      }
+  });
+  parallel_blocks(height, rows_at_once, [&](size_t begin, size_t end, size_t) {
+    for (size_t y = begin; y < end; ++y) {
+      const auto [first, last] = ends(y, height);
+      double* const to = result.data() + y * width;
+      for (size_t k = first; k < last; ++k)
+        for (size_t x = 0; x < width; ++x) to[x] += along_rows[k * width + x];
+      for (size_t x = 0; x < width; ++x) to[x] /= double(last - first);
+    }
+  });
+  return result;
 }
 
 void clip_outliers(std::vector<double>& values, double outliers) {
