@@ -18,6 +18,8 @@ struct KAUSTIK_EXPORT Estimate {
   double bias = 0;
   /// Of Student's t, that the error has.
   double degrees_of_freedom = 1;
+  /// Of a pixel's bias, as far as the pixels around share it; 0 of regions and points.
+  double bias_standard_error = 0;
 
   /// Holds the truth with this chance, between 0 and 1. Throws Error for other chances.
   Interval interval(double confidence = 0.95) const;

@@ -21,16 +21,18 @@ class Interval(NamedTuple):
 class Estimate:
     """A luminance, as the photopic value of RGB radiances, and how well it is known."""
 
-    __slots__ = ("value", "noise", "bias", "freedom", "unit")
+    __slots__ = ("value", "noise", "bias", "freedom", "unit", "bias_noise")
     value: float
     noise: float  #: standard error of the mean; not known where `freedom` is 0
     bias: float  #: that it may have, on one side
     freedom: float  #: degrees of freedom of `noise`; 0: fewer than two replicates
     unit: str
+    bias_noise: float  #: standard error of a pixel's `bias`, as far as the pixels around share it; 0 of regions
 
     def __init__(self, value: float, noise: float, bias: float = 0.0, freedom: float = 0.0,
-                 unit: str = _units[False]):
+                 unit: str = _units[False], bias_noise: float = 0.0):
         self.value, self.noise, self.bias, self.freedom, self.unit = value, noise, bias, freedom, unit
+        self.bias_noise = bias_noise
 
     @property
     def standard_error(self) -> float:
@@ -39,7 +41,7 @@ class Estimate:
 
     def interval(self, level: float = 0.95) -> Interval:
         """Holds the truth with this chance, by Student's t, widened by the bias."""
-        half = _native.half_width(self.noise, self.bias, self.freedom, _level(level))
+        half = _native.half_width(self.noise, self.bias, self.freedom, self.bias_noise, _level(level))
         return Interval(self.value - half, self.value + half)
 
     def __float__(self) -> float:
@@ -55,7 +57,7 @@ class Estimate:
         return hash(self._all())
 
     def _all(self) -> tuple:
-        return self.value, self.noise, self.bias, self.freedom, self.unit
+        return self.value, self.noise, self.bias, self.freedom, self.unit, self.bias_noise
 
     def __reduce__(self):
         return Estimate, self._all()
@@ -304,9 +306,9 @@ class Picture:
         _threads.begin()
         return self._estimate(self.film._native.mean(x, y, width, height))
 
-    def _estimate(self, numbers: Tuple[float, float, float, float]) -> Estimate:
-        value, noise, bias, freedom = numbers
-        return Estimate(value, noise, bias, freedom, self.unit)
+    def _estimate(self, numbers: Tuple[float, float, float, float, float]) -> Estimate:
+        value, noise, bias, freedom, bias_noise = numbers
+        return Estimate(value, noise, bias, freedom, self.unit, bias_noise)
 
     def tonemap(self, operator: str = "histogram", *, layer: str = "", **parameters: Any) -> Buffer:
         """As a display shows it: (rows, columns, 3) uint8 in sRGB. `types["tonemap"]` lists operators."""

@@ -65,11 +65,12 @@ Image image(const KeptFilm& film) {
   return finished_picture(kept.film.image(), kept.record, PictureFacts::of(kept.film), {});
 }
 
-/// Mean, standard error, bias, degrees of freedom: 0 where the standard error is not known.
+/// Mean, standard error, bias, degrees of freedom (0 where the standard error is not known),
+/// standard error of the bias.
 py::tuple python_estimate(const KnownLuminance& known) {
   const bool has_noise = std::isfinite(known.deviation);
   return py::make_tuple(known.mean, has_noise ? known.deviation : 0.0, known.bias,
-                        has_noise ? known.freedom : 0.0);
+                        has_noise ? known.freedom : 0.0, known.bias_deviation);
 }
 
 /// Low and high ends, [row][column].
@@ -178,8 +179,12 @@ void bind_films(py::module_& module) {
            })
       .def("pixel",
            [=](const KeptFilm& f, int x, int y) {
-             return python_estimate(
-                 f.errors().known(size_t(y) * size_t(film_of(f).width()) + size_t(x)));
+             KnownLuminance known;
+             {
+               const py::gil_scoped_release released;
+               known = f.errors().known(size_t(y) * size_t(film_of(f).width()) + size_t(x));
+             }
+             return python_estimate(known);
            })
       .def("mean",
            [](const KeptFilm& f, int x, int y, int width, int height) {
@@ -193,10 +198,10 @@ void bind_films(py::module_& module) {
       .def("intervals", &intervals)
       .def(py::pickle([](const KeptFilm& f) { return py::make_tuple(bytes_of(f)); },
                       [](const py::tuple& s) { return parsed_film(s[0].cast<py::bytes>()); }));
-  module.def("half_width", [](double standard_error, double bias, double freedom,
+  module.def("half_width", [](double standard_error, double bias, double freedom, double bias_error,
                               double confidence) {
     const double deviation = freedom > 0 ? standard_error : std::numeric_limits<double>::infinity();
-    return KnownLuminance{0, deviation, bias, std::max(1.0, freedom)}
+    return KnownLuminance{0, deviation, bias, std::max(1.0, freedom), bias_error}
         .interval(confidence)
         .half_width;
   });

@@ -122,6 +122,32 @@ def test_repr_of_estimates():
     assert kaustik.Estimate(0.5, 0.3, 0.4, 15).standard_error == pytest.approx(0.5)
 
 
+def test_bias_noise_widens_intervals():
+    estimate = kaustik.Estimate(1, 0.3, 0, 15, bias_noise=0.4)
+    low, high = estimate.interval()
+    assert (high - low) / 2 == pytest.approx(0.5 * 2.13145, rel=1e-4)
+    assert pickle.loads(pickle.dumps(estimate)) == estimate != kaustik.Estimate(1, 0.3, 0, 15)
+
+
+def test_bias_of_pixels():
+    """A mirror below a lamp throws light at a ceiling, where merging has a bias."""
+    scene = kaustik.load_dict({
+        "type": "scene",
+        "camera": {"type": "perspective", "film": {"type": "hdrfilm", "width": 8, "height": 8},
+                   "to_world": kaustik.Transform().look_at(origin=(0, 0, 2), target=(0, 0, 3), up=(0, 1, 0))},
+        "lamp": {"type": "point", "position": (0, 0, 1), "intensity": 2.0},
+        "mirror": {"type": "rectangle", "bsdf": {"type": "conductor", "material": "none"}},
+        "ceiling": {"type": "rectangle", "bsdf": {"type": "diffuse"},
+                    "to_world": kaustik.Transform().translate((0, 0, 3)).rotate((1, 0, 0), 180).scale(50)},
+    })
+    picture = kaustik.render(scene, integrator={"type": "ppm", "radius": 3.0, "light_paths": 100.0}, passes=16)
+    pixel, mean = picture.pixel(4, 4), picture.mean()
+    # All pixels have the same, as where light is smooth: two thirds of the estimates.
+    assert 0.6 < pixel.bias / mean.bias < 0.75
+    assert 0 < pixel.bias_noise < pixel.bias
+    assert mean.bias_noise == 0
+
+
 def test_picture(scene, tmp_path, numpy):
     picture = kaustik.render(scene, integrator="vcm", passes=2, samples_per_pass=2)
     assert {"caustic", "direct", "albedo", "depth", "error"} <= set(picture.layers)

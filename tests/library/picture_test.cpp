@@ -145,6 +145,19 @@ TEST(LibraryPicture, EstimatesOfPixelsAndRegionsAgree) {
   EXPECT_THROW(picture.pixel(0, -1), Error);
 }
 
+/// What is known of a bias, and how well, widens an interval by what Student's t says of both.
+TEST(LibraryPicture, BiasWidensAnInterval) {
+  const auto half_width = [](const Estimate& estimate) {
+    const Interval interval = estimate.interval();
+    return (interval.high - interval.low) / 2;
+  };
+  const Estimate noise{1, 0.3, 0, 15, 0}, both{1, 0.3, 0, 15, 0.4}, biased{1, 0.3, 5, 15, 0.4};
+  EXPECT_NEAR(half_width(noise), 0.3 * 2.1314, 1e-4);
+  EXPECT_NEAR(half_width(both), 0.5 * 2.1314, 1e-4);
+  // Of one side alone, where the bias is far larger than what is not known.
+  EXPECT_NEAR(half_width(biased), 5 + 0.5 * 1.7531, 1e-4);
+}
+
 TEST(LibraryPicture, OnePassTellsNothingOfItsError) {
   const Picture picture = rendered(half_sky(5, 4), by_paths(1, 4));
   EXPECT_TRUE(std::isinf(picture.mean().standard_error));

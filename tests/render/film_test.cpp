@@ -10,22 +10,16 @@
 #include "kaustik/image/photometry.h"
 #include "kaustik/render/film_errors.h"
 #include "kaustik/render/rounded_line.h"
-#include "tests/support/pass_of.h"
+#include "tests/support/film.h"
 
 namespace kaustik {
 namespace {
 
 constexpr int width = 5, height = 4;
 
-FilmSettings film_settings(int w = width, int h = height) {
-  FilmSettings settings;
-  settings.size = settings.crop_size = {w, h};
-  return settings;
-}
+using test::tiled, test::value_at;
 
-PassTiles tiled(const std::vector<PassPixel>& pixels, const Film& film) {
-  return test::pass_of(pixels, {film.width(), film.height()});
-}
+FilmSettings film_settings(int w = width, int h = height) { return test::film_of_size(w, h); }
 
 /// Made-up passes with values over many orders of magnitude, some negative.
 std::vector<std::vector<PassPixel>> made_up_passes(size_t count) {
@@ -54,10 +48,6 @@ std::vector<uint32_t> counting(size_t count) {
   std::vector<uint32_t> order;
   for (size_t i = 0; i < count; ++i) order.push_back(uint32_t(i));
   return order;
-}
-
-float value_at(const Image& image, int x, int y, const std::string& channel) {
-  return image.at(x, y, image.find_channel(channel));
 }
 
 TEST(Film, OrderOfThePassesMakesNoDifference) {
@@ -195,9 +185,7 @@ TEST(Film, LayersAreThoseOfTheComponents) {
 
 /// A pass whose pixels all have this luminance (of grey).
 std::vector<PassPixel> grey_pass(float value, size_t count = width * height) {
-  std::vector<PassPixel> pass(count);
-  for (PassPixel& pixel : pass) pixel.radiance[0] = {value, value, value, 0};
-  return pass;
+  return test::grey_pixels(value, count);
 }
 
 TEST(Film, MeanErrorComesFromTheReplicates) {
@@ -282,43 +270,10 @@ TEST(Film, ErrorsOfARegionComeFromItsOwnReplicates) {
   EXPECT_NEAR(all.interval().half_width / all.mean, apart.mean_error(), 1e-6);
 }
 
-TEST(Film, BiasOfARegionIsTheMeanOfItsPixels) {
-  Film film(film_settings(), {ComponentSet::all(), true});
-  for (uint32_t pass = 0; pass < 2; ++pass) {
-    std::vector<PassPixel> pixels = grey_pass(2);
-    for (size_t i = 0; i < pixels.size(); ++i)
-      pixels[i].bias = Spectrum(i % width < 2 ? 0.25f : -0.75f);
-    film.add_pass(tiled(pixels, film), pass);
-  }
-  EXPECT_NEAR(FilmErrors(film).known(PixelRegion{0, 0, 2, 3}).bias, 0.25, 1e-6);
-  EXPECT_NEAR(FilmErrors(film).known(PixelRegion{1, 1, 2, 2}).bias, 0.25, 1e-6);
-  EXPECT_NEAR(FilmErrors(film).known(PixelRegion{2, 0, 3, 1}).bias, 0.75, 1e-6);
-}
-
 TEST(Film, BlackPicturesHaveNoError) {
   Film film(film_settings(), {ComponentSet::all()});
   for (uint32_t pass = 0; pass < 2; ++pass) film.add_pass(tiled(grey_pass(0), film), pass);
   EXPECT_EQ(film.picture_error(), 0);
-}
-
-TEST(Film, BiasIsPartOfTheError) {
-  Film film(film_settings(), {ComponentSet::all(), true});
-  for (uint32_t pass = 0; pass < 2; ++pass) {
-    std::vector<PassPixel> pixels = grey_pass(2);
-    for (PassPixel& pixel : pixels) pixel.bias = {0.3f, -0.4f, pass == 0 ? 1.2f : -1.2f, 0};
-    film.add_pass(tiled(pixels, film), pass);
-  }
-  const Image image = film.image();
-  EXPECT_FLOAT_EQ(value_at(image, 1, 2, "bias.G"), -0.4f);
-  EXPECT_FLOAT_EQ(value_at(image, 1, 2, "error.R"), 0.3f);
-  EXPECT_FLOAT_EQ(value_at(image, 1, 2, "error.G"), 0.4f);
-  EXPECT_FLOAT_EQ(value_at(image, 1, 2, "error.B"), 0);
-  const double mean = std::fabs(double(photopic({0.3f, -0.4f, 0})));
-  const double bias = std::sqrt(mean * mean - std::pow(double(photopic({0, 0, 1.2f})), 2));
-  EXPECT_NEAR(film.picture_error(), bias / 2.02, 1e-6);
-  EXPECT_NEAR(film.mean_error(), mean / 2, 1e-6);
-  EXPECT_NEAR(FilmErrors(film).luminance(3).half_width, bias, 1e-6);
-  EXPECT_LT(Film(film_settings(), {ComponentSet::all()}).image().find_channel("bias.R"), 0);
 }
 
 /// Images tell what passes of odd replicates have, component by component.
@@ -353,73 +308,6 @@ TEST(Film, HalvesAreTheMeansOfOddReplicates) {
   Film old(film_settings(), {ComponentSet::all(), false, true, false, false});
   for (uint32_t pass = 0; pass < 4; ++pass) old.add_pass(tiled(passes[pass], old), pass);
   EXPECT_LT(old.image().find_channel("odd.share"), 0);
-}
-
-/// Where the two halves contradict each other that is no bias, but it takes nothing off the noise.
-TEST(Film, ContradictoryBiasDoesNotHideNoise) {
-  const auto film_with = [](bool biased) {
-    Film film(film_settings(), FilmLayers{ComponentSet::all(), biased});
-    for (uint32_t pass = 0; pass < 16; ++pass) {
-      std::vector<PassPixel> pixels = grey_pass(1 + 0.1f * float(pass % 5));
-      for (PassPixel& pixel : pixels) pixel.bias = Spectrum(pass % 2 == 0 ? 3.0f : -3.0f);
-      film.add_pass(tiled(pixels, film), pass);
-    }
-    return film.picture_error();
-  };
-  EXPECT_GT(film_with(false), 0.01);
-  EXPECT_DOUBLE_EQ(film_with(true), film_with(false));
-}
-
-/// At an edge of light the bias is of opposite signs on the two sides, and no smaller for that.
-TEST(Film, BiasOfOppositeSignsDoesNotCancel) {
-  Film film(film_settings(8, 5), {ComponentSet::all(), true});
-  for (uint32_t pass = 0; pass < 3; ++pass) {
-    std::vector<PassPixel> pixels = grey_pass(2, 40);
-    for (size_t i = 0; i < pixels.size(); ++i) pixels[i].bias = Spectrum(i % 8 < 4 ? 0.5f : -0.5f);
-    film.add_pass(tiled(pixels, film), pass);
-    // One pass tells nothing of its noise.
-    EXPECT_NEAR(value_at(film.image(), 4, 2, "error.R"), pass == 0 ? 0 : 0.5, 1e-6);
-  }
-  EXPECT_FLOAT_EQ(value_at(film.image(), 4, 2, "bias.R"), -0.5f);
-  EXPECT_NEAR(film.picture_error(), 0.5 / 2.02, 1e-6);
-}
-
-/// A line of bias that is sure keeps its bias where 5 × 5 pixels would thin it out; beside it, and
-/// in the picture, their mean counts.
-TEST(Film, BiasOfALineIsNotThinnedOut) {
-  Film film(film_settings(9, 9), {ComponentSet::all(), true});
-  for (uint32_t pass = 0; pass < 4; ++pass) {
-    std::vector<PassPixel> pixels = grey_pass(2, 81);
-    for (size_t y = 0; y < 9; ++y) pixels[9 * y + 4].bias = Spectrum(0.5f);
-    film.add_pass(tiled(pixels, film), pass);
-  }
-  const Image image = film.image();
-  EXPECT_NEAR(value_at(image, 4, 4, "error.R"), 0.5, 1e-6);
-  EXPECT_NEAR(value_at(image, 3, 4, "error.R"), 0.5 * std::sqrt(0.2), 1e-6);
-  EXPECT_EQ(value_at(image, 1, 4, "error.R"), 0);
-  // Five of nine columns have a fifth of the square.
-  EXPECT_NEAR(film.picture_error(), 0.5 * std::sqrt(0.2 * 5 / 9) / 2.02, 1e-6);
-}
-
-/// Estimates that are noise alone make the error of the picture no larger.
-TEST(Film, NoiseOfTheBiasIsNoBias) {
-  std::mt19937 random(5);
-  std::normal_distribution<float> noise(0, 0.4f);
-  constexpr int side = 100;
-  Film film(film_settings(side, side), {ComponentSet::all(), true});
-  for (uint32_t pass = 0; pass < 16; ++pass) {
-    std::vector<PassPixel> pixels = grey_pass(2, size_t{side} * side);
-    for (PassPixel& pixel : pixels) pixel.bias = Spectrum(noise(random));
-    film.add_pass(tiled(pixels, film), pass);
-  }
-  // Its mean has a standard error of 0.1, a twentieth of the light.
-  EXPECT_LT(film.picture_error(), 0.01);
-  double mean_square = 0;
-  const Image image = film.image();
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)
-      mean_square += std::pow(double(value_at(image, x, y, "error.R")), 2) / (side * side);
-  EXPECT_LT(std::sqrt(mean_square), 0.05);
 }
 
 /// Whether passes are summed by one film, or by parts that are added in any order, all has the same

@@ -350,7 +350,8 @@ TEST(Session, BiasGoesToItsLayer) {
   const Image image = rendered(*scene, Scripted(script), settings);
   ASSERT_GE(image.find_channel("bias.G"), 0);
   EXPECT_FLOAT_EQ(image.at(5, 5, image.find_channel("bias.G")), -0.25f);
-  EXPECT_FLOAT_EQ(image.at(5, 5, image.find_channel("error.G")), 0.25f);
+  // The same everywhere, as where light is smooth.
+  EXPECT_FLOAT_EQ(image.at(5, 5, image.find_channel("error.G")), 0.25f * 2 / 3);
 }
 
 TEST(Session, TellsItsProgress) {

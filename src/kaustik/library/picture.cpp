@@ -56,7 +56,7 @@ auto with_errors(const PictureState& state, const Use& use) {
 }
 
 Estimate shown(const KnownLuminance& known) {
-  return {known.mean, known.deviation, known.bias, known.freedom};
+  return {known.mean, known.deviation, known.bias, known.freedom, known.bias_deviation};
 }
 
 void check_layer(const Image& image, const std::string& layer) {
@@ -176,7 +176,8 @@ Interval Estimate::interval(double confidence) const {
   return guarded([&] {
     if (!(confidence > 0 && confidence < 1))
       throw wrong_input("the chance of an interval is not between 0 and 1", "0.95 is usual");
-    const KnownLuminance known{value, standard_error, bias, degrees_of_freedom};
+    const KnownLuminance known{value, standard_error, bias, degrees_of_freedom,
+                               bias_standard_error};
     const double half = known.interval(confidence).half_width;
     return Interval{value - half, value + half};
   });

@@ -12,11 +12,6 @@
 namespace kaustik {
 namespace {
 
-/// Pixels on either side that the square of a pixel's bias is averaged with.
-constexpr int bias_reach = 2;
-/// The pixel's own counts where it is larger, and its root more than so many of its standard
-/// errors.
-constexpr float least_bias_errors = 3;
 /// Pixels on either side that a variance is averaged with, of which they tell this share: few
 /// samples of rare events have often met none of them, and are too sure of too low a mean. Never
 /// more than so many times the pixel's own, which beside edges is another.
@@ -33,46 +28,6 @@ constexpr double freedom_of_pool = [] {
 constexpr double least_over_passes = 0.25;
 /// Share of the picture's mean luminance under which a pixel's own counts less and less.
 constexpr double dark_share = 0.01;
-
-/// Of R, G, B and the luminance.
-using Squares = std::array<float, 4>;
-Squares squares(const Vec3f& a, const Vec3f& b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z, photopic(a) * photopic(b)};
-}
-
-/// Of a pixel's bias, or of those around it.
-struct BiasSquares {
-  Squares products{};   ///< of the two halves' estimates: the mean is the bias squared
-  Squares variances{};  ///< of the mean of the two
-};
-
-/// Means of each value with its neighbours, as far as `reach`, in a line of `count` values that are
-/// `step` apart; at the ends of those that are there. Calls take(i, mean).
-template <typename Take>
-void smooth_line(const BiasSquares* values, int count, size_t step, int reach, const Take& take) {
-  for (int i = 0; i < count; ++i) {
-    const int first = std::max(0, i - reach), last = std::min(count - 1, i + reach);
-    const float share = 1 / float(last - first + 1);
-    BiasSquares mean;
-    for (int k = first; k <= last; ++k)
-      for (size_t c = 0; c < mean.products.size(); ++c) {
-        mean.products[c] += values[size_t(k) * step].products[c] * share;
-        mean.variances[c] += values[size_t(k) * step].variances[c] * share;
-      }
-    take(size_t(i), mean);
-  }
-}
-
-/// What a pixel's bias counts for, by the means of its two halves' estimates and by those around.
-Squares pixel_bias(const Vec3f& even, const Vec3f& odd, const BiasSquares& around) {
-  const Vec3f mean = (even + odd) * 0.5f, off = (even - odd) * 0.5f;
-  const Squares own = squares(mean, mean), own_variance = squares(off, off);
-  Squares result = around.products;
-  for (size_t c = 0; c < result.size(); ++c)
-    if (own[c] > sqr(least_bias_errors) * std::max(own_variance[c], around.variances[c]))
-      result[c] = std::max(result[c], own[c]);
-  return result;
-}
 
 /// Of an interval that holds the truth with this chance if what is estimated is a bias away from it
 /// and its deviation is known with so many degrees of freedom: t of both sides where there is no
@@ -170,9 +125,7 @@ KnownLuminance RegionSums::known() const {
 }  // namespace
 
 FilmErrors::FilmErrors(const Film& film) : film_(film), parts_(film) {
-  if (!film.holds_bias()) return;
-  sum_up_bias();
-  square_bias();
+  if (film.holds_bias()) bias_.emplace(film, parts_);
 }
 
 void FilmErrors::sum_up_luminances() const {
@@ -201,24 +154,8 @@ const std::vector<FilmErrors::Luminance>& FilmErrors::luminances() const {
   return luminances_;
 }
 
-void FilmErrors::sum_up_bias() {
-  bias_.resize(film_.pixel_count());
-  const PictureTiles& tiles = film_.tiles();
-  parallel_blocks(tiles.count(), 1, [&](size_t tile, size_t, size_t) {
-    std::array<Fixed, PictureTiles::pixels> line;
-    for (size_t half = 0; half < bias_halves; ++half)
-      for (size_t lane = 0; lane < FilmNumbers::lanes; ++lane) {
-        film_.read(tile, film_.numbers().bias + half * FilmNumbers::lanes + lane, line);
-        tiles.for_pixels_of(tile, [&](int x, int y, size_t place) {
-          bias_[size_t(y) * size_t(film_.width()) + size_t(x)][half][int(lane)] =
-              float(double_from(line[place]));
-        });
-      }
-  });
-}
-
 Vec3f FilmErrors::mean_bias(size_t pixel) const {
-  return (bias_[pixel][0] + bias_[pixel][1]) / float(counts(pixel).count());
+  return bias_->sum(pixel) / float(counts(pixel).count());
 }
 
 void FilmErrors::pool_variances() const {
@@ -241,41 +178,31 @@ void FilmErrors::pool_variances() const {
     if (shares[i] > 0) variances_around_[i] /= shares[i];
 }
 
-void FilmErrors::square_bias() {
-  std::vector<std::array<float, bias_halves>> half_passes(parts_.count());
-  const auto has_halves = [](const auto& halves) { return halves[0] > 0 && halves[1] > 0; };
-  for (size_t part = 0; part < parts_.count(); ++part)
-    for (uint32_t half = 0; half < bias_halves; ++half)
-      half_passes[part][half] = float(parts_[part].of_half(half));
-  if (std::none_of(half_passes.begin(), half_passes.end(), has_halves)) return;
-  const int width = film_.width(), height = film_.height();
-  const int reach = are_pixels_apart() ? 0 : bias_reach;
-  const auto estimate = [&](size_t pixel, size_t half) {
-    const auto& halves = half_passes[parts_.part_of(pixel)];
-    return has_halves(halves) ? bias_[pixel][half] / halves[half] : Vec3f(0, 0, 0);
-  };
-  std::vector<BiasSquares> rows(film_.pixel_count());
-  parallel_blocks(size_t(height), 1, [&](size_t y, size_t, size_t) {
-    std::vector<BiasSquares> row(static_cast<size_t>(width));
-    const size_t begin = y * row.size();
-    for (size_t x = 0; x < row.size(); ++x) {
-      const Vec3f even = estimate(begin + x, 0), odd = estimate(begin + x, 1);
-      const Vec3f off = (even - odd) * 0.5f;
-      row[x] = {squares(even, odd), squares(off, off)};
-    }
-    smooth_line(row.data(), width, 1, reach,
-                [&](size_t x, const BiasSquares& mean) { rows[begin + x] = mean; });
+double FilmErrors::light(size_t pixel, double mean_luminance) const {
+  const double own = std::abs(luminance_sum(pixel)) / std::max(1.0, double(counts(pixel).count()));
+  const double light = own + dark_share * std::abs(mean_luminance);
+  return light > 0 ? light : 1;
+}
+
+const FilmBias::Squares* FilmErrors::bias_squares(size_t channel) const {
+  if (!bias_ || !bias_->is_known()) return nullptr;
+  luminances();
+  std::call_once(is_squared_[channel], [&] {
+    isolated([&] {
+      const double mean = mean_luminance();
+      std::vector<double> lights(film_.pixel_count());
+      parallel_blocks(lights.size(), 4096, [&](size_t begin, size_t end, size_t) {
+        for (size_t i = begin; i < end; ++i) lights[i] = light(i, mean);
+      });
+      bias_squares_[channel] = bias_->squares(channel, lights, are_pixels_apart());
+    });
   });
-  bias_sq_.resize(film_.pixel_count());
-  luminance_bias_sq_around_.resize(film_.pixel_count());
-  parallel_blocks(size_t(width), 1, [&](size_t x, size_t, size_t) {
-    smooth_line(rows.data() + x, height, size_t(width), reach,
-                [&](size_t y, const BiasSquares& around) {
-                  const size_t pixel = y * size_t(width) + x;
-                  bias_sq_[pixel] = pixel_bias(estimate(pixel, 0), estimate(pixel, 1), around);
-                  luminance_bias_sq_around_[pixel] = around.products[3];
-                });
-  });
+  return &bias_squares_[channel];
+}
+
+double FilmErrors::pixel_bias_sq(size_t pixel, size_t channel) const {
+  const FilmBias::Squares* squares = bias_squares(channel);
+  return squares ? double(squares->of_pixel[pixel]) : 0;
 }
 
 double FilmErrors::pooled_variance(size_t pixel) const {
@@ -292,8 +219,9 @@ double FilmErrors::variance_over_passes(double n, double sum, double sum_of_squa
   return std::max(0.0, sum_of_squares / n - mean * mean) / (n - 1);
 }
 
-double FilmErrors::luminance_bias_sq_around(size_t pixel) const {
-  return luminance_bias_sq_around_.empty() ? 0 : double(luminance_bias_sq_around_[pixel]);
+void FilmErrors::prepare_pixels() const {
+  for (size_t channel = 0; channel < FilmBias::luminance; ++channel) bias_squares(channel);
+  pooled_variance(0);
 }
 
 Vec3f FilmErrors::of_pixel(size_t pixel, const ChannelSums& sums) const {
@@ -318,14 +246,14 @@ Vec3f FilmErrors::of_pixel(size_t pixel, const ChannelSums& sums) const {
   }
   Vec3f error;
   for (int lane = 0; lane < 3; ++lane)
-    error[lane] = std::sqrt(variance[lane] +
-                            (bias_sq_.empty() ? 0 : std::max(0.0f, bias_sq_[pixel][size_t(lane)])));
+    error[lane] = std::sqrt(variance[lane] + float(pixel_bias_sq(pixel, size_t(lane))));
   return error;
 }
 
 ConfidenceInterval KnownLuminance::interval(double confidence) const {
   if (!std::isfinite(deviation)) return {mean, std::numeric_limits<double>::infinity()};
-  return {mean, half_width_with_bias(deviation, bias, confidence, freedom)};
+  return {mean,
+          half_width_with_bias(std::hypot(deviation, bias_deviation), bias, confidence, freedom)};
 }
 
 double KnownLuminance::error() const { return std::hypot(deviation, bias); }
@@ -336,7 +264,10 @@ KnownLuminance FilmErrors::known(size_t pixel) const {
   known.mean = luminance_sum(pixel) / std::max(1.0, double(of_pixel.count()));
   known.deviation = of_pixel.is_known() ? std::sqrt(pooled_variance(pixel))
                                         : std::numeric_limits<double>::infinity();
-  known.bias = bias_sq_.empty() ? 0 : std::sqrt(std::max(0.0, double(bias_sq_[pixel][3])));
+  if (const FilmBias::Squares* squares = bias_squares(FilmBias::luminance)) {
+    known.bias = std::sqrt(double(squares->of_pixel[pixel]));
+    known.bias_deviation = std::sqrt(double(squares->variance[pixel]));
+  }
   if (of_pixel.is_known()) known.freedom = freedom(of_pixel);
   return known;
 }
@@ -382,20 +313,21 @@ double FilmErrors::of_picture() const {
   if (!parts_.are_known()) return std::numeric_limits<double>::infinity();
   const size_t pixels = film_.pixel_count();
   luminances();
-  const double dark = dark_share * std::abs(mean_luminance());
+  const double mean = mean_luminance();
   const auto sum_of = [&](const auto& square_of) {
     return sum_over_blocks(pixels, 4096, [&](size_t begin, size_t end) {
       double block = 0;
       for (size_t i = begin; i < end; ++i)
-        if (const double square = square_of(i); square != 0)
-          block += square / sqr(std::abs(luminance_sum(i)) / double(counts(i).count()) + dark);
+        if (const double square = square_of(i); square != 0) block += square / sqr(light(i, mean));
       return block;
     });
   };
-  // Single products may be negative, and some do not make up for noise.
   const double noise = sum_of([this](size_t i) { return luminance_variance(i); });
-  const double bias = sum_of([this](size_t i) { return luminance_bias_sq_around(i); });
-  return std::sqrt((noise + std::max(0.0, bias)) / double(pixels));
+  // Single products may be negative, and some do not make up for noise.
+  double bias = 0;
+  if (const FilmBias::Squares* squares = bias_squares(FilmBias::luminance))
+    bias = std::max(0.0, sum_of([&](size_t i) { return double(squares->around[i]); }));
+  return std::sqrt((noise + bias) / double(pixels));
 }
 
 double FilmErrors::mean_luminance() const {
@@ -404,7 +336,7 @@ double FilmErrors::mean_luminance() const {
                            [&](size_t begin, size_t end) {
                              double block = 0;
                              for (size_t i = begin; i < end; ++i)
-                               block += luminance_sum(i) / double(counts(i).count());
+                               block += luminance_sum(i) / std::max(1.0, double(counts(i).count()));
                              return block;
                            }) /
            double(film_.pixel_count());

@@ -1,10 +1,12 @@
 #pragma once
 #include <array>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "kaustik/base/statistics.h"
 #include "kaustik/render/film.h"
+#include "kaustik/render/film_bias.h"
 #include "kaustik/render/film_parts.h"
 
 namespace kaustik {
@@ -22,10 +24,13 @@ struct KnownLuminance {
   double deviation = 0;
   double bias = 0;     ///< by how much the mean is expected to be off, on one side alone; 0: none
   double freedom = 1;  ///< degrees of freedom of the deviation
+  /// Standard error of a pixel's bias, as far as the pixels around share it.
+  double bias_deviation = 0;
 
   /// √(deviation² + bias²)
   double error() const;
-  /// That holds the truth with this chance, 0 to 1: by Student's t, widened by the bias.
+  /// That holds the truth with this chance, 0 to 1: by Student's t of both deviations, widened by
+  /// the bias.
   ConfidenceInterval interval(double confidence = 0.95) const;
 };
 
@@ -39,13 +44,8 @@ struct KnownLuminance {
 /// neither that its mean is too low nor that its error is larger. Only their luminances are kept; a
 /// channel's error is that over passes, times what replicates make of that of the luminance.
 ///
-/// Bias: its estimates are as noisy as the picture, and the square of noise is not zero. But the
-/// product of two independent estimates has the mean of the bias squared: that of even replicates
-/// times that of odd ones, averaged over 5 × 5 pixels, is what counts, and nothing where that is
-/// negative. (Averaged themselves they would cancel where light has an edge: the bias is of
-/// opposite signs on its two sides.) Where a pixel's own estimate is larger, and more than three
-/// times its standard error, that counts: a line of light is narrower than 5 × 5 pixels. With
-/// passes of one half alone the bias counts as zero.
+/// Bias: FilmBias, relative to |L| + 0.01 M, where L is the pixel's luminance and M the picture's
+/// mean. With passes of one half of the replicates alone it counts as zero.
 ///
 /// Regions: a pixel's passes are those of the picture and those of its regions, by replicate.
 /// Variances around a pixel count by the variance of a pass.
@@ -57,9 +57,12 @@ class FilmErrors {
   /// Standard error of the pixel's mean per channel, √(noise² + bias²); the noise counts as zero
   /// with fewer than two passes of the pixel.
   Vec3f of_pixel(size_t pixel, const ChannelSums& sums) const;
+  /// What of_pixel() takes of all pixels, by all threads. Without this the first call makes it.
+  void prepare_pixels() const;
   KnownLuminance known(size_t pixel) const;
   /// The mean over a region, which must not be empty and lie in the picture: its noise is that of
-  /// the region's own means by replicate, since pixels share photons; its bias the mean of theirs.
+  /// the region's own means by replicate, since pixels share photons; its bias that of the signed
+  /// estimates, up to half too large where light is smooth.
   /// Parts whose pixels have other passes weigh by their area, in each replicate.
   KnownLuminance known(const PixelRegion& region) const;
   /// The interval of the pixel's luminance.
@@ -71,8 +74,8 @@ class FilmErrors {
   double freedom() const;
   bool are_pixels_apart() const { return film_.layers().pixels_are_apart; }
   /// Square root of the mean over pixels of (e/(|L| + 0.01 M))², where e is the standard error of
-  /// the pixel's luminance L (noise and bias), M the picture's mean luminance. Infinite with fewer
-  /// than two replicates, 0 for a black picture.
+  /// the pixel's luminance (noise and bias). Infinite with fewer than two replicates, 0 for a black
+  /// picture.
   double of_picture() const;
   /// Half the width of the 95 % confidence interval of the picture's mean luminance by Student's t,
   /// plus its bias, relative to it; infinite with fewer than two replicates.
@@ -93,16 +96,16 @@ class FilmErrors {
   double pooled_variance(size_t pixel) const;
   /// Of a mean over passes as if they were independent.
   static double variance_over_passes(double passes, double sum, double sum_of_squares);
-  /// Averaged over neighbours; may be negative, which over many pixels cancels what is too large
-  /// elsewhere.
-  double luminance_bias_sq_around(size_t pixel) const;
+  /// |L| + 0.01 M; 1 where both are 0.
+  double light(size_t pixel, double mean_luminance) const;
+  /// Of the channel; nothing if none is known.
+  const FilmBias::Squares* bias_squares(size_t channel) const;
+  double pixel_bias_sq(size_t pixel, size_t channel) const;
   void sum_up_luminances() const;
   /// Only once one is asked for: the error of the mean needs none.
   const std::vector<Luminance>& luminances() const;
   /// Of the picture.
   double mean_luminance() const;
-  void sum_up_bias();
-  void square_bias();
   /// Only once a single pixel is asked for: the picture's error is looked at after every pass.
   void pool_variances() const;
 
@@ -112,11 +115,10 @@ class FilmErrors {
   mutable std::vector<Luminance> luminances_;  ///< by pixel
   /// Of the luminance: means over neighbours, of the variance of a pass if there are regions.
   mutable std::vector<double> variances_around_;
-  /// Sums over passes, by pixel and half; empty: none is held.
-  std::vector<std::array<Vec3f, bias_halves>> bias_;
-  /// Squared, of R, G, B and the luminance, as it counts in a pixel; empty: none is known.
-  std::vector<std::array<float, 4>> bias_sq_;
-  std::vector<float> luminance_bias_sq_around_;  ///< parallel to these
+  std::optional<FilmBias> bias_;
+  /// Each only once it is asked for.
+  mutable std::array<std::once_flag, FilmBias::channels> is_squared_;
+  mutable std::array<FilmBias::Squares, FilmBias::channels> bias_squares_;
 };
 
 }  // namespace kaustik

@@ -138,7 +138,7 @@ Image Film::image(bool with_layers) const {
   if (!regions_.empty()) image.set_metadata(regions_key, text_of(regions_));
   const FilmParts parts(*this);
   std::optional<FilmErrors> errors;
-  if (with_layers) errors.emplace(*this);
+  if (with_layers) errors.emplace(*this).prepare_pixels();
   const bool has_halves = knows_halves();
   const auto put = [&](int x, int y, const PixelSums& sums) {
     int channel = 0;

@@ -46,9 +46,11 @@ constexpr double of_tile = 2;
 constexpr double of_splat_lane = 12, unsplatted_components = 1;
 /// The luminance of a pixel while a pass is added to the film.
 constexpr double of_luminance = sizeof(float);
-/// Of errors: luminances, their variances and those of the pixels around; with bias, its sums and
-/// their squares.
-constexpr double of_errors = 4 * sizeof(double), of_bias_errors = 76;
+/// Of errors: luminances, their variances and those of the pixels around.
+constexpr double of_errors = 4 * sizeof(double);
+/// With bias: its sums, means of halves, the light, and squares. What these are made from is held
+/// for some rows alone; pictures that fill a machine have far more.
+constexpr double of_bias_errors = 3 * 3 * sizeof(float) + sizeof(double) + (4 + 2) * sizeof(float);
 
 constexpr double lanes_of_sum = FilmNumbers::lanes;
 

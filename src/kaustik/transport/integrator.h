@@ -61,6 +61,9 @@ struct PixelSamples {
   uint32_t count = 1;
 };
 
+/// The share of an estimated bias that is right where light is smooth: SampleSink::add_bias().
+inline constexpr float smooth_bias_share = 2.0f / 3;
+
 /// What is known of the surface that a pixel shows, for denoisers and compositing.
 struct FirstHit {
   // Of the first surface that is more than a mirror or clear glass; of the last of those if none is
@@ -85,7 +88,9 @@ class SampleSink {
     if (wanted_.has(component)) radiance_[size_t(component)] += radiance;
   }
   /// An estimate of the bias (expectation minus truth) of what the sample has added, of wanted
-  /// components; may be as noisy as that and of either sign. Only if
+  /// components; may be as noisy as that and of either sign. Right where the bias grows by the
+  /// width of what is averaged over, as at edges of light. Where light is smooth it grows by the
+  /// area, and of pixels with neighbours it is smooth_bias_share of the estimate. Only if
   /// IntegratorTraits::estimates_bias.
   void add_bias(const Spectrum& bias) { bias_ += bias; }
   void set_first_hit(const FirstHit& hit) { first_hit_ = hit; }

@@ -15,6 +15,8 @@ constexpr size_t least_in_part = 64;
 
 /// Chance with which the bias is estimated: it takes rays.
 constexpr float bias_chance = 0.25f;
+// A bias that grows by the area is told too large by (1 − narrow_radius²)/(1 − narrow_radius).
+static_assert(smooth_bias_share * (1 + narrow_radius) == 1);
 
 }  // namespace
 
@@ -59,8 +61,7 @@ void SurfaceMerging::merge() {
     if (!sum.is_zero()) walk_.add(Component(c), sum);
     total += sum;
   }
-  // The bias is estimated as if it grew by the radius, as it does where light has an edge: where it
-  // is smooth it grows by the area, and is two thirds of that.
+  // As if it grew by the radius, as it does where light has an edge: see smooth_bias_share.
   if (!(walk_.sampler().fork(Fork::merge_bias).next_1d() < bias_chance)) return;
   const float narrow_coverage = covered.inverse_share(
       radius * narrow_radius, weights.bounds.edges, walk_.sampler().fork(Fork::narrow_merge_cover));
