@@ -262,6 +262,16 @@ TEST(FilmBias, PixelsOfOneHalfHaveNone) {
     EXPECT_NEAR(errors.known(i).bias, region.holds(int(i % 40), int(i / 40)) ? 0.2 : 0, 1e-6) << i;
 }
 
+/// Of numbers that are none, an interval holds everything.
+TEST(FilmBias, WhatIsNotKnownHasNoNarrowInterval) {
+  for (const double none : {std::nan(""), double(infinity)}) {
+    EXPECT_TRUE(std::isinf(KnownLuminance{1, none, 0.2, 15, 0.1}.interval().half_width));
+    EXPECT_TRUE(std::isinf(KnownLuminance{1, 0.1, none, 15, 0.1}.interval().half_width));
+    EXPECT_TRUE(std::isinf(KnownLuminance{1, 0.1, 0.2, 15, none}.interval().half_width));
+  }
+  EXPECT_LT(KnownLuminance({1, 0.1, 0.2, 15, 0.1}).interval().half_width, 1);
+}
+
 /// Pixels that have nothing to do with one another tell nothing of smooth light.
 TEST(FilmBias, ApartEachTellsItsOwn) {
   FilmLayers layers{ComponentSet::all(), true};

@@ -251,9 +251,10 @@ Vec3f FilmErrors::of_pixel(size_t pixel, const ChannelSums& sums) const {
 }
 
 ConfidenceInterval KnownLuminance::interval(double confidence) const {
-  if (!std::isfinite(deviation)) return {mean, std::numeric_limits<double>::infinity()};
-  return {mean,
-          half_width_with_bias(std::hypot(deviation, bias_deviation), bias, confidence, freedom)};
+  const double both = std::hypot(deviation, bias_deviation);
+  if (!std::isfinite(both) || !std::isfinite(bias))
+    return {mean, std::numeric_limits<double>::infinity()};
+  return {mean, half_width_with_bias(both, bias, confidence, freedom)};
 }
 
 double KnownLuminance::error() const { return std::hypot(deviation, bias); }
