@@ -132,10 +132,10 @@ Parts parts_of(const std::string& name) {
   std::vector<double> counts, rays;
   double light = 0;
   for (const int count : neighbors) {
-    const Cost merging =
-        cost_of(*made(description_of(name), *scene, "ppm",
-                      {"light_paths=1", "adaptive=false", "learn_radii=false",
-                       "choose_survival=false", fmt::format("merge_neighbors={}", count)}));
+    const Cost merging = cost_of(
+        *made(description_of(name), *scene, "ppm",
+              {"light_paths=1", "adaptive=false", "learn_radii=false", "choose_survival=false",
+               "choose_light_samples=false", fmt::format("merge_neighbors={}", count)}));
     counts.push_back(merged(*scene, count));
     rays.push_back((merging.seconds - whole.seconds) / ray / vertices);
     light += merging.light_seconds / merging.light_rays / ray / double(neighbors.size());

@@ -80,6 +80,28 @@ TEST(DiskKernel, HalfADisk) {
   EXPECT_LT(factor_at(1), 0);
 }
 
+/// Edges whose segments are apart have a closed form; where they overlap the disk is cut into
+/// sectors. An edge that is there twice overlaps itself.
+TEST(DiskKernel, ClosedFormsAreTheSumsOverSectors) {
+  const std::vector<std::pair<DiskEdges, DiskEdges>> pairs = {
+      {edges_at({{0.4f, 0.1f}}), edges_at({{0.4f, 0.1f}, {0.4f, 0.1f}})},
+      {edges_at({{2, 0}}), edges_at({{2, 0}, {2, 0}})},
+      {edges_at({{1, 0.29f}}), edges_at({{1, 0.29f}, {1, 0.29f}})},
+      {edges_at({{0, 0.2f}, {3, 0.05f}}), edges_at({{0, 0.2f}, {3, 0.05f}, {0, 0.2f}})},
+  };
+  for (const KernelShape shape : {KernelShape::flat, KernelShape::parabolic})
+    for (const auto& [apart, twice] : pairs) {
+      const DiskMoments a = disk_moments(frame, radius, apart, shape);
+      const DiskMoments b = disk_moments(frame, radius, twice, shape);
+      EXPECT_NEAR(a.one, b.one, 1e-6);
+      EXPECT_NEAR(a.x, b.x, 1e-6);
+      EXPECT_NEAR(a.y, b.y, 1e-6);
+      EXPECT_NEAR(a.xx, b.xx, 1e-6);
+      EXPECT_NEAR(a.xy, b.xy, 1e-6);
+      EXPECT_NEAR(a.yy, b.yy, 1e-6);
+    }
+}
+
 TEST(DiskKernel, EdgesBeyondTheDiskChangeNothing) {
   const DiskKernel whole(frame, radius, {}, KernelShape::parabolic);
   const DiskKernel far(frame, radius, edges_at({{2, radius}}), KernelShape::parabolic);

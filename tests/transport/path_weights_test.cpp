@@ -14,7 +14,7 @@ namespace {
 /// A whole path x₁ … xₙ with what every technique would find out about it.
 struct WholePath {
   std::vector<PathVertex> vertices;  ///< x₁ … xₙ
-  float pdf_next_event = 0, first_merge_area = 0, first_survival = 1;
+  float pdf_next_event = 0, first_merge_area = 0, first_survival = 1, first_light_samples = 1;
 };
 
 /// Densities over some magnitudes; the light's point has no event.
@@ -39,6 +39,7 @@ WholePath random_path(std::mt19937& random, size_t length, double delta_share,
   path.pdf_next_event = density();
   path.first_merge_area = 1e-4f * density();
   path.first_survival = 0.05f + 0.95f * unit(random);
+  path.first_light_samples = float(1 + random() % 8);
   return path;
 }
 
@@ -70,6 +71,7 @@ struct Halves {
     halves.pdf_next_event = path.pdf_next_event;
     halves.first_merge_area = path.first_merge_area;
     halves.first_survival = path.first_survival;
+    halves.first_light_samples = path.first_light_samples;
   }
   std::vector<PathVertex> camera, light;
   PathHalves halves;
@@ -147,6 +149,35 @@ TEST(PathWeights, NoticeAnotherRadius) {
     largest = std::max(largest, std::fabs(double(weights.merge(halves.halves)) - right));
   }
   EXPECT_GT(largest, 0.05);
+}
+
+/// Several samples of lights at the first vertex find what one finds, so many times as often.
+TEST(PathWeights, SamplesOfLightsAtTheFirstVertexCountByTheirNumber) {
+  PathWeights::Settings settings;
+  const PathWeights weights(settings);
+  WholePath path;
+  path.vertices.resize(2);
+  path.vertices[1].pdf_camera = 3;
+  path.vertices[1].pdf_light = 0.5f;
+  path.pdf_next_event = 2;
+  path.first_light_samples = 4;
+  const auto expect_samples = [&](double samples) {
+    const double ratio = 3 / (samples * 2);
+    EXPECT_NEAR(weights.next_event(Halves(path, path.vertices.size() - 1, weights).halves),
+                1 / (1 + ratio * ratio), 1e-5);
+  };
+  expect_samples(4);
+  // After a mirror it is the second vertex …
+  path.vertices.insert(path.vertices.begin(), path.vertices[0]);
+  path.vertices[0] = {.pdf_camera = 1, .pdf_light = 1, .delta = true};
+  path.vertices[1] = {.pdf_camera = 1, .pdf_light = 1};
+  expect_samples(4);
+  // … but after another event no longer the first, and in a medium there is one.
+  path.vertices[0].delta = false;
+  expect_samples(1);
+  path.vertices[0].delta = true;
+  path.vertices[1].mean_free_path = 1;
+  expect_samples(1);
 }
 
 /// Whether a path goes on is asked behind what it comes to from its first vertex that is not delta:

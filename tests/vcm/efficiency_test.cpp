@@ -39,8 +39,8 @@ Chosen choose(const std::vector<ProbeStatistics>& probes, double light_paths = 1
   Chosen result;
   result.plans.resize(probes.size());
   result.expected =
-      choose_survival(probes, {4, light_rays},
-                      std::vector<MergeScale>(probes.size(), {area, light_paths}), result.plans);
+      choose_plans(probes, {4, light_rays},
+                   std::vector<MergeScale>(probes.size(), {area, light_paths}), {}, result.plans);
   return result;
 }
 
@@ -59,7 +59,10 @@ TEST(Efficiency, PathsGoOnWhereNothingElseFindsTheLight) {
 /// find is, for plans say nothing of that; and ν is 4096.
 TEST(Efficiency, ExpectedWhereAllGoOn) {
   const ProbeStatistics probe = light(12, 0.001);
-  const Efficiency expected = efficiency_of_survivors({probe}, {4, 1}, {{1, 1}});
+  std::vector<PixelPlan> plans(1);
+  const Efficiency expected = choose_plans({probe}, {4, 1}, {{1, 1}}, {.survival = false}, plans);
+  EXPECT_EQ(plans[0].survival, 1);
+  EXPECT_EQ(plans[0].evenness, 1);
   EXPECT_NEAR(expected.squared_error, 1 / (4 + 4096.0) / 1.01, 1e-12);
   EXPECT_NEAR(expected.rays, 2 + 6 + cost_model.merging + cost_model.light_ray, 1e-12);
   // No chance is better than the chosen one.
@@ -76,6 +79,42 @@ TEST(Efficiency, VarianceOfPathsAlone) {
   // Relative to light of 1, and a tenth of the picture's mean.
   EXPECT_NEAR(chosen.expected.squared_error, (0.5 + 0.25) / 4 / 1.01, 1e-4);
   EXPECT_NEAR(chosen.expected.rays, 8, 1e-9);
+}
+
+/// A probe with nothing but direct light of variance 1, of which samples of lights share a part.
+ProbeStatistics direct_light(double lamp_variance, double lamp_rays = 1) {
+  ProbeStatistics probe;
+  probe.direct_variance = 1;
+  probe.lamp_variance = lamp_variance;
+  probe.radiance = 1;
+  probe.rays = 2;
+  probe.lamp_rays = lamp_rays;
+  return probe;
+}
+
+/// A sample costs a ray more, and takes off its part of the variance: with n of them the time is
+/// (1 − v + v/n)(1 + n).
+TEST(Efficiency, AsManyLightsAreSampledAsPay) {
+  const auto chosen = [&](const ProbeStatistics& probe) {
+    return choose({probe}, 0).plans[0].light_samples;
+  };
+  EXPECT_EQ(chosen(direct_light(0)), 1);
+  EXPECT_EQ(chosen(direct_light(0.5)), 1);
+  EXPECT_EQ(chosen(direct_light(1)), 16);
+  EXPECT_EQ(chosen(direct_light(1, 0)), 16);
+  // 9 rays beside those of the lights: least at the root of 10 v/(1 − v).
+  ProbeStatistics costly = direct_light(0.8);
+  costly.rays = 11;
+  EXPECT_EQ(chosen(costly), 8);
+  costly.lamp_variance = 0.3;
+  EXPECT_EQ(chosen(costly), 2);
+  const Efficiency expected = choose({costly}, 0).expected;
+  EXPECT_NEAR(expected.squared_error, (0.7 + 0.3 / 2) / 4 / 1.01, 1e-6);
+  EXPECT_NEAR(expected.rays, 12, 1e-9);
+  // Or one, if it is not asked for.
+  std::vector<PixelPlan> plans(1);
+  choose_plans({costly}, {4, 1}, {{1, 0}}, {.light_samples = false}, plans);
+  EXPECT_EQ(plans[0].light_samples, 1);
 }
 
 /// Of light that merging alone finds, the variance falls with the number of light paths.
@@ -136,7 +175,8 @@ TEST(PathPilot, ExpectsTheVarianceOfPathTracing) {
   for (ProbeStatistics& probe : probes) probe.rays_beyond = 0;  // so that all go on
   std::vector<PixelPlan> pixels = plans.plans();
   const Efficiency expected =
-      choose_survival(probes, {1, 0}, std::vector<MergeScale>(probes.size(), {1, 0}), pixels);
+      choose_plans(probes, {1, 0}, std::vector<MergeScale>(probes.size(), {1, 0}),
+                   {.light_samples = false}, pixels);
 
   // Of the pixels that the probes look at, in as many passes of one sample.
   const Passes passes = render(test, "path", "", {1, 3, 512});
@@ -159,6 +199,11 @@ TEST(PathPilot, ExpectsTheVarianceOfPathTracing) {
   double radiance = 0;
   for (const ProbeStatistics& p : probes) radiance += p.radiance / double(probes.size());
   EXPECT_NEAR(radiance / mean, 1, 0.1);
+  // Nearly all noise of direct light is that of where the lamp is sampled.
+  double lamp = 0, direct = 0;
+  for (const ProbeStatistics& p : probes) lamp += p.lamp_variance, direct += p.direct_variance;
+  EXPECT_GT(lamp, 0.7 * direct);
+  EXPECT_LT(lamp, direct);
 }
 
 /// Matt from within, without an edge that would make the samples of a pixel differ.
@@ -213,8 +258,8 @@ Forecast forecast(const Scene& scene, const Techniques& techniques, double light
   Forecast result;
   result.plans = plans.plans();
   result.squared_error =
-      choose_survival(probes, {samples_of_pass, double(report.rays) / light_share / camera_samples},
-                      std::vector<MergeScale>(probes.size(), {1, 1}), result.plans)
+      choose_plans(probes, {samples_of_pass, double(report.rays) / light_share / camera_samples},
+                   std::vector<MergeScale>(probes.size(), {1, 1}), {}, result.plans)
           .squared_error;
   for (const ProbeStatistics& p : probes) result.radiance += p.radiance / double(probes.size());
   return result;

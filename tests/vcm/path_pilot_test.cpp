@@ -77,11 +77,13 @@ TEST(PathPilot, KnowsRaysAndNoiseOfABall) {
     EXPECT_NEAR(probe.rays, 2, 1e-9);
     EXPECT_NEAR(probe.rays_beyond, 3, 1e-9);
     EXPECT_NEAR(probe.direct_variance, 0, 1e-9);
+    EXPECT_NEAR(probe.lamp_variance, 0, 1e-9);
+    EXPECT_NEAR(probe.lamp_rays, 1, 1e-9);
     EXPECT_NEAR(probe.path_variance, 0, 1e-7);
     EXPECT_NEAR(probe.path_mean_square, sqr(even), 1e-3 * sqr(even));
     EXPECT_EQ(probe.merged_alone, 0);
   }
-  EXPECT_EQ(pilot.rays, pilot.probes.size() * 8 * 5);
+  EXPECT_EQ(pilot.rays, pilot.probes.size() * 8 * 6);
 }
 
 /// Four times the pixels are hardly more work, and what is told stays the same.
@@ -94,7 +96,7 @@ TEST(PathPilot, TakesFewerPathsOfEachProbeOfALargePicture) {
       EXPECT_NEAR(probe.direct_variance, 0, 1e-9);
     }
     EXPECT_EQ(pilot.probes.size() * 16, size_t(side) * size_t(side));
-    return double(pilot.rays) / 5;
+    return double(pilot.rays) / 6;
   };
   EXPECT_EQ(paths_of(256), 8 * 64 * 64);
   EXPECT_EQ(paths_of(512), 8 * 128 * 128);
@@ -102,6 +104,24 @@ TEST(PathPilot, TakesFewerPathsOfEachProbeOfALargePicture) {
   EXPECT_LT(paths_of(832), 1 << 17);
   // From there on some probes tell of those around: 259 blocks in a row, of which each second one.
   EXPECT_EQ(paths_of(1036), 7 * 130 * 130);
+}
+
+/// A board of fine stripes under a point of light: samples of a pixel differ by where it is looked
+/// at, of which no further sample of the light tells anything.
+TEST(PathPilot, NoiseOfTexturesIsNotThatOfLamps) {
+  const TestScene stripes(
+      camera("0, 0, 4", "0, 0, 0", 30, 64, "0, 1, 0") +
+      flat("rectangle", scale("2, 2, 1"),
+           R"(<bsdf type="diffuse"><texture type="checkerboard" name="reflectance">
+                <rgb name="color0" value="0.2"/><rgb name="color1" value="0.8"/>
+                <transform name="to_uv"><scale x="200" y="200"/></transform></texture></bsdf>)") +
+      point_light("0, 0, 3", 1));
+  const PixelPlans plans(stripes.scene());
+  const BallPilot pilot =
+      pilot_of(stripes.scene(), LightPathEmission(stripes.scene()), plans, LightVertices(), 1);
+  EXPECT_GT(mean_of(pilot, [](const auto& probe) { return probe.direct_variance; }), 0);
+  for (const ProbeStatistics& probe : pilot.probes)
+    ASSERT_LE(probe.lamp_variance, 1e-6 * probe.direct_variance);
 }
 
 /// Blocks without paths of their own are told what is seen around them: half of the picture is a

@@ -168,8 +168,8 @@ TEST(VcmPlans, ScalesAreRelativeToThePilot) {
   EXPECT_DOUBLE_EQ(scales[0].light_paths, 0);
 }
 
-/// Survival is chosen as choose_survival() does it for those scales, if it is chosen at all.
-TEST(VcmPlans, SettleBySurvival) {
+/// Plans are chosen as choose_plans() does it for those scales.
+TEST(VcmPlans, SettleByWhatIsChosen) {
   VcmPlans plans = two_probes();
   const TestScene scene(view_of_floor(diffuse("0.5, 0.5, 0.5"), 4));
   plans.pixels = PixelPlans(scene.scene());
@@ -180,7 +180,7 @@ TEST(VcmPlans, SettleBySurvival) {
   plans.pilot = std::make_shared<const VcmPilot>(one);
   const std::vector<PixelPlan> disks{{1.5f, 0.7f, 3}};
   std::vector<PixelPlan> expected = disks;
-  const Efficiency by_hand = choose_survival(one.probes, one.costs, {{0.75, 4}}, expected);
+  const Efficiency by_hand = choose_plans(one.probes, one.costs, {{0.75, 4}}, {}, expected);
   const Efficiency settled = plans.settle(disks, 0.25f);
   EXPECT_EQ(settled.squared_error, by_hand.squared_error);
   EXPECT_EQ(settled.rays, by_hand.rays);
@@ -189,10 +189,10 @@ TEST(VcmPlans, SettleBySurvival) {
   EXPECT_EQ(plans.pixels.plans()[0].evenness, expected[0].evenness);
   EXPECT_EQ(plans.pixels.plans()[0].merge_area, 1.5f);
 
-  plans.chooses_survival = false;
+  plans.choices = {.survival = false};
   const double of_all = 2 + 6 + rays_beside_camera_paths(one.probes, one.costs, {{0.75, 4}});
   EXPECT_DOUBLE_EQ(plans.settle(disks, 0.25f).rays, of_all);
-  EXPECT_EQ(plans.pixels.plans()[0].survival, 0.7f);
+  EXPECT_EQ(plans.pixels.plans()[0].survival, 1);
 }
 
 /// What the camera sees from 2 m off counts as near within one degree.
@@ -218,9 +218,9 @@ TEST(Efficiency, RaysBesideCameraPaths) {
   // Without light paths nothing merges.
   EXPECT_DOUBLE_EQ(rays_beside_camera_paths(probes, costs, {{2, 0}, {0.5, 0}}), 0);
   EXPECT_DOUBLE_EQ(rays_beside_camera_paths({}, costs, {}), 0);
-  // They are what choose_survival() adds to the rays of the paths themselves.
+  // They are what choose_plans() adds to the rays of the paths themselves.
   std::vector<PixelPlan> plans(2);
-  EXPECT_DOUBLE_EQ(choose_survival(probes, costs, {{2, 3}, {0.5, 3}}, plans).rays, expected + 50);
+  EXPECT_DOUBLE_EQ(choose_plans(probes, costs, {{2, 3}, {0.5, 3}}, {}, plans).rays, expected + 50);
 }
 
 TEST(Efficiency, StatisticsAreAddedByWeight) {
@@ -230,6 +230,8 @@ TEST(Efficiency, StatisticsAreAddedByWeight) {
   other.path_mean_square = 3;
   other.path_variance = 4;
   other.direct_variance = 5;
+  other.lamp_variance = 10;
+  other.lamp_rays = 11;
   other.radiance = 6;
   other.merged = 7;
   other.rays = 8;
@@ -242,6 +244,8 @@ TEST(Efficiency, StatisticsAreAddedByWeight) {
   EXPECT_EQ(sum.path_mean_square, 7.5);
   EXPECT_EQ(sum.path_variance, 10);
   EXPECT_EQ(sum.direct_variance, 12.5);
+  EXPECT_EQ(sum.lamp_variance, 25);
+  EXPECT_EQ(sum.lamp_rays, 27.5);
   EXPECT_EQ(sum.radiance, 15);
   EXPECT_EQ(sum.merged, 17.5);
   EXPECT_EQ(sum.rays, 20);

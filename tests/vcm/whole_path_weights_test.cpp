@@ -83,7 +83,7 @@ PixelPlans plans_of(const Scene& scene) {
     plan.merge_area = pi * sqr(0.004f + 0.016f * next());
     plan.survival = 0.1f + 0.9f * next();
     plan.evenness = 0.3f + 0.7f * next();
-    next();  // the rooms below notice what is forgotten with these plans
+    plan.light_samples = 1 + int(4 * next());
   }
   return plain.with(std::move(different));
 }

@@ -24,7 +24,9 @@ class PathWeights::View {
         t_(path.camera.size()),
         n_(path.camera.size() + path.light.size()) {
     while (first_ < t_ && path_.camera[first_ - 1].delta) ++first_;
-    first_survival_ = vertex(first_).mean_free_path > 0 ? 1.0f : path_.first_survival;
+    if (vertex(first_).mean_free_path > 0) return;
+    first_survival_ = path_.first_survival;
+    first_light_samples_ = path_.first_light_samples;
   }
 
   size_t t() const { return t_; }
@@ -65,7 +67,8 @@ class PathWeights::View {
   }
   float next_event(float ratio) const {
     if (!settings_.techniques.next_event || n_ < 2 || is_delta(n_ - 1)) return 0;
-    return ratio * path_.pdf_next_event / pdf_light(n_);
+    const float samples = n_ == first_ + 1 ? first_light_samples_ : 1.0f;
+    return ratio * samples * path_.pdf_next_event / pdf_light(n_);
   }
   /// Whether paths end is asked at the vertex behind the first: lamps are met there for sure.
   float unidirectional(float ratio) const {
@@ -96,7 +99,7 @@ class PathWeights::View {
   Meeting meeting_;
   size_t t_, n_;
   size_t first_ = 1;  ///< the first vertex whose event is not delta
-  float first_survival_ = 1;
+  float first_survival_ = 1, first_light_samples_ = 1;
 };
 
 float PathWeights::squares_at(const View& path, size_t i, float scale, float camera_spread) const {

@@ -69,6 +69,10 @@ std::vector<Parameter> parameters(const Techniques& preset) {
       boolean_parameter("choose_survival", true,
                         "A pilot chooses, place by place, how often the camera's paths go on "
                         "beside what merges; else they always do."),
+      boolean_parameter(
+          "choose_light_samples", true,
+          "A pilot chooses, place by place, how many lights the first vertex of the "
+          "camera's paths samples, where light paths may merge; else it samples one."),
       integer_parameter("samples_per_pass", 4, "Samples per pixel and pass.").range(1, 1 << 20),
       adaptive_parameter(),
       hide_emitters_parameter()};
@@ -135,7 +139,8 @@ VcmSettings::VcmSettings(const Arguments& arguments)
   learn_radii = arguments.boolean("learn_radii");
   edges = arguments.boolean("edges");
   visibility = arguments.boolean("visibility");
-  choose_survival = arguments.boolean("choose_survival");
+  choices = {.survival = arguments.boolean("choose_survival"),
+             .light_samples = arguments.boolean("choose_light_samples")};
   samples_per_pass = uint32_t(arguments.integer("samples_per_pass"));
   techniques = {.unidirectional = arguments.boolean("unidirectional"),
                 .next_event = arguments.boolean("next_event"),

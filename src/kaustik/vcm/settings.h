@@ -5,6 +5,7 @@
 #include "kaustik/photon/emission/emission.h"
 #include "kaustik/transport/component.h"
 #include "kaustik/transport/path_weights.h"
+#include "kaustik/vcm/plan/plan_choices.h"
 
 namespace kaustik {
 
@@ -21,11 +22,11 @@ struct VcmSettings {
   float least_light_paths = 0;    ///< of a pass, where camera samples ask for fewer
   int connections = 1;            ///< per vertex of the camera's path
   int merge_neighbors = 30;       ///< light vertices that the first radius is made for
-  float radius = 0;             ///< of merging in pass 0, m; 0: from the pixels and the light paths
-  bool learn_radii = true;      ///< from the passes before; else the first pass's shrink
-  bool edges = true;            ///< disks of merging end at the straight edges around them
-  bool visibility = true;       ///< what is hidden does not merge
-  bool choose_survival = true;  ///< of camera paths beside what merges; else they always go on
+  float radius = 0;         ///< of merging in pass 0, m; 0: from the pixels and the light paths
+  bool learn_radii = true;  ///< from the passes before; else the first pass's shrink
+  bool edges = true;        ///< disks of merging end at the straight edges around them
+  bool visibility = true;   ///< what is hidden does not merge
+  PlanChoices choices;      ///< what a pilot chooses, place by place, where light paths merge
   uint32_t samples_per_pass = 4;
   bool adaptive = true;              ///< camera samples go where passes before find them to differ
   bool chooses_light_paths = false;  ///< how many, or none at all, by what a pilot tells

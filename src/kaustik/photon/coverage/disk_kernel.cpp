@@ -21,6 +21,45 @@ RadialMoments radial_moments(KernelShape shape) {
   return {1.0 / 4, 2.0 / 15, 1.0 / 12};
 }
 
+/// ∫ (1 − u²)ⁿ⸍² du from `distance` to 1, n = 1, 3, 5: of the disk's segment beyond a line.
+struct SegmentIntegrals {
+  double first, third, fifth;
+};
+SegmentIntegrals segment_integrals(double distance) {
+  const double sine_sq = 1 - distance * distance;
+  const double angle = std::acos(distance), product = distance * std::sqrt(sine_sq);
+  return {(angle - product) / 2, (3 * angle - product * (3 + 2 * sine_sq)) / 8,
+          (15 * angle - product * (15 + sine_sq * (10 + 8 * sine_sq))) / 48};
+}
+
+/// Takes the segment beyond a line off: `x`, `y` point at it.
+void take_segment(double x, double y, double distance, KernelShape shape, DiskMoments& sum) {
+  const SegmentIntegrals of = segment_integrals(distance);
+  const double sine_sq = 1 - distance * distance, cube = sine_sq * std::sqrt(sine_sq);
+  // One, u, u², v², where u runs across the line and v along it.
+  double one = 2 * of.first, u = cube * 2 / 3, uu = 2 * (of.first - of.third),
+         vv = of.third * 2 / 3;
+  if (shape == KernelShape::parabolic) {
+    one = of.third * 4 / 3;
+    u = cube * sine_sq * 4 / 15;
+    uu = (of.third - of.fifth) * 4 / 3;
+    vv = of.fifth * 4 / 15;
+  }
+  sum.one -= one;
+  sum.x -= u * x;
+  sum.y -= u * y;
+  sum.xx -= uu * x * x + vv * y * y;
+  sum.yy -= uu * y * y + vv * x * x;
+  sum.xy -= (uu - vv) * x * y;
+}
+
+void add_disk(KernelShape shape, DiskMoments& sum) {
+  const RadialMoments radial = radial_moments(shape);
+  sum.one += radial.zeroth * 2 * std::numbers::pi;
+  sum.xx += radial.second * std::numbers::pi;
+  sum.yy += radial.second * std::numbers::pi;
+}
+
 /// Of the disk between two angles.
 void add_sector(double from, double to, KernelShape shape, DiskMoments& sum) {
   const RadialMoments radial = radial_moments(shape);
@@ -63,10 +102,17 @@ void add_triangle(const Point& p, const Point& q, KernelShape shape, DiskMoments
   }
 }
 
-/// A line that cuts the unit disk: the angle of its nearest point, and how near.
+/// A line that cuts the unit disk: the direction of its nearest point, and how near.
 struct Line {
-  double angle, distance;
+  double x, y, distance;
+  double angle = 0;  ///< of the direction; only for corners
 
+  /// Whether nothing of the disk lies beyond both.
+  bool is_apart_from(const Line& other) const {
+    return x * other.x + y * other.y <=
+           distance * other.distance -
+               std::sqrt((1 - distance * distance) * (1 - other.distance * other.distance));
+  }
   /// How far it lies from the center in the direction `at`; infinite: nowhere.
   double reach(double at) const {
     const double cosine = std::cos(at - angle);
@@ -93,43 +139,62 @@ class Corners {
   size_t count_ = 0;
 };
 
-}  // namespace
-
-DiskMoments disk_moments(const Frame& frame, float radius, const DiskEdges& edges,
-                         KernelShape shape) {
+/// The lines that cut a disk.
+struct Lines {
   std::array<Line, DiskEdges::most> lines{};
   size_t count = 0;
+
+  Lines(const Frame& frame, float radius, const DiskEdges& edges) {
+    for (size_t i = 0; i < edges.count; ++i) {
+      const DiskEdges::Edge& edge = edges.edges[i];
+      if (edge.distance < radius)
+        lines[count++] = {-double(dot(edge.inward, frame.x)), -double(dot(edge.inward, frame.y)),
+                          double(edge.distance) / double(radius)};
+    }
+  }
+  bool are_apart() const {
+    for (size_t i = 1; i < count; ++i)
+      for (size_t j = 0; j < i; ++j)
+        if (!lines[i].is_apart_from(lines[j])) return false;
+    return true;
+  }
+};
+
+/// Of the disk without the segments beyond lines that are apart.
+DiskMoments moments_without_segments(const Lines& of, KernelShape shape) {
+  DiskMoments result;
+  add_disk(shape, result);
+  for (size_t i = 0; i < of.count; ++i)
+    take_segment(of.lines[i].x, of.lines[i].y, of.lines[i].distance, shape, result);
+  return result;
+}
+
+/// Whatever lies beyond several lines: sector by sector.
+DiskMoments moments_by_sectors(Lines of, KernelShape shape) {
   Corners corners;
-  for (size_t i = 0; i < edges.count; ++i) {
-    const DiskEdges::Edge& edge = edges.edges[i];
-    if (!(edge.distance < radius)) continue;
-    const Line line{double(std::atan2(-dot(edge.inward, frame.y), -dot(edge.inward, frame.x))),
-                    double(edge.distance) / double(radius)};
+  for (size_t i = 0; i < of.count; ++i) {
+    Line& line = of.lines[i];
+    line.angle = std::atan2(line.y, line.x);
     const double half = std::acos(line.distance);
     corners.add(line.angle - half);
     corners.add(line.angle + half);
-    for (size_t other = 0; other < count; ++other) {
+    for (size_t other = 0; other < i; ++other) {
       // Where both meet.
-      const Line& l = lines[other];
-      const double sine = std::sin(line.angle - l.angle);
+      const Line& l = of.lines[other];
+      const double sine = l.x * line.y - l.y * line.x;
       if (sine == 0) continue;
-      const Point meeting{
-          (l.distance * std::sin(line.angle) - line.distance * std::sin(l.angle)) / sine,
-          (line.distance * std::cos(l.angle) - l.distance * std::cos(line.angle)) / sine};
+      const Point meeting{(l.distance * line.y - line.distance * l.y) / sine,
+                          (line.distance * l.x - l.distance * line.x) / sine};
       if (sqr(meeting.x) + sqr(meeting.y) < 1) corners.add(std::atan2(meeting.y, meeting.x));
     }
-    lines[count++] = line;
   }
   DiskMoments result;
-  if (count == 0) {
-    add_sector(0, 2 * std::numbers::pi, shape, result);
-    return result;
-  }
   corners.each([&](double from, double to) {
     const double middle = (from + to) / 2;
     const Line* nearest = nullptr;
-    for (size_t i = 0; i < count; ++i)
-      if (lines[i].reach(middle) < (nearest ? nearest->reach(middle) : 1)) nearest = &lines[i];
+    for (size_t i = 0; i < of.count; ++i)
+      if (of.lines[i].reach(middle) < (nearest ? nearest->reach(middle) : 1))
+        nearest = &of.lines[i];
     if (!nearest) {
       add_sector(from, to, shape, result);
       return;
@@ -141,6 +206,15 @@ DiskMoments disk_moments(const Frame& frame, float radius, const DiskEdges& edge
     add_triangle(end(from), end(to), shape, result);
   });
   return result;
+}
+
+}  // namespace
+
+DiskMoments disk_moments(const Frame& frame, float radius, const DiskEdges& edges,
+                         KernelShape shape) {
+  const Lines lines(frame, radius, edges);
+  return lines.are_apart() ? moments_without_segments(lines, shape)
+                           : moments_by_sectors(lines, shape);
 }
 
 DiskKernel::DiskKernel(const Frame& frame, float radius, const DiskEdges& edges,

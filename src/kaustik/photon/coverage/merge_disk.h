@@ -28,11 +28,8 @@ class MergeDisk {
     const float cosine = std::fabs(side.dot(ng_)) / side.length();
     return cosine > least_cosine_ ? std::min(cosine, 1.0f) : 0.0f;
   }
-  /// Square of the radius of the smallest disk around the vertex in which a point counts, as
-  /// far as its normal allows, m².
-  float least_radius_sq(const Vec3f& offset) const {
-    return std::max(length_sq(offset), sqr(dot(offset, ng_) / flatness_));
-  }
+  /// A point counts in disks that are at least so many times as wide as it is far from the plane.
+  static constexpr float inverse_flatness() { return 1 / flatness_; }
   const SurfaceVertex& vertex() const { return vertex_; }
   float radius() const { return radius_; }
   /// The geometric normal on the side that is seen.

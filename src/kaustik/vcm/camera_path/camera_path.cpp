@@ -36,7 +36,7 @@ void CameraPath::add_direct_light(LightWeights* weights) {
   if (vertices_.is_in_medium())
     walk_.add_medium_light(weights);
   else
-    walk_.add_direct_light(1, 1, {}, {.weights = weights});
+    walk_.add_direct_light(1, 1, {.samples = vertices_.light_samples()}, {.weights = weights});
 }
 
 bool CameraPath::may_end_at_lamp() const {

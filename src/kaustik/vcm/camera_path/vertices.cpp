@@ -93,6 +93,7 @@ PathHalves CameraVertices::halves() const {
   result.camera = vertices_;
   result.first_merge_area = plan_.counted_area(in_.camera_samples);
   result.first_survival = plan_.counted_survival();
+  result.first_light_samples = float(plan_.light_samples);
   return result;
 }
 
@@ -111,6 +112,10 @@ LightQuery CameraVertices::weighed_query() const {
   LightQuery query = previous_;
   query.level = vertices_.size() > 1 ? 1 : 0;
   return query;
+}
+
+int CameraVertices::light_samples() const {
+  return is_at_first() && !here_.is_in_medium() ? plan_.light_samples : 1;
 }
 
 float CameraVertices::merge_radius() const {

@@ -44,6 +44,12 @@ class CameraVertices {
   bool has_roulette_at_first() const {
     return has_left_first() && !is_in_medium() && plan_.survival < 1;
   }
+  /// Lights that are sampled at the vertex.
+  int light_samples() const;
+  /// The same of the vertex that the path has left.
+  int light_samples_before() const {
+    return has_left_first() && !is_in_medium() ? plan_.light_samples : 1;
+  }
   /// Of the disk of merging there, m.
   float merge_radius() const;
 

@@ -33,7 +33,8 @@ float CameraPathWeights::sampled(const Scatterer& vertex, const DirectLight& lig
   if (!techniques.next_event) return 0;
   if (path_tracing_alone()) {
     if (light.pdf_solid_angle == 0 || !techniques.unidirectional) return 1;
-    return mis_weight(light.pdf_solid_angle, vertex.pdf(light.wi, Lobes::all));
+    return mis_weight(light.pdf_solid_angle * float(vertices_.light_samples()),
+                      vertex.pdf(light.wi, Lobes::all));
   }
   const Light& of = *in_.scene.lights()[size_t(light.light)];
   const SurfacePoint origin = shining(of, light.on_light, -light.wi);
@@ -62,8 +63,7 @@ float CameraPathWeights::met(int light, const SurfaceVertex& vertex) {
   if (!in_.techniques().unidirectional) return 0;
   const SurfacePoint& point = vertex.point();
   const float next_event = next_event_density(light, point);
-  if (path_tracing_alone())
-    return next_event > 0 ? mis_weight(vertices_.pdf_of_way(), next_event) : 1.0f;
+  if (path_tracing_alone()) return met_weight_alone(next_event);
   const Vec3f direction = -vertex.wo();
   const float distance_sq = length_sq(point.position - vertices_.last_point().position);
   const SurfacePoint origin = shining(*in_.scene.lights()[size_t(light)], point, vertex.wo());
@@ -77,11 +77,15 @@ float CameraPathWeights::met(int light, const Ray& ray) {
   if (vertices_.empty()) return 1;
   if (!in_.techniques().unidirectional) return 0;
   const float next_event = next_event_density(light, ray.direction);
-  if (path_tracing_alone())
-    return next_event > 0 ? mis_weight(vertices_.pdf_of_way(), next_event) : 1.0f;
+  if (path_tracing_alone()) return met_weight_alone(next_event);
   const EmissionDensity emission = in_.emission.pdf(light, vertices_.last_point(), -ray.direction);
   return met_weight(vertices_.next_infinitely_far(), emission,
                     vertices_.last_facing().factor(ray.direction), next_event);
+}
+
+float CameraPathWeights::met_weight_alone(float next_event) const {
+  if (!(next_event > 0)) return 1;
+  return mis_weight(vertices_.pdf_of_way(), next_event * float(vertices_.light_samples_before()));
 }
 
 float CameraPathWeights::met_weight(const PathVertex& on_light, const EmissionDensity& emission,

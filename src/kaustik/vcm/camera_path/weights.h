@@ -23,6 +23,9 @@ class CameraPathWeights final : public LightWeights {
   /// is not sampled there.
   template <typename Where>
   float next_event_density(int light, const Where& where) const;
+  /// Weight of meeting a light that is sampled with the density `next_event` per solid angle, where
+  /// paths are traced alone.
+  float met_weight_alone(float next_event) const;
   /// Weight of meeting the light at `on_light`; `to_last` turns a density per solid angle there
   /// into that of the last vertex.
   float met_weight(const PathVertex& on_light, const EmissionDensity& emission, float to_last,

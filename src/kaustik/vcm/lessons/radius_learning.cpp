@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <numbers>
 
 #include "kaustik/base/parallel.h"
@@ -64,6 +65,113 @@ std::vector<PixelPlan> smoothed(const PixelPlans& at, const std::vector<PixelPla
 
 constexpr size_t probes_per_block = 256;
 constexpr auto levels = size_t(RadiusLearning::level_count);
+
+/// The light vertices within the widest disk of a probe, by the smallest disk that they are in,
+/// bucket by bucket of their tree.
+class RingSearch {
+ public:
+  /// All but the last three must outlive this. `width`: radius of the smallest of `count` disks.
+  RingSearch(const LightVertices& light, const ProbeLight& at_probe, const MergeDisk& widest,
+             const DiskEdges& edges, float width, size_t count)
+      : tree_(light.tree.tree()),
+        at_probe_(at_probe),
+        disk_(widest),
+        frame_(widest.side()),
+        center_(widest.vertex().position()),
+        edges_(edges),
+        inverse_least_sq_(1 / sqr(width)),
+        limit_(std::exp2(float(count - 1))),
+        count_(count) {}
+
+  void add_to(RadiusLearning::Sums& sums) {
+    const auto take = [](void* context, const uint32_t* numbers, size_t count) {
+      auto& search = *static_cast<RingSearch*>(context);
+      for (size_t i = 0; i < count; ++i) search.take_bucket(numbers[i]);
+    };
+    tree_.buckets().overlapping(center_, sqr(disk_.radius()), {take, this});
+    double vertices = 0;
+    for (size_t level = 0; level < count_; ++level)
+      sums.vertices[level] = vertices += vertices_[level];
+    for (size_t kind = 0; kind < of_.size(); ++kind) {
+      Ring sum;
+      for (size_t level = 0; level < count_; ++level) {
+        sum.add(of_[kind][level]);
+        auto& to = sums.of[kind];
+        to.light[level] = sum.light;
+        to.squares[level] = sum.squares;
+        to.x[level] = sum.x;
+        to.y[level] = sum.y;
+      }
+    }
+  }
+
+ private:
+  static constexpr size_t bucket_size = KdBuckets::bucket_size;
+  /// RadiusLearning::KindSums of a ring.
+  struct Ring {
+    double light = 0, squares = 0, x = 0, y = 0;
+    void add(const Ring& other) {
+      light += other.light;
+      squares += other.squares;
+      x += other.x;
+      y += other.y;
+    }
+  };
+
+  void take_bucket(uint32_t number) {
+    const KdBuckets::Bucket& points = tree_.buckets().bucket(number);
+    const Vec3f n = frame_.z;
+    const float deepest = disk_.flatness();
+    // Square of the radius of the smallest disk in which a point counts, over that of the least
+    // disk. What does not count at all is beyond the limit, as are places that hold no point.
+    float reach[bucket_size];
+    for (size_t i = 0; i < bucket_size; ++i) {
+      const float x = points.x[i] - center_.x, y = points.y[i] - center_.y,
+                  z = points.z[i] - center_.z;
+      const float height = std::fabs(n.x * x + n.y * y + n.z * z);
+      const float by_height = sqr(height * MergeDisk::inverse_flatness());
+      const float distance_sq = x * x + y * y + z * z;
+      reach[i] = (by_height > distance_sq ? by_height : distance_sq) * inverse_least_sq_;
+      if (!(height <= deepest)) reach[i] = infinity;
+    }
+    for (size_t i = 0; i < bucket_size; ++i)
+      if (reach[i] <= limit_)
+        take(uint32_t(number * bucket_size + i), {points.x[i], points.y[i], points.z[i]}, reach[i]);
+  }
+
+  void take(uint32_t index, const Vec3f& position, float reach) {
+    const LightVertexData& photon = tree_.data(index);
+    const float cosine = photon.side.dot(frame_.z) / photon.side.length();
+    if (!(cosine > MergeDisk::least_cosine())) return;
+    const size_t level = level_of(reach);
+    // The block's other vertices may have no edges.
+    vertices_[level] += 1;
+    const Vec3f offset = position - center_;
+    if (!edges_.hold(offset)) return;
+    const float value = at_probe_.sent(photon) * std::min(cosine, 1.0f);
+    const auto light = double(value);
+    of_[photon.specular ? 0 : 1][level].add({light, light * light,
+                                             light * double(dot(offset, frame_.x)),
+                                             light * double(dot(offset, frame_.y))});
+  }
+
+  /// The logarithm to base 2, rounded up; at least 0.
+  static size_t level_of(float reach) {
+    const int exponent = int((std::bit_cast<uint32_t>(reach) + 0x7fffff) >> 23) - 127;
+    return size_t(std::max(0, exponent));
+  }
+
+  const SidedTree<LightVertexData>::Tree& tree_;
+  const ProbeLight& at_probe_;
+  const MergeDisk disk_;
+  const Frame frame_;
+  const Vec3f center_;
+  const DiskEdges edges_;
+  const float inverse_least_sq_, limit_;
+  const size_t count_;
+  std::array<double, levels> vertices_{};
+  std::array<std::array<Ring, levels>, RadiusLearning::kind_count> of_{};
+};
 
 }  // namespace
 
@@ -186,43 +294,12 @@ std::vector<RadiusLearning::Sums> RadiusLearning::sums_of(const PixelPlans& firs
     for (size_t p = begin; p < end && !stop.stop_requested(); ++p) {
       const PixelProbe& probe = first.seen().probes()[p];
       if (!probe.found || !(probe.pixel_width > 0)) continue;
-      const double least_sq = sqr(level_radius(probe, 0));
       const size_t count = so_far[p].levels;
       const auto widest = float(level_radius(probe, int(count) - 1));
-      const MergeDisk disk(probe.vertex, widest);
-      const Frame frame(disk.side());
-      const DiskEdges edges = first.seen().disk_bounds(p, widest).edges;
       const ProbeLight at_probe(probe, wanted, light.wavelengths);
-      Sums& sums = result[p];
-      light.tree.within(
-          probe.vertex.position(), disk.side(), false, sqr(widest), [&](uint32_t index, float) {
-            const LightVertexData& photon = light.tree.tree().data(index);
-            const Vec3f offset = light.tree.tree().key(index) - probe.vertex.position();
-            const float share = disk.share(offset, photon.side);
-            if (!(share > 0)) return;
-            const double reach_sq = double(disk.least_radius_sq(offset));
-            size_t level = 0;
-            for (double limit = least_sq; reach_sq > limit; limit *= 2) ++level;
-            if (level >= count) return;
-            // The block's other vertices may have no edges.
-            sums.vertices[level] += 1;
-            if (!edges.hold(offset)) return;
-            const auto value = double(at_probe.sent(photon) * share);
-            auto& kind = sums.of[photon.specular ? 0 : 1];
-            kind.light[level] += value;
-            kind.squares[level] += value * value;
-            kind.x[level] += value * double(dot(offset, frame.x));
-            kind.y[level] += value * double(dot(offset, frame.y));
-          });
-      for (size_t level = 1; level < count; ++level)
-        sums.vertices[level] += sums.vertices[level - 1];
-      for (auto& kind : sums.of)
-        for (size_t level = 1; level < count; ++level) {
-          kind.light[level] += kind.light[level - 1];
-          kind.squares[level] += kind.squares[level - 1];
-          kind.x[level] += kind.x[level - 1];
-          kind.y[level] += kind.y[level - 1];
-        }
+      RingSearch search(light, at_probe, MergeDisk(probe.vertex, widest),
+                        first.seen().disk_bounds(p, widest).edges, probe.pixel_width, count);
+      search.add_to(result[p]);
     }
   });
   return result;

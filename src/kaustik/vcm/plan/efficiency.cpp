@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/vcm/plan/cost_model.h"
@@ -9,9 +10,10 @@
 namespace kaustik {
 namespace {
 
-/// Chances of going on that are tried. Of two that are as good the first is taken: where pilot
-/// paths have met nothing it costs nothing to go on.
+/// Chances of going on, and numbers of lights that are sampled. Of two choices that are as good the
+/// first is taken: where pilot paths have met nothing it costs nothing to go on.
 constexpr std::array<double, 8> chances{1, 0.7, 0.5, 0.35, 0.2, 0.1, 0.05, double(least_survival)};
+constexpr std::array<int, 5> light_samples{1, 2, 4, 8, 16};
 /// Times as much as samples whose variance is their mean square, even samples count at most.
 constexpr double most_evenness = 30;
 /// Errors count relative to a pixel's light, and this share of the picture's mean light.
@@ -30,8 +32,29 @@ bool has_found_nothing(const ProbeStatistics& probe) {
 
 struct Candidate {
   double squared_error = 0, rays = 0, evenness = 1;
+  double survival = 1;
+  int light_samples = 1;
 };
-using Candidates = std::array<Candidate, chances.size()>;
+
+/// What may be chosen at a probe: by number, each chance with each number of lights.
+struct Candidates {
+  // By chance: relative squared error of all but direct light.
+  std::array<double, chances.size()> squared_error{}, evenness{};
+  // Relative squared errors of direct light, by one sample of a light, and what of it several
+  // share.
+  double direct = 0, lamp = 0;
+  double rays = 0, rays_beyond = 0, lamp_rays = 0;
+
+  Candidate at(size_t number) const {
+    const size_t chance = number / light_samples.size();
+    const int samples = light_samples[number % light_samples.size()];
+    return {.squared_error = squared_error[chance] + direct - lamp * (1 - 1.0 / samples),
+            .rays = rays + chances[chance] * rays_beyond + (samples - 1) * lamp_rays,
+            .evenness = evenness[chance],
+            .survival = chances[chance],
+            .light_samples = samples};
+  }
+};
 
 double evenness_at(const ProbeStatistics& probe, double chance) {
   if (!(probe.path_mean_square > 0)) return 1;
@@ -55,24 +78,25 @@ double rays_to_merge(const ProbeStatistics& probe, const MergeScale& scale) {
 }
 
 Candidates candidates(const ProbeStatistics& probe, const PassCosts& costs, const MergeScale& scale,
-                      double least_radiance) {
-  Candidates result;
-  const double merging = rays_to_merge(probe, scale);
+                      bool counts_evenness, double least_radiance) {
   const double relative = 1 / (probe.radiance * probe.radiance + least_radiance * least_radiance);
+  Candidates result;
   for (size_t i = 0; i < chances.size(); ++i) {
-    Candidate& candidate = result[i];
-    candidate.evenness = evenness_at(probe, chances[i]);
-    const double kappa = costs.camera_samples * chances[i] * candidate.evenness;
-    candidate.squared_error =
-        (probe.direct_variance / costs.camera_samples + variance(probe, kappa, scale)) * relative;
-    candidate.rays = probe.rays + merging + chances[i] * probe.rays_beyond;
+    result.evenness[i] = counts_evenness ? evenness_at(probe, chances[i]) : 1.0;
+    const double kappa = costs.camera_samples * chances[i] * result.evenness[i];
+    result.squared_error[i] = variance(probe, kappa, scale) * relative;
   }
+  result.direct = probe.direct_variance / costs.camera_samples * relative;
+  result.lamp = probe.lamp_variance / costs.camera_samples * relative;
+  result.rays = probe.rays + rays_to_merge(probe, scale);
+  result.rays_beyond = probe.rays_beyond;
+  result.lamp_rays = probe.lamp_rays;
   return result;
 }
 
 std::vector<Candidates> candidates_of(const std::vector<ProbeStatistics>& probes,
-                                      const PassCosts& costs,
-                                      const std::vector<MergeScale>& scales) {
+                                      const PassCosts& costs, const std::vector<MergeScale>& scales,
+                                      const PlanChoices& choices) {
   double radiance = 0;
   for (const ProbeStatistics& probe : probes) radiance += probe.radiance;
   const double least = std::max(1e-30, even_share_of_probes * radiance / double(probes.size()));
@@ -86,7 +110,7 @@ std::vector<Candidates> candidates_of(const std::vector<ProbeStatistics>& probes
         probe.squares = mean.squares;
         for (double& squares : probe.squares) squares *= share_of_mean_unknown;
       }
-      all[p] = candidates(probe, costs, scales[p], least);
+      all[p] = candidates(probe, costs, scales[p], choices.survival, least);
     }
   });
   return all;
@@ -103,8 +127,9 @@ Efficiency expected(const std::vector<Candidates>& all, const std::vector<size_t
                     const PassCosts& costs, const std::vector<MergeScale>& scales) {
   Efficiency total;
   for (size_t p = 0; p < all.size(); ++p) {
-    total.squared_error += all[p][chosen[p]].squared_error;
-    total.rays += all[p][chosen[p]].rays;
+    const Candidate candidate = all[p].at(chosen[p]);
+    total.squared_error += candidate.squared_error;
+    total.rays += candidate.rays;
   }
   total.squared_error /= double(all.size());
   total.rays /= double(all.size());
@@ -120,10 +145,12 @@ void ProbeStatistics::add(const ProbeStatistics& other, double weight) {
   path_mean_square += weight * other.path_mean_square;
   path_variance += weight * other.path_variance;
   direct_variance += weight * other.direct_variance;
+  lamp_variance += weight * other.lamp_variance;
   radiance += weight * other.radiance;
   merged += weight * other.merged;
   rays += weight * other.rays;
   rays_beyond += weight * other.rays_beyond;
+  lamp_rays += weight * other.lamp_rays;
 }
 
 double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
@@ -133,38 +160,38 @@ double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, cons
   return merging / double(std::max<size_t>(1, probes.size())) + rays_of_light_paths(costs, scales);
 }
 
-Efficiency efficiency_of_survivors(const std::vector<ProbeStatistics>& probes,
-                                   const PassCosts& costs, const std::vector<MergeScale>& scales) {
+Efficiency choose_plans(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
+                        const std::vector<MergeScale>& scales, const PlanChoices& choices,
+                        std::vector<PixelPlan>& plans) {
   if (probes.empty()) return {};
-  std::vector<ProbeStatistics> even = probes;  // plans of those have evenness 1
-  for (ProbeStatistics& probe : even) probe.path_mean_square = 0;
-  return expected(candidates_of(even, costs, scales), std::vector<size_t>(probes.size(), 0), costs,
-                  scales);
-}
-
-Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
-                           const std::vector<MergeScale>& scales, std::vector<PixelPlan>& plans) {
-  if (probes.empty()) return {};
-  const std::vector<Candidates> all = candidates_of(probes, costs, scales);
+  const std::vector<Candidates> all = candidates_of(probes, costs, scales, choices);
+  const size_t chance_count = choices.survival ? chances.size() : 1;
+  const size_t sample_count = choices.light_samples ? light_samples.size() : 1;
   // The least product of two sums is the least weighted sum for weights that are found by turns.
-  std::vector<size_t> chosen(all.size(), chances.size() / 2);
+  std::vector<size_t> chosen(all.size(), chance_count / 2 * light_samples.size());
   Efficiency total;
   for (int round = 0;; ++round) {
     total = expected(all, chosen, costs, scales);
     if (round == rounds) break;
     for (size_t p = 0; p < all.size(); ++p) {
-      const auto time = [&](const Candidate& c) {
-        return c.squared_error * total.rays + c.rays * total.squared_error;
-      };
-      const auto best = std::min_element(
-          all[p].begin(), all[p].end(),
-          [&](const Candidate& a, const Candidate& b) { return time(a) < time(b); });
-      chosen[p] = size_t(best - all[p].begin());
+      double least = std::numeric_limits<double>::infinity();
+      for (size_t i = 0; i < chance_count; ++i)
+        for (size_t k = 0; k < sample_count; ++k) {
+          const size_t number = i * light_samples.size() + k;
+          const Candidate candidate = all[p].at(number);
+          const double time =
+              candidate.squared_error * total.rays + candidate.rays * total.squared_error;
+          if (!(time < least)) continue;
+          least = time;
+          chosen[p] = number;
+        }
     }
   }
   for (size_t p = 0; p < all.size(); ++p) {
-    plans[p].survival = float(chances[chosen[p]]);
-    plans[p].evenness = float(all[p][chosen[p]].evenness);
+    const Candidate best = all[p].at(chosen[p]);
+    plans[p].survival = float(best.survival);
+    plans[p].evenness = float(best.evenness);
+    plans[p].light_samples = best.light_samples;
   }
   return total;
 }

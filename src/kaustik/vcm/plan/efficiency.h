@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "kaustik/vcm/plan/pixel_plans.h"
+#include "kaustik/vcm/plan/plan_choices.h"
 
 namespace kaustik {
 
@@ -18,12 +19,15 @@ struct ProbeStatistics {
   double merged_alone = 0;                         ///< ∫ f²/m where no camera path goes
   double path_mean_square = 0, path_variance = 0;  ///< of what a camera path finds, but for what
                                                    ///< merging finds far more often
-  double direct_variance = 0;                      ///< of one sample of the vertex's direct light,
-                                                   ///< with the lamp that the path meets next
-  double radiance = 0;                             ///< of everything
-  double merged = 0;                               ///< light vertices of a pass within the disk
-  double rays = 0;         ///< per camera sample up to the lamp that the path may meet next …
-  double rays_beyond = 0;  ///< … and of a path that goes on there
+  double direct_variance = 0;                      ///< of direct light in a camera sample that
+                                                   ///< samples one light at the vertex, with the
+                                                   ///< lamp that the path meets next …
+  double lamp_variance = 0;  ///< … and what of it several samples would share
+  double radiance = 0;       ///< of everything
+  double merged = 0;         ///< light vertices of a pass within the disk
+  double rays = 0;           ///< per camera sample up to the lamp that the path may meet next …
+  double rays_beyond = 0;    ///< … and of a path that goes on there
+  double lamp_rays = 0;      ///< of a sample of direct light at the vertex; one is in `rays`
 
   void add(const ProbeStatistics& other, double weight);
 };
@@ -54,17 +58,18 @@ struct Efficiency {
 double rays_beside_camera_paths(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
                                 const std::vector<MergeScale>& scales);
 
-/// Chooses for every probe how often camera paths go on from its vertex, so that the product of the
-/// picture's variance and its cost is least (Grittmann et al. 2022 choose techniques that way).
+/// Chooses for every probe how often camera paths go on from its vertex, and how many lights are
+/// sampled there, so that the product of the picture's variance and its cost is least (Grittmann et
+/// al. 2022 choose techniques that way).
 /// With κ = S s v and ν the light paths relative to the pilot's the variance of a pass is that of
 /// the balance heuristic, ∫ f² / (κ p + ν m): S camera samples, of which a share s goes on, and v
 /// the ratio of their mean square to their variance (variance-aware weights, Grittmann et al.
-/// 2019). Writes survival and evenness of `plans`, one for each probe, and returns what is
+/// 2019). To this comes the variance of direct light over S; its part that n samples of lights
+/// share is divided by n.
+/// Writes survival, evenness and light_samples of `plans`, one for each probe, and returns what is
 /// expected. `scales` by probe; light_paths 0: nothing merges.
-Efficiency choose_survival(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
-                           const std::vector<MergeScale>& scales, std::vector<PixelPlan>& plans);
-/// What is expected where all samples go on.
-Efficiency efficiency_of_survivors(const std::vector<ProbeStatistics>& probes,
-                                   const PassCosts& costs, const std::vector<MergeScale>& scales);
+Efficiency choose_plans(const std::vector<ProbeStatistics>& probes, const PassCosts& costs,
+                        const std::vector<MergeScale>& scales, const PlanChoices& choices,
+                        std::vector<PixelPlan>& plans);
 
 }  // namespace kaustik

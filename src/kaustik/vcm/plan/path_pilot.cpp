@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kaustik/base/parallel.h"
 #include "kaustik/base/to_integer.h"
@@ -65,6 +66,11 @@ class Recorder final : public LightWeights {
     beyond_ += light * share;
     even_ += light * most_merged * camera_samples_ / (most_merged * camera_samples_ + ratio_);
     result_.squares[size_t(bin_of(ratio_))] += light * light * share / paths_;
+  }
+  /// What was found since the last look, which does not count.
+  double take_back() {
+    const double now = sink_.all_light();
+    return now - std::exchange(seen_, now);
   }
   /// The path has left the probed vertex, and found what every path looks for there.
   void go_on() {
@@ -163,17 +169,25 @@ double variance_of(double sum, double squares, double count) {
   return std::max(0.0, squares - sum * sum / count) / (count - 1);
 }
 
+/// Somewhere in the pixel that the probe looks at: the probe itself for the first path.
+Vec2f raster_in_pixel(const PixelProbe& probe, const Vec2f& u, uint32_t path) {
+  if (path == 0) return probe.raster;
+  return Vec2f(std::floor(probe.raster.x), std::floor(probe.raster.y)) + u;
+}
+
 ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& probe, PixelPlan plan,
                               size_t index, uint32_t paths, const PilotLimits& limits,
                               Scratch& scratch) {
   ProbeStatistics result;
   plan.survival = plan.evenness = 1;
+  plan.light_samples = 1;
   const double count = paths;
   double direct = 0, direct_squares = 0, beyond = 0, even = 0, even_squares = 0, rays_beyond = 0;
+  double lamp_differences = 0, lamp_rays = 0;
   for (uint32_t i = 0; i < paths; ++i) {
     Sampler sampler = Sampler::at(0, 0, Stream::pilot_path, index, i);
     SampleSink sink(limits.components, {}, &scratch);
-    CameraPath path(in, plan, probe.raster, sampler, sink);
+    CameraPath path(in, plan, raster_in_pixel(probe, sampler.next_2d(), i), sampler, sink);
     CameraWalk& walk = path.walk();
     Recorder recorder(path, sink, paths, result);
     uint64_t rays_before = 0;
@@ -186,8 +200,19 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
     while (path.go_on(false, &recorder) != CameraWalk::Arrival::nothing) {
       if (is_behind) go_beyond();
       if (walk.events() >= in.maximum_events) break;
+      recorder.note();
+      const double direct_before = recorder.direct();
       path.add_direct_light(&recorder);
       const bool was_before = path.vertices().is_at_first();
+      if (was_before) {
+        // Another sample from the same place.
+        recorder.note();
+        const uint64_t rays_of_path = walk.rays();
+        path.add_direct_light(&recorder);
+        lamp_rays += double(walk.rays() - rays_of_path) / count;
+        walk.rays() = rays_of_path;
+        lamp_differences += sqr(recorder.direct() - direct_before - recorder.take_back());
+      }
       // Of the first path alone: which vertex paths come to may be up to chance.
       if (was_before && i == 0 && any(walk.vertex().lobes() & (Lobes::diffuse | Lobes::glossy)))
         add_merged(path, in.camera_samples, limits.light_share, result);
@@ -215,6 +240,8 @@ ProbeStatistics statistics_at(const CameraPathInputs& in, const PixelProbe& prob
   result.path_mean_square = even_squares / count;
   result.path_variance = variance_of(even, even_squares, count);
   result.direct_variance = variance_of(direct, direct_squares, count);
+  result.lamp_variance = std::min(result.direct_variance, lamp_differences / (2 * count));
+  result.lamp_rays = lamp_rays;
   result.radiance += (direct + beyond) / count;
   return result;
 }
@@ -239,7 +266,8 @@ std::vector<ProbeStatistics> probe_statistics(const CameraPathInputs& inputs,
     }
   });
   double counted = 0;
-  for (const ProbeStatistics& s : single) counted += density.paths * (s.rays + s.rays_beyond);
+  for (const ProbeStatistics& s : single)
+    counted += density.paths * (s.rays + s.rays_beyond + s.lamp_rays);
   rays += to_integer(std::round(counted), uint64_t(0), uint64_t(1) << 53);
   std::vector<ProbeStatistics> of_cells = smoothed(single, cells);
   if (density.paths < most_paths_per_probe) of_cells = smoothed(of_cells, cells);

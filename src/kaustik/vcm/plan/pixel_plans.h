@@ -25,6 +25,8 @@ struct PixelPlan {
   /// Mean square over variance of what a path that goes on finds: samples that hardly differ are
   /// worth more than their number (variance-aware weights, Grittmann et al. 2019).
   float evenness = 1;
+  /// Lights that are sampled there: where what they bring is most of the noise, several.
+  int light_samples = 1;
 
   // What weights go by (PathHalves):
   /// All samples of a pixel merge with the same light vertices, which count but once.
@@ -46,7 +48,8 @@ struct SampleSpread {
 
 /// The plans of the first pass: a table over blocks of pixels, and one radius for all vertices but
 /// the first. The pixel's radius is that which some light vertices of a pilot pass take, within
-/// least_disk_widths and most_disk_widths. Whether paths go on is up to choose_survival().
+/// least_disk_widths and most_disk_widths. Whether paths go on, and how many lights are
+/// sampled, is up to choose_plans().
 class PixelPlans {
  public:
   PixelPlans() = default;

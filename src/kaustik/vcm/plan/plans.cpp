@@ -74,13 +74,18 @@ bool is_merging_wanted(ComponentSet components) {
          components.has(Component::specular) || components.has(Component::volume);
 }
 
+template <typename Value>
+double mean_of(const std::vector<PixelPlan>& plans, const Value& value) {
+  double sum = 0;
+  for (const PixelPlan& plan : plans) sum += double(value(plan));
+  return sum / double(std::max<size_t>(1, plans.size()));
+}
+
 std::string described(const VcmPlans& plans, double gain) {
   if (!plans.techniques.merging)
     return "auto: paths from the camera alone, light paths would not pay";
-  const std::vector<PixelPlan>& pixels = plans.pixels.plans();
-  double going_on = 0;
-  for (const PixelPlan& plan : pixels) going_on += double(plan.survival);
-  going_on /= double(std::max<size_t>(1, pixels.size()));
+  const double going_on =
+      mean_of(plans.pixels.plans(), [](const PixelPlan& plan) { return plan.survival; });
   const std::string why =
       std::isfinite(gain)
           ? fmt::format(
@@ -121,6 +126,16 @@ VcmPlans with_light_paths_that_pay(const VcmPlans& plans, const std::stop_token&
   return result;
 }
 
+/// Empty: no pixel has more than one.
+std::string described_light_samples(const PixelPlans& pixels) {
+  const double mean =
+      mean_of(pixels.plans(), [](const PixelPlan& plan) { return plan.light_samples; });
+  if (!(mean > 1)) return {};
+  return fmt::format(
+      "camera paths sample {:.2g} lights at their first vertex, on average, by a pilot's estimate",
+      mean);
+}
+
 std::string described(const LightGuides& guides) {
   return fmt::format(
       "light paths are guided where matt surfaces scatter them: {:.2g} times less to do for what "
@@ -156,9 +171,7 @@ std::vector<MergeScale> VcmPlans::merge_scales(const std::vector<PixelPlan>& dis
 
 Efficiency VcmPlans::settle(std::vector<PixelPlan> disks, float shrinkage) {
   const std::vector<MergeScale> scales = merge_scales(disks, shrinkage);
-  const Efficiency result = chooses_survival
-                                ? choose_survival(pilot->probes, pilot->costs, scales, disks)
-                                : efficiency_of_survivors(pilot->probes, pilot->costs, scales);
+  const Efficiency result = choose_plans(pilot->probes, pilot->costs, scales, choices, disks);
   pixels = pixels.with(std::move(disks));
   return result;
 }
@@ -211,7 +224,7 @@ FirstPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& s
   plans.guides.emission = plain_;
   plans.techniques = settings_.techniques;
   plans.light_paths = light_paths_asked_for(samples_per_pixel);
-  plans.chooses_survival = settings_.choose_survival;
+  plans.choices = settings_.choices;
   if (!settings_.techniques.merging && !settings_.techniques.connections)
     return {.plans = std::make_shared<const VcmPlans>(std::move(plans))};
   if (settings_.techniques.merging) plans.pixels = PixelPlans(scene_);
@@ -227,6 +240,8 @@ FirstPlans VcmPlanner::make(uint32_t samples_per_pixel, const std::stop_token& s
   uint64_t rays = found.rays;
   if (settings_.techniques.merging && !stop.stop_requested())
     plans = with_merging(std::move(plans), found.light, of_pass, stop, rays);
+  if (std::string text = described_light_samples(plans.pixels); !text.empty())
+    plans.decisions.push_back(std::move(text));
   if (plans.guides.scattering && plans.techniques.needs_light_paths())
     plans.decisions.push_back(described(plans.guides));
   plans.decisions.insert(plans.decisions.end(), settings_.decisions.begin(),

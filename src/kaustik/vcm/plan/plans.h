@@ -49,10 +49,10 @@ struct VcmPlans {
   std::vector<std::string> decisions;     ///< what was chosen by itself, for the user
   /// Vertices that may be connected, per light path: what the weights go by.
   float connectible_per_path = 1;
-  bool chooses_survival = true;  ///< else camera paths always go on
+  PlanChoices choices;  ///< what the pilot is asked for
 
-  /// Gives the probes these disks and, as the pilot tells if that is wanted, chances of going on,
-  /// for passes whose disks have `shrinkage` times the area.
+  /// Gives the probes these disks and what the pilot is asked for, for passes whose disks have
+  /// `shrinkage` times the area.
   Efficiency settle(std::vector<PixelPlan> disks, float shrinkage);
   /// How merging in such disks differs from the pilot's, by probe.
   std::vector<MergeScale> merge_scales(const std::vector<PixelPlan>& disks, float shrinkage) const;

@@ -111,7 +111,7 @@ VcmPlans PlansReader::next() {
   const auto decisions = reader_.get<uint64_t>();
   for (uint64_t i = 0; i < decisions; ++i) plans.decisions.push_back(reader_.get_text());
   plans.connectible_per_path = reader_.get<float>();
-  plans.chooses_survival = settings_.choose_survival;
+  plans.choices = settings_.choices;
   return plans;
 }
 
